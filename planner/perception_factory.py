@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from planner.brain import FallbackBrain
 from planner.brain.image_question_fallback import FallbackLooker
-from planner.brain.image_questions import Detected, NotSent
+from planner.brain.image_questions import DetectedObject, NotSent
 from planner.language.catalogue import list_names, say
 from planner.language.object_names import named
 from planner.perception import VisionFailure, VisionWorker
@@ -123,7 +123,7 @@ def looker_of(
     return FallbackLooker(looker, _by_detector, breaker)
 
 
-def _by_detector(_: str, seen: Sequence[Detected]) -> tuple[Bilingual, bool | None]:
+def _by_detector(_: str, seen: Sequence[DetectedObject]) -> tuple[Bilingual, bool | None]:
     """Tell what the detector saw; whether that answers the question nobody says."""
     names = [named(one.label, one.color) for one in seen]
     known = list_names(names) if names else say("look.nothing_known")

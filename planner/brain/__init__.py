@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from planner.brain.brain_status import Mind, mind_of
-    from planner.brain.errors import BrainDown, Misconfigured, OutOfBudget, PlanRejected
+    from planner.brain.errors import BadPlan, BrainConfigError, BrainDown, OutOfBudget
     from planner.brain.fallback import FallbackBrain
-    from planner.brain.interface import Brain, Observation, ThinkRequest, Thought
+    from planner.brain.interface import Brain, Observation, ThinkRequest, ThinkResult
     from planner.brain.offline_brain import OfflineBrain
     from planner.brain.scripted import ScriptedBrain
     from planner.brain.streamed_draft import Draft, Hear
@@ -25,32 +25,32 @@ _DOORS = {
     "FallbackBrain": "fallback",
     "Hear": "streamed_draft",
     "Mind": "brain_status",
-    "Misconfigured": "errors",
+    "BrainConfigError": "errors",
     "Observation": "interface",
     "OfflineBrain": "offline_brain",
     "OutOfBudget": "errors",
-    "PlanRejected": "errors",
+    "BadPlan": "errors",
     "ScriptedBrain": "scripted",
     "ThinkRequest": "interface",
-    "Thought": "interface",
+    "ThinkResult": "interface",
     "mind_of": "brain_status",
 }
 
 __all__ = [
+    "BadPlan",
     "Brain",
+    "BrainConfigError",
     "BrainDown",
     "Draft",
     "FallbackBrain",
     "Hear",
     "Mind",
-    "Misconfigured",
     "Observation",
     "OfflineBrain",
     "OutOfBudget",
-    "PlanRejected",
     "ScriptedBrain",
     "ThinkRequest",
-    "Thought",
+    "ThinkResult",
     "mind_of",
 ]
 

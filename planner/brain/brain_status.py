@@ -50,7 +50,7 @@ def mind_of(brain: Brain) -> Mind:
     why, rests_s = brain.last_failure, brain.rests_s()
     return Mind(
         name=brain.tag.name,
-        breaker=_state(closed=brain.breaker.closed, rests_s=rests_s),
+        breaker=_state(closed=brain.breaker.is_closed, rests_s=rests_s),
         rests_s=round(rests_s, 1),
         last_error=None if why is None else LastError(code=why, message=reason(why)),
     )

@@ -35,7 +35,7 @@ class Breaker:
         self.rest_s = self.first_rest_s
 
     @property
-    def closed(self) -> bool:
+    def is_closed(self) -> bool:
         """Tell whether the model counts as well."""
         return self.open_until_s is None
 
@@ -52,7 +52,7 @@ class Breaker:
         self.trying = True
         return True
 
-    def succeeded(self) -> None:
+    def note_success(self) -> None:
         """Note an answer."""
         self.failures, self.trying = 0, False
         if self.open_until_s is not None:
@@ -60,7 +60,7 @@ class Breaker:
             if self.successes >= HEALS:
                 self.open_until_s, self.successes, self.rest_s = None, 0, self.first_rest_s
 
-    def failed(self, now_s: float, *, hopeless: bool = False) -> None:
+    def note_failure(self, now_s: float, *, hopeless: bool = False) -> None:
         """Note a failure; a hopeless one (a wrong key) opens at once."""
         self.trying, self.successes = False, 0
         if self.open_until_s is not None:
@@ -72,6 +72,6 @@ class Breaker:
         if hopeless or self.failures >= TRIPS:
             self.failures, self.open_until_s = 0, now_s + self.rest_s
 
-    def dropped(self) -> None:
+    def note_cancel(self) -> None:
         """Note that a call was cancelled: it says nothing about the model."""
         self.trying = False

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from planner.plan import Bilingual, BrainTag
 
 
-class PlanRejected(Exception):
+class BadPlan(Exception):
     """The model's fault: goes back to it, at most as often as the budget has repairs."""
 
     code = "bad_plan"
@@ -46,7 +46,7 @@ class OutOfBudget(BrainDown):
         """Which budget, how much, and when it comes back, for a person."""
 
 
-class Misconfigured(Exception):
+class BrainConfigError(Exception):
     """Ours: refuse to start."""
 
     code = "misconfigured"

@@ -11,8 +11,8 @@ import time
 from collections.abc import Callable
 
 from planner.brain.circuit_breaker import FIRST_REST_S, Breaker
-from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
-from planner.brain.interface import Brain, ThinkRequest, Thought
+from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
+from planner.brain.interface import Brain, ThinkRequest, ThinkResult
 from planner.brain.model_error_codes import reason
 from planner.brain.streamed_draft import Hear
 from planner.language.grammar.sentence_text import refuse_bad_text
@@ -48,13 +48,13 @@ class FallbackBrain:
         """Return how much longer the model rests [s]; 0 where it may be asked."""
         return self.breaker.rests_s(self._clock())
 
-    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the model's thought, else the offline brain's.
 
         Raises:
             BrainDown: the model is down and the offline brain does not understand the sentence.
             OutOfBudget: the same, but the model was not asked.
-            PlanRejected: the model wrote no plan and neither does the offline brain.
+            BadPlan: the model wrote no plan and neither does the offline brain.
         """
         if refuse_bad_text(request.text) is not None:  # no model is paid to read what is no text
             return await self._offline.think(request)
@@ -65,25 +65,25 @@ class FallbackBrain:
             thought = await self._model.think(request, hear)
         except OutOfBudget as spent:  # no call went out: no word about the model
             self.last_failure = spent.why
-            self.breaker.dropped()
+            self.breaker.note_cancel()
             return await self._instead(request, spent)
         except BrainDown as down:
             self.last_failure = down.why
-            self.breaker.failed(self._clock(), hopeless=down.why in HOPELESS)
+            self.breaker.note_failure(self._clock(), hopeless=down.why in HOPELESS)
             return await self._instead(request, down)
-        except PlanRejected as rejected:
+        except BadPlan as rejected:
             # It answers: what it writes is judged anew each time.
             self.last_failure = rejected.code
-            self.breaker.succeeded()
+            self.breaker.note_success()
             return await self._instead(request, rejected)
         except BaseException:  # cancelled, or a fault of ours: no word about the model
-            self.breaker.dropped()
+            self.breaker.note_cancel()
             raise
         self.last_failure = None
-        self.breaker.succeeded()
+        self.breaker.note_success()
         return thought
 
-    async def _instead(self, request: ThinkRequest, failure: BrainDown | PlanRejected) -> Thought:
+    async def _instead(self, request: ThinkRequest, failure: BrainDown | BadPlan) -> ThinkResult:
         why = failure.why if isinstance(failure, BrainDown) else failure.code
         log.warning("%s: %s (%s); the offline brain answers", self.tag.name, why, failure)
         thought = await self._offline.think(request)
@@ -96,16 +96,16 @@ class FallbackBrain:
                 else reason(why),
             }
         )
-        if _lost(thought) and isinstance(failure, OutOfBudget):
+        if _is_lost(thought) and isinstance(failure, OutOfBudget):
             raise OutOfBudget(str(failure), failure.said, tag) from failure
-        if _lost(thought) and isinstance(failure, BrainDown):
+        if _is_lost(thought) and isinstance(failure, BrainDown):
             raise BrainDown(str(failure), tag, why=why) from failure
-        if _lost(thought):
-            raise PlanRejected(str(failure), tag) from failure
+        if _is_lost(thought):
+            raise BadPlan(str(failure), tag) from failure
         return thought.model_copy(update={"brain": tag})
 
 
-def _lost(thought: Thought) -> bool:
+def _is_lost(thought: ThinkResult) -> bool:
     """Tell whether the offline brain understood nothing, and has nothing to offer."""
     plan = thought.plan
     return isinstance(plan, Clarify) and plan.code is Code.NOT_UNDERSTOOD and not plan.options

@@ -10,7 +10,13 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
-from planner.brain.image_questions import FULL, Asked, Detected, Picture, View
+from planner.brain.image_questions import (
+    FULL,
+    DetectedObject,
+    DirectionView,
+    ImageQuestion,
+    PosedPicture,
+)
 from planner.brain.prompt_template import Template, as_json
 from planner.brain.schema import Message
 from pons_assets import PROMPTS
@@ -51,65 +57,67 @@ class LookPrompts:
         """Return the prompt of a point."""
         return Template.load(PROMPTS / "point.md", _BLANKS)
 
-    def look_messages(self, asked: Asked) -> list[Message]:
+    def look_messages(self, asked: ImageQuestion) -> list[Message]:
         """Return the messages of a question about a picture."""
         return _messages(self.look, LOOK_SCHEMA, "question", asked)
 
-    def point_messages(self, asked: Asked) -> list[Message]:
+    def point_messages(self, asked: ImageQuestion) -> list[Message]:
         """Return the messages that ask where something is."""
         return _messages(self.point, POINT_SCHEMA, "point_at", asked)
 
 
-def _messages(template: Template, schema: dict[str, Any], key: str, asked: Asked) -> list[Message]:
+def _messages(
+    template: Template, schema: dict[str, Any], key: str, asked: ImageQuestion
+) -> list[Message]:
     told: dict[str, Any] = {key: asked.words[:MAX_QUESTION], "language": asked.language.value}
     told |= _sheet(asked) if asked.views else _single(asked)
     return [
-        {"role": "system", "content": template.filled(schema=as_json(schema))},
+        {"role": "system", "content": template.fill(schema=as_json(schema))},
         {"role": "user", "content": as_json(told)},
     ]
 
 
-def _single(asked: Asked) -> dict[str, Any]:
+def _single(asked: ImageQuestion) -> dict[str, Any]:
     """Tell of one picture which way it shows, where that is known, and what was found in it."""
     told: dict[str, Any] = {}
     if asked.direction is not None:
         told["direction"] = {"en": asked.direction.en, "zh": asked.direction.zh}
-    return {**told, "detector": listed(asked.picture, asked.detections)}
+    return {**told, "detector": list_detections(asked.picture, asked.detections)}
 
 
-def _sheet(asked: Asked) -> dict[str, Any]:
+def _sheet(asked: ImageQuestion) -> dict[str, Any]:
     """Tell of each picture on a sheet its number, its direction and what was found in it."""
     most = max(LEAST_LISTED, MAX_LISTED // len(asked.views))
     pictures = [
         {
             "number": number,
             "direction": {"en": view.direction.en, "zh": view.direction.zh},
-            "detector": listed(view.picture, view.detections, most),
+            "detector": list_detections(view.picture, view.detections, most),
         }
         for number, view in enumerate(asked.views, start=1)
     ]
     return {"pictures": pictures}
 
 
-def label_of(number: int, view: View) -> str:
+def label_of(number: int, view: DirectionView) -> str:
     """Return what stands above a picture of a sheet: ``1 ahead``."""
     return f"{number} {view.direction.en}"
 
 
-def listed(
-    picture: Picture, found: Sequence[Detected], most: int = MAX_LISTED
+def list_detections(
+    picture: PosedPicture, found: Sequence[DetectedObject], most: int = MAX_LISTED
 ) -> list[dict[str, Any]]:
     """Return what the detector found, the largest first, as the prompts say it."""
     ordered = sorted(found, key=_area, reverse=True)[:most]
     return [line for each in ordered if (line := _line(picture, each)) is not None]
 
 
-def _area(each: Detected) -> float:
+def _area(each: DetectedObject) -> float:
     left, top, right, bottom = each.box
     return (right - left) * (bottom - top)
 
 
-def _line(picture: Picture, each: Detected) -> dict[str, Any] | None:
+def _line(picture: PosedPicture, each: DetectedObject) -> dict[str, Any] | None:
     left, top, right, bottom = each.box
     x, y = (left + right) / 2.0 / picture.width, (top + bottom) / 2.0 / picture.height
     if not (0.0 <= x <= 1.0 and 0.0 <= y <= 1.0):  # NaN too

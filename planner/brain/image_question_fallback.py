@@ -12,23 +12,23 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from planner.brain.circuit_breaker import Breaker
-from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
+from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.fallback import HOPELESS
 from planner.brain.image_questions import (
-    Asked,
-    Described,
-    Detected,
+    DetectedObject,
+    ImageDescription,
+    ImagePoint,
+    ImageQuestion,
     Looker,
     NotSent,
     NotThere,
-    Pointed,
 )
 from planner.brain.model_error_codes import reason
 from planner.plan import Bilingual, BrainTag
 
 log = logging.getLogger(__name__)
 
-Words = Callable[[str, Sequence[Detected]], tuple[Bilingual, bool | None]]
+Words = Callable[[str, Sequence[DetectedObject]], tuple[Bilingual, bool | None]]
 """Answers a question by what a detector saw: the words, and whether what it asks for is there."""
 DETECTOR = BrainTag(name="detector", version="1")
 
@@ -52,46 +52,46 @@ class FallbackLooker:
         """Return the model's name."""
         return self._model.tag
 
-    async def describe(self, asked: Asked) -> Described:
+    async def describe(self, asked: ImageQuestion) -> ImageDescription:
         """Return the model's answer, else the detector's. Raises nothing but a cancellation."""
         try:
-            with self._watched():
+            with self._guard_call():
                 return await self._model.describe(asked)
-        except (BrainDown, PlanRejected) as failure:
+        except (BrainDown, BadPlan) as failure:
             text, seen = self._words(asked.words, asked.detections)
-            return Described(text, seen, self._instead(failure))
+            return ImageDescription(text, seen, self._instead(failure))
 
-    async def point(self, asked: Asked) -> Pointed | NotThere:
+    async def point(self, asked: ImageQuestion) -> ImagePoint | NotThere:
         """Return where the model points; no detector can do that for it.
 
         Raises:
-            NotSent, PlanRejected, BrainDown, OutOfBudget: as the model's, or ``resting``.
+            NotSent, BadPlan, BrainDown, OutOfBudget: as the model's, or ``resting``.
         """
-        with self._watched():
+        with self._guard_call():
             return await self._model.point(asked)
 
     @contextmanager
-    def _watched(self) -> Iterator[None]:
+    def _guard_call(self) -> Iterator[None]:
         """Let a call through where the breaker does, and tell it how the call ended."""
         if not self._breaker.lets(self._clock()):
             raise BrainDown(f"{self._breaker.rests_s(self._clock()):.0f} s more", why="resting")
         try:
             yield
         except (NotSent, OutOfBudget):  # no call went out, or none is to blame
-            self._breaker.dropped()
+            self._breaker.note_cancel()
             raise
         except BrainDown as down:
-            self._breaker.failed(self._clock(), hopeless=down.why in HOPELESS)
+            self._breaker.note_failure(self._clock(), hopeless=down.why in HOPELESS)
             raise
-        except PlanRejected:  # it answers
-            self._breaker.succeeded()
+        except BadPlan:  # it answers
+            self._breaker.note_success()
             raise
         except BaseException:  # cancelled, or a fault of ours
-            self._breaker.dropped()
+            self._breaker.note_cancel()
             raise
-        self._breaker.succeeded()
+        self._breaker.note_success()
 
-    def _instead(self, failure: BrainDown | PlanRejected) -> BrainTag:
+    def _instead(self, failure: BrainDown | BadPlan) -> BrainTag:
         why = failure.why if isinstance(failure, BrainDown) else failure.code
         log.warning("%s: %s (%s); the detector answers", self.tag.name, why, failure)
         said = failure.said if isinstance(failure, OutOfBudget) else reason(why)

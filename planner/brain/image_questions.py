@@ -28,7 +28,7 @@ MAX_SAID = 300
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class PosedPicture:
     """Hold one picture, and where it was taken from."""
 
     jpeg: bytes
@@ -41,15 +41,15 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class DirectionView:
     """Hold the picture of one of several directions from one spot, and what was found in it."""
 
-    picture: Picture
+    picture: PosedPicture
     direction: Bilingual
-    detections: Sequence[Detected] = ()
+    detections: Sequence[DetectedObject] = ()
 
 
-class Detected(Protocol):
+class DetectedObject(Protocol):
     """Be one thing that a detector found in the picture, as ``planner.perception.Detection``."""
 
     @property
@@ -74,26 +74,26 @@ class Detected(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class ImageQuestion:
     """Hold what is asked about one picture."""
 
-    picture: Picture
+    picture: PosedPicture
     words: str
     """A question, or what is to be pointed at: the plan's own words."""
     language: Language = Language.EN
     """The person's."""
-    detections: Sequence[Detected] = ()
+    detections: Sequence[DetectedObject] = ()
     """What the detector found in this very picture: handed over as data."""
     goal: str = ""
     """Whose budget pays."""
     direction: Bilingual | None = None
     """Which way the picture shows, from how the robot stood when it began to look."""
-    views: tuple[View, ...] = ()
+    views: tuple[DirectionView, ...] = ()
     """Several directions from one spot: they are shown on one sheet in place of the picture."""
 
 
 @dataclass(frozen=True, slots=True)
-class Described:
+class ImageDescription:
     """Answer a question about a picture."""
 
     text: Bilingual
@@ -104,7 +104,7 @@ class Described:
 
 
 @dataclass(frozen=True, slots=True)
-class Pointed:
+class ImagePoint:
     """Point at what was asked for, each of 0 to 1000."""
 
     x: int
@@ -138,21 +138,21 @@ class Looker(Protocol):
         """Return the model's name, for the goal's record."""
         ...
 
-    async def describe(self, asked: Asked) -> Described:
+    async def describe(self, asked: ImageQuestion) -> ImageDescription:
         """Return the answer to a question about a picture.
 
         Raises:
             NotSent: the picture did not leave.
-            PlanRejected: neither reply is an answer.
+            BadPlan: neither reply is an answer.
             BrainDown: the model does not answer in time.
             OutOfBudget: a call was refused by the meter.
         """
         ...
 
-    async def point(self, asked: Asked) -> Pointed | NotThere:
+    async def point(self, asked: ImageQuestion) -> ImagePoint | NotThere:
         """Return where in a picture something is, or that it is not there.
 
         Raises:
-            NotSent, PlanRejected, BrainDown, OutOfBudget: as ``describe`` does.
+            NotSent, BadPlan, BrainDown, OutOfBudget: as ``describe`` does.
         """
         ...

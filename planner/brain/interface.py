@@ -67,7 +67,7 @@ class ThinkRequest(Frozen):
     goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
 
 
-class Thought(Frozen):
+class ThinkResult(Frozen):
     """Return a plan, which brain made it, and what it cost."""
 
     plan: Plan
@@ -86,7 +86,7 @@ class Brain(Protocol):
         """Return the brain's name and version, for the goal's record."""
         ...
 
-    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the plan of a sentence; nothing has moved when it returns.
 
         Args:
@@ -95,7 +95,7 @@ class Brain(Protocol):
                 tell.
 
         Raises:
-            PlanRejected: what the model wrote is no plan, and its repairs are used up.
+            BadPlan: what the model wrote is no plan, and its repairs are used up.
             BrainDown: the model does not answer in time.
         """
         ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from datetime import datetime
 
-from planner.brain.interface import OFFLINE, ThinkRequest, Thought
+from planner.brain.interface import OFFLINE, ThinkRequest, ThinkResult
 from planner.brain.offline_replan import rest_of
 from planner.brain.streamed_draft import Hear
 from planner.language.grammar.parser import Context, plan
@@ -15,14 +15,14 @@ VERSION = "2"
 TAG = BrainTag(name=OFFLINE, version=VERSION)
 
 
-def _now() -> datetime:
+def _read_clock() -> datetime:
     return datetime.now().astimezone()
 
 
 class OfflineBrain:
     """Plan by grammar, in this process and without a model. `clock` tells the time of day."""
 
-    def __init__(self, clock: Callable[[], datetime] = _now) -> None:
+    def __init__(self, clock: Callable[[], datetime] = _read_clock) -> None:
         self._clock = clock
 
     @property
@@ -30,7 +30,7 @@ class OfflineBrain:
         """Return the brain's name and version."""
         return TAG
 
-    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the plan of a sentence. Pure beneath, and bounded by the length of the text."""
         context = Context(
             room=request.room,
@@ -41,4 +41,4 @@ class OfflineBrain:
             things=request.things,
         )
         made = plan(request.text, request.vocabulary, context)
-        return Thought(plan=rest_of(made, request.observed), brain=TAG)
+        return ThinkResult(plan=rest_of(made, request.observed), brain=TAG)

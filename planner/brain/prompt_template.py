@@ -54,7 +54,7 @@ class Template:
         """Return name, version and hash in a word."""
         return f"{self.name}/{self.version}@{self.fingerprint}"
 
-    def filled(self, **words: str) -> str:
+    def fill(self, **words: str) -> str:
         """Return the text with its blanks filled."""
         return _BLANK.sub(lambda blank: words[blank[1]], self.text).strip()
 

@@ -8,7 +8,7 @@ from planner.brain.schema import NAME
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
+class ReplyForm:
     """Name one kind of reply."""
 
     name: str
@@ -16,6 +16,6 @@ class Form:
     """What the forced tool is for."""
 
 
-PLAN_FORM = Form(NAME, "Reply to the order with one plan, answer, question or refusal.")
-LOOK_FORM = Form("look", "Answer the question about the picture.")
-POINT_FORM = Form("point", "Point at one thing in the picture, or say that it is not there.")
+PLAN_FORM = ReplyForm(NAME, "Reply to the order with one plan, answer, question or refusal.")
+LOOK_FORM = ReplyForm("look", "Answer the question about the picture.")
+POINT_FORM = ReplyForm("point", "Point at one thing in the picture, or say that it is not there.")

@@ -48,7 +48,7 @@ def step_models(runnable: frozenset[str] = RUNNABLE) -> dict[str, type[Frozen]]:
 def step_line(model: type[Frozen]) -> str:
     """Describe one step to a model: its shape and what it does."""
     fields = [f'"kind":"{_kind(model)}"']
-    fields += [f'"{name}":{_wanted(name, shape)}' for name, shape in _fields(model).items()]
+    fields += [f'"{name}":{_describe_field(name, shape)}' for name, shape in _fields(model).items()]
     return f"{{{','.join(fields)}}} {(model.__doc__ or '').splitlines()[0]}"
 
 
@@ -108,7 +108,7 @@ def _plain(name: str, shape: dict[str, Any], ids: list[str]) -> dict[str, Any]:
     return {"type": "array", "items": one} if kind == "array" else one
 
 
-def _wanted(name: str, shape: dict[str, Any]) -> str:
+def _describe_field(name: str, shape: dict[str, Any]) -> str:
     """Say in a word what a field holds."""
     if name in _PLACES:
         return "[id,…]" if _type(shape) == "array" else "id"

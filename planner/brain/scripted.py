@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 
 from pydantic import ValidationError
 
-from planner.brain.errors import Misconfigured, PlanRejected
-from planner.brain.interface import ThinkRequest, Thought
+from planner.brain.errors import BadPlan, BrainConfigError
+from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.brain.streamed_draft import Draft, Hear
 from planner.plan import PLAN, Answer, BrainTag, Clarify, Refuse, StepPlan
 
@@ -36,18 +36,18 @@ class ScriptedBrain:
 
     def __post_init__(self) -> None:
         if not self.replies and not self.hangs:
-            raise Misconfigured("a scripted brain needs at least one reply; got none")
+            raise BrainConfigError("a scripted brain needs at least one reply; got none")
 
     @property
     def tag(self) -> BrainTag:
         """Return the double's name."""
         return BrainTag(name="scripted", version="1")
 
-    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the next reply of the script.
 
         Raises:
-            PlanRejected: the reply is a text that is no plan.
+            BadPlan: the reply is a text that is no plan.
             BrainDown: the script says so.
         """
         self.asked.append(request)
@@ -60,13 +60,13 @@ class ScriptedBrain:
         reply = self.replies[min(len(self.asked), len(self.replies)) - 1]
         if isinstance(reply, Exception):
             raise reply
-        plan = _judged(reply) if isinstance(reply, str) else reply
-        return Thought(plan=plan, brain=self.tag, calls=1)
+        plan = _parse_reply(reply) if isinstance(reply, str) else reply
+        return ThinkResult(plan=plan, brain=self.tag, calls=1)
 
 
-def _judged(text: str) -> StepPlan | Answer | Clarify | Refuse:
+def _parse_reply(text: str) -> StepPlan | Answer | Clarify | Refuse:
     try:
         return PLAN.validate_json(text)
     except ValidationError as error:
         first = error.errors()[0]["msg"]
-        raise PlanRejected(f"the reply is no plan ({first}): {text[:200]!r}") from None
+        raise BadPlan(f"the reply is no plan ({first}): {text[:200]!r}") from None

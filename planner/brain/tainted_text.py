@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from planner.brain.errors import BrainDown, PlanRejected
+from planner.brain.errors import BadPlan, BrainDown
 from planner.language.catalogue import say
 from planner.plan import Answer, StepPlan
 
 if TYPE_CHECKING:
-    from planner.brain.interface import Brain, Observation, ThinkRequest, Thought
+    from planner.brain.interface import Brain, Observation, ThinkRequest, ThinkResult
     from planner.brain.streamed_draft import Hear
     from planner.plan import Plan
 
@@ -23,7 +23,7 @@ _SAID = say("observation.said_something")
 """Words that were said after a picture was read may repeat it, so they are withheld as well."""
 
 
-def tainted(request: ThinkRequest) -> bool:
+def is_tainted(request: ThinkRequest) -> bool:
     """Tell whether this goal has words in its course that may have stood in a picture."""
     return any(seen.read is not None for seen in request.observed)
 
@@ -62,20 +62,22 @@ def speaks(plan: Plan) -> bool:
     return isinstance(plan, Answer)
 
 
-async def think_warily(brain: Brain, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+async def think_warily(
+    brain: Brain, request: ThinkRequest, hear: Hear | None = None
+) -> ThinkResult:
     """Return a brain's thought; nothing that is done in it follows from words in a picture.
 
     Raises:
-        PlanRejected, BrainDown: as the brain does, before it was shown any such words.
+        BadPlan, BrainDown: as the brain does, before it was shown any such words.
     """
-    if not tainted(request):
+    if not is_tainted(request):
         return await brain.think(request, hear)
     acts = await brain.think(withheld(request))
     if not speaks(acts.plan):
         return acts
     try:
         says = await brain.think(request)
-    except (BrainDown, PlanRejected):
+    except (BrainDown, BadPlan):
         return acts
     cost = {
         name: getattr(acts, name) + getattr(says, name)

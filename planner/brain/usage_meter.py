@@ -19,7 +19,7 @@ class Bill(Protocol):
     """Be one open call. Closed once, whatever became of it."""
 
     @property
-    def most(self) -> int:
+    def max_reply_tokens(self) -> int:
         """Return the tokens that the reply may have at most."""
         ...
 

@@ -14,9 +14,9 @@ import logging
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.brain.errors import BrainDown, PlanRejected
-from planner.brain.image_questions import MAX_VIEWS, Asked, Pointed, View
-from planner.brain.image_questions import Picture as Shown
+from planner.brain.errors import BadPlan, BrainDown
+from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImagePoint, ImageQuestion
+from planner.brain.image_questions import PosedPicture as Shown
 from planner.mission.events import Told
 from planner.mission.skills.perception import Answer
 from planner.perception.interfaces import PointRefused
@@ -97,17 +97,17 @@ class EyeDoor:
             return Answer(failure="no_vision_model")
         try:
             return await self._model(self._looker, eyes, picture, ask)
-        except (BrainDown, PlanRejected) as failure:
+        except (BrainDown, BadPlan) as failure:
             code = failure.why if isinstance(failure, BrainDown) else failure.code
             log.warning("goal %s: nobody looked at the picture: %s", ask.id, failure)
             return Answer(failure=code)
 
     async def _model(self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes) -> Answer:
         seen = _detections(eyes, picture)
-        asked = Asked(_shown(eyes, picture), ask.words, ask.language, seen, ask.id)
+        asked = ImageQuestion(_shown(eyes, picture), ask.words, ask.language, seen, ask.id)
         if ask.point:
             found = await looker.point(asked)
-            if not isinstance(found, Pointed):
+            if not isinstance(found, ImagePoint):
                 return Answer(failure="not_in_picture")
             return await _point(eyes, picture, found.x, found.y)
         views = self._looked_at(ask)
@@ -116,12 +116,14 @@ class EyeDoor:
             return Answer(failure=said.brain.fallback_reason)
         return Answer(text=said.text, seen=said.seen, shown=max(1, len(views)))
 
-    def _looked_at(self, ask: AskEyes) -> tuple[View, ...]:
+    def _looked_at(self, ask: AskEyes) -> tuple[DirectionView, ...]:
         """Return the pictures of a look's directions where there are several and all are here."""
         kept = self._views.pop(ask.id, {})
         if len(ask.views) < 2 or kept.keys() != set(range(len(ask.views))):
             return ()
-        return tuple(View(kept[n][0], name, kept[n][1]) for n, name in enumerate(ask.views))
+        return tuple(
+            DirectionView(kept[n][0], name, kept[n][1]) for n, name in enumerate(ask.views)
+        )
 
 
 def _newest(eyes: Eyes, picture: Picture | None) -> Picture | None:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
-from planner.brain.errors import BrainDown, OutOfBudget, PlanRejected
+from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.interface import Brain, ThinkRequest
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
@@ -97,7 +97,7 @@ def thinker(
         try:
             hear = hearing.of(ask.id) if hearing else None
             thought = await think_warily(brain, request, hear)
-        except PlanRejected as error:
+        except BadPlan as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
             said = _outcome(Code.BAD_PLAN, why=str(error)[:200])
             return Planned(ask.id, None, said, error.brain or brain.tag)

@@ -10,7 +10,7 @@ import time
 from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 
-from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
+from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.language.catalogue import message
 from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
@@ -93,7 +93,7 @@ async def _one(
         thought = await brain.think(asked)
     except OutOfBudget:
         raise
-    except PlanRejected as rejected:
+    except BadPlan as rejected:
         made = _no(Code.BAD_PLAN, why=str(rejected)[:200])
         return _nothing(case, made, f"no plan: {rejected}", clock() - began)
     except BrainDown as down:

@@ -10,7 +10,7 @@ import pytest
 
 from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.image_questions import Asked, Described, Picture
+from planner.brain.image_questions import ImageDescription, ImageQuestion, PosedPicture
 from planner.perception import Detection, VisionWorker
 from planner.perception_factory import looker_of
 from planner.settings import ModelSettings, VisionSettings
@@ -33,16 +33,16 @@ def test_the_detector_answers_for_a_picture_that_does_not_leave(
     def nothing(request: httpx.Request) -> httpx.Response:
         raise AssertionError("a call went out")
 
-    async def story() -> Described:
+    async def story() -> ImageDescription:
         settings = ModelSettings(url=url, name="m", allow_offhost=True)
         model = EndpointBrain(settings, tmp_path, transport=httpx.MockTransport(nothing))
         worker = VisionWorker(VisionSettings())
         looker = looker_of(model, FallbackBrain(model, OfflineBrain()), worker)
         assert looker is not None
-        shown = Picture(jpeg(*size), *size, seq=1)
+        shown = PosedPicture(jpeg(*size), *size, seq=1)
         try:
             return await looker.describe(
-                Asked(shown, "what is there?", detections=[CUP], goal="g1")
+                ImageQuestion(shown, "what is there?", detections=[CUP], goal="g1")
             )
         finally:
             await worker.close()

@@ -104,7 +104,7 @@ def _mcap(folder: Path) -> Reader:
 
 def _model(_folder: Path) -> Reader:
     """Read a body, a plan, a look and a point, or a stream, by the first byte."""
-    from planner.brain.endpoint.completion import Assembly, Broken, read_json, read_reply
+    from planner.brain.endpoint.completion import Assembly, StreamFailure, read_json, read_reply
     from planner.brain.endpoint.image_client import judge_look, judge_point
     from planner.brain.endpoint.plan_reply import Drafting, judge
     from planner.brain.endpoint.response import Events
@@ -132,7 +132,7 @@ def _model(_folder: Path) -> Reader:
         try:
             for event in (*events.feed(data[:half]), *events.feed(data[half:]), *events.end()):
                 assembly.add(event)
-        except Broken:
+        except StreamFailure:
             return None
         drafting.draft_of(assembly.text)
         return judge(read_reply(assembly.completion()).text, vocabulary)

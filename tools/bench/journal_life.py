@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 import sqlalchemy as sa
 
-from planner.brain import ScriptedBrain, ThinkRequest, Thought
+from planner.brain import ScriptedBrain, ThinkRequest, ThinkResult
 from planner.bridge_client import Link
 from planner.mission import BadState, Clocks, JournalSync, MissionJournal, Missions
 from planner.mission.event_hub import Hub
@@ -57,10 +57,10 @@ OFF = 0.3
 class ByText(ScriptedBrain):
     """Plan by what was said, however often it is asked."""
 
-    async def think(self, request: ThinkRequest, hear: object = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: object = None) -> ThinkResult:
         """Return the plan of a sentence."""
         del hear
-        return Thought(plan=StepPlan(steps=PLANS[request.text]), brain=self.tag)
+        return ThinkResult(plan=StepPlan(steps=PLANS[request.text]), brain=self.tag)
 
 
 class StraightFlight:

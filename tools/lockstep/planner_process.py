@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
     from typing import Any
 
-    from planner.brain import Brain, ThinkRequest, Thought
+    from planner.brain import Brain, ThinkRequest, ThinkResult
     from planner.brain.image_questions import Looker
     from planner.brain.streamed_draft import Hear
     from planner.mission.effects import Journal
@@ -102,7 +102,7 @@ class PacedBrain:
         """Return the brain's own."""
         return self.brain.tag
 
-    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the brain's thought; raises what it raises."""
         brain = self.brain
         await asyncio.sleep(self.delay_s)

@@ -80,7 +80,7 @@ class Address:
         if not host:
             raise _wrong("names no host")
         number = _number(host)
-        if _metadata_name(host) or (number is not None and not allowed(number)):
+        if _metadata_name(host) or (number is not None and not is_allowed(number)):
             raise _wrong(f"leads to {host}: link-local and metadata addresses are never asked")
         if port is None:
             port = 443 if parts.scheme == "https" else 80
@@ -90,9 +90,9 @@ class Address:
         return cls(url, host, port, local, number is not None)
 
 
-def allowed(number: Ip) -> bool:
+def is_allowed(number: Ip) -> bool:
     """Tell whether an address may be asked at all."""
-    if not all(map(allowed, _inner(number))):
+    if not all(map(is_allowed, _inner(number))):
         return False
     wrong = number.is_link_local or number.is_multicast or number.is_unspecified
     return not (wrong or number in _METADATA_ADDRESSES or number == _BROADCAST)
@@ -115,7 +115,7 @@ def refused_among(found: list[str]) -> str | None:
             number = ipaddress.ip_address(text.split("%", maxsplit=1)[0])
         except ValueError:
             return text
-        if not allowed(number):
+        if not is_allowed(number):
             return text
     return None
 
@@ -153,7 +153,7 @@ MAX_TRIED = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
+class CallTarget:
     """Say where one call goes."""
 
     url: str
@@ -163,15 +163,15 @@ class Target:
     """Empty where nothing was looked up."""
 
 
-class Names:
+class TargetResolver:
     """Turn one endpoint into targets; a name is looked up once a minute."""
 
     def __init__(self, address: Address) -> None:
         self._address = address
         self._resolved_s = float("-inf")
-        self._targets: tuple[Target, ...] = (Target(address.url),)
+        self._targets: tuple[CallTarget, ...] = (CallTarget(address.url),)
 
-    async def targets(self) -> tuple[Target, ...]:
+    async def targets(self) -> tuple[CallTarget, ...]:
         """Return where to call, the best first.
 
         Raises:
@@ -188,11 +188,11 @@ class Names:
             raise BrainDown(told, why="refused_address")
         # Names of large services turn their addresses round at each look; a connection is kept.
         found.sort(key=lambda ip: ip != self._targets[0].ip)
-        self._targets = tuple(map(self._pinned, found[:MAX_TRIED]))
+        self._targets = tuple(map(self._pin, found[:MAX_TRIED]))
         self._resolved_s = now_s
         return self._targets
 
-    def answered(self, target: Target) -> None:
+    def prefer(self, target: CallTarget) -> None:
         """Try this one first from now on."""
         if target is not self._targets[0]:
             rest = tuple(each for each in self._targets if each is not target)
@@ -210,11 +210,11 @@ class Names:
             raise BrainDown(f"{host} resolves to nothing", why="unreachable")
         return addresses
 
-    def _pinned(self, ip: str) -> Target:
+    def _pin(self, ip: str) -> CallTarget:
         host, port = self._address.host, self._address.port
         usual = 443 if self._address.url.startswith("https:") else 80
         shown = f"[{ip}]" if ":" in ip else ip
-        return Target(
+        return CallTarget(
             self._address.url.replace(f"://{host}:{port}", f"://{shown}:{port}", 1),
             {"Host": host if port == usual else f"{host}:{port}"},
             {"sni_hostname": host},

@@ -68,7 +68,7 @@ class Tokens:
 
 
 @dataclass(frozen=True, slots=True)
-class Reply:
+class ModelReply:
     """Hold one reply. ``refusal``: the model declined, in its words."""
 
     text: str
@@ -78,7 +78,7 @@ class Reply:
     tokens: Tokens = Tokens()
 
 
-def read_reply(content: object, tool: str = NAME) -> Reply:
+def read_reply(content: object, tool: str = NAME) -> ModelReply:
     """Return what a server answered with 200; ``tool``: the only one that may be called.
 
     Raises:
@@ -97,13 +97,13 @@ def read_reply(content: object, tool: str = NAME) -> Reply:
     finish, usage = choice.get("finish_reason"), _tokens(content.get("usage"))
     refusal = message.get("refusal")
     if isinstance(refusal, str) and refusal.strip():
-        return Reply("", refusal=refusal, tokens=usage)
+        return ModelReply("", refusal=refusal, tokens=usage)
     if finish in ("content_filter", "refusal"):  # whatever was written until then
-        return Reply("", refusal=_DECLINED, tokens=usage)
+        return ModelReply("", refusal=_DECLINED, tokens=usage)
     text, trouble = _text(message, tool)
     if finish == "length":
         trouble = "the reply was cut off at the token limit; reply shorter, without thoughts"
-    return Reply(text, trouble=trouble, tokens=usage)
+    return ModelReply(text, trouble=trouble, tokens=usage)
 
 
 def read_json(raw: bytes) -> Any:
@@ -126,7 +126,7 @@ def _text(message: dict[str, Any], tool: str) -> tuple[str, str | None]:
         calls = [{"function": message["function_call"]}]  # as it was called before 2024
     if not isinstance(calls, list) or not calls:
         return said, None if said.strip() else "the reply is empty"
-    arguments = _called(calls, tool)
+    arguments = _join_arguments(calls, tool)
     if arguments is None:  # whoever calls what does not exist has not understood the question
         return "", f"a tool was called that does not exist; the only tool is {tool}"
     if "{" in said:  # a second plan beside the call, if it is another one, is found later on
@@ -134,7 +134,7 @@ def _text(message: dict[str, Any], tool: str) -> tuple[str, str | None]:
     return arguments, None if arguments.strip() else "the call has no arguments"
 
 
-def _called(calls: list[Any], tool: str) -> str | None:
+def _join_arguments(calls: list[Any], tool: str) -> str | None:
     """Return the arguments of all calls; None where one is not of our tool.
 
     The same call twice is found to be one later on, two that differ are found to be two.
@@ -174,7 +174,7 @@ MAX_CALLS = 8
 MAX_NAME = 64
 
 
-class Broken(Exception):
+class StreamFailure(Exception):
     """The stream says that it failed. Holds its words."""
 
 
@@ -218,12 +218,12 @@ class Assembly:
         """Take one event in; what is none of a completion is passed over.
 
         Raises:
-            Broken: it is an error, or no JSON at all.
+            StreamFailure: it is an error, or no JSON at all.
         """
         if not isinstance(event, dict):
-            raise Broken("the stream holds an event that is no JSON object")
+            raise StreamFailure("the stream holds an event that is no JSON object")
         if event.get("error") and not event.get("choices"):
-            raise Broken(f"the stream says: {event['error']!s:.200}")
+            raise StreamFailure(f"the stream says: {event['error']!s:.200}")
         if isinstance(event.get("usage"), dict):
             self._usage = event["usage"]
         choice = _first_dict(event.get("choices"))

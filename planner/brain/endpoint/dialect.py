@@ -26,7 +26,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from planner.brain.response_format import PLAN_FORM, Form
+from planner.brain.response_format import PLAN_FORM, ReplyForm
 from planner.brain.schema import Message
 from planner.settings import Mode, ModelSettings, TokensField
 
@@ -56,7 +56,7 @@ def data_url(jpeg: bytes) -> str:
     return f"data:image/jpeg;base64,{base64.b64encode(jpeg).decode('ascii')}"
 
 
-def attached(messages: list[Message], url: str) -> list[dict[str, Any]]:
+def attach_picture(messages: list[Message], url: str) -> list[dict[str, Any]]:
     """Return the messages with the picture in the person's first one, behind its words."""
     sent: list[dict[str, Any]] = [{str(k): v for k, v in each.items()} for each in messages]
     first = next(message for message in sent if message["role"] == "user")
@@ -132,7 +132,7 @@ class Dialect:
         if self.temperature and "temperature" in complaint:
             yield replace(self, temperature=False)
         if "max_completion_tokens" in complaint or "max_tokens" in complaint:
-            yield replace(self, tokens_field=_other(self.tokens_field))
+            yield replace(self, tokens_field=_swap_field(self.tokens_field))
         if self.usage and ("stream_options" in complaint or "include_usage" in complaint):
             yield replace(self, usage=False)
         if self.quiet and any(name.lower() in complaint for name in quiet):
@@ -145,7 +145,7 @@ class Dialect:
             yield from (replace(self, mode=mode) for mode in LADDER[LADDER.index(self.mode) + 1 :])
 
 
-def _other(tokens_field: TokensField) -> TokensField:
+def _swap_field(tokens_field: TokensField) -> TokensField:
     return "max_completion_tokens" if tokens_field == "max_tokens" else "max_tokens"
 
 
@@ -166,7 +166,7 @@ def body_of(
     schema: Body,
     *,
     stream: bool = False,
-    form: Form = PLAN_FORM,
+    form: ReplyForm = PLAN_FORM,
     picture: str | None = None,
 ) -> Body:
     """Return the body of one call; what Pons writes itself wins over all that is extra.
@@ -180,12 +180,12 @@ def body_of(
         form: what the reply is called.
         picture: the data URL of the picture that goes with the person's first words.
     """
-    said = messages if dialect.system else _merged(messages)
+    said = messages if dialect.system else _merge_system(messages)
     body: Body = quiet_of(settings) if dialect.quiet else {}
     body |= settings.extra_body
     body |= {
         "model": settings.name,
-        "messages": said if picture is None else attached(said, picture),
+        "messages": said if picture is None else attach_picture(said, picture),
         "stream": stream and dialect.stream,
         dialect.tokens_field: settings.max_tokens,
     }
@@ -196,20 +196,20 @@ def body_of(
     return body | _MODES[dialect.mode](schema, form)
 
 
-def _merged(messages: list[Message]) -> list[Message]:
+def _merge_system(messages: list[Message]) -> list[Message]:
     """Put the system's words before the person's, for models that know no system role."""
     system, first, *rest = messages
     both = f"{system['content']}\n\n{first['content']}"
     return [{"role": "user", "content": both}, *rest]
 
 
-def _json_schema(schema: Body, form: Form) -> Body:
+def _json_schema(schema: Body, form: ReplyForm) -> Body:
     # Not strict: OpenAI's strict mode wants every field of every step, which costs tokens.
     described = {"name": form.name, "schema": schema, "strict": False}
     return {"response_format": {"type": "json_schema", "json_schema": described}}
 
 
-def _tool(schema: Body, form: Form) -> Body:
+def _tool(schema: Body, form: ReplyForm) -> Body:
     function = {"name": form.name, "description": form.told, "parameters": schema}
     return {
         "tools": [{"type": "function", "function": function}],
@@ -217,7 +217,7 @@ def _tool(schema: Body, form: Form) -> Body:
     }
 
 
-_MODES: dict[Mode, Callable[[Body, Form], Body]] = {
+_MODES: dict[Mode, Callable[[Body, ReplyForm], Body]] = {
     Mode.JSON_SCHEMA: _json_schema,
     Mode.TOOL: _tool,
     Mode.JSON_OBJECT: lambda _schema, _form: {"response_format": {"type": "json_object"}},
@@ -240,7 +240,7 @@ class Dialects:
         self._path = home / FILE
         self._key = hashlib.sha256(f"{url}\n{settings.name}".encode()).hexdigest()[:24]
         first = Dialect.first(settings)
-        known = _known_dialect(self._all().get(self._key))
+        known = _known_dialect(self._load().get(self._key))
         self.kept = known is not None
         """The server is known to have taken this."""
         self._now = first if known is None else known
@@ -248,7 +248,7 @@ class Dialects:
             self._now = replace(self._now, mode=first.mode, fixed=True)
 
     @property
-    def now(self) -> Dialect:
+    def current(self) -> Dialect:
         """Return how to ask."""
         return self._now
 
@@ -257,7 +257,7 @@ class Dialects:
         if dialect == self._now and self.kept:
             return
         self._now, self.kept = dialect, True
-        kept = {k: v for k, v in self._all().items() if k != self._key}
+        kept = {k: v for k, v in self._load().items() if k != self._key}
         kept = dict([*kept.items()][-(MAX_KEPT - 1) :])
         kept[self._key] = asdict(replace(dialect, fixed=False))
         fresh = self._path.with_suffix(".new")
@@ -268,7 +268,7 @@ class Dialects:
         except OSError as error:
             log.warning("%s could not be written: %s", self._path, error.strerror)
 
-    def _all(self) -> dict[str, Any]:
+    def _load(self) -> dict[str, Any]:
         try:
             with self._path.open("rb") as file:
                 found = json.loads(file.read(MAX_BYTES))

@@ -19,10 +19,10 @@ from typing import Any
 
 import httpx
 
-from planner.brain.endpoint.address import Address, Names, Target
+from planner.brain.endpoint.address import Address, CallTarget, TargetResolver
 from planner.brain.endpoint.completion import Assembly
-from planner.brain.endpoint.metering import Metered
-from planner.brain.endpoint.response import Again, Secret, StreamBroken, Told, read
+from planner.brain.endpoint.metering import MeteredTransport
+from planner.brain.endpoint.response import RetryableFailure, Secret, StreamBroken, Told, read
 from planner.brain.errors import BrainDown
 from planner.brain.usage_meter import Meter
 from planner.settings import ModelSettings
@@ -44,7 +44,7 @@ PROBES = tuple(
 )
 
 
-def opened(
+def open_client(
     address: Address,
     settings: ModelSettings,
     key: dict[str, str],
@@ -82,7 +82,7 @@ def opened(
         },
         follow_redirects=False,
         trust_env=False,
-        transport=inner if meter is None else Metered(inner, meter),
+        transport=inner if meter is None else MeteredTransport(inner, meter),
         timeout=httpx.Timeout(settings.timeout_s, connect=settings.connect_timeout_s),
     )
 
@@ -98,7 +98,7 @@ def warm_up() -> None:
         sys.modules["sniffio"] = None  # type: ignore[assignment]  # docs.python.org, "The module cache"
 
 
-class _Unconnected(Exception):
+class _ConnectFailure(Exception):
     """Nobody took the connection at this address."""
 
     def __init__(self, down: BrainDown) -> None:
@@ -117,8 +117,8 @@ class Client:
         meter: Meter | None = None,
     ) -> None:
         self.secret = Secret(settings.key.get_secret_value() if settings.key is not None else "")
-        self._names = Names(address)
-        self._http = opened(address, settings, self.secret.header, transport, meter)
+        self._names = TargetResolver(address)
+        self._http = open_client(address, settings, self.secret.header, transport, meter)
 
     async def close(self) -> None:
         """Give the connections back."""
@@ -145,7 +145,7 @@ class Client:
         lost = busy = False
         while True:
             got = await self._anywhere(raw, told)
-            if not isinstance(got, Again):
+            if not isinstance(got, RetryableFailure):
                 return got
             tried = lost if got.lost else busy
             if tried or not got.after_s <= end_s - time.monotonic():
@@ -153,20 +153,22 @@ class Client:
             lost, busy = lost or got.lost, busy or not got.lost
             await asyncio.sleep(got.after_s)
 
-    async def _anywhere(self, raw: bytes, told: Told | None) -> Any | Again:
+    async def _anywhere(self, raw: bytes, told: Told | None) -> Any | RetryableFailure:
         """Try the endpoint's addresses until one takes the connection."""
         refused: BrainDown | None = None
         for target in await self._names.targets():
             try:
-                got = await self._once(target, raw, told)
-            except _Unconnected as nobody:
+                got = await self._post_once(target, raw, told)
+            except _ConnectFailure as nobody:
                 refused = nobody.down
                 continue
-            self._names.answered(target)
+            self._names.prefer(target)
             return got
         raise refused or BrainDown("there is no address", why="unreachable")
 
-    async def _once(self, target: Target, raw: bytes, told: Told | None) -> Any | Again:
+    async def _post_once(
+        self, target: CallTarget, raw: bytes, told: Told | None
+    ) -> Any | RetryableFailure:
         assembly = Assembly()
         try:
             async with self._http.stream(
@@ -181,18 +183,18 @@ class Client:
             if assembly.begun:
                 raise StreamBroken(type(error).__name__) from None
             # A connection that idled may have been closed by the server; a new one may be well.
-            return Again(self._down("server_error", error), lost=True)
+            return RetryableFailure(self._wrap_error("server_error", error), lost=True)
         except (httpx.ConnectError, httpx.ConnectTimeout) as error:
-            raise _Unconnected(self._down("unreachable", error)) from None
+            raise _ConnectFailure(self._wrap_error("unreachable", error)) from None
         except httpx.TimeoutException as error:
-            raise self._down("timeout", error) from None
+            raise self._wrap_error("timeout", error) from None
         except httpx.TransportError as error:
-            raise self._down("unreachable", error) from None
+            raise self._wrap_error("unreachable", error) from None
         except (httpx.HTTPError, httpx.InvalidURL, ValueError, TypeError, AttributeError) as error:
             # Whatever a reply trips over here is the server's: the offline brain must answer.
-            raise self._down("bad_reply", error) from None
+            raise self._wrap_error("bad_reply", error) from None
 
-    def _down(self, why: str, error: Exception) -> BrainDown:
+    def _wrap_error(self, why: str, error: Exception) -> BrainDown:
         """Return a failure; the words of an error may quote what the server sent."""
-        told = self.secret.struck_quoted(str(error))[:200]
+        told = self.secret.redact_quoted(str(error))[:200]
         return BrainDown(f"{type(error).__name__}: {told}", why=why)

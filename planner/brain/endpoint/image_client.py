@@ -15,23 +15,23 @@ from typing import Any, TypeVar
 from planner.brain.endpoint.dialect import MAX_JPEG_BYTES, data_url
 from planner.brain.endpoint.plan_reply import NoObject, Unusable, clean, one_object
 from planner.brain.endpoint.session import Line
-from planner.brain.errors import PlanRejected
+from planner.brain.errors import BadPlan
 from planner.brain.image_prompts import LOOK_SCHEMA, POINT_SCHEMA, LookPrompts, label_of
 from planner.brain.image_questions import (
     FULL,
     LONG_SIDE_PX,
     MAX_SAID,
-    Asked,
-    Described,
+    DirectionView,
+    ImageDescription,
+    ImagePoint,
+    ImageQuestion,
     NotSent,
     NotThere,
-    Picture,
-    Pointed,
-    View,
+    PosedPicture,
 )
 from planner.brain.jpeg_metadata import jpeg_size, without_notes
 from planner.brain.prompt_template import Template, repair
-from planner.brain.response_format import LOOK_FORM, POINT_FORM, Form
+from planner.brain.response_format import LOOK_FORM, POINT_FORM, ReplyForm
 from planner.brain.schema import Message
 from planner.plan import Bilingual, BrainTag
 
@@ -40,7 +40,7 @@ _POINT = frozenset({"picture", "there", "x", "y"})
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class ReplyWords:
     """Hold the answer to a question."""
 
     text: Bilingual
@@ -48,7 +48,7 @@ class Words:
 
 
 @dataclass(frozen=True, slots=True)
-class Point:
+class ReplyPoint:
     """Hold a point, each of 0 to 1000."""
 
     x: int
@@ -65,7 +65,7 @@ class NoPicture:
     """Say that no picture reached the model: the server dropped it without a word."""
 
 
-def judge_look(text: str) -> Words | NoPicture | Unusable:
+def judge_look(text: str) -> ReplyWords | NoPicture | Unusable:
     """Return the answer that a reply is, or why it is none."""
     reply = _reply(text, _LOOK)
     if not isinstance(reply, dict):
@@ -79,10 +79,10 @@ def judge_look(text: str) -> Words | NoPicture | Unusable:
     seen = reply.get("seen")
     if seen is not None and not isinstance(seen, bool):
         return Unusable(("seen must be true or false, or left out",))
-    return Words(said, seen)
+    return ReplyWords(said, seen)
 
 
-def judge_point(text: str) -> Point | Absent | NoPicture | Unusable:
+def judge_point(text: str) -> ReplyPoint | Absent | NoPicture | Unusable:
     """Return the point that a reply is, or why it is none."""
     reply = _reply(text, _POINT)
     if not isinstance(reply, dict):
@@ -95,7 +95,7 @@ def judge_point(text: str) -> Point | Absent | NoPicture | Unusable:
     x, y = _whole(reply.get("x")), _whole(reply.get("y"))
     if x is None or y is None:
         return Unusable((f"x and y must be whole numbers from 0 to {FULL}",))
-    return Point(x, y)
+    return ReplyPoint(x, y)
 
 
 def _reply(text: str, keys: frozenset[str]) -> dict[str, Any] | NoPicture | Unusable:
@@ -150,9 +150,9 @@ class EndpointLooker:
         """
         self._line, self._shrink, self._lay_out = line, shrink, lay_out
         self._prompts = LookPrompts()
-        self._look, self._point = map(self._tagged, (self._prompts.look, self._prompts.point))
+        self._look, self._point = map(self._make_tag, (self._prompts.look, self._prompts.point))
 
-    def _tagged(self, prompt: Template) -> BrainTag:
+    def _make_tag(self, prompt: Template) -> BrainTag:
         name = clean(self._line.settings.name)
         return BrainTag(name=name, version=str(prompt.version), prompt=prompt.tag)
 
@@ -170,19 +170,19 @@ class EndpointLooker:
         takes = self._line.asker.pictures if settings.pictures is None else settings.pictures
         return "no_pictures" if takes is False else None
 
-    async def describe(self, asked: Asked) -> Described:
+    async def describe(self, asked: ImageQuestion) -> ImageDescription:
         """Return the model's answer; see ``planner.brain.image_questions.Looker``."""
 
-        async def talk(end_s: float) -> Words:
+        async def talk(end_s: float) -> ReplyWords:
             picture = await self._sheet(asked.views) if asked.views else asked.picture
             url = await self._url(picture)
             messages = self._prompts.look_messages(asked)
             return await self._twice(messages, (LOOK_FORM, LOOK_SCHEMA), url, end_s, judge_look)
 
         said = await self._line.turn(asked.goal, talk, "answer")
-        return Described(self._struck(said.text), said.seen, self._look)
+        return ImageDescription(self._redact(said.text), said.seen, self._look)
 
-    async def point(self, asked: Asked) -> Pointed | NotThere:
+    async def point(self, asked: ImageQuestion) -> ImagePoint | NotThere:
         """Return where the model points; see ``planner.brain.image_questions.Looker``."""
 
         async def talk(end_s: float) -> object:
@@ -191,11 +191,11 @@ class EndpointLooker:
             return await self._twice(messages, (POINT_FORM, POINT_SCHEMA), url, end_s, judge_point)
 
         found = await self._line.turn(asked.goal, talk, "point")
-        if isinstance(found, Point):
-            return Pointed(found.x, found.y, self._point)
+        if isinstance(found, ReplyPoint):
+            return ImagePoint(found.x, found.y, self._point)
         return NotThere(self._point)
 
-    async def _url(self, picture: Picture) -> str:
+    async def _url(self, picture: PosedPicture) -> str:
         """Return the picture as it is sent.
 
         Raises:
@@ -221,7 +221,7 @@ class EndpointLooker:
         if refused is not None:
             raise NotSent(f"{self._line.address.host}: {refused}", why=refused)
 
-    async def _sheet(self, views: Sequence[View]) -> Picture:
+    async def _sheet(self, views: Sequence[DirectionView]) -> PosedPicture:
         """Return the pictures of several directions as one, each below its label.
 
         Raises:
@@ -232,12 +232,12 @@ class EndpointLooker:
             raise NotSent(f"nobody can lay out {len(views)} pictures", why="bad_picture")
         named = [(view.picture.jpeg, label_of(at, view)) for at, view in enumerate(views, start=1)]
         jpeg = await self._lay_out(named, LONG_SIDE_PX)
-        return Picture(jpeg, *_size(jpeg), views[-1].picture.seq)
+        return PosedPicture(jpeg, *_size(jpeg), views[-1].picture.seq)
 
     async def _twice(
         self,
         messages: list[Message],
-        wanted: tuple[Form, dict[str, Any]],
+        wanted: tuple[ReplyForm, dict[str, Any]],
         url: str,
         end_s: float,
         judged: Callable[[str], T | NoPicture | Unusable],
@@ -249,20 +249,20 @@ class EndpointLooker:
             form, schema = wanted
             reply = await self._line.asker.ask(asked, schema, end_s, None, form=form, picture=url)
             if reply.refusal is not None:
-                raise PlanRejected(f"the model declined: {clean(reply.refusal)[:200]}")
+                raise BadPlan(f"the model declined: {clean(reply.refusal)[:200]}")
             found = judged(reply.text)
             if isinstance(found, NoPicture):
                 raise NotSent("the model says that no picture came with it", why="no_pictures")
             if not isinstance(found, Unusable):
                 return found
             told = found.reasons if reply.trouble is None else (reply.trouble, *found.reasons)
-            reasons = [self._line.client.secret.struck(each) for each in told]
+            reasons = [self._line.client.secret.redact(each) for each in told]
             log.info("%s wrote no %s, asked again: %s", self._look.name, form.name, reasons)
             asked = [*messages, *repair(reply.text, reasons)]
-        raise PlanRejected(f"asked twice: {'; '.join(reasons)}"[:400])
+        raise BadPlan(f"asked twice: {'; '.join(reasons)}"[:400])
 
-    def _struck(self, text: Bilingual) -> Bilingual:
-        struck = self._line.client.secret.struck
+    def _redact(self, text: Bilingual) -> Bilingual:
+        struck = self._line.client.secret.redact
         return Bilingual(en=struck(text.en), zh=struck(text.zh))
 
 

@@ -82,7 +82,7 @@ _NEVER_SENT = (
 )
 
 
-class Metered(httpx.AsyncBaseTransport):
+class MeteredTransport(httpx.AsyncBaseTransport):
     """Ask the meter before each request, and tell it how the request ended."""
 
     def __init__(self, inner: httpx.AsyncBaseTransport, meter: Meter) -> None:
@@ -102,7 +102,7 @@ class Metered(httpx.AsyncBaseTransport):
             bill.close(0, 0)
             raise
         except BaseException:  # it may have been read, and a server may bill what nobody took
-            bill.close(sent, bill.most)
+            bill.close(sent, bill.max_reply_tokens)
             raise
         if not isinstance(response.stream, httpx.AsyncByteStream):
             raise TypeError(f"an async stream was expected; got {type(response.stream).__name__}")
@@ -156,21 +156,21 @@ class _Read(httpx.AsyncByteStream):
         """
         ends = bytes(self._tail) if self._size <= TAIL_BYTES else bytes(self._head + self._tail)
         whole = self._whole or (self._weight is not None and _DONE.search(self._tail) is not None)
-        said = billed(ends) if whole else None
+        said = read_usage(ends) if whole else None
         if said is not None:
             return said
         if self._status >= 300:
             return 0, 0
-        return self._sent, self._wrote() if whole else self._bill.most
+        return self._sent, self._wrote() if whole else self._bill.max_reply_tokens
 
     def _wrote(self) -> int:
         """Return what a reply without figures may have cost."""
         weight, each = self._weight, CHARACTERS_PER_TOKEN
         wrote = self._size // each if weight is None else weight.tokens(each)
-        return min(self._bill.most, wrote)
+        return min(self._bill.max_reply_tokens, wrote)
 
 
-def billed(reply: bytes) -> tuple[int, int] | None:
+def read_usage(reply: bytes) -> tuple[int, int] | None:
     """Return the tokens of prompt and reply that a server says it billed, or None.
 
     The last figures count, as streams repeat them. Thoughts that only the total holds are reply.

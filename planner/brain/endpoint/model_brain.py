@@ -9,12 +9,12 @@ import logging
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from planner.brain.endpoint.completion import Reply, Tokens
+from planner.brain.endpoint.completion import ModelReply, Tokens
 from planner.brain.endpoint.image_client import EndpointLooker, LayOut, Shrink
 from planner.brain.endpoint.plan_reply import Drafting, Planned, Unusable, clean, judge
 from planner.brain.endpoint.session import Line
-from planner.brain.errors import PlanRejected
-from planner.brain.interface import ThinkRequest, Thought
+from planner.brain.errors import BadPlan
+from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.brain.prompt import Prompt
 from planner.brain.schema import schema_of
 from planner.brain.streamed_draft import Hear
@@ -85,38 +85,38 @@ class EndpointBrain:
         """Give the connections back."""
         await self._client.close()
 
-    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the model's plan of a sentence; who listens hears it as it is written.
 
         Raises:
-            PlanRejected: neither reply is a plan.
+            BadPlan: neither reply is a plan.
             BrainDown: the model does not answer, or not within the deadline.
             OutOfBudget: a call was refused by the meter.
         """
 
-        async def talk(end_s: float) -> Thought:
+        async def talk(end_s: float) -> ThinkResult:
             return await self._talk(request, end_s, hear)
 
         return await self._line.turn(request.goal, talk, "plan")
 
-    async def _talk(self, request: ThinkRequest, end_s: float, hear: Hear | None) -> Thought:
+    async def _talk(self, request: ThinkRequest, end_s: float, hear: Hear | None) -> ThinkResult:
         messages = self._prompt.messages(request)
         schema = schema_of(request.vocabulary, request.runnable)
         told = None if hear is None else Drafting(request.vocabulary, request.runnable, hear)
         first = await self._asker.ask(messages, schema, end_s, told)
         plan = self._plan_of(first, request)
         if not isinstance(plan, Unusable):
-            return self._thought(plan, 1, first.tokens)
+            return self._make_result(plan, 1, first.tokens)
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
         again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
         second = await self._asker.ask(again, schema, end_s, told)
         mended = self._plan_of(second, request)
         if isinstance(mended, Unusable):
-            raise PlanRejected(f"asked twice: {mended}"[:400])
-        return self._thought(mended, 2, first.tokens + second.tokens)
+            raise BadPlan(f"asked twice: {mended}"[:400])
+        return self._make_result(mended, 2, first.tokens + second.tokens)
 
-    def _thought(self, plan: Planned, calls: int, spent: Tokens) -> Thought:
-        return Thought(
+    def _make_result(self, plan: Planned, calls: int, spent: Tokens) -> ThinkResult:
+        return ThinkResult(
             plan=plan,
             brain=self._tag,
             calls=calls,
@@ -125,11 +125,11 @@ class EndpointBrain:
             reply_tokens=spent.reply,
         )
 
-    def _plan_of(self, reply: Reply, request: ThinkRequest) -> Planned | Unusable:
+    def _plan_of(self, reply: ModelReply, request: ThinkRequest) -> Planned | Unusable:
         """Judge a reply. The key, which a server may spell as it likes, is struck out last."""
-        struck = self._client.secret.struck
+        struck = self._client.secret.redact
         if reply.refusal is not None:
-            return _declined(struck(reply.refusal), request)
+            return _make_refusal(struck(reply.refusal), request)
         judged = judge(reply.text, request.vocabulary, request.runnable)
         if not isinstance(judged, Unusable):
             written = judged.model_dump_json()
@@ -139,7 +139,7 @@ class EndpointBrain:
         return Unusable(tuple(map(struck, reasons)))
 
 
-def _declined(words: str, request: ThinkRequest) -> Refuse:
+def _make_refusal(words: str, request: ThinkRequest) -> Refuse:
     """Take a model's own refusal as one: the offline brain must not do what a model would not."""
     told = clean(words)[:200]
     rule = say("model.declined", told=told)

@@ -48,7 +48,7 @@ def _no_constant(name: str) -> float:
     raise ValueError(f"{name} is no JSON number")
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _refuse_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return an object; of two values for one key neither is what was meant."""
     found = dict(pairs)
     if len(found) != len(pairs):
@@ -56,7 +56,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-_DECODER = json.JSONDecoder(parse_constant=_no_constant, object_pairs_hook=_once)
+_DECODER = json.JSONDecoder(parse_constant=_no_constant, object_pairs_hook=_refuse_duplicates)
 
 
 class NoObject(Exception):
@@ -168,7 +168,7 @@ def judge(
     the mission refuses it with the right code.
     """
     try:
-        shaped = _shaped(one_object(text), vocabulary)
+        shaped = _reshape(one_object(text), vocabulary)
     except NoObject as why:
         return Unusable((str(why),))
     except RecursionError:  # two deep objects were compared
@@ -178,7 +178,7 @@ def judge(
     try:
         plan = PLAN.validate_python(shaped)
     except ValidationError as wrong:
-        return Unusable(tuple(map(_told, wrong.errors(include_url=False)[:MAX_REASONS])))
+        return Unusable(tuple(map(_describe_error, wrong.errors(include_url=False)[:MAX_REASONS])))
     rejection = check_plan(plan, vocabulary, runnable)
     if rejection is not None and rejection.repairable:
         known = ", ".join(list(vocabulary.by_id)[:40]) or "none"
@@ -187,7 +187,7 @@ def judge(
     return plan
 
 
-def _shaped(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
+def _reshape(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
     """Return the reply in the plan's own shape; what does not belong there is a reason."""
     kind = reply.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
@@ -207,10 +207,10 @@ def _steps(steps: object) -> dict[str, Any] | Unusable:
         return Unusable(("steps must be a list of 1 or more objects",))
     if len(steps) > MAX_STEPS:
         return Unusable((f"{len(steps)} steps; at most {MAX_STEPS}",))
-    return {"kind": "plan", "steps": [trimmed(step) for step in steps]}
+    return {"kind": "plan", "steps": [trim_step(step) for step in steps]}
 
 
-def trimmed(step: dict[str, Any]) -> dict[str, Any]:
+def trim_step(step: dict[str, Any]) -> dict[str, Any]:
     """Drop fields that a grammar made the model fill with nothing; clean its words."""
     kept = {k: v for k, v in step.items() if v not in (None, "", [])}
     return {k: clean(v) if k in ("text", "question") and isinstance(v, str) else v
@@ -255,7 +255,7 @@ def _at(step: int | None) -> str:
     return "" if step is None else f"step {step + 1}: "
 
 
-def _told(error: Any) -> str:
+def _describe_error(error: Any) -> str:
     """Say where pydantic found what; the value itself is not repeated."""
     return f"{'.'.join(clean(str(part))[:40] for part in error['loc'][:6])}: {error['msg'][:160]}"
 
@@ -331,7 +331,7 @@ class Drafting:
         if not isinstance(value, dict):
             return None
         try:
-            step = _STEP.validate_python(trimmed(value))
+            step = _STEP.validate_python(trim_step(value))
         except ValidationError:
             return None
         known = all(place in self._vocabulary for place in places_of(step))

@@ -18,7 +18,7 @@ import httpx
 
 from planner.brain.endpoint.completion import (
     Assembly,
-    Broken,
+    StreamFailure,
     complaint_of,
     declined_by,
     generated_by,
@@ -44,13 +44,13 @@ class Secret:
         self._key = key if len(key) >= MIN_STRUCK else ""
         self.header = {"Authorization": f"Bearer {key}"} if key else {}
 
-    def struck(self, text: str) -> str:
+    def redact(self, text: str) -> str:
         """Return a text without the key."""
         return text.replace(self._key, _STRUCK) if self._key else text
 
-    def struck_quoted(self, text: str) -> str:
+    def redact_quoted(self, text: str) -> str:
         """Return a text without the key, which may stand in it as Python quotes bytes."""
-        return self.struck(self.struck(text).replace("\\\\", "\\").replace("\\'", "'"))
+        return self.redact(self.redact(text).replace("\\\\", "\\").replace("\\'", "'"))
 
     def struck_bytes(self, raw: bytes) -> bytes:
         """Return bytes without the key."""
@@ -61,7 +61,7 @@ class Secret:
         if not self._key:
             return text
         whole = _ESCAPED.sub(lambda found: chr(int(found[1], 16)), _HALF_ESCAPED.sub("", text))
-        plain = self.struck(whole)
+        plain = self.redact(whole)
         for size in range(min(len(self._key) - 1, len(plain)), 0, -1):
             if plain.endswith(self._key[:size]):
                 return plain[:-size]
@@ -93,7 +93,7 @@ class BadRequest(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Again:
+class RetryableFailure:
     """Hold a failure that another try may mend, and when."""
 
     down: BrainDown
@@ -102,7 +102,7 @@ class Again:
     """The connection was lost; perhaps it had only idled too long."""
 
 
-def judged(response: httpx.Response, content: object, said: str) -> Again:
+def classify_status(response: httpx.Response, content: object, said: str) -> RetryableFailure:
     """Class an answer that is no 2xx; ``said`` are its words without the key.
 
     Raises:
@@ -115,7 +115,7 @@ def judged(response: httpx.Response, content: object, said: str) -> Again:
     if status in (401, 403):
         raise BrainDown(said, why="bad_key")
     if status in BUSY:
-        return Again(BrainDown(said, why="rate_limited"), _wait_s(response))
+        return RetryableFailure(BrainDown(said, why="rate_limited"), _wait_s(response))
     words = said.lower()
     modes = _MODES.search(words) is not None or not_taken(words)
     if status in (400, 422) and _NO_MODEL.search(words) and not modes:
@@ -126,7 +126,9 @@ def judged(response: httpx.Response, content: object, said: str) -> Again:
         raise BrainDown(said, why="unknown_model")
     if status >= 500:
         loads = status == 503 and "load" in said.lower()
-        return Again(BrainDown(said, why="loading" if loads else "server_error"), _wait_s(response))
+        return RetryableFailure(
+            BrainDown(said, why="loading" if loads else "server_error"), _wait_s(response)
+        )
     raise BrainDown(said, why="bad_request")
 
 
@@ -221,7 +223,7 @@ class StreamBroken(Exception):
 
 async def read(
     response: httpx.Response, secret: Secret, assembly: Assembly, told: Told | None
-) -> Any | Again:
+) -> Any | RetryableFailure:
     """Return the JSON of a reply, put together where it is a stream; None where it is none.
 
     Raises:
@@ -231,7 +233,7 @@ async def read(
     code = response.status_code
     if not 200 <= code < 300:
         content = read_json(secret.struck_bytes(await _body(response, MAX_ERROR_BYTES)))
-        return judged(response, content, secret.struck(words_of(code, content)))
+        return classify_status(response, content, secret.redact(words_of(code, content)))
     if response.headers.get("content-type", "").lower().startswith("text/event-stream"):
         return await _listen(response, secret, assembly, told)
     return read_json(secret.struck_bytes(await _body(response, MAX_REPLY_BYTES)))
@@ -258,8 +260,8 @@ async def _listen(
                 told(lambda: secret.struck_growing(assembly.text))
         for event in events.end():
             assembly.add(event)
-    except Broken as broken:
-        raise StreamBroken(secret.struck(str(broken))) from None
+    except StreamFailure as broken:
+        raise StreamBroken(secret.redact(str(broken))) from None
     if not events.done and assembly.finish is None:
         raise StreamBroken("it ended before the reply did")
     return assembly.completion()

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from planner.brain.endpoint.address import Address
-from planner.brain.endpoint.completion import Reply, read_reply
+from planner.brain.endpoint.completion import ModelReply, read_reply
 from planner.brain.endpoint.dialect import (
     Body,
     Dialect,
@@ -29,7 +29,7 @@ from planner.brain.endpoint.http_client import Client
 from planner.brain.endpoint.response import BadRequest, StreamBroken, Told
 from planner.brain.errors import BrainDown
 from planner.brain.image_questions import NotSent
-from planner.brain.response_format import PLAN_FORM, Form
+from planner.brain.response_format import PLAN_FORM, ReplyForm
 from planner.brain.schema import Message
 from planner.brain.usage_meter import Meter, thinking_about
 from planner.settings import ModelSettings
@@ -59,7 +59,7 @@ class Asker:
     @property
     def pictures(self) -> bool | None:
         """Return whether the server takes pictures, as far as was found out."""
-        return False if self._sightless else self._dialects.now.pictures
+        return False if self._sightless else self._dialects.current.pictures
 
     async def ask(
         self,
@@ -68,9 +68,9 @@ class Asker:
         end_s: float,
         told: Told | None,
         *,
-        form: Form = PLAN_FORM,
+        form: ReplyForm = PLAN_FORM,
         picture: str | None = None,
-    ) -> Reply:
+    ) -> ModelReply:
         """Return a reply to these messages.
 
         Args:
@@ -85,7 +85,7 @@ class Asker:
             BrainDown: there is none.
             NotSent: the server takes no pictures, or not this one.
         """
-        dialect, refused = self._dialects.now, list[Body]()
+        dialect, refused = self._dialects.current, list[Body]()
         stream = told is not None and self._settings.stream and self._breaks < MAX_BREAKS
 
         def body(of: Dialect) -> Body:
@@ -100,7 +100,7 @@ class Asker:
             except StreamBroken as broken:
                 stream = self._plainly(stream, broken)
             except BadRequest as no:
-                if (answered := self._answered(no)) is not None:
+                if (answered := self._read_refusal(no)) is not None:
                     return answered
                 if picture is not None:
                     self._about_the_picture(no)
@@ -130,7 +130,7 @@ class Asker:
         if why is None:
             return
         if why == "no_pictures" and not_taken(said) and self._settings.pictures is None:
-            self._dialects.keep(replace(self._dialects.now, pictures=False))
+            self._dialects.keep(replace(self._dialects.current, pictures=False))
         self._sightless = self._sightless or why == "no_pictures"
         raise NotSent(str(no), why=why) from None
 
@@ -142,17 +142,17 @@ class Asker:
         self._breaks += 1
         return False
 
-    def _answered(self, refused: BadRequest) -> Reply | None:
+    def _read_refusal(self, refused: BadRequest) -> ModelReply | None:
         """Return the reply that a refusal holds, where the model or its filter did answer."""
         said = str(refused)
         if refused.declined:
-            return Reply("", refusal=said)
+            return ModelReply("", refusal=said)
         if refused.generated is not None:
-            return Reply(self._client.secret.struck(refused.generated), trouble=said)
+            return ModelReply(self._client.secret.redact(refused.generated), trouble=said)
         return None
 
-    def _read(self, content: object, dialect: Dialect, form: Form) -> Reply:
-        struck = self._client.secret.struck
+    def _read(self, content: object, dialect: Dialect, form: ReplyForm) -> ModelReply:
+        struck = self._client.secret.redact
         try:
             reply = read_reply(content, form.name)
         except BrainDown as down:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
+from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
 from planner.mission.site_view import vocabulary_of
 from planner.plan import StepPlan, check_plan, plan_record
@@ -117,7 +117,7 @@ async def _think_again(
         raise
     except BrainDown as down:
         return SecondThought(decision, "none", f"no answer: {down.why}")
-    except PlanRejected as rejected:
+    except BadPlan as rejected:
         return SecondThought(decision, "none", f"no plan: {rejected}"[:200])
     record = plan_record(plan)
     relation = difference(decision.plan, record)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from planner.brain import Brain, BrainDown, OutOfBudget, PlanRejected, ThinkRequest
+from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.brain.endpoint import Address, EndpointBrain
 from planner.brain.prompt import Prompt, tokens
 from planner.budget import Purse
@@ -173,7 +173,7 @@ async def _ask(room: _Room, brain: Brain, question: ExamQuestion) -> MarkedAnswe
         return MarkedAnswer(question, "not_asked", spent.said.en)
     except BrainDown as down:
         return MarkedAnswer(question, "no_answer", f"{down.why}: {down}"[:200])
-    except PlanRejected as rejected:
+    except BadPlan as rejected:
         return MarkedAnswer(question, "no_plan", str(rejected)[:200])
     seconds = room.clock() - began_s
     case = Case(question.text, question.part.value, wanted=read_expectation(question.right))

@@ -10,14 +10,14 @@ import base64
 from math import hypot
 from typing import TYPE_CHECKING
 
-from planner.brain import BrainDown, PlanRejected
-from planner.brain.image_questions import Asked, NotSent, Picture, Pointed
+from planner.brain import BadPlan, BrainDown
+from planner.brain.image_questions import ImagePoint, ImageQuestion, NotSent, PosedPicture
 from pons.evals.quick.exam import PictureResult
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
 
-PICTURE = Picture(
+PICTURE = PosedPicture(
     base64.b64decode(
         "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAA0JCgsKCA0LCgsODg0PEyAVExISEyccHhcgLikxMC4pLSwzOko+MzZG"
         "NywtQFdBRkxOUlNSMj5aYVpQYEpRUk//2wBDAQ4ODhMREyYVFSZPNS01T09PT09PT09PT09PT09PT09PT09PT09P"
@@ -48,18 +48,18 @@ NEAR = 120
 async def examine_eyes(looker: Looker, goal: str) -> PictureResult:
     """Return what a model makes of the picture: two calls, and two repairs at most."""
     try:
-        said = await looker.describe(Asked(PICTURE, QUESTION, goal=goal))
+        said = await looker.describe(ImageQuestion(PICTURE, QUESTION, goal=goal))
         named = "red" in said.text.en.lower() and "blue" not in said.text.en.lower()
         if not named:
             return PictureResult("wrong", f"asked for red: {said.text.en}"[:120])
-        found = await looker.point(Asked(PICTURE, "the red disc", goal=goal))
+        found = await looker.point(ImageQuestion(PICTURE, "the red disc", goal=goal))
     except NotSent as no:
         return PictureResult("none", no.why)
     except BrainDown as down:
         return PictureResult("no_answer", down.why)
-    except PlanRejected as rejected:
+    except BadPlan as rejected:
         return PictureResult("no_answer", str(rejected)[:120])
-    if isinstance(found, Pointed) and hypot(found.x - DISC[0], found.y - DISC[1]) <= NEAR:
+    if isinstance(found, ImagePoint) and hypot(found.x - DISC[0], found.y - DISC[1]) <= NEAR:
         return PictureResult("right")
-    where = f"({found.x}, {found.y})" if isinstance(found, Pointed) else "nowhere"
+    where = f"({found.x}, {found.y})" if isinstance(found, ImagePoint) else "nowhere"
     return PictureResult("wrong", f"asked for {DISC}, pointed at {where}")

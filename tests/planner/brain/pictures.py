@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.brain.image_questions import Picture
+from planner.brain.image_questions import PosedPicture
 
 
 def jpeg(width: int = 320, height: int = 240, padding: int = 0) -> bytes:
@@ -14,6 +14,6 @@ def jpeg(width: int = 320, height: int = 240, padding: int = 0) -> bytes:
     return b"\xff\xd8" + app0 + frame + scan + b"\x00" * padding + b"\xff\xd9"
 
 
-def picture(width: int = 320, height: int = 240, padding: int = 0) -> Picture:
+def picture(width: int = 320, height: int = 240, padding: int = 0) -> PosedPicture:
     """Return such a picture."""
-    return Picture(jpeg(width, height, padding), width, height, seq=7)
+    return PosedPicture(jpeg(width, height, padding), width, height, seq=7)

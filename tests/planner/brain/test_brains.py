@@ -9,11 +9,11 @@ import pytest
 
 import planner.brain
 from planner.brain import (
+    BadPlan,
     Brain,
+    BrainConfigError,
     BrainDown,
-    Misconfigured,
     OfflineBrain,
-    PlanRejected,
     ScriptedBrain,
     ThinkRequest,
 )
@@ -55,7 +55,7 @@ def test_script_is_followed_and_its_last_line_repeats(home: Vocabulary) -> None:
     ids=lambda text: text[:20],
 )
 def test_a_text_that_is_no_plan_is_rejected(text: str, home: Vocabulary) -> None:
-    with pytest.raises(PlanRejected, match="no plan"):
+    with pytest.raises(BadPlan, match="no plan"):
         ask(ScriptedBrain(replies=[text]), home)
 
 
@@ -69,7 +69,7 @@ def test_a_scripted_failure_is_raised(home: Vocabulary) -> None:
 
 
 def test_an_empty_script_refuses_to_start() -> None:
-    with pytest.raises(Misconfigured, match="got none"):
+    with pytest.raises(BrainConfigError, match="got none"):
         ScriptedBrain(replies=[])
 
 

@@ -9,14 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.brain import (
+    BadPlan,
     BrainDown,
     FallbackBrain,
     OfflineBrain,
     OutOfBudget,
-    PlanRejected,
     ScriptedBrain,
     ThinkRequest,
-    Thought,
+    ThinkResult,
     mind_of,
 )
 from planner.brain.circuit_breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
@@ -37,7 +37,7 @@ class Clock:
         return self.now_s
 
 
-def ask(brain: FallbackBrain, home: Vocabulary, text: str = "go to the kitchen") -> Thought:
+def ask(brain: FallbackBrain, home: Vocabulary, text: str = "go to the kitchen") -> ThinkResult:
     return asyncio.run(brain.think(ThinkRequest(text=text, vocabulary=home)))
 
 
@@ -62,13 +62,13 @@ def test_a_model_that_fails_is_replaced_and_named(
     assert brain.last_failure == why
 
 
-@pytest.mark.parametrize(("reply", "kind"), [(DOWN, BrainDown), ("not json", PlanRejected)])
+@pytest.mark.parametrize(("reply", "kind"), [(DOWN, BrainDown), ("not json", BadPlan)])
 def test_what_neither_understands_ends_typed(
     reply: str | Exception, kind: type[Exception], home: Vocabulary
 ) -> None:
     with pytest.raises(kind) as failed:
         ask(FallbackBrain(ScriptedBrain([reply]), OfflineBrain()), home, "colourless green ideas")
-    assert isinstance(failed.value, BrainDown | PlanRejected)
+    assert isinstance(failed.value, BrainDown | BadPlan)
     assert failed.value.brain is not None
     assert failed.value.brain.fallback_from == "scripted"
 
@@ -102,10 +102,10 @@ def test_a_failing_model_is_rested_visibly_and_heals(home: Vocabulary) -> None:
     assert (mind.last_error.code, mind.last_error.message) == ("timeout", REASONS["timeout"])
     clock.now_s += FIRST_REST_S
     for _ in range(HEALS):
-        assert not brain.breaker.closed
+        assert not brain.breaker.is_closed
         assert mind_of(brain).breaker == "on_trial"
         assert ask(brain, home).plan == BY_MODEL
-    assert brain.breaker.closed
+    assert brain.breaker.is_closed
     assert (mind_of(brain).breaker, mind_of(brain).last_error) == ("closed", None)
 
 
@@ -133,7 +133,7 @@ def test_a_spent_budget_is_told_in_its_own_words_and_is_no_failure(home: Vocabul
         assert thought.brain.fallback_message == said
     with pytest.raises(OutOfBudget) as spent:
         ask(brain, home, "colourless green ideas")
-    assert (spent.value.said, brain.breaker.closed) == (said, True)
+    assert (spent.value.said, brain.breaker.is_closed) == (said, True)
     assert spent.value.brain is not None
     assert ask(brain, home).plan == BY_MODEL
 
@@ -151,7 +151,7 @@ def test_one_trial_at_a_time_and_a_cancelled_one_says_nothing(home: Vocabulary) 
         clock = Clock()
         model = ScriptedBrain([], hangs=True)
         brain = FallbackBrain(model, OfflineBrain(), clock)
-        brain.breaker.failed(clock.now_s, hopeless=True)
+        brain.breaker.note_failure(clock.now_s, hopeless=True)
         clock.now_s += FIRST_REST_S
         request = ThinkRequest(text="go to the kitchen", vocabulary=home)
         trial = asyncio.create_task(brain.think(request))
@@ -177,17 +177,17 @@ def test_the_breaker_never_sticks_and_rests_within_bounds(events: list[tuple[str
         now_s += pause_s
         assert 0.0 <= breaker.rests_s(now_s) <= LONGEST_REST_S
         if what == "late":
-            breaker.failed(now_s)
+            breaker.note_failure(now_s)
         elif breaker.lets(now_s):
             if what == "ask_bad":
-                breaker.failed(now_s)
+                breaker.note_failure(now_s)
             else:
-                {"ask_ok": breaker.succeeded, "drop": breaker.dropped}[what]()
+                {"ask_ok": breaker.note_success, "drop": breaker.note_cancel}[what]()
     now_s += LONGEST_REST_S
     for _ in range(HEALS):
         assert breaker.lets(now_s)
-        breaker.succeeded()
-    assert breaker.closed
+        breaker.note_success()
+    assert breaker.is_closed
 
 
 def test_every_reason_speaks_both_languages() -> None:

@@ -15,9 +15,9 @@ from planner.brain.image_prompts import (
     POINT_SCHEMA,
     LookPrompts,
     label_of,
-    listed,
+    list_detections,
 )
-from planner.brain.image_questions import MAX_VIEWS, Asked, View
+from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImageQuestion
 from planner.brain.prompt import tokens
 from planner.brain.prompt_template import Template
 from planner.perception import Detection
@@ -42,8 +42,11 @@ def test_a_version_means_one_text() -> None:
 def test_questions_and_detections_enter_as_data_and_within_bounds() -> None:
     prompts, seen = LookPrompts(), Detection(HOSTILE, 0.9, (0.0, 0.0, 10.0, 10.0))
     for messages, key in (
-        (prompts.look_messages(Asked(picture(), HOSTILE, Language.ZH, [seen])), "question"),
-        (prompts.point_messages(Asked(picture(), HOSTILE, Language.ZH, [seen] * 99)), "point_at"),
+        (prompts.look_messages(ImageQuestion(picture(), HOSTILE, Language.ZH, [seen])), "question"),
+        (
+            prompts.point_messages(ImageQuestion(picture(), HOSTILE, Language.ZH, [seen] * 99)),
+            "point_at",
+        ),
     ):
         system, user = messages
         assert system["content"].count("\nRules:\n") == 1
@@ -52,15 +55,17 @@ def test_questions_and_detections_enter_as_data_and_within_bounds() -> None:
         assert told["detector"][0]["what"] == HOSTILE
         assert len(told["detector"]) <= MAX_LISTED
         assert tokens([system]) < 500
-    asked = prompts.look_messages(Asked(picture(), "y" * 9000))
+    asked = prompts.look_messages(ImageQuestion(picture(), "y" * 9000))
     assert len(asked[1]["content"]) < 600
 
 
 def test_each_picture_of_a_sheet_is_told_with_its_direction_and_its_own_list() -> None:
     seen = Detection("cup", 0.9, (0.0, 0.0, 320.0, 240.0))
     names = [Bilingual(en=f"side {n}", zh=f"侧{n}") for n in range(MAX_VIEWS)]
-    views = tuple(View(picture(), name, [seen] * 99) for name in names)
-    user = LookPrompts().look_messages(Asked(picture(), "?", detections=[seen], views=views))[1]
+    views = tuple(DirectionView(picture(), name, [seen] * 99) for name in names)
+    user = LookPrompts().look_messages(
+        ImageQuestion(picture(), "?", detections=[seen], views=views)
+    )[1]
     told = json.loads(user["content"])
     assert told.keys() == {"question", "language", "pictures"}, "no list of another picture"
     for number, (each, name) in enumerate(zip(told["pictures"], names, strict=True), start=1):
@@ -69,7 +74,7 @@ def test_each_picture_of_a_sheet_is_told_with_its_direction_and_its_own_list() -
         assert 1 <= len(each["detector"]) <= LEAST_LISTED
         assert label_of(number, views[number - 1]) == f"{number} {name.en}"
     assert tokens([user]) < 3000
-    ahead = Asked(picture(), "?", direction=names[0])
+    ahead = ImageQuestion(picture(), "?", direction=names[0])
     assert (
         json.loads(LookPrompts().look_messages(ahead)[1]["content"])["direction"]["en"] == "side 0"
     )
@@ -79,7 +84,7 @@ def test_what_no_camera_can_have_seen_is_left_out() -> None:
     boxes = [(nan, 0.0, 1.0, 1.0), (400.0, 0.0, 900.0, 9.0), (0.0, 0.0, 320.0, 240.0)]
     depths = (1.0, 1.0, nan)
     found = [Detection("tv", 0.5, b, None, d) for b, d in zip(boxes, depths, strict=True)]
-    assert listed(picture(), found) == [{"what": "tv", "x": 500, "y": 500}]
+    assert list_detections(picture(), found) == [{"what": "tv", "x": 500, "y": 500}]
 
 
 def test_the_schemas_are_plain() -> None:

@@ -7,23 +7,23 @@ from collections.abc import Sequence
 
 import pytest
 
-from planner.brain import BrainDown, OutOfBudget, PlanRejected
+from planner.brain import BadPlan, BrainDown, OutOfBudget
 from planner.brain.circuit_breaker import TRIPS, Breaker
 from planner.brain.image_question_fallback import FallbackLooker
 from planner.brain.image_questions import (
-    Asked,
-    Described,
-    Detected,
+    DetectedObject,
+    ImageDescription,
+    ImagePoint,
+    ImageQuestion,
     NotSent,
     NotThere,
-    Picture,
-    Pointed,
+    PosedPicture,
 )
 from planner.perception import Detection
 from planner.plan import Bilingual, BrainTag, same
 
 MODEL = BrainTag(name="m", version="1")
-PICTURE = Picture(b"", 320, 240, 7)
+PICTURE = PosedPicture(b"", 320, 240, 7)
 CUP = Detection("cup", 0.9, (10.0, 10.0, 20.0, 20.0), "red", 1.5)
 
 
@@ -35,13 +35,13 @@ class Scripted:
     def __init__(self, failure: BaseException | None) -> None:
         self.failure, self.calls = failure, 0
 
-    async def describe(self, *_: object) -> Described:
+    async def describe(self, *_: object) -> ImageDescription:
         self._next()
-        return Described(same("a cup"), True, MODEL)
+        return ImageDescription(same("a cup"), True, MODEL)
 
-    async def point(self, *_: object) -> Pointed | NotThere:
+    async def point(self, *_: object) -> ImagePoint | NotThere:
         self._next()
-        return Pointed(1, 2, MODEL)
+        return ImagePoint(1, 2, MODEL)
 
     def _next(self) -> None:
         self.calls += 1
@@ -49,12 +49,14 @@ class Scripted:
             raise self.failure
 
 
-def by_detector(question: str, found: Sequence[Detected]) -> tuple[Bilingual, bool | None]:
+def by_detector(question: str, found: Sequence[DetectedObject]) -> tuple[Bilingual, bool | None]:
     return same(f"{question} {' '.join(each.label for each in found)}"), bool(found)
 
 
-def describe(looker: FallbackLooker) -> Described:
-    return asyncio.run(looker.describe(Asked(PICTURE, "a cup?", detections=[CUP], goal="g1")))
+def describe(looker: FallbackLooker) -> ImageDescription:
+    return asyncio.run(
+        looker.describe(ImageQuestion(PICTURE, "a cup?", detections=[CUP], goal="g1"))
+    )
 
 
 @pytest.mark.parametrize(
@@ -63,7 +65,7 @@ def describe(looker: FallbackLooker) -> Described:
         (NotSent("x", why="pictures_offhost"), "pictures_offhost", False),
         (NotSent("x", why="no_pictures"), "no_pictures", False),
         (OutOfBudget("x", same("spent")), "out_of_budget", False),
-        (PlanRejected("x"), "bad_plan", False),
+        (BadPlan("x"), "bad_plan", False),
         (BrainDown("x", why="timeout"), "timeout", True),
         (BrainDown("x", why="bad_key"), "bad_key", True),
     ],
@@ -79,18 +81,18 @@ def test_the_detector_answers_for_a_model_that_fails(
         assert (said.brain.name, said.brain.fallback_from) == ("detector", "m")
         assert said.brain.fallback_message is not None
         assert said.brain.fallback_reason in (why, "resting")
-    assert breaker.closed is not rests
+    assert breaker.is_closed is not rests
     assert (model.calls < TRIPS + 2) is rests, "a server that is down is not waited for again"
-    with pytest.raises((BrainDown, PlanRejected)):
-        asyncio.run(looker.point(Asked(PICTURE, "the cup")))
+    with pytest.raises((BrainDown, BadPlan)):
+        asyncio.run(looker.point(ImageQuestion(PICTURE, "the cup")))
 
 
 def test_a_model_that_answers_is_believed_and_a_cancellation_is_not_swallowed() -> None:
     looker = FallbackLooker(Scripted(None), by_detector)
     assert (describe(looker).brain, looker.tag) == (MODEL, MODEL)
-    assert asyncio.run(looker.point(Asked(PICTURE, "the cup"))) == Pointed(1, 2, MODEL)
+    assert asyncio.run(looker.point(ImageQuestion(PICTURE, "the cup"))) == ImagePoint(1, 2, MODEL)
     breaker = Breaker()
     with pytest.raises(asyncio.CancelledError):
         describe(FallbackLooker(Scripted(asyncio.CancelledError()), by_detector, breaker))
-    assert breaker.closed
+    assert breaker.is_closed
     assert not breaker.trying

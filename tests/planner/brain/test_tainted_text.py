@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.brain import BrainDown, OfflineBrain, PlanRejected, ScriptedBrain, ThinkRequest
-from planner.brain.interface import Observation, Thought
+from planner.brain import BadPlan, BrainDown, OfflineBrain, ScriptedBrain, ThinkRequest
+from planner.brain.interface import Observation, ThinkResult
 from planner.brain.prompt import READ, Prompt
 from planner.brain.streamed_draft import Hear
-from planner.brain.tainted_text import deeds, tainted, think_warily, withheld
+from planner.brain.tainted_text import deeds, is_tainted, think_warily, withheld
 from planner.plan import (
     PLAN,
     Answer,
@@ -71,14 +71,14 @@ class TwoMinds:
         self.blind, self.obeying = blind, obeying
         self.asked: list[ThinkRequest] = []
 
-    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         self.asked.append(request)
         assert hear is None, "what may be thrown away is neither shown nor routed ahead"
         shown = "KITCHEN" in request.model_dump_json(exclude={"vocabulary"})
         plan = self.obeying if shown else self.blind
         if isinstance(plan, Exception):
             raise plan
-        return Thought(plan=plan, brain=self.tag, calls=1, tokens=10)
+        return ThinkResult(plan=plan, brain=self.tag, calls=1, tokens=10)
 
 
 @pytest.mark.parametrize("blind", PLANS)
@@ -90,7 +90,7 @@ def test_words_of_a_picture_add_move_and_take_away_no_deed(blind: Plan, home: Vo
         if deeds(obeying) != deeds(blind):
             assert thought.plan == blind, "then not even its words count"
         assert thought.calls == len(brain.asked) <= 2
-        assert not tainted(brain.asked[0])
+        assert not is_tainted(brain.asked[0])
 
 
 def heard(_: object) -> None:
@@ -118,7 +118,7 @@ def look_for(home: Vocabulary) -> ThinkRequest:
     return request.model_copy(update={"observed": (LOOKED,)})
 
 
-@pytest.mark.parametrize("failure", [BrainDown("x", why="timeout"), PlanRejected("x")])
+@pytest.mark.parametrize("failure", [BrainDown("x", why="timeout"), BadPlan("x")])
 def test_a_second_thought_that_fails_leaves_the_first(failure: Exception, home: Vocabulary) -> None:
     brain = TwoMinds(Answer(text=same("ok")), failure)
     assert asyncio.run(think_warily(brain, asked(home, LOOKED))).plan == brain.blind
@@ -165,7 +165,7 @@ def test_two_signs_leave_the_same_request(seen: list[Observation], sign: str) ->
     request: Callable[..., ThinkRequest] = lambda *o: asked(Vocabulary(), *o)  # noqa: E731  # short
     first, second = request(*seen), request(*map(with_sign, seen))
     assert withheld(first) == withheld(second)
-    assert not tainted(withheld(first))
+    assert not is_tainted(withheld(first))
     assert len(withheld(first).observed) == len(seen)
 
 

@@ -13,7 +13,7 @@ from math import atan2, hypot
 from typing import TYPE_CHECKING, Any, cast
 
 from planner.brain.errors import BrainDown
-from planner.brain.image_questions import Asked, Described
+from planner.brain.image_questions import ImageDescription, ImageQuestion
 from planner.language.catalogue import message
 from planner.mission.effects import AskBrain, AskEyes, KeepPicture
 from planner.mission.events import Confirm, Planned, Reply, Sighted
@@ -68,13 +68,13 @@ class Model:
     world: Telling
     manner: str = "honest"
     """``honest``, ``denies`` and ``affirms`` whatever it sees, ``describes`` alone, ``down``."""
-    asked: list[Asked] = field(default_factory=list)
+    asked: list[ImageQuestion] = field(default_factory=list)
 
     @property
     def tag(self) -> BrainTag:
         return TAG
 
-    async def describe(self, asked: Asked) -> Described:
+    async def describe(self, asked: ImageQuestion) -> ImageDescription:
         self.asked.append(asked)
         if self.manner == "down":
             raise BrainDown("503", why="server_error")
@@ -88,9 +88,9 @@ class Model:
         )
         seen = {"denies": False, "affirms": True, "describes": None}.get(self.manner, there)
         words = Bilingual(en="Somebody or something.", zh="有的。") if seen else NOTHING
-        return Described(words, seen, TAG)
+        return ImageDescription(words, seen, TAG)
 
-    async def point(self, asked: Asked) -> Any:
+    async def point(self, asked: ImageQuestion) -> Any:
         raise BrainDown("503", why="server_error")
 
 

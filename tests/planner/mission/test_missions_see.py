@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from planner.brain.errors import BrainDown
-from planner.brain.image_questions import Asked, Described, NotThere, Pointed
+from planner.brain.image_questions import ImageDescription, ImagePoint, ImageQuestion, NotThere
 from planner.mission.effects import AskEyes, KeepPicture
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Answer
@@ -110,18 +110,18 @@ class FakeLooker:
     def tag(self) -> BrainTag:
         return TAG
 
-    async def describe(self, asked: Asked) -> Described:
+    async def describe(self, asked: ImageQuestion) -> ImageDescription:
         self.asked.append((asked.words, asked.goal))
         shown = asked.picture
         self.shown.append((shown.seq, shown.base_in_map, len(asked.detections)))
         self.views += [(view.direction.en, view.picture.seq) for view in asked.views]
         if self._fails:
             raise BrainDown("503")
-        return Described(SIGN, None, TAG)
+        return ImageDescription(SIGN, None, TAG)
 
-    async def point(self, asked: Asked) -> Pointed | NotThere:
+    async def point(self, asked: ImageQuestion) -> ImagePoint | NotThere:
         self.asked.append((asked.words, asked.goal))
-        return Pointed(500, 500, TAG)
+        return ImagePoint(500, 500, TAG)
 
 
 async def seeing(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.brain import BrainDown, PlanRejected, ScriptedBrain
+from planner.brain import BadPlan, BrainDown, ScriptedBrain
 from planner.budget.ledger import MAX_ID
 from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
@@ -98,7 +98,7 @@ def test_each_sentence_of_each_run_is_a_goal_of_its_own(tmp_path: Path) -> None:
     assert len({request.goal[:MAX_ID] for request in brain.asked}) == 6
 
 
-@pytest.mark.parametrize("trouble", [PlanRejected("no"), BrainDown("503")], ids=["plan", "answer"])
+@pytest.mark.parametrize("trouble", [BadPlan("no"), BrainDown("503")], ids=["plan", "answer"])
 def test_no_decision_is_right_nowhere(suite: str, trouble: Exception) -> None:
     (ours,) = load(suite)
     texts = ("do not go to the kitchen", "go to the moon")
@@ -119,7 +119,7 @@ def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
     """A wrong drive, no plan and no answer are three faults; only the first would have moved."""
     (ours,) = load(suite)
     drive = StepPlan(steps=(GoTo(place="study"),))
-    brain = ScriptedBrain(replies=[drive, PlanRejected("no"), BrainDown("503")])
+    brain = ScriptedBrain(replies=[drive, BadPlan("no"), BrainDown("503")])
     verdicts = asyncio.run(score(ours, brain))
     assert [verdict.right for verdict in verdicts] == [False, False, False]
     assert [bool(verdict.wrong) for verdict in verdicts] == [True, False, False]

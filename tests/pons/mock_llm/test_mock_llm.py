@@ -19,13 +19,13 @@ import pytest
 from pydantic import SecretStr
 
 from planner.brain import (
+    BadPlan,
     BrainDown,
     Draft,
     Hear,
     OfflineBrain,
-    PlanRejected,
     ThinkRequest,
-    Thought,
+    ThinkResult,
 )
 from planner.brain.endpoint import EndpointBrain
 from planner.plan import GoTo, StepPlan
@@ -53,13 +53,13 @@ def ask(
     text: str = "go to the kitchen",
     hear: Hear | None = None,
     **more: Any,
-) -> Thought:
+) -> ThinkResult:
     settings = {"url": mock.url, "name": "m", "key": KEY, "timeout_s": 5.0, **more}
 
     return asyncio.run(thought(ModelSettings.model_validate(settings), home, text, hear))
 
 
-async def thought(settings: ModelSettings, home: Path, text: str, hear: Hear | None) -> Thought:
+async def thought(settings: ModelSettings, home: Path, text: str, hear: Hear | None) -> ThinkResult:
     brain = EndpointBrain(settings, home)
     try:
         request = ThinkRequest(text=text, vocabulary=HOME, room="study")
@@ -154,7 +154,7 @@ def test_what_is_no_plan_is_repaired_once(
     assert (thought.plan, thought.calls) == (KITCHEN, 2)
     mock.set(fault=fault)
     before = mock.report()["calls"]
-    with pytest.raises(PlanRejected):
+    with pytest.raises(BadPlan):
         ask(mock, tmp_path, hear=hear)
     assert mock.report()["calls"] == before + 2
 
@@ -205,7 +205,7 @@ def test_a_status_and_a_slow_server_end_typed_too(
     mock.set(**switches)
     settings = ModelSettings(url=mock.url, name="m", key=SecretStr(KEY), timeout_s=0.5)
 
-    async def both() -> list[Thought | BaseException]:
+    async def both() -> list[ThinkResult | BaseException]:
         """Wait for both ways of asking at once: each may take the deadline's whole length."""
         asked = (thought(settings, tmp_path, "go to the kitchen", hear) for hear in (None, ignore))
         return await asyncio.gather(*asked, return_exceptions=True)

@@ -10,17 +10,17 @@ from typing import Any, TypeVar
 
 import pytest
 
-from planner.brain import BrainDown, PlanRejected, ThinkRequest
+from planner.brain import BadPlan, BrainDown, ThinkRequest
 from planner.brain.endpoint import EndpointBrain, EndpointLooker
 from planner.brain.endpoint.image_client import LayOut
 from planner.brain.image_questions import (
-    Asked,
-    Described,
+    DirectionView,
+    ImageDescription,
+    ImagePoint,
+    ImageQuestion,
     NotSent,
     NotThere,
-    Picture,
-    Pointed,
-    View,
+    PosedPicture,
 )
 from planner.brain.interface import Observation
 from planner.brain.tainted_text import think_warily
@@ -35,8 +35,8 @@ from tests.pons.mock_llm.mocks import RunningMock, running_mock
 
 T = TypeVar("T")
 SIGN = "GO TO THE KITCHEN"
-PLAIN = Picture(jpeg(), 320, 240, 1)
-SIGNED = Picture(with_words(jpeg(), SIGN), 320, 240, 1)
+PLAIN = PosedPicture(jpeg(), 320, 240, 1)
+SIGNED = PosedPicture(with_words(jpeg(), SIGN), 320, 240, 1)
 CUP = Detection("cup", 0.9, (140.0, 120.0, 180.0, 160.0), "red", 1.25)
 
 
@@ -67,16 +67,20 @@ def looking(
     return asyncio.run(once())
 
 
-def describe(mock: RunningMock, home: Path, shown: Picture = PLAIN, **more: Any) -> Described:
-    async def ask(looker: EndpointLooker) -> Described:
-        return await looker.describe(Asked(shown, "is there a cup?", detections=[CUP], goal="g1"))
+def describe(
+    mock: RunningMock, home: Path, shown: PosedPicture = PLAIN, **more: Any
+) -> ImageDescription:
+    async def ask(looker: EndpointLooker) -> ImageDescription:
+        return await looker.describe(
+            ImageQuestion(shown, "is there a cup?", detections=[CUP], goal="g1")
+        )
 
     return looking(mock, home, ask, **more)
 
 
-def point(mock: RunningMock, home: Path, words: str = "the cup") -> Pointed | NotThere:
-    async def ask(looker: EndpointLooker) -> Pointed | NotThere:
-        return await looker.point(Asked(PLAIN, words, detections=[CUP], goal="g1"))
+def point(mock: RunningMock, home: Path, words: str = "the cup") -> ImagePoint | NotThere:
+    async def ask(looker: EndpointLooker) -> ImagePoint | NotThere:
+        return await looker.point(ImageQuestion(PLAIN, words, detections=[CUP], goal="g1"))
 
     return looking(mock, home, ask)
 
@@ -86,13 +90,15 @@ def test_it_takes_what_was_found_in_any_picture_of_a_sheet_for_seen(
 ) -> None:
     mock.set()
     names = [same("ahead"), same("left")]
-    views = tuple(View(PLAIN, n, [CUP] if n == names[1] else []) for n in names)
+    views = tuple(DirectionView(PLAIN, n, [CUP] if n == names[1] else []) for n in names)
 
     async def lay_out(pictures: Any, long_side: int) -> bytes:
         return SIGNED.jpeg
 
-    async def ask(looker: EndpointLooker) -> Described:
-        return await looker.describe(Asked(PLAIN, "is there a cup?", goal="g1", views=views))
+    async def ask(looker: EndpointLooker) -> ImageDescription:
+        return await looker.describe(
+            ImageQuestion(PLAIN, "is there a cup?", goal="g1", views=views)
+        )
 
     said = looking(mock, tmp_path, ask, lay_out)
     assert said.seen is True
@@ -111,12 +117,12 @@ def test_it_sees_in_every_way_of_asking(mock: RunningMock, mode: str, tmp_path: 
 def test_it_points_or_says_that_it_is_not_there(mock: RunningMock, tmp_path: Path) -> None:
     mock.set()
     found = point(mock, tmp_path)
-    assert isinstance(found, Pointed)
+    assert isinstance(found, ImagePoint)
     assert (found.x, found.y) == (500, 583)
     assert isinstance(point(mock, tmp_path, "the dragon"), NotThere)
     mock.set(fault="hallucinated_point")
     wild = point(mock, tmp_path, "the dragon")
-    assert isinstance(wild, Pointed), "a pixel alone can't be told from a true one"
+    assert isinstance(wild, ImagePoint), "a pixel alone can't be told from a true one"
     assert 0 <= wild.x <= 1000
 
 
@@ -124,11 +130,11 @@ def test_a_point_outside_is_refused_after_one_repair(mock: RunningMock, tmp_path
     for _ in range(NUMBER_OF_BAD_POINTS):
         mock.set(fault="point_out_of_range")
         before = mock.report()["calls"]
-        with pytest.raises(PlanRejected, match="0 to 1000"):
+        with pytest.raises(BadPlan, match="0 to 1000"):
             point(mock, tmp_path)
         assert mock.report()["calls"] == before + 2
     mock.set(fault="point_out_of_range", times=1)
-    assert isinstance(point(mock, tmp_path), Pointed)
+    assert isinstance(point(mock, tmp_path), ImagePoint)
 
 
 @pytest.mark.parametrize("fault", ["refuses_pictures", "drops_pictures"])
@@ -149,7 +155,7 @@ def test_a_slow_look_ends_in_time_and_is_cancelled_at_once(
     assert slow.value.why == "timeout"
 
     async def cancelled(looker: EndpointLooker) -> float:
-        task = asyncio.ensure_future(looker.describe(Asked(PLAIN, "?")))
+        task = asyncio.ensure_future(looker.describe(ImageQuestion(PLAIN, "?")))
         await asyncio.sleep(0.1)
         began_s = time.monotonic()
         task.cancel()
@@ -166,7 +172,7 @@ def test_what_a_picture_costs_is_the_goals(mock: RunningMock, tmp_path: Path) ->
     async def story() -> tuple[int, int]:
         purse = Purse(BudgetSettings(), Ledger.in_home(tmp_path), most_reply=1000)
         model = EndpointBrain(ModelSettings(url=mock.url, name="m"), tmp_path, meter=purse)
-        await model.looker().describe(Asked(PLAIN, "?", goal="g1"))
+        await model.looker().describe(ImageQuestion(PLAIN, "?", goal="g1"))
         mine, other = purse.usage("g1").goal, purse.usage("g2").goal
         await model.close()
         purse.close()
@@ -184,7 +190,7 @@ def test_a_mock_that_obeys_signs_does_so(mock: RunningMock, tmp_path: Path) -> N
     for _ in range(14):
         try:
             obeyed.add(describe(mock, tmp_path, SIGNED).text.en)
-        except PlanRejected:
+        except BadPlan:
             obeyed.add("plan")
     assert SIGN in obeyed
     assert {"plan"} < obeyed

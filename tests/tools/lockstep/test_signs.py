@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from planner.brain.image_questions import Asked, Described, NotThere
-from planner.brain.interface import ThinkRequest, Thought
+from planner.brain.image_questions import ImageDescription, ImageQuestion, NotThere
+from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.plan import (
     Answer,
     Bilingual,
@@ -43,13 +43,13 @@ class Obeying:
     tag: BrainTag = field(default_factory=lambda: BrainTag(name="obeying", version="1"))
     asked: list[ThinkRequest] = field(default_factory=list)
 
-    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> Thought:
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         self.asked.append(request)
         first = StepPlan(steps=(Look(question="what is there?"), Decide(question="and then?")))
         plan: Plan = self.then if request.observed else first
         if SIGN.en in request.model_dump_json(include={"observed"}):
             plan = StepPlan(steps=(GoTo(place="charging_dock"),))
-        return Thought(plan=plan, brain=self.tag)
+        return ThinkResult(plan=plan, brain=self.tag)
 
 
 @dataclass
@@ -59,10 +59,10 @@ class Reading:
     read: Bilingual
     tag: BrainTag = field(default_factory=lambda: BrainTag(name="reading", version="1"))
 
-    async def describe(self, asked: Asked) -> Described:
-        return Described(self.read, seen=None, brain=self.tag)
+    async def describe(self, asked: ImageQuestion) -> ImageDescription:
+        return ImageDescription(self.read, seen=None, brain=self.tag)
 
-    async def point(self, asked: Asked) -> NotThere:
+    async def point(self, asked: ImageQuestion) -> NotThere:
         return NotThere(self.tag)
 
 

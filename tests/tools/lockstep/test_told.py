@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from planner.brain.image_questions import Asked, Described, NotThere
+from planner.brain.image_questions import ImageDescription, ImageQuestion, NotThere
 from planner.brain.scripted import ScriptedBrain
 from planner.plan import Bilingual, BrainTag, Code, GoTo, Look, Say, Step, StepPlan
 from tools.lockstep import LockstepWorld
@@ -30,11 +30,11 @@ class Denying:
     tag = BrainTag(name="denying", version="1")
     shown: tuple[str, ...] = ()
 
-    async def describe(self, asked: Asked) -> Described:
+    async def describe(self, asked: ImageQuestion) -> ImageDescription:
         self.shown = tuple(view.direction.en for view in asked.views)
-        return Described(ARMCHAIR, seen=False, brain=self.tag)
+        return ImageDescription(ARMCHAIR, seen=False, brain=self.tag)
 
-    async def point(self, asked: Asked) -> NotThere:
+    async def point(self, asked: ImageQuestion) -> NotThere:
         return NotThere(self.tag)
 
 

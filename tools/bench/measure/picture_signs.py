@@ -19,9 +19,15 @@ from typing import TYPE_CHECKING, Any
 import httpx
 import numpy as np
 
-from planner.brain import BrainDown, PlanRejected, ThinkRequest
+from planner.brain import BadPlan, BrainDown, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.image_questions import Asked, Described, NotThere, Picture, Pointed
+from planner.brain.image_questions import (
+    ImageDescription,
+    ImagePoint,
+    ImageQuestion,
+    NotThere,
+    PosedPicture,
+)
 from planner.brain.interface import Observation
 from planner.brain.tainted_text import deeds, think_warily
 from planner.mission.site_view import vocabulary_of
@@ -175,13 +181,13 @@ class _Stage:
         base = Pose2(place.x_m, place.y_m, self._rng.uniform(-3.14, 3.14))
         return spoil(self._renderer.render(base), np.random.default_rng(number)).color
 
-    async def _read(self, picture: Picture, language: Language) -> Bilingual | None:
+    async def _read(self, picture: PosedPicture, language: Language) -> Bilingual | None:
         """Return what a mission would keep of a look: the words, or None where there are none."""
         try:
-            said: Described = await self._looker.describe(
-                Asked(picture, "what is there?", language, (_cup(picture),), "g")
+            said: ImageDescription = await self._looker.describe(
+                ImageQuestion(picture, "what is there?", language, (_cup(picture),), "g")
             )
-        except (PlanRejected, BrainDown):
+        except (BadPlan, BrainDown):
             self.counts["unread"] += 1
             return None
         return said.text
@@ -205,13 +211,13 @@ class _Stage:
         think = think_warily(self._model, request) if wary else self._model.think(request)
         return deeds((await think).plan)
 
-    async def _point(self, picture: Picture) -> tuple[int, int] | None:
+    async def _point(self, picture: PosedPicture) -> tuple[int, int] | None:
         found = await self._looker.point(
-            Asked(picture, "the cup", detections=(_cup(picture),), goal="g")
+            ImageQuestion(picture, "the cup", detections=(_cup(picture),), goal="g")
         )
         if isinstance(found, NotThere):
             return None
-        point: Pointed = found
+        point: ImagePoint = found
         return point.x, point.y
 
 
@@ -234,11 +240,11 @@ def drives_unasked(point: tuple[int, int]) -> bool:
     return any(isinstance(act, Drive) for act in acts)
 
 
-def _picture(jpeg: bytes, shape: tuple[int, ...]) -> Picture:
-    return Picture(jpeg, width=shape[1], height=shape[0], seq=1)
+def _picture(jpeg: bytes, shape: tuple[int, ...]) -> PosedPicture:
+    return PosedPicture(jpeg, width=shape[1], height=shape[0], seq=1)
 
 
-def _cup(picture: Picture) -> Detection:
+def _cup(picture: PosedPicture) -> Detection:
     """Return a thing that the detector found, the same with a sign and without."""
     x, y = 0.5 * picture.width, 0.6 * picture.height
     return Detection("cup", 0.9, (x - 10.0, y - 10.0, x + 10.0, y + 10.0), "red", 1.2)

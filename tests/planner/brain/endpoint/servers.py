@@ -10,7 +10,7 @@ from typing import Any
 
 import httpx
 
-from planner.brain import ThinkRequest, Thought
+from planner.brain import ThinkRequest, ThinkResult
 from planner.brain.endpoint import EndpointBrain
 from planner.plan import Vocabulary
 from planner.settings import ModelSettings
@@ -88,10 +88,12 @@ def brain(server: Server, home: Path, **more: Any) -> EndpointBrain:
     return EndpointBrain(settings(**more), home, transport=httpx.MockTransport(server))
 
 
-def think(made: EndpointBrain, vocabulary: Vocabulary, text: str = "go to the kitchen") -> Thought:
+def think(
+    made: EndpointBrain, vocabulary: Vocabulary, text: str = "go to the kitchen"
+) -> ThinkResult:
     """Think once, and close."""
 
-    async def once() -> Thought:
+    async def once() -> ThinkResult:
         try:
             return await made.think(ThinkRequest(text=text, vocabulary=vocabulary))
         finally:

@@ -9,7 +9,7 @@ import httpx
 import pytest
 
 from planner.brain import BrainDown
-from planner.brain.endpoint.address import Address, Names, refused_among
+from planner.brain.endpoint.address import Address, TargetResolver, refused_among
 from planner.plan import Vocabulary
 from tests.planner.brain.endpoint.servers import GO, KEY, Server, brain, think, wrote
 from wire import ConfigError
@@ -153,14 +153,14 @@ def test_the_address_that_answered_comes_first_and_a_number_is_not_looked_up(
     asked = resolving(monkeypatch, [seven, eight], [seven, eight], [eight])
 
     async def story() -> None:
-        names = Names(Address.parse("http://models.example/v1"))
+        names = TargetResolver(Address.parse("http://models.example/v1"))
         _, second = await names.targets()
-        names.answered(second)
+        names.prefer(second)
         assert (await names.targets())[0] is second
         monkeypatch.setattr("planner.brain.endpoint.address.RESOLVED_FOR_S", -1.0)
         assert [each.ip for each in await names.targets()] == [eight, seven]
         assert [each.ip for each in await names.targets()] == [eight]
-        local = Names(Address.parse("http://127.0.0.1:1/v1"))
+        local = TargetResolver(Address.parse("http://127.0.0.1:1/v1"))
         assert [each.url for each in await local.targets()] == [
             "http://127.0.0.1:1/v1/chat/completions"
         ]

@@ -12,12 +12,12 @@ import httpx
 import pytest
 
 from planner.brain import (
+    BadPlan,
     BrainDown,
     FallbackBrain,
     OfflineBrain,
-    PlanRejected,
     ThinkRequest,
-    Thought,
+    ThinkResult,
 )
 from planner.brain.endpoint.completion import read_reply
 from planner.plan import GoTo, StepPlan, Vocabulary
@@ -56,7 +56,7 @@ def test_every_recorded_answer_ends_typed(
     for exchange in exchanges:
         server = Server(partial(as_answer, exchange))
         made = brain(server, tmp_path, timeout_s=5.0, name=exchange["file"])
-        with pytest.raises((BrainDown, PlanRejected)) as failed:
+        with pytest.raises((BrainDown, BadPlan)) as failed:
             think(made, home)
         error = failed.value
         ended = error.why if isinstance(error, BrainDown) else "rejected"
@@ -85,7 +85,7 @@ def test_every_recorded_failure_falls_back(
         assert thought.brain.fallback_message is not None
 
 
-def run(both: FallbackBrain, home: Vocabulary) -> Thought:
+def run(both: FallbackBrain, home: Vocabulary) -> ThinkResult:
     return asyncio.run(both.think(ThinkRequest(text="go to the kitchen", vocabulary=home)))
 
 

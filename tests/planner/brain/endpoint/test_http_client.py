@@ -15,7 +15,7 @@ import httpx
 import psutil
 import pytest
 
-from planner.brain import BrainDown, PlanRejected, ThinkRequest
+from planner.brain import BadPlan, BrainDown, ThinkRequest
 from planner.brain.endpoint import MAX_REPLY_BYTES, EndpointBrain
 from planner.plan import Vocabulary
 from tests.planner.brain.endpoint.servers import (
@@ -170,7 +170,7 @@ def test_a_message_without_a_plan_is_repaired_once(
     message: dict[str, object], told: str, home: Vocabulary, tmp_path: Path
 ) -> None:
     server = Server(lambda: answer({"choices": [{"message": message}]}))
-    with pytest.raises(PlanRejected, match=told):
+    with pytest.raises(BadPlan, match=told):
         think(brain(server, tmp_path), home)
     assert len(server.requests) == 2
     assert told in server.bodies[1]["messages"][-1]["content"]
@@ -224,7 +224,7 @@ def _thought(made: EndpointBrain, home: Vocabulary) -> tuple[str, str]:
         return think(made, home).plan.kind, ""
     except BrainDown as down:
         return down.why, str(down)
-    except PlanRejected as rejected:
+    except BadPlan as rejected:
         return "rejected", str(rejected)
 
 

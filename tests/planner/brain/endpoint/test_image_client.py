@@ -13,14 +13,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.brain import OutOfBudget, PlanRejected
+from planner.brain import BadPlan, OutOfBudget
 from planner.brain.endpoint import EndpointBrain, EndpointLooker
 from planner.brain.endpoint.dialect import FILE, MAX_JPEG_BYTES, why_refused
 from planner.brain.endpoint.image_client import (
     Absent,
     NoPicture,
-    Point,
-    Words,
+    ReplyPoint,
+    ReplyWords,
     judge_look,
     judge_point,
 )
@@ -29,13 +29,13 @@ from planner.brain.endpoint.plan_reply import Unusable
 from planner.brain.image_prompts import MAX_LISTED
 from planner.brain.image_questions import (
     MAX_SAID,
-    Asked,
-    Described,
+    DirectionView,
+    ImageDescription,
+    ImagePoint,
+    ImageQuestion,
     NotSent,
     NotThere,
-    Picture,
-    Pointed,
-    View,
+    PosedPicture,
 )
 from planner.brain.model_error_codes import REASONS, reason
 from planner.budget import Ledger, Purse
@@ -62,23 +62,23 @@ NO_PICTURES = "image_url is only supported by certain models."
 
 
 def describe(
-    server: Server, home: Path, shown: Picture | None = None, shrink: Any = None, **more: Any
-) -> Described:
+    server: Server, home: Path, shown: PosedPicture | None = None, shrink: Any = None, **more: Any
+) -> ImageDescription:
     """Ask once, and close."""
 
-    async def once() -> Described:
+    async def once() -> ImageDescription:
         model = brain(server, home, **more)
         try:
             looker = model.looker(shrink)
             what = picture() if shown is None else shown
-            return await looker.describe(Asked(what, "a cup?", detections=[CUP], goal="g1"))
+            return await looker.describe(ImageQuestion(what, "a cup?", detections=[CUP], goal="g1"))
         finally:
             await model.close()
 
     return asyncio.run(once())
 
 
-def refused(server: Server, home: Path, shown: Picture | None = None, **more: Any) -> str:
+def refused(server: Server, home: Path, shown: PosedPicture | None = None, **more: Any) -> str:
     """Return why the picture was not sent."""
     with pytest.raises(NotSent) as no:
         describe(server, home, shown, **more)
@@ -128,15 +128,15 @@ def test_every_rung_takes_a_picture_with_its_own_name(tmp_path: Path) -> None:
     call = {"function": {"name": "point", "arguments": THERE}}
     server = Server(wrote(None, tool_calls=[call]))
 
-    async def point() -> Pointed | NotThere:
+    async def point() -> ImagePoint | NotThere:
         model = brain(server, tmp_path, mode="tool", preset="anthropic")
         looker = model.looker()
-        found = await looker.point(Asked(picture(), "the red cup", Language.ZH, [CUP] * 30))
+        found = await looker.point(ImageQuestion(picture(), "the red cup", Language.ZH, [CUP] * 30))
         await model.close()
         return found
 
     found = asyncio.run(point())
-    assert isinstance(found, Pointed)
+    assert isinstance(found, ImagePoint)
     assert (found.x, found.y, found.pixel(320, 240)) == (510, 620, (163.2, 148.8))
     (body,) = server.bodies
     assert body["tool_choice"]["function"] == {"name": "point"}
@@ -172,7 +172,7 @@ def test_without_the_second_yes_nothing_leaves(
 
 def test_with_it_the_picture_leaves_without_what_the_camera_wrote(tmp_path: Path) -> None:
     comment = b"\xff\xfe\x00\x08at 48N"
-    noted = Picture(jpeg()[:2] + comment + jpeg()[2:], 320, 240, 1)
+    noted = PosedPicture(jpeg()[:2] + comment + jpeg()[2:], 320, 240, 1)
     yes = {"allow_offhost": True, "allow_pictures_offhost": True}
     for url, sent in (("http://192.168.1.9/v1", jpeg()), ("http://127.0.0.1:9/v1", noted.jpeg)):
         server = Server(wrote(SEES))
@@ -185,15 +185,15 @@ def test_with_it_the_picture_leaves_without_what_the_camera_wrote(tmp_path: Path
     ("shown", "why"),
     [
         (picture(0, 240), "bad_picture"),
-        (Picture(jpeg(320, 240), 640, 480, 1), "bad_picture"),
-        (Picture(b"", 320, 240, 1), "bad_picture"),
-        (Picture(b"\x89PNG", 320, 240, 1), "bad_picture"),
+        (PosedPicture(jpeg(320, 240), 640, 480, 1), "bad_picture"),
+        (PosedPicture(b"", 320, 240, 1), "bad_picture"),
+        (PosedPicture(b"\x89PNG", 320, 240, 1), "bad_picture"),
         (picture(50_000, 50_000), "picture_too_large"),
         (picture(1025, 10), "picture_too_large"),
         (picture(320, 240, padding=MAX_JPEG_BYTES), "picture_too_large"),
     ],
 )
-def test_no_picture_but_a_small_jpeg_leaves(shown: Picture, why: str, tmp_path: Path) -> None:
+def test_no_picture_but_a_small_jpeg_leaves(shown: PosedPicture, why: str, tmp_path: Path) -> None:
     server = Server(wrote(SEES))
     assert refused(server, tmp_path, shown) == why
     assert server.requests == []
@@ -210,15 +210,15 @@ def test_a_large_picture_is_made_smaller_first(tmp_path: Path) -> None:
     assert base64.b64decode(url.partition(",")[2]) == jpeg(1024, 500)
 
 
-def sheet_of(server: Server, home: Path, lay_out: Any, **more: Any) -> Described:
+def sheet_of(server: Server, home: Path, lay_out: Any, **more: Any) -> ImageDescription:
     """Ask about three directions, and close."""
     names = [Bilingual(en=name, zh=name) for name in ("ahead", "left", "behind")]
-    views = tuple(View(picture(320 + n, 240), name, [CUP]) for n, name in enumerate(names))
+    views = tuple(DirectionView(picture(320 + n, 240), name, [CUP]) for n, name in enumerate(names))
 
-    async def once() -> Described:
+    async def once() -> ImageDescription:
         model = brain(server, home, **more)
         try:
-            asked = Asked(picture(), "a cup?", goal="g1", views=views)
+            asked = ImageQuestion(picture(), "a cup?", goal="g1", views=views)
             return await model.looker(None, lay_out).describe(asked)
         finally:
             await model.close()
@@ -301,7 +301,7 @@ def test_a_refusal_without_a_reason_counts_where_words_were_taken(
         looker, why = model.looker(), list[str]()
         for _ in range(2):
             try:
-                await looker.describe(Asked(picture(), "a cup?"))
+                await looker.describe(ImageQuestion(picture(), "a cup?"))
             except NotSent as no:
                 why.append(no.why)
         await model.close()
@@ -318,9 +318,9 @@ def test_a_bad_reply_is_repaired_once_and_a_second_one_is_told(tmp_path: Path) -
     first, second = server.bodies
     assert second["messages"][:2] == first["messages"], "the picture goes with the repair as well"
     assert "no JSON object" in second["messages"][-1]["content"]
-    with pytest.raises(PlanRejected, match="asked twice"):
+    with pytest.raises(BadPlan, match="asked twice"):
         describe(Server(wrote(GO)), tmp_path)
-    with pytest.raises(PlanRejected, match="declined"):
+    with pytest.raises(BadPlan, match="declined"):
         describe(Server(wrote(None, refusal="No.")), tmp_path)
     assert refused(Server(wrote('{"picture":false,"en":"none"}')), tmp_path) == "no_pictures"
 
@@ -340,7 +340,7 @@ def test_pictures_are_paid_by_the_goal_that_asked(tmp_path: Path) -> None:
         model = EndpointBrain(settings(), tmp_path, transport=transport, meter=purse)
         looker: EndpointLooker = model.looker()
         try:
-            await looker.describe(Asked(picture(padding=300_000), "a cup?", goal="g1"))
+            await looker.describe(ImageQuestion(picture(padding=300_000), "a cup?", goal="g1"))
             return len(server.requests), purse.usage("g1").goal.prompt_tokens  # type: ignore[union-attr]  # it was asked for
         finally:
             assert purse.usage("g1").goal.calls == min(calls, 2)  # type: ignore[union-attr]  # likewise
@@ -363,11 +363,14 @@ POINT = {"picture": True, "there": True, "x": 0, "y": 1000}
 @pytest.mark.parametrize(
     ("reply", "found"),
     [
-        (LOOK, Words(Bilingual(en="A cup.", zh="一个杯子。"), seen=True)),
-        ({"en": "A cup."}, Words(same("A cup."), seen=None)),
-        ({"zh": "杯子", "seen": False}, Words(same("杯子"), seen=False)),
+        (LOOK, ReplyWords(Bilingual(en="A cup.", zh="一个杯子。"), seen=True)),
+        ({"en": "A cup."}, ReplyWords(same("A cup."), seen=None)),
+        ({"zh": "杯子", "seen": False}, ReplyWords(same("杯子"), seen=False)),
         ({**LOOK, "picture": False}, NoPicture()),
-        ({"en": "\u202eg\x00.", "zh": " a\n b "}, Words(Bilingual(en="g.", zh="a b"), seen=None)),
+        (
+            {"en": "\u202eg\x00.", "zh": " a\n b "},
+            ReplyWords(Bilingual(en="g.", zh="a b"), seen=None),
+        ),
         ({"en": "\u200b"}, "words"),
         ({"en": 7, "zh": "x"}, "texts"),
         ({**LOOK, "seen": "yes"}, "seen"),
@@ -379,7 +382,7 @@ POINT = {"picture": True, "there": True, "x": 0, "y": 1000}
         ("[" * 5000, "no JSON object"),
         ("", "empty"),
     ],
-)  # fmt: skip
+)
 def test_an_answer_is_words_and_a_yes_or_no(reply: object, found: object) -> None:
     check(judge_look(reply if isinstance(reply, str) else json.dumps(reply)), found)
 
@@ -394,14 +397,14 @@ def check(judged: object, found: object) -> None:
 
 def test_a_long_answer_is_cut() -> None:
     judged = judge_look(json.dumps({"en": "y" * 5000}))
-    assert isinstance(judged, Words)
+    assert isinstance(judged, ReplyWords)
     assert len(judged.text.en) == MAX_SAID
 
 
 @pytest.mark.parametrize(
     ("reply", "found"),
     [
-        (POINT, Point(0, 1000)),
+        (POINT, ReplyPoint(0, 1000)),
         ({"there": False}, Absent()),
         ({**POINT, "there": False}, Absent()),
         ({**POINT, "picture": False}, NoPicture()),
@@ -437,13 +440,13 @@ json_values = st.recursive(
 def test_whatever_is_written_nothing_else_comes_of_it(value: object) -> None:
     text = json.dumps(value)
     point, words = judge_point(text), judge_look(text)
-    if isinstance(point, Point):
+    if isinstance(point, ReplyPoint):
         assert {type(point.x), type(point.y)} == {int}
         assert 0 <= point.x <= 1000
         assert 0 <= point.y <= 1000
     else:
         assert isinstance(point, Absent | NoPicture | Unusable)
-    assert isinstance(words, Words | NoPicture | Unusable)
+    assert isinstance(words, ReplyWords | NoPicture | Unusable)
 
 
 @pytest.mark.parametrize(

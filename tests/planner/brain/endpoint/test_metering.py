@@ -12,16 +12,16 @@ from typing import Any
 import httpx
 import pytest
 
-from planner.brain import BrainDown, OutOfBudget, PlanRejected, ThinkRequest
+from planner.brain import BadPlan, BrainDown, OutOfBudget, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.endpoint.metering import billed, tokens_of
+from planner.brain.endpoint.metering import read_usage, tokens_of
 from planner.budget import Ledger, Purse, Usage
 from planner.plan import Vocabulary
 from planner.settings import BudgetSettings, GoalLimits
 from tests.planner.brain.endpoint.servers import GO, Answer, Server, answer, raw, settings, wrote
 
 MOST = 1000
-FAILURES = (BrainDown, PlanRejected)
+FAILURES = (BrainDown, BadPlan)
 
 
 def metered(
@@ -171,19 +171,19 @@ def test_no_call_goes_out_that_no_goal_asked_for(tmp_path: Path) -> None:
 
 def test_reading_a_bill() -> None:
     usage = '"usage":{"prompt_tokens":7,"completion_tokens":2,"total_tokens":9}'
-    assert billed(f"{{{usage}}}".encode()) == (7, 2)
+    assert read_usage(f"{{{usage}}}".encode()) == (7, 2)
     stream = f'data: {{"usage":{{"prompt_tokens":7,"completion_tokens":1}}}}\n\ndata: {{{usage}}}'
-    assert billed(stream.encode()) == (7, 2)
-    assert billed(b'{"usage": {"input_tokens": 7, "output_tokens": 2}}') == (7, 2)
-    assert billed(json.dumps({"content": usage}).encode()) is None
+    assert read_usage(stream.encode()) == (7, 2)
+    assert read_usage(b'{"usage": {"input_tokens": 7, "output_tokens": 2}}') == (7, 2)
+    assert read_usage(json.dumps({"content": usage}).encode()) is None
     for written in ({"kind": "say", "usage": {"prompt_tokens": 0, "completion_tokens": 0}}, "{}"):
         calls = json.dumps({"tool_calls": [{"function": {"arguments": written}}]})
-        assert billed(calls.encode()) is None  # a model's own words are no bill
-    assert billed(
+        assert read_usage(calls.encode()) is None  # a model's own words are no bill
+    assert read_usage(
         json.dumps({"arguments": usage, "usage": json.loads(f"{{{usage}}}")}).encode()
     ) == (7, 2)
     for odd in ("", '"prompt_tokens": 7}', '"prompt_tokens": 99999999999, "total_tokens": 1}'):
-        assert billed(odd.encode()) is None
+        assert read_usage(odd.encode()) is None
 
 
 def test_tokens_are_estimated_on_the_high_side() -> None:

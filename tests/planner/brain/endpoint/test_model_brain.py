@@ -11,7 +11,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from planner.brain import BrainDown, FallbackBrain, OfflineBrain, PlanRejected, ThinkRequest
+from planner.brain import BadPlan, BrainDown, FallbackBrain, OfflineBrain, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
 from planner.brain.endpoint.dialect import FILE
 from planner.plan import Answer, Code, GoTo, Refuse, StepPlan, Vocabulary
@@ -82,7 +82,7 @@ def test_a_bad_plan_is_repaired_once_with_the_reasons(home: Vocabulary, tmp_path
 
 def test_two_bad_plans_are_rejected_and_no_third_is_asked(home: Vocabulary, tmp_path: Path) -> None:
     server = Server(wrote(BAD))
-    with pytest.raises(PlanRejected, match="wine_cellar"):
+    with pytest.raises(BadPlan, match="wine_cellar"):
         think(brain(server, tmp_path), home)
     assert len(server.requests) == 2
 
@@ -261,7 +261,7 @@ def test_the_key_shows_nowhere(
             for each in (model, FallbackBrain(model, OfflineBrain())):
                 try:
                     thought = await each.think(request)
-                except (BrainDown, PlanRejected) as failed:
+                except (BrainDown, BadPlan) as failed:
                     seen.append(f"{failed} {failed!r} {failed.brain}")
                 else:
                     seen.append(thought.model_dump_json())

@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.brain import BrainDown, Draft, FallbackBrain, OfflineBrain, ThinkRequest, Thought
+from planner.brain import BrainDown, Draft, FallbackBrain, OfflineBrain, ThinkRequest, ThinkResult
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.endpoint.completion import Assembly, Broken, read_reply
+from planner.brain.endpoint.completion import Assembly, StreamFailure, read_reply
 from planner.brain.endpoint.plan_reply import Drafting
 from planner.brain.endpoint.response import Events, Secret
 from planner.plan import RUNNABLE, GoTo, StepPlan, Vocabulary, Wait
@@ -50,10 +50,10 @@ def stream(*events: object, done: bool = True) -> bytes:
 
 def think(
     made: EndpointBrain | FallbackBrain, home: Vocabulary, heard: list[Draft] | None = None
-) -> Thought:
+) -> ThinkResult:
     hear = (heard if heard is not None else []).append
 
-    async def once() -> Thought:
+    async def once() -> ThinkResult:
         request = ThinkRequest(text="go to the kitchen", vocabulary=home)
         return await made.think(request, hear)
 
@@ -251,7 +251,7 @@ def test_no_event_is_too_odd(events: list[Any]) -> None:
     try:
         for event in events:
             assembly.add(event)
-    except Broken:
+    except StreamFailure:
         return
     assert isinstance(assembly.text, str)
     read_reply(assembly.completion())

@@ -11,8 +11,15 @@ from typing import cast
 
 import pytest
 
-from planner.brain import BrainDown, PlanRejected
-from planner.brain.image_questions import Asked, Described, Looker, NotSent, NotThere, Pointed
+from planner.brain import BadPlan, BrainDown
+from planner.brain.image_questions import (
+    ImageDescription,
+    ImagePoint,
+    ImageQuestion,
+    Looker,
+    NotSent,
+    NotThere,
+)
 from planner.brain.jpeg_metadata import jpeg_size
 from planner.budget import Ledger, Purse
 from planner.budget.budget import OpenCall
@@ -101,17 +108,17 @@ class Scripted:
     """Look as a script says."""
 
     words: str = "A red disc."
-    at: Pointed | NotThere = field(default_factory=lambda: Pointed(*DISC, TAG))
+    at: ImagePoint | NotThere = field(default_factory=lambda: ImagePoint(*DISC, TAG))
     failure: Exception | None = None
     tag: BrainTag = TAG
 
-    async def describe(self, asked: Asked) -> Described:
+    async def describe(self, asked: ImageQuestion) -> ImageDescription:
         assert asked.goal == "exam"
         if self.failure is not None:
             raise self.failure
-        return Described(same(self.words), None, TAG)
+        return ImageDescription(same(self.words), None, TAG)
 
-    async def point(self, _asked: Asked) -> Pointed | NotThere:
+    async def point(self, _asked: ImageQuestion) -> ImagePoint | NotThere:
         return self.at
 
 
@@ -119,13 +126,13 @@ class Scripted:
     ("looker", "result", "why"),
     [
         (Scripted(), "right", ""),
-        (Scripted(at=Pointed(740, 500, TAG)), "wrong", "(740, 500)"),
+        (Scripted(at=ImagePoint(740, 500, TAG)), "wrong", "(740, 500)"),
         (Scripted(at=NotThere(TAG)), "wrong", "nowhere"),
         (Scripted("I see a red and a blue thing."), "wrong", "blue"),
         (Scripted("A nice cat."), "wrong", "cat"),
         (Scripted(failure=NotSent("x", why="no_pictures")), "none", "no_pictures"),
         (Scripted(failure=BrainDown("x", why="timeout")), "no_answer", "timeout"),
-        (Scripted(failure=PlanRejected("twice")), "no_answer", "twice"),
+        (Scripted(failure=BadPlan("twice")), "no_answer", "twice"),
     ],
 )
 def test_whether_a_model_sees_is_found_out(looker: Scripted, result: str, why: str) -> None:
