@@ -10,7 +10,7 @@ from planner.brain import FallbackBrain
 from planner.brain.image_question_fallback import FallbackLooker
 from planner.brain.image_questions import DetectedObject, NotSent
 from planner.language.catalogue import list_names, say
-from planner.language.object_names import named
+from planner.language.object_names import name_object
 from planner.perception import VisionFailure, VisionWorker
 from planner.perception.dependencies import Means
 from planner.perception.failure import REFUSALS
@@ -125,6 +125,6 @@ def looker_of(
 
 def _by_detector(_: str, seen: Sequence[DetectedObject]) -> tuple[Bilingual, bool | None]:
     """Tell what the detector saw; whether that answers the question nobody says."""
-    names = [named(one.label, one.color) for one in seen]
+    names = [name_object(one.label, one.color) for one in seen]
     known = list_names(names) if names else say("look.nothing_known")
     return say("look.i_see", names=known), None

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Path
 from planner.api.interfaces import Services
 from planner.api.problem_messages import saying_of
 from planner.api.problems import Problem
-from planner.language.object_names import named
+from planner.language.object_names import name_object
 from planner.perception.failure import REFUSALS
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ def _look(look: Look, now_s: float) -> dict[str, Any]:
 
 
 def _named(label: str, color: str | None = None) -> dict[str, str]:
-    return named(label, color).model_dump()
+    return name_object(label, color).model_dump()
 
 
 def _blind(code: str | None) -> dict[str, Any]:

@@ -121,7 +121,7 @@ def singles_out(words: str, classes: Collection[str] = ()) -> bool:
     return found is not None and _WHICH_ZH.search(_ANY_ZH.sub("", _besides(found))) is not None
 
 
-def named(label: str, color: str | None = None) -> Bilingual:
+def name_object(label: str, color: str | None = None) -> Bilingual:
     """Return what to call a thing."""
     name = noun(f"noun.{label}") if label in KINDS else same(_bare(label))
     return _with_color(name, color)
@@ -154,11 +154,11 @@ def _with_color(name: Bilingual, color: str | None) -> Bilingual:
     return say("object.colored", color=color_names.color_name(color), kind=name)
 
 
-def listed(labels: Iterable[str], limit: int = 20) -> Bilingual:
+def list_kinds(labels: Iterable[str], limit: int = 20) -> Bilingual:
     """Return class names for a sentence: "person, chair and sofa"."""
     known = list(labels)
     more = len(known) - limit
-    names = list_names(map(named, known[:limit]))
+    names = list_names(map(name_object, known[:limit]))
     names = names if names.en else say("object.none")
     return say("object.and_more", names=names, more=more) if more > 0 else names
 
@@ -169,12 +169,12 @@ def _plain(words: str) -> str:
 
 def _in_english(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:
     found = _english_match(text, own)
-    return None if found is None else _meant(found, _english_names())
+    return None if found is None else _read_match(found, _english_names())
 
 
 def _in_chinese(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:
     found = _chinese_match(text, own)
-    return None if found is None else _meant(found, _chinese_names())
+    return None if found is None else _read_match(found, _chinese_names())
 
 
 def _english_match(text: str, own: tuple[str, ...]) -> re.Match[str] | None:
@@ -195,7 +195,7 @@ def _besides(found: re.Match[str]) -> str:
     return rest
 
 
-def _meant(found: re.Match[str], names: dict[str, str]) -> tuple[str, str | None]:
+def _read_match(found: re.Match[str], names: dict[str, str]) -> tuple[str, str | None]:
     color = found["c"] or found["d"]
     label = names.get(found["n"]) or canonical(found["n"])
     return label, color_names.color_of(color) if color else None

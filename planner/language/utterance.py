@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from planner.language.commands import Intent, Replace, intent_of
-from planner.language.commands import Resume as GoOn
+from planner.language.commands import ResumeCommand as GoOn
 from planner.language.identification import language_of
 from planner.language.stop import StopReading, is_stop, read_stop
 from planner.language.yes_no import consents

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
 from planner.language.commands import (
-    Cancel,
+    CancelCommand,
     Doing,
     Faster,
     Forget,
     Intent,
-    Pause,
+    PauseCommand,
     Remember,
     Replace,
-    Resume,
+    ResumeCommand,
     Slower,
-    Where,
+    WhereCommand,
 )
 from planner.language.utterance import parse
 from planner.mission import events
@@ -83,19 +83,19 @@ class PlannerCommands:
                 return await self._remember(name)
             case Forget(name):
                 return await self._forget(name)
-            case Pause():
+            case PauseCommand():
                 return self._each("pause", events.Pause, goal_to_pause(book, mission.id))
-            case Cancel():
+            case CancelCommand():
                 own = mission.id if mission.replies else None
                 found = goal_to_end(book, mission.id)
                 return self._each("cancel", events.Cancel, found or own)
-            case Resume():
+            case ResumeCommand():
                 return self._each("resume", events.Resume, goal_to_resume(book, mission.id))
             case Doing():
                 return Answer(text=doing(book, self._loop.status_age_s, mission.id))
             case Slower() | Faster():
                 return self._change_speed(slower=isinstance(intent, Slower))
-            case Where() | Replace():
+            case WhereCommand() | Replace():
                 return Answer(text=where(book, self._loop.status_age_s))
 
     def _each(self, what: str, make: Callable[[str], Command], goal_id: str | None) -> Answer:

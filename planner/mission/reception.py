@@ -17,9 +17,9 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from planner.language.commands import Cancel as TakeBack
+from planner.language.commands import CancelCommand as TakeBack
 from planner.language.commands import Replace
-from planner.language.commands import Resume as GoOn
+from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
 from planner.mission.answer_timeouts import has_room

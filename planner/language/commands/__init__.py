@@ -4,31 +4,31 @@ Pure, both languages, whole sentences only. The one door of this package.
 """
 
 from planner.language.commands.command import (
-    Cancel,
+    CancelCommand,
     Doing,
     Faster,
     Forget,
     Intent,
-    Pause,
+    PauseCommand,
     Remember,
     Replace,
-    Resume,
+    ResumeCommand,
     Slower,
-    Where,
+    WhereCommand,
 )
 from planner.language.commands.parser import intent_of
 
 __all__ = [
-    "Cancel",
+    "CancelCommand",
     "Doing",
     "Faster",
     "Forget",
     "Intent",
-    "Pause",
+    "PauseCommand",
     "Remember",
     "Replace",
-    "Resume",
+    "ResumeCommand",
     "Slower",
-    "Where",
+    "WhereCommand",
     "intent_of",
 ]

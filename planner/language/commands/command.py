@@ -20,17 +20,17 @@ class Forget:
 
 
 @dataclass(frozen=True, slots=True)
-class Pause:
+class PauseCommand:
     """Stand, and keep the current goal's place."""
 
 
 @dataclass(frozen=True, slots=True)
-class Resume:
+class ResumeCommand:
     """Go on with what was paused last."""
 
 
 @dataclass(frozen=True, slots=True)
-class Cancel:
+class CancelCommand:
     """End the current goal."""
 
 
@@ -45,7 +45,7 @@ class Replace:
 
 
 @dataclass(frozen=True, slots=True)
-class Where:
+class WhereCommand:
     """Say where the robot is."""
 
 
@@ -64,4 +64,15 @@ class Faster:
     """Double it again, up to what the goal began with."""
 
 
-Intent = Remember | Forget | Pause | Resume | Cancel | Replace | Where | Doing | Slower | Faster
+Intent = (
+    Remember
+    | Forget
+    | PauseCommand
+    | ResumeCommand
+    | CancelCommand
+    | Replace
+    | WhereCommand
+    | Doing
+    | Slower
+    | Faster
+)

@@ -15,17 +15,17 @@ from types import ModuleType
 
 from planner.language.commands import chinese, english
 from planner.language.commands.command import (
-    Cancel,
+    CancelCommand,
     Doing,
     Faster,
     Forget,
     Intent,
-    Pause,
+    PauseCommand,
     Remember,
     Replace,
-    Resume,
+    ResumeCommand,
     Slower,
-    Where,
+    WhereCommand,
 )
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.stop import is_stop
@@ -33,10 +33,10 @@ from planner.language.stop import is_stop
 MAX_READ = 300
 """Characters; a longer sentence is no order to the planner itself."""
 _SIMPLE: tuple[tuple[str, Intent], ...] = (
-    ("RESUME", Resume()),
-    ("PAUSE", Pause()),
-    ("CANCEL", Cancel()),
-    ("WHERE", Where()),
+    ("RESUME", ResumeCommand()),
+    ("PAUSE", PauseCommand()),
+    ("CANCEL", CancelCommand()),
+    ("WHERE", WhereCommand()),
     ("DOING", Doing()),
     ("SLOWER", Slower()),
     ("FASTER", Faster()),
@@ -48,16 +48,16 @@ _SEPARATOR = re.compile(r"[,;:.!。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and 
 
 
 @dataclass(frozen=True, slots=True)
-class _Said:
+class _FoldedText:
     """Hold a sentence twice: to match, and as it was written; character for character alike."""
 
     folded: str
     written: str
 
-    def part(self, start: int, end: int) -> _Said:
-        return _Said(self.folded[start:end], self.written[start:end])
+    def part(self, start: int, end: int) -> _FoldedText:
+        return _FoldedText(self.folded[start:end], self.written[start:end])
 
-    def stripped(self, characters: str) -> _Said:
+    def strip(self, characters: str) -> _FoldedText:
         start = len(self.folded) - len(self.folded.lstrip(characters))
         return self.part(start, max(start, len(self.folded.rstrip(characters))))
 
@@ -66,16 +66,16 @@ def intent_of(text: str) -> Intent | None:
     """Return what a sentence asks of the planner itself, or None."""
     if not text.strip() or len(text) > MAX_READ or any(map(_unseen, text)):
         return None
-    said = _said(text)
+    said = _fold(text)
     if not has_chinese(said.folded):
         return _read(said, english)
     heard = _read(said, chinese)
     return heard or (_read(said, english) if said.folded[0].isascii() else None)
 
 
-def _read(said: _Said, grammar: ModuleType) -> Intent | None:
+def _read(said: _FoldedText, grammar: ModuleType) -> Intent | None:
     asks = said.folded.rstrip(_END).endswith("?")
-    said = said.stripped(_END + "?")
+    said = said.strip(_END + "?")
     if grammar.COURTEOUS.match(said.folded):  # "can you continue?" asks for it, not about it
         asks, said = False, said.part(0, len(grammar.ASKING.sub("", said.folded)))
     said = _plain(said, grammar)
@@ -84,10 +84,10 @@ def _read(said: _Said, grammar: ModuleType) -> Intent | None:
     simple = _simple(said.folded, grammar, asks=asks)
     if simple is not None or asks:
         return simple
-    return _taught(said, grammar) or _replacing(said, grammar) or _slowing(said, grammar)
+    return _read_lesson(said, grammar) or _replacing(said, grammar) or _slowing(said, grammar)
 
 
-def _slowing(said: _Said, grammar: ModuleType) -> Intent | None:
+def _slowing(said: _FoldedText, grammar: ModuleType) -> Intent | None:
     """Read "slow down, there is a child": a reason behind it changes nothing."""
     cut = _SEPARATOR.search(said.folded)
     first = _plain(said.part(0, cut.start()), grammar).folded if cut is not None else ""
@@ -99,22 +99,22 @@ def _unseen(char: str) -> bool:
     return unicodedata.category(char) in ("Cc", "Cf", "Cs", "Co") and char not in "\t\n\r"
 
 
-def _said(text: str) -> _Said:
+def _fold(text: str) -> _FoldedText:
     written = " ".join(fold_width(text).translate(_APOSTROPHES).split())
     folded = written.lower()
     if len(folded) != len(written):  # a few letters grow in lower case
         written = folded
-    return _Said(fold_script(folded), written)
+    return _FoldedText(fold_script(folded), written)
 
 
-def _plain(said: _Said, grammar: ModuleType) -> _Said:
+def _plain(said: _FoldedText, grammar: ModuleType) -> _FoldedText:
     """Take the courtesy off both ends."""
     while True:
         before = said
         if (found := grammar.POLITE.match(said.folded)) and found.end() < len(said.folded):
-            said = said.part(found.end(), len(said.folded)).stripped(_END)
+            said = said.part(found.end(), len(said.folded)).strip(_END)
         if (found := grammar.THANKS.search(said.folded)) and found.start() > 0:
-            said = said.part(0, found.start()).stripped(_END)
+            said = said.part(0, found.start()).strip(_END)
         if said == before:
             return said
 
@@ -123,12 +123,12 @@ def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
     words = re.sub(r"[\s,]+", "" if grammar is chinese else " ", folded).strip()
     for name, intent in _SIMPLE:
         if getattr(grammar, name).fullmatch(words) is not None:
-            question = isinstance(intent, (Where, Doing))
+            question = isinstance(intent, (WhereCommand, Doing))
             return None if asks and not question else intent
     return None
 
 
-def _taught(said: _Said, grammar: ModuleType) -> Intent | None:
+def _read_lesson(said: _FoldedText, grammar: ModuleType) -> Intent | None:
     """Read what is to be remembered or forgotten; the name as it was written."""
     kinds: tuple[tuple[str, type[Remember] | type[Forget]], ...] = (
         ("REMEMBER", Remember),
@@ -144,9 +144,9 @@ def _taught(said: _Said, grammar: ModuleType) -> Intent | None:
     return None
 
 
-def _name(said: _Said) -> str | None:
+def _name(said: _FoldedText) -> str | None:
     """Return a name without quotes and determiners, or None where the words are no name."""
-    said = said.stripped(" " + _QUOTES + _END)
+    said = said.strip(" " + _QUOTES + _END)
     grammar = chinese if has_chinese(said.folded) else english
     found = grammar.DETERMINER.match(said.folded)
     if found is not None:
@@ -156,7 +156,7 @@ def _name(said: _Said) -> str | None:
     return said.written
 
 
-def _replacing(said: _Said, grammar: ModuleType) -> Intent | None:
+def _replacing(said: _FoldedText, grammar: ModuleType) -> Intent | None:
     """Read "forget that, come here" and "go to the kitchen instead"."""
     found = grammar.INSTEAD.fullmatch(said.folded)
     if found is not None:
@@ -174,7 +174,7 @@ def _replacing(said: _Said, grammar: ModuleType) -> Intent | None:
     return None
 
 
-def _goes_on(said: _Said, cut: re.Match[str], grammar: ModuleType) -> bool:
+def _goes_on(said: _FoldedText, cut: re.Match[str], grammar: ModuleType) -> bool:
     """Tell whether a clause is joined to the next: then "don't" may well mean both."""
     joined = said.folded[cut.start() :].lstrip(_END)
     return grammar.GOES_ON.match(joined) is not None
@@ -184,9 +184,9 @@ def _gap(grammar: ModuleType) -> str:
     return "" if grammar is chinese else " "
 
 
-def _replace(rest: _Said, *, now: bool) -> Intent | None:
+def _replace(rest: _FoldedText, *, now: bool) -> Intent | None:
     """Take the rest as the new order; where it is none by itself, leave all to the brain."""
-    rest = rest.stripped(_END)
+    rest = rest.strip(_END)
     if not any(map(str.isalnum, rest.folded)):
         return None
     if not is_stop(rest.written) and intent_of(rest.written) is not None:

@@ -148,11 +148,11 @@ def denied_part(text: str) -> str | None:
     if found is not None:
         return found[found.lastgroup or 0].strip(" ,")
     return next(
-        (part for clause in _DENIED_CLAUSE.findall(text) if (part := _denied(clause))), None
+        (part for clause in _DENIED_CLAUSE.findall(text) if (part := _find_denial(clause))), None
     )
 
 
-def _denied(clause: str) -> str | None:
+def _find_denial(clause: str) -> str | None:
     bare = _ASKS.sub("〇", without_compounds(clause))
     found = None if _TELLS_ZH.search(bare) else _DENIES_ZH.search(bare)
     if found is None:
@@ -210,12 +210,12 @@ class Veto:
     only: bool = True  # no other veto speaks against it
 
 
-def vetoed(text: str, vetoes: Sequence[Vetoes]) -> Veto | None:
+def find_veto(text: str, vetoes: Sequence[Vetoes]) -> Veto | None:
     """Return the veto on a marked sentence, the surest reason first; None where there is none."""
-    fired = _fired(text, vetoes)
+    fired = _find_all(text, vetoes)
     if not fired:
         return None
-    sure = _fired(without_compounds(text), vetoes)
+    sure = _find_all(without_compounds(text), vetoes)
     for code, told in _TOLD:
         part = told(text) if code in sure else None
         if part:
@@ -224,7 +224,7 @@ def vetoed(text: str, vetoes: Sequence[Vetoes]) -> Veto | None:
     return Veto(Code.NOT_UNDERSTOOD, part, Code.NEGATED in sure, set(sure) <= {Code.AMBIGUOUS})
 
 
-def _fired(text: str, vetoes: Sequence[Vetoes]) -> dict[Code, int]:
+def _find_all(text: str, vetoes: Sequence[Vetoes]) -> dict[Code, int]:
     """Return which vetoes a text calls for, and where each stands first."""
     return {
         code: found.start()

@@ -26,8 +26,8 @@ from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.noun_phrases import go_to
 from planner.language.grammar.parse_result import (
     Clause,
+    ClauseProblem,
     Meaning,
-    Problem,
     Reading,
     Rule,
     Steps,
@@ -163,13 +163,13 @@ def take_quotes(text: str) -> tuple[str, tuple[str, ...]]:
     """
     words: list[str] = []
 
-    def aside(found: re.Match[str]) -> str:
+    def set_aside(found: re.Match[str]) -> str:
         if len(words) >= _MOST:
             return found[0]
         words.append(found["double"] if found["double"] is not None else found["single"])
         return f"{found['verb']} {chr(FIRST_QUOTE + len(words) - 1)}"
 
-    return _MARKS.sub("", _SAYING.sub(aside, text)), tuple(words)
+    return _MARKS.sub("", _SAYING.sub(set_aside, text)), tuple(words)
 
 
 WHICH = say("grammar.which_one")
@@ -178,7 +178,7 @@ _LEAD = re.compile(r"^(?:back )?(?:to|into|in|inside|on) ")
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
+class ClauseReading:
     """Hold a clause with what it meant and the scene that it was read in."""
 
     clause: Clause
@@ -192,7 +192,7 @@ class Heard:
 
 
 def at_each(
-    heard: Sequence[Heard], read: Callable[[Clause, Reading], Meaning]
+    heard: Sequence[ClauseReading], read: Callable[[Clause, Reading], Meaning]
 ) -> tuple[Meaning, ...]:
     """Return the meanings of all clauses, what follows several places done at each of them."""
     meanings: list[Meaning] = []
@@ -200,7 +200,7 @@ def at_each(
     while at < len(heard):
         places, acts = _list(heard, at)
         end = _end(heard, acts, places, read)
-        searched = _searched(heard, at)
+        searched = _collect_searches(heard, at)
         if len(searched) > 1:
             meanings.append(_searching(heard[at : at + len(searched)]))
             at += len(searched)
@@ -213,7 +213,7 @@ def at_each(
     return tuple(meanings)
 
 
-def _list(heard: Sequence[Heard], at: int) -> tuple[tuple[str, ...], int]:
+def _list(heard: Sequence[ClauseReading], at: int) -> tuple[tuple[str, ...], int]:
     """Return the places that are listed from a clause on, and the clause behind the list."""
     places = _goals(heard[at].meaning)
     after = at + 1
@@ -232,13 +232,13 @@ def _goals(meaning: Meaning) -> tuple[str, ...]:
     return tuple(goals[-1:]) if len(goals) == len(steps) else ()
 
 
-def _bare(heard: Heard) -> bool:
+def _bare(heard: ClauseReading) -> bool:
     """Tell whether a clause is one more place of a list, without a verb of its own."""
     return _place_alone(heard) and bool(_goals(heard.meaning))
 
 
 def _end(
-    heard: Sequence[Heard],
+    heard: Sequence[ClauseReading],
     acts: int,
     places: tuple[str, ...],
     read: Callable[[Clause, Reading], Meaning],
@@ -251,7 +251,7 @@ def _end(
 
 
 def _follows(
-    heard: Heard, places: tuple[str, ...], read: Callable[[Clause, Reading], Meaning]
+    heard: ClauseReading, places: tuple[str, ...], read: Callable[[Clause, Reading], Meaning]
 ) -> bool:
     looked = _looked_in(heard.meaning)
     return looked == {places[-1]} and _looked_in(heard.at(places[0], read)) == {places[0]}
@@ -263,7 +263,9 @@ def _looked_in(meaning: Meaning) -> set[str | None]:
 
 
 def _spread(
-    acts: Sequence[Heard], places: tuple[str, ...], read: Callable[[Clause, Reading], Meaning]
+    acts: Sequence[ClauseReading],
+    places: tuple[str, ...],
+    read: Callable[[Clause, Reading], Meaning],
 ) -> Meaning:
     """Return what the clauses order, done at each place; or the question where."""
     meanings = [act.meaning for act in acts if isinstance(act.meaning, Steps)]
@@ -282,7 +284,7 @@ def _spread(
     return replace(here, steps=tuple(step for done in each for step in done))
 
 
-def _searched(heard: Sequence[Heard], at: int) -> tuple[Find, ...]:
+def _collect_searches(heard: Sequence[ClauseReading], at: int) -> tuple[Find, ...]:
     """Return the searches for one thing in several places: "find the cup here and there"."""
     finds: list[Find] = []
     for one in heard[at:]:
@@ -295,12 +297,12 @@ def _searched(heard: Sequence[Heard], at: int) -> tuple[Find, ...]:
     return tuple(finds)
 
 
-def _place_alone(heard: Heard) -> bool:
+def _place_alone(heard: ClauseReading) -> bool:
     named = go_to(_LEAD.sub("", heard.clause.text), heard.reading)
     return isinstance(named, Steps)
 
 
-def _searching(searches: Sequence[Heard]) -> Problem:
+def _searching(searches: Sequence[ClauseReading]) -> ClauseProblem:
     each = tuple(one.meaning.steps for one in searches if isinstance(one.meaning, Steps))
     return _ask(searches, WHICH, (*each, (_anywhere(each[0][-1]),)))
 
@@ -310,14 +312,16 @@ def _anywhere(step: Step) -> Step:
 
 
 def _at(
-    acts: Sequence[Heard], place: str, read: Callable[[Clause, Reading], Meaning]
+    acts: Sequence[ClauseReading], place: str, read: Callable[[Clause, Reading], Meaning]
 ) -> tuple[Step, ...]:
     done = [act.at(place, read) for act in acts]
     steps = (step for meaning in done if isinstance(meaning, Steps) for step in meaning.steps)
     return (GoTo(place=place), *steps)
 
 
-def _ask(acts: Sequence[Heard], what: Bilingual, choices: tuple[tuple[Step, ...], ...]) -> Problem:
+def _ask(
+    acts: Sequence[ClauseReading], what: Bilingual, choices: tuple[tuple[Step, ...], ...]
+) -> ClauseProblem:
     reading = acts[0].reading
     part = ", ".join(act.clause.text for act in acts)
-    return Problem(Code.INCOMPLETE, reading.marked.restore(part), what=what, choices=choices)
+    return ClauseProblem(Code.INCOMPLETE, reading.marked.restore(part), what=what, choices=choices)

@@ -15,7 +15,7 @@ from planner.language.catalogue import say as message_of
 from planner.language.grammar.clauses import FIRST_QUOTE
 from planner.language.grammar.noun_phrases import go_to, several_of, up_to
 from planner.language.grammar.numbers import angle_rad, metres, seconds, times
-from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
+from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
 from planner.language.grammar.step_builders import ASIDE, look, missing, one_at_a_time
 from planner.plan import Code, ComeBack, GoTo, Move, Patrol, ReturnHome, Say, Turn, Wait
 
@@ -153,7 +153,7 @@ def move(found: Match[str], reading: Reading) -> Meaning:
         backward = way.startswith(_BACKWARD)
         return Steps((Move(distance_m=-length if backward else length),))
     except ValidationError:
-        return Problem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
+        return ClauseProblem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
 
 
 def turn_and_move(found: Match[str], reading: Reading) -> Meaning:

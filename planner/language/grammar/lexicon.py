@@ -47,7 +47,7 @@ class Mention:
 
 
 @dataclass(frozen=True, slots=True)
-class Marked:
+class MarkedText:
     """Hold a sentence whose place names are private characters, and what they stand for."""
 
     text: str
@@ -80,7 +80,7 @@ class Lexicon:
         self._spaced = spaced
         self._longest = max(map(len, self._ids), default=0)
 
-    def mark(self, text: str) -> Marked:
+    def mark(self, text: str) -> MarkedText:
         """Replace each place name of a normalised sentence, the longest first."""
         pieces = [(found.start(), found.end()) for found in _PIECE.finditer(text)]
         out: list[str] = []
@@ -90,20 +90,20 @@ class Lexicon:
             after = self._match(text, pieces, at)
             if after > at and len(mentions) < MARKS:
                 start, end = pieces[at][0], pieces[after - 1][1]
-                key = _joined(text, pieces, at, after)
+                key = _join(text, pieces, at, after)
                 out += (text[copied:start], chr(FIRST_MARK + len(mentions)))
                 mentions.append(Mention(self._ids[key], text[start:end]))
                 copied = end
             at = max(after, at + 1)
-        return Marked("".join(out) + text[copied:], tuple(mentions))
+        return MarkedText("".join(out) + text[copied:], tuple(mentions))
 
-    def mark_slips(self, marked: Marked) -> Marked:
+    def mark_slips(self, marked: MarkedText) -> MarkedText:
         """Replace misspelt place names as well, where one can mean nothing else."""
         mentions = list(marked.mentions)
         text = marked.text
         for pattern in _SLIPS:
             text = pattern.sub(lambda found: self._slip(found[0], mentions), text)
-        return Marked(text, tuple(mentions))
+        return MarkedText(text, tuple(mentions))
 
     def _slip(self, written: str, mentions: list[Mention]) -> str:
         place = self.typo(written) if len(mentions) < MARKS else None
@@ -172,7 +172,7 @@ class Lexicon:
         return tuple(place for place in best[:limit] if scored[place] >= _NEAR)
 
 
-def _joined(text: str, pieces: list[tuple[int, int]], at: int, after: int) -> str:
+def _join(text: str, pieces: list[tuple[int, int]], at: int, after: int) -> str:
     return "".join(text[slice(*piece)] for piece in pieces[at:after]).replace("'", "")
 
 
@@ -190,7 +190,7 @@ def _one_slip(written: str, name: str) -> bool:
 
 
 @lru_cache(maxsize=16)
-def _built(vocabulary: Vocabulary) -> Lexicon:
+def _build(vocabulary: Vocabulary) -> Lexicon:
     return Lexicon(vocabulary)
 
 
@@ -203,7 +203,7 @@ def lexicon_of(vocabulary: Vocabulary) -> Lexicon:
     kept = _KEPT.get(id(vocabulary))
     if kept is not None and kept[0] is vocabulary:
         return kept[1]
-    lexicon = _built(vocabulary)
+    lexicon = _build(vocabulary)
     if len(_KEPT) >= 16:
         _KEPT.clear()
     _KEPT[id(vocabulary)] = (vocabulary, lexicon)
@@ -254,22 +254,22 @@ _NO_NAMES = frozenset({
 _ARTICLES = frozenset(("the", "a", "an", "my", "your", "some", "any", "this", "that"))
 
 
-def mark_people(marked: Marked, original: str) -> Marked:
+def mark_people(marked: MarkedText, original: str) -> MarkedText:
     """Replace each name of a person by one private character; places are marked already."""
     written: list[str] = []
 
-    def aside(found: re.Match[str]) -> str:
+    def set_aside(found: re.Match[str]) -> str:
         if len(written) >= NAMES:
             return found[0]
         written.append(_title(found[0]))
         return chr(FIRST_NAME + len(written) - 1)
 
-    text = _KNOWN.sub(aside, marked.text)
-    capital = _capitalised(original)
+    text = _KNOWN.sub(set_aside, marked.text)
+    capital = _find_capitals(original)
     if capital:
         names = "|".join(sorted(map(re.escape, capital), key=len, reverse=True))
-        text = re.sub(rf"(?<![a-z])(?:{names})(?![a-z])", aside, text)
-    return Marked(text, marked.mentions, tuple(written))
+        text = re.sub(rf"(?<![a-z])(?:{names})(?![a-z])", set_aside, text)
+    return MarkedText(text, marked.mentions, tuple(written))
 
 
 def _title(name: str) -> str:
@@ -277,7 +277,7 @@ def _title(name: str) -> str:
     return re.sub(r"^(?:your|my|our) ", "", plain)
 
 
-def _capitalised(original: str) -> set[str]:
+def _find_capitals(original: str) -> set[str]:
     """Return words with a capital inside a sentence, but where all words have one."""
     words = _WORD.findall(original)
     plain = [word for word in words if word[0].isalpha()]

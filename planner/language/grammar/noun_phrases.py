@@ -10,7 +10,7 @@ import re
 
 from planner.language.catalogue import say
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
+from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
 from planner.plan import Code, GoTo, GoToObject
 
 _THE_PLACE = r"(?:(?:the|a|my|our|your|this|that) )?"
@@ -31,18 +31,18 @@ def go_to(phrase: str, reading: Reading) -> Meaning:
     phrase = phrase.strip(" \"'")
     found = _PLACE_EN.fullmatch(phrase) or _PLACE_ZH.fullmatch(phrase)
     if found:
-        return _named(found, phrase, reading)
+        return _read_name(found, phrase, reading)
     if re.search(MARK, phrase):
         return reading.problem(Code.NOT_UNDERSTOOD, phrase)
-    return _unnamed(phrase, reading)
+    return _read_unknown(phrase, reading)
 
 
-def _named(found: re.Match[str], phrase: str, reading: Reading) -> Meaning:
+def _read_name(found: re.Match[str], phrase: str, reading: Reading) -> Meaning:
     mention = reading.marked.mention(found["a"])
     room = found["room"]
     if len(mention.ids) > 1:
         ids = mention.ids
-        return Problem(Code.AMBIGUOUS, reading.marked.restore(phrase), places=ids)
+        return ClauseProblem(Code.AMBIGUOUS, reading.marked.restore(phrase), places=ids)
     entry = reading.vocabulary.by_id[mention.ids[0]]
     about_a_room = entry.kind == "room" and found["near"] is not None
     in_its_room = room is None or entry.room in reading.marked.mention(room).ids
@@ -51,7 +51,7 @@ def _named(found: re.Match[str], phrase: str, reading: Reading) -> Meaning:
     return Steps((GoTo(place=entry.id),))
 
 
-def _unnamed(phrase: str, reading: Reading) -> Meaning:
+def _read_unknown(phrase: str, reading: Reading) -> Meaning:
     name = _ZH_TAIL.sub("", _DETERMINER.sub("", phrase)).strip()
     if not any(char.isalnum() for char in name):
         return reading.problem(Code.NOT_UNDERSTOOD, phrase)
@@ -59,7 +59,7 @@ def _unnamed(phrase: str, reading: Reading) -> Meaning:
     if meant is not None:
         return Steps((GoTo(place=meant),))
     name = reading.marked.restore(name)
-    return Problem(Code.UNKNOWN_PLACE, name, places=reading.lexicon.near(name), name=name)
+    return ClauseProblem(Code.UNKNOWN_PLACE, name, places=reading.lexicon.near(name), name=name)
 
 
 ONE_AT_A_TIME = say("grammar.one_at_a_time")
@@ -134,7 +134,7 @@ def up_to(phrase: str, reading: Reading) -> Steps | None:
         return Steps((GoToObject(object=named, place=place),), thing=named)
     found = _EN.fullmatch(phrase) or _ZH.fullmatch(phrase)
     what = found["what"].strip(" 的") if found else ""
-    if found is None or not known(what, reading.things) or _ASIDE_ZH.match(what):
+    if found is None or not is_known(what, reading.things) or _ASIDE_ZH.match(what):
         return None
     ids = reading.marked.mention(found["at"]).ids if found["at"] else (None,)
     if len(ids) != 1:
@@ -150,7 +150,7 @@ def several_of(phrase: str, reading: Reading) -> tuple[str, str | None] | None:
     what = found["what"].strip(" 的") if found else ""
     plain = several(what) or ""
     if found is None or not (
-        known(plain, reading.things) or known(plain.removesuffix("s"), reading.things)
+        is_known(plain, reading.things) or is_known(plain.removesuffix("s"), reading.things)
     ):
         return None
     return what, _only(found["at"], reading) if found["at"] else None
@@ -162,7 +162,7 @@ def by_neighbour(what: str, how: str, by: str, reading: Reading) -> str | None:
     A neighbour may be a place of the site as well: "the cup on the desk".
     """
     near = reading.marked.restore(by)
-    if not known(near, reading.things):
+    if not is_known(near, reading.things):
         return None
     thing = reading.marked.restore(what)
     joined = f"{thing} {how} the {near}" if how.isascii() else f"{near}{how}的{thing}"
@@ -174,7 +174,7 @@ def _only(mark: str, reading: Reading) -> str | None:
     return ids[0] if len(ids) == 1 else None
 
 
-def known(what: str, things: frozenset[str]) -> bool:
+def is_known(what: str, things: frozenset[str]) -> bool:
     """Tell whether a phrase ends in the name of something that eyes know, as a word of its own."""
     if not what.isascii():
         names = [name for name in things if not name.isascii() and what.endswith(name)]

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from datetime import datetime
 from re import Match, Pattern
 
-from planner.language.grammar.lexicon import MARK, Lexicon, Marked
+from planner.language.grammar.lexicon import MARK, Lexicon, MarkedText
 from planner.language.grammar.small_talk import Topic, topic_of
 from planner.plan import Bilingual, Code, Find, Language, Step, Turn, Vocabulary
 
@@ -28,14 +28,14 @@ class Steps:
 
 
 @dataclass(frozen=True, slots=True)
-class About:
+class TopicQuestion:
     """Hold a question to the robot."""
 
     topic: Topic
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class ClauseProblem:
     """Say why a clause can't be done: the part of the sentence, and what may be offered."""
 
     code: Code
@@ -48,7 +48,7 @@ class Problem:
     choices: tuple[tuple[Step, ...], ...] = ()  # offered in its stead, one of them
 
 
-Meaning = Steps | About | Problem
+Meaning = Steps | TopicQuestion | ClauseProblem
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class Clause:
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class ClauseContext:
     """Remember what the clauses before spoke of, for "there", "her" and "it"."""
 
     place: str | None = None
@@ -72,7 +72,7 @@ class Scene:
     met: str | None = None  # where somebody was met: "take them back"
     turned_rad: float | None = None  # by the last turn, where nothing was driven since
 
-    def after(self, meaning: Meaning) -> Scene:
+    def after(self, meaning: Meaning) -> ClauseContext:
         """Return the scene behind one more clause."""
         if not isinstance(meaning, Steps):
             return replace(self, kind="")
@@ -87,7 +87,7 @@ class Scene:
                 place = None
         finds = [step for step in meaning.steps if isinstance(step, Find)]
         met = (finds[0].place if meaning.person and finds else None) or self.met
-        return Scene(
+        return ClauseContext(
             met=met,
             place=place,
             person=meaning.person or self.person,
@@ -112,14 +112,14 @@ def _turned_rad(before_rad: float | None, steps: Sequence[Step]) -> float | None
 class Reading:
     """Carry what the rules of a grammar need besides the clause."""
 
-    marked: Marked
+    marked: MarkedText
     lexicon: Lexicon
     vocabulary: Vocabulary
     language: Language
     quotes: tuple[str, ...] = ()
     now: datetime | None = None
     things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
-    scene: Scene = field(default_factory=Scene)
+    scene: ClauseContext = field(default_factory=ClauseContext)
     opens: bool = False  # the clause opens the sentence, and others follow
 
     @property
@@ -127,7 +127,7 @@ class Reading:
         """Tell whether the clause before drove somewhere: "…, then the bedroom"."""
         return self.scene.kind in ("go_to", "patrol")
 
-    def at(self, clause: Clause, scene: Scene) -> Reading:
+    def at(self, clause: Clause, scene: ClauseContext) -> Reading:
         """Return the reading of one clause after another."""
         return replace(self, scene=scene, opens=clause.first and not clause.last)
 
@@ -137,11 +137,11 @@ class Reading:
         part: str,
         before: tuple[Step, ...] = (),
         what: Bilingual | None = None,
-    ) -> Problem:
+    ) -> ClauseProblem:
         """Name the part of the sentence that makes trouble, with the places it mentions."""
         ids = [self.marked.mention(char).ids for char in part if MARK[1] <= char <= MARK[3]]
         sure = tuple(dict.fromkeys(found[0] for found in ids if len(found) == 1))
-        return Problem(code, self.marked.restore(part), sure, before, what=what)
+        return ClauseProblem(code, self.marked.restore(part), sure, before, what=what)
 
 
 Build = Callable[[Match[str], Reading], Meaning | None]
@@ -172,7 +172,7 @@ def rule(pattern: str, build: Build) -> Rule:
     return Rule(re.compile(pattern), build)
 
 
-def where(found: Match[str], group: str) -> str | None:
+def read_place(found: Match[str], group: str) -> str | None:
     """Return the place phrase of a group, or "there"."""
     groups = found.groupdict()
     return groups.get(group) or groups.get(f"{group}_there")
@@ -186,12 +186,12 @@ def ahead(reading: Reading, meaning: Steps) -> Reading:
 def on_topic(found: Match[str], _reading: Reading) -> Meaning | None:
     """Read a clause that is a question the robot can answer by itself."""
     topic = topic_of(found["topic"])
-    return None if topic in (None, Topic.SELF) else About(topic)
+    return None if topic in (None, Topic.SELF) else TopicQuestion(topic)
 
 
 def about(topic: Topic) -> Build:
     """Return a builder for a question about the robot."""
-    return lambda _found, _reading: About(topic)
+    return lambda _found, _reading: TopicQuestion(topic)
 
 
 def unread(found: Match[str], reading: Reading) -> Meaning:

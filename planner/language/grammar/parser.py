@@ -15,18 +15,18 @@ from itertools import chain
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.checks import TAMPERING, broken_rule, vetoed, withholds_offers
-from planner.language.grammar.clauses import Grammar, Heard, at_each, in_order, take_quotes
+from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
+from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.lexicon import MARK, Marked, lexicon_of, mark_people
+from planner.language.grammar.lexicon import MARK, MarkedText, lexicon_of, mark_people
 from planner.language.grammar.parse_result import (
-    About,
+    ClauseContext,
+    ClauseProblem,
     Meaning,
-    Problem,
     Reading,
-    Scene,
     Steps,
+    TopicQuestion,
     read_by,
 )
 from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
@@ -116,22 +116,22 @@ def _offering(
     said: str, sentence: _Sentence, vocabulary: Vocabulary, context: Context
 ) -> StepPlan | Answer | Clarify | Refuse:
     """Read a sentence; where an option would be no order by itself, ask without any."""
-    made = _understood(said, sentence, vocabulary, context)
+    made = _read_once(said, sentence, vocabulary, context)
     options = made.options if isinstance(made, Clarify) else ()
     if all(_reads_back(option, vocabulary, context) for option in options):
         return made
-    return _understood(said, sentence, vocabulary, context, offers=False)
+    return _read_once(said, sentence, vocabulary, context, offers=False)
 
 
 def _reads_back(option: Option, vocabulary: Vocabulary, context: Context) -> bool:
     """Tell whether an option's text is by itself an order that is planned."""
     apart, quotes = take_quotes(option.text)
     sentence = _Sentence(option.text, apart, quotes)
-    made = _understood(normalise(apart), sentence, vocabulary, context)
+    made = _read_once(normalise(apart), sentence, vocabulary, context)
     return isinstance(made, StepPlan)
 
 
-def _understood(
+def _read_once(
     said: str,
     sentence: _Sentence,
     vocabulary: Vocabulary,
@@ -145,18 +145,18 @@ def _understood(
     language = context.language or parse(text).language
     offers = offers and not withholds_offers(marked.text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers)
-    vetoed = _vetoed(marked, setting)
+    vetoed = _apply_vetoes(marked, setting)
     if vetoed is not None:
         return vetoed
     bare = _BORDERS.sub("", marked.text)
     things = context.things if "go_to_object" in context.runnable else frozenset()
     reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now, things)
     topic = read_by((*TALK, *ZH_TALK), bare, reading)
-    if isinstance(topic, About):
+    if isinstance(topic, TopicQuestion):
         return compose([topic], bare, setting)
     ordered = replace(marked, text=in_order(marked.text))
     meanings = [
-        _within(meaning, context.runnable, context.blind)
+        _limit_to_means(meaning, context.runnable, context.blind)
         for meaning in _meanings(
             ordered, reading, Language.ZH if has_chinese(text) else Language.EN
         )
@@ -166,14 +166,14 @@ def _understood(
     return compose(meanings, marked.restore(marked.text), setting)
 
 
-def _within(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
+def _limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
     """Turn steps that this robot can't do into the problem that it lacks the means."""
-    if isinstance(meaning, Problem):
+    if isinstance(meaning, ClauseProblem):
         can = tuple(step for step in meaning.before if step.kind in runnable)
         offered = chain(meaning.instead, *meaning.choices)
         if all(step.kind in runnable for step in offered):
             return replace(meaning, before=can)
-        return Problem(blind, meaning.part, before=can)
+        return ClauseProblem(blind, meaning.part, before=can)
     lacks = (
         [s for s in meaning.steps if s.kind not in runnable] if isinstance(meaning, Steps) else []
     )
@@ -183,15 +183,17 @@ def _within(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
     patrolled = [p for s in lacks if isinstance(s, Patrol) for p in s.places]
     can = tuple(s for s in meaning.steps if isinstance(s, GoTo))
     can = (*can, *(GoTo(place=place) for place in patrolled))
-    return Problem(code, meaning.part, before=can)
+    return ClauseProblem(code, meaning.part, before=can)
 
 
-def _vetoed(marked: Marked, setting: Setting) -> StepPlan | Answer | Clarify | Refuse | None:
+def _apply_vetoes(
+    marked: MarkedText, setting: Setting
+) -> StepPlan | Answer | Clarify | Refuse | None:
     """Look for words that turn an order into something else, in both languages at once."""
     text = marked.restore(marked.text)
     if TAMPERING.pattern.search(text):
         return unsafe(TAMPERING.rule, text)
-    found = vetoed(asks_whether(marked.text), (ENGLISH.vetoes, CHINESE.vetoes))
+    found = find_veto(asks_whether(marked.text), (ENGLISH.vetoes, CHINESE.vetoes))
     if found is None or not found.denies:  # "don't hit the wall" is a no; "hit the wall" a rule
         rule = broken_rule(marked.text)
         if rule is not None:
@@ -218,28 +220,28 @@ def asks_whether(text: str) -> str:
     return _WHETHER.sub(lambda found: found[1] or "有", plain)
 
 
-def _meanings(marked: Marked, reading: Reading, language: Language) -> list[Meaning]:
+def _meanings(marked: MarkedText, reading: Reading, language: Language) -> list[Meaning]:
     """Read the clauses; a Chinese sentence with Latin words is also tried as an English one."""
     if language is Language.EN:
         return _read(ENGLISH, marked.text, reading)
     meanings = _read(CHINESE, marked.text, reading)
-    if _LATIN.search(marked.text) and _lost(meanings):
+    if _LATIN.search(marked.text) and _is_lost(meanings):
         mixed = _read(ENGLISH, _SEAM.sub(" ", marked.text), reading)
-        return meanings if _lost(mixed) else mixed
+        return meanings if _is_lost(mixed) else mixed
     return meanings
 
 
-def _lost(meanings: Sequence[Meaning]) -> bool:
+def _is_lost(meanings: Sequence[Meaning]) -> bool:
     lost = {Code.NOT_UNDERSTOOD, Code.UNKNOWN_PLACE}
-    return any(isinstance(meaning, Problem) and meaning.code in lost for meaning in meanings)
+    return any(isinstance(meaning, ClauseProblem) and meaning.code in lost for meaning in meanings)
 
 
 def _read(grammar: Grammar, text: str, reading: Reading) -> list[Meaning]:
-    heard: list[Heard] = []
-    scene = Scene()
+    heard: list[ClauseReading] = []
+    scene = ClauseContext()
     for clause in grammar.clauses(text):
         here = reading.at(clause, scene)
         meaning = grammar.read(clause, here)
-        heard.append(Heard(clause, meaning, here))
+        heard.append(ClauseReading(clause, meaning, here))
         scene = scene.after(meaning)
     return list(at_each(heard, grammar.read))

@@ -16,9 +16,9 @@ from math import degrees
 
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.grammar.checks import Veto
-from planner.language.grammar.lexicon import Lexicon, Marked
-from planner.language.grammar.parse_result import About, Meaning, Problem, Steps
-from planner.language.grammar.small_talk import Topic, told
+from planner.language.grammar.lexicon import Lexicon, MarkedText
+from planner.language.grammar.parse_result import ClauseProblem, Meaning, Steps, TopicQuestion
+from planner.language.grammar.small_talk import Topic, answer_topic
 from planner.language.place_lists import known_places
 from planner.plan import (
     DRIVES,
@@ -85,20 +85,20 @@ class Setting:
 
 def compose(meanings: Sequence[Meaning], text: str, setting: Setting) -> Plan:
     """Return the plan of a sentence from the meanings of its clauses."""
-    problems = [meaning for meaning in meanings if isinstance(meaning, Problem)]
+    problems = [meaning for meaning in meanings if isinstance(meaning, ClauseProblem)]
     if problems:
         worst = min(problems, key=lambda problem: _RANK.index(problem.code))
         return _explain(worst, problems, meanings, setting)
-    if len(meanings) == 1 and isinstance(meanings[0], About):
+    if len(meanings) == 1 and isinstance(meanings[0], TopicQuestion):
         return _answer(meanings[0].topic, setting)
     meanings = [_aloud(meaning, setting) for meaning in meanings]
-    steps = _joined(_steps_of(meanings))
-    if not steps or any(isinstance(meaning, About) for meaning in meanings):
-        return _ask(Problem(Code.NOT_UNDERSTOOD, text), (), setting)
-    return _checked(steps, text, setting)
+    steps = _join_patrols(_steps_of(meanings))
+    if not steps or any(isinstance(meaning, TopicQuestion) for meaning in meanings):
+        return _ask(ClauseProblem(Code.NOT_UNDERSTOOD, text), (), setting)
+    return _check(steps, text, setting)
 
 
-def veto(found: Veto, marked: Marked, setting: Setting) -> Plan:
+def veto(found: Veto, marked: MarkedText, setting: Setting) -> Plan:
     """Return the no, or for "or" the question, to a sentence that may not be read as an order."""
     part = marked.restore(found.part)
     if found.code not in (Code.AMBIGUOUS, Code.NOT_UNDERSTOOD):
@@ -106,7 +106,7 @@ def veto(found: Veto, marked: Marked, setting: Setting) -> Plan:
     named = dict.fromkeys(m.ids[0] for m in marked.mentions if len(m.ids) == 1)
     several = found.code is Code.AMBIGUOUS or len(named) == 1
     buttons = tuple(setting.button((GoTo(place=place),)) for place in named)
-    return _ask(Problem(found.code, part), buttons if several and found.only else (), setting)
+    return _ask(ClauseProblem(found.code, part), buttons if several and found.only else (), setting)
 
 
 def unsafe(rule: Bilingual, part: str) -> Refuse:
@@ -116,11 +116,11 @@ def unsafe(rule: Bilingual, part: str) -> Refuse:
 
 def _aloud(meaning: Meaning, setting: Setting) -> Meaning:
     """Say what a topic tells, where it is one part of an order."""
-    words = told(meaning.topic, setting.now) if isinstance(meaning, About) else None
+    words = answer_topic(meaning.topic, setting.now) if isinstance(meaning, TopicQuestion) else None
     return Steps((Say(text=words.of(setting.language)),)) if words else meaning
 
 
-def _joined(steps: Sequence[Step]) -> tuple[Step, ...]:
+def _join_patrols(steps: Sequence[Step]) -> tuple[Step, ...]:
     """Join patrols that follow each other: "the kitchen and the study" are one round."""
     joined: list[Step] = []
     for step in steps:
@@ -132,7 +132,7 @@ def _joined(steps: Sequence[Step]) -> tuple[Step, ...]:
     return tuple(joined)
 
 
-def _checked(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
+def _check(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
     if len(steps) > MAX_STEPS:
         why = say("grammar.too_many_steps", count=len(steps), limit=MAX_STEPS)
         return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=why))
@@ -140,12 +140,15 @@ def _checked(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
     first = next(drives, None)
     if isinstance(first, ComeBack):  # back from where? nothing was driven before it
         home = (setting.button((ReturnHome(),)),)
-        return _ask(Problem(Code.AMBIGUOUS, text), home, setting)
+        return _ask(ClauseProblem(Code.AMBIGUOUS, text), home, setting)
     return StepPlan(steps=steps)
 
 
 def _explain(
-    worst: Problem, problems: Sequence[Problem], meanings: Sequence[Meaning], setting: Setting
+    worst: ClauseProblem,
+    problems: Sequence[ClauseProblem],
+    meanings: Sequence[Meaning],
+    setting: Setting,
 ) -> Plan:
     alone = len(problems) == 1
     if worst.code in _LACKING:
@@ -165,7 +168,7 @@ def _explain(
     return _ask(worst, options, setting)
 
 
-def _lacking(worst: Problem, offered: tuple[Step, ...], setting: Setting) -> Plan:
+def _lacking(worst: ClauseProblem, offered: tuple[Step, ...], setting: Setting) -> Plan:
     said = message(worst.code, part=_cut(worst.part))
     if not _drives(offered) or not setting.offers:
         return Refuse(code=worst.code, reason=said)
@@ -174,7 +177,7 @@ def _lacking(worst: Problem, offered: tuple[Step, ...], setting: Setting) -> Pla
     return Clarify(code=worst.code, question=question, options=(setting.button(offered),))
 
 
-def _ask(problem: Problem, options: tuple[Option, ...], setting: Setting) -> Clarify:
+def _ask(problem: ClauseProblem, options: tuple[Option, ...], setting: Setting) -> Clarify:
     if problem.code is Code.INCOMPLETE:
         what = problem.what or same("?")
         question = message(problem.code, part=_cut(problem.part), what=what)
@@ -185,7 +188,7 @@ def _ask(problem: Problem, options: tuple[Option, ...], setting: Setting) -> Cla
     return Clarify(code=problem.code, question=question, options=options if setting.offers else ())
 
 
-def _unknown(problem: Problem, setting: Setting) -> Bilingual:
+def _unknown(problem: ClauseProblem, setting: Setting) -> Bilingual:
     vocabulary = setting.vocabulary
     names = [vocabulary.name(place) for place in problem.places if setting.offers]
     near = say("grammar.did_you_mean", names=list_names(names)) if names else same("")
@@ -196,7 +199,7 @@ def _answer(topic: Topic, setting: Setting) -> Answer:
     if topic is Topic.PLACES:
         names = known_places(setting.vocabulary)
         return Answer(text=say("grammar.places", names=names))
-    words = told(topic, setting.now)
+    words = answer_topic(topic, setting.now)
     if words is not None:
         return Answer(text=words)
     if setting.room is None:
@@ -205,7 +208,9 @@ def _answer(topic: Topic, setting: Setting) -> Answer:
 
 
 def _steps_of(
-    meanings: Sequence[Meaning], instead_of: Problem | None = None, instead: tuple[Step, ...] = ()
+    meanings: Sequence[Meaning],
+    instead_of: ClauseProblem | None = None,
+    instead: tuple[Step, ...] = (),
 ) -> tuple[Step, ...]:
     """Return all steps in order, one problem replaced by other steps."""
     steps: list[Step] = []
@@ -223,7 +228,7 @@ def _offer(meanings: Sequence[Meaning]) -> tuple[Step, ...]:
     for meaning in meanings:
         if isinstance(meaning, Steps):
             steps.extend(meaning.steps)
-        elif isinstance(meaning, Problem):
+        elif isinstance(meaning, ClauseProblem):
             named = meaning.places if meaning.code is not Code.NO_CAPABILITY else ()
             steps.extend(meaning.before or tuple(GoTo(place=place) for place in named))
     return tuple(steps[:MAX_STEPS])

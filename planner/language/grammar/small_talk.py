@@ -168,7 +168,7 @@ def topic_of(words: str) -> Topic | None:
     return Topic(found.lastgroup) if found and found.lastgroup else None
 
 
-def told(topic: Topic, now: datetime | None) -> Bilingual | None:
+def answer_topic(topic: Topic, now: datetime | None) -> Bilingual | None:
     """Return what is said of a topic, or None where that takes more than a table."""
     if topic in (Topic.TIME, Topic.DAY, Topic.MONTH_DAY):
         return _NO_CLOCK if now is None else _clock(topic, now)

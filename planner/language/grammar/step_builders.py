@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from planner.language.catalogue import build, noun, raw, say
 from planner.language.grammar.lexicon import MARK, NAME
 from planner.language.grammar.noun_phrases import ONE_AT_A_TIME, go_to, several
-from planner.language.grammar.parse_result import Meaning, Problem, Reading, Steps
+from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
 from planner.plan import (
     MAX_STEPS,
     Bilingual,
@@ -68,7 +68,7 @@ ASIDE = re.compile(
 """A side of the robot: eyes look ahead, and a map has no sides."""
 
 
-def place_of(phrase: str | None, reading: Reading) -> str | Problem | None:
+def place_of(phrase: str | None, reading: Reading) -> str | ClauseProblem | None:
     """Return the id of a place phrase; None where no place is named and none was before."""
     if phrase is None or phrase in _THERE:
         return reading.scene.place
@@ -77,7 +77,7 @@ def place_of(phrase: str | None, reading: Reading) -> str | Problem | None:
     meaning = go_to(phrase, reading)
     if isinstance(meaning, Steps) and isinstance(meaning.steps[0], GoTo):
         return meaning.steps[0].place
-    return meaning if isinstance(meaning, Problem) else None
+    return meaning if isinstance(meaning, ClauseProblem) else None
 
 
 def arrive(place: str | None, reading: Reading) -> tuple[Step, ...]:
@@ -92,7 +92,7 @@ def label_of(words: str, reading: Reading) -> str:
     return _ARTICLE.sub("", said).strip()[:_TITLE]
 
 
-def person_of(words: str, reading: Reading) -> str | Problem:
+def person_of(words: str, reading: Reading) -> str | ClauseProblem:
     """Return whom a phrase means."""
     if words in _SELF:
         return "person"
@@ -105,9 +105,9 @@ def person_of(words: str, reading: Reading) -> str | Problem:
 def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> Meaning:
     """Go to where somebody is, and look for them."""
     person, place = person_of(words, reading), place_of(where, reading)
-    if isinstance(person, Problem):
+    if isinstance(person, ClauseProblem):
         return person
-    if isinstance(place, Problem):
+    if isinstance(place, ClauseProblem):
         return place
     if place is None and re.search(NAME, words):
         return missing(WHERE_IS, words, reading, person)
@@ -124,7 +124,7 @@ def follow(words: str, start: str | None, end: str | None, reading: Reading) -> 
     to = place_of(end, reading) if end else None
     if not isinstance(found, Steps) or found.person is None:
         return found
-    if isinstance(to, Problem):
+    if isinstance(to, ClauseProblem):
         return to
     last = (GoTo(place=to),) if to else ()
     return Steps((*found.steps, Follow(object=found.person), *last), person=found.person)
@@ -139,7 +139,7 @@ def guide(words: str, start: str | None, end: str | None, reading: Reading) -> M
         return missing(WHERE_TO, words, reading)
     back = end in ("back", "回去", "回来")
     to = reading.scene.met if back else place_of(end, reading)
-    if isinstance(to, Problem):
+    if isinstance(to, ClauseProblem):
         return to
     if to is None:
         return missing(WHERE_TO, words, reading)
@@ -152,7 +152,7 @@ def find(words: str, where: str | None, reading: Reading) -> Meaning:
     if re.fullmatch(rf"(?:(?:the|my|our) )?{MARK}", words) and where is None:
         return go_to(words, reading)
     place = place_of(where, reading)
-    if isinstance(place, Problem):
+    if isinstance(place, ClauseProblem):
         return place
     if words in _IT or words in _THEY:
         thing = reading.scene.thing or reading.scene.person
@@ -179,7 +179,7 @@ def one_at_a_time(words: str, place: str | None, reading: Reading) -> Meaning:
 def count(words: str, where: str | None, reading: Reading) -> Meaning:
     """Go to a place and count things or people there."""
     place, label = place_of(where, reading), label_of(words, reading)
-    if isinstance(place, Problem):
+    if isinstance(place, ClauseProblem):
         return place
     if not label:
         return missing(WHO, words, reading)
@@ -192,7 +192,7 @@ def count(words: str, where: str | None, reading: Reading) -> Meaning:
 def look(question: str, where: str | None, reading: Reading) -> Meaning:
     """Go to a place and answer a question by looking."""
     place = place_of(where, reading)
-    if isinstance(place, Problem):
+    if isinstance(place, ClauseProblem):
         return place
     asked = reading.marked.restore(question)[:500]
     somebody = noun("noun.person").of(reading.language) if _WHO_IS_THERE.search(question) else None
@@ -224,7 +224,7 @@ def offer_search(words: str, part: str, reading: Reading) -> Meaning:
     return replace(asked, instead=(Find(object=label),)) if sought else asked
 
 
-def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> Problem:
+def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> ClauseProblem:
     """Say what the sentence leaves open."""
     filled = build(lambda language: what.of(language).format(name=name))
     return reading.problem(Code.INCOMPLETE, part, what=filled)

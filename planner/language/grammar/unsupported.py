@@ -19,14 +19,14 @@ from planner.language.grammar.en import PERSON, WORD, loc
 from planner.language.grammar.lexicon import MARK, NAME
 from planner.language.grammar.noun_phrases import several
 from planner.language.grammar.parse_result import (
+    ClauseProblem,
     Meaning,
-    Problem,
     Reading,
     Rule,
     Steps,
     about,
+    read_place,
     rule,
-    where,
 )
 from planner.language.grammar.small_talk import Topic
 from planner.language.grammar.step_builders import label_of, meet, place_of
@@ -95,7 +95,7 @@ def _go_and_see(text: str, reading: Reading) -> tuple[Step, ...]:
     """Return the way to those who were to get something."""
     people = _EN_FOR.fullmatch(text)
     who = several(people["who"]) or people["who"] if people else ""
-    met = meet(who, where(people, "at"), reading) if people else None
+    met = meet(who, read_place(people, "at"), reading) if people else None
     return met.steps if isinstance(met, Steps) else ()
 
 
@@ -114,7 +114,7 @@ def _only_there(src: str | None, reading: Reading) -> tuple[Step, ...]:
 def _look_for(words: str, src: str | None, reading: Reading) -> tuple[Step, ...]:
     place = place_of(src, reading) if src else None
     label = label_of(several(words) or words, reading)
-    if isinstance(place, Problem) or not label or re.search(rf"{MARK}|\d", words):
+    if isinstance(place, ClauseProblem) or not label or re.search(rf"{MARK}|\d", words):
         return ()
     there = (GoTo(place=place),) if place else ()
     return (*there, Find(object=label, place=place))
@@ -137,7 +137,7 @@ def _no_order(found: Match[str], reading: Reading) -> Meaning | None:
     """
     if reading.scene.kind:
         return None
-    return Problem(Code.NOT_UNDERSTOOD, reading.marked.restore(found[0]))
+    return ClauseProblem(Code.NOT_UNDERSTOOD, reading.marked.restore(found[0]))
 
 
 PAST_ENGLISH: tuple[Rule, ...] = (

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 
-def _any(*patterns: str) -> re.Pattern[str]:
+def _compile_any(*patterns: str) -> re.Pattern[str]:
     # Each begins at a word or a comma: asking that first spares trying all within words.
     return re.compile(rf"(?<![a-z0-9])(?:{'|'.join(patterns)})")
 
@@ -39,7 +39,7 @@ _MEDIA = r"(?:music|song|video|movie|film|noise|alarm|timer|sound|radio|tv|telev
 _IN = r"(?:at|by|near|next to|beside|behind|in front of|inside|in|on|opposite|close to)"
 _NO_PLACE = r"(?:way|path|spot|place|moment|point|name|count|instant|minute|second|tracks?|dot)"
 
-ELSE = _any(
+ELSE = _compile_any(
     # a thing of that name
     rf"(?<!put )(?<!to )(?<!into )(?<!this )\b(?:bus|tram|train|metro|subway|coach|taxi|truck|rest"
     rf"|pit|door|next|first|last|final|the|a|an|my|your|our|any|each|every|which|what|whistle) {_T}"
@@ -134,7 +134,7 @@ ENDS_IN = re.compile(
 
 # What stops -------------------------------------------------------------------------------------
 
-STRONG = _any(
+STRONG = _compile_any(
     r"\b(?:s+t+[ao]+[hw]*p+|h+a+l+t+|f+r+e+e*z+e+|brakes?|who+a+h?|wo+a+h?|abort|desist|cease)\b",
     r"\b(?:e ?stop|standstill|quit|avast|stationary|motionless)\b",
     r"\b(?:do not|must not|to not|not to|never) (?:you |dare |even |ever |please |to )*"
@@ -162,7 +162,7 @@ _CALLS = (
     r"|will|must|should|have to|need to|i said|i want|to|let us) )*"
 )
 _END = r"(?: ,|$| now| please| i said| right| boy| robot| there)"
-DENIAL = _any(
+DENIAL = _compile_any(
     rf"\b(?:do not|never|must not|should not|can not|not to|no|not) {_FILLERS}{_MOVING}\b"
     r"(?! (?:so |too |that )*slow)",
     rf"(?:^|, ){_POLITE}(?:i (?:do|said do) not want you to|do not|never"
@@ -332,7 +332,7 @@ DENIAL_WORDS = frozenset(
     }
 )
 """One of these stands in every sentence that DENIAL finds something in: asked first, for speed."""
-SOFT = _any(
+SOFT = _compile_any(
     r"\b(?:watch|look) (?:out|it)(?! (?:of|the window|for)\b)|\bwatch (?:where|your)\b",
     r"\bbe careful\b|(?:^|, )careful\b|\bheads up\b|\bdanger\b|\bmind (?:the|my|your|out)\b",
     r"\b(?:about|going|gonna|almost|nearly|you will|you would|you are) (?:to |just )?(?:hit|crash"

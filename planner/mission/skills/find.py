@@ -8,7 +8,7 @@ in. Budget: 55 m and 540 s a step; the rooms of the site, or the one place that 
 from __future__ import annotations
 
 from planner.language.catalogue import message
-from planner.language.object_names import named
+from planner.language.object_names import name_object
 from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
 from planner.mission.skills.object_matching import found, wanted_of
 from planner.mission.skills.perception import Wanted
@@ -44,7 +44,7 @@ def not_found(scene: Scene, wanted: Wanted) -> Fail:
     notes = scene.notes
     shut = tuple(room for room in notes.shut if room not in notes.rooms)
     looked = looked_in(scene.facts, notes.rooms, shut, spent(scene), alike(scene, wanted))
-    name = by_neighbour(named(wanted.label, wanted.color), wanted)
+    name = by_neighbour(name_object(wanted.label, wanted.color), wanted)
     said = message(Code.NOT_FOUND, thing=name, looked=looked)
     return Fail(Code.NOT_FOUND, "not_found", said, {"rooms": notes.rooms})
 

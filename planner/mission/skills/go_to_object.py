@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
 from planner.language.object_classes import kind_of
-from planner.language.object_names import named
+from planner.language.object_names import name_object
 from planner.mission.skills.actions import (
     Fail,
     Finish,
@@ -215,6 +215,6 @@ def _gone(scene: Scene, wanted: Wanted) -> Fail:
 def _moved(scene: Scene) -> Fail:
     """Say that the thing is no more where it was seen."""
     looked = say("object_step.moved")
-    bare = named(scene.notes.label or "thing", scene.notes.color)
+    bare = name_object(scene.notes.label or "thing", scene.notes.color)
     said = message(Code.NOT_FOUND, thing=bare, looked=looked)
     return Fail(Code.NOT_FOUND, "moved", said, {"rooms": scene.notes.rooms})

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.object_classes import HOME
-from planner.language.object_names import listed as labels_listed
-from planner.language.object_names import named, named_several, singles_out
+from planner.language.object_names import list_kinds as labels_listed
+from planner.language.object_names import name_object, named_several, singles_out
 from planner.mission.skills.spatial_relations import told
 from planner.plan import Bilingual, Code, same
 
@@ -26,13 +26,13 @@ HERE = say("result.here")
 
 def called(label: str, color: str | None = None) -> Bilingual:
     """Return a thing's name with its article: ``a red cup``, ``红色的杯子``."""
-    name = named(label, color)
+    name = name_object(label, color)
     return say("result.an" if name.en[:1] in "aeiou" else "result.a", name=name)
 
 
 def counted(count: int, label: str, color: str | None = None) -> Bilingual:
     """Return so many of a thing: ``2 red cups``, ``2 个红色的杯子``."""
-    name = named(label, color)
+    name = name_object(label, color)
     if count == 1:
         return say("result.one", name=name)
     return say("result.many", count=count, name=named_several(label, color))
@@ -70,7 +70,7 @@ def by_neighbour(what: Bilingual, wanted: Wanted | None) -> Bilingual:
     """Return a thing's name with the neighbour that it was told by, where there is one."""
     if wanted is None or wanted.by is None or wanted.relation is None:
         return what
-    return told(what, wanted.relation, named(wanted.by.label, wanted.by.color))
+    return told(what, wanted.relation, name_object(wanted.by.label, wanted.by.color))
 
 
 def found_at(facts: SiteView, label: str, color: str | None, room: str | None, away: float | None,

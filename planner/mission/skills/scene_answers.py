@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from planner.language.catalogue import say
-from planner.language.object_names import named, resolve
+from planner.language.object_names import name_object, resolve
 from planner.mission.skills.object_matching import apart, confirmed, fits, sure
 from planner.mission.skills.object_query import FLOOR, sought_in, unknown_kind
 from planner.mission.skills.result_text import counted, listed, unknown_name
@@ -120,7 +120,7 @@ def _without_neighbour(what: Wanted | None, elsewhere: Things, spot: Spot) -> Bi
     if what is None:
         return say("scene.no_neighbour", by=by, at=at)  # fmt: skip
     if not elsewhere:
-        name = named(what.label, what.color)
+        name = name_object(what.label, what.color)
         return say("scene.neither", name=name, by=by, at=at)  # fmt: skip
     found = _said(elsewhere, what)
     return say("scene.no_neighbour_but", found=found, by=by, at=at)  # fmt: skip
@@ -134,7 +134,7 @@ def _plainly(what: Wanted | None, things: Things, at: Bilingual) -> Told:
         found = listed(things)
         return Told(say("scene.seen", found=found, at=at))
     if not things:
-        name = named(what.label, what.color)
+        name = name_object(what.label, what.color)
         return Told(say("scene.no", name=name, at=at), False)  # fmt: skip
     found = _said(things, what)
     said = say("scene.yes", found=found, at=at)
@@ -158,7 +158,7 @@ def _at(scene: Scene, by: Wanted | None) -> Bilingual:
 
 
 def _spot(by: Wanted, relation: Relation, at: Bilingual) -> Spot:
-    name = _FLOOR if by is FLOOR else named(by.label, by.color)
+    name = _FLOOR if by is FLOOR else name_object(by.label, by.color)
     code = f"beside.{relation.value}"
     beside = say(f"{code}_at", name=name, at=at) if at.en else say(code, name=name)
     return Spot(at, name, beside)

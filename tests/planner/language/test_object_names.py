@@ -8,8 +8,8 @@ from planner.language import color_names
 from planner.language.object_classes import KINDS
 from planner.language.object_names import (
     canonical,
-    listed,
-    named,
+    list_kinds,
+    name_object,
     named_several,
     resolve,
     singles_out,
@@ -81,14 +81,14 @@ def test_a_detectors_names_become_ids() -> None:
 
 
 def test_a_thing_is_named_in_both_languages() -> None:
-    assert (named("cup", "red").en, named("cup", "red").zh) == ("red cup", "红色的杯子")
-    assert named("fork_lift").en == "fork lift"
-    assert listed(["cup", "tv"]).zh == "杯子、电视"
-    assert listed(list(KINDS), 2).en.endswith(f"and {len(KINDS) - 2} more")
+    assert (name_object("cup", "red").en, name_object("cup", "red").zh) == ("red cup", "红色的杯子")
+    assert name_object("fork_lift").en == "fork lift"
+    assert list_kinds(["cup", "tv"]).zh == "杯子、电视"
+    assert list_kinds(list(KINDS), 2).en.endswith(f"and {len(KINDS) - 2} more")
     for label in KINDS:  # no two classes share a word
         for words in synonyms(label, Language.EN):
             assert canonical(words) == label
-        assert resolve(named(label).zh) == (label, None)
+        assert resolve(name_object(label).zh) == (label, None)
         assert resolve(named_several(label).en) == (label, None)
 
 

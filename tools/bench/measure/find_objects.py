@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from planner.language.object_classes import kind_of
-from planner.language.object_names import named
+from planner.language.object_names import name_object
 from planner.plan import Code, GoalState
 from sim.camera.materials import PAINTS, USUAL
 from sim.site.objects import furniture_class
@@ -150,7 +150,7 @@ def _look_for(home: Home, seed: int, wanted: tuple[str, str | None], site: Path)
     else:
         finder = Counting(TruthFinder(camera, seed), label, color)
     eyes.look_with(finder)
-    name = named(label, color)
+    name = name_object(label, color)
     words = f"find the {name.en}" if seed % 2 else f"找{name.zh}"
     began_s, goal = world.now_s, world.say(words)
     late = False

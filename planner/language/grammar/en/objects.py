@@ -11,14 +11,14 @@ from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.noun_phrases import HOW_EN, by_neighbour
 from planner.language.grammar.parse_result import (
     Build,
+    ClauseProblem,
     Meaning,
-    Problem,
     Reading,
     Rule,
     Steps,
     lacks,
+    read_place,
     rule,
-    where,
 )
 from planner.language.grammar.step_builders import (
     count,
@@ -83,7 +83,7 @@ _NOBODY = frozenset(
 
 
 def _find(found: Match[str], reading: Reading) -> Meaning:
-    return find(found["what"], where(found, "at"), reading)
+    return find(found["what"], read_place(found, "at"), reading)
 
 
 def _find_by(found: Match[str], reading: Reading) -> Meaning | None:
@@ -106,18 +106,22 @@ def _describe(found: Match[str], reading: Reading) -> Meaning:
 
 def _find_in_unknown(found: Match[str], reading: Reading) -> Meaning:
     place = place_of(found["nowhere"], reading)
-    return place if isinstance(place, Problem) else find(found["what"], found["nowhere"], reading)
+    return (
+        place
+        if isinstance(place, ClauseProblem)
+        else find(found["what"], found["nowhere"], reading)
+    )
 
 
 def _count(found: Match[str], reading: Reading) -> Meaning:
     how = found.groupdict().get("how") or ""
     plain = re.sub(r"\b(?:there|are|is|items?|objects?)\b", " ", f"{found['what']} {how}")
     label = " ".join(plain.split()) or found["what"]
-    return count(label, where(found, "at"), reading)
+    return count(label, read_place(found, "at"), reading)
 
 
 def _look(found: Match[str], reading: Reading) -> Meaning:
-    return look(found[0], where(found, "at"), reading)
+    return look(found[0], read_place(found, "at"), reading)
 
 
 def _look_everywhere(found: Match[str], reading: Reading) -> Meaning:
@@ -127,18 +131,18 @@ def _look_everywhere(found: Match[str], reading: Reading) -> Meaning:
 def _question(build: Build) -> Build:
     """Return a builder for "someone in the kitchen?": without its mark it only tells."""
 
-    def asked(found: Match[str], reading: Reading) -> Meaning | None:
+    def build_question(found: Match[str], reading: Reading) -> Meaning | None:
         flat = found[0].startswith("some") and not reading.marked.text.rstrip(" .!").endswith("?")
         return None if flat else build(found, reading)
 
-    return asked
+    return build_question
 
 
 def _look_here(found: Match[str], reading: Reading) -> Meaning:
     return look(found[0], "there" if reading.scene.place else None, reading)
 
 
-def _reported(found: Match[str], reading: Reading) -> Meaning | None:
+def _skip_report(found: Match[str], reading: Reading) -> Meaning | None:
     """Pass over "and tell me" after something was looked at: the outcome tells."""
     return Steps(()) if reading.scene.seen else None
 
@@ -148,7 +152,7 @@ def _seen_here(found: Match[str], reading: Reading) -> Meaning | None:
     return None if reading.scene.place else look(found[0], None, reading)
 
 
-def _sought(found: Match[str], reading: Reading) -> Meaning | None:
+def _offer_search(found: Match[str], reading: Reading) -> Meaning | None:
     what = found["what"] or found.groupdict().get("what2") or ""
     return None if what in _NOBODY else offer_search(what, found[0], reading)
 
@@ -164,7 +168,7 @@ def _next_thing(found: Match[str], reading: Reading) -> Meaning | None:
         return act(before, spot, reading) if before else None
     if not found["what"].startswith(("the ", "a ", "an ", "some ", "my ")):
         return None
-    return act(found["what"], where(found, "at"), reading)
+    return act(found["what"], read_place(found, "at"), reading)
 
 
 _AT = loc("at")
@@ -178,7 +182,7 @@ RULES: tuple[Rule, ...] = (
         r"found|saw|have seen)|"
         r"how many(?: there are| you (?:see|found))?|what is there|where (?:it|he|she|they) (?:is|"
         r"are)|it))?",
-        _reported,
+        _skip_report,
     ),
     rule(r"look (?:up|down|out|away|after)(?:wards?)?\b.*", lacks(Code.NOT_UNDERSTOOD)),
     rule(rf"(?:{_LOOK_VERB} )?how many {_COUNTED} {_SEEN_HERE}", _seen_here),
@@ -208,16 +212,16 @@ RULES: tuple[Rule, ...] = (
         r"(?:(?:tell|show) (?:me|us) )?"
         r"(?:where (?:is|are|can i find|did (?:i|you|we) (?:leave|put|see))|have you seen)"
         rf" (?P<what>{_THING}?)(?: now)?",
-        _sought,
+        _offer_search,
     ),
     rule(
         rf"(?:(?:tell|show) (?:me|us)|do you know) where (?P<what>{_THING}?) (?:is|are)(?: now)?",
-        _sought,
+        _offer_search,
     ),
     rule(
         rf"(?:(?:{_LOOK_VERB} (?:if|whether) )?(?:is|are) (?:there )?(?P<what>{_SOMEBODY})|"
         rf"{_LOOK_VERB} (?:if|whether) (?P<what2>{_SOMEBODY}) is)(?: there)? {_HOME}",
-        _sought,
+        _offer_search,
     ),
     rule(rf"(?:{_SOMEBODY}|any [a-z ]+?)(?: else)?{_MUST}", _question(_look)),
     rule(

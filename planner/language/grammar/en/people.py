@@ -9,20 +9,20 @@ from planner.language.catalogue import say
 from planner.language.grammar.clauses import QUOTE
 from planner.language.grammar.en import DESCRIPTION, PERSON, THE, loc
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.noun_phrases import known, several
+from planner.language.grammar.noun_phrases import is_known, several
 from planner.language.grammar.parse_result import (
-    About,
+    ClauseProblem,
     Meaning,
-    Problem,
     Reading,
     Rule,
     Steps,
+    TopicQuestion,
     ahead,
     lacks,
+    read_place,
     rule,
-    where,
 )
-from planner.language.grammar.small_talk import Topic, told, topic_of
+from planner.language.grammar.small_talk import Topic, answer_topic, topic_of
 from planner.language.grammar.step_builders import (
     follow,
     guide,
@@ -67,15 +67,19 @@ _TO = rf"(?: (?:(?:back )?(?:to|into|towards?|up to) (?P<to>{THE}[^,]+?)|(?P<bac
 
 def _meet(found: Match[str], reading: Reading) -> Meaning:
     if _SEEKS.match(found[0]) and several(found["who"]) is not None:
-        place = place_of(where(found, "at"), reading)
-        return place if isinstance(place, Problem) else one_at_a_time(found["who"], place, reading)
-    return meet(found["who"], where(found, "at"), reading)
+        place = place_of(read_place(found, "at"), reading)
+        return (
+            place
+            if isinstance(place, ClauseProblem)
+            else one_at_a_time(found["who"], place, reading)
+        )
+    return meet(found["who"], read_place(found, "at"), reading)
 
 
 def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
     """Drive up to somebody whom eyes know for a person; who is only named is met."""
-    who, place = found["who"], place_of(where(found, "at"), reading)
-    if isinstance(place, Problem) or not known(who, reading.things):
+    who, place = found["who"], place_of(read_place(found, "at"), reading)
+    if isinstance(place, ClauseProblem) or not is_known(who, reading.things):
         return _meet(found, reading)
     if several(who) is not None:
         return one_at_a_time(who, place, reading)
@@ -87,31 +91,31 @@ def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading) if found["who"] not in ("them", "him", "her") else ""
     called = say("spoken.hello_name", name=name).en if name[:1].isupper() else None
     said = called or told_in("spoken.hello", reading)
-    return meet(found["who"], where(found, "at"), reading, said)
+    return meet(found["who"], read_place(found, "at"), reading, said)
 
 
 def _present_itself(found: Match[str], reading: Reading) -> Meaning:
-    said = told(Topic.SELF, None)
+    said = answer_topic(Topic.SELF, None)
     words = said.of(reading.language) if said else ""
-    return meet(found["who"], where(found, "at"), reading, words)
+    return meet(found["who"], read_place(found, "at"), reading, words)
 
 
 def _follow(found: Match[str], reading: Reading) -> Meaning:
-    return follow(found["who"], where(found, "at") or found["start"], found["to"], reading)
+    return follow(found["who"], read_place(found, "at") or found["start"], found["to"], reading)
 
 
 def _guide(found: Match[str], reading: Reading) -> Meaning:
-    start = found["found"] or where(found, "at") or found["start"]
+    start = found["found"] or read_place(found, "at") or found["start"]
     return guide(found["who"], start, found["to"] or found["back"], reading)
 
 
 def _introduce(found: Match[str], reading: Reading) -> Meaning:
     """Lead one person to another, and name both."""
-    first = meet(found["who"], where(found, "at"), reading)
+    first = meet(found["who"], read_place(found, "at"), reading)
     if not isinstance(first, Steps):
         return first
     then = ahead(reading, first)
-    second = meet(found["other"], where(found, "at2"), then)
+    second = meet(found["other"], read_place(found, "at2"), then)
     if not isinstance(second, Steps):
         return second
     words = told_in("spoken.this_is", reading, name=first.person or "")
@@ -126,42 +130,42 @@ def _tell(found: Match[str], reading: Reading) -> Meaning | None:
         return None
     who = found.groupdict().get("who")
     if who is None:
-        return About(topic)
-    said = told(topic, reading.now)
-    return meet(who, where(found, "at"), reading, said.of(reading.language)) if said else None
+        return TopicQuestion(topic)
+    said = answer_topic(topic, reading.now)
+    return meet(who, read_place(found, "at"), reading, said.of(reading.language)) if said else None
 
 
 def _tell_words(found: Match[str], reading: Reading) -> Meaning:
     words = found["words"]
-    return meet(found["who"], where(found, "at"), reading, reading.marked.restore(words)[:500])
+    return meet(found["who"], read_place(found, "at"), reading, reading.marked.restore(words)[:500])
 
 
 def _quote_to(found: Match[str], reading: Reading) -> Meaning:
     words = reading.quotes[ord(found["quote"]) - ord(QUOTE[1])]
-    return meet(found["who"], where(found, "at"), reading, words[:500])
+    return meet(found["who"], read_place(found, "at"), reading, words[:500])
 
 
 def _request(found: Match[str], reading: Reading) -> Meaning:
     words = f"Please {reading.marked.restore(found['deed'])}."
     if found["who"] is None:
         return saying(words, reading)
-    return meet(found["who"], where(found, "at"), reading, words[:500])
+    return meet(found["who"], read_place(found, "at"), reading, words[:500])
 
 
 def _ask(found: Match[str], reading: Reading) -> Meaning:
     question = Ask(question=reading.marked.restore(found["question"])[:500])
     if found["who"] is None:
         return Steps((question,))
-    met = meet(found["who"], where(found, "at"), reading)
+    met = meet(found["who"], read_place(found, "at"), reading)
     return Steps((*met.steps, question), person=met.person) if isinstance(met, Steps) else met
 
 
 def _describe(found: Match[str], reading: Reading) -> Meaning:
     """Look at somebody or something and tell about it, here or to another person."""
-    seen = look(found["what"], where(found, "at"), reading)
+    seen = look(found["what"], read_place(found, "at"), reading)
     if not isinstance(seen, Steps) or not found.groupdict().get("who"):
         return seen
-    met = meet(found["who"], where(found, "at2"), ahead(reading, seen))
+    met = meet(found["who"], read_place(found, "at2"), ahead(reading, seen))
     if not isinstance(met, Steps):
         return met
     tell = Decide(question=reading.marked.restore(found[0])[:500])
@@ -171,7 +175,7 @@ def _describe(found: Match[str], reading: Reading) -> Meaning:
 def _no_dialogue(found: Match[str], reading: Reading) -> Meaning:
     """Say no to a conversation; offer to go to whom it is to be held with."""
     who = found.groupdict().get("who")
-    met = meet(who, where(found, "at"), reading) if who else None
+    met = meet(who, read_place(found, "at"), reading) if who else None
     before = met.steps if isinstance(met, Steps) else ()
     return reading.problem(Code.NO_CAPABILITY, found[0], before)
 

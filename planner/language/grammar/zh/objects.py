@@ -12,16 +12,16 @@ from dataclasses import replace
 from re import Match
 
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.noun_phrases import HOW_ZH, by_neighbour, known
+from planner.language.grammar.noun_phrases import HOW_ZH, by_neighbour, is_known
 from planner.language.grammar.parse_result import (
+    ClauseProblem,
     Meaning,
-    Problem,
     Reading,
     Rule,
     Steps,
     ahead,
+    read_place,
     rule,
-    where,
 )
 from planner.language.grammar.step_builders import arrive, count, find, look, offer_search, place_of
 from planner.language.grammar.zh import SEE, SPOT, THING, UNIT, WHAT, WHETHER, loc
@@ -45,7 +45,7 @@ _ALL_OVER = r"(?:(?:在?家里|屋里|全家|全屋|整个(?:家|屋子|房子)|
 
 
 def _find(found: Match[str], reading: Reading) -> Meaning:
-    return find(found["what"], where(found, "at"), reading)
+    return find(found["what"], read_place(found, "at"), reading)
 
 
 def _find_under(found: Match[str], reading: Reading) -> Meaning:
@@ -58,7 +58,7 @@ def _find_under(found: Match[str], reading: Reading) -> Meaning:
 def _find_all(found: Match[str], reading: Reading) -> Meaning:
     """Find one thing after the other: "杯子和球"; in 暖和的毯子, 和平鸽 no word joins things."""
     parts = re.split(r"和|以及|还有|与", found["what"])
-    several = all(known(part, reading.things) for part in parts)
+    several = all(is_known(part, reading.things) for part in parts)
     steps: tuple[Step, ...] = ()
     meaning: Meaning = Steps(())
     for what in parts if several else [found["what"]]:
@@ -71,7 +71,7 @@ def _find_all(found: Match[str], reading: Reading) -> Meaning:
 
 def _count(found: Match[str], reading: Reading) -> Meaning:
     """Count one kind after the other: "几个人和几把椅子"."""
-    place = found.groupdict().get("at2") or where(found, "at")
+    place = found.groupdict().get("at2") or read_place(found, "at")
     steps: tuple[Step, ...] = ()
     meaning: Meaning = Steps(())
     for what in _AND_MANY.split(found["what"]):
@@ -86,10 +86,10 @@ def _count(found: Match[str], reading: Reading) -> Meaning:
 def _look(found: Match[str], reading: Reading) -> Meaning:
     groups = found.groupdict()
     here = reading.scene.place and ("那里" if "at" not in groups else None)
-    return look(found[0], where(found, "at") or here, reading)
+    return look(found[0], read_place(found, "at") or here, reading)
 
 
-def _reported(_found: Match[str], reading: Reading) -> Meaning | None:
+def _skip_report(_found: Match[str], reading: Reading) -> Meaning | None:
     return Steps(()) if reading.scene.seen else None
 
 
@@ -98,7 +98,7 @@ def _look_here(found: Match[str], reading: Reading) -> Meaning | None:
     return None if reading.scene.place else _look(found, reading)
 
 
-def _asked(found: Match[str], reading: Reading) -> Meaning | None:
+def _read_question(found: Match[str], reading: Reading) -> Meaning | None:
     """Read a question about what is there; said flatly it is none: "厨房有杯子" only tells."""
     flat = found.groupdict().get("flat") is not None
     said = reading.marked.text
@@ -106,7 +106,7 @@ def _asked(found: Match[str], reading: Reading) -> Meaning | None:
     return None if flat and not asked else _look(found, reading)
 
 
-def _sought(found: Match[str], reading: Reading) -> Meaning:
+def _offer_search(found: Match[str], reading: Reading) -> Meaning:
     return offer_search(
         found["what"] or found["what2"] or found["what3"] or found["what4"], found[0], reading
     )
@@ -116,7 +116,7 @@ RULES: tuple[Rule, ...] = (
     rule(
         r"(?:然后)?(?:告诉|通知|报告|汇报)(?:给)?(?:我|我们)?(?:一下)?(?:结果|数量|情况|有几个|"
         r"有多少|在哪(?:里|儿)?)?|汇报",
-        _reported,
+        _skip_report,
     ),
     rule(
         rf"(?:{SEE}|数一数|数一下|数数|数|清点)?(?:{_AROUND})(?:现在|一共|总共)?(?:有|坐着|站着)?(?:几|多少)"
@@ -150,7 +150,7 @@ RULES: tuple[Rule, ...] = (
         rf"|你?(?:有没有)?见过(?P<what3>{THING})(?:吗|没有)?"
         rf"|(?:告诉我|你?知不?知?道|你?知道)?(?P<what2>(?![他她它你您我]们?在|大家|告诉|知道){THING})"
         r"(?:现在|都)?在(?:哪里|哪儿|哪|什么地方|哪个房间)(?:里|呢|啊|呀|吗)?",
-        _sought,
+        _offer_search,
     ),
     rule(
         rf"{_FIND}(?:{WHETHER})?(?P<by>{MARK})(?P<how>下面?|下边|底下)的(?P<what>{THING})",
@@ -163,7 +163,7 @@ RULES: tuple[Rule, ...] = (
     rule(
         rf"(?:(?:{SEE})(?:{WHETHER}|是不是有|有)|{WHETHER}|(?P<flat>有)){THING}在(?P<at>{SPOT})"
         rf"(?:里面?|上面?|那里|旁边)?{_ASKS}",
-        _asked,
+        _read_question,
     ),
     rule(
         rf"{_MUST}(?:的?人)?(?:是谁|都?有(?:些)?谁|现在)?(?:的?情况)?"
@@ -176,7 +176,7 @@ RULES: tuple[Rule, ...] = (
     rule(
         rf"{_MUST}(?:(?:{SEE}){_IS_THERE}|{WHETHER}|[都还]?(?P<flat>有)"
         rf"(?!什么|啥|谁|哪些)){THING}{_ASKS}",
-        _asked,
+        _read_question,
     ),
     rule(
         rf"(?:{SEE})?有?(?:几|多少){UNIT}(?P<what>(?!岁|点){THING}){_MUST}",
@@ -187,16 +187,16 @@ RULES: tuple[Rule, ...] = (
         _look,
     ),
     rule(rf"(?:(?:{SEE})(?:谁|什么)?(?:人)?|谁(?:正?[坐站躺睡待](?=在))?){_MUST}(?:[^,]*)", _look),
-    rule(rf"{_MUST}(?:{SEE})(?P<flat>[到见])?(?:[^,\ue000-\ue8ff]*)", _asked),
+    rule(rf"{_MUST}(?:{SEE})(?P<flat>[到见])?(?:[^,\ue000-\ue8ff]*)", _read_question),
     rule(
         rf"{_MUST}(?:{WHAT}|(?:[^,\ue000-\ue8ff]{{1,4}}(?=[开亮关锁]着))?(?:是|在)?(?:什么|怎么样|"
         r"(?P<flat>干净|整洁|安全|空的?|开着|亮着)))[^,\ue000-\ue8ff]*",
-        _asked,
+        _read_question,
     ),
     rule(
         rf"(?:{SEE})?(?:{_AROUND})?(?:{WHAT}[^,\ue000-\ue8ff]*|{WHETHER}{THING}{_ASKS}|"
         rf"(?P<flat>有){THING})",
-        _asked,
+        _read_question,
     ),
     rule(
         rf"你?(?:能|可以|有没有)?(?:看得到|看得见|看到|看见|见到|瞧见|发现)(?:了|过)?{THING}(?:了|没有)?"
@@ -228,7 +228,7 @@ _LEAD = re.compile(r"^(?:(?:所有|全部)的?|[把张台个])")
 """Before a neighbour's name: all of them, or what "那把" leaves, whose 那 is taken for "so"."""
 
 
-def _named(found: Match[str], reading: Reading) -> str | None:
+def _name_by_neighbour(found: Match[str], reading: Reading) -> str | None:
     """Return the thing's words with its neighbour's, where eyes know that one; else None."""
     by, how, what = found["by"], found["how"], found.groupdict().get("what") or "东西"
     known = by_neighbour(what, how, _LEAD.sub("", by), reading)
@@ -239,9 +239,9 @@ def _named(found: Match[str], reading: Reading) -> str | None:
 
 
 def _count_by_neighbour(found: Match[str], reading: Reading) -> Meaning | None:
-    named, place = _named(found, reading), place_of(found["at"], reading)
-    if named is None or isinstance(place, Problem):
-        return place if named is not None and isinstance(place, Problem) else None
+    named, place = _name_by_neighbour(found, reading), place_of(found["at"], reading)
+    if named is None or isinstance(place, ClauseProblem):
+        return place if named is not None and isinstance(place, ClauseProblem) else None
     steps = (*arrive(place, reading), Count(object=named, place=place))
     return Steps(steps, thing=named, seen=True)
 
@@ -249,7 +249,7 @@ def _count_by_neighbour(found: Match[str], reading: Reading) -> Meaning | None:
 def _look_by_neighbour(found: Match[str], reading: Reading) -> Meaning | None:
     """Look where it is asked about what stands there; said flatly it is no question."""
     flat = found.groupdict().get("flat") and not reading.marked.text.rstrip(" 。!").endswith("?")
-    if flat or _named(found, reading) is None:
+    if flat or _name_by_neighbour(found, reading) is None:
         return None
     return look(found[0], found["at"] or "那里", reading)
 

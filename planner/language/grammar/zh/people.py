@@ -8,17 +8,17 @@ from planner.language.catalogue import say
 from planner.language.grammar.clauses import QUOTE
 from planner.language.grammar.noun_phrases import several
 from planner.language.grammar.parse_result import (
-    About,
+    ClauseProblem,
     Meaning,
-    Problem,
     Reading,
     Rule,
     Steps,
+    TopicQuestion,
     lacks,
+    read_place,
     rule,
-    where,
 )
-from planner.language.grammar.small_talk import Topic, told, topic_of
+from planner.language.grammar.small_talk import Topic, answer_topic, topic_of
 from planner.language.grammar.step_builders import (
     follow,
     guide,
@@ -42,10 +42,14 @@ _GUIDE = r"(?:带着?|领着?|引导|引领|陪同?|陪着|护送|送|指引)"
 
 
 def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
-    at = where(found, "at2") or where(found, "at")
+    at = read_place(found, "at2") or read_place(found, "at")
     if "找" in found[0] and several(found["who"]) is not None:
         place = place_of(at, reading)
-        return place if isinstance(place, Problem) else one_at_a_time(found["who"], place, reading)
+        return (
+            place
+            if isinstance(place, ClauseProblem)
+            else one_at_a_time(found["who"], place, reading)
+        )
     return meet(found["who"], at, reading)
 
 
@@ -53,16 +57,16 @@ def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading)
     is_name = "\ue900" <= found["who"][0] <= "\ue9ff"
     said = say("spoken.hello_name", name=name) if is_name else say("spoken.hello")
-    return meet(found["who"], where(found, "at"), reading, said.zh)
+    return meet(found["who"], read_place(found, "at"), reading, said.zh)
 
 
 def _follow(found: Match[str], reading: Reading) -> Meaning:
     end = found.groupdict().get("to")
-    return follow(found["who"], where(found, "at"), end, reading)
+    return follow(found["who"], read_place(found, "at"), end, reading)
 
 
 def _guide(found: Match[str], reading: Reading) -> Meaning:
-    return guide(found["who"], where(found, "at"), found["to"] or found["back"], reading)
+    return guide(found["who"], read_place(found, "at"), found["to"] or found["back"], reading)
 
 
 def _tell(found: Match[str], reading: Reading) -> Meaning | None:
@@ -71,26 +75,28 @@ def _tell(found: Match[str], reading: Reading) -> Meaning | None:
         return None
     who = found.groupdict().get("who")
     if who is None or who in ("我", "我们", "大家"):
-        return About(topic)
-    said = told(topic, reading.now)
-    return meet(who, where(found, "at"), reading, said.of(reading.language)) if said else None
+        return TopicQuestion(topic)
+    said = answer_topic(topic, reading.now)
+    return meet(who, read_place(found, "at"), reading, said.of(reading.language)) if said else None
 
 
 def _present(found: Match[str], reading: Reading) -> Meaning:
-    said = told(Topic.SELF, None)
+    said = answer_topic(Topic.SELF, None)
     return meet(
-        found["who"], where(found, "at"), reading, said.of(reading.language) if said else ""
+        found["who"], read_place(found, "at"), reading, said.of(reading.language) if said else ""
     )
 
 
 def _tell_words(found: Match[str], reading: Reading) -> Meaning:
     words = reading.marked.restore(found["words"])
-    return meet(found["who"], where(found, "at2") or where(found, "at"), reading, words[:500])
+    return meet(
+        found["who"], read_place(found, "at2") or read_place(found, "at"), reading, words[:500]
+    )
 
 
 def _quote_to(found: Match[str], reading: Reading) -> Meaning:
     words = reading.quotes[ord(found["quote"]) - ord(QUOTE[1])]
-    return meet(found["who"], where(found, "at"), reading, words[:500])
+    return meet(found["who"], read_place(found, "at"), reading, words[:500])
 
 
 def _ask(found: Match[str], reading: Reading) -> Meaning:
@@ -98,7 +104,7 @@ def _ask(found: Match[str], reading: Reading) -> Meaning:
     who = found["who"]
     if who is None or who in ("大家", "他们", "她们"):
         return Steps((question,))
-    met = meet(who, where(found, "at"), reading)
+    met = meet(who, read_place(found, "at"), reading)
     return Steps((*met.steps, question), person=met.person) if isinstance(met, Steps) else met
 
 

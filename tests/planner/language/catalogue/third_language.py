@@ -22,7 +22,7 @@ from planner.brain import OfflineBrain, ThinkRequest
 from planner.language import color_names
 from planner.language.formatting import angle, metres
 from planner.language.object_classes import KINDS
-from planner.language.object_names import listed, named, named_several
+from planner.language.object_names import list_kinds, name_object, named_several
 from planner.language.place_lists import known_places
 from planner.mission.site_view import facts_of, vocabulary_of
 from planner.mission.skills import Eyesight, act_of
@@ -71,12 +71,12 @@ def constants() -> list[Bilingual]:
 
 def names() -> list[Bilingual]:
     """Return the names of things, colours, rooms and places."""
-    things = [named(label, color) for label in KINDS for color in (None, "red")]
+    things = [name_object(label, color) for label in KINDS for color in (None, "red")]
     several = [named_several(label, "blue") for label in KINDS]
     places = [target.name for target in FACTS.targets.values()]
     places += [entry.name for entry in VOCABULARY.entries]
     colors = [color_names.color_name(color) for color in color_names.COLORS]
-    return [*things, *several, *places, *colors, listed(KINDS), known_places(VOCABULARY, 3)]
+    return [*things, *several, *places, *colors, list_kinds(KINDS), known_places(VOCABULARY, 3)]
 
 
 def figures() -> list[Bilingual]:

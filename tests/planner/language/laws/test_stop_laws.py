@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from planner.language.commands import Cancel, Pause, Replace, intent_of
+from planner.language.commands import CancelCommand, PauseCommand, Replace, intent_of
 from planner.language.script_table import SIMPLIFIED, TRADITIONAL
 from planner.language.stop import MAX_READ, StopReading, is_stop, read_stop
 from pons.evals.cases import MissingSuite
@@ -334,5 +334,5 @@ def test_a_pause_or_a_cancel_is_heard_whatever_stands_around_it(
     if after.startswith(" before"):
         return  # "wait before you hit something" is advice
     for written in (text, to_traditional(text)):
-        meant = isinstance(intent_of(written), Pause | Cancel | Replace)
+        meant = isinstance(intent_of(written), PauseCommand | CancelCommand | Replace)
         assert meant or read_stop(written) is not NONE, written

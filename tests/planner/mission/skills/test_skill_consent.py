@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.language.commands import Cancel, Pause, intent_of
+from planner.language.commands import CancelCommand, PauseCommand, intent_of
 from planner.language.stop import is_stop
 from planner.language.yes_no import consents
 
@@ -110,7 +110,7 @@ def test_a_condition_or_a_question_makes_it_neither(said: str, tail: str) -> Non
 @given(spoken(meaning=True))
 def test_what_is_a_yes_is_no_order_to_stop_to_cancel_or_to_pause(said: str) -> None:
     assert not is_stop(said)
-    assert not isinstance(intent_of(said), Cancel | Pause)
+    assert not isinstance(intent_of(said), CancelCommand | PauseCommand)
 
 
 ORDERS = (
