@@ -11,7 +11,7 @@ from planner.api.interfaces import Services
 from planner.api.problems import Problem
 from planner.api.schemas import Body
 from planner.language.catalogue import say
-from planner.mission.known_places import Kept, Lesson
+from planner.mission.known_places import KeptPlace, Lesson
 from planner.site import MAX_HERE, PlaceRefused, TaughtPlace
 from wire import Pose2
 from wire.bounded_types import Name
@@ -96,7 +96,7 @@ def places_view(services: Services) -> dict[str, Any]:
         "version": memory.version,
         "home": memory.site.home.id,
         "places": memory.places,
-        "taught": [_view(kept) for kept in memory.taught],
+        "taught": [_view(kept) for kept in memory.taught_places],
         "most": MAX_HERE,
     }
 
@@ -135,7 +135,7 @@ def _record(place: TaughtPlace) -> dict[str, Any]:
     return place.model_dump(mode="json")
 
 
-def _view(kept: Kept) -> dict[str, Any]:
+def _view(kept: KeptPlace) -> dict[str, Any]:
     """Return a taught place with the reason why it can't be driven to, where there is one."""
     message = None
     if kept.why_not is not None:

@@ -36,9 +36,9 @@ from planner.mission.api_view import goal_of
 from planner.mission.effects import (
     AskBrain,
     AskRoute,
-    Changed,
     DropBrain,
     Effect,
+    GoalChange,
     Journal,
     MotionRequest,
     SayAloud,
@@ -73,20 +73,19 @@ from planner.mission.events import (
 )
 from planner.mission.journal import MissionJournal
 from planner.mission.journal_sync import Disk, JournalSync
-from planner.mission.known_places import Kept, KnownPlaces, Lesson
+from planner.mission.known_places import KeptPlace, KnownPlaces, Lesson
 from planner.mission.loop import Clocks
 from planner.mission.reducer import advance, motion_request
 from planner.mission.service import Missions
 from planner.mission.site_view import facts_of
 from planner.mission.state import Mission, MissionState, Rules, SiteView, Target
-from planner.mission.tasks import Router, Think
+from planner.mission.tasks import RouteService, Think
 
 __all__ = [
     "AskBrain",
     "AskRoute",
     "BadState",
     "Cancel",
-    "Changed",
     "Clocks",
     "Confirm",
     "Disk",
@@ -94,12 +93,13 @@ __all__ = [
     "Effect",
     "Engine",
     "Event",
+    "GoalChange",
     "IdempotencyConflict",
     "Journal",
     "JournalDown",
     "JournalSync",
     "Journalled",
-    "Kept",
+    "KeptPlace",
     "KnownPlaces",
     "Leg",
     "Lesson",
@@ -118,8 +118,8 @@ __all__ = [
     "Reply",
     "Restarted",
     "Resume",
+    "RouteService",
     "Routed",
-    "Router",
     "Rules",
     "SayAloud",
     "Seen",

@@ -35,13 +35,15 @@ def account(facts: SiteView, mission: Mission, code: Code, said: Bilingual | Non
         code: how it ends.
         said: how it ends in words; None: the steps tell it all.
     """
-    told = list(_told(facts, mission))
-    if said is not None and not any(each.en.endswith(said.en) for each in (*told, _joined(told))):
+    told = list(_tell_steps(facts, mission))
+    if said is not None and not any(
+        each.en.endswith(said.en) for each in (*told, _join_sentences(told))
+    ):
         told.append(said)
     left = _undone(facts, mission, code)
     if left is not None:
         told.append(left)
-    return _joined(told) if told else message(Code.DONE)
+    return _join_sentences(told) if told else message(Code.DONE)
 
 
 def outcome_code(mission: Mission) -> Code:
@@ -84,10 +86,10 @@ def _name(facts: SiteView, place: str) -> Bilingual:
     return target.name if target is not None else same(place or "?")
 
 
-def _told(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
+def _tell_steps(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
     """Yield the sentences of the steps that were begun; arrivals in a row are one."""
     steps, arrived, instead = mission.steps, list[Bilingual](), False
-    mended = _mended(mission)
+    mended = _find_replan(mission)
     for index, step in enumerate(steps):
         if step.kind in DRIVEN and step.state is StepState.SUCCEEDED:
             name = place_name(facts, mission, step)
@@ -98,14 +100,14 @@ def _told(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
         else:
             sentences = list(_sentences(facts, step))
         if arrived and sentences:
-            yield from _after(_arrived(arrived), instead=instead)
+            yield from _after(_tell_arrivals(arrived), instead=instead)
             arrived, instead = [], False
         for sentence in sentences:
             yield from _after(sentence, instead=instead)
             instead = False
         instead = instead or (step.state is StepState.FAILED and index < mended)
     if arrived:
-        yield from _after(_arrived(arrived), instead=instead)
+        yield from _after(_tell_arrivals(arrived), instead=instead)
 
 
 def _after(sentence: Bilingual, *, instead: bool) -> Iterator[Bilingual]:
@@ -113,7 +115,7 @@ def _after(sentence: Bilingual, *, instead: bool) -> Iterator[Bilingual]:
     yield say("account.instead", sentence=sentence) if instead else sentence
 
 
-def _mended(mission: Mission) -> int:
+def _find_replan(mission: Mission) -> int:
     """Return before which step another plan has taken the place of each that failed."""
     if mission.failure is None:
         return len(mission.steps)
@@ -130,7 +132,7 @@ def _failed_later(facts: SiteView, mission: Mission, index: int) -> bool:
     return bool(last) and last[-1].state is not StepState.SUCCEEDED
 
 
-def _arrived(names: Sequence[Bilingual]) -> Bilingual:
+def _tell_arrivals(names: Sequence[Bilingual]) -> Bilingual:
     return message(Code.ARRIVED, place=join(names, "joint.then"))
 
 
@@ -140,25 +142,25 @@ def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
         names = [_name(facts, place) for place in step.places[: step.visited]]
         yield say("account.visited", names=list_names(names))
     if step.answer is not None:
-        yield _answered(step)
+        yield _tell_answer(step)
     if step.said is not None and step.state in _OVER:
         yield step.said
         if step.read is not None:
             yield step.read
     elif step.state is StepState.SUCCEEDED:
-        yield from _done(step)
+        yield from _tell_deed(step)
     elif step.reason == "perhaps_said":
         text = step.text or ""
         yield say("account.perhaps_said", text=text)
 
 
-def _answered(step: StepRecord) -> Bilingual:
+def _tell_answer(step: StepRecord) -> Bilingual:
     if step.kind != "ask":  # its question is in no record
         return say("account.answered", answer=step.answer)
     return say("account.asked", text=step.text, answer=step.answer)
 
 
-def _done(step: StepRecord) -> Iterator[Bilingual]:
+def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
     """Yield what a step did that has no words of its own."""
     match step.kind:
         case "turn" | "move":
@@ -185,23 +187,23 @@ def _undone(facts: SiteView, mission: Mission, code: Code) -> Bilingual | None:
     """Name the steps that nothing else accounts for; of a plan of one step its end is enough."""
     if code in (Code.CANCELLED, Code.DECLINED) or len(mission.steps) < 2:
         return None
-    names = [n for step in mission.steps if (n := _left(facts, mission, step)) is not None]
+    names = [n for step in mission.steps if (n := _name_undone(facts, mission, step)) is not None]
     if not names:
         return None
     return say("account.not_done", names=list_names(names))
 
 
-def _left(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual | None:
+def _name_undone(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual | None:
     """Name a step that was not done and of which nothing was said; else None."""
     said = step.said is not None or step.answer is not None or step.reason == "perhaps_said"
     if step.state is StepState.SUCCEEDED or said or step.kind == "decide":
         return None
     if step.kind == "ask" and step.state is StepState.RUNNING:  # that nobody answered is told
         return None
-    return _asked(facts, mission, step)
+    return _name_step(facts, mission, step)
 
 
-def _asked(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual:
+def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual:
     """Name what a step asks for: ``going to the kitchen``, ``去厨房``."""
     text = step.object or step.text or ""
     if step.kind in _OBJECT_STEPS:
@@ -232,7 +234,7 @@ def _asked(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual:
             return say("account.going_to", name=name)
 
 
-def _joined(told: Sequence[Bilingual]) -> Bilingual:
+def _join_sentences(told: Sequence[Bilingual]) -> Bilingual:
     """Return sentences as one text; what is said twice in a row is told once."""
     kept = [each for at, each in enumerate(told) if at == 0 or each != told[at - 1]]
     return join(kept)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from planner.mission.skills.actions import Way
-from planner.mission.skills.perception import Wanted
+from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.skill_state import Notes
 from planner.plan import Bilingual
 from wire import Pose2
@@ -48,7 +48,7 @@ class Driving(_StepActivity):
     """And once it is reached."""
     otherwise: Notes | None = None
     """And where its way is shut; None: then the step fails."""
-    wanted: Wanted | None = None
+    wanted: WantedObject | None = None
     """As soon as this is seen for sure the skill is asked again."""
     watch: bool = False
     """The skill is asked again as the sight changes."""
@@ -105,7 +105,7 @@ class Observing(_StepActivity):
     """New pictures that are waited for."""
     notes: Notes | None = None
     then: Notes | None = None
-    wanted: Wanted | None = None
+    wanted: WantedObject | None = None
     """This ends as soon as that is seen for sure."""
     watch: bool = False
     """The skill is asked again as the sight changes."""

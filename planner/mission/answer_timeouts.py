@@ -31,7 +31,7 @@ def end_unanswered(turn: Transaction) -> None:
             continue
         since_s = turn.book.asked_s.get(mission.id, turn.now_s)
         if turn.now_s - since_s > limit_s:
-            said = message(Code.NO_ANSWER, text=_asked(mission), seconds=f"{limit_s:.0f}")
+            said = message(Code.NO_ANSWER, text=_repeat_question(mission), seconds=f"{limit_s:.0f}")
             _end(turn, mission, said, GoalFact.UNANSWERED, Code.NO_ANSWER.value)
         else:
             asked_s[mission.id] = since_s
@@ -63,14 +63,14 @@ def close_older(turn: Transaction, new: Mission) -> None:
 
 def has_room(book: MissionState) -> bool:
     """Tell whether one more order can be taken, perhaps in place of a question."""
-    open_ = [m for m in book.missions.values() if not m.ended]
+    open_ = [m for m in book.missions.values() if not m.has_ended]
     return len(open_) < MAX_OPEN or any(m.state in WAITS for m in open_)
 
 
 def make_room(turn: Transaction, text: str) -> None:
     """End the oldest questions while goals are more than may be open: about orders first."""
     while True:
-        open_ = [m for m in turn.book.missions.values() if not m.ended]
+        open_ = [m for m in turn.book.missions.values() if not m.has_ended]
         waiting = [m for m in open_ if m.state in WAITS]
         if len(open_) < MAX_OPEN or not waiting:
             return
@@ -86,12 +86,12 @@ def _about_order(mission: Mission) -> bool:
 
 
 def _make_way(turn: Transaction, mission: Mission, newer: str) -> None:
-    asked, newer = _asked(mission), newer[:60]
+    asked, newer = _repeat_question(mission), newer[:60]
     said = say("question.superseded", asked=asked, newer=newer)
     _end(turn, mission, said, GoalFact.SUPERSEDED, SUPERSEDED)
 
 
-def _asked(mission: Mission) -> Bilingual:
+def _repeat_question(mission: Mission) -> Bilingual:
     return mission.outcome.message if mission.outcome is not None else same(mission.text[:200])
 
 

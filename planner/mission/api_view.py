@@ -35,9 +35,9 @@ def goal_of(book: MissionState, mission: Mission) -> Goal:
 def progress_of(book: MissionState) -> Progress | None:
     """Return what is left of the running step: metres, radians or seconds; None of no motion."""
     mission, activity = book.missions.get(book.running or ""), book.activity
-    if mission is None or activity is None or mission.now is None:
+    if mission is None or activity is None or mission.current_step is None:
         return None
-    step, left = mission.now, dict[str, float]()
+    step, left = mission.current_step, dict[str, float]()
     if isinstance(activity, Waiting):
         left["left_s"] = (
             round(max(0.0, activity.until_s - book.status_s)) if isfinite(book.status_s) else 0

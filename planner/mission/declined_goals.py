@@ -18,7 +18,11 @@ def decline(turn: Transaction, mission: Mission, said: Bilingual) -> None:
     """End a goal where the robot stands; a question that was answered is over, the rest skipped."""
     if turn.book.running == mission.id:
         mission = settle_activity(turn) or mission
-    if mission.now is not None and mission.now.kind == "ask" and mission.now.answer is not None:
+    if (
+        mission.current_step is not None
+        and mission.current_step.kind == "ask"
+        and mission.current_step.answer is not None
+    ):
         mission = note_step(turn, mission, state=StepState.SUCCEEDED)
     now_unix_s = turn.now_s + turn.book.wall_offset_s
     outcome = ended_outcome(turn.book.facts, mission, turn.book.status, now_unix_s,

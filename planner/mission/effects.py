@@ -112,7 +112,7 @@ class SayAloud:
 
 
 @dataclass(frozen=True, slots=True)
-class Changed:
+class GoalChange:
     """Tell who listens that a goal is not what it was."""
 
     id: str
@@ -127,7 +127,7 @@ Effect = (
     | KeepPicture
     | Journal
     | SayAloud
-    | Changed
+    | GoalChange
 )
 
 

@@ -93,7 +93,7 @@ class Engine:
         effects = self._advance(event, now_s)
         return Output(self._speak(now_s), effects)
 
-    def routed(
+    def take_route(
         self,
         ask: AskRoute,
         points: tuple[RoutePoint, ...] | None,
@@ -104,7 +104,7 @@ class Engine:
         effects = self._take_route(ask, points, failure, now_s)
         return Output(self._speak(now_s), effects)
 
-    def journalled(self, journal: Journal, now_s: float) -> Output:
+    def take_journalled(self, journal: Journal, now_s: float) -> Output:
         """Take the word that an entry is on disk."""
         return self.event(Journalled(journal.entry), now_s)
 
@@ -163,11 +163,11 @@ class Engine:
             return None
         if (following.mission, following.leg) != (wanted.mission, wanted.leg):
             return None
-        horizon = cut(self._slowed(following), pose, following.progress_m)
+        horizon = cut(self._slow(following), pose, following.progress_m)
         following.progress_m = horizon.progress_m
         return horizon
 
-    def _slowed(self, following: Following) -> LegPath:
+    def _slow(self, following: Following) -> LegPath:
         """Return the path at the speed that a person has left to its goal."""
         mission = self.book.missions.get(following.mission)
         share = mission.speed_share if mission is not None else 1.0

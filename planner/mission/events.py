@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planner.mission.skills.perception import Answer as EyeAnswer
+from planner.mission.skills.perception import ImageAnswer as EyeAnswer
 from planner.mission.state import Mission, SiteView
 from planner.perception.snapshot import Sight
 from planner.plan import Answer, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan

@@ -13,7 +13,7 @@ from planner.mission.open_questions import (
     ask_plainly,
     asks,
     confirms,
-    offered,
+    find_offer,
     take_answer,
     take_no,
     take_sentence,
@@ -94,7 +94,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         updated_unix_s=now_unix_s,
     )
     if event.stop or (event.doubtful_stop and not event.echoed):
-        _stopped(turn, mission, event.echoed)
+        _end_stopped(turn, mission, event.echoed)
         return
     if event.asking:
         asking = take_sentence(turn, mission, event.asking)
@@ -104,7 +104,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
     _think(turn, turn.put(mission))
 
 
-def _stopped(turn: Transaction, mission: Mission, echoed: bool) -> None:
+def _end_stopped(turn: Transaction, mission: Mission, echoed: bool) -> None:
     if echoed:
         said = Outcome(code=Code.STOPPED, message=stop_told(turn.book))
         finish(turn, mission, PersonCause.ORDERS_STOP, said)
@@ -126,7 +126,7 @@ def _think(turn: Transaction, mission: Mission) -> None:
                        order=mission.text, exchanges=said))  # fmt: skip
 
 
-def planned(turn: Transaction, event: Planned) -> None:
+def take_plan(turn: Transaction, event: Planned) -> None:
     """Take the brain's answer, if somebody still waits for it."""
     mission = turn.mission(event.id)
     thinks = isinstance(turn.book.activity, Thinking)
@@ -137,7 +137,7 @@ def planned(turn: Transaction, event: Planned) -> None:
         return
     plan = event.plan
     if mission.doubtful_stop and not isinstance(plan, StepPlan):
-        _stopped(turn, turn.put(mission, brain=event.brain), echoed=True)
+        _end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True)
         return
     if plan is None:
         outcome = event.failure or _bad_plan("no answer")
@@ -176,7 +176,7 @@ def _walkable(turn: Transaction, mission: Mission) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
-        _stopped(turn, mission, echoed=True)
+        _end_stopped(turn, mission, echoed=True)
         return
     if outcome is not None:
         finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
@@ -198,7 +198,7 @@ def _bad_plan(why: str) -> Outcome:
 def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
     """Let a planned goal wait for the robot, or take it from the one it replaces."""
     clear_hold(turn, mission)
-    if mission.begun:  # it was asked under way, and goes on where it stood
+    if mission.has_begun:  # it was asked under way, and goes on where it stood
         release_answered(turn)
         enqueue(turn, mission, cause, first=True)
         return
@@ -227,7 +227,7 @@ def reply(turn: Transaction, mission: Mission, text: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
     mission = turn.put(mission, given_under_hold=hold_now(turn))
     ask_anew(turn, mission)
-    agreed, order = parse(text).consent, offered(mission)
+    agreed, order = parse(text).consent, find_offer(mission)
     if asks(mission):
         take_answer(turn, mission, text)
     elif agreed is False and (order is not None or confirms(mission)):
@@ -302,7 +302,7 @@ def restart(turn: Transaction, event: Restarted) -> None:
             reason = PauseReason.PLANNER_RESTARTED.value
             leg = mission.leg + LEGS_UNWRITTEN
             turn.move_to(mission, GoalFact.RESTARTED, reason=reason, leg=leg)
-        if not mission.ended and mission.map_id != turn.book.facts.map_id:
+        if not mission.has_ended and mission.map_id != turn.book.facts.map_id:
             _forget_poses(turn, turn.book.missions[mission.id])
     hold_queue(turn)
 

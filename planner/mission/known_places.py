@@ -23,7 +23,7 @@ from planner.language.yes_no import consents
 from planner.mission.bridge_status import standing
 from planner.mission.site_view import facts_of, vocabulary_of
 from planner.mission.state import SiteView
-from planner.mission.tasks import Router
+from planner.mission.tasks import RouteService
 from planner.navigation import RouteFailure, RouteRequest
 from planner.plan import Vocabulary
 from planner.site import (
@@ -61,7 +61,7 @@ class Hears(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class KeptPlace:
     """Show a taught place, and why it can't be driven to, where it can't."""
 
     place: TaughtPlace
@@ -80,7 +80,7 @@ class Lesson:
     place_id: str | None = None
 
 
-def _now() -> datetime:
+def _read_clock() -> datetime:
     return datetime.now(UTC)
 
 
@@ -93,13 +93,13 @@ class KnownPlaces:
         store: TaughtPlaces | None = None,
         *,
         radius_m: float = 0.3,
-        clock: Callable[[], datetime] = _now,
+        clock: Callable[[], datetime] = _read_clock,
     ) -> None:
         """Take up what was taught. Raises SiteError where the file is not ours."""
         self.site = site
         self._store, self._radius_m = store, radius_m
         self._link: Hears | None = None
-        self._router: Router | None = None
+        self._router: RouteService | None = None
         self._clock = clock
         self._lock = asyncio.Lock()
         self.version = 0
@@ -111,7 +111,7 @@ class KnownPlaces:
     # What is known ------------------------------------------------------------------------------
 
     @property
-    def taught(self) -> tuple[Kept, ...]:
+    def taught_places(self) -> tuple[KeptPlace, ...]:
         """Return all that was taught, on whichever map, in the order of teaching."""
         return self._shown
 
@@ -130,7 +130,7 @@ class KnownPlaces:
         """Return the places as the reducer knows them."""
         return self._facts
 
-    def use(self, link: Hears, router: Router) -> None:
+    def use(self, link: Hears, router: RouteService) -> None:
         """Take where the robot is heard, and who finds ways to a point."""
         self._link, self._router = link, router
 
@@ -162,7 +162,7 @@ class KnownPlaces:
     async def _teach(self, lesson: Lesson) -> tuple[TaughtPlace, bool]:
         async with self._lock:
             names = _names(lesson)
-            before = self._meant(lesson, names)
+            before = self._find_taught(lesson, names)
             self._check_names(lesson, names, before)
             pose = await self._spot(lesson)
             if before is None:
@@ -181,7 +181,7 @@ class KnownPlaces:
 
     async def _forget(self, name: str, *, other_maps: bool) -> TaughtPlace:
         async with self._lock:
-            here = [kept for kept in self._kept if self._here(kept)]
+            here = [kept for kept in self._kept if self._is_here(kept)]
             known = [*here, *(k for k in self._kept if other_maps and k not in here)]
             found = next((kept for kept in known if _answers(kept, name)), None)
             if found is None:
@@ -196,16 +196,16 @@ class KnownPlaces:
         names = ", ".join(kept.name.en for kept in here) or "none"
         return PlaceRefused("unknown_taught_place", f"{got}; taught on this map: {names}")
 
-    def _here(self, place: TaughtPlace) -> bool:
+    def _is_here(self, place: TaughtPlace) -> bool:
         return place.map_id == self.site.map_id
 
     def _judge(self) -> None:
         """Work out anew what may be driven to, and what a plan may name."""
         good: list[Place] = []
-        shown: list[Kept] = []
+        shown: list[KeptPlace] = []
         for kept in self._kept:
             why_not = self._why_not(kept, (*self.site.places, *good))
-            shown.append(Kept(kept, why_not))
+            shown.append(KeptPlace(kept, why_not))
             if why_not is None:
                 good.append(kept.as_place())
         self._shown, self._places = tuple(shown), (*self.site.places, *good)
@@ -214,7 +214,7 @@ class KnownPlaces:
 
     def _why_not(self, kept: TaughtPlace, known: tuple[Place, ...]) -> str | None:
         """Say why a kept place can't be used: the site's files may have changed since."""
-        if not self._here(kept):
+        if not self._is_here(kept):
             return "other_map"
         if any(_owner(name, known) is not None for name in kept.as_place().spoken):
             return "place_name_taken"
@@ -224,9 +224,9 @@ class KnownPlaces:
             return refused.code
         return None
 
-    def _meant(self, lesson: Lesson, names: Names) -> TaughtPlace | None:
+    def _find_taught(self, lesson: Lesson, names: Names) -> TaughtPlace | None:
         """Return the taught place that this lesson is about, if it is one of before."""
-        here = [kept for kept in self._kept if self._here(kept)]
+        here = [kept for kept in self._kept if self._is_here(kept)]
         if lesson.place_id is not None:
             return next((kept for kept in here if kept.id == lesson.place_id), None)
         said = {squash(names.en), squash(names.zh)}
@@ -252,7 +252,7 @@ class KnownPlaces:
                 raise PlaceRefused("place_name_reserved", f"got {name!r}")
 
     def _check_room(self) -> None:
-        here = sum(map(self._here, self._kept))
+        here = sum(map(self._is_here, self._kept))
         if not (here < MAX_HERE and len(self._kept) < MAX_KEPT):
             detail = f"{here} on this map, at most {MAX_HERE}; {len(self._kept)} in all"
             raise PlaceRefused("places_full", f"{detail}, at most {MAX_KEPT}; forget some first")
@@ -293,7 +293,7 @@ class KnownPlaces:
             return lesson.place_id
         slug = _NO_ID.sub("_", names.en.casefold()).strip("_")
         taken = {place.id for place in self.site.places}
-        taken |= {kept.id for kept in self._kept if self._here(kept)}
+        taken |= {kept.id for kept in self._kept if self._is_here(kept)}
         if slug[:1].isalpha() and names.en.isascii() and slug not in taken:
             return slug
         coded = f"taught_{hashlib.sha256(squash(names.zh).encode()).hexdigest()[:8]}"

@@ -142,7 +142,7 @@ STEERED = say("goal.steered")
 
 def measure_from(turn: Transaction, mission: Mission, pose: Pose2 | None) -> Mission:
     """Note where a measured step begins, or began: what is done lies behind the robot."""
-    step = mission.now
+    step = mission.current_step
     if step is None or pose is None or step.kind not in BY_AMOUNT or mission.began_at is not None:
         return mission
     gone_m, turned = (0.0, mission.done) if step.kind == "turn" else (mission.done, 0.0)
@@ -159,7 +159,7 @@ def settle_amounts(turn: Transaction, pose: Pose2 | None) -> None:
     if pose is None:
         return
     for mission in tuple(turn.book.missions.values()):
-        step = mission.now
+        step = mission.current_step
         if mission.began_at is None or mission.id == turn.book.running:
             continue
         done = mission.done
@@ -182,7 +182,7 @@ def forget_beginnings(turn: Transaction) -> None:
     step came is not known, and better unfinished than done twice.
     """
     for mission in tuple(turn.book.missions.values()):
-        if mission.began_at is None or mission.ended:
+        if mission.began_at is None or mission.has_ended:
             continue
         if mission.reason == PauseReason.PLANNER_RESTARTED.value:
             said = Outcome(code=Code.NOT_REACHED, message=STEERED)

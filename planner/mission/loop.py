@@ -26,10 +26,10 @@ from planner.mission.effects import (
     AskBrain,
     AskEyes,
     AskRoute,
-    Changed,
     ClearHold,
     DropBrain,
     Effect,
+    GoalChange,
     Journal,
     KeepPicture,
     SayAloud,
@@ -45,7 +45,7 @@ from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.skills import Eyesight
 from planner.mission.state import MissionState, Rules
-from planner.mission.tasks import Answers, MissionTasks, Router, Think
+from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
 from planner.navigation import RoutePoint
 from wire import OpRequest, Status, Waypoints
 
@@ -110,7 +110,7 @@ class Loop:
         return self._engine.leg
 
     @property
-    def failed(self) -> BaseException | None:
+    def failure(self) -> BaseException | None:
         """Return what ended the loop, if something did."""
         task = self._task
         if task is None or not task.done() or task.cancelled():
@@ -136,7 +136,7 @@ class Loop:
         eyes.listen(self._on_sight)
 
     async def start(
-        self, think: Think, router: Router, *, freeze: bool, rounds: bool
+        self, think: Think, router: RouteService, *, freeze: bool, rounds: bool
     ) -> tuple[GoalKey, ...]:
         """Take up the journal and begin; return the idempotency keys it kept.
 
@@ -180,7 +180,7 @@ class Loop:
         self._carry(self._engine.event(event, self._clocks.monotonic()))
         self._key_now = None
 
-    async def settled(self) -> None:
+    async def wait_written(self) -> None:
         """Wait until all that happened so far is on disk.
 
         Raises:
@@ -276,7 +276,7 @@ class Loop:
     def _on_routed(
         self, ask: AskRoute, points: tuple[RoutePoint, ...] | None, failure: str | None
     ) -> None:
-        self._carry(self._engine.routed(ask, points, failure, self._clocks.monotonic()))
+        self._carry(self._engine.take_route(ask, points, failure, self._clocks.monotonic()))
 
     def _carry(self, output: Output) -> None:
         """Send first, then do the rest in order."""
@@ -328,9 +328,9 @@ class Loop:
                 self.clear_hold(self._acts.pop(effect.id, None))
             case SayAloud():
                 self.hub.publish({"type": "say", "goal": effect.id, "text": effect.text})
-            case Changed():
+            case GoalChange():
                 if effect.id in self.book.missions:
-                    if self.book.missions[effect.id].ended:
+                    if self.book.missions[effect.id].has_ended:
                         self._acts.pop(effect.id, None)
                     goal = goal_of(self.book, self.book.missions[effect.id]).model_dump(mode="json")
                     self.hub.publish({"type": "goal", "goal": goal})

@@ -19,10 +19,10 @@ RESULTS = {
 }
 
 
-def observed(facts: SiteView, mission: Mission) -> tuple[Observation, ...]:
+def list_observations(facts: SiteView, mission: Mission) -> tuple[Observation, ...]:
     """Return one observation a step that is over, and the question of a step that decides."""
     over = mission.steps[: mission.step]
-    now = mission.now
+    now = mission.current_step
     if now is not None and _is_over(now):
         over = (*over, now)
     last = len(over) - 1
@@ -77,10 +77,10 @@ def _detail(facts: SiteView, step: StepRecord) -> Bilingual:
         case "wait":
             return say("observation.seconds", seconds=step.seconds or 0)
         case _:
-            return _where(facts, step)
+            return _describe_places(facts, step)
 
 
-def _where(facts: SiteView, step: StepRecord) -> Bilingual:
+def _describe_places(facts: SiteView, step: StepRecord) -> Bilingual:
     wanted = (step.place,) if step.place else step.places
     names = [facts.targets[p].name if p in facts.targets else same(p) for p in wanted]
     if step.reason is None:

@@ -15,7 +15,7 @@ from planner.mission.declined_goals import decline
 from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
 from planner.mission.scene import DO_THAT, first_deed, scene_of, upon_yes
 from planner.mission.skills import Fail
-from planner.mission.skills.ask import ask, declined
+from planner.mission.skills.ask import ask, tell_declined
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import PersonCause
@@ -35,7 +35,7 @@ _YES_OR_NO = say("question.yes_or_no")
 
 def asks(mission: Mission) -> bool:
     """Tell whether a goal waits for the answer to a question of one of its own steps."""
-    step = mission.now
+    step = mission.current_step
     return (
         mission.state is GoalState.NEEDS_CLARIFICATION
         and step is not None
@@ -48,7 +48,7 @@ def confirms(mission: Mission) -> bool:
     return mission.state is GoalState.AWAITING_CONFIRMATION
 
 
-def offered(mission: Mission) -> str | None:
+def find_offer(mission: Mission) -> str | None:
     """Return the one order that a brain's question offers; None where it offers none or several.
 
     An order to stop is none: it is taken from a person's own words alone.
@@ -70,7 +70,7 @@ def asks_freely(mission: Mission) -> bool:
 
 def takes_yes(mission: Mission) -> bool:
     """Tell whether a plain yes or no answers what a goal waits for."""
-    return asks(mission) or confirms(mission) or offered(mission) is not None
+    return asks(mission) or confirms(mission) or find_offer(mission) is not None
 
 
 def take_sentence(turn: Transaction, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
@@ -99,7 +99,7 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
         clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
     mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
     release_answered(turn)
-    if mission.now is not None and mission.now.kind == "ask":
+    if mission.current_step is not None and mission.current_step.kind == "ask":
         act = ask(scene_of(turn, mission).but(mission.notes))
         if isinstance(act, Fail) and act.said is not None:
             decline(turn, mission, act.said)
@@ -109,10 +109,10 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
 
 def take_no(turn: Transaction, mission: Mission) -> None:
     """End a goal whose plan or only offer a person said no to."""
-    if mission.begun:
+    if mission.has_begun:
         release_answered(turn)
     deed = first_deed(turn.book.facts, mission.steps[mission.step :]) or DO_THAT
-    decline(turn, mission, declined(deed))
+    decline(turn, mission, tell_declined(deed))
 
 
 def ask_plainly(turn: Transaction, mission: Mission) -> None:

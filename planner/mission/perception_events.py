@@ -18,8 +18,8 @@ from planner.mission.effects import KeepPicture
 from planner.mission.legs import ask_route
 from planner.mission.queue import settle_activity
 from planner.mission.scene import scene_of
-from planner.mission.skills import Answer, Drive, Fail, Observe, SkillAction, Way, act_of
-from planner.mission.skills.object_matching import confirmed, fresh
+from planner.mission.skills import DriveLeg, Fail, ImageAnswer, Observe, SkillAction, Way, act_of
+from planner.mission.skills.object_matching import fresh, list_confirmed
 from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -63,9 +63,14 @@ def on_sight(turn: Transaction, sight: Sight, classes: tuple[str, ...]) -> None:
 def stand_while_blind(turn: Transaction) -> bool:
     """Give up a leg for the eyes' sake while they see nothing, and wait for them; say if so."""
     mission, leg = turn.running, turn.driving
-    if turn.book.sight.blind is None or mission is None or mission.now is None or leg is None:
+    if (
+        turn.book.sight.blind is None
+        or mission is None
+        or mission.current_step is None
+        or leg is None
+    ):
         return False
-    if not (leg.watch or leg.wanted is not None or mission.now.kind in LOOKING):
+    if not (leg.watch or leg.wanted is not None or mission.current_step.kind in LOOKING):
         return False
     settled = settle_activity(turn)
     if settled is not None:
@@ -73,7 +78,7 @@ def stand_while_blind(turn: Transaction) -> bool:
     return True
 
 
-def on_told(turn: Transaction, mission_id: str, ticket: int, answer: Answer) -> None:
+def on_told(turn: Transaction, mission_id: str, ticket: int, answer: ImageAnswer) -> None:
     """Take the answer about the picture, if somebody still waits for it."""
     mission, activity = turn.running, turn.book.activity
     if mission is None or mission.id != mission_id or not isinstance(activity, AskingImage):
@@ -97,7 +102,7 @@ def end_gaze_if_due(turn: Transaction) -> None:
     if not isinstance(activity, (Observing, AskingImage)) or turn.now_s < activity.until_s:
         return
     if isinstance(activity, AskingImage):
-        go_on(turn, activity.then, answer=Answer(failure="timed_out"))
+        go_on(turn, activity.then, answer=ImageAnswer(failure="timed_out"))
     elif activity.looked > 0:
         _end_gaze(turn, activity)
     else:
@@ -109,7 +114,11 @@ def end_gaze_if_due(turn: Transaction) -> None:
 def _end_gaze(turn: Transaction, gaze: Observing) -> None:
     """Go on after a gaze; the picture of a look's direction is kept for a model to be shown."""
     mission, then = turn.running, gaze.then
-    looks = mission is not None and mission.now is not None and mission.now.kind == "look"
+    looks = (
+        mission is not None
+        and mission.current_step is not None
+        and mission.current_step.kind == "look"
+    )
     if mission is not None and looks and then is not None and then.faced and turn.book.eyes.model:
         turn.emit(KeepPicture(mission.id, len(then.faced) - 1, gaze.look_seq))
     go_on(turn, then, gazed_s=gaze.standing_s)
@@ -127,7 +136,7 @@ def _has_enough(turn: Transaction, gaze: Observing, sight: Sight) -> bool:
     since_s = gaze.standing_s if gaze.standing_s is not None else turn.now_s
     if gaze.wanted is None:
         return gaze.looked >= gaze.looks
-    if confirmed(sight, gaze.wanted, since_s):
+    if list_confirmed(sight, gaze.wanted, since_s):
         return True
     unsure = bool(fresh(sight, gaze.wanted, since_s))
     return gaze.looked >= gaze.looks * (MORE if unsure else 1)
@@ -144,7 +153,7 @@ def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> b
         return False
     if activity.watch or activity.wanted is None:
         return activity.watch
-    return bool(confirmed(sight, activity.wanted, turn.now_s - SEEN_S))
+    return bool(list_confirmed(sight, activity.wanted, turn.now_s - SEEN_S))
 
 
 def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
@@ -155,9 +164,9 @@ def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
     turn.change(asked_s=turn.now_s)
     act = act_of(scene_of(turn, mission))
     if _is_under_way(activity, act):
-        if isinstance(act, (Drive, Observe)) and activity.watch:
+        if isinstance(act, (DriveLeg, Observe)) and activity.watch:
             turn.change(notes=act.notes, then=act.then)
-    elif isinstance(act, Drive) and isinstance(activity, Driving) and _is_one_way(activity, act):
+    elif isinstance(act, DriveLeg) and isinstance(activity, Driving) and _is_one_way(activity, act):
         _lay_anew(turn, activity, act)
     else:
         settled = settle_activity(turn)
@@ -169,7 +178,7 @@ def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
     """Tell whether what is asked for is what is being done."""
     if isinstance(activity, Observing):
         return isinstance(act, Observe)
-    if not isinstance(act, Drive) or act.way is not activity.way:
+    if not isinstance(act, DriveLeg) or act.way is not activity.way:
         return False
     goal = activity.goal
     turned = abs(wrap(act.goal.yaw_rad - goal.yaw_rad))
@@ -179,11 +188,11 @@ def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
     return apart_m <= SAME_M
 
 
-def _is_one_way(leg: Driving, act: Drive) -> bool:
+def _is_one_way(leg: Driving, act: DriveLeg) -> bool:
     return leg.watch and leg.way is Way.ROUTE and act.way is Way.ROUTE
 
 
-def _lay_anew(turn: Transaction, leg: Driving, act: Drive) -> None:
+def _lay_anew(turn: Transaction, leg: Driving, act: DriveLeg) -> None:
     """Aim the leg at a goal that has moved; the old horizon streams until the new way is there."""
     turn.change(
         goal=act.goal,

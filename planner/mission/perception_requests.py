@@ -18,7 +18,7 @@ from planner.brain.errors import BadPlan, BrainDown
 from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImagePoint, ImageQuestion
 from planner.brain.image_questions import PosedPicture as Shown
 from planner.mission.events import Told
-from planner.mission.skills.perception import Answer
+from planner.mission.skills.perception import ImageAnswer
 from planner.perception.interfaces import PointRefused
 
 if TYPE_CHECKING:
@@ -76,45 +76,50 @@ class EyeDoor:
         picture = self._eyes.looked if self._eyes is not None else None
         same = picture is not None and picture.color.header.seq == keep.seq
         if self._eyes is not None and picture is not None and same and len(views) < MAX_VIEWS:
-            views[keep.number] = _shown(self._eyes, picture), _detections(self._eyes, picture)
+            views[keep.number] = (
+                _pose_picture(self._eyes, picture),
+                _detections(self._eyes, picture),
+            )
 
     async def ask(self, ask: AskEyes) -> Told:
         """Return the answer to one question."""
         return Told(ask.id, ask.ticket, await self._answer(ask))
 
-    async def _answer(self, ask: AskEyes) -> Answer:
+    async def _answer(self, ask: AskEyes) -> ImageAnswer:
         eyes = self._eyes
         picture = _newest(eyes, await eyes.fresh()) if eyes is not None else None
         if eyes is None or picture is None:
-            return Answer(failure="camera_silent")
+            return ImageAnswer(failure="camera_silent")
         if ask.x is not None and ask.y is not None:
             noted = self._pictures.get(ask.id)
             meant = await asyncio.shield(noted) if isinstance(noted, asyncio.Task) else noted
             if meant is None:  # planned by a planner that is gone, or before any picture came
-                return Answer(failure="point_no_pose")
+                return ImageAnswer(failure="point_no_pose")
             return await _point(eyes, meant, ask.x, ask.y)
         if self._looker is None:
-            return Answer(failure="no_vision_model")
+            return ImageAnswer(failure="no_vision_model")
         try:
             return await self._model(self._looker, eyes, picture, ask)
         except (BrainDown, BadPlan) as failure:
             code = failure.why if isinstance(failure, BrainDown) else failure.code
             log.warning("goal %s: nobody looked at the picture: %s", ask.id, failure)
-            return Answer(failure=code)
+            return ImageAnswer(failure=code)
 
-    async def _model(self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes) -> Answer:
+    async def _model(
+        self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes
+    ) -> ImageAnswer:
         seen = _detections(eyes, picture)
-        asked = ImageQuestion(_shown(eyes, picture), ask.words, ask.language, seen, ask.id)
+        asked = ImageQuestion(_pose_picture(eyes, picture), ask.words, ask.language, seen, ask.id)
         if ask.point:
             found = await looker.point(asked)
             if not isinstance(found, ImagePoint):
-                return Answer(failure="not_in_picture")
+                return ImageAnswer(failure="not_in_picture")
             return await _point(eyes, picture, found.x, found.y)
         views = self._looked_at(ask)
         said = await looker.describe(replace(asked, direction=ask.now, views=views))
         if said.brain.fallback_from is not None:  # the detector spoke: the skill does that itself
-            return Answer(failure=said.brain.fallback_reason)
-        return Answer(text=said.text, seen=said.seen, shown=max(1, len(views)))
+            return ImageAnswer(failure=said.brain.fallback_reason)
+        return ImageAnswer(text=said.text, seen=said.seen, shown=max(1, len(views)))
 
     def _looked_at(self, ask: AskEyes) -> tuple[DirectionView, ...]:
         """Return the pictures of a look's directions where there are several and all are here."""
@@ -137,16 +142,16 @@ def _newest(eyes: Eyes, picture: Picture | None) -> Picture | None:
     return looked
 
 
-async def _point(eyes: Eyes, picture: Picture, x: float, y: float) -> Answer:
+async def _point(eyes: Eyes, picture: Picture, x: float, y: float) -> ImageAnswer:
     """Return the point of the world that a pixel shows."""
     try:
         spot = await eyes.spot(picture, x, y)
     except PointRefused as refused:
-        return Answer(failure=refused.code)
-    return Answer(at=(spot.x_m, spot.y_m, spot.z_m))
+        return ImageAnswer(failure=refused.code)
+    return ImageAnswer(at=(spot.x_m, spot.y_m, spot.z_m))
 
 
-def _shown(eyes: Eyes, picture: Picture) -> Shown:
+def _pose_picture(eyes: Eyes, picture: Picture) -> Shown:
     header, look = picture.color.header, eyes.sight.look
     pose = look.base_in_map if look is not None and look.seq == header.seq else None
     return Shown(picture.color.data, header.width, header.height, header.seq, pose)

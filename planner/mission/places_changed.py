@@ -23,22 +23,22 @@ def on_known(turn: Transaction, facts: SiteView) -> None:
     before = turn.book.facts
     turn.set(facts=facts)
     for mission in tuple(turn.book.missions.values()):
-        gone = _gone(mission, before, facts)
+        gone = _find_lost(mission, before, facts)
         if gone is not None:
             _end(turn, mission, before.targets[gone].name, facts)
     _lay_anew(turn, before)
 
 
-def _gone(mission: Mission, before: SiteView, now: SiteView) -> str | None:
+def _find_lost(mission: Mission, before: SiteView, now: SiteView) -> str | None:
     """Return a place that a goal still has to visit and that is no more, or None."""
-    if mission.ended:
+    if mission.has_ended:
         return None
     ahead = (step for step in mission.steps[mission.step :] if step.state in _AHEAD)
-    named = (place for step in ahead for place in _named(step))
+    named = (place for step in ahead for place in _list_places(step))
     return next((p for p in named if p in before.targets and p not in now.targets), None)
 
 
-def _named(step: StepRecord) -> tuple[str, ...]:
+def _list_places(step: StepRecord) -> tuple[str, ...]:
     return (step.place,) if step.place else step.places
 
 

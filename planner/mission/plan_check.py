@@ -11,7 +11,7 @@ from functools import partial
 
 from planner.language.catalogue import message, say
 from planner.mission.skills import SKILLS
-from planner.mission.skills.object_matching import meant, picks_out
+from planner.mission.skills.object_matching import picks_out, read_object
 from planner.mission.skills.object_query import unknown_kind
 from planner.mission.skills.result_text import unknown_name, unknown_words
 from planner.mission.state import Mission, MissionState
@@ -72,5 +72,5 @@ def _unknown_object(book: MissionState, language: Language, step: StepRecord) ->
         return None
     name = step.object or ""
     which = step.kind in UP_TO and picks_out(name, step.kind, language, eyes.classes)
-    unknown = which or meant(name, language, eyes.classes) is None
+    unknown = which or read_object(name, language, eyes.classes) is None
     return unknown_words(name, eyes.classes, step.kind) if unknown else None

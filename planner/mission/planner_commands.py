@@ -29,7 +29,7 @@ from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.known_places import Lesson
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
-from planner.mission.spoken_status import doing, where
+from planner.mission.spoken_status import doing, tell_position
 from planner.plan import Answer, Bilingual, Code, Refuse
 from planner.site import PlaceRefused
 
@@ -84,21 +84,23 @@ class PlannerCommands:
             case Forget(name):
                 return await self._forget(name)
             case PauseCommand():
-                return self._each("pause", events.Pause, goal_to_pause(book, mission.id))
+                return self._command_goal("pause", events.Pause, goal_to_pause(book, mission.id))
             case CancelCommand():
                 own = mission.id if mission.replies else None
                 found = goal_to_end(book, mission.id)
-                return self._each("cancel", events.Cancel, found or own)
+                return self._command_goal("cancel", events.Cancel, found or own)
             case ResumeCommand():
-                return self._each("resume", events.Resume, goal_to_resume(book, mission.id))
+                return self._command_goal("resume", events.Resume, goal_to_resume(book, mission.id))
             case Doing():
                 return Answer(text=doing(book, self._loop.status_age_s, mission.id))
             case Slower() | Faster():
                 return self._change_speed(slower=isinstance(intent, Slower))
             case WhereCommand() | Replace():
-                return Answer(text=where(book, self._loop.status_age_s))
+                return Answer(text=tell_position(book, self._loop.status_age_s))
 
-    def _each(self, what: str, make: Callable[[str], Command], goal_id: str | None) -> Answer:
+    def _command_goal(
+        self, what: str, make: Callable[[str], Command], goal_id: str | None
+    ) -> Answer:
         """Give a command about a goal and say what became of it."""
         done, nothing = _SAID[what]
         if goal_id is None:

@@ -186,7 +186,7 @@ def end_running(
     mission = settle_activity(turn)
     if mission is None:
         return
-    said = said or failure(turn.book.facts, mission, mission.now, code, row)
+    said = said or failure(turn.book.facts, mission, mission.current_step, code, row)
     finish(turn, mission, cause, ended_outcome(
         turn.book.facts, mission, turn.book.status, turn.now_s + turn.book.wall_offset_s,
         code=code, said=said,

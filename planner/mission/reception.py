@@ -131,7 +131,7 @@ def receive(
     )
     if full and not local:
         return Reception(
-            marked, refused=QueueFull(sum(not m.ended for m in book.missions.values()))
+            marked, refused=QueueFull(sum(not m.has_ended for m in book.missions.values()))
         )
     request = GoalKey(key, body, given.id) if key is not None else None
     takes_back = goal_to_end(book) if first else None
@@ -240,7 +240,7 @@ def goal_to_end(book: MissionState, asking: str | None = None) -> str | None:
     """Return the goal that a person means by "that": the running one, else the newest open one."""
     if book.running is not None:
         return book.running
-    others = [m for m in book.missions.values() if not m.ended and m.id != asking]
+    others = [m for m in book.missions.values() if not m.has_ended and m.id != asking]
     for state in _OPEN:
         found = [m for m in others if m.state is state]
         if found:

@@ -35,12 +35,12 @@ from planner.mission.events import (
 from planner.mission.goal_lifecycle import (
     confirm,
     pause,
-    planned,
     reply,
     restart,
     resume,
     stop,
     submit,
+    take_plan,
 )
 from planner.mission.legs import on_routed
 from planner.mission.outcomes import moves
@@ -99,7 +99,11 @@ def asked_about_picture(book: MissionState) -> int | None:
 def looks(book: MissionState) -> bool:
     """Tell whether the running step needs eyes now."""
     mission = book.missions.get(book.running) if book.running is not None else None
-    return mission is not None and mission.now is not None and mission.now.kind in NEEDS_CAMERA
+    return (
+        mission is not None
+        and mission.current_step is not None
+        and mission.current_step.kind in NEEDS_CAMERA
+    )
 
 
 def _fact(
@@ -130,7 +134,7 @@ def _fact(
         case Routed():
             on_routed(turn, event.id, event.ticket, event.failure, event.short_m)
         case Planned():
-            planned(turn, event)
+            take_plan(turn, event)
         case Submitted():
             submit(turn, event)
         case Stopped():

@@ -55,7 +55,7 @@ def rethought(turn: Transaction, mission: Mission, event: Planned) -> None:
         mission = turn.put(mission, brain=event.brain)
     plan = event.plan
     steps = _steps(plan, mission)
-    if _answered(mission) and _of_no_use(turn, mission, event, steps):
+    if _is_answer(mission) and _of_no_use(turn, mission, event, steps):
         carry_out(turn, mission, ask_again(scene_of(turn, mission)))
         return
     if steps is None:
@@ -81,9 +81,9 @@ def _steps(plan: Plan | None, mission: Mission) -> tuple[StepRecord, ...] | None
     return None
 
 
-def _answered(mission: Mission) -> bool:
+def _is_answer(mission: Mission) -> bool:
     """Tell whether an answer that was neither yes nor no is what is thought about."""
-    return mission.now is not None and mission.now.kind == "ask"
+    return mission.current_step is not None and mission.current_step.kind == "ask"
 
 
 def _of_no_use(
@@ -130,7 +130,7 @@ def _end(turn: Transaction, mission: Mission, cause: Cause, why: Outcome) -> Non
 
 
 def _adopt(turn: Transaction, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
-    question, heard = needs_yes(turn.book.facts, mission, steps), _answered(mission)
+    question, heard = needs_yes(turn.book.facts, mission, steps), _is_answer(mission)
     if mission.failure is None:
         mission = note_step(turn, mission, state=StepState.SUCCEEDED)
     before = mission.steps[: mission.step + 1]
@@ -162,7 +162,7 @@ def needs_yes(facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...]) 
     choose another destination by itself, nor roam for what was not asked for. After an answer that
     was neither yes nor no, whatever moves needs a yes of its own.
     """
-    if mission.now is not None and mission.now.kind == "ask":
+    if mission.current_step is not None and mission.current_step.kind == "ask":
         deed = first_deed(facts, steps)
         why = None if deed is None else say("confirmation.would", deed=deed)
         return None if why is None else _confirm(why)
@@ -192,8 +192,8 @@ def _elsewhere(
 
 def _roaming(before: tuple[StepRecord, ...], steps: tuple[StepRecord, ...]) -> Bilingual | None:
     """Say which step leads where the eyes say and was not in the plan before, if one does."""
-    known = {_sought(step) for step in before}
-    fresh = next((s for s in steps if _roams(s) and _sought(s) not in known), None)
+    known = {_make_key(step) for step in before}
+    fresh = next((s for s in steps if _roams(s) and _make_key(s) not in known), None)
     if fresh is None:
         return None
     return say(f"confirmation.{fresh.kind}", what=fresh.object or "")
@@ -205,7 +205,7 @@ def _roams(step: StepRecord) -> bool:
     return step.kind in ROAMS
 
 
-def _sought(step: StepRecord) -> tuple[str, str, str | None, int | None, int | None]:
+def _make_key(step: StepRecord) -> tuple[str, str, str | None, int | None, int | None]:
     """Return what a step is after; a look round is the same whatever it is to answer."""
     what = (step.object or "").strip().casefold()
     if step.kind == "look":

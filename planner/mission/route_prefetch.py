@@ -17,7 +17,7 @@ from typing import Protocol
 
 from planner.mission.bridge_status import standing
 from planner.mission.state import MissionState
-from planner.mission.tasks import Router
+from planner.mission.tasks import RouteService
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.plan import GoTo, ReturnHome, Step
 from wire import Pose2
@@ -47,7 +47,7 @@ class RouteAhead:
 
     def __init__(
         self,
-        router: Router,
+        router: RouteService,
         missions: StateHolder,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
@@ -60,7 +60,7 @@ class RouteAhead:
         """Begin to search the way of the first step, if it names a place and the robot is free."""
         request = self._request(steps[0]) if steps else None
         now = self._search
-        if request is None or (now is not None and _same(now.request, request)):
+        if request is None or (now is not None and _is_same(now.request, request)):
             return
         self._drop()
         task = asyncio.get_running_loop().create_task(self._router.route(request))
@@ -73,7 +73,7 @@ class RouteAhead:
         if ahead is None:
             return await self._router.route(request)
         fresh = self._clock() - ahead.began_s <= KEPT_S
-        if fresh and _same(ahead.request, request):
+        if fresh and _is_same(ahead.request, request):
             with contextlib.suppress(RouteFailure):
                 result = await ahead.task
                 self.used += 1
@@ -110,7 +110,7 @@ class RouteAhead:
             self._search = None
 
 
-def _same(ahead: RouteRequest, asked: RouteRequest) -> bool:
+def _is_same(ahead: RouteRequest, asked: RouteRequest) -> bool:
     plain = not (asked.obstacles or asked.straight)
     return plain and ahead.goal == asked.goal and _near(ahead.start, asked.start)
 

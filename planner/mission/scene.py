@@ -14,7 +14,7 @@ from planner.language.catalogue import CATALOGUE, say
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
 from planner.mission.queue import notes_now
-from planner.mission.skills import Answer, Scene
+from planner.mission.skills import ImageAnswer, Scene
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.plan import Bilingual, StepRecord, same
@@ -27,7 +27,10 @@ if TYPE_CHECKING:
 
 
 def scene_of(
-    turn: Transaction, mission: Mission, gazed_s: float | None = None, answer: Answer | None = None
+    turn: Transaction,
+    mission: Mission,
+    gazed_s: float | None = None,
+    answer: ImageAnswer | None = None,
 ) -> Scene:
     """Return what the skill of the current step is told; ``gazed_s``: a gaze has just ended."""
     activity = turn.book.activity
@@ -69,7 +72,7 @@ def upon_yes(facts: SiteView, mission: Mission) -> Bilingual | None:
 
     None where nothing moves before the next question or thought.
     """
-    if mission.now is None or mission.now.kind != "ask":
+    if mission.current_step is None or mission.current_step.kind != "ask":
         return None
     gated: list[StepRecord] = []
     for step in mission.steps[mission.step + 1 :]:

@@ -52,7 +52,7 @@ from planner.mission.reception import (
 )
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.state import MissionState, Rules
-from planner.mission.tasks import Router
+from planner.mission.tasks import RouteService
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, Language
 from planner.site import Site
@@ -73,7 +73,7 @@ class Missions:
         site: Site | KnownPlaces,
         robot: RobotDescription,
         link: Link,
-        router: Router,
+        router: RouteService,
         brain: Brain,
         disk: Disk,
         planner_id: str | None = None,
@@ -179,7 +179,7 @@ class Missions:
         self.loop.event(heard.given, heard.request)
         if heard.takes_back is not None:
             self.loop.event(Cancel(heard.takes_back))
-        await self._written(goal_id, heard.request)
+        await self._ensure_written(goal_id, heard.request)
         return self.goal(goal_id)
 
     def hears_stop(self, text: str) -> bool:
@@ -190,10 +190,10 @@ class Missions:
         """Return whether a question waits for a yes or no."""
         return awaits_answer(self.loop.book)
 
-    async def _written(self, goal_id: str, request: GoalKey | None) -> None:
+    async def _ensure_written(self, goal_id: str, request: GoalKey | None) -> None:
         """Wait until a goal is written down; what can't be is taken back."""
         try:
-            await self.loop.settled()
+            await self.loop.wait_written()
         except JournalDown:
             self.loop.event(Cancel(goal_id))
             self._repeats.forget(request)
@@ -256,9 +256,9 @@ class Missions:
     # What is told --------------------------------------------------------------------------------
 
     @property
-    def failed(self) -> BaseException | None:
+    def failure(self) -> BaseException | None:
         """Return what ended the mission loop, if something did: the process should end then."""
-        return self.loop.failed
+        return self.loop.failure
 
     @property
     def journal_trouble(self) -> str | None:
@@ -283,7 +283,7 @@ class Missions:
 
     def goals(self, limit: int = 50) -> tuple[Goal, ...]:
         """Return goals: first all that are open, then those that ended, each newest first."""
-        by_age = sorted(self.loop.book.missions.values(), key=lambda m: (m.ended, -m.order))
+        by_age = sorted(self.loop.book.missions.values(), key=lambda m: (m.has_ended, -m.order))
         return tuple(goal_of(self.loop.book, mission) for mission in by_age[: max(0, limit)])
 
     def path(self) -> Leg | None:
@@ -334,5 +334,5 @@ class Missions:
         else:
             self.loop.keep_act(command.id, act)
         self.loop.event(command)
-        await self.loop.settled()
+        await self.loop.wait_written()
         return self.goal(command.id)

@@ -38,7 +38,7 @@ def go_on_told(book: MissionState, said: Bilingual, now_s: float) -> Bilingual:
     return say("status.drives_for" if moves and fresh else "status.is_at", said=said, text=text)
 
 
-def where(book: MissionState, age_s: float) -> Bilingual:
+def tell_position(book: MissionState, age_s: float) -> Bilingual:
     """Say where the robot is, or that nobody knows."""
     status = book.status
     if status is None:
@@ -95,7 +95,7 @@ def _task(book: MissionState, asking: str) -> Bilingual:
     running = book.missions.get(book.running or "")
     if running is not None:
         return _running(book, running)
-    others = [m for m in book.missions.values() if not m.ended and m.id != asking]
+    others = [m for m in book.missions.values() if not m.has_ended and m.id != asking]
     for state in (
         GoalState.PLANNING,
         GoalState.NEEDS_CLARIFICATION,

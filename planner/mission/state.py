@@ -106,7 +106,7 @@ class Mission(Frozen):
     updated_unix_s: float
 
     @property
-    def ended(self) -> bool:
+    def has_ended(self) -> bool:
         return self.state in ENDED
 
     @property
@@ -119,20 +119,22 @@ class Mission(Frozen):
         return self.replies[-1] if self.replies else self.text
 
     @property
-    def now(self) -> StepRecord | None:
+    def current_step(self) -> StepRecord | None:
         """Return the current step; None before the plan and after its last step."""
         return self.steps[self.step] if self.step < len(self.steps) else None
 
     @property
     def returning(self) -> bool:
         """Tell whether the goal has failed, and only its way back is left."""
-        failed = self.now is not None and self.now.state is StepState.FAILED
+        failed = self.current_step is not None and self.current_step.state is StepState.FAILED
         return self.failure is not None and not failed
 
     @property
-    def begun(self) -> bool:
+    def has_begun(self) -> bool:
         """Tell whether any step was begun: from then on the goal keeps its place at the front."""
-        return self.step > 0 or (self.now is not None and self.now.state is not StepState.PENDING)
+        return self.step > 0 or (
+            self.current_step is not None and self.current_step.state is not StepState.PENDING
+        )
 
 
 @dataclass(frozen=True, slots=True)

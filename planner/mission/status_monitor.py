@@ -65,7 +65,7 @@ def on_status(turn: Transaction, status: Status, off_path: bool, left_m: float |
     if turn.running is None:
         return
     _measure(turn, before, status, min(silent_s, SILENCE_S), left_m)
-    if not _interrupted(turn, status, silent_s):
+    if not _interrupt(turn, status, silent_s):
         _progress(turn, status, off_path)
 
 
@@ -87,9 +87,9 @@ def _measure(
 ) -> None:
     """Add up what odometry says, for how long the leg was followed, and what limited it."""
     activity, mission = turn.book.activity, turn.running
-    if activity is None or mission is None or mission.now is None:
+    if activity is None or mission is None or mission.current_step is None:
         return
-    turning = mission.now.kind == "turn"
+    turning = mission.current_step.kind == "turn"
     turn.change(
         metres=activity.metres + driven_m(before, status),
         amount=activity.amount + amount_done(before, status, turning=turning),
@@ -104,7 +104,7 @@ def _measure(
     turn.change(limited=limited, moving_s=moving_s, left_m=left_m)
 
 
-def _interrupted(turn: Transaction, status: Status, silent_s: float) -> bool:
+def _interrupt(turn: Transaction, status: Status, silent_s: float) -> bool:
     """Pause or fail the running mission where something stronger than its plan says so."""
     hold = standing_hold(turn)
     if hold is not None:
@@ -119,7 +119,7 @@ def _interrupted(turn: Transaction, status: Status, silent_s: float) -> bool:
     if cause is not None:
         pause_running(turn, cause)
         return True
-    return _spent(turn, status) or _held_too_long(turn, status)
+    return _end_spent(turn, status) or _held_too_long(turn, status)
 
 
 def _fault_reason(status: Status) -> str:
@@ -136,7 +136,7 @@ def _drives_on(turn: Transaction) -> bool:
     return mission is not None and any(map(moves, mission.steps[mission.step :]))
 
 
-def _spent(turn: Transaction, status: Status) -> bool:
+def _end_spent(turn: Transaction, status: Status) -> bool:
     mission = turn.running
     if mission is None:
         return False

@@ -36,11 +36,11 @@ from planner.mission.queue import (
 )
 from planner.mission.scene import pose_now, scene_of
 from planner.mission.skills import (
-    Answer,
     AskImage,
-    Drive,
+    DriveLeg,
     Fail,
     Finish,
+    ImageAnswer,
     Notes,
     Observe,
     Question,
@@ -76,9 +76,9 @@ def begin_step(turn: Transaction) -> None:
     mission = turn.running
     if mission is None:
         return
-    step = mission.now
+    step = mission.current_step
     if step is None or step.state is StepState.SKIPPED:  # left out: only the way back was driven
-        _succeed(turn, mission)
+        _finish_mission(turn, mission)
         return
     if step.state is StepState.FAILED:  # paused while a better plan was thought about
         think(turn, mission)
@@ -95,7 +95,7 @@ def begin_step(turn: Transaction) -> None:
 def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
     """Do what a skill asked for."""
     match act:
-        case Drive():
+        case DriveLeg():
             _drive(turn, mission, act)
         case Observe():
             _gaze(turn, mission, act)
@@ -122,7 +122,7 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
             fail_step(turn, act)
 
 
-def _drive(turn: Transaction, mission: Mission, act: Drive) -> None:
+def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
     note_step(turn, mission, state=StepState.RUNNING, reason=None)
     leg = Driving(
         record=turn.next_entry,
@@ -191,7 +191,7 @@ def go_on(
     then: Notes | None,
     *,
     gazed_s: float | None = None,
-    answer: Answer | None = None,
+    answer: ImageAnswer | None = None,
 ) -> None:
     """Go on in the step after a gaze or an answer: ask its skill what is next."""
     mission = settle_activity(turn)
@@ -246,7 +246,7 @@ def on_arrival(turn: Transaction) -> bool:
         return False
     if not (leg.reached and standing(status)) or pose is None:
         return False
-    if _outside(turn, driving, pose):
+    if _is_outside(turn, driving, pose):
         abandon_route(turn)
         return True
     settled = settle_activity(turn)
@@ -265,7 +265,7 @@ def on_arrival(turn: Transaction) -> bool:
     return True
 
 
-def _outside(turn: Transaction, driving: Driving, pose: Pose2) -> bool:
+def _is_outside(turn: Transaction, driving: Driving, pose: Pose2) -> bool:
     """Tell whether the leg ended short of the room that it was to."""
     target = turn.book.facts.targets.get(driving.target or "")
     if target is None or not target.room or target.polygon is None:
@@ -293,7 +293,7 @@ def speak_if_safe(turn: Transaction) -> None:
     if mission is None or activity is None or turn.book.safe < activity.record:
         return
     if isinstance(activity, Speaking):
-        text = mission.steps[mission.step].text or "" if mission.now is not None else ""
+        text = mission.steps[mission.step].text or "" if mission.current_step is not None else ""
         turn.emit(SayAloud(mission.id, text))
         finish_step(turn, StepState.SUCCEEDED)
     elif isinstance(activity, Asking):
@@ -311,7 +311,7 @@ def end_wait_if_due(turn: Transaction) -> None:
         finish_step(turn, StepState.SUCCEEDED)
 
 
-def _succeed(turn: Transaction, mission: Mission) -> None:
+def _finish_mission(turn: Transaction, mission: Mission) -> None:
     if mission.failure is not None:
         end_failed(turn, mission, mission.failure.message)
         return

@@ -12,7 +12,7 @@ from planner.mission.account import BACK
 from planner.mission.activity import Retrying, Thinking
 from planner.mission.declined_goals import decline
 from planner.mission.effects import AskBrain
-from planner.mission.observations import exchanges_of, observed
+from planner.mission.observations import exchanges_of, list_observations
 from planner.mission.outcomes import failure, spot_at
 from planner.mission.queue import end_running, note_step, settle_activity
 from planner.mission.skills import NOTHING, Fail, Notes
@@ -41,7 +41,7 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
     """
     leg = turn.driving
     if leg is not None and leg.otherwise is not None and cannot.code in SHUT:
-        _without(turn, leg.otherwise)
+        _drop_leg(turn, leg.otherwise)
         return
     mission = settle_activity(turn)
     if mission is None:
@@ -49,9 +49,9 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
     if cannot.code is Code.DECLINED and cannot.said is not None:
         decline(turn, mission, cannot.said)
         return
-    said = cannot.said or failure(turn.book.facts, mission, mission.now, cannot.code, "")
+    said = cannot.said or failure(turn.book.facts, mission, mission.current_step, cannot.code, "")
     before = mission.failure if mission.returning else None
-    why = Outcome(code=cannot.code, message=said) if before is None else _beside(before, said)
+    why = Outcome(code=cannot.code, message=said) if before is None else _append(before, said)
     mission = note_step(
         turn, mission, state=StepState.FAILED, reason=cannot.reason, said=said, **cannot.figures
     )
@@ -63,7 +63,7 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
     give_up(turn, mission)
 
 
-def _without(turn: Transaction, notes: Notes) -> None:
+def _drop_leg(turn: Transaction, notes: Notes) -> None:
     """Go on in the step without this leg: its skill is asked soon, standing."""
     mission = settle_activity(turn)
     if mission is None:
@@ -110,7 +110,7 @@ def _go_back(turn: Transaction, mission: Mission) -> bool:
     return True
 
 
-def _beside(before: Outcome, said: Bilingual) -> Outcome:
+def _append(before: Outcome, said: Bilingual) -> Outcome:
     """Return a failure with what failed on the way back told after it."""
     told = before.message
     both = say("step_failure.both", told=told, said=said)
@@ -142,7 +142,7 @@ def think(turn: Transaction, mission: Mission) -> None:
             mission.words,
             mission.language,
             room,
-            observed(facts, mission),
+            list_observations(facts, mission),
             mission.replans,
             order=mission.text,
             exchanges=exchanges_of(mission),

@@ -13,7 +13,7 @@ from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain, Keep
 from planner.mission.events import Planned, Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Way
-from planner.mission.skills.perception import Answer
+from planner.mission.skills.perception import ImageAnswer
 from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
 from planner.plan import Code, Outcome
 
@@ -23,7 +23,7 @@ Think = Callable[[AskBrain], Awaitable[Planned]]
 """Understand a sentence. Cancelled at once when nobody waits for the answer any more."""
 
 
-class Router(Protocol):
+class RouteService(Protocol):
     """Find routes, in another process."""
 
     async def route(self, request: RouteRequest) -> RouteResult:
@@ -48,7 +48,7 @@ class MissionTasks:
     def __init__(
         self,
         think: Think,
-        router: Router,
+        router: RouteService,
         answers: Answers,
         eyes: EyeDoor | None = None,
     ) -> None:
@@ -88,10 +88,10 @@ class MissionTasks:
     def _start(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
-        task.add_done_callback(self._ended)
+        task.add_done_callback(self._note_end)
         return task
 
-    def _ended(self, task: asyncio.Task[None]) -> None:
+    def _note_end(self, task: asyncio.Task[None]) -> None:
         self._tasks.discard(task)
         if not task.cancelled() and (error := task.exception()) is not None:
             self._answers.broken(error)
@@ -126,7 +126,7 @@ class MissionTasks:
         except Exception:
             # As with a brain: whatever sees, its fault must not end the planner.
             log.exception("the eyes failed on goal %s", ask.id)
-            told = Told(ask.id, ask.ticket, Answer(failure="unavailable"))
+            told = Told(ask.id, ask.ticket, ImageAnswer(failure="unavailable"))
         if self._inquiries.get(ask.ticket) is asyncio.current_task():
             del self._inquiries[ask.ticket]
             self._answers.told(told)

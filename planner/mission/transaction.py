@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from planner.mission.activity import Driving
-from planner.mission.effects import Changed, Effect, Journal
+from planner.mission.effects import Effect, GoalChange, Journal
 from planner.mission.state import MAX_ENDED, Mission, MissionState
 from planner.mission.transitions import Cause, ForbiddenTransition, next_state
 
@@ -92,12 +92,12 @@ class Transaction:
         if changed:
             self.set(written=self.next_entry)
             journal = Journal(self.book.written, changed, self.book.queue)
-            self._effects = [journal, *self._effects, *(Changed(m.id) for m in changed)]
+            self._effects = [journal, *self._effects, *(GoalChange(m.id) for m in changed)]
             self._forget()
         return self.book, tuple(self._effects)
 
     def _forget(self) -> None:
-        ended = [m for m in self.book.missions.values() if m.ended]
+        ended = [m for m in self.book.missions.values() if m.has_ended]
         if len(ended) > MAX_ENDED:
             ended.sort(key=lambda m: m.order)
             gone = {m.id for m in ended[: len(ended) - MAX_ENDED]}

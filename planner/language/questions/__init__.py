@@ -1,7 +1,7 @@
 """Read a question about what is there, by its words: what it asks for, and where that is to be."""
 
 from planner.language.questions.question import (
-    Asked,
+    ObjectQuestion,
     PlaceNames,
     QuestionReading,
     Relation,
@@ -12,12 +12,12 @@ from planner.language.questions.reader import (
     has_several_neighbours,
     looks_round,
     names_floor,
-    parted,
     read_question,
+    split_relation,
 )
 
 __all__ = [
-    "Asked",
+    "ObjectQuestion",
     "PlaceNames",
     "QuestionReading",
     "Relation",
@@ -26,6 +26,6 @@ __all__ = [
     "has_several_neighbours",
     "looks_round",
     "names_floor",
-    "parted",
     "read_question",
+    "split_relation",
 ]

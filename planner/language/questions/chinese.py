@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.color_names import CHINESE
 from planner.language.folding import CHINESE as _HAN
-from planner.language.questions.question import Asked
+from planner.language.questions.question import ObjectQuestion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -94,23 +94,23 @@ ROUND = re.compile(r"环顾|环境|四处|到处|(?:^|[你您我看察在有 ，
 """To look about."""
 
 
-def read_yes_no(text: str, names: PlaceNames) -> Iterator[Asked]:
+def read_yes_no(text: str, names: PlaceNames) -> Iterator[ObjectQuestion]:
     """Yield what a question may ask for, yes or no."""
     text = text.replace(" ", "")
     found = _SEES.fullmatch(text)
     if found is not None and (found["q"] or found["end"]):
         noun = found["noun"]
         certain = _is_noun(noun, found["unit"]) and not _NAME.fullmatch(noun)
-        yield Asked(found["what"], certain)
+        yield ObjectQuestion(found["what"], certain)
         return
     found = _THERE_IS.fullmatch(text)
     if found is not None and (not found["at"] or found["in"] or names.get(found["at"])):
         noun, unit = found["noun"] or found["noun_2"], found["unit"] or found["unit_2"]
         where = found["where"] or f"{found['at'] or ''}{found['in'] or ''}"
-        yield Asked(found["what"] or found["what_2"], _is_noun(noun, unit), where)
+        yield ObjectQuestion(found["what"] or found["what_2"], _is_noun(noun, unit), where)
     found = _IS_IT.fullmatch(text)
     if found is not None:
-        yield Asked(found["what"], where=found["where"] or found["where_2"] or "")
+        yield ObjectQuestion(found["what"], where=found["where"] or found["where_2"] or "")
 
 
 def _is_noun(what: str, unit: str | None) -> bool:

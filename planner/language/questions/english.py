@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from planner.language.questions.question import Asked
+from planner.language.questions.question import ObjectQuestion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -77,7 +77,7 @@ ROUND = re.compile(
 """To look about; "a round table" and "around the table" are things to look at."""
 
 
-def read_yes_no(text: str, names: PlaceNames) -> Iterator[Asked]:
+def read_yes_no(text: str, names: PlaceNames) -> Iterator[ObjectQuestion]:
     """Yield what a question may ask for, yes or no."""
     found = _THERE_IS.fullmatch(text)
     if found is not None:
@@ -85,10 +85,10 @@ def read_yes_no(text: str, names: PlaceNames) -> Iterator[Asked]:
         what, head = found["what"], found["what"].split()[-1]
         vague = _VAGUE.fullmatch(head) is not None or _NO_NOUN.search(what) is not None
         certain = not (named or vague or names.get(what))
-        yield Asked(what, certain, found["where"] or "")
+        yield ObjectQuestion(what, certain, found["where"] or "")
     found = _IS_IT.fullmatch(text)
     if found is not None:
-        yield Asked(found["what"], where=found["where"] or "")
+        yield ObjectQuestion(found["what"], where=found["where"] or "")
 
 
 def open_at(text: str) -> str | None:

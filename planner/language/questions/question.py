@@ -41,7 +41,7 @@ class Whereabouts(NamedTuple):
     """All of it, as said."""
 
 
-class Asked(NamedTuple):
+class ObjectQuestion(NamedTuple):
     """Say what a question asks for, yes or no, in its words."""
 
     what: str
@@ -55,7 +55,7 @@ class Asked(NamedTuple):
 class QuestionReading:
     """Hold what a question asks for, and where."""
 
-    asked: tuple[Asked, ...]
+    asked: tuple[ObjectQuestion, ...]
     """What it may ask for, yes or no, the likeliest first; none where that is open."""
     what: str
     """The words of what it is about; empty: all that is there."""

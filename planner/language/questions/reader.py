@@ -16,7 +16,7 @@ from planner.language.folding import fold, fold_words, has_chinese
 from planner.language.object_names import MAX_READ, resolve, synonyms
 from planner.language.questions import chinese, english
 from planner.language.questions.question import (
-    Asked,
+    ObjectQuestion,
     PlaceNames,
     QuestionReading,
     Relation,
@@ -50,7 +50,7 @@ def read_question(text: str, names: PlaceNames, place: str | None = None) -> Que
     return QuestionReading((), what, _whereabouts(words, names, place), is_sure=False)
 
 
-def parted(words: str) -> tuple[str, Relation, str] | None:
+def split_relation(words: str) -> tuple[str, Relation, str] | None:
     """Return the thing's words, how it stands, and its neighbour's words; None without any.
 
     "the bottle on the table", "椅子旁边的箱子". Whether it stands so is judged where it is seen.
@@ -65,7 +65,7 @@ def parted(words: str) -> tuple[str, Relation, str] | None:
 
 def has_several_neighbours(words: str, label: str) -> bool:
     """Return whether words mean more than one neighbour of this kind: ``cups on the tables``."""
-    by = (parted(words) or ("", "", ""))[2]
+    by = (split_relation(words) or ("", "", ""))[2]
     if english.SEVERAL.search(by) or chinese.SEVERAL.search(by):
         return True
     return by.endswith("s") and not by.endswith(synonyms(label, Language.EN))
@@ -92,13 +92,15 @@ def _language_of(plain: str) -> ModuleType:
     return chinese if has_chinese(plain) else english
 
 
-def _read_first(asked: tuple[Asked, ...], names: PlaceNames, place: str | None) -> QuestionReading:
+def _read_first(
+    asked: tuple[ObjectQuestion, ...], names: PlaceNames, place: str | None
+) -> QuestionReading:
     """Return what a question asks for, yes or no, apart from where.
 
     "Is there a cup next to the sofa?" asks for no sofa.
     """
     first = asked[0]
-    inner = parted(first.what)
+    inner = split_relation(first.what)
     if inner is not None and not first.where:  # "do you see the cup on the table"
         what, relation, by = inner
         return QuestionReading(asked, what, Whereabouts(relation, by, first.what), is_sure=True)

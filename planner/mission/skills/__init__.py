@@ -10,7 +10,7 @@ from types import MappingProxyType
 from planner.language.catalogue import message
 from planner.mission.skills.actions import (
     AskImage,
-    Drive,
+    DriveLeg,
     Fail,
     Finish,
     Observe,
@@ -34,7 +34,7 @@ from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.go_to_point import go_to_point
 from planner.mission.skills.look import look
 from planner.mission.skills.move import move, no_room
-from planner.mission.skills.perception import NO_EYES, Answer, Eyesight, Wanted
+from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
 from planner.mission.skills.say import say
 from planner.mission.skills.skill_state import NOTHING, Notes
 from planner.mission.skills.turn import turn
@@ -77,12 +77,12 @@ __all__ = [
     "NOTHING",
     "NO_EYES",
     "SKILLS",
-    "Answer",
     "AskImage",
-    "Drive",
+    "DriveLeg",
     "Eyesight",
     "Fail",
     "Finish",
+    "ImageAnswer",
     "Notes",
     "Observe",
     "Question",
@@ -93,7 +93,7 @@ __all__ = [
     "Speak",
     "Stand",
     "Think",
-    "Wanted",
+    "WantedObject",
     "Way",
     "act_of",
     "no_room",

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
-from planner.mission.skills.perception import NO_EYES, Answer, Eyesight, Wanted
+from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
 from planner.mission.skills.skill_state import NOTHING, Notes
 from planner.perception.snapshot import Sight
 from planner.plan import Language
@@ -70,7 +70,7 @@ class Scene:
     """Time for which this step was worked on."""
     spent_m: float = 0.0
     """What was driven for this step."""
-    answer: Answer | None = None
+    answer: ImageAnswer | None = None
     """What came of a question about the picture that was just asked."""
     upon: Bilingual | None = None
     """What moves next upon a yes to the question that the step asks; None: nothing does."""
@@ -83,7 +83,7 @@ class Scene:
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class DriveLeg:
     """Drive one leg, within its budget."""
 
     goal: Pose2
@@ -100,7 +100,7 @@ class Drive:
     then: Notes | None = None
     otherwise: Notes | None = None
     """The step goes on with these where there is no way; None: it fails."""
-    wanted: Wanted | None = None
+    wanted: WantedObject | None = None
     """As soon as this is seen for sure the skill is asked again."""
     watch: bool = False
     """The skill is asked again as the sight changes, twice a second at most."""
@@ -115,7 +115,7 @@ class Observe:
     """Longest wait for them; without any the robot is blind, and the step fails."""
     notes: Notes | None = None
     then: Notes | None = None
-    wanted: Wanted | None = None
+    wanted: WantedObject | None = None
     watch: bool = False
 
 
@@ -206,5 +206,5 @@ class Fail:
 
 
 SkillAction = (
-    Drive | Stand | Observe | AskImage | Speak | Question | Think | Retry | Finish | Skip | Fail
+    DriveLeg | Stand | Observe | AskImage | Speak | Question | Think | Retry | Finish | Skip | Fail
 )

@@ -42,14 +42,14 @@ def ask(scene: Scene) -> SkillAction:
     if yes is True:
         return Finish({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
     if yes is False or notes.stage == AGAIN:
-        said = declined(scene.upon, plainly=yes is False)
+        said = tell_declined(scene.upon, plainly=yes is False)
         return Fail(Code.DECLINED, Code.DECLINED.value, said)
     if scene.thinks or notes.stage == THOUGHT:
         return Think(notes.but(stage=THOUGHT))
     return ask_again(scene)
 
 
-def declined(deed: Bilingual, *, plainly: bool = True) -> Bilingual:
+def tell_declined(deed: Bilingual, *, plainly: bool = True) -> Bilingual:
     """Tell a person that something is not done, because they said no; else neither yes nor no."""
     return message(Code.DECLINED, said=_NO if plainly else _UNCLEAR, deed=deed)
 

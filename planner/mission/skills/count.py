@@ -17,15 +17,21 @@ from planner.language.questions import has_several_neighbours
 from planner.mission.skills.actions import Finish, Retry, Scene, SkillAction
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import look_round
-from planner.mission.skills.object_matching import apart, confirmed, fits, sure, wanted_of
-from planner.mission.skills.result_text import by_neighbour, counted, looked_in, room_name
-from planner.mission.skills.search import affords, begin, spent, spots, within
+from planner.mission.skills.object_matching import (
+    drop_doubles,
+    fits,
+    list_confirmed,
+    sure,
+    wanted_of,
+)
+from planner.mission.skills.result_text import by_neighbour, looked_in, name_count, room_name
+from planner.mission.skills.search import affords, begin, find_spent_budget, make_filter, spots
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.viewpoints import NEAR, room_at
 from planner.plan import Bilingual, Code
 
 if TYPE_CHECKING:
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
     from planner.perception.snapshot import Thing
     from wire import Pose2
 
@@ -39,17 +45,21 @@ def count(scene: Scene) -> SkillAction:
     if pose is None:
         return Retry()
     scene = begin(scene, pose, wanted)
-    inside = _narrowed(scene, pose, wanted)
+    inside = _narrow(scene, pose, wanted)
     next_ = look_round(scene, pose, spots(inside, pose), None)
     if isinstance(next_, Notes):
         changed = next_ != scene.notes  # another room may be meant, where this one was shut
-        return count(scene.but(next_)) if changed else _told(inside, wanted)
+        return count(scene.but(next_)) if changed else _tell_count(inside, wanted)
     if not affords(scene, pose, next_):
-        return _told(inside.but(inside.notes.but(broke=True)), wanted)
-    return replace(next_, notes=scene.notes) if spent(scene) is None else _told(inside, wanted)
+        return _tell_count(inside.but(inside.notes.but(broke=True)), wanted)
+    return (
+        replace(next_, notes=scene.notes)
+        if find_spent_budget(scene) is None
+        else _tell_count(inside, wanted)
+    )
 
 
-def _narrowed(scene: Scene, pose: Pose2, wanted: Wanted) -> Scene:
+def _narrow(scene: Scene, pose: Pose2, wanted: WantedObject) -> Scene:
     """Return the scene as if the room were named whose neighbour is meant, once that is known.
 
     It is the first in order that has one; a room that was not looked through may have one yet.
@@ -69,21 +79,21 @@ def _narrowed(scene: Scene, pose: Pose2, wanted: Wanted) -> Scene:
     return replace(scene, step=step, notes=notes.but(order=(room,)))
 
 
-def _neighbours(scene: Scene, wanted: Wanted) -> list[Thing]:
+def _neighbours(scene: Scene, wanted: WantedObject) -> list[Thing]:
     return [t for t in scene.sight.things if sure(t) and fits(t, wanted.by)]
 
 
-def _told(scene: Scene, wanted: Wanted) -> Finish:
+def _tell_count(scene: Scene, wanted: WantedObject) -> Finish:
     """Tell the number; where there is no such neighbour, that there is none."""
-    notes, inside = scene.notes, within(scene)
-    seen = confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
-    number = len(apart(filter(inside, seen)))
-    what = by_neighbour(_apart(counted(number, wanted.label, wanted.color)), wanted)
+    notes, inside = scene.notes, make_filter(scene)
+    seen = list_confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
+    number = len(drop_doubles(filter(inside, seen)))
+    what = by_neighbour(_space_number(name_count(number, wanted.label, wanted.color)), wanted)
     if number == 0 and wanted.by is not None and not any(map(inside, _neighbours(scene, wanted))):
-        what = _apart(counted(0, wanted.by.label, wanted.by.color))
+        what = _space_number(name_count(0, wanted.by.label, wanted.by.color))
     place = room_name(scene.facts, scene.step.place)
     shut = tuple(room for room in notes.shut if room not in notes.rooms)
-    where = looked_in(scene.facts, notes.rooms, shut, spent(scene))
+    where = looked_in(scene.facts, notes.rooms, shut, find_spent_budget(scene))
     said = (
         say("object_step.saw_in", what=what, place=place)
         if place
@@ -92,6 +102,6 @@ def _told(scene: Scene, wanted: Wanted) -> Finish:
     return Finish({"count": number, "rooms": notes.rooms}, Code.COUNTED, said)
 
 
-def _apart(what: Bilingual) -> Bilingual:
+def _space_number(what: Bilingual) -> Bilingual:
     """Part a number from the Chinese words before it, whatever they are."""
     return say("object_step.part", what=what)

@@ -38,7 +38,7 @@ def goes_round(faced: tuple[float, ...], views: int) -> bool:
     return max(gaps) <= 2.0 * pi / views + SLACK_RAD
 
 
-def listed(names: tuple[Bilingual, ...]) -> Bilingual:
+def list_directions(names: tuple[Bilingual, ...]) -> Bilingual:
     """Return names as a list, each once: ``ahead, left and behind``."""
     once = tuple(dict.fromkeys(names))
     return list_names(once, "joint.and")

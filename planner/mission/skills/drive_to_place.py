@@ -14,19 +14,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
-from planner.mission.skills.actions import Drive, Fail, Finish, Scene, SkillAction
+from planner.mission.skills.actions import DriveLeg, Fail, Finish, Scene, SkillAction
 from planner.plan import Code, same
 
 if TYPE_CHECKING:
     from planner.mission.state import SiteView
 
 
-def drive_to(scene: Scene, place: str) -> Drive | Fail:
+def drive_to(scene: Scene, place: str) -> DriveLeg | Fail:
     """Return the leg to a place: into a room at any heading, to anything else at its own."""
     target = scene.facts.targets.get(place)
     if target is None:
         return place_gone(scene.facts, place)
-    return Drive(target.pose, heading=not target.room, target=target.id)
+    return DriveLeg(target.pose, heading=not target.room, target=target.id)
 
 
 def place_gone(facts: SiteView, place: str) -> Fail:
@@ -52,7 +52,7 @@ def come_back(scene: Scene) -> SkillAction:
         return Finish()
     if scene.accepted is None:
         return Fail(Code.NO_ROUTE, "no_route")
-    return Drive(scene.accepted, heading=True)
+    return DriveLeg(scene.accepted, heading=True)
 
 
 def patrol(scene: Scene) -> SkillAction:

@@ -11,9 +11,9 @@ from planner.language.catalogue import message
 from planner.language.object_names import name_object
 from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
 from planner.mission.skills.object_matching import found, wanted_of
-from planner.mission.skills.perception import Wanted
+from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.result_text import by_neighbour, found_at, looked_in, unknown_words
-from planner.mission.skills.search import alike, search, spent
+from planner.mission.skills.search import alike, find_spent_budget, search
 from planner.mission.skills.skill_state import Notes
 from planner.perception.snapshot import Thing
 from planner.plan import Code
@@ -32,18 +32,20 @@ def find(scene: Scene) -> SkillAction:
     return not_found(scene.but(next_), wanted) if isinstance(next_, Notes) else next_
 
 
-def _found(scene: Scene, thing: Thing, wanted: Wanted) -> Finish:
+def _found(scene: Scene, thing: Thing, wanted: WantedObject) -> Finish:
     record = found(thing, scene.pose, scene.now_s)
     said = found_at(scene.facts, thing.label, thing.color, thing.room, record.distance_m, wanted)
     figures = {"found": record, "rooms": scene.notes.rooms}
     return Finish(figures, Code.FOUND, said)
 
 
-def not_found(scene: Scene, wanted: Wanted) -> Fail:
+def not_found(scene: Scene, wanted: WantedObject) -> Fail:
     """Say that it was not seen, and where was looked."""
     notes = scene.notes
     shut = tuple(room for room in notes.shut if room not in notes.rooms)
-    looked = looked_in(scene.facts, notes.rooms, shut, spent(scene), alike(scene, wanted))
+    looked = looked_in(
+        scene.facts, notes.rooms, shut, find_spent_budget(scene), alike(scene, wanted)
+    )
     name = by_neighbour(name_object(wanted.label, wanted.color), wanted)
     said = message(Code.NOT_FOUND, thing=name, looked=looked)
     return Fail(Code.NOT_FOUND, "not_found", said, {"rooms": notes.rooms})

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
 from planner.mission.skills.actions import (
-    Drive,
+    DriveLeg,
     Fail,
     Finish,
     Observe,
@@ -28,14 +28,14 @@ from planner.mission.skills.actions import (
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import leg_to, look_round, spin
 from planner.mission.skills.object_matching import away_m, bearing, lasting, one_of, turn_to
-from planner.mission.skills.result_text import called
+from planner.mission.skills.result_text import name_with_article
 from planner.mission.skills.search import short_of
 from planner.mission.skills.skill_state import Notes
-from planner.mission.skills.viewpoints import HERE, Spot, room_at
+from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
 from planner.plan import Code
 
 if TYPE_CHECKING:
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
     from planner.perception.snapshot import Thing
     from wire import Pose2
 
@@ -67,12 +67,12 @@ def follow(scene: Scene) -> SkillAction:
     if scene.pose is None:
         return Retry()
     if scene.spent_s > FOLLOW_S:
-        return _over(scene)
+        return _finish(scene)
     if scene.sight.blind is not None:  # where the person is now nobody knows: nothing moves
         return Observe(1, notes=scene.notes, then=scene.notes, watch=True)
     person = _in_sight(scene, wanted)
     if person is None:
-        return _lost(scene, scene.pose, wanted)
+        return _search_lost(scene, scene.pose, wanted)
     at = (round(person.x_m, 2), round(person.y_m, 2), 0.9)
     stage = SHUT if scene.notes.stage == SHUT else 0
     notes = scene.notes.but(at=at, seen_s=round(scene.spent_s, 1), stage=stage, views=(), spot=None,
@@ -82,21 +82,21 @@ def follow(scene: Scene) -> SkillAction:
     return _keep_up(scene.pose, at, notes)
 
 
-def _in_sight(scene: Scene, wanted: Wanted) -> Thing | None:
+def _in_sight(scene: Scene, wanted: WantedObject) -> Thing | None:
     """Return the one who is followed, where they are in sight: nearest to where they were.
 
     Who is begun with was seen for a while; on the way one picture shows where they are now.
     """
-    seen, pose, at = _shown(scene, wanted), scene.pose, scene.notes.at
+    seen, pose, at = _find_in_sight(scene, wanted), scene.pose, scene.notes.at
     if at is not None:
-        seen = [t for t in seen if _apart(t, at) <= _reach_m(scene)]
-        return min(seen, key=lambda t: _apart(t, at), default=None)
+        seen = [t for t in seen if _distance_m(t, at) <= _reach_m(scene)]
+        return min(seen, key=lambda t: _distance_m(t, at), default=None)
     if pose is None:
         return None
     return min(filter(lasting, seen), key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
 
 
-def _shown(scene: Scene, wanted: Wanted) -> list[Thing]:
+def _find_in_sight(scene: Scene, wanted: WantedObject) -> list[Thing]:
     """Return who was seen just now, surely or not."""
     since_s = scene.now_s - NEW_S
     return [t for t in scene.sight.things if t.label == wanted.label and t.seen_s >= since_s]
@@ -107,38 +107,42 @@ def _reach_m(scene: Scene) -> float:
     return SAME_M + max(0.0, scene.spent_s - scene.notes.seen_s)
 
 
-def _apart(thing: Thing, at: tuple[float, float, float]) -> float:
+def _distance_m(thing: Thing, at: tuple[float, float, float]) -> float:
     return hypot(thing.x_m - at[0], thing.y_m - at[1])
 
 
-def _keep_up(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Observe | Fail:
+def _keep_up(
+    pose: Pose2, at: tuple[float, float, float], notes: Notes
+) -> DriveLeg | Observe | Fail:
     """Go after who is in sight, face them, or stand and watch."""
     if away_m(pose, at[:2]) > KEEP_M + SLACK_M:
         return _go_after(pose, at, notes)
     notes = notes.but(stage=0, here=None, stand=0)
     if abs(turn_to(pose, at[:2])) > FACE_RAD:
-        return _watched(spin(pose, bearing(pose, at[:2]), notes), notes)
+        return _watch(spin(pose, bearing(pose, at[:2]), notes), notes)
     return Observe(GAZE_LOOKS, GAZE_S, notes=notes, then=notes, watch=True)
 
 
-def _go_after(pose: Pose2, at: tuple[float, float, float], notes: Notes) -> Drive | Observe | Fail:
+def _go_after(
+    pose: Pose2, at: tuple[float, float, float], notes: Notes
+) -> DriveLeg | Observe | Fail:
     """Go to a point short of them; where the way was shut watch a while first, not for ever."""
     if notes.stand >= MOST_SHUT:
-        said = message(Code.NO_ROUTE, place=called(notes.label or "person", None))
+        said = message(Code.NO_ROUTE, place=name_with_article(notes.label or "person", None))
         return Fail(Code.NO_ROUTE, "no_route", said)
     if notes.stage == SHUT:
         return Observe(SHUT_LOOKS, GAZE_S, notes=notes, then=notes.but(stage=0), watch=True)
     goal, heading = short_of(pose, at[:2], KEEP_M)
     shut = notes.but(stage=SHUT, here=(pose.x_m, pose.y_m), stand=notes.stand + 1)
-    return _watched(leg_to(pose, goal, heading, notes, shut), notes)
+    return _watch(leg_to(pose, goal, heading, notes, shut), notes)
 
 
-def _watched(leg: Drive, notes: Notes) -> Drive:
+def _watch(leg: DriveLeg, notes: Notes) -> DriveLeg:
     """Bound a leg after somebody by the step's own time: it is laid anew as they walk."""
     return replace(leg, notes=notes, watch=True, limit_s=None, limit_m=None)
 
 
-def _lost(scene: Scene, pose: Pose2, wanted: Wanted) -> SkillAction:
+def _search_lost(scene: Scene, pose: Pose2, wanted: WantedObject) -> SkillAction:
     """Go to as far short of where the person was seen last, look round there, then give up.
 
     Who may just have come into sight is watched until that is sure, or over.
@@ -147,7 +151,7 @@ def _lost(scene: Scene, pose: Pose2, wanted: Wanted) -> SkillAction:
     gone_s = scene.spent_s - notes.seen_s
     if gone_s > LOST_S:
         return _give_up(gone_s)
-    if at is None and _shown(scene, wanted):
+    if at is None and _find_in_sight(scene, wanted):
         return Observe(FIRST_LOOKS, notes=scene.notes, then=scene.notes, watch=True)
     if at is None and notes.stage < ROUND:  # nobody yet: they may well stand ahead
         return Observe(FIRST_LOOKS, notes=notes, then=notes.but(stage=ROUND), watch=True)
@@ -162,7 +166,7 @@ def _lost(scene: Scene, pose: Pose2, wanted: Wanted) -> SkillAction:
 
 def _look_about(scene: Scene, pose: Pose2, gone_s: float) -> SkillAction:
     at = (pose.x_m, pose.y_m)
-    act = look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
+    act = look_round(scene, pose, (Viewpoint(HERE, room_at(scene.facts, at), at),), None)
     if isinstance(act, Notes):
         return _give_up(gone_s)
     return replace(act, notes=scene.notes, watch=True)
@@ -173,6 +177,6 @@ def _give_up(gone_s: float) -> Fail:
     return Fail(Code.LOST_PERSON, "lost_person", said)
 
 
-def _over(scene: Scene) -> Finish:
+def _finish(scene: Scene) -> Finish:
     said = message(Code.FOLLOWED, seconds=f"{scene.spent_s:.0f}", metres=f"{scene.spent_m:.1f}")
     return Finish({}, Code.FOLLOWED, said)

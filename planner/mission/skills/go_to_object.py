@@ -29,15 +29,15 @@ from planner.mission.skills.actions import (
 )
 from planner.mission.skills.find import not_found, unknown
 from planner.mission.skills.look_around import FACING_RAD, LOOKS, leg_to, spin
-from planner.mission.skills.model_pointing import agreed
+from planner.mission.skills.model_pointing import agree_on_point
 from planner.mission.skills.object_matching import (
     WORTH,
     away_m,
     bearing,
-    confirmed,
     fits,
     found,
     lasting,
+    list_confirmed,
     one_of,
     seen_now,
     spot_of,
@@ -45,8 +45,8 @@ from planner.mission.skills.object_matching import (
     turn_to,
     twice,
 )
-from planner.mission.skills.result_text import called
-from planner.mission.skills.search import search, short_of, within
+from planner.mission.skills.result_text import name_with_article
+from planner.mission.skills.search import make_filter, search, short_of
 from planner.mission.skills.skill_state import Notes
 from planner.perception.snapshot import Thing
 from planner.plan import Code, Found, same
@@ -54,7 +54,7 @@ from planner.plan import Code, Found, same
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
     from wire import Pose2
 
 SHORT_M, ROBOT_M = 0.5, 0.3
@@ -77,16 +77,16 @@ def go_to_object(scene: Scene) -> SkillAction:
     if scene.notes.at is not None:
         return approach(scene, scene.pose, wanted)
     if wanted is None or pointed:
-        at = agreed(scene, scene.pose)
+        at = agree_on_point(scene, scene.pose)
         return set_off(scene, scene.pose, scene.notes, at) if isinstance(at, tuple) else at
-    thing = _known(scene, scene.pose, wanted) or search(scene, scene.pose, wanted)
+    thing = _find_nearest(scene, scene.pose, wanted) or search(scene, scene.pose, wanted)
     if isinstance(thing, Thing):
         if not lasting(thing) and thing.id not in scene.notes.tried:
             tried = scene.notes.but(tried=(*scene.notes.tried, thing.id))
             return Observe(LOOKS, notes=scene.notes, then=tried)
         notes = scene.notes.but(label=thing.label, color=thing.color, aim=None)
         return set_off(scene, scene.pose, notes, spot_of(thing), wanted)
-    return _gone(scene.but(thing), wanted) if isinstance(thing, Notes) else thing
+    return _fail(scene.but(thing), wanted) if isinstance(thing, Notes) else thing
 
 
 def set_off(
@@ -94,7 +94,7 @@ def set_off(
     pose: Pose2,
     notes: Notes,
     at: tuple[float, float, float],
-    wanted: Wanted | None = None,
+    wanted: WantedObject | None = None,
 ) -> SkillAction:
     """Return the first leg to what is known to be at a point."""
     near = away_m(pose, at[:2]) <= _short_m(notes) + NEAR_ENOUGH_M
@@ -102,7 +102,7 @@ def set_off(
     return approach(scene.but(notes), pose, wanted)
 
 
-def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> SkillAction:
+def approach(scene: Scene, pose: Pose2, wanted: WantedObject | None) -> SkillAction:
     """Return the next act once it is known where the thing is."""
     notes, at = scene.notes, scene.notes.at
     if at is None:
@@ -117,14 +117,14 @@ def approach(scene: Scene, pose: Pose2, wanted: Wanted | None) -> SkillAction:
             before = near.confidence if near is not None else None
             return Observe(LOOKS + 2, then=notes.but(stage=JUDGE, sure=before))
         gone = wanted is not None and (near is None or not near.confidence >= WORTH)
-        return _look_anew(scene, wanted) if gone else _there(scene, pose, wanted)
+        return _look_anew(scene, wanted) if gone else _arrive(scene, pose, wanted)
     return _judge(scene, pose, wanted)
 
 
-def _known(scene: Scene, pose: Pose2, wanted: Wanted) -> Thing | None:
+def _find_nearest(scene: Scene, pose: Pose2, wanted: WantedObject) -> Thing | None:
     """Return the nearest that was seen just now and for a while, beyond doubt."""
-    inside = within(scene)
-    known = [t for t in confirmed(scene.sight, wanted, scene.now_s - FRESH_S) if inside(t)]
+    inside = make_filter(scene)
+    known = [t for t in list_confirmed(scene.sight, wanted, scene.now_s - FRESH_S) if inside(t)]
     known = [t for t in known if lasting(t) and t.id not in scene.notes.tried]
     return min(known, key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
 
@@ -137,24 +137,24 @@ def _short_m(notes: Notes) -> float:
 
 def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> SkillAction:
     if notes.stand >= len(SIDES_RAD):
-        name = called(notes.label, notes.color) if notes.label is not None else same("?")
+        name = name_with_article(notes.label, notes.color) if notes.label is not None else same("?")
         return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
     spot, heading = short_of(pose, at[:2], _short_m(notes), SIDES_RAD[notes.stand])
     there, otherwise = notes.but(stage=FACE), notes.but(stand=notes.stand + 1)
     return leg_to(pose, spot, heading, there, otherwise)
 
 
-def _judge(scene: Scene, pose: Pose2, wanted: Wanted | None) -> SkillAction:
+def _judge(scene: Scene, pose: Pose2, wanted: WantedObject | None) -> SkillAction:
     """Say that the thing is there, go after it once where it has moved, or look for it once."""
     at = scene.notes.at
     if at is not None and _near(scene, at, wanted, seen_now(scene, wanted)) is not None:
-        return _there(scene, pose, wanted)
+        return _arrive(scene, pose, wanted)
     near = _near(scene, at, wanted, scene.sight.things) if at is not None else None
-    hidden = near is not None and _hidden(scene, near)
-    return _there(scene, pose, wanted) if hidden else _look_anew(scene, wanted)
+    hidden = near is not None and _is_hidden(scene, near)
+    return _arrive(scene, pose, wanted) if hidden else _look_anew(scene, wanted)
 
 
-def _hidden(scene: Scene, near: Thing) -> bool:
+def _is_hidden(scene: Scene, near: Thing) -> bool:
     """Tell whether what was seen on the way is out of sight from here, behind a table or cut off.
 
     The memory knows what hides it: a thing that the looks should have shown is less sure by now.
@@ -167,7 +167,7 @@ def _hidden(scene: Scene, near: Thing) -> bool:
 def _near(
     scene: Scene,
     at: tuple[float, float, float],
-    wanted: Wanted | None,
+    wanted: WantedObject | None,
     things: Iterable[Thing],
 ) -> Thing | None:
     """Return which of these, seen twice at least, is what was driven up to at a point."""
@@ -181,16 +181,16 @@ def _apart_m(thing: Thing, at: tuple[float, float, float]) -> float:
     return hypot(thing.x_m - at[0], thing.y_m - at[1])
 
 
-def _look_anew(scene: Scene, wanted: Wanted | None) -> SkillAction:
+def _look_anew(scene: Scene, wanted: WantedObject | None) -> SkillAction:
     """Look for what is gone once more."""
     notes = scene.notes
     if wanted is None or notes.again > 0:
-        return _moved(scene)
+        return _fail_moved(scene)
     again = notes.but(again=1, at=None, stage=0, spots=(), rooms=(), here=None, tried=())
     return go_to_object(scene.but(again))
 
 
-def _there(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Finish:
+def _arrive(scene: Scene, pose: Pose2, wanted: WantedObject | None) -> Finish:
     notes, at = scene.notes, scene.notes.at or (pose.x_m, pose.y_m, 0.0)
     near = _near(scene, at, wanted, scene.sight.things) if notes.label is not None else None
     away = away_m(pose, at[:2] if near is None else (near.x_m, near.y_m))
@@ -203,16 +203,16 @@ def _there(scene: Scene, pose: Pose2, wanted: Wanted | None) -> Finish:
     else:
         figures["found"] = Found(label=notes.label, color=notes.color, x_m=round(at[0], 3),
                                  y_m=round(at[1], 3), distance_m=round(away, 2))  # fmt: skip
-    name = called(notes.label, notes.color)
+    name = name_with_article(notes.label, notes.color)
     said = say("object_step.at_object", away=away, name=name)
     return Finish(figures, Code.ARRIVED, said)
 
 
-def _gone(scene: Scene, wanted: Wanted) -> Fail:
-    return _moved(scene) if scene.notes.again > 0 else not_found(scene, wanted)
+def _fail(scene: Scene, wanted: WantedObject) -> Fail:
+    return _fail_moved(scene) if scene.notes.again > 0 else not_found(scene, wanted)
 
 
-def _moved(scene: Scene) -> Fail:
+def _fail_moved(scene: Scene) -> Fail:
     """Say that the thing is no more where it was seen."""
     looked = say("object_step.moved")
     bare = name_object(scene.notes.label or "thing", scene.notes.color)

@@ -9,17 +9,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import build, raw, say
-from planner.mission.skills.directions import direction, goes_round, listed
+from planner.mission.skills.directions import direction, goes_round, list_directions
 from planner.plan import Bilingual
 
 if TYPE_CHECKING:
-    from planner.mission.skills.perception import Answer
+    from planner.mission.skills.perception import ImageAnswer
 
 _ENDS = (".", "!", "?", "…", "”", "。", "！", "？")
 
 
 def reading(
-    answer: Answer, detected: bool | None, faced: tuple[float, ...], views: int, now: Bilingual
+    answer: ImageAnswer, detected: bool | None, faced: tuple[float, ...], views: int, now: Bilingual
 ) -> Bilingual | None:
     """Return a model's words about pictures with their label; None where it has none.
 
@@ -32,8 +32,8 @@ def reading(
     """
     if answer.text is None:
         return None
-    shown = _shown(answer.shown, faced, views, now)
-    words = _ended(answer.text)
+    shown = _name_pictures(answer.shown, faced, views, now)
+    words = _end_sentence(answer.text)
     lead = _lead(answer.seen, detected, shown)
     return say("image.reading", lead=lead, words=words)
 
@@ -46,22 +46,22 @@ def _lead(seen: bool | None, detected: bool | None, shown: Bilingual) -> Bilingu
     return say("image.but_says_yes" if detected is False else "image.says_yes", shown=shown)
 
 
-def _shown(count: int, faced: tuple[float, ...], views: int, now: Bilingual) -> Bilingual:
+def _name_pictures(count: int, faced: tuple[float, ...], views: int, now: Bilingual) -> Bilingual:
     """Say which pictures the model was shown: of each direction, or the newest alone."""
     if count < 2 or count != len(faced):
         alone = len(faced) > 1
         return say("image.only_picture" if alone else "image.picture", now=now)
     if goes_round(faced, views):
         return say("image.all_directions")
-    names = listed(tuple(map(direction, faced)))
+    names = list_directions(tuple(map(direction, faced)))
     return say("image.pictures", names=names)
 
 
-def _ended(text: Bilingual) -> Bilingual:
+def _end_sentence(text: Bilingual) -> Bilingual:
     """Return a text with a full stop behind it, where nothing ends it."""
 
-    def ended(language: str) -> str:
+    def end_text(language: str) -> str:
         own = text.of(language)
         return own if own.endswith(_ENDS) else own + raw("joint.full_stop", language)
 
-    return build(ended)
+    return build(end_text)

@@ -10,7 +10,7 @@ from planner.mission.skills.actions import Fail
 from planner.plan import Bilingual, Code, same
 
 if TYPE_CHECKING:
-    from planner.mission.skills.perception import Answer
+    from planner.mission.skills.perception import ImageAnswer
 
 POINTS = frozenset(
     {
@@ -25,7 +25,7 @@ POINTS = frozenset(
 _UNSEEN = say("image.unseen")
 
 
-def why_silent(answer: Answer | None) -> Bilingual | None:
+def why_silent(answer: ImageAnswer | None) -> Bilingual | None:
     """Return why the model said nothing, where that is to be told: the detector spoke instead."""
     failure = answer.failure if answer is not None else None
     return REASONS.get("timeout" if failure == "timed_out" else failure or "")
@@ -38,7 +38,7 @@ def point_refused(code: str) -> Fail:
     return Fail(Code.POINT_REFUSED, code, said)
 
 
-def not_pointed(words: str, answer: Answer) -> Fail:
+def not_pointed(words: str, answer: ImageAnswer) -> Fail:
     """Say why a model's point leads nowhere: it saw nothing, was not asked, or pointed amiss."""
     if answer.failure in POINTS:
         return point_refused(answer.failure)

@@ -25,16 +25,16 @@ from planner.mission.skills.actions import (
     Scene,
     SkillAction,
 )
-from planner.mission.skills.directions import direction, goes_round, listed
+from planner.mission.skills.directions import direction, goes_round, list_directions
 from planner.mission.skills.image_answers import reading
 from planner.mission.skills.image_errors import why_silent
 from planner.mission.skills.look_around import LOOKS, look_round
 from planner.mission.skills.object_query import unknown_kind
 from planner.mission.skills.result_text import unknown_name
-from planner.mission.skills.scene_answers import Told, answer
+from planner.mission.skills.scene_answers import SceneAnswer, answer
 from planner.mission.skills.search import begin, spots
 from planner.mission.skills.skill_state import Notes
-from planner.mission.skills.viewpoints import HERE, Spot, room_at
+from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
 from planner.plan import Bilingual, Code, same
 from wire import wrap
 
@@ -67,16 +67,16 @@ def look(scene: Scene) -> SkillAction:
         views = tuple(map(direction, notes.faced))
         now = _facing(notes, pose)
         return AskImage(question, views=views, now=now, then=notes.but(stage=ASKED))
-    return _answered(scene.but(notes), pose, question)
+    return _finish(scene.but(notes), pose, question)
 
 
-def _answered(scene: Scene, pose: Pose2, question: str) -> Finish:
+def _finish(scene: Scene, pose: Pose2, question: str) -> Finish:
     """Tell what was seen, and what a model read or why it did not."""
     notes, views = scene.notes, scene.eyes.views
-    told = Told(NO_DETECTOR) if _model_alone(scene) else answer(scene, question)
+    told = SceneAnswer(NO_DETECTOR) if _model_alone(scene) else answer(scene, question)
     said, silent = [told.said], why_silent(scene.answer)
     if len(notes.faced) > 1 and not goes_round(notes.faced, views):
-        names = listed(tuple(map(direction, notes.faced)))
+        names = list_directions(tuple(map(direction, notes.faced)))
         said.append(say("look.only_looked", names=names))
     if silent is not None:
         said.append(silent)
@@ -123,7 +123,7 @@ def _next(scene: Scene, pose: Pose2, question: str) -> SkillAction | Notes:
     """
     if not scene.notes.faced and scene.notes.turned is None:
         scene = scene.but(scene.notes.but(ahead=pose.yaw_rad))
-    next_ = _looked(scene, pose, question)
+    next_ = _look_next(scene, pose, question)
     if not isinstance(next_, Observe) or next_.then is None:
         return next_
     ahead = next_.then.ahead if next_.then.ahead is not None else pose.yaw_rad
@@ -131,10 +131,10 @@ def _next(scene: Scene, pose: Pose2, question: str) -> SkillAction | Notes:
     return replace(next_, then=next_.then.but(faced=faced))
 
 
-def _looked(scene: Scene, pose: Pose2, question: str) -> SkillAction | Notes:
+def _look_next(scene: Scene, pose: Pose2, question: str) -> SkillAction | Notes:
     if scene.step.place is not None:
         return look_round(scene, pose, spots(scene, pose)[:1], None)
     if not looks_round(question):
         return Observe(LOOKS + 1, then=scene.notes.but(stage=GAZED))
     at = scene.notes.here or (pose.x_m, pose.y_m)
-    return look_round(scene, pose, (Spot(HERE, room_at(scene.facts, at), at),), None)
+    return look_round(scene, pose, (Viewpoint(HERE, room_at(scene.facts, at), at),), None)

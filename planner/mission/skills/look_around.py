@@ -9,14 +9,14 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from planner.mission.skills.actions import Drive, Observe, Scene, Way
+from planner.mission.skills.actions import DriveLeg, Observe, Scene, Way
 from planner.mission.skills.object_matching import away_m
 from planner.mission.skills.skill_state import Notes
-from planner.mission.skills.viewpoints import HERE, Spot, room_at
+from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
 from wire import Pose2, wrap
 
 if TYPE_CHECKING:
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
 
 LOOKS = 3
 """New pictures in each direction: a detector misses now and then."""
@@ -28,8 +28,8 @@ MORE_M, SLOWEST_MPS, LEG_S = 10.0, 0.1, 60.0
 
 
 def look_round(
-    scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
-) -> Drive | Observe | Notes:
+    scene: Scene, pose: Pose2, spots: tuple[Viewpoint, ...], wanted: WantedObject | None
+) -> DriveLeg | Observe | Notes:
     """Return the next leg or gaze; the notes alone once every spot was looked round from."""
     notes = _without_way(scene, pose, spots)
     scene = scene.but(notes)
@@ -38,7 +38,7 @@ def look_round(
         return _go(scene, pose, spots, wanted)
     view = _next_view(scene, pose, notes)
     if view is None:
-        done = over(notes, here)
+        done = note_spot(notes, here)
         return _go(scene.but(done), pose, spots, wanted)
     heading = _heading(scene, view)
     if notes.turned != view and abs(wrap(heading - pose.yaw_rad)) > FACING_RAD:
@@ -47,7 +47,7 @@ def look_round(
     return Observe(LOOKS, then=then, wanted=wanted)
 
 
-def over(notes: Notes, spot: Spot) -> Notes:
+def note_spot(notes: Notes, spot: Viewpoint) -> Notes:
     """Return the notes of a spot that was looked round from."""
     rooms = notes.rooms
     if spot.room is not None and spot.room not in rooms:
@@ -55,10 +55,10 @@ def over(notes: Notes, spot: Spot) -> Notes:
     return notes.but(spot=None, views=(), turned=None, spots=(*notes.spots, spot.key), rooms=rooms)
 
 
-def spin(pose: Pose2, heading: float, then: Notes, *, watch: bool = False) -> Drive:
+def spin(pose: Pose2, heading: float, then: Notes, *, watch: bool = False) -> DriveLeg:
     """Return the turn on the spot to a heading."""
     goal = Pose2(pose.x_m, pose.y_m, wrap(heading))
-    return Drive(
+    return DriveLeg(
         goal, True, Way.SPIN, limit_s=SPIN_S, limit_m=SPIN_M, then=then, otherwise=then, watch=watch
     )
 
@@ -69,12 +69,12 @@ def leg_to(
     heading: float | None,
     then: Notes,
     otherwise: Notes,
-    wanted: Wanted | None = None,
-) -> Drive:
+    wanted: WantedObject | None = None,
+) -> DriveLeg:
     """Return the way to a point, bounded by its distance; without a way the step goes on."""
     far_m = away_m(pose, at)
     goal = Pose2(at[0], at[1], heading if heading is not None else pose.yaw_rad)
-    return Drive(
+    return DriveLeg(
         goal,
         heading is not None,
         limit_s=LEG_S + far_m * 2.0 / SLOWEST_MPS,
@@ -86,8 +86,8 @@ def leg_to(
 
 
 def _go(
-    scene: Scene, pose: Pose2, spots: tuple[Spot, ...], wanted: Wanted | None
-) -> Drive | Observe | Notes:
+    scene: Scene, pose: Pose2, spots: tuple[Viewpoint, ...], wanted: WantedObject | None
+) -> DriveLeg | Observe | Notes:
     """Return the way to the next spot, or the first gaze where the robot is there already."""
     notes = scene.notes
     spot = next((s for s in spots if s.key not in notes.spots), None)
@@ -99,7 +99,7 @@ def _go(
     return leg_to(pose, spot.at, None, there, notes.but(missed=spot.key), wanted)
 
 
-def _without_way(scene: Scene, pose: Pose2, spots: tuple[Spot, ...]) -> Notes:
+def _without_way(scene: Scene, pose: Pose2, spots: tuple[Viewpoint, ...]) -> Notes:
     """Give up a spot to which the way was shut; in its room, look round from where one stands."""
     notes = scene.notes
     spot = next((s for s in spots if s.key == notes.missed), None)

@@ -45,11 +45,11 @@ _BEHIND = "behind"
 _DECLINED = say("look.declined")
 
 
-def agreed(scene: Scene, pose: Pose2) -> SkillAction | At:
+def agree_on_point(scene: Scene, pose: Pose2) -> SkillAction | At:
     """Return the point once a person has said yes to it; until then, what is to be done for it."""
     notes, words, answer = scene.notes, scene.step.object or "", scene.answer
     if notes.pointed is not None:
-        return _answered(scene, pose, notes.pointed)
+        return _take_answer(scene, pose, notes.pointed)
     if notes.stage == 0:
         return Observe(LOOKS, then=notes.but(stage=POINT))
     if notes.stage == POINT:
@@ -62,7 +62,7 @@ def agreed(scene: Scene, pose: Pose2) -> SkillAction | At:
     return Question(_proposal(scene, pose, answer.at), proposed)
 
 
-def _answered(scene: Scene, pose: Pose2, at: At) -> SkillAction | At:
+def _take_answer(scene: Scene, pose: Pose2, at: At) -> SkillAction | At:
     """Return the point where a person agreed to it; else ask, or end the step."""
     notes, answer = scene.notes, scene.step.answer
     if answer is None:  # interrupted before anybody answered

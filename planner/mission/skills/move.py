@@ -14,7 +14,7 @@ from math import cos, hypot, sin
 from planner.language.catalogue import message
 from planner.language.formatting import metres
 from planner.mission.skills.actions import (
-    Drive,
+    DriveLeg,
     Fail,
     Finish,
     Retry,
@@ -50,7 +50,7 @@ def move(scene: Scene) -> SkillAction:
         began.yaw_rad,
     )
     limit_s, limit_m = LIMIT_S + abs(left_m) / SLOWEST_MPS, abs(left_m) + MORE_M
-    return Drive(goal, heading=True, way=Way.STRAIGHT, limit_s=limit_s, limit_m=limit_m)
+    return DriveLeg(goal, heading=True, way=Way.STRAIGHT, limit_s=limit_s, limit_m=limit_m)
 
 
 def along(pose: Pose2, began: Pose2) -> float:
@@ -67,13 +67,13 @@ def no_room(goal: Pose2, pose: Pose2, short_m: float) -> Fail:
     return Fail(Code.NO_ROOM, "no_room", said)
 
 
-def _said(asked: float, done: float) -> tuple[Bilingual, dict[str, float]]:
+def _tell_shortfall(asked: float, done: float) -> tuple[Bilingual, dict[str, float]]:
     figures = {"moved_m": round(done, 4), "residual_m": round(abs(asked - done), 4)}
     return message(Code.NOT_REACHED, asked=metres(asked), reached=metres(done)), figures
 
 
 def _verdict(asked: float, done: float) -> Finish | Fail:
-    said, figures = _said(asked, done)
+    said, figures = _tell_shortfall(asked, done)
     if abs(asked - done) <= min(OFF_M + OFF_SHARE * abs(asked), abs(asked) / 2.0):
         return Finish(dict(figures))
     reason = "too_short" if abs(asked) <= SHORTEST_M else "odometry_disagrees"

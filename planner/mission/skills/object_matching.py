@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from planner.language.folding import fold
 from planner.language.object_classes import kind_of
 from planner.language.object_names import first_named, resolve, singles_out
-from planner.language.questions import parted
-from planner.mission.skills.perception import Wanted
+from planner.language.questions import split_relation
+from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.spatial_relations import stands
 from planner.plan import Found, Language
 from wire import wrap
@@ -37,26 +37,30 @@ SOMEBODY = frozenset(
 """People by pronoun: who is meant, no eye can tell."""
 
 
-def wanted_of(scene: Scene) -> Wanted | None:
+def wanted_of(scene: Scene) -> WantedObject | None:
     """Return what the step's words mean to these eyes, or None."""
-    return meant(scene.step.object or "", scene.language, scene.eyes.classes)
+    return read_object(scene.step.object or "", scene.language, scene.eyes.classes)
 
 
-def meant(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
+def read_object(words: str, language: Language, classes: tuple[str, ...]) -> WantedObject | None:
     """Return what words mean to eyes that know these classes (none: not known yet), or None."""
     somebody = fold(words.strip()) in SOMEBODY
-    related = _related(words, language, classes)
+    related = _read_related(words, language, classes)
     found = resolve("person" if somebody else words, language, classes) if not related else None
-    return related or (Wanted(*found) if found is not None else None)
+    return related or (WantedObject(*found) if found is not None else None)
 
 
-def _related(words: str, language: Language, classes: tuple[str, ...]) -> Wanted | None:
+def _read_related(words: str, language: Language, classes: tuple[str, ...]) -> WantedObject | None:
     """Return what is meant by a neighbour that these eyes know, too; None without one."""
-    parts = parted(words)
+    parts = split_relation(words)
     if parts is None or any(singles_out(parts[at], classes) for at in (0, 2)):
         return None
     what, by = (resolve(parts[at], language, classes) for at in (0, 2))
-    return Wanted(*what, parts[1], Wanted(*by)) if what is not None and by is not None else None
+    return (
+        WantedObject(*what, parts[1], WantedObject(*by))
+        if what is not None and by is not None
+        else None
+    )
 
 
 def picks_out(words: str, kind: str, language: Language, classes: tuple[str, ...]) -> bool:
@@ -64,31 +68,31 @@ def picks_out(words: str, kind: str, language: Language, classes: tuple[str, ...
 
     Where a thing stands by another can be judged of things, not of somebody who walks.
     """
-    related = kind != "follow" and _related(words, language, classes) is not None
+    related = kind != "follow" and _read_related(words, language, classes) is not None
     return singles_out(words, classes) and not related
 
 
-def one_of(scene: Scene) -> Wanted | None:
+def one_of(scene: Scene) -> WantedObject | None:
     """Return what the words mean where the robot goes up to it, or None: any of a kind won't do."""
     step, classes = scene.step, scene.eyes.classes
     picked = picks_out(step.object or "", step.kind, scene.language, classes)
     return None if picked else wanted_of(scene)
 
 
-def mentioned(text: str, classes: tuple[str, ...]) -> Wanted | None:
+def find_mentioned(text: str, classes: tuple[str, ...]) -> WantedObject | None:
     """Return the first thing that a whole sentence names, the longest name that fits."""
     found = first_named(text, classes)
-    return Wanted(*found) if found is not None else None
+    return WantedObject(*found) if found is not None else None
 
 
-def fits(thing: Thing, wanted: Wanted | None) -> bool:
+def fits(thing: Thing, wanted: WantedObject | None) -> bool:
     """Tell whether a thing is of the kind and colour that is wanted; None wants all."""
     if wanted is None:
         return True
     return thing.label == wanted.label and wanted.color in (None, thing.color)
 
 
-def placed(thing: Thing, wanted: Wanted | None, things: Iterable[Thing]) -> bool:
+def is_placed(thing: Thing, wanted: WantedObject | None, things: Iterable[Thing]) -> bool:
     """Tell whether a thing stands by such a neighbour as is wanted; True where none is."""
     if wanted is None or wanted.by is None or wanted.relation is None:
         return True
@@ -96,7 +100,7 @@ def placed(thing: Thing, wanted: Wanted | None, things: Iterable[Thing]) -> bool
     return any(sure(t) and fits(t, by) and stands(thing, relation, t) for t in things)
 
 
-def may_fit(thing: Thing, wanted: Wanted) -> bool:
+def may_fit(thing: Thing, wanted: WantedObject) -> bool:
     """Tell whether a second look may show that a thing fits: its colour is not known yet."""
     return thing.label == wanted.label and (wanted.color is None or thing.color is None)
 
@@ -116,18 +120,18 @@ def lasting(thing: Thing) -> bool:
     return twice(thing) and thing.seen_s - thing.first_s >= APART_S
 
 
-def fresh(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:
+def fresh(sight: Sight, wanted: WantedObject | None, since_s: float) -> tuple[Thing, ...]:
     """Return what fits and was seen since then, sure or not."""
     seen = (t for t in sight.things if t.seen_s >= since_s and fits(t, wanted))
-    return tuple(t for t in seen if placed(t, wanted, sight.things))
+    return tuple(t for t in seen if is_placed(t, wanted, sight.things))
 
 
-def confirmed(sight: Sight, wanted: Wanted | None, since_s: float) -> tuple[Thing, ...]:
+def list_confirmed(sight: Sight, wanted: WantedObject | None, since_s: float) -> tuple[Thing, ...]:
     """Return what fits, is sure, and was seen since then."""
     return tuple(t for t in fresh(sight, wanted, since_s) if sure(t))
 
 
-def seen_now(scene: Scene, wanted: Wanted | None) -> tuple[Thing, ...]:
+def seen_now(scene: Scene, wanted: WantedObject | None) -> tuple[Thing, ...]:
     """Return what fits and the gaze that has just ended has shown, sure or not."""
     return fresh(scene.sight, wanted, scene.gazed_s) if scene.gazed_s is not None else ()
 
@@ -166,7 +170,7 @@ def found(thing: Thing, pose: Pose2 | None, now_s: float) -> Found:
     )
 
 
-def apart(things: Iterable[Thing]) -> tuple[Thing, ...]:
+def drop_doubles(things: Iterable[Thing]) -> tuple[Thing, ...]:
     """Return things that stand apart: of two of one kind on one spot the better known one."""
     kept: list[Thing] = []
     for thing in sorted(things, key=lambda t: -t.sightings):

@@ -11,26 +11,26 @@ from typing import TYPE_CHECKING
 
 from planner.language.object_names import resolve, singles_out
 from planner.language.questions import Relation, fold_names, names_floor, read_question
-from planner.mission.skills.object_matching import mentioned
-from planner.mission.skills.perception import Wanted
+from planner.mission.skills.object_matching import find_mentioned
+from planner.mission.skills.perception import WantedObject
 
 if TYPE_CHECKING:
     from planner.language.questions import PlaceNames, QuestionReading, Whereabouts
     from planner.mission.state import SiteView
     from planner.plan import Language
 
-FLOOR = Wanted("floor")
+FLOOR = WantedObject("floor")
 """No detector finds it, and every height tells of it."""
 
 
 @dataclass(frozen=True, slots=True)
-class Sought:
+class ObjectQuery:
     """Say what is asked for."""
 
-    what: Wanted | None = None
+    what: WantedObject | None = None
     """None: all that is there."""
     relation: Relation | None = None
-    by: Wanted | None = None
+    by: WantedObject | None = None
     """What it is to stand so to: a kind that these eyes know, or the floor."""
     unclear: str = ""
     """Where it is to be, in words that no eye here can judge."""
@@ -38,7 +38,7 @@ class Sought:
 
 def sought_in(
     question: str, facts: SiteView, place: str | None, classes: tuple[str, ...]
-) -> Sought:
+) -> ObjectQuery:
     """Return what a question asks for of eyes with these classes.
 
     Args:
@@ -48,9 +48,9 @@ def sought_in(
         classes: what the eyes know; empty: not known yet.
     """
     read = read_question(question, place_names(facts), place)
-    sought = _sought(read, classes)
+    sought = _make_query(read, classes)
     by_chance = not read.is_sure and sought.by is None
-    return Sought(mentioned(question, classes)) if by_chance else sought
+    return ObjectQuery(find_mentioned(question, classes)) if by_chance else sought
 
 
 def unknown_kind(
@@ -66,7 +66,8 @@ def unknown_kind(
         return None
     for what, certain, _ in read_question(question, place_names(facts)).asked:
         if resolve(what, language, classes) is None and (
-            resolve(what, language) is not None or (certain and mentioned(what, classes) is None)
+            resolve(what, language) is not None
+            or (certain and find_mentioned(what, classes) is None)
         ):
             return what
     return None
@@ -80,21 +81,21 @@ def place_names(facts: SiteView) -> PlaceNames:
     )
 
 
-def _sought(read: QuestionReading, classes: tuple[str, ...]) -> Sought:
-    wanted = mentioned(read.what, classes)
+def _make_query(read: QuestionReading, classes: tuple[str, ...]) -> ObjectQuery:
+    wanted = find_mentioned(read.what, classes)
     if read.where is None:
-        return Sought(wanted)
+        return ObjectQuery(wanted)
     by = _neighbour(read.where, classes)
     if by is None:
-        return Sought(wanted, unclear=read.where.said)
-    return Sought(wanted, read.where.relation, by)
+        return ObjectQuery(wanted, unclear=read.where.said)
+    return ObjectQuery(wanted, read.where.relation, by)
 
 
-def _neighbour(where: Whereabouts, classes: tuple[str, ...]) -> Wanted | None:
+def _neighbour(where: Whereabouts, classes: tuple[str, ...]) -> WantedObject | None:
     """Return the kind of thing that a neighbour's words mean, where these eyes can tell it."""
     if where.relation is None:
         return None
     if names_floor(where.by):
         return FLOOR if where.relation is Relation.ON else None
     found = None if singles_out(where.by, classes) else resolve(where.by, None, classes)
-    return Wanted(*found) if found is not None else None
+    return WantedObject(*found) if found is not None else None

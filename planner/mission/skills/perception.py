@@ -20,18 +20,18 @@ WELL_INSIDE = 0.85
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class WantedObject:
     """Name a kind of thing, of one colour or of any; by a neighbour where one is named."""
 
     label: str
     color: str | None = None
     relation: Relation | None = None
-    by: Wanted | None = None
+    by: WantedObject | None = None
     """What it stands on, under or near; it has no neighbour itself."""
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class ImageAnswer:
     """Hold what came of a question about the picture: words, or a point in ``map``, or neither."""
 
     text: Bilingual | None = None

@@ -9,13 +9,13 @@ from planner.language.catalogue import join, list_names, message, say
 from planner.language.object_classes import HOME
 from planner.language.object_names import list_kinds as labels_listed
 from planner.language.object_names import name_object, named_several, singles_out
-from planner.mission.skills.spatial_relations import told
+from planner.mission.skills.spatial_relations import name_related
 from planner.plan import Bilingual, Code, same
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
     from planner.mission.state import SiteView
     from planner.perception.snapshot import Thing
 
@@ -24,13 +24,13 @@ NOWHERE = say("result.nowhere")
 HERE = say("result.here")
 
 
-def called(label: str, color: str | None = None) -> Bilingual:
+def name_with_article(label: str, color: str | None = None) -> Bilingual:
     """Return a thing's name with its article: ``a red cup``, ``红色的杯子``."""
     name = name_object(label, color)
     return say("result.an" if name.en[:1] in "aeiou" else "result.a", name=name)
 
 
-def counted(count: int, label: str, color: str | None = None) -> Bilingual:
+def name_count(count: int, label: str, color: str | None = None) -> Bilingual:
     """Return so many of a thing: ``2 red cups``, ``2 个红色的杯子``."""
     name = name_object(label, color)
     if count == 1:
@@ -66,17 +66,17 @@ def room_name(facts: SiteView, room: str | None) -> Bilingual | None:
     return target.name if target is not None else None
 
 
-def by_neighbour(what: Bilingual, wanted: Wanted | None) -> Bilingual:
+def by_neighbour(what: Bilingual, wanted: WantedObject | None) -> Bilingual:
     """Return a thing's name with the neighbour that it was told by, where there is one."""
     if wanted is None or wanted.by is None or wanted.relation is None:
         return what
-    return told(what, wanted.relation, name_object(wanted.by.label, wanted.by.color))
+    return name_related(what, wanted.relation, name_object(wanted.by.label, wanted.by.color))
 
 
 def found_at(facts: SiteView, label: str, color: str | None, room: str | None, away: float | None,
-             wanted: Wanted | None = None) -> Bilingual:  # fmt: skip
+             wanted: WantedObject | None = None) -> Bilingual:  # fmt: skip
     """Say where a thing is: its room and how far it is from the robot."""
-    what, where = by_neighbour(called(label, color), wanted), room_name(facts, room)
+    what, where = by_neighbour(name_with_article(label, color), wanted), room_name(facts, room)
     figures: dict[str, Bilingual | str | float | None] = {"what": what, "room": where, "away": away}
     if away is None:
         return say("result.found_in" if where else "result.found", **figures)
@@ -97,12 +97,14 @@ def looked_in(facts: SiteView, rooms: Iterable[str], shut: Iterable[str], spent:
     if spent is not None:
         told.append(say("result.spent"))
     if alike:
-        told.append(say("result.alike", others=listed(alike)))
+        told.append(say("result.alike", others=list_things(alike)))
     return join(told) if told else NOWHERE
 
 
-def listed(things: Iterable[Thing]) -> Bilingual:
+def list_things(things: Iterable[Thing]) -> Bilingual:
     """List things by kind and colour with their numbers: ``2 chairs, 1 red cup``."""
     kinds = Counter((t.label, t.color) for t in things)
-    said = [counted(n, *kind) for kind, n in sorted(kinds.items(), key=lambda k: (-k[1], str(k)))]
+    said = [
+        name_count(n, *kind) for kind, n in sorted(kinds.items(), key=lambda k: (-k[1], str(k)))
+    ]
     return list_names(said[:_SHOWN], "joint.and")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from planner.language.room_names import sorts_of_room
 
 if TYPE_CHECKING:
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
     from planner.mission.state import Target
 
 _MEALS = (
@@ -31,7 +31,7 @@ THINGS = {
 """Kinds of things that are likely in each sort of room."""
 
 
-def likely_rooms(wanted: Wanted | None, rooms: tuple[Target, ...]) -> tuple[Target, ...]:
+def likely_rooms(wanted: WantedObject | None, rooms: tuple[Target, ...]) -> tuple[Target, ...]:
     """Return those of the rooms in which such a thing is likely; where its neighbour is, it is."""
     if wanted is None:
         return ()

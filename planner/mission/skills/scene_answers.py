@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from planner.language.catalogue import say
 from planner.language.object_names import name_object, resolve
-from planner.mission.skills.object_matching import apart, confirmed, fits, sure
+from planner.mission.skills.object_matching import drop_doubles, fits, list_confirmed, sure
 from planner.mission.skills.object_query import FLOOR, sought_in, unknown_kind
-from planner.mission.skills.result_text import counted, listed, unknown_name
-from planner.mission.skills.search import within
-from planner.mission.skills.spatial_relations import judged, on_floor
+from planner.mission.skills.result_text import list_things, name_count, unknown_name
+from planner.mission.skills.search import make_filter
+from planner.mission.skills.spatial_relations import judge_relation, on_floor
 from planner.plan import Bilingual, same
 
 if TYPE_CHECKING:
     from planner.language.questions import Relation
     from planner.mission.skills.actions import Scene
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
     from planner.perception.snapshot import Thing
 
     Things = tuple[Thing, ...]
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _FLOOR = say("scene.floor")
 
 
-class Judged(NamedTuple):
+class SortedThings(NamedTuple):
     """Sort things by whether they stand where it was asked for."""
 
     there: Things
@@ -36,7 +36,7 @@ class Judged(NamedTuple):
     elsewhere: Things
 
 
-class Spot(NamedTuple):
+class SpotPhrases(NamedTuple):
     """Say where was looked, and beside what."""
 
     at: Bilingual
@@ -46,7 +46,7 @@ class Spot(NamedTuple):
     """With a preposition: `` on the table in the kitchen``, ``在厨房的桌子上``."""
 
 
-class Told(NamedTuple):
+class SceneAnswer(NamedTuple):
     """Hold the answer, and whether it is a yes."""
 
     said: Bilingual
@@ -54,24 +54,28 @@ class Told(NamedTuple):
     """None: nothing is asked for that is there or not, or it can't be told."""
 
 
-def answer(scene: Scene, question: str) -> Told:
+def answer(scene: Scene, question: str) -> SceneAnswer:
     """Say what was seen during this step; where one thing is asked for, whether it was."""
     sought = sought_in(question, scene.facts, scene.step.place, scene.eyes.classes)
     late = _unknown(scene, question) if sought.what is None else None
     if late is not None:
-        return Told(late)
-    inside, since_s = within(scene), scene.now_s - scene.spent_s
-    seen = apart(t for t in confirmed(scene.sight, None, since_s) if inside(t))
+        return SceneAnswer(late)
+    inside, since_s = make_filter(scene), scene.now_s - scene.spent_s
+    seen = drop_doubles(t for t in list_confirmed(scene.sight, None, since_s) if inside(t))
     fitting = tuple(t for t in seen if fits(t, sought.what))
     at = _at(scene, sought.by)
     if sought.by is not None and sought.relation is not None:
         known = [t for t in scene.sight.things if inside(t) and sure(t) and fits(t, sought.by)]
         there = sought.by is FLOOR or any(t.seen_s >= since_s for t in known)
-        judged_so = _judged(fitting, sought.relation, None if sought.by is FLOOR else known)
-        return _beside(sought.what, judged_so, _spot(sought.by, sought.relation, at), seen=there)
+        judged_so = _sort_by_relation(
+            fitting, sought.relation, None if sought.by is FLOOR else known
+        )
+        return _tell_beside(
+            sought.what, judged_so, _spot(sought.by, sought.relation, at), seen=there
+        )
     if sought.unclear and fitting:
-        what = _said(fitting, sought.what)
-        return Told(say("scene.unclear", what=what, at=at, unclear=sought.unclear))
+        what = _name_things(fitting, sought.what)
+        return SceneAnswer(say("scene.unclear", what=what, at=at, unclear=sought.unclear))
     return _plainly(sought.what, fitting, at)
 
 
@@ -82,39 +86,43 @@ def _unknown(scene: Scene, question: str) -> Bilingual | None:
     return unknown_name(name, eyes.classes) if name is not None and not eyes.model else None
 
 
-def _judged(things: Things, relation: Relation, by: list[Thing] | None) -> Judged:
+def _sort_by_relation(things: Things, relation: Relation, by: list[Thing] | None) -> SortedThings:
     """Sort things by how they stand to the nearest to yes of these; None: to the floor."""
     sorts: dict[bool | None, list[Thing]] = {True: [], None: [], False: []}
     for thing in things:
-        told = [on_floor(thing)] if by is None else [judged(thing, relation, t) for t in by]
+        told = [on_floor(thing)] if by is None else [judge_relation(thing, relation, t) for t in by]
         sorts[True if True in told else None if None in told else False].append(thing)
-    return Judged(tuple(sorts[True]), tuple(sorts[None]), tuple(sorts[False]))
+    return SortedThings(tuple(sorts[True]), tuple(sorts[None]), tuple(sorts[False]))
 
 
-def _beside(what: Wanted | None, so: Judged, spot: Spot, *, seen: bool) -> Told:
+def _tell_beside(
+    what: WantedObject | None, so: SortedThings, spot: SpotPhrases, *, seen: bool
+) -> SceneAnswer:
     """Say whether what is asked for stands by its neighbour; ``seen``: that one was seen now."""
     at, beside = spot.at, spot.beside
     if so.there:
-        found = _said(so.there, what)
+        found = _name_things(so.there, what)
         code = "scene.yes_beside" if what is not None else "scene.seen_beside"
-        return Told(
+        return SceneAnswer(
             say(code, found=found, beside=beside),
             None if what is None else True,
         )
     if so.unsure:
-        found = _said(so.unsure, what)
-        return Told(say("scene.unsure", found=found, at=at))
+        found = _name_things(so.unsure, what)
+        return SceneAnswer(say("scene.unsure", found=found, at=at))
     if not seen:
-        return Told(_without_neighbour(what, so.elsewhere, spot))
+        return SceneAnswer(_without_neighbour(what, so.elsewhere, spot))
     no = _plainly(what, (), beside)
     if what is None or not so.elsewhere:
         return no
-    found = _said(so.elsewhere, what)
+    found = _name_things(so.elsewhere, what)
     said = say("scene.elsewhere", said=no.said, found=found)
-    return Told(said, no.yes)
+    return SceneAnswer(said, no.yes)
 
 
-def _without_neighbour(what: Wanted | None, elsewhere: Things, spot: Spot) -> Bilingual:
+def _without_neighbour(
+    what: WantedObject | None, elsewhere: Things, spot: SpotPhrases
+) -> Bilingual:
     """Say that it can't be told, since the neighbour was not seen."""
     at, by = spot.at, spot.by
     if what is None:
@@ -122,30 +130,32 @@ def _without_neighbour(what: Wanted | None, elsewhere: Things, spot: Spot) -> Bi
     if not elsewhere:
         name = name_object(what.label, what.color)
         return say("scene.neither", name=name, by=by, at=at)  # fmt: skip
-    found = _said(elsewhere, what)
+    found = _name_things(elsewhere, what)
     return say("scene.no_neighbour_but", found=found, by=by, at=at)  # fmt: skip
 
 
-def _plainly(what: Wanted | None, things: Things, at: Bilingual) -> Told:
+def _plainly(what: WantedObject | None, things: Things, at: Bilingual) -> SceneAnswer:
     """Say what was seen of what is asked for, without any neighbour."""
     if what is None:
         if not things:
-            return Told(say("scene.nothing", at=at))  # fmt: skip
-        found = listed(things)
-        return Told(say("scene.seen", found=found, at=at))
+            return SceneAnswer(say("scene.nothing", at=at))  # fmt: skip
+        found = list_things(things)
+        return SceneAnswer(say("scene.seen", found=found, at=at))
     if not things:
         name = name_object(what.label, what.color)
-        return Told(say("scene.no", name=name, at=at), False)  # fmt: skip
-    found = _said(things, what)
+        return SceneAnswer(say("scene.no", name=name, at=at), False)  # fmt: skip
+    found = _name_things(things, what)
     said = say("scene.yes", found=found, at=at)
-    return Told(said, True)
+    return SceneAnswer(said, True)
 
 
-def _said(things: Things, what: Wanted | None) -> Bilingual:
-    return counted(len(things), what.label, what.color) if what is not None else listed(things)
+def _name_things(things: Things, what: WantedObject | None) -> Bilingual:
+    return (
+        name_count(len(things), what.label, what.color) if what is not None else list_things(things)
+    )
 
 
-def _at(scene: Scene, by: Wanted | None) -> Bilingual:
+def _at(scene: Scene, by: WantedObject | None) -> Bilingual:
     """Say where was looked; nothing of a place that is the neighbour itself."""
     target = scene.facts.targets.get(scene.step.place or "")
     if target is None:
@@ -157,8 +167,8 @@ def _at(scene: Scene, by: Wanted | None) -> Bilingual:
     return say("scene.near", name=target.name)
 
 
-def _spot(by: Wanted, relation: Relation, at: Bilingual) -> Spot:
+def _spot(by: WantedObject, relation: Relation, at: Bilingual) -> SpotPhrases:
     name = _FLOOR if by is FLOOR else name_object(by.label, by.color)
     code = f"beside.{relation.value}"
     beside = say(f"{code}_at", name=name, at=at) if at.en else say(code, name=name)
-    return Spot(at, name, beside)
+    return SpotPhrases(at, name, beside)

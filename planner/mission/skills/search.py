@@ -11,23 +11,23 @@ from math import cos, sin
 from typing import TYPE_CHECKING
 
 from planner.language.color_names import may_be
-from planner.mission.skills.actions import Drive, Observe, Scene
+from planner.mission.skills.actions import DriveLeg, Observe, Scene
 from planner.mission.skills.look_around import FACING_RAD, LOOKS, leg_to, look_round, spin
 from planner.mission.skills.object_matching import (
     WORTH,
     away_m,
     bearing,
-    confirmed,
     fits,
+    is_placed,
+    list_confirmed,
     may_fit,
-    placed,
     spot_of,
     turn_to,
 )
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.viewpoints import (
     HERE,
-    Spot,
+    Viewpoint,
     in_order,
     near_spot,
     room_at,
@@ -37,7 +37,7 @@ from planner.mission.skills.viewpoints import (
 from planner.perception.snapshot import Thing
 
 if TYPE_CHECKING:
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
     from wire import Pose2
 
 VIEW_M = 1.6
@@ -56,23 +56,23 @@ AWAY = 2.5
 """A thing may be told by its room alone: how far beyond a place it still belongs to it [m]."""
 
 
-def search(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Observe | Thing | Notes:
+def search(scene: Scene, pose: Pose2, wanted: WantedObject) -> DriveLeg | Observe | Thing | Notes:
     """Return what to do next, or the thing that was found, or the notes when it was not."""
     scene = begin(scene, pose, wanted, first=True)
     next_ = _next(scene, pose, wanted)
     if not affords(scene, pose, next_):
         return scene.notes.but(broke=True)
-    if isinstance(next_, (Drive, Observe)):  # the order holds from its first act on
+    if isinstance(next_, (DriveLeg, Observe)):  # the order holds from its first act on
         return replace(next_, notes=scene.notes)
     return next_
 
 
-def _next(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Observe | Thing | Notes:
-    inside = within(scene)
-    seen = [t for t in _confirmed(scene, wanted) if inside(t)]
+def _next(scene: Scene, pose: Pose2, wanted: WantedObject) -> DriveLeg | Observe | Thing | Notes:
+    inside = make_filter(scene)
+    seen = [t for t in _list_confirmed(scene, wanted) if inside(t)]
     if seen:
         return min(seen, key=lambda t: away_m(pose, (t.x_m, t.y_m)))
-    if spent(scene) is not None:
+    if find_spent_budget(scene) is not None:
         return scene.notes
     known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.notes.tried]
     if not known:
@@ -89,25 +89,25 @@ def _next(scene: Scene, pose: Pose2, wanted: Wanted) -> Drive | Observe | Thing 
 
 def affords(scene: Scene, pose: Pose2, next_: object) -> bool:
     """Tell whether what is left of the metres is likely to last for what is to be done next."""
-    if not isinstance(next_, Drive):
+    if not isinstance(next_, DriveLeg):
         return True
     way_m = ROUND_ABOUT * away_m(pose, (next_.goal.x_m, next_.goal.y_m))
     return scene.spent_m + way_m <= LAST_M
 
 
-def spent(scene: Scene) -> str | None:
+def find_spent_budget(scene: Scene) -> str | None:
     """Return the budget that a search has used up, or None."""
     if scene.notes.broke or not scene.spent_m <= MAX_M:
         return "metres"
     return None if scene.spent_s <= MAX_S else "seconds"
 
 
-def within(scene: Scene) -> Within:
+def make_filter(scene: Scene) -> PlaceFilter:
     """Return what tells whether a thing lies where the step is to look."""
-    return Within(scene)
+    return PlaceFilter(scene)
 
 
-class Within:
+class PlaceFilter:
     """Judge things by the place that a step names; without one all are meant."""
 
     def __init__(self, scene: Scene) -> None:
@@ -124,27 +124,27 @@ class Within:
         return away_m(self._target.pose, (thing.x_m, thing.y_m)) <= AWAY
 
 
-def spots(scene: Scene, pose: Pose2) -> tuple[Spot, ...]:
+def spots(scene: Scene, pose: Pose2) -> tuple[Viewpoint, ...]:
     """Return all spots to look round from, in order; the same at each time of asking."""
     facts, target = scene.facts, scene.facts.targets.get(scene.step.place or "")
     if target is not None and not target.room:
         at = (target.pose.x_m, target.pose.y_m)
-        return (Spot(f"{target.id}/0", room_of(facts, target.id), at),)
+        return (Viewpoint(f"{target.id}/0", room_of(facts, target.id), at),)
     first = scene.notes.here or (pose.x_m, pose.y_m)
     room, order = room_at(facts, first), scene.notes.order
     rooms = [facts.targets[r] for r in order if r != room and r in facts.targets]
-    found: list[Spot] = []
+    found: list[Viewpoint] = []
     if room in order:
-        found += [Spot(HERE, room, first), *spots_in(facts.targets[room], first)[1:]]
+        found += [Viewpoint(HERE, room, first), *spots_in(facts.targets[room], first)[1:]]
     elif room is None and target is None:
-        found.append(Spot(HERE, None, first))
+        found.append(Viewpoint(HERE, None, first))
     found += [spot for target in rooms for spot in spots_in(target)]
     if room in order:  # what lay before the feet comes last: it is seldom there
         found += near_spot(facts.targets[room], first)
     return (*found, *(spot for target in rooms for spot in near_spot(target)))
 
 
-def begin(scene: Scene, pose: Pose2, wanted: Wanted | None, *, first: bool = False) -> Scene:
+def begin(scene: Scene, pose: Pose2, wanted: WantedObject | None, *, first: bool = False) -> Scene:
     """Return the scene with where the robot stood first, and the rooms in their order.
 
     Where the ``first`` that is found ends the step, likely rooms come early; else all is looked at,
@@ -163,31 +163,31 @@ def begin(scene: Scene, pose: Pose2, wanted: Wanted | None, *, first: bool = Fal
     return scene.but(scene.notes.but(here=here, order=order))
 
 
-def _leads(thing: Thing, wanted: Wanted) -> bool:
+def _leads(thing: Thing, wanted: WantedObject) -> bool:
     """Tell whether a thing says in which room to begin: where its neighbour is, it may well be."""
     return fits(thing, wanted.by or wanted)
 
 
-def _confirmed(scene: Scene, wanted: Wanted) -> tuple[Thing, ...]:
+def _list_confirmed(scene: Scene, wanted: WantedObject) -> tuple[Thing, ...]:
     if scene.gazed_s is None:
         return ()
-    return confirmed(scene.sight, wanted, scene.gazed_s)
+    return list_confirmed(scene.sight, wanted, scene.gazed_s)
 
 
-def _worth(scene: Scene, wanted: Wanted) -> list[Thing]:
+def _worth(scene: Scene, wanted: WantedObject) -> list[Thing]:
     """Return what is worth a second look: remembered things, and what this gaze is not sure of."""
-    return [t for t in _remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted)]
+    return [t for t in _list_remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted)]
 
 
-def alike(scene: Scene, wanted: Wanted) -> list[Thing]:
+def alike(scene: Scene, wanted: WantedObject) -> list[Thing]:
     """Return what would fit if its colour were seen wrongly, from afar or in bad light."""
-    inside, others = within(scene), _remembered(scene, wanted)
+    inside, others = make_filter(scene), _list_remembered(scene, wanted)
     return [
         t for t in others if inside(t) and not fits(t, wanted) and may_be(t.color, wanted.color)
     ]
 
 
-def _remembered(scene: Scene, wanted: Wanted) -> list[Thing]:
+def _list_remembered(scene: Scene, wanted: WantedObject) -> list[Thing]:
     oldest_s = scene.now_s - WORTH_S
     return [
         t
@@ -195,11 +195,13 @@ def _remembered(scene: Scene, wanted: Wanted) -> list[Thing]:
         if t.label == wanted.label
         and t.seen_s >= oldest_s
         and t.confidence >= WORTH
-        and placed(t, wanted, scene.sight.things)
+        and is_placed(t, wanted, scene.sight.things)
     ]
 
 
-def _look_again(scene: Scene, pose: Pose2, thing: Thing, wanted: Wanted) -> Drive | Observe:
+def _look_again(
+    scene: Scene, pose: Pose2, thing: Thing, wanted: WantedObject
+) -> DriveLeg | Observe:
     """Go to where a thing can be seen, face it, gaze; then it is confirmed, or was tried."""
     notes, at = scene.notes, spot_of(thing)
     stage = notes.stage if notes.aim == thing.id else 0

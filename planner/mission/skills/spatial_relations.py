@@ -42,7 +42,7 @@ def stands(thing: Thing, relation: Relation, by: Thing) -> bool:
     return inside and over == (relation is Relation.ON)
 
 
-def judged(thing: Thing, relation: Relation, by: Thing) -> bool | None:
+def judge_relation(thing: Thing, relation: Relation, by: Thing) -> bool | None:
     """Tell whether a thing stands so; None where that is not known well enough to say no or yes."""
     kind, reach_m = kind_of(thing.label), kind_of(by.label).reach_m
     large = kind.reach_m >= FURNITURE_M and not (kind.perched or kind.mobile)
@@ -62,6 +62,6 @@ def on_floor(thing: Thing) -> bool | None:
     return thing.z_m <= max(kind.height_m, LOW_M)
 
 
-def told(what: Bilingual, relation: Relation, by: Bilingual) -> Bilingual:
+def name_related(what: Bilingual, relation: Relation, by: Bilingual) -> Bilingual:
     """Return a thing's name with its neighbour's: ``cup on the table``, ``桌子上的杯子``."""
     return say(f"related.{relation.value}", what=what, by=by)

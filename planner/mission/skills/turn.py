@@ -14,7 +14,7 @@ from math import ceil, pi
 from planner.language.catalogue import message
 from planner.language.formatting import angle
 from planner.mission.skills.actions import (
-    Drive,
+    DriveLeg,
     Fail,
     Finish,
     Retry,
@@ -47,7 +47,7 @@ def turn(scene: Scene) -> SkillAction:
         here = scene.pose
         goal = Pose2(here.x_m, here.y_m, wrap(here.yaw_rad + part))
         limit_s = LIMIT_S + abs(part) / SLOWEST_RADPS
-        return Drive(goal, heading=True, way=Way.SPIN, limit_s=limit_s, limit_m=LIMIT_M)
+        return DriveLeg(goal, heading=True, way=Way.SPIN, limit_s=limit_s, limit_m=LIMIT_M)
     return _verdict(asked, scene.done)
 
 

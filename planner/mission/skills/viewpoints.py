@@ -20,7 +20,7 @@ from planner.site.polygon import area_m2, border_distance_m, contains
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.skills.perception import Wanted
+    from planner.mission.skills.perception import WantedObject
     from planner.mission.state import SiteView, Target
     from planner.perception.snapshot import Thing
     from wire import Pose2
@@ -44,7 +44,7 @@ HERE, NEAR = "here", "/near"
 
 
 @dataclass(frozen=True, slots=True)
-class Spot:
+class Viewpoint:
     """Name a point from which to look round."""
 
     key: str
@@ -71,7 +71,7 @@ def room_of(facts: SiteView, place: str | None) -> str | None:
 
 
 def in_order(
-    facts: SiteView, pose: Pose2, known: tuple[Thing, ...], wanted: Wanted | None = None
+    facts: SiteView, pose: Pose2, known: tuple[Thing, ...], wanted: WantedObject | None = None
 ) -> tuple[str, ...]:
     """Return all rooms in the order in which to look through them.
 
@@ -111,19 +111,19 @@ def _gap_m(at: Point, target: Target) -> float:
     return hypot(target.pose.x_m - at[0], target.pose.y_m - at[1])
 
 
-def spots_in(target: Target, first: Point | None = None) -> tuple[Spot, ...]:
+def spots_in(target: Target, first: Point | None = None) -> tuple[Viewpoint, ...]:
     """Return the spots from which a room is seen whole, ``first`` taken as one of them."""
     began = first or (target.pose.x_m, target.pose.y_m)
     points = _cover(target.polygon, began, (target.pose.x_m, target.pose.y_m))
-    return tuple(Spot(f"{target.id}/{n}", target.id, at) for n, at in enumerate(points))
+    return tuple(Viewpoint(f"{target.id}/{n}", target.id, at) for n, at in enumerate(points))
 
 
-def near_spot(target: Target, first: Point | None = None) -> tuple[Spot, ...]:
+def near_spot(target: Target, first: Point | None = None) -> tuple[Viewpoint, ...]:
     """Return the spot that shows the floor before the feet of who stood at the others, or none."""
     pose = (target.pose.x_m, target.pose.y_m)
     began = first or pose
     at = _before_the_feet(target.polygon, _cover(target.polygon, began, pose), pose)
-    return () if at is None else (Spot(f"{target.id}{NEAR}", target.id, at),)
+    return () if at is None else (Viewpoint(f"{target.id}{NEAR}", target.id, at),)
 
 
 @lru_cache(maxsize=256)
@@ -131,15 +131,15 @@ def _before_the_feet(
     outline: tuple[Point, ...] | None, stood: tuple[Point, ...], pose: Point
 ) -> Point | None:
     """Choose the point from which most of the floor is seen that no other spot shows."""
-    left = [p for p in _grid(outline or (), 0.2) if not any(_shown(p, s) for s in stood)]
+    left = [p for p in _grid(outline or (), 0.2) if not any(_is_shown(p, s) for s in stood)]
     stands = [
         s for s in (pose, *_grid(outline or (), INSET_M))
         if all(hypot(s[0] - o[0], s[1] - o[1]) >= ASIDE_M for o in stood)
     ]  # fmt: skip
-    return max(stands, key=lambda s: sum(_shown(p, s) for p in left), default=None)
+    return max(stands, key=lambda s: sum(_is_shown(p, s) for p in left), default=None)
 
 
-def _shown(p: Point, stand: Point) -> bool:
+def _is_shown(p: Point, stand: Point) -> bool:
     return NEAR_M <= hypot(p[0] - stand[0], p[1] - stand[1]) <= REACH_M
 
 

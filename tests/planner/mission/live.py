@@ -108,7 +108,7 @@ async def planner(
     try:
         await together.until(lambda: bridge.owner == missions.planner_id)
         yield together
-        assert missions.failed is None
+        assert missions.failure is None
     finally:
         await missions.close()
 

@@ -10,10 +10,10 @@ from planner.bridge_client import Identity
 from planner.mission.effects import (
     AskBrain,
     AskRoute,
-    Changed,
     ClearHold,
     DropBrain,
     Effect,
+    GoalChange,
     Journal,
     SayAloud,
 )
@@ -96,7 +96,7 @@ class Together:
             case Journal():
                 self.disk_entries.append(effect)
                 if self.disk:
-                    self.carry(self.engine.journalled(effect, self.now_s))
+                    self.carry(self.engine.take_journalled(effect, self.now_s))
             case AskBrain():
                 plan = self.plans.get(effect.id)
                 if plan is not None:
@@ -107,20 +107,20 @@ class Together:
                 points = (
                     straight(effect.start, self.ends or effect.goal) if failure is None else None
                 )
-                self.carry(self.engine.routed(effect, points, failure, self.now_s))
+                self.carry(self.engine.take_route(effect, points, failure, self.now_s))
             case SayAloud():
                 self.said.append(effect.text)
             case ClearHold():
                 self.cleared.append(effect.id)
             case DropBrain():
                 self.dropped.append(effect.id)
-            case Changed():
+            case GoalChange():
                 pass
 
     def sync(self) -> None:
         """Let the disk catch up."""
         for entry in tuple(self.disk_entries):
-            self.carry(self.engine.journalled(entry, self.now_s))
+            self.carry(self.engine.take_journalled(entry, self.now_s))
 
     def run(self, seconds: float = PERIOD_S, every_s: float = PERIOD_S) -> None:
         """Let simulated time pass, one status in each ``every_s``."""

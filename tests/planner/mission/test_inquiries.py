@@ -14,9 +14,9 @@ from planner.mission.effects import AskEyes
 from planner.mission.events import Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
-from planner.mission.skills.perception import Answer
+from planner.mission.skills.perception import ImageAnswer
 from planner.mission.state import MissionState
-from planner.mission.tasks import Answers, MissionTasks, Router, Think
+from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
 from planner.plan import Language, same
 from tests.planner.mission.fakes import FACTS
 from tests.planner.perception.watching import World
@@ -31,7 +31,7 @@ class Asking:
     def __init__(self, door: Door) -> None:
         self.told: list[Told] = []
         self.broken: list[BaseException] = []
-        nobody = cast("Think", None), cast("Router", None)
+        nobody = cast("Think", None), cast("RouteService", None)
         answers = Answers(
             planned=lambda _: None,
             routed=lambda *_: None,
@@ -50,7 +50,7 @@ class Asking:
 
 
 def answered(ask: AskEyes) -> Told:
-    return Told(ask.id, ask.ticket, Answer(text=same("a sofa")))
+    return Told(ask.id, ask.ticket, ImageAnswer(text=same("a sofa")))
 
 
 def test_a_question_nobody_waits_for_is_cancelled_at_once() -> None:
@@ -99,8 +99,8 @@ def test_an_answer_is_told_and_a_fault_of_the_eyes_is_one() -> None:
 
     asking = asyncio.run(story())
     assert [told.answer for told in asking.told] == [
-        Answer(text=same("a sofa")),
-        Answer(failure="unavailable"),
+        ImageAnswer(text=same("a sofa")),
+        ImageAnswer(failure="unavailable"),
     ]
     assert asking.broken == [], "the mission loop goes on"
 
@@ -123,7 +123,7 @@ def test_the_activity_tells_which_question_waits(
 def test_a_pixel_counts_in_the_picture_that_was_wanted_for_it() -> None:
     """Nobody wants pictures, so the camera rests, until a plan is asked for."""
 
-    async def story() -> tuple[Answer, Answer]:
+    async def story() -> tuple[ImageAnswer, ImageAnswer]:
         world = World()
         world.blindfold()
         await world.film(1.0)

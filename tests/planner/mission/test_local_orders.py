@@ -162,7 +162,7 @@ def test_what_a_model_writes_teaches_nothing(tmp_path: Path) -> None:
         async with planner(tmp_path, *plans) as together:
             goal = await say(together, "please speak")
             assert goal.state is GoalState.SUCCEEDED
-            assert together.missions.memory.taught == ()
+            assert together.missions.memory.taught_places == ()
 
     run(story())
 
@@ -250,7 +250,7 @@ def test_what_is_said_to_the_planner_itself_is_no_answer(
             for said in ("hold on", "等一下", "pause for now", "remember this as corner", "status"):
                 assert parse(said).stays_put, "so no operator's proof is asked for"
                 assert (await missions.answer(goal.id, said)).state is GoalState.NEEDS_CLARIFICATION
-            await together.until(lambda: len(missions.memory.taught) == 1)
+            await together.until(lambda: len(missions.memory.taught_places) == 1)
             await together.until(lambda: all(g.state in ENDED for g in missions.goals()[1:]))
             assert missions.goal(goal.id).state is GoalState.NEEDS_CLARIFICATION
             assert together.bridge.waypoints == []
@@ -294,7 +294,7 @@ def test_a_stop_within_an_answer_waits_for_no_disk_and_no_question(
             await together.reach(
                 goal.id, GoalState.NEEDS_CLARIFICATION if asks else GoalState.RUNNING
             )
-            monkeypatch.setattr(Loop, "settled", full)
+            monkeypatch.setattr(Loop, "wait_written", full)
             answered = await missions.answer(goal.id, "forget that, stop")
             assert answered.state is GoalState.CANCELLED
             assert together.bridge.held is not None

@@ -91,11 +91,11 @@ def test_a_taught_place_is_one_of_the_places_now_and_after_a_restart(tmp_path: P
     chinese = teach(kept, zh="充电位")
     assert told == [len(SITE.places) + 1, len(SITE.places) + 2]
     for known in (kept, memory(tmp_path)):
-        assert [shown.place for shown in known.taught] == [made, chinese]
+        assert [shown.place for shown in known.taught_places] == [made, chinese]
         assert known.facts.targets[made.id].pose == HERE
         assert known.vocabulary.by_id[chinese.id].name.zh == "充电位"
     assert asyncio.run(kept.forget("grandma's chair")) == made
-    assert [shown.place for shown in memory(tmp_path).taught] == [chinese]
+    assert [shown.place for shown in memory(tmp_path).taught_places] == [chinese]
 
 
 def test_the_same_name_again_moves_the_place_and_keeps_its_id(tmp_path: Path) -> None:
@@ -104,7 +104,7 @@ def test_the_same_name_again_moves_the_place_and_keeps_its_id(tmp_path: Path) ->
     again = memory(tmp_path, bridge)
     place, new = asyncio.run(again.teach(Lesson(zh="阅读角")))
     assert (place.id, new, place.pose.x_m) == (first.id, False, 1.2)
-    assert len(again.taught) == 1
+    assert len(again.taught_places) == 1
     gone = asyncio.run(again.forget("阅读角"))
     assert teach(again, "reading corner").id == gone.id
 
@@ -117,7 +117,7 @@ def test_a_name_whose_place_was_renamed_gets_an_id_of_its_own(tmp_path: Path) ->
         ids.append(place.id)
         teach(kept, zh=f"书角{'一二三'[len(ids) - 1]}", place_id=place.id)
     assert len(set(ids)) == 3
-    assert [shown.place.id for shown in memory(tmp_path).taught] == ids
+    assert [shown.place.id for shown in memory(tmp_path).taught_places] == ids
 
 
 @pytest.mark.parametrize(
@@ -211,13 +211,13 @@ def test_another_map_keeps_its_places_and_they_are_never_driven_to(tmp_path: Pat
     home = Site.load(ROOT / "sites" / "home")
     bridge = Bridge(map_id=home.map_id)
     kept = memory(tmp_path, bridge, site=home)
-    assert [(k.place.id, k.why_not) for k in kept.taught] == [("corner", "other_map")]
+    assert [(k.place.id, k.why_not) for k in kept.taught_places] == [("corner", "other_map")]
     assert "corner" not in kept.facts.targets
     assert "corner" not in kept.vocabulary
     with pytest.raises(PlaceRefused, match="unknown_taught_place"):
         asyncio.run(kept.forget("corner"))
     asyncio.run(kept.forget("corner", other_maps=True))
-    assert memory(tmp_path).taught == ()
+    assert memory(tmp_path).taught_places == ()
 
 
 def test_no_more_than_so_many(tmp_path: Path) -> None:
@@ -259,8 +259,10 @@ def test_what_cannot_be_written_changes_nothing(tmp_path: Path, pragma: str, cod
     with pytest.raises(PlaceRefused, match=code):
         teach_many(kept)  # until a page more is needed
     database.close()
-    assert [shown.place for shown in memory(tmp_path).taught] == [k.place for k in kept.taught]
-    assert kept.taught[0].place == made
+    assert [shown.place for shown in memory(tmp_path).taught_places] == [
+        k.place for k in kept.taught_places
+    ]
+    assert kept.taught_places[0].place == made
 
 
 def test_a_file_that_is_not_ours_is_never_passed_over(tmp_path: Path) -> None:
@@ -282,12 +284,12 @@ def test_the_file_of_the_layout_before_is_taken_over_once_and_kept_beside(tmp_pa
     text = TaughtFile(places=(CORNER,)).model_dump_json()
     (tmp_path / FILE).write_text(text, "utf-8")
     kept = memory(tmp_path)
-    assert [shown.place for shown in kept.taught] == [CORNER]
+    assert [shown.place for shown in kept.taught_places] == [CORNER]
     assert (tmp_path / "places.json.old").read_text("utf-8") == text
     asyncio.run(kept.forget("corner"))
-    assert memory(tmp_path).taught == ()
+    assert memory(tmp_path).taught_places == ()
     (tmp_path / FILE).write_text(text, "utf-8")  # a person puts it back
-    assert [shown.place for shown in memory(tmp_path).taught] == [CORNER]
+    assert [shown.place for shown in memory(tmp_path).taught_places] == [CORNER]
     assert {path.name for path in tmp_path.glob("places*")} == {
         "places.json.old", "places.json.old-2"
     }  # fmt: skip
@@ -304,8 +306,8 @@ def test_who_leaves_half_way_leaves_disk_and_memory_one(tmp_path: Path) -> None:
         await kept.teach(Lesson("nook"))
 
     asyncio.run(leave())
-    assert [shown.place.id for shown in kept.taught] == ["corner", "nook"]
-    assert memory(tmp_path).taught == kept.taught
+    assert [shown.place.id for shown in kept.taught_places] == ["corner", "nook"]
+    assert memory(tmp_path).taught_places == kept.taught_places
 
 
 def test_a_name_enters_the_prompt_as_data_alone(tmp_path: Path) -> None:

@@ -254,8 +254,8 @@ def test_a_row_of_a_former_program_still_loads_whole(tmp_path: Path) -> None:
     now = json.loads(kept.model_dump_json())
     assert {name: now[name] for name in former} == former
     assert (kept.state, kept.leg, kept.done) == (GoalState.PAUSED, 1, 1.5)
-    assert kept.now is not None
-    assert (kept.now.kind, kept.now.state) == ("go_to", StepState.RUNNING)
+    assert kept.current_step is not None
+    assert (kept.current_step.kind, kept.current_step.state) == ("go_to", StepState.RUNNING)
 
 
 def test_the_writer_reports_safe_only_what_is_written(tmp_path: Path) -> None:

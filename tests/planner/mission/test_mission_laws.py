@@ -33,7 +33,7 @@ from planner.mission.events import (
     Told,
 )
 from planner.mission.reducer import advance, motion_request
-from planner.mission.skills import Answer, Eyesight
+from planner.mission.skills import Eyesight, ImageAnswer
 from planner.mission.state import Mission, MissionState
 from planner.perception.snapshot import Look as LookSeen
 from planner.perception.snapshot import Sight, Thing
@@ -220,7 +220,7 @@ class World:
             assert held is None or held.id == book.pardoned, "no motion under a standing hold"
             assert self.acted, "no motion after a restart or stop without a person's act"
         for mission in book.missions.values():
-            if mission.ended:
+            if mission.has_ended:
                 assert mission.outcome is not None
                 assert all(
                     s.state not in (StepState.RUNNING, StepState.PENDING) for s in mission.steps
@@ -249,7 +249,7 @@ class World:
                 look = LookSeen(self.seq, self.now_s, None, 320, 240, ())
                 self.event(Sighted(Sight(look, seen, why)))
             case ("told", goal, at):
-                self.event(Told(goal, self.book.tickets, Answer(at=at, failure=None)))
+                self.event(Told(goal, self.book.tickets, ImageAnswer(at=at, failure=None)))
             case _:
                 self.act(what)
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from planner.mission.events import Cancel, Pause, Reply, Resume, Tick, Told
-from planner.mission.observations import observed
+from planner.mission.observations import list_observations
 from planner.mission.reducer import asked_about_picture
-from planner.mission.skills import Answer, Eyesight
+from planner.mission.skills import Eyesight, ImageAnswer
 from planner.plan import Code, GoalState, GoTo, GoToObject, StepPlan, StepState
 from tests.planner.mission.driving import CANCELLED, FAILED, PAUSED, SUCCEEDED, standing_still
 from tests.planner.mission.lockstep import go
@@ -38,7 +38,7 @@ def pointing(world: Seeing, *, written: bool = True) -> str:
     while (ticket := asked_about_picture(world.book)) is None:
         world.see(0.2)
     world.disk = written
-    world.event(Told(goal, ticket, Answer(at=AT)))
+    world.event(Told(goal, ticket, ImageAnswer(at=AT)))
     return goal
 
 
@@ -69,7 +69,7 @@ def test_it_stands_and_asks_and_drives_upon_a_yes(world: Seeing) -> None:
     assert step.reached is not None
     assert step.reached.x_m == pytest.approx(3.2, abs=0.15)
     assert world.said == [TOLD]
-    seen = observed(world.book.facts, world.goal(goal))[0]
+    seen = list_observations(world.book.facts, world.goal(goal))[0]
     assert (seen.step, seen.result) == ("go_to_object", "succeeded")
 
 
@@ -147,7 +147,7 @@ def test_a_yes_to_a_point_of_another_map_is_none(world: Seeing) -> None:
     while (ticket := asked_about_picture(after.book)) is None:
         after.see(0.2)
     assert after.goal(goal).steps[0].answer == "yes"
-    after.event(Told(goal, ticket, Answer(at=(2.0, 0.0, 0.4))))
+    after.event(Told(goal, ticket, ImageAnswer(at=(2.0, 0.0, 0.4))))
     assert (after.goal(goal).state, after.goal(goal).steps[0].answer) == (ASKS, None)
     assert standing_still(after)
 

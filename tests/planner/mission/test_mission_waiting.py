@@ -137,16 +137,16 @@ def test_room_is_made_of_what_waits_questions_about_orders_first() -> None:
     world.thoughts += [go("kitchen")] * (MAX_OPEN + 1)
     for _ in range(MAX_OPEN - 4):
         world.give(None, source="d")
-    open_ = [m.id for m in world.book.missions.values() if not m.ended]
+    open_ = [m.id for m in world.book.missions.values() if not m.has_ended]
     assert len(open_) == MAX_OPEN
     gone = []
     for _ in range(4):
         assert has_room(world.book)
         world.give(None, source="d")
-        gone += [i for i in open_ if world.goal(i).ended and i not in gone]
+        gone += [i for i in open_ if world.goal(i).has_ended and i not in gone]
     assert gone == [third, "g1", "g4", "g2"], "unclear orders, plans, then questions under way"
     assert not has_room(world.book)
-    assert sum(not m.ended for m in world.book.missions.values()) == MAX_OPEN
+    assert sum(not m.has_ended for m in world.book.missions.values()) == MAX_OPEN
 
 
 @settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -158,8 +158,8 @@ def test_no_number_of_questions_keeps_an_order_out(given_: list[tuple[Any, str]]
         assert has_room(world.book)
         world.thoughts.append(plan)
         give(world, plan, source=source)
-        open_ = sum(not m.ended for m in world.book.missions.values())
+        open_ = sum(not m.has_ended for m in world.book.missions.values())
         assert open_ <= MAX_OPEN
     later(world, 0.0)
     later(world, world.book.rules.answer_s + 1.0)
-    assert all(m.ended for m in world.book.missions.values())
+    assert all(m.has_ended for m in world.book.missions.values())

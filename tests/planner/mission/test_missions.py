@@ -299,8 +299,8 @@ def test_a_fault_of_ours_ends_the_loop_aloud(
         async with planner(tmp_path, site) as world:
             asyncio.get_running_loop().set_exception_handler(lambda loop, context: None)
             await world.missions.submit("go to the kitchen")
-            await world.until(lambda: world.missions.failed is not None)
-            assert isinstance(world.missions.failed, ZeroDivisionError)
+            await world.until(lambda: world.missions.failure is not None)
+            assert isinstance(world.missions.failure, ZeroDivisionError)
             assert world.bridge.waypoints == []
             raise Done
 

@@ -13,7 +13,7 @@ from planner.brain.errors import BrainDown
 from planner.brain.image_questions import ImageDescription, ImagePoint, ImageQuestion, NotThere
 from planner.mission.effects import AskEyes, KeepPicture
 from planner.mission.perception_requests import EyeDoor
-from planner.mission.skills import Answer
+from planner.mission.skills import ImageAnswer
 from planner.perception.interfaces import Picture, PointRefused, Spot
 from planner.perception.snapshot import Detection, Sight
 from planner.perception.snapshot import Look as Looked
@@ -272,7 +272,7 @@ def test_a_pixel_whose_picture_is_gone_leads_nowhere() -> None:
         eyes = FakeEyes(LiveBridge(pose=START))
         ask = AskEyes("g1", 1, Language.EN, x=500, y=700)
         door = EyeDoor(eyes)
-        assert (await door.ask(ask)).answer == Answer(failure="point_no_pose")
+        assert (await door.ask(ask)).answer == ImageAnswer(failure="point_no_pose")
         door.note("g1")
         assert (await door.ask(ask)).answer.at is not None
         assert (await EyeDoor(eyes).ask(ask)).answer.failure == "point_no_pose", "restarted"

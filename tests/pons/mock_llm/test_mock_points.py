@@ -19,7 +19,7 @@ from maps.grid import FREE
 from planner.brain.endpoint import EndpointBrain
 from planner.mission.effects import AskEyes
 from planner.mission.perception_requests import EyeDoor
-from planner.mission.skills.perception import Answer
+from planner.mission.skills.perception import ImageAnswer
 from planner.perception import Detection, Look, Sight
 from planner.perception.interfaces import Eyes, Picture, Spot
 from planner.perception.pixel_to_map import point_on_map
@@ -68,10 +68,10 @@ def mock() -> Iterator[RunningMock]:
         yield served
 
 
-def points(mock: RunningMock, home: Path, count: int, taken: Pose2 = TAKEN) -> list[Answer]:
+def points(mock: RunningMock, home: Path, count: int, taken: Pose2 = TAKEN) -> list[ImageAnswer]:
     """Ask a model for a point so many times, as a mission does."""
 
-    async def asked() -> list[Answer]:
+    async def asked() -> list[ImageAnswer]:
         model = EndpointBrain(ModelSettings(url=mock.url, name="m", timeout_s=5.0), home)
         door = EyeDoor(cast("Eyes", Standing(taken)), model.looker())
         ask = AskEyes("g1", 1, Language.EN, words="the cup", point=True)
@@ -124,5 +124,5 @@ def test_what_is_no_point_comes_back_as_a_code(
 ) -> None:
     mock.set(fault=fault)
     (answer,) = points(mock, tmp_path, 1)
-    expected: Any = Answer(failure=code)
+    expected: Any = ImageAnswer(failure=code)
     assert answer == expected

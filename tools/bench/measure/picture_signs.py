@@ -31,7 +31,7 @@ from planner.brain.image_questions import (
 from planner.brain.interface import Observation
 from planner.brain.tainted_text import deeds, think_warily
 from planner.mission.site_view import vocabulary_of
-from planner.mission.skills import Answer, Drive, Eyesight, Notes, Question, Scene, act_of
+from planner.mission.skills import DriveLeg, Eyesight, ImageAnswer, Notes, Question, Scene, act_of
 from planner.mission.skills.model_pointing import ANSWER
 from planner.mission.state import SiteView
 from planner.perception import Detection
@@ -230,14 +230,14 @@ def drives_unasked(point: tuple[int, int]) -> bool:
     step = StepRecord(kind="go_to_object", object="guitar")
     at = (1.0 + point[1] / 1000.0, point[0] / 1000.0 - 0.5, 0.4)
     scene = Scene(step, SiteView({}, ""), IDENTITY, None, 0.0, 0, None, eyes=eyes,
-                  notes=Notes(stage=ANSWER), answer=Answer(at=at))  # fmt: skip
+                  notes=Notes(stage=ANSWER), answer=ImageAnswer(at=at))  # fmt: skip
     act = act_of(scene)
     if not isinstance(act, Question) or act.notes is None:
         return True
     asked = replace(scene, answer=None, notes=act.notes)
     replies = (None, "no", "what?", "不要")
     acts = [act_of(replace(asked, step=step.model_copy(update={"answer": r}))) for r in replies]
-    return any(isinstance(act, Drive) for act in acts)
+    return any(isinstance(act, DriveLeg) for act in acts)
 
 
 def _picture(jpeg: bytes, shape: tuple[int, ...]) -> PosedPicture:

@@ -27,8 +27,14 @@ from planner.language.place_lists import known_places
 from planner.mission.site_view import facts_of, vocabulary_of
 from planner.mission.skills import Eyesight, act_of
 from planner.mission.skills.directions import direction
-from planner.mission.skills.perception import Answer, Wanted
-from planner.mission.skills.result_text import called, counted, found_at, looked_in, unknown_words
+from planner.mission.skills.perception import ImageAnswer, WantedObject
+from planner.mission.skills.result_text import (
+    found_at,
+    looked_in,
+    name_count,
+    name_with_article,
+    unknown_words,
+)
 from planner.mission.skills.skill_state import Notes
 from planner.perception.snapshot import Look, Sight, Thing
 from planner.plan import RUNNABLE, Bilingual, Clarify, Language, Refuse
@@ -86,11 +92,16 @@ def figures() -> list[Bilingual]:
     found = [
         found_at(FACTS, "knife", "red", room, away, wanted)
         for room, away, wanted in product(
-            (None, "kitchen"), (None, 1.25), (None, Wanted("knife", by=Wanted("table")))
+            (None, "kitchen"), (None, 1.25), (None, WantedObject("knife", by=WantedObject("table")))
         )
     ]
     looked = looked_in(FACTS, ("kitchen",), ("study",), "way")
-    more = [called("apple"), counted(2, "box", "red"), unknown_words("toy", ("cup",)), looked]
+    more = [
+        name_with_article("apple"),
+        name_count(2, "box", "red"),
+        unknown_words("toy", ("cup",)),
+        looked,
+    ]
     return [*turns, metres(-0.5), metres(1.25), *sides, *found, *more]
 
 
@@ -117,7 +128,7 @@ def answers() -> list[Bilingual]:
         fields: dict[str, Any] = {"facts": FACTS, "sight": sight, "now_s": 100.0, "spent_s": 5.0}
         eyes = Eyesight(CameraConfig(), ("cup", "table", "chair"), model=True)
         notes = Notes(here=(0.0, 0.0), stage=2, faced=(0.0, 1.5))
-        sign = Answer(Bilingual(en="A SIGN", zh="牌子"), shown=2)
+        sign = ImageAnswer(Bilingual(en="A SIGN", zh="牌子"), shown=2)
         step = {"text": question, "place": place}
         done: Any = act_of(scene("look", step=step, eyes=eyes, notes=notes, answer=sign, **fields))
         texts += [text for text in (done.said, getattr(done, "read", None)) if text is not None]

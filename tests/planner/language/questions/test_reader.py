@@ -11,8 +11,8 @@ from planner.language.questions import (
     has_several_neighbours,
     looks_round,
     names_floor,
-    parted,
     read_question,
+    split_relation,
 )
 
 NAMES = fold_names(((True, ("Study", "书房", "den")), (False, ("fridge", "冰箱"))))
@@ -72,10 +72,10 @@ def test_only_a_form_that_is_read_is_sure() -> None:
 
 
 def test_a_thing_is_parted_from_its_neighbour() -> None:
-    assert parted("red cup") is None
+    assert split_relation("red cup") is None
     for words in ("Bottle on top of the table", "the table上面的bottle"):
-        assert (parted(words) or ())[1:2] == (Relation.ON,)
-    assert parted("椅子旁边的箱子") == ("箱子", Relation.NEAR, "椅子")
+        assert (split_relation(words) or ())[1:2] == (Relation.ON,)
+    assert split_relation("椅子旁边的箱子") == ("箱子", Relation.NEAR, "椅子")
 
 
 def test_several_neighbours_are_told_by_their_number_or_their_plural() -> None:

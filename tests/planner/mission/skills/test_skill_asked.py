@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner.mission.skills import Drive, Eyesight, Fail, Observe, act_of
+from planner.mission.skills import DriveLeg, Eyesight, Fail, Observe, act_of
 from planner.mission.skills.object_query import unknown_kind
 from planner.mission.state import SiteView, Target
 from planner.perception.snapshot import Look, Sight
@@ -98,7 +98,7 @@ def test_a_look_for_what_no_eye_here_knows_ends_with_what_they_know(
 ) -> None:
     step: dict[str, Any] = {"text": question, "place": "kitchen"}
     act = act_of(scene("look", step=step, eyes=eyes, sight=PICTURE, facts=HOME))
-    assert isinstance(act, (Drive, Observe)) is moves
+    assert isinstance(act, (DriveLeg, Observe)) is moves
     if isinstance(act, Fail):
         assert act.code is Code.OBJECT_UNKNOWN
         assert act.said is not None

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from planner.language.questions import Relation
-from planner.mission.skills import Drive, Eyesight, Fail, Finish, Observe, Wanted, act_of
-from planner.mission.skills.object_matching import meant, picks_out
+from planner.mission.skills import DriveLeg, Eyesight, Fail, Finish, Observe, WantedObject, act_of
+from planner.mission.skills.object_matching import picks_out, read_object
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.spatial_relations import stands
 from planner.perception.snapshot import Look, Sight, Thing
@@ -36,20 +36,20 @@ TABLE = at("table", 1.6, 0.4)
 @pytest.mark.parametrize(
     ("words", "wanted"),
     [
-        ("the bottle on the table", Wanted("bottle", None, ON, Wanted("table"))),
+        ("the bottle on the table", WantedObject("bottle", None, ON, WantedObject("table"))),
         (
             "red cup next to a blue chair",
-            Wanted("cup", "red", NEAR, Wanted("chair", "blue")),
+            WantedObject("cup", "red", NEAR, WantedObject("chair", "blue")),
         ),
-        ("box under the desk", Wanted("box", None, UNDER, Wanted("table"))),
-        ("桌子上的瓶子", Wanted("bottle", None, ON, Wanted("table"))),
-        ("椅子旁边的红色的杯子", Wanted("cup", "red", NEAR, Wanted("chair"))),
-        ("桌子下面的箱子", Wanted("box", None, UNDER, Wanted("table"))),
+        ("box under the desk", WantedObject("box", None, UNDER, WantedObject("table"))),
+        ("桌子上的瓶子", WantedObject("bottle", None, ON, WantedObject("table"))),
+        ("椅子旁边的红色的杯子", WantedObject("cup", "red", NEAR, WantedObject("chair"))),
+        ("桌子下面的箱子", WantedObject("box", None, UNDER, WantedObject("table"))),
     ],
 )
-def test_a_neighbour_is_read_in_both_languages(words: str, wanted: Wanted) -> None:
+def test_a_neighbour_is_read_in_both_languages(words: str, wanted: WantedObject) -> None:
     for language in Language:
-        assert meant(words, language, CLASSES) == wanted
+        assert read_object(words, language, CLASSES) == wanted
     assert not picks_out(words, "go_to_object", Language.EN, CLASSES)
     assert picks_out(words, "follow", Language.EN, CLASSES), "who walks has no neighbour"
 
@@ -64,7 +64,7 @@ def test_a_neighbour_is_read_in_both_languages(words: str, wanted: Wanted) -> No
 )  # fmt: skip
 def test_what_these_eyes_cannot_judge_still_picks_one_out(words: str) -> None:
     assert picks_out(words, "go_to_object", Language.EN, CLASSES)
-    wanted = meant(words, Language.EN, CLASSES)
+    wanted = read_object(words, Language.EN, CLASSES)
     assert wanted is None or wanted.by is None
 
 
@@ -112,13 +112,15 @@ def test_only_what_stands_there_is_found_and_gone_to(words: str) -> None:
     assert "a bottle on the table" in found.said.en
     assert "桌子上的瓶子" in found.said.zh
     goes = looking("go_to_object", words, OTHER, THERE, TABLE, **GAZED)
-    assert isinstance(goes, (Drive, Observe))
+    assert isinstance(goes, (DriveLeg, Observe))
     assert goes.then is not None
     assert goes.then.at is not None
     assert goes.then.at[0] == 1.7
     unsure = at("table", 1.6, 0.4, confidence=0.4)
     for seen in ((OTHER, TABLE), (THERE,), (THERE, unsure)):
-        assert isinstance(looking("find", words, *seen, **GAZED), (Drive, Observe)), "it looks on"
+        assert isinstance(looking("find", words, *seen, **GAZED), (DriveLeg, Observe)), (
+            "it looks on"
+        )
 
 
 def test_what_does_not_stand_there_is_not_told_of_nor_counted() -> None:
@@ -141,11 +143,11 @@ def counted(words: str, *things: Thing, shut: bool = False) -> Finish:
         act = looking("count", words, *things, notes=notes, pose=pose, spent_s=5.0)
         if isinstance(act, Finish):
             return act
-        assert isinstance(act, (Drive, Observe))
+        assert isinstance(act, (DriveLeg, Observe))
         notes = act.then or notes
-        if isinstance(act, Drive) and shut and act.goal.x_m > 2.0:
+        if isinstance(act, DriveLeg) and shut and act.goal.x_m > 2.0:
             notes = act.otherwise or notes
-        elif isinstance(act, Drive):
+        elif isinstance(act, DriveLeg):
             pose = act.goal
     raise AssertionError(notes)
 

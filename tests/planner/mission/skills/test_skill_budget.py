@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.mission.skills import Drive, Fail, Finish, Way
+from planner.mission.skills import DriveLeg, Fail, Finish, Way
 from planner.mission.skills.skill_state import Notes
 from tests.planner.mission.skills.looking import looking, thing
 
@@ -17,18 +17,18 @@ def test_a_search_ends_with_its_budget() -> None:
 
 def test_no_way_is_begun_that_the_rest_of_the_budget_does_not_last_for() -> None:
     far = thing(x_m=8.0, room="kitchen")
-    assert isinstance(looking("find", far, spent_m=40.0), Drive)
+    assert isinstance(looking("find", far, spent_m=40.0), DriveLeg)
     lost = looking("find", far, spent_m=54.0)
     assert isinstance(lost, Fail)
     assert lost.reason == "not_found"
     assert lost.said is not None
     assert "used up" in lost.said.en
-    assert isinstance(looking("find", thing(y_m=1.6), spent_m=54.0), Drive), "a turn is no way"
+    assert isinstance(looking("find", thing(y_m=1.6), spent_m=54.0), DriveLeg), "a turn is no way"
 
 
 def test_who_counts_begins_no_such_way_either_and_says_so() -> None:
     notes, act = Notes(), looking("count")
-    while not (isinstance(act, Drive) and act.way is Way.ROUTE):  # until another room is due
+    while not (isinstance(act, DriveLeg) and act.way is Way.ROUTE):  # until another room is due
         notes = act.then or notes
         act = looking("count", notes=notes)
     told = looking("count", notes=notes, spent_m=54.9)

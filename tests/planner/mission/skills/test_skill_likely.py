@@ -9,7 +9,7 @@ import pytest
 from planner.language.catalogue import CATALOGUE
 from planner.language.object_classes import KINDS
 from planner.language.questions import Relation
-from planner.mission.skills import Drive, Eyesight, Observe, Wanted, act_of
+from planner.mission.skills import DriveLeg, Eyesight, Observe, WantedObject, act_of
 from planner.mission.skills.room_priors import THINGS, likely_rooms
 from planner.mission.skills.viewpoints import in_order
 from planner.mission.state import SiteView, Target
@@ -55,7 +55,7 @@ def test_a_rooms_name_says_what_is_likely_there(names: tuple[str, ...], labels: 
     rooms = (room(id_, 0.0, en, zh, *aliases),)
     asked = ("cup", "bottle", "fridge", "bed", "sofa", "tv", "book", "chair", "plant", "ball",
              "box", "door", "person", "unicorn")  # fmt: skip
-    likely = {label for label in asked if likely_rooms(Wanted(label), rooms)}
+    likely = {label for label in asked if likely_rooms(WantedObject(label), rooms)}
     assert likely >= labels
     assert bool(likely) is bool(labels)
     assert not likely & {"plant", "ball", "box", "door", "person", "unicorn"}
@@ -70,18 +70,18 @@ def test_the_table_names_kinds_that_there_are() -> None:
     ("wanted", "order"),
     [
         (None, BY_DISTANCE),
-        (Wanted("ball"), BY_DISTANCE),
-        (Wanted("bed"), BY_DISTANCE),
-        (Wanted("cup", "red"), ("bedroom", "r5", "r4", "r3", "corridor")),
-        (Wanted("chair"), ("bedroom", "r3", "r4", "r5", "corridor")),
-        (Wanted("ball", None, Relation.NEAR, Wanted("tv")),
+        (WantedObject("ball"), BY_DISTANCE),
+        (WantedObject("bed"), BY_DISTANCE),
+        (WantedObject("cup", "red"), ("bedroom", "r5", "r4", "r3", "corridor")),
+        (WantedObject("chair"), ("bedroom", "r3", "r4", "r5", "corridor")),
+        (WantedObject("ball", None, Relation.NEAR, WantedObject("tv")),
          ("bedroom", "r4", "r3", "corridor", "r5")),
-        (Wanted("cup", None, Relation.ON, Wanted("table")),
+        (WantedObject("cup", None, Relation.ON, WantedObject("table")),
          ("bedroom", "r5", "r4", "r3", "corridor")),
     ],
 )  # fmt: skip
 def test_likely_rooms_come_after_this_one_and_each_group_goes_on_to_the_nearest(
-    wanted: Wanted | None, order: tuple[str, ...]
+    wanted: WantedObject | None, order: tuple[str, ...]
 ) -> None:
     assert in_order(HOME, BED.pose, (), wanted) == order
 
@@ -89,7 +89,7 @@ def test_likely_rooms_come_after_this_one_and_each_group_goes_on_to_the_nearest(
 def test_where_such_a_thing_was_seen_last_comes_before_where_it_is_likely() -> None:
     seen = Thing("cup_1", "cup", None, 3.0, 0.0, 0.8, 0.1, 0.9, 5.0, 0.0, 4, "corridor")
     older = replace(seen, id="cup_2", room="r3", seen_s=1.0)
-    order = in_order(HOME, BED.pose, (older, seen), Wanted("cup"))
+    order = in_order(HOME, BED.pose, (older, seen), WantedObject("cup"))
     assert order == ("bedroom", "corridor", "r3", "r5", "r4")
 
 
@@ -99,7 +99,7 @@ def test_the_order_is_made_once_and_only_by_who_ends_with_the_first_that_is_foun
 ) -> None:
     eyes = Eyesight(CameraConfig(), ("cup",))
     act = act_of(scene(kind, step={"object": "cup"}, facts=HOME, eyes=eyes, pose=BED.pose))
-    assert isinstance(act, (Drive, Observe))
+    assert isinstance(act, (DriveLeg, Observe))
     assert act.then is not None
     assert act.then.order == (
         BY_DISTANCE if kind == "count" else ("bedroom", "r5", "r4", "r3", "corridor")
@@ -109,6 +109,6 @@ def test_the_order_is_made_once_and_only_by_who_ends_with_the_first_that_is_foun
         scene(kind, step={"object": "cup"}, facts=HOME, eyes=eyes, pose=elsewhere, notes=act.notes,
               sight=Sight(None, (Thing("cup_1", "cup", None, 6.0, 0, 0, 0.1, 0.2, 0, 0, 1, "r3"),)))
     )  # fmt: skip
-    assert isinstance(later, (Drive, Observe))
+    assert isinstance(later, (DriveLeg, Observe))
     assert later.then is not None
     assert later.then.order == act.then.order

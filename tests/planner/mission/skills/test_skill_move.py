@@ -6,7 +6,7 @@ from math import pi
 
 import pytest
 
-from planner.mission.skills import Drive, Fail, Finish, Retry, Way, act_of, no_room
+from planner.mission.skills import DriveLeg, Fail, Finish, Retry, Way, act_of, no_room
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2
 
@@ -20,7 +20,7 @@ def test_it_aims_along_the_heading_at_which_it_began(distance_m: float) -> None:
     began = Pose2(1.0, 2.0, pi / 2)
     for pose in (began, Pose2(1.05, 2.0 + distance_m / 3, pi / 2 + 0.1)):
         act = move(distance_m, pose=pose, began=began)
-        assert isinstance(act, Drive)
+        assert isinstance(act, DriveLeg)
         assert (act.way, act.heading) == (Way.STRAIGHT, True)
         goal = (act.goal.x_m, act.goal.y_m, act.goal.yaw_rad)
         assert goal == pytest.approx((1.0, 2.0 + distance_m, pi / 2))

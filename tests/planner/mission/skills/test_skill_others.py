@@ -9,7 +9,7 @@ import pytest
 
 from planner.mission.skills import (
     SKILLS,
-    Drive,
+    DriveLeg,
     Fail,
     Finish,
     Question,
@@ -42,16 +42,16 @@ def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
 @pytest.mark.parametrize(
     ("kind", "step", "more", "act"),
     [
-        ("go_to", {"place": "hall"}, {}, Drive(HALL, heading=False, target="hall")),
-        ("go_to", {"place": "dock"}, {}, Drive(DOCK, heading=True, target="dock")),
+        ("go_to", {"place": "hall"}, {}, DriveLeg(HALL, heading=False, target="hall")),
+        ("go_to", {"place": "dock"}, {}, DriveLeg(DOCK, heading=True, target="dock")),
         ("go_to", {"place": "hall"}, {"part": 1}, Finish()),
-        ("return_home", {}, {}, Drive(DOCK, heading=True, target="dock")),
+        ("return_home", {}, {}, DriveLeg(DOCK, heading=True, target="dock")),
         ("return_home", {}, {"part": 1}, Finish()),
-        ("come_back", {}, {"accepted": BACK}, Drive(BACK, heading=True)),
+        ("come_back", {}, {"accepted": BACK}, DriveLeg(BACK, heading=True)),
         ("come_back", {}, {"accepted": BACK, "part": 1}, Finish()),
         ("come_back", {}, {"accepted": None}, Fail(Code.NO_ROUTE, "no_route")),
-        ("patrol", {"places": ("hall", "dock")}, {}, Drive(HALL, heading=False, target="hall")),
-        ("patrol", {"places": ("hall", "dock")}, {"part": 1}, Drive(DOCK, True, target="dock")),
+        ("patrol", {"places": ("hall", "dock")}, {}, DriveLeg(HALL, heading=False, target="hall")),
+        ("patrol", {"places": ("hall", "dock")}, {"part": 1}, DriveLeg(DOCK, True, target="dock")),
         ("patrol", {"places": ("hall", "dock")}, {"part": 2}, Finish({"visited": 2})),
         ("wait", {"seconds": 3.0}, {}, Stand(3.0)),
         ("say", {"text": "hi"}, {}, Speak("hi")),

@@ -9,7 +9,7 @@ import pytest
 
 from planner.mission.skills import (
     AskImage,
-    Drive,
+    DriveLeg,
     Eyesight,
     Fail,
     Observe,
@@ -18,7 +18,7 @@ from planner.mission.skills import (
     act_of,
 )
 from planner.mission.skills.model_pointing import AGAIN, ANSWER, PROPOSED
-from planner.mission.skills.perception import Answer
+from planner.mission.skills.perception import ImageAnswer
 from planner.mission.skills.skill_state import NOTHING
 from planner.plan import Bilingual, Code
 from tests.planner.mission.skills.scenes import scene
@@ -36,7 +36,7 @@ def going(reply: str | None = None, **more: Any) -> SkillAction:
 
 
 def test_a_point_is_proposed_before_anything_moves() -> None:
-    act = going(notes=NOTHING.but(stage=ANSWER), answer=Answer(at=AT))
+    act = going(notes=NOTHING.but(stage=ANSWER), answer=ImageAnswer(at=AT))
     assert act == Question(
         Bilingual(
             en="“guitar”: the vision model points 4.0 m away, straight ahead (in the kitchen). "
@@ -72,7 +72,7 @@ def test_it_is_told_as_seen_from_the_robot(yaw: float, en: str, zh: str) -> None
 def test_a_yes_drives_to_the_point_that_was_told_and_asks_no_model_again() -> None:
     for eyes in (EYES, Eyesight(CameraConfig(), ("cup",)), Eyesight(CameraConfig(), ("guitar",))):
         act = going("yes", eyes=eyes)
-        assert isinstance(act, Drive)
+        assert isinstance(act, DriveLeg)
         assert act.goal.x_m == pytest.approx(4.0 - 0.8, abs=0.05)
         assert act.then is not None
         assert act.then.at == AT
@@ -95,11 +95,11 @@ def test_what_is_neither_is_asked_once_more_and_is_then_a_no() -> None:
     assert act.notes is not None
     assert going(notes=act.notes) == act, "interrupted"
     assert isinstance(going("hm", notes=act.notes), Fail)
-    assert isinstance(going("yes", notes=act.notes), Drive)
+    assert isinstance(going("yes", notes=act.notes), DriveLeg)
 
 
 def test_an_answer_to_another_question_is_none_to_this_point() -> None:
     assert isinstance(going("yes", notes=NOTHING), Observe)
     assert isinstance(going("yes", notes=NOTHING.but(stage=ANSWER)), AskImage)
-    fresh = going("yes", notes=NOTHING.but(stage=ANSWER), answer=Answer(at=AT))
+    fresh = going("yes", notes=NOTHING.but(stage=ANSWER), answer=ImageAnswer(at=AT))
     assert isinstance(fresh, Question)

@@ -10,18 +10,24 @@ import pytest
 
 from planner.mission.skills import (
     AskImage,
-    Drive,
+    DriveLeg,
     Eyesight,
     Fail,
     Finish,
     Observe,
-    Wanted,
+    WantedObject,
     Way,
 )
 from planner.mission.skills.go_to_object import FACE, JUDGE
-from planner.mission.skills.object_matching import APART_S, apart, confirmed, fits, mentioned
-from planner.mission.skills.perception import Answer
-from planner.mission.skills.result_text import counted, found_at, listed, looked_in
+from planner.mission.skills.object_matching import (
+    APART_S,
+    drop_doubles,
+    find_mentioned,
+    fits,
+    list_confirmed,
+)
+from planner.mission.skills.perception import ImageAnswer
+from planner.mission.skills.result_text import found_at, list_things, looked_in, name_count
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.viewpoints import REACH_M, in_order, room_of, spots_in
 from planner.mission.state import SiteView, Target
@@ -45,16 +51,16 @@ def test_what_is_sure_fits_and_is_fresh_is_told_and_nothing_else() -> None:
         {"sightings": 1},
         {"seen_s": NOW_S - 2.0},
     ):
-        assert isinstance(looking("find", thing(**other), gazed_s=NOW_S - 1.0), (Drive, Observe))
+        assert isinstance(looking("find", thing(**other), gazed_s=NOW_S - 1.0), (DriveLeg, Observe))
 
 
 def test_what_is_remembered_is_looked_at_again_once() -> None:
     near = looking("find", thing(y_m=1.6))
-    assert isinstance(near, Drive)
+    assert isinstance(near, DriveLeg)
     assert near.way is Way.SPIN
     assert near.goal.yaw_rad == pytest.approx(pi / 4)
     far = looking("find", thing(x_m=4.0, room="kitchen"))
-    assert isinstance(far, Drive)
+    assert isinstance(far, DriveLeg)
     assert far.way is Way.ROUTE
     assert hypot(far.goal.x_m - 4.0, far.goal.y_m) == pytest.approx(1.6)
     assert far.otherwise is not None
@@ -64,7 +70,7 @@ def test_what_is_remembered_is_looked_at_again_once() -> None:
     assert gaze.then is not None
     assert gaze.then.tried == ("cup_1",)
     tried = looking("find", thing(), notes=gaze.then)
-    assert isinstance(tried, (Drive, Observe))
+    assert isinstance(tried, (DriveLeg, Observe))
     assert tried.then is not None
     assert tried.then.spot == "here", "then it looks round"
 
@@ -119,17 +125,17 @@ def test_a_large_room_is_looked_at_from_several_spots(
 
 
 def test_sentences_are_whole_in_both_languages() -> None:
-    assert counted(2, "cup", "red") == Bilingual(en="2 red cups", zh="2 个红色的杯子")
-    assert counted(3, "person").en == "3 people"
-    assert counted(2, "box").en == "2 boxes"
-    assert counted(1, "person").zh == "1 个人"
+    assert name_count(2, "cup", "red") == Bilingual(en="2 red cups", zh="2 个红色的杯子")
+    assert name_count(3, "person").en == "3 people"
+    assert name_count(2, "box").en == "2 boxes"
+    assert name_count(1, "person").zh == "1 个人"
     assert found_at(FACTS, "ball", "orange", None, None).en == "I found an orange ball."
     looked = looked_in(FACTS, ("hall",), ("kitchen",), None)
     assert looked.en == "I looked in the hall. I found no way to the kitchen."
     assert looked.zh == "看过的地方：hall。去不了的地方：kitchen。"
-    assert listed([thing(), thing(id="2", x_m=0.0), thing(id="3", label="chair", color=None)]) == (
-        Bilingual(en="2 red cups and 1 chair", zh="2 个红色的杯子、1 个椅子")
-    )
+    assert list_things(
+        [thing(), thing(id="2", x_m=0.0), thing(id="3", label="chair", color=None)]
+    ) == (Bilingual(en="2 red cups and 1 chair", zh="2 个红色的杯子、1 个椅子"))
 
 
 @pytest.mark.parametrize(
@@ -143,15 +149,15 @@ def test_sentences_are_whole_in_both_languages() -> None:
     ],
 )
 def test_what_a_question_asks_for_is_read(question: str, label: str | None) -> None:
-    asked = mentioned(question, EYES.classes)
+    asked = find_mentioned(question, EYES.classes)
     assert (asked.label if asked is not None else None) == label
 
 
 def test_things_on_one_spot_are_counted_once() -> None:
     twice = thing(), thing(id="cup_2", x_m=1.65), thing(id="cup_3", x_m=2.6)
-    assert [t.id for t in apart(twice)] == ["cup_1", "cup_3"]
-    assert fits(thing(), Wanted("cup"))
-    assert not confirmed(sight(thing(confidence=0.5)), None, 0.0)
+    assert [t.id for t in drop_doubles(twice)] == ["cup_1", "cup_3"]
+    assert fits(thing(), WantedObject("cup"))
+    assert not list_confirmed(sight(thing(confidence=0.5)), None, 0.0)
 
 
 def test_without_means_a_step_is_refused_and_a_model_may_point() -> None:
@@ -184,7 +190,7 @@ def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() 
     words = Bilingual(en="A sign: go to the kitchen", zh="牌子：去厨房")
     done = looking(
         "look", thing(), step=step, eyes=model, notes=Notes(stage=2), spent_s=3.0,
-        answer=Answer(text=words),
+        answer=ImageAnswer(text=words),
     )  # fmt: skip
     assert isinstance(done, Finish)
     assert done.read == Bilingual(
@@ -204,9 +210,9 @@ def test_one_picture_alone_sets_nothing_off_and_proves_nothing() -> None:
     step: dict[str, Any] = {"step": {"object": "person"}}
     ghost = looking("follow", thing(**anna, sightings=1), **step)
     assert isinstance(ghost, Observe)
-    assert isinstance(looking("follow", thing(**anna, sightings=2), **step), Drive)
+    assert isinstance(looking("follow", thing(**anna, sightings=2), **step), DriveLeg)
     known = Notes(at=(3.0, 0.0, 0.9), label="person")
-    assert isinstance(looking("follow", thing(**anna, sightings=1), notes=known, **step), Drive)
+    assert isinstance(looking("follow", thing(**anna, sightings=1), notes=known, **step), DriveLeg)
     there = Notes(stage=JUDGE, at=(1.6, 0.0, 0.8), label="cup", color="red")
     gazed: dict[str, Any] = {"notes": there, "gazed_s": NOW_S - 1.0}
     unsure = thing(sightings=2, confidence=0.4)
@@ -223,7 +229,7 @@ def test_what_was_seen_for_a_moment_only_sets_nothing_off() -> None:
         assert isinstance(act, Observe), "watched until that is sure, standing too"
         assert act.watch
         assert (act.notes, act.then) == (notes, notes)
-        assert isinstance(looking("follow", thing(**anna, first_s=watched), **step), Drive)
+        assert isinstance(looking("follow", thing(**anna, first_s=watched), **step), DriveLeg)
     late = looking("follow", thing(**anna, first_s=glimpsed), spent_s=26.0, **step)
     assert isinstance(late, Fail), "not for ever"
     gone = looking("follow", thing(**anna, first_s=glimpsed, seen_s=NOW_S - 2.0), **step)
@@ -245,7 +251,7 @@ def test_a_thing_that_was_seen_for_a_moment_is_looked_at_again_before_the_way_to
                    notes=again.then, **gazed)  # fmt: skip
     assert over.then.at is None, "it looks on"
     passed = looking("go_to_object", replace(glimpsed, x_m=0.0, y_m=1.6))
-    assert isinstance(passed, Drive)
+    assert isinstance(passed, DriveLeg)
     assert passed.way is Way.SPIN
     assert isinstance(looking("go_to_object", thing(first_s=NOW_S - 3.0)).then, Notes)
 
@@ -287,7 +293,7 @@ def test_what_was_not_seen_on_the_way_is_not_said_to_be_there() -> None:
     for other in (replace(there, confidence=0.29), replace(there, color="blue")):
         assert not isinstance(looking("go_to_object", other, notes=notes), Finish)
     again = looking("go_to_object", notes=notes)
-    assert isinstance(again, (Drive, Observe)), "it is looked for once more"
+    assert isinstance(again, (DriveLeg, Observe)), "it is looked for once more"
     told = looking("go_to_object", notes=notes.but(again=1))
     assert isinstance(told, Fail)
     assert told.reason == "moved"

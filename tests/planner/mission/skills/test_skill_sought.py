@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from planner.language.questions import Relation
-from planner.mission.skills import Wanted
-from planner.mission.skills.object_query import FLOOR, Sought, sought_in
+from planner.mission.skills import WantedObject
+from planner.mission.skills.object_query import FLOOR, ObjectQuery, sought_in
 from planner.mission.state import SiteView, Target
 from planner.plan import Bilingual
 from tests.planner.mission.fakes import room
@@ -20,40 +20,42 @@ KITCHEN = replace(room("kitchen", 8.0), name=Bilingual(en="kitchen", zh="厨房"
 SOFA = Target("sofa", False, Bilingual(en="sofa", zh="沙发"), Pose2(4.0, 0.5, 0.0))
 FRIDGE = Target("fridge", False, Bilingual(en="fridge", zh="冰箱"), Pose2(4.0, 0.5, 0.0))
 HOME = SiteView({t.id: t for t in (KITCHEN, SOFA, FRIDGE)}, home="sofa")
-CUP, TABLE, CHAIR = Wanted("cup"), Wanted("table"), Wanted("chair")
+CUP, TABLE, CHAIR = WantedObject("cup"), WantedObject("table"), WantedObject("chair")
 
 
 @pytest.mark.parametrize(
     ("question", "sought"),
     [
-        ("is the cup on the table?", Sought(CUP, ON, TABLE)),
+        ("is the cup on the table?", ObjectQuery(CUP, ON, TABLE)),
         (
             "Is there a red cup on top of the table now?",
-            Sought(Wanted("cup", "red"), ON, TABLE),
+            ObjectQuery(WantedObject("cup", "red"), ON, TABLE),
         ),
         (
             "do you see a cup beneath the blue chair",
-            Sought(CUP, UNDER, Wanted("chair", "blue")),
+            ObjectQuery(CUP, UNDER, WantedObject("chair", "blue")),
         ),
-        ("check if the cup is next to the table", Sought(CUP, NEAR, TABLE)),
-        ("is anybody sitting on the chair", Sought(Wanted("person"), ON, CHAIR)),
-        ("what is on the table?", Sought(None, ON, TABLE)),
-        ("who is on the chair", Sought(None, ON, CHAIR)),
-        ("is there anything under the chair", Sought(None, UNDER, CHAIR)),
-        ("is there a cup on the floor", Sought(CUP, ON, FLOOR)),
-        ("桌子上有杯子吗", Sought(CUP, ON, TABLE)),
-        ("看看桌上有没有红色的杯子", Sought(Wanted("cup", "red"), ON, TABLE)),
-        ("杯子还在桌子上吗", Sought(CUP, ON, TABLE)),
-        ("杯子是不是在椅子下面", Sought(CUP, UNDER, CHAIR)),
-        ("看到椅子旁边的杯子了吗", Sought(CUP, NEAR, CHAIR)),
-        ("有人在椅子上吗", Sought(Wanted("person"), ON, CHAIR)),
-        ("椅子上坐着人吗", Sought(Wanted("person"), ON, CHAIR)),
-        ("桌子上都有什么东西", Sought(None, ON, TABLE)),
-        ("谁坐在椅子上", Sought(None, ON, CHAIR)),
-        ("地上有没有杯子", Sought(CUP, ON, FLOOR)),
+        ("check if the cup is next to the table", ObjectQuery(CUP, NEAR, TABLE)),
+        ("is anybody sitting on the chair", ObjectQuery(WantedObject("person"), ON, CHAIR)),
+        ("what is on the table?", ObjectQuery(None, ON, TABLE)),
+        ("who is on the chair", ObjectQuery(None, ON, CHAIR)),
+        ("is there anything under the chair", ObjectQuery(None, UNDER, CHAIR)),
+        ("is there a cup on the floor", ObjectQuery(CUP, ON, FLOOR)),
+        ("桌子上有杯子吗", ObjectQuery(CUP, ON, TABLE)),
+        ("看看桌上有没有红色的杯子", ObjectQuery(WantedObject("cup", "red"), ON, TABLE)),
+        ("杯子还在桌子上吗", ObjectQuery(CUP, ON, TABLE)),
+        ("杯子是不是在椅子下面", ObjectQuery(CUP, UNDER, CHAIR)),
+        ("看到椅子旁边的杯子了吗", ObjectQuery(CUP, NEAR, CHAIR)),
+        ("有人在椅子上吗", ObjectQuery(WantedObject("person"), ON, CHAIR)),
+        ("椅子上坐着人吗", ObjectQuery(WantedObject("person"), ON, CHAIR)),
+        ("桌子上都有什么东西", ObjectQuery(None, ON, TABLE)),
+        ("谁坐在椅子上", ObjectQuery(None, ON, CHAIR)),
+        ("地上有没有杯子", ObjectQuery(CUP, ON, FLOOR)),
     ],
 )
-def test_a_neighbour_is_read_in_questions_of_both_languages(question: str, sought: Sought) -> None:
+def test_a_neighbour_is_read_in_questions_of_both_languages(
+    question: str, sought: ObjectQuery
+) -> None:
     assert sought_in(question, HOME, None, CLASSES) == sought
 
 
@@ -72,31 +74,31 @@ def test_a_neighbour_is_read_in_questions_of_both_languages(question: str, sough
     ],
 )
 def test_what_no_eye_here_can_judge_keeps_its_words(question: str, unclear: str) -> None:
-    assert sought_in(question, HOME, None, CLASSES) == Sought(CUP, unclear=unclear)
+    assert sought_in(question, HOME, None, CLASSES) == ObjectQuery(CUP, unclear=unclear)
 
 
 @pytest.mark.parametrize(
     ("question", "place", "sought"),
     [
-        ("is there a cup in the kitchen", "kitchen", Sought(CUP)),
-        ("is there a cup on the table in the kitchen", "kitchen", Sought(CUP, ON, TABLE)),
-        ("厨房里有没有杯子", "kitchen", Sought(CUP)),
-        ("厨房的桌子上有没有杯子", "kitchen", Sought(CUP, ON, TABLE)),
-        ("杯子在厨房的桌子上吗", "kitchen", Sought(CUP, ON, TABLE)),
-        ("is there a cup near the sofa", "sofa", Sought(CUP)),
-        ("is there a cup on the sofa", "sofa", Sought(CUP, ON, Wanted("sofa"))),
-        ("沙发旁边有杯子吗", "sofa", Sought(CUP)),
-        ("沙发底下有没有杯子", "sofa", Sought(CUP, UNDER, Wanted("sofa"))),
-        ("is there a cup in the fridge", "fridge", Sought(CUP, unclear="in the fridge")),
-        ("is there a cup in front of you", None, Sought(CUP)),
-        ("is there a cup in this room", None, Sought(CUP)),
-        ("这里有没有杯子", None, Sought(CUP)),
-        ("你面前有没有杯子", None, Sought(CUP)),
-        ("what is in the kitchen?", "kitchen", Sought()),
-        ("what do you see?", None, Sought()),
+        ("is there a cup in the kitchen", "kitchen", ObjectQuery(CUP)),
+        ("is there a cup on the table in the kitchen", "kitchen", ObjectQuery(CUP, ON, TABLE)),
+        ("厨房里有没有杯子", "kitchen", ObjectQuery(CUP)),
+        ("厨房的桌子上有没有杯子", "kitchen", ObjectQuery(CUP, ON, TABLE)),
+        ("杯子在厨房的桌子上吗", "kitchen", ObjectQuery(CUP, ON, TABLE)),
+        ("is there a cup near the sofa", "sofa", ObjectQuery(CUP)),
+        ("is there a cup on the sofa", "sofa", ObjectQuery(CUP, ON, WantedObject("sofa"))),
+        ("沙发旁边有杯子吗", "sofa", ObjectQuery(CUP)),
+        ("沙发底下有没有杯子", "sofa", ObjectQuery(CUP, UNDER, WantedObject("sofa"))),
+        ("is there a cup in the fridge", "fridge", ObjectQuery(CUP, unclear="in the fridge")),
+        ("is there a cup in front of you", None, ObjectQuery(CUP)),
+        ("is there a cup in this room", None, ObjectQuery(CUP)),
+        ("这里有没有杯子", None, ObjectQuery(CUP)),
+        ("你面前有没有杯子", None, ObjectQuery(CUP)),
+        ("what is in the kitchen?", "kitchen", ObjectQuery()),
+        ("what do you see?", None, ObjectQuery()),
     ],
 )
 def test_a_place_to_look_in_is_no_neighbour(
-    question: str, place: str | None, sought: Sought
+    question: str, place: str | None, sought: ObjectQuery
 ) -> None:
     assert sought_in(question, HOME, place, CLASSES) == sought

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.mission.skills import Drive, Fail, Finish, Retry, Way, act_of
+from planner.mission.skills import DriveLeg, Fail, Finish, Retry, Way, act_of
 from planner.mission.skills.turn import PART_RAD
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2, wrap
@@ -22,7 +22,7 @@ def turn(angle_rad: float, **more: object) -> object:
 @given(st.floats(-4 * pi, 4 * pi), st.floats(-pi, pi), st.floats(-0.05, 0.05))
 def test_the_parts_add_up_whatever_each_leaves(angle: float, yaw: float, off: float) -> None:
     began, pose, done, part = Pose2(1.0, 2.0, yaw), Pose2(1.0, 2.0, yaw), 0.0, 0
-    while isinstance(act := turn(angle, pose=pose, began=began, done=done, part=part), Drive):
+    while isinstance(act := turn(angle, pose=pose, began=began, done=done, part=part), DriveLeg):
         step = wrap(act.goal.yaw_rad - pose.yaw_rad)
         assert (act.way, act.heading, act.limit_m) == (Way.SPIN, True, 0.5)
         assert abs(step) <= PART_RAD + 0.06, "the bridge never finds the other way shorter"
@@ -42,7 +42,7 @@ def test_after_a_pause_only_what_is_left_is_turned(
     here = Pose2(0.0, 0.0, wrap(radians(turned_deg)))
     almost = radians(turned_deg) + 0.05  # odometry and the map differ a little; the map decides
     act = turn(radians(asked_deg), pose=here, done=almost, part=1)
-    assert isinstance(act, Drive)
+    assert isinstance(act, DriveLeg)
     assert degrees(wrap(act.goal.yaw_rad - here.yaw_rad)) == pytest.approx(left_deg, abs=0.01)
 
 

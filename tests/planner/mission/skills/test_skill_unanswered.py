@@ -12,7 +12,7 @@ from planner.mission.skills.actions import UNSEEN, AskImage, Fail, Finish
 from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.look import ASKED, NO_DETECTOR, look
 from planner.mission.skills.model_pointing import ANSWER
-from planner.mission.skills.perception import Answer, Eyesight
+from planner.mission.skills.perception import Eyesight, ImageAnswer
 from planner.mission.skills.skill_state import NOTHING
 from planner.perception import Sight
 from planner.plan import Bilingual, Code, same
@@ -24,7 +24,7 @@ NONE = "no_detector"
 SEEN = "I see nothing that I know"
 
 
-def after(kind: str, stage: int, answer: Answer, sight: Sight = UNSEEN, **step: str) -> Scene:
+def after(kind: str, stage: int, answer: ImageAnswer, sight: Sight = UNSEEN, **step: str) -> Scene:
     """Return a scene in which the model was asked."""
     notes = NOTHING.but(stage=stage)
     return scene(kind, step=step, notes=notes, eyes=EYES, answer=answer, sight=sight)
@@ -38,7 +38,7 @@ def after(kind: str, stage: int, answer: Answer, sight: Sight = UNSEEN, **step: 
     ],
 )
 def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
-    act = look(after("look", ASKED, Answer(failure=failure), text="what is there?"))
+    act = look(after("look", ASKED, ImageAnswer(failure=failure), text="what is there?"))
     assert isinstance(act, Finish)
     assert act.said is not None
     assert act.said.en.startswith(SEEN)
@@ -47,8 +47,10 @@ def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
     assert act.read is None
 
 
-@pytest.mark.parametrize("answer", [Answer(text=same("a sofa")), Answer(failure="camera_silent")])
-def test_nothing_is_excused_where_nothing_went_wrong(answer: Answer) -> None:
+@pytest.mark.parametrize(
+    "answer", [ImageAnswer(text=same("a sofa")), ImageAnswer(failure="camera_silent")]
+)
+def test_nothing_is_excused_where_nothing_went_wrong(answer: ImageAnswer) -> None:
     act = look(after("look", ASKED, answer, text="what is there?"))
     assert isinstance(act, Finish)
     assert act.said is not None
@@ -67,7 +69,7 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
     act = look(ahead)
     assert isinstance(act, AskImage)
     assert (act.words, act.point) == ("what is there?", False)
-    told = look(after("look", ASKED, Answer(text=same("a man"), seen=True), text="有人吗？",
+    told = look(after("look", ASKED, ImageAnswer(text=same("a man"), seen=True), text="有人吗？",
                       sight=Sight(blind=NONE)))  # fmt: skip
     assert isinstance(told, Finish)
     assert told.said == NO_DETECTOR, "without a detector nobody has seen that nobody is there"
@@ -92,7 +94,7 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
     ],
 )
 def test_a_model_s_point_that_leads_nowhere_says_why(failure: str, code: Code, told: str) -> None:
-    act = go_to_object(after("go_to_object", ANSWER, Answer(failure=failure), object="dragon"))
+    act = go_to_object(after("go_to_object", ANSWER, ImageAnswer(failure=failure), object="dragon"))
     assert isinstance(act, Fail)
     assert (act.code, act.reason) == (code, failure)
     assert act.said is not None
