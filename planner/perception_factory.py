@@ -12,7 +12,7 @@ from planner.brain.image_questions import DetectedObject, NotSent
 from planner.language.catalogue import list_names, say
 from planner.language.object_names import name_object
 from planner.perception import VisionFailure, VisionWorker
-from planner.perception.dependencies import Means
+from planner.perception.dependencies import PerceptionParts
 from planner.perception.failure import REFUSALS
 from planner.perception.frame_source import WireCamera
 from planner.perception.frame_update import Scenery
@@ -82,7 +82,7 @@ def eyes_of(
     poses = Poses(site.map_id)
     link.tell(poses)
     return Sightseer(
-        Means(
+        PerceptionParts(
             scenery=Scenery(site, robot.camera),
             camera=WireCamera(session),
             detector=worker,

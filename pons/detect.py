@@ -19,8 +19,8 @@ from wire import ConfigError
 if TYPE_CHECKING:
     import argparse
 
-    from planner.perception import About, Detection, LookResult
-    from planner.perception.detect import Detector
+    from planner.perception import Detection, DetectorInfo, LookResult
+    from planner.perception.detect import OnnxDetector
     from pons.settings import LaunchSettings
 
 REFUSED = 1
@@ -49,16 +49,16 @@ def run(settings: LaunchSettings, said: argparse.Namespace) -> int:
     return REFUSED if any(look.skipped for look in looks.values()) else 0
 
 
-def _detector(settings: LaunchSettings, said: argparse.Namespace) -> Detector:
+def _detector(settings: LaunchSettings, said: argparse.Namespace) -> OnnxDetector:
     """Return the detector that the words, else the owner's settings, else Pons itself names."""
-    from planner.perception.detect import Detector, Wanted
+    from planner.perception.detect import ModelOptions, OnnxDetector
 
     owner = load_settings(settings.home, os.environ).vision
     path = said.model or owner.model or DEFAULT_MODEL
     if path is DEFAULT_MODEL and not path.is_file():
         raise VisionFailure("no_detector", "name one with --model, or as model in [vision]")
     own = said.model is None  # labels and decoder of one model say nothing of another
-    wanted = Wanted(
+    wanted = ModelOptions(
         path,
         said.labels or (owner.labels if own else None),
         said.decoder or (owner.decoder if own else None),
@@ -66,7 +66,7 @@ def _detector(settings: LaunchSettings, said: argparse.Namespace) -> Detector:
         owner.threads,
         owner.input_px,
     )
-    return Detector(wanted, owner.min_score)
+    return OnnxDetector(wanted, owner.min_score)
 
 
 def _read(path: Path) -> bytes:
@@ -87,7 +87,7 @@ def _print_failure(failure: VisionFailure, *, as_json: bool) -> None:
     print(f"{failure.code}: {failure.message['en']}\n{failure.message['zh']}", file=sys.stderr)
 
 
-def _about_lines(about: About) -> list[str]:
+def _about_lines(about: DetectorInfo) -> list[str]:
     names = ", ".join(filter(None, about.classes))
     return [
         f"model: {about.model}, input {about.width}x{about.height}",
@@ -114,8 +114,8 @@ def _line(found: Detection) -> str:
 
 
 def _draw(source: Path, look: LookResult, target: Path) -> None:
-    from planner.perception.detect import drawn, save, unpack_color
+    from planner.perception.detect import draw_detections, save, unpack_color
 
     picture: Any = unpack_color(_read(source))
-    if not isinstance(picture, str) and not save(drawn(picture, look.detections), target):
+    if not isinstance(picture, str) and not save(draw_detections(picture, look.detections), target):
         raise BadSetting(f"picture_unwritable: {target}; expected a name that ends in .jpg or .png")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from planner.api.interfaces import Services
-    from planner.perception import Look, Sight
+    from planner.perception import LookSnapshot, Sight
 
 SIGHT_S = 0.2
 SAME_S = 0.5
@@ -44,7 +44,7 @@ def _alike(before: Sight, now: Sight) -> bool:
     return before.look is None or now.look is None or _same_boxes(before.look, now.look)
 
 
-def _same_boxes(before: Look, now: Look) -> bool:
+def _same_boxes(before: LookSnapshot, now: LookSnapshot) -> bool:
     if before.here != now.here or len(before.detections) != len(now.detections):
         return False
     pairs = zip(before.detections, now.detections, strict=True)

@@ -13,7 +13,7 @@ from planner.language.object_names import name_object
 from planner.perception.failure import REFUSALS
 
 if TYPE_CHECKING:
-    from planner.perception import Look, Thing
+    from planner.perception import LookSnapshot, Thing
 
 ThingId = Annotated[str, Path(min_length=1, max_length=120)]
 RETOLD_S = 2.0
@@ -93,7 +93,7 @@ def thing_view(thing: Thing, now_s: float) -> dict[str, Any]:
     }
 
 
-def _look(look: Look, now_s: float) -> dict[str, Any]:
+def _look(look: LookSnapshot, now_s: float) -> dict[str, Any]:
     here = look.here or ("",) * len(look.detections)
     return {
         "seq": look.seq,

@@ -19,7 +19,7 @@ from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImagePoint, 
 from planner.brain.image_questions import PosedPicture as Shown
 from planner.mission.events import Told
 from planner.mission.skills.perception import ImageAnswer
-from planner.perception.interfaces import PointRefused
+from planner.perception.interfaces import PointRefusal
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
@@ -73,7 +73,7 @@ class EyeDoor:
         views = self._views[keep.id] = before if keep.number > 0 else {}
         if len(self._views) > LOOKS:
             del self._views[next(iter(self._views))]
-        picture = self._eyes.looked if self._eyes is not None else None
+        picture = self._eyes.looked_picture if self._eyes is not None else None
         same = picture is not None and picture.color.header.seq == keep.seq
         if self._eyes is not None and picture is not None and same and len(views) < MAX_VIEWS:
             views[keep.number] = (
@@ -136,7 +136,7 @@ def _newest(eyes: Eyes, picture: Picture | None) -> Picture | None:
 
     What was found in it, and from where it was taken, then belong to what is shown.
     """
-    looked = eyes.looked
+    looked = eyes.looked_picture
     if picture is None or looked is None or picture.taken_s - looked.taken_s > AS_NEW_S:
         return picture
     return looked
@@ -146,7 +146,7 @@ async def _point(eyes: Eyes, picture: Picture, x: float, y: float) -> ImageAnswe
     """Return the point of the world that a pixel shows."""
     try:
         spot = await eyes.spot(picture, x, y)
-    except PointRefused as refused:
+    except PointRefusal as refused:
         return ImageAnswer(failure=refused.code)
     return ImageAnswer(at=(spot.x_m, spot.y_m, spot.z_m))
 

@@ -4,22 +4,22 @@ This door stays light: numpy, OpenCV and onnxruntime live in that process alone.
 """
 
 from planner.perception.failure import VisionFailure
-from planner.perception.interfaces import Eyes, Picture, PointRefused, Spot
+from planner.perception.interfaces import Eyes, MapPoint, Picture, PointRefusal
 from planner.perception.process_client import VisionWorker
-from planner.perception.result import About, LookResult
-from planner.perception.snapshot import Box, Detection, Look, Sight, Thing
+from planner.perception.result import DetectorInfo, LookResult
+from planner.perception.snapshot import Box, Detection, LookSnapshot, Sight, Thing
 
 __all__ = [
-    "About",
     "Box",
     "Detection",
+    "DetectorInfo",
     "Eyes",
-    "Look",
     "LookResult",
+    "LookSnapshot",
+    "MapPoint",
     "Picture",
-    "PointRefused",
+    "PointRefusal",
     "Sight",
-    "Spot",
     "Thing",
     "VisionFailure",
     "VisionWorker",

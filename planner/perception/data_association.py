@@ -16,7 +16,7 @@ from planner.language.object_classes import LARGE_M, kind_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from planner.perception.interfaces import Spot
+    from planner.perception.interfaces import MapPoint
     from planner.perception.snapshot import Box, Thing
 
 GATE = 9.0
@@ -45,7 +45,7 @@ SIGMA_LEAST_M = 0.03
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class PlacedDetection:
     """Hold one detection with its place on the map."""
 
     index: int
@@ -54,24 +54,24 @@ class Placed:
     score: float
     color: str | None
     box: Box
-    spot: Spot
+    spot: MapPoint
     room: str | None = None
     whole: bool = True
     """The picture's edge cuts nothing off it."""
 
 
-def single(placed: Sequence[Placed]) -> list[Placed]:
+def single(placed: Sequence[PlacedDetection]) -> list[PlacedDetection]:
     """Return the placed, best first, without second boxes on what is one thing."""
-    left: list[Placed] = []
+    left: list[PlacedDetection] = []
     for p in sorted(placed, key=_rank):
         if not any(_same_box(kept, p) for kept in left):
             left.append(p)
     return left
 
 
-def joined(
-    things: Sequence[Thing], placed: Sequence[Placed], now_s: float
-) -> tuple[dict[str, Placed], dict[int, str]]:
+def associate(
+    things: Sequence[Thing], placed: Sequence[PlacedDetection], now_s: float
+) -> tuple[dict[str, PlacedDetection], dict[int, str]]:
     """Return the box of each thing that was seen, and of boxes left over that show one of them."""
     by_label: dict[str, list[Thing]] = {}
     for thing in things:
@@ -82,7 +82,7 @@ def joined(
             cost = cost_of(thing, p, now_s)
             if cost is not None:
                 costs.append((cost, thing.id, place))
-    pairs: dict[str, Placed] = {}
+    pairs: dict[str, PlacedDetection] = {}
     taken: set[int] = set()
     for _, thing_id, place in sorted(costs):
         if thing_id not in pairs and place not in taken:
@@ -91,7 +91,7 @@ def joined(
     return pairs, _parts(pairs, [p for place, p in enumerate(placed) if place not in taken])
 
 
-def cost_of(thing: Thing, p: Placed, now_s: float) -> float | None:
+def cost_of(thing: Thing, p: PlacedDetection, now_s: float) -> float | None:
     """Return how unlike a box and a thing are; None where they can't be one."""
     kind = kind_of(p.label)
     unseen_s = max(0.0, now_s - thing.seen_s)
@@ -121,7 +121,7 @@ def one_place(a: Thing, b: Thing) -> bool:
     return a.label != b.label and hypot(a.x_m - b.x_m, a.y_m - b.y_m) <= WITHIN * least_m
 
 
-def fused(thing: Thing, spot: Spot, now_s: float) -> tuple[float, float, float, float]:
+def fuse(thing: Thing, spot: MapPoint, now_s: float) -> tuple[float, float, float, float]:
     """Return x, y, z and sigma [m] of a thing's place and one more measurement of it.
 
     The mean weighted by the inverse variances, which is what a Kalman filter does for a thing that
@@ -146,7 +146,7 @@ def _sigma_now_m(thing: Thing, now_s: float) -> float:
     return hypot(thing.sigma_m, min(DRIFT_MOST_M, DRIFT_MPS * unseen_s))
 
 
-def _unlike(thing: Thing, p: Placed) -> float:
+def _unlike(thing: Thing, p: PlacedDetection) -> float:
     """Return what the colours add to the cost."""
     kind = kind_of(p.label)
     if kind.mobile or thing.color is None or p.color is None or thing.color == p.color:
@@ -157,7 +157,7 @@ def _unlike(thing: Thing, p: Placed) -> float:
     return UNLIKE_MAYBE if doubtful else UNLIKE_SURE
 
 
-def _parts(pairs: dict[str, Placed], left: Sequence[Placed]) -> dict[int, str]:
+def _parts(pairs: dict[str, PlacedDetection], left: Sequence[PlacedDetection]) -> dict[int, str]:
     """Return the boxes that show another part of a large thing which has its box already."""
     parts: dict[int, str] = {}
     for p in left:
@@ -172,7 +172,7 @@ def _parts(pairs: dict[str, Placed], left: Sequence[Placed]) -> dict[int, str]:
     return parts
 
 
-def _same_box(better: Placed, p: Placed) -> bool:
+def _same_box(better: PlacedDetection, p: PlacedDetection) -> bool:
     """Tell whether two boxes show one thing: they overlap, and lie at one depth."""
     shared = _area((max(better.box[0], p.box[0]), max(better.box[1], p.box[1]),
                     min(better.box[2], p.box[2]), min(better.box[3], p.box[3])))  # fmt: skip
@@ -191,6 +191,6 @@ def _area(box: Box) -> float:
     return max(0.0, box[2] - box[0]) * max(0.0, box[3] - box[1])
 
 
-def _rank(p: Placed) -> tuple[object, ...]:
+def _rank(p: PlacedDetection) -> tuple[object, ...]:
     spot = p.spot
     return (-p.score, p.label, p.box, spot.sigma_m, spot.x_m, spot.y_m, spot.z_m, p.color or "")

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Means:
+class PerceptionParts:
     """Hold what eyes are made of."""
 
     scenery: Scenery

@@ -76,7 +76,7 @@ class WireCamera:
 
 
 @dataclass(frozen=True, slots=True)
-class _Heard:
+class _PendingPicture:
     """Hold a picture that was neither handed out nor passed over."""
 
     picture: Picture
@@ -92,7 +92,7 @@ class Pictures:
         """Take pictures of a camera that is to send so many a second."""
         self._camera = camera
         self._silent_s, self._lies_s = max(SILENT_S, 2.5 / rate_hz), max(LIES_S, 0.5 / rate_hz)
-        self._heard: list[_Heard] = []
+        self._heard: list[_PendingPicture] = []
         """The newest last: those before it wait for their depth, which lags behind."""
         self._depth: tuple[Image, float] | None = None
         self._last: Picture | None = None
@@ -115,7 +115,7 @@ class Pictures:
             self._heard = []
             self._depth = self._last = self._whole = self._first_s = None
 
-    def settled(self, now_s: float) -> bool:
+    def is_settled(self, now_s: float) -> bool:
         """Tell whether it is known by now what the camera gives: no use in waiting longer."""
         if self._since_s is None or now_s - self._since_s >= FIRST_S or self._whole is not None:
             return True
@@ -194,7 +194,7 @@ class Pictures:
         self._last = Picture(color, None, _taken_s(color, now_s))
         if now_s - self._last.taken_s <= OLDEST_S:
             self._fresh_s = now_s
-        self._heard.append(_Heard(self._last, now_s))
+        self._heard.append(_PendingPicture(self._last, now_s))
 
     def _count_again(self, color: Image, now_s: float) -> None:
         """Pass over a picture that shows what the one before did: of then, whatever its stamp."""
@@ -218,11 +218,11 @@ class Pictures:
         same = (depth.header.boot_id, depth.header.seq) == (color.header.boot_id, color.header.seq)
         return depth if same else None
 
-    def _ripe(self, heard: _Heard, now_s: float) -> bool:
+    def _ripe(self, heard: _PendingPicture, now_s: float) -> bool:
         """Tell whether a picture can be handed out: its depth is there, or comes no more."""
         return now_s >= self._ripe_s(heard, now_s)
 
-    def _ripe_s(self, heard: _Heard, now_s: float) -> float:
+    def _ripe_s(self, heard: _PendingPicture, now_s: float) -> float:
         if heard.whole_s is not None:
             return heard.whole_s
         if self._depth is None:

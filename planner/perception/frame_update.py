@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from planner.language.object_names import canonical
-from planner.perception.data_association import Placed
-from planner.perception.object_tracker import Remembered, remember
+from planner.perception.data_association import PlacedDetection
+from planner.perception.object_tracker import ObjectMemory, remember
 from planner.perception.projection import View, cut_off, place
-from planner.perception.snapshot import Look
+from planner.perception.snapshot import LookSnapshot
 from planner.perception.visibility import Visible
 
 if TYPE_CHECKING:
@@ -33,35 +33,35 @@ class Scenery:
 
 def saw(
     scenery: Scenery,
-    before: Remembered,
+    before: ObjectMemory,
     picture: Picture,
     detections: tuple[Detection, ...],
     stance: Stance | None,
-) -> tuple[Remembered, Look]:
+) -> tuple[ObjectMemory, LookSnapshot]:
     """Return what is remembered after one look, and the look. Without a pose nothing is learnt."""
     header = picture.color.header
     named = tuple(replace(seen, label=canonical(seen.label)) for seen in detections)
-    look = Look(header.seq, picture.taken_s, None, header.width, header.height, named)
+    look = LookSnapshot(header.seq, picture.taken_s, None, header.width, header.height, named)
     if stance is None:
         return before, replace(look, here=("",) * len(named))
     view = View(header, scenery.camera, stance)
-    placed = tuple(_placed(scenery.site, view, named))
+    placed = tuple(_place_all(scenery.site, view, named))
     expected = Visible(view, scenery.site.grid, named)
     after, ids = remember(before, placed, expected, picture.taken_s)
     here = tuple(ids.get(index, "") for index in range(len(named)))
     return after, replace(look, base_in_map=stance.base_in_map, here=here)
 
 
-def _placed(site: Site, view: View, detections: tuple[Detection, ...]) -> list[Placed]:
+def _place_all(site: Site, view: View, detections: tuple[Detection, ...]) -> list[PlacedDetection]:
     """Return the detections that can be put on the map."""
-    found: list[Placed] = []
+    found: list[PlacedDetection] = []
     for index, seen in enumerate(detections):
         spot = place(view, seen)
         if spot is None or not site.grid.inside(spot.x_m, spot.y_m):
             continue
         room = site.room_at(spot.x_m, spot.y_m)
         found.append(
-            Placed(
+            PlacedDetection(
                 index, seen.label, seen.score, seen.color, seen.box, spot,
                 room.id if room is not None else None, whole=not cut_off(view, seen),
             )

@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from planner.perception.snapshot import Detection, Sight
+from planner.perception.result import LookResult
+from planner.perception.snapshot import Sight
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,7 +28,7 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
-class Spot:
+class MapPoint:
     """Name a point of the world that a pixel shows."""
 
     x_m: float
@@ -37,7 +38,7 @@ class Spot:
     sigma_m: float
 
 
-class PointRefused(Exception):
+class PointRefusal(Exception):
     """A pixel leads to no point that one can drive up to; ``code`` is stable.
 
     ``point_no_pose``, ``point_no_depth``, ``point_too_far``, ``point_on_wall``, ``point_off_map``.
@@ -64,7 +65,7 @@ class Eyes(Protocol):
         """Return the newest picture; None before one came, and while nobody wants any."""
 
     @property
-    def looked(self) -> Picture | None:
+    def looked_picture(self) -> Picture | None:
         """Return the picture of the newest look; None before there was one."""
 
     async def fresh(self) -> Picture | None:
@@ -76,36 +77,12 @@ class Eyes(Protocol):
     def attend(self, who: str, wanted: bool) -> None:
         """Say that somebody needs eyes now, or no longer: looks come at the full rate meanwhile."""
 
-    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+    async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
         """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
 
         Raises:
-            PointRefused: nothing there can be driven up to.
+            PointRefusal: nothing there can be driven up to.
         """
-
-
-class Looked(Protocol):
-    """Report what a detector made of one picture."""
-
-    @property
-    def detections(self) -> tuple[Detection, ...]: ...
-
-    @property
-    def width(self) -> int: ...
-
-    @property
-    def height(self) -> int: ...
-
-    @property
-    def took_s(self) -> float: ...
-
-    @property
-    def skipped(self) -> str | None:
-        """Return why it was not thought upon (a stable code); then nothing else counts."""
-
-    @property
-    def depth_lost(self) -> str | None:
-        """Return why it was thought upon without its depth (a stable code)."""
 
 
 class Detector(Protocol):
@@ -115,7 +92,7 @@ class Detector(Protocol):
     def classes(self) -> tuple[str, ...]:
         """Return the ids of what it can find; none until it is ready."""
 
-    async def look(self, color: Image, depth: Image | None) -> Looked:
+    async def look(self, color: Image, depth: Image | None) -> LookResult:
         """Think upon one picture. Never raises for what a picture holds.
 
         Raises:

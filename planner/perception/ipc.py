@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from planner.perception.result import About, LookResult
+from planner.perception.result import DetectorInfo, LookResult
 from planner.perception.snapshot import Detection
 from processes.worker_protocol import Frame
 
@@ -34,6 +34,6 @@ def _detection(item: dict[str, Any]) -> Detection:
     return Detection(**{**item, "box": (left, top, right, bottom)})
 
 
-def read_about(head: dict[str, Any] | None) -> About | None:
+def read_about(head: dict[str, Any] | None) -> DetectorInfo | None:
     """Return what runs; None where no model does. Raises KeyError or TypeError."""
-    return None if head is None else About(**{**head, "classes": tuple(head["classes"])})
+    return None if head is None else DetectorInfo(**{**head, "classes": tuple(head["classes"])})

@@ -39,7 +39,7 @@ class Attention:
         """Take down that somebody needs eyes now, or no longer."""
         (self._wanted.add if wanted else self._wanted.discard)(who)
 
-    def shown(self, now_s: float) -> None:
+    def note_shown(self, now_s: float) -> None:
         """Take down that a page was shown the picture."""
         self._shown_s = now_s
 
@@ -62,17 +62,17 @@ class Attention:
 
     def poll_s(self, now_s: float) -> float:
         """Return how long to wait between two rounds [s]."""
-        return POLL_S if self._needed(now_s) else self._idle_poll_s
+        return POLL_S if self._is_needed(now_s) else self._idle_poll_s
 
     def due(self, now_s: float, *, moving: bool) -> bool:
         """Tell whether it is time for a look."""
         idle_hz = PASSING_HZ if moving else STANDING_HZ
-        rate_hz = min(self._rate_hz if self._needed(now_s) else idle_hz, self._rate_hz)
+        rate_hz = min(self._rate_hz if self._is_needed(now_s) else idle_hz, self._rate_hz)
         return now_s >= self._rest_until_s and now_s - self._began_s >= 1.0 / rate_hz - EARLY_S
 
     def listens(self, now_s: float, *, glance: bool) -> bool:
         """Tell whether pictures are wanted: by somebody, or for the ``glance`` that is due."""
-        return glance or self._waiting > 0 or self._needed(now_s)
+        return glance or self._waiting > 0 or self._is_needed(now_s)
 
-    def _needed(self, now_s: float) -> bool:
+    def _is_needed(self, now_s: float) -> bool:
         return bool(self._wanted) or now_s - self._shown_s <= SHOWN_S

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from planner.perception.frame_update import saw
 from planner.perception.object_saving import Keeper
-from planner.perception.object_tracker import Remembered, aged, forget, recalled
+from planner.perception.object_tracker import ObjectMemory, aged, forget, recall
 from planner.perception.object_versions import Changes
 from planner.perception.snapshot import Sight
 
@@ -14,22 +14,23 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from planner.perception.frame_update import Scenery
-    from planner.perception.interfaces import Looked, Picture
+    from planner.perception.interfaces import Picture
     from planner.perception.object_store import ThingStore
     from planner.perception.pose_buffer import Stance
-    from planner.perception.snapshot import Look, Thing
+    from planner.perception.result import LookResult
+    from planner.perception.snapshot import LookSnapshot, Thing
 
 AGING_S = 0.5
 
 
-class Known:
+class ObjectMap:
     """Remember, and make the sight anew when something in it has changed."""
 
     def __init__(self, scenery: Scenery, store: ThingStore | None, blind: str | None) -> None:
         """Begin with nothing; ``blind``: why nothing is seen now, if so."""
         self._scenery, self._keeper = scenery, Keeper(store)
-        self._memory = Remembered()
-        self._look: Look | None = None
+        self._memory = ObjectMemory()
+        self._look: LookSnapshot | None = None
         self._changes = Changes()
         self._listeners: list[Callable[[Sight], None]] = []
         self._aged_s = float("-inf")
@@ -52,21 +53,21 @@ class Known:
 
     async def load(self, now_s: float) -> None:
         """Take up what an earlier process remembered; it is told with the next sight."""
-        self._memory = recalled(await self._keeper.load(now_s), now_s)
+        self._memory = recall(await self._keeper.load(now_s), now_s)
 
     async def close(self, now_s: float) -> None:
         """Keep what is remembered."""
         await self._keeper.close(self.sight.things, now_s)
 
-    def took(self) -> None:
+    def mark_saved(self) -> None:
         """Take what is told for what the disk holds."""
-        self._keeper.took(self.sight.things, self.version)
+        self._keeper.mark_saved(self.sight.things, self.version)
 
     def keep(self, now_s: float) -> None:
         """Bring it to the disk, where it is time."""
         self._keeper.keep(self.sight.things, self.version, now_s)
 
-    def take(self, picture: Picture, result: Looked, stance: Stance | None) -> None:
+    def take(self, picture: Picture, result: LookResult, stance: Stance | None) -> None:
         """Take in what a look found; it is told with the next sight."""
         self._memory, self._look = saw(
             self._scenery, self._memory, picture, result.detections, stance

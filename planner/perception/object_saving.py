@@ -34,7 +34,7 @@ class Keeper:
             return ()
         return await asyncio.to_thread(self._store.load, now_s)
 
-    def took(self, things: tuple[Thing, ...], version: int) -> None:
+    def mark_saved(self, things: tuple[Thing, ...], version: int) -> None:
         """Take note of what the disk holds."""
         self._things, self._version = things, version
 
@@ -45,10 +45,10 @@ class Keeper:
         if self._store is None or self._task is not None or not due:
             return
         self._saved_s = now_s
-        self.took(things, version)
+        self.mark_saved(things, version)
         write = asyncio.to_thread(self._store.save, things, now_s)
         self._task = asyncio.get_running_loop().create_task(write, name="keep things")
-        self._task.add_done_callback(self._kept)
+        self._task.add_done_callback(self._note_end)
 
     async def close(self, things: tuple[Thing, ...], now_s: float) -> None:
         """Write the last of it."""
@@ -57,7 +57,7 @@ class Keeper:
         if self._store is not None and things is not self._things:
             await asyncio.to_thread(self._store.save, things, now_s)
 
-    def _kept(self, task: asyncio.Task[bool]) -> None:
+    def _note_end(self, task: asyncio.Task[bool]) -> None:
         self._task = None
         if not task.cancelled() and (error := task.exception()) is not None:
             log.error("what was seen could not be kept", exc_info=error)

@@ -98,13 +98,13 @@ class ThingStore:
                         self._database.path, kept.map_id, self._map_id)  # fmt: skip
             return ()
         offset_s = now_s - self._wall()
-        return tuple(_recalled(thing, now_s, offset_s) for thing in kept.things)
+        return tuple(_from_stored(thing, now_s, offset_s) for thing in kept.things)
 
     def save(self, things: tuple[Thing, ...], now_s: float) -> bool:
         """Put these in place of what was kept; say whether they are on the disk."""
         offset_s = self._wall() - now_s
         kept = StoredThings(
-            map_id=self._map_id, things=tuple(_stored(thing, offset_s) for thing in things)
+            map_id=self._map_id, things=tuple(_to_stored(thing, offset_s) for thing in things)
         )
         try:
             self._database.take_over(self._old_file, self._import)  # where the start could not
@@ -148,7 +148,7 @@ def _replace(connection: sqlite3.Connection, kept: StoredThings) -> None:
     connection.executemany("INSERT INTO objects (map_id, id, record) VALUES (?, ?, ?)", rows)
 
 
-def _stored(thing: Thing, offset_s: float) -> StoredThing:
+def _to_stored(thing: Thing, offset_s: float) -> StoredThing:
     return StoredThing(
         id=thing.id, label=thing.label, color=thing.color, x_m=thing.x_m, y_m=thing.y_m,
         z_m=thing.z_m, sigma_m=thing.sigma_m, confidence=thing.confidence,
@@ -157,7 +157,7 @@ def _stored(thing: Thing, offset_s: float) -> StoredThing:
     )  # fmt: skip
 
 
-def _recalled(stored: StoredThing, now_s: float, offset_s: float) -> Thing:
+def _from_stored(stored: StoredThing, now_s: float, offset_s: float) -> Thing:
     seen_s = max(now_s - OLDEST_S, min(now_s, stored.seen + offset_s))
     return Thing(
         id=stored.id, label=stored.label, color=stored.color, x_m=stored.x_m, y_m=stored.y_m,

@@ -15,7 +15,14 @@ from math import exp
 from typing import TYPE_CHECKING
 
 from planner.language.object_classes import kind_of
-from planner.perception.data_association import Placed, bulky, fused, joined, one_place, single
+from planner.perception.data_association import (
+    PlacedDetection,
+    associate,
+    bulky,
+    fuse,
+    one_place,
+    single,
+)
 from planner.perception.snapshot import Thing
 from wire.geometry import MAX_COORDINATE_M
 
@@ -44,7 +51,7 @@ WALKED_AWAY_S = 60.0
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class ThingTrack:
     """Hold one thing with what only memory needs of it."""
 
     thing: Thing
@@ -56,10 +63,10 @@ class Kept:
 
 
 @dataclass(frozen=True)
-class Remembered:
+class ObjectMemory:
     """Hold all that is remembered."""
 
-    kept: tuple[Kept, ...] = ()
+    kept: tuple[ThingTrack, ...] = ()
     numbers: Mapping[str, int] | None = None
     """The last number given to a thing of each label."""
     looked_s: float | None = None
@@ -72,11 +79,11 @@ class Remembered:
 
 
 def remember(
-    before: Remembered,
-    placed: Iterable[Placed],
+    before: ObjectMemory,
+    placed: Iterable[PlacedDetection],
     expected: Callable[[Thing], bool],
     now_s: float,
-) -> tuple[Remembered, dict[int, str]]:
+) -> tuple[ObjectMemory, dict[int, str]]:
     """Take one look; return what is remembered then, and the thing's id of each placed index.
 
     Args:
@@ -86,12 +93,12 @@ def remember(
         now_s: when the picture was taken.
     """
     found = single([p for p in placed if _sound(p)])[:MOST_PLACED]
-    pairs, extra = joined([kept.thing for kept in before.kept], found, now_s)
+    pairs, extra = associate([kept.thing for kept in before.kept], found, now_s)
     by_id = {kept.thing.id: kept for kept in before.kept}
     look_s = 0.0 if before.looked_s is None else now_s - before.looked_s
     look_s = min(max(0.0, look_s), LONGEST_LOOK_S)
     after = {
-        id_: _seen(kept, pairs[id_], now_s) if id_ in pairs else _unseen(kept, expected, look_s)
+        id_: _update(kept, pairs[id_], now_s) if id_ in pairs else _unseen(kept, expected, look_s)
         for id_, kept in by_id.items()
     }
     numbers = dict(before.numbers or {})
@@ -101,61 +108,61 @@ def remember(
             numbers[p.label] = numbers.get(p.label, 0) + 1
             named[p.index] = id_ = f"{p.label}_{numbers[p.label]}"
             after[id_] = _first(id_, p, now_s)
-    left = [kept for kept in after.values() if not _over(kept, now_s)]
-    kept_now = _bounded(_apart(left, frozenset(named.values())))
+    left = [kept for kept in after.values() if not _is_over(kept, now_s)]
+    kept_now = _keep_surest(_drop_rivals(left, frozenset(named.values())))
     named |= extra
     told = {kept.thing.id for kept in kept_now if kept.sure}
     here = {index: id_ for index, id_ in named.items() if id_ in told}
-    return Remembered(kept_now, numbers, now_s), here
+    return ObjectMemory(kept_now, numbers, now_s), here
 
 
-def aged(before: Remembered, now_s: float) -> Remembered:
+def aged(before: ObjectMemory, now_s: float) -> ObjectMemory:
     """Forget what time alone takes: who walked away, what was never confirmed."""
-    left = tuple(kept for kept in before.kept if not _over(kept, now_s))
+    left = tuple(kept for kept in before.kept if not _is_over(kept, now_s))
     return before if len(left) == len(before.kept) else replace(before, kept=left)
 
 
-def forget(before: Remembered, thing_id: str | None) -> Remembered:
+def forget(before: ObjectMemory, thing_id: str | None) -> ObjectMemory:
     """Forget one thing, or all of them; their numbers are not given again."""
     left = tuple(kept for kept in before.kept if thing_id not in (None, kept.thing.id))
     return replace(before, kept=left)
 
 
-def recalled(things: Iterable[Thing], now_s: float) -> Remembered:
+def recall(things: Iterable[Thing], now_s: float) -> ObjectMemory:
     """Begin with what an earlier process remembered."""
     kept = tuple(
-        Kept(thing, LOOKS, sure=True, votes=((thing.color, 1.0),) if thing.color else ())
+        ThingTrack(thing, LOOKS, sure=True, votes=((thing.color, 1.0),) if thing.color else ())
         for thing in things
     )
     numbers: Counter[str] = Counter()
     for one in kept:
         label, _, number = one.thing.id.rpartition("_")
         numbers[label] = max(numbers[label], int(number) if number.isdecimal() else 0)
-    return aged(Remembered(_bounded(kept), dict(numbers)), now_s)
+    return aged(ObjectMemory(_keep_surest(kept), dict(numbers)), now_s)
 
 
-def _sound(p: Placed) -> bool:
+def _sound(p: PlacedDetection) -> bool:
     spot = p.spot
     far = MAX_COORDINATE_M
     somewhere = all(-far <= v <= far for v in (spot.x_m, spot.y_m, spot.z_m))
     return somewhere and 0.0 < p.score <= 1.0 and 0.0 < spot.sigma_m <= far
 
 
-def _first(id_: str, p: Placed, now_s: float) -> Kept:
+def _first(id_: str, p: PlacedDetection, now_s: float) -> ThingTrack:
     thing = Thing(
         id=id_, label=p.label, color=p.color, x_m=p.spot.x_m, y_m=p.spot.y_m, z_m=p.spot.z_m,
         sigma_m=p.spot.sigma_m, confidence=GAIN * p.score, seen_s=now_s, first_s=now_s, sightings=1,
         room=p.room,
     )  # fmt: skip
     votes = ((p.color, p.score),) if p.color is not None else ()
-    return Kept(thing, sure=_enough(p), votes=votes)
+    return ThingTrack(thing, sure=_is_enough(p), votes=votes)
 
 
-def _seen(kept: Kept, p: Placed, now_s: float) -> Kept:
+def _update(kept: ThingTrack, p: PlacedDetection, now_s: float) -> ThingTrack:
     thing = kept.thing
     looks, sightings = kept.looks + 1, thing.sightings + 1
-    x_m, y_m, z_m, sigma_m = fused(thing, p.spot, now_s)
-    votes = _voted(kept.votes, p)
+    x_m, y_m, z_m, sigma_m = fuse(thing, p.spot, now_s)
+    votes = _vote(kept.votes, p)
     thing = replace(
         thing, x_m=x_m, y_m=y_m, z_m=z_m, sigma_m=sigma_m, seen_s=max(thing.seen_s, now_s),
         sightings=sightings, color=max(votes, key=lambda vote: vote[1])[0] if votes else None,
@@ -163,22 +170,24 @@ def _seen(kept: Kept, p: Placed, now_s: float) -> Kept:
         room=p.room,
     )  # fmt: skip
     enough = sightings >= SIGHTINGS and looks <= LOOKS
-    return Kept(thing, looks, kept.sure or enough or _enough(p), votes)
+    return ThingTrack(thing, looks, kept.sure or enough or _is_enough(p), votes)
 
 
-def _enough(p: Placed) -> bool:
+def _is_enough(p: PlacedDetection) -> bool:
     """Say whether one sighting is enough: of what is cut off, many things look alike."""
     return p.whole and p.score >= STRONG
 
 
-def _unseen(kept: Kept, expected: Callable[[Thing], bool], look_s: float) -> Kept:
+def _unseen(kept: ThingTrack, expected: Callable[[Thing], bool], look_s: float) -> ThingTrack:
     if not expected(kept.thing):
         return kept
     confidence = kept.thing.confidence * exp(-look_s / FADING_S)
     return replace(kept, looks=kept.looks + 1, thing=replace(kept.thing, confidence=confidence))
 
 
-def _voted(votes: tuple[tuple[str, float], ...], p: Placed) -> tuple[tuple[str, float], ...]:
+def _vote(
+    votes: tuple[tuple[str, float], ...], p: PlacedDetection
+) -> tuple[tuple[str, float], ...]:
     if p.color is None:
         return votes
     count = dict(votes)
@@ -186,7 +195,7 @@ def _voted(votes: tuple[tuple[str, float], ...], p: Placed) -> tuple[tuple[str, 
     return tuple(sorted(count.items(), key=lambda vote: (-vote[1], vote[0]))[:MOST_COLORS])
 
 
-def _over(kept: Kept, now_s: float) -> bool:
+def _is_over(kept: ThingTrack, now_s: float) -> bool:
     """Say whether a thing is to be forgotten."""
     thing = kept.thing
     unseen_s = now_s - thing.seen_s
@@ -197,7 +206,7 @@ def _over(kept: Kept, now_s: float) -> bool:
     return unseen_s > UNSURE_S or kept.looks >= LOOKS
 
 
-def _apart(kept: list[Kept], seen: frozenset[str]) -> list[Kept]:
+def _drop_rivals(kept: list[ThingTrack], seen: frozenset[str]) -> list[ThingTrack]:
     """Leave out the less sure of two bulky things that would stand in each other.
 
     One of them was just seen: what was not has not moved.
@@ -209,7 +218,7 @@ def _apart(kept: list[Kept], seen: frozenset[str]) -> list[Kept]:
     return [k for k in kept if k.thing.id not in lost] if lost else kept
 
 
-def _bounded(kept: Iterable[Kept]) -> tuple[Kept, ...]:
+def _keep_surest(kept: Iterable[ThingTrack]) -> tuple[ThingTrack, ...]:
     """Keep the surest, in the order in which they came."""
     every = tuple(kept)
     if len(every) <= MOST_THINGS:

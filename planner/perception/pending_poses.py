@@ -19,7 +19,7 @@ SETTLED_S = 0.3
 Shot = tuple[str, int]
 
 
-class Handed:
+class PendingPoses:
     """Hold the stances of pictures by boot and seq of their camera."""
 
     def __init__(self) -> None:
@@ -28,7 +28,7 @@ class Handed:
 
     def note(self, picture: Picture) -> None:
         """Take note that somebody has this picture."""
-        shot = _shot(picture)
+        shot = _shot_of(picture)
         if shot not in self._stances:
             self._waiting[shot] = picture.taken_s
 
@@ -41,7 +41,7 @@ class Handed:
 
     def stance(self, picture: Picture, poses: Poses) -> Stance | None:
         """Return where the robot was when a picture was taken."""
-        return self._stances.get(_shot(picture)) or poses.at(picture.taken_s)
+        return self._stances.get(_shot_of(picture)) or poses.at(picture.taken_s)
 
     def _keep(self, shot: Shot, stance: Stance | None) -> None:
         if stance is not None:
@@ -50,5 +50,5 @@ class Handed:
                 del self._stances[next(iter(self._stances))]
 
 
-def _shot(picture: Picture) -> Shot:
+def _shot_of(picture: Picture) -> Shot:
     return picture.color.header.boot_id, picture.color.header.seq

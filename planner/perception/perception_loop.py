@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING
 from planner.language.object_names import canonical
 from planner.perception.failure import REFUSALS, VisionFailure
 from planner.perception.frame_source import Pictures
-from planner.perception.interfaces import PointRefused
+from planner.perception.interfaces import PointRefusal
 from planner.perception.look_rate import POLL_S, Attention
-from planner.perception.object_map import Known
-from planner.perception.pending_poses import Handed
+from planner.perception.object_map import ObjectMap
+from planner.perception.pending_poses import PendingPoses
 from planner.perception.pixel_to_map import pixel, point_on_map
 from planner.perception.projection import View
 from processes.backoff import Backoff
@@ -27,8 +27,9 @@ from processes.backoff import Backoff
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from planner.perception.dependencies import Means
-    from planner.perception.interfaces import Detector, Looked, Picture, Spot
+    from planner.perception.dependencies import PerceptionParts
+    from planner.perception.interfaces import Detector, MapPoint, Picture
+    from planner.perception.result import LookResult
     from planner.perception.snapshot import Sight, Thing
 
 log = logging.getLogger(__name__)
@@ -44,7 +45,9 @@ FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 10.0
 class Sightseer:
     """Be the planner's eyes."""
 
-    def __init__(self, means: Means, *, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, means: PerceptionParts, *, clock: Callable[[], float] = time.monotonic
+    ) -> None:
         self._means, self._clock = means, clock
         camera = means.scenery.camera
         self._there = camera.kind != "none"
@@ -54,9 +57,9 @@ class Sightseer:
         there = means.detector is not None and means.has_model
         self._down: str | None = None if there else "no_detector"
         blind = self._down if self._there else "no_camera"
-        self._known = Known(means.scenery, means.store, blind)
+        self._known = ObjectMap(means.scenery, means.store, blind)
         self._attention = Attention(means.rate_hz, camera.rate_hz)
-        self._handed = Handed()
+        self._handed = PendingPoses()
         self._thinking: asyncio.Task[None] | None = None
         self._task: asyncio.Task[None] | None = None
         self._backoff = Backoff(FIRST_PAUSE_S, LONGEST_PAUSE_S)
@@ -99,7 +102,7 @@ class Sightseer:
         return newest
 
     @property
-    def looked(self) -> Picture | None:
+    def looked_picture(self) -> Picture | None:
         """Return the picture that the newest look was made of, as ``picture`` does."""
         if self._looked is not None:
             self._handed.note(self._looked)
@@ -111,7 +114,7 @@ class Sightseer:
         return self._clock()
 
     @property
-    def skipped(self) -> Counter[str]:
+    def skip_counts(self) -> Counter[str]:
         """Return how many pictures were not thought upon, by reason."""
         return self._pictures.skipped
 
@@ -125,7 +128,7 @@ class Sightseer:
 
     async def show(self) -> Picture | None:
         """Return the newest picture to a page, which is then taken to look on; no point of it."""
-        self._attention.shown(self._clock())
+        self._attention.note_shown(self._clock())
         await self._first_picture()
         return self._pictures.newest  # noted for nobody: a page fetches three a second
 
@@ -137,26 +140,26 @@ class Sightseer:
     async def _first_picture(self) -> None:
         with self._attention.waiting():
             self._listen(self._clock())
-            while not self._pictures.settled(self._clock()):  # noqa: ASYNC110  # a round tells
+            while not self._pictures.is_settled(self._clock()):  # noqa: ASYNC110  # a round tells
                 await asyncio.sleep(POLL_S)
 
-    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+    async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
         """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
 
         Raises:
-            PointRefused: nothing there can be driven up to.
+            PointRefusal: nothing there can be driven up to.
         """
         means = self._means
         stance = self._handed.stance(picture, means.poses)
         if stance is None:
-            raise PointRefused("point_no_pose", "where the robot was then is not known any more")
+            raise PointRefusal("point_no_pose", "where the robot was then is not known any more")
         view = View(picture.color.header, means.scenery.camera, stance)
         depth_m = None
         if picture.depth is not None and means.detector is not None:
             try:
                 depth_m = await means.detector.depth_at(picture.depth, *pixel(view, x, y))
             except VisionFailure as failure:
-                raise PointRefused("point_no_depth", str(failure)) from None
+                raise PointRefusal("point_no_depth", str(failure)) from None
         return point_on_map(view, means.scenery.site, x, y, depth_m)
 
     def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]:
@@ -171,7 +174,7 @@ class Sightseer:
         """Take up what was remembered, and begin to look."""
         await self._known.load(self._clock())
         self._tell()
-        self._known.took()
+        self._known.mark_saved()
         if self._there:
             self._open(0.0)
 
@@ -187,7 +190,7 @@ class Sightseer:
 
     def _open(self, after_s: float) -> None:
         self._task = asyncio.get_running_loop().create_task(self._run(after_s), name="eyes")
-        self._task.add_done_callback(self._ended)
+        self._task.add_done_callback(self._note_end)
 
     async def _run(self, after_s: float) -> None:
         await asyncio.sleep(after_s)
@@ -210,7 +213,7 @@ class Sightseer:
                 self._thinking = asyncio.get_running_loop().create_task(
                     self._think(self._means.detector, picture), name="look"
                 )
-                self._thinking.add_done_callback(self._thought)
+                self._thinking.add_done_callback(self._finish_look)
         self._known.keep(now_s)
 
     def _listen(self, now_s: float) -> None:
@@ -230,7 +233,7 @@ class Sightseer:
         try:
             result = await detector.look(picture.color, picture.depth)
         except VisionFailure as failure:
-            self._failed(failure)
+            self._note_failure(failure)
             return
         if result.skipped is not None:
             self._skip(result.skipped)
@@ -247,7 +250,7 @@ class Sightseer:
         why = "detector_down" if code == "detector_failed" else "camera_unusable"
         self._down = why if enough else None
 
-    def _failed(self, failure: VisionFailure) -> None:
+    def _note_failure(self, failure: VisionFailure) -> None:
         """Say why there are no looks, once, and try again later."""
         told = failure.code == "no_detector" or failure.code in REFUSALS
         code = failure.code if told else "detector_down"
@@ -257,7 +260,7 @@ class Sightseer:
         self._down = code
         self._attention.rest(self._clock())
 
-    def _saw(self, picture: Picture, result: Looked) -> None:
+    def _saw(self, picture: Picture, result: LookResult) -> None:
         stance = self._means.poses.at(picture.taken_s)
         self._known.take(picture, result, stance)
         self._looked = picture
@@ -268,7 +271,7 @@ class Sightseer:
         self.took_s, self.lag_s = result.took_s, self._clock() - picture.taken_s
         self._tell()
 
-    def _thought(self, task: asyncio.Task[None]) -> None:
+    def _finish_look(self, task: asyncio.Task[None]) -> None:
         """Free the place for the next look; say what no one foresaw."""
         self._thinking = None
         if not task.cancelled() and (error := task.exception()) is not None:
@@ -276,7 +279,7 @@ class Sightseer:
             self._attention.rest(self._clock())
             log.error("a look failed", exc_info=error)
 
-    def _ended(self, task: asyncio.Task[None]) -> None:
+    def _note_end(self, task: asyncio.Task[None]) -> None:
         if task is self._task and not task.cancelled() and (error := task.exception()) is not None:
             pause_s = self._backoff.pause_after()
             log.critical("the eyes ended; again in %g s", pause_s, exc_info=error)

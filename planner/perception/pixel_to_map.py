@@ -10,7 +10,7 @@ from math import atan2, hypot
 from typing import TYPE_CHECKING
 
 from maps.grid import FREE, OCCUPIED
-from planner.perception.interfaces import PointRefused, Spot
+from planner.perception.interfaces import MapPoint, PointRefusal
 from planner.perception.projection import FARTHEST_M, FLOOR_FARTHEST_M, View, spot_at
 from planner.perception.raycast import first_wall_m
 
@@ -28,33 +28,33 @@ def pixel(view: View, x: float, y: float) -> tuple[float, float]:
     return x / FULL * view.header.width, y / FULL * view.header.height
 
 
-def point_on_map(view: View, site: Site, x: float, y: float, depth_m: float | None) -> Spot:
+def point_on_map(view: View, site: Site, x: float, y: float, depth_m: float | None) -> MapPoint:
     """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
 
     Raises:
-        PointRefused: it shows no floor and nothing that stands on free floor.
+        PointRefusal: it shows no floor and nothing that stands on free floor.
     """
     if not (0.0 <= x <= FULL and 0.0 <= y <= FULL):
-        raise PointRefused("point_malformed", f"({x}, {y}); expected 0 to {FULL:g} each")
+        raise PointRefusal("point_malformed", f"({x}, {y}); expected 0 to {FULL:g} each")
     spot = spot_at(view, *pixel(view, x, y), depth_m)
     if spot is None:
         far = f"beyond {FARTHEST_M if depth_m is not None else FLOOR_FARTHEST_M:g} m"
         code = "point_no_depth" if depth_m is None else "point_too_far"
-        raise PointRefused(code, f"no depth there, and no floor within reach or {far}")
+        raise PointRefusal(code, f"no depth there, and no floor within reach or {far}")
     _check_floor(view, site, spot)
     return spot
 
 
-def _check_floor(view: View, site: Site, spot: Spot) -> None:
+def _check_floor(view: View, site: Site, spot: MapPoint) -> None:
     at = f"({spot.x_m:.2f}, {spot.y_m:.2f})"
     cell = site.grid.at(spot.x_m, spot.y_m)
     if cell == OCCUPIED or _on_a_wall(view, site, spot):
-        raise PointRefused("point_on_wall", f"{at} is a wall or furniture")
+        raise PointRefusal("point_on_wall", f"{at} is a wall or furniture")
     if cell != FREE or not site.fence.allows(spot.x_m, spot.y_m):
-        raise PointRefused("point_off_map", f"{at} is not on floor that may be driven on")
+        raise PointRefusal("point_off_map", f"{at} is not on floor that may be driven on")
 
 
-def _on_a_wall(view: View, site: Site, spot: Spot) -> bool:
+def _on_a_wall(view: View, site: Site, spot: MapPoint) -> bool:
     """Tell whether the way there leads through a wall, or the point may well be one's face."""
     camera = view.camera_in_map
     dx, dy = spot.x_m - camera.x_m, spot.y_m - camera.y_m

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner.perception.failure import VisionFailure
 from planner.perception.ipc import read_about, read_look
-from planner.perception.result import About, LookResult
+from planner.perception.result import DetectorInfo, LookResult
 from processes.worker import SupervisedWorker
 from processes.worker_protocol import FailureCodes, Frame
 
@@ -52,7 +52,7 @@ class VisionWorker(SupervisedWorker):
         )
         self.has_model = settings.model is not None or DEFAULT_MODEL.is_file()
         """The owner names one, or one comes with Pons; if it can be used is found out later."""
-        self.about: About | None = None
+        self.about: DetectorInfo | None = None
         """What runs, once the process is ready; None without a model."""
         self.skipped: Counter[str] = Counter()
         """How often pictures were skipped, by code."""
@@ -87,7 +87,7 @@ class VisionWorker(SupervisedWorker):
         header = color.header
         if depth is not None and not _same_instant(color, depth):
             skipped = LookResult((), header.width, header.height, 0.0, "depth_of_another")
-            return self._counted(skipped)
+            return self._count_skips(skipped)
         head = {
             "color": len(color.data),
             "deep": depth is not None,
@@ -95,7 +95,7 @@ class VisionWorker(SupervisedWorker):
             "focal": header.focal_px,
         }
         bodies = (color.data,) if depth is None else (color.data, depth.data)
-        return self._counted(await self.ask(head, bodies, timeout_s, read_look))
+        return self._count_skips(await self.ask(head, bodies, timeout_s, read_look))
 
     async def crop(self, picture: bytes, long_side: int, timeout_s: float = LOOK_S) -> bytes:
         """Return a picture as JPEG whose longer side is at most so long [px], without metadata.
@@ -139,7 +139,7 @@ class VisionWorker(SupervisedWorker):
         self.about = read_about(said)
         log.info("%s", "no detector is installed" if self.about is None else self.about.line)
 
-    def _counted(self, result: LookResult) -> LookResult:
+    def _count_skips(self, result: LookResult) -> LookResult:
         for code in (result.skipped, result.depth_lost):
             if code is not None:
                 self.skipped[code] += 1

@@ -13,12 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from planner.perception.detect import (
-    Detector,
-    Wanted,
+    ModelOptions,
+    OnnxDetector,
     bound_memory,
     depth_at,
     lay_out,
-    scaled,
+    scale_down,
     shrink,
     unpack_color,
     unpack_depth,
@@ -39,7 +39,7 @@ def main(parent: ParentPipes, settings: str) -> int:
     return parent.serve(partial(_answer, detector))
 
 
-def _detector(settings: dict[str, Any]) -> Detector | None:
+def _detector(settings: dict[str, Any]) -> OnnxDetector | None:
     if settings["path"] is None:
         return None
     bound_memory(settings["provider"])
@@ -48,10 +48,10 @@ def _detector(settings: dict[str, Any]) -> Detector | None:
         name: None if settings[name] is None else Path(settings[name])
         for name in ("path", "labels")
     }
-    return Detector(Wanted(**{**settings, **paths}), min_score)
+    return OnnxDetector(ModelOptions(**{**settings, **paths}), min_score)
 
 
-def _answer(detector: Detector | None, asked: Frame) -> Frame:
+def _answer(detector: OnnxDetector | None, asked: Frame) -> Frame:
     head, body = asked
     if "sheet" in head:
         return {}, _sheet(head, body)
@@ -87,7 +87,7 @@ def _sheet(head: dict[str, Any], body: bytes) -> bytes:
         picture = unpack_color(body[at : at + int(length)])
         if isinstance(picture, str):
             raise VisionFailure(picture)
-        tiles.append((scaled(picture, int(head["long_side"])), str(label)))  # not all at once
+        tiles.append((scale_down(picture, int(head["long_side"])), str(label)))  # not all at once
         at += int(length)
     return lay_out(tiles, int(head["long_side"]))
 

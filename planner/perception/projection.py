@@ -12,7 +12,7 @@ from math import atan2, cos, hypot, isfinite, sin
 from typing import TYPE_CHECKING
 
 from planner.language.object_classes import kind_of
-from planner.perception.interfaces import Spot
+from planner.perception.interfaces import MapPoint
 from wire import Pose2, compose, transform
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def ray_of(view: View, u_px: float, v_px: float) -> Ray:
     return Ray(c - down * s, -right, -(s + down * c))
 
 
-def place(view: View, seen: Detection) -> Spot | None:
+def place(view: View, seen: Detection) -> MapPoint | None:
     """Return where a detected thing's middle is, by depth, else by where it meets the floor."""
     left, top, right, bottom = seen.box
     if not (all(map(isfinite, seen.box)) and left < right and top < bottom):
@@ -87,7 +87,7 @@ def place(view: View, seen: Detection) -> Spot | None:
     return _by_floor(view, seen)
 
 
-def _by_depth(view: View, seen: Detection, depth_m: float) -> Spot | None:
+def _by_depth(view: View, seen: Detection, depth_m: float) -> MapPoint | None:
     left, top, right, bottom = seen.box
     if not (0.0 < depth_m <= FARTHEST_M and 0.0 <= seen.depth_spread_m <= FARTHEST_M):
         return None
@@ -117,7 +117,7 @@ def _beyond_m(view: View, seen: Detection, width_m: float) -> float:
     return hidden_m / 2 * (at_right - at_left)
 
 
-def _by_floor(view: View, seen: Detection) -> Spot | None:
+def _by_floor(view: View, seen: Detection) -> MapPoint | None:
     left, top, right, bottom = seen.box
     if cut_off(view, seen):
         return None  # its foot may be outside the picture: nobody knows how much nearer it is
@@ -137,7 +137,7 @@ def _by_floor(view: View, seen: Detection) -> Spot | None:
     return _spot(view, angle, range_m + kind.behind_m, z_m, (along_m, across_m))
 
 
-def spot_at(view: View, u_px: float, v_px: float, depth_m: float | None) -> Spot | None:
+def spot_at(view: View, u_px: float, v_px: float, depth_m: float | None) -> MapPoint | None:
     """Return the point that a pixel shows, by its depth where it has one, else on the floor."""
     if not (0.0 <= u_px <= view.header.width and 0.0 <= v_px <= view.header.height):
         return None
@@ -168,7 +168,7 @@ def _floor_m(view: View, ray: Ray) -> tuple[float, float] | None:
 
 def _spot(
     view: View, angle_rad: float, range_m: float, z_m: float, sigmas_m: tuple[float, float]
-) -> Spot | None:
+) -> MapPoint | None:
     """Return the point at an angle and a range from the camera; (along, across) are its errors."""
     camera = view.camera_in_map
     x_m, y_m = transform(camera, range_m * cos(angle_rad), range_m * sin(angle_rad))
@@ -177,7 +177,7 @@ def _spot(
     sigma_m = hypot(max(along_m, hypot(across_m, turned_m)), view.stance.sigma_m, SIGMA_LEAST_M)
     if not all(map(isfinite, (x_m, y_m, z_m, sigma_m))):
         return None
-    return Spot(x_m, y_m, max(0.0, z_m), sigma_m)
+    return MapPoint(x_m, y_m, max(0.0, z_m), sigma_m)
 
 
 def cut_off(view: View, seen: Detection) -> bool:

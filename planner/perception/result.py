@@ -24,7 +24,7 @@ class LookResult:
 
 
 @dataclass(frozen=True, slots=True)
-class About:
+class DetectorInfo:
     """Say which detector runs, how its output is read, where, and why so."""
 
     model: str

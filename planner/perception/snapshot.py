@@ -58,7 +58,7 @@ class Thing:
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class LookSnapshot:
     """Report one picture that was thought upon."""
 
     seq: int
@@ -78,7 +78,7 @@ class Look:
 class Sight:
     """Say what is known by eye now: the newest look and all that is remembered."""
 
-    look: Look | None = None
+    look: LookSnapshot | None = None
     things: tuple[Thing, ...] = ()
     blind: str | None = None
     """Why nothing is seen now (a stable code: ``no_camera``, ``no_detector``, ``camera_silent``,

@@ -38,10 +38,10 @@ class FileKind:
 
 
 def _model() -> Loaded:
-    from planner.perception.detect.model_file import Wanted, open_model
+    from planner.perception.detect.model_file import ModelOptions, open_model
     from planner.perception.failure import VisionFailure
 
-    return lambda folder: open_model(Wanted(folder / "model.onnx")), (VisionFailure,)
+    return lambda folder: open_model(ModelOptions(folder / "model.onnx")), (VisionFailure,)
 
 
 def _wav() -> Loaded:

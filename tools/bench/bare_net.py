@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from planner.perception.detect.session import Session
+    from planner.perception.detect.session import ModelSession
 
     Array = NDArray[np.generic]
 
@@ -95,8 +95,8 @@ class BareNet:
         return self._net.run(self._feeds)
 
 
-def _session(file: Path, threads: int) -> Session:
+def _session(file: Path, threads: int) -> ModelSession:
     from planner.perception.detect.onnx_file import examine
-    from planner.perception.detect.session import Session
+    from planner.perception.detect.session import ModelSession
 
-    return Session(file, examine(file), threads, "cpu")
+    return ModelSession(file, examine(file), threads, "cpu")

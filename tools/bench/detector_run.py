@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.language.object_names import canonical
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.process_client import DEFAULT_MODEL
 from sim.camera import SimCamera
 from wire import SimScene
@@ -29,7 +29,7 @@ class DrawnFinder:
             VisionFailure: the model is refused.
         """
         self._camera = SimCamera(sim.home, camera, seed=1)
-        self._detector = Detector(Wanted(model))
+        self._detector = OnnxDetector(ModelOptions(model))
 
     @property
     def classes(self) -> tuple[str, ...]:

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planner.perception.frame_update import Scenery, saw
-from planner.perception.interfaces import Picture, PointRefused, Spot
-from planner.perception.object_tracker import Remembered, aged
+from planner.perception.interfaces import MapPoint, Picture, PointRefusal
+from planner.perception.object_tracker import ObjectMemory, aged
 from planner.perception.pixel_to_map import point_on_map
 from planner.perception.pose_buffer import Poses
 from planner.perception.projection import View
-from planner.perception.snapshot import Look, Sight
+from planner.perception.snapshot import LookSnapshot, Sight
 from tools.lockstep.latencies import TICK_S
 from tools.lockstep.truth_detector import NAMES, Finder, header_of
 from wire import Image, Localization, Odometry
@@ -48,7 +48,7 @@ class PerceptionProcess:
         self._scene, self._finder = scene, finder
         self._scenery = Scenery(scene.site, scene.robot.camera)
         self._poses = Poses(scene.site.map_id)
-        self._memory = Remembered()
+        self._memory = ObjectMemory()
         self._taken: list[PendingLook] = []
         self.picture: Picture | None = None
         self.looked: Picture | None = None
@@ -57,7 +57,7 @@ class PerceptionProcess:
         self.blind: str | None = None
         """Why nothing is seen; a test sets it."""
         self._told_blind: str | None = None
-        self.look: Look | None = None
+        self.look: LookSnapshot | None = None
         self._told: Callable[[Sight], None] | None = None
 
     @property
@@ -84,16 +84,16 @@ class PerceptionProcess:
         """Return the newest picture."""
         return self.picture
 
-    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+    async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
         """Return what lies at a point of a picture, by the floor alone.
 
         Raises:
-            PointRefused: nothing there can be driven up to.
+            PointRefusal: nothing there can be driven up to.
         """
         await asyncio.sleep(TICK_S)
         stance = self._poses.at(picture.taken_s)
         if stance is None:
-            raise PointRefused("point_no_pose")
+            raise PointRefusal("point_no_pose")
         view = View(picture.color.header, self._scenery.camera, stance)
         return point_on_map(view, self._scene.site, x, y, None)
 

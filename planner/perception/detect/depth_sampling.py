@@ -84,10 +84,10 @@ def look_inside(
     if depth is None:
         part = inner(box, picture.shape[1], picture.shape[0])
         return Inner(prevailing(picture[part].reshape(-1, 3), gain), None, 0.0)
-    sample = _sampled(picture, depth, box, hint.part, hint.others)
+    sample = _sample(picture, depth, box, hint.part, hint.others)
     measured = sample.thing(hint.enough)
     if measured is not None and not measured[len(measured) // 2] * MM >= hint.nearest_m:
-        whole = _sampled(picture, depth, box, WHOLE, hint.others)
+        whole = _sample(picture, depth, box, WHOLE, hint.others)
         behind = whole.thing(ENOUGH_BEHIND, hint.nearest_m)
         sample, measured = (sample, measured) if behind is None else (whole, behind)
     if measured is None:
@@ -97,7 +97,7 @@ def look_inside(
     return Inner(prevailing(sample.pixels[near], gain), middle, (high - low) / 2)
 
 
-def _sampled(
+def _sample(
     picture: Picture,
     depth: Depth,
     box: Sequence[float],

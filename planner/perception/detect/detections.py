@@ -12,7 +12,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.perception.detect.preprocess import Floats, Placed
+from planner.perception.detect.preprocess import Floats, Placement
 
 Row = tuple[float, float, float, float, float, int]
 """Left, top, right, bottom [px], score, number of the class."""
@@ -37,7 +37,7 @@ def rows_of(boxes: Floats, scores: Floats, classes: NDArray[np.integer]) -> list
     return [(*box, score, number) for box, score, number in told]
 
 
-def believed(rows: Iterable[Row], least: Sequence[float]) -> list[Row]:
+def filter_rows(rows: Iterable[Row], least: Sequence[float]) -> list[Row]:
     """Return rows whose every number is possible; NaN and infinity fail by themselves.
 
     Args:
@@ -53,7 +53,7 @@ def believed(rows: Iterable[Row], least: Sequence[float]) -> list[Row]:
     ]
 
 
-def in_picture(rows: Iterable[Row], placed: Placed, width: int, height: int) -> list[Row]:
+def in_picture(rows: Iterable[Row], placed: Placement, width: int, height: int) -> list[Row]:
     """Return the input's boxes as the picture's, cut at its borders, without slivers."""
     found: list[Row] = []
     for left, top, right, bottom, score, number in rows:

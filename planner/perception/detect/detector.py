@@ -16,26 +16,26 @@ from planner.language.object_names import canonical
 from planner.perception.color_classifier import dark, exposure
 from planner.perception.detect.depth_hints import hints
 from planner.perception.detect.depth_sampling import ANY, look_inside
-from planner.perception.detect.detections import Row, believed, in_picture
+from planner.perception.detect.detections import Row, filter_rows, in_picture
 from planner.perception.detect.image_decode import Depth, Picture, unpack_color, unpack_depth
-from planner.perception.detect.model_file import Model, Wanted, open_model
+from planner.perception.detect.model_file import Model, ModelOptions, open_model
 from planner.perception.detect.nms import strongest, suppress
 from planner.perception.detect.preprocess import Preparer
 from planner.perception.detect.preprocess_bytes import preparer
 from planner.perception.detect.score_thresholds import least_scores
 from planner.perception.detect.session import RUN_ERRORS, Array, last_words, senseless
 from planner.perception.failure import VisionFailure
-from planner.perception.result import About, LookResult
+from planner.perception.result import DetectorInfo, LookResult
 from planner.perception.snapshot import Detection
 
 EMPTY = "depth_empty"
 """The camera measures nothing here, or no longer: what it sees is placed without."""
 
 
-class Detector:
+class OnnxDetector:
     """Find things with one model."""
 
-    def __init__(self, wanted: Wanted, min_score: float | None = None) -> None:
+    def __init__(self, wanted: ModelOptions, min_score: float | None = None) -> None:
         """Open the model.
 
         Args:
@@ -60,7 +60,7 @@ class Detector:
         except RUN_ERRORS as error:
             text = f"it failed on its second picture: {last_words(error)}"
             raise VisionFailure("model_broken", text) from None
-        self.about = About(
+        self.about = DetectorInfo(
             model=self.model.name,
             decoder=self._decoder.NAME,
             why=choice.why,
@@ -89,11 +89,11 @@ class Detector:
         """
         began_s = time.monotonic()
         try:
-            return self._looked(color, depth, said, focal_px, began_s)
+            return self._detect(color, depth, said, focal_px, began_s)
         except RUN_ERRORS:
-            return _skipped("detector_failed", began_s)
+            return _skip("detector_failed", began_s)
 
-    def _looked(
+    def _detect(
         self,
         color: bytes,
         depth: bytes | None,
@@ -104,14 +104,14 @@ class Detector:
         """Look as above, or end in ``RUN_ERRORS``."""
         picture = unpack_color(color, said)
         if isinstance(picture, str):
-            return _skipped(picture, began_s)
+            return _skip(picture, began_s)
         if dark(picture):
-            return _skipped("picture_dark", began_s)
+            return _skip("picture_dark", began_s)
         height, width = picture.shape[:2]
         far = unpack_depth(depth, (width, height)) if depth is not None else None
         lost = far if isinstance(far, str) else None
         if lost is not None and lost != EMPTY:
-            return _skipped(lost, began_s)
+            return _skip(lost, began_s)
         detections = self.find(picture, None if isinstance(far, str) else far, focal_px)
         took_s = time.monotonic() - began_s
         return LookResult(detections, width, height, took_s, depth_lost=lost)
@@ -130,7 +130,7 @@ class Detector:
         """Return the boxes in an unpacked picture, in its pixels, the surest first."""
         _, placed = self._preparer.prepare(picture)
         outputs = self.model.session.run(self._feeds)
-        found = believed(self._decoder.decode(outputs, self._lowest), self._least)
+        found = filter_rows(self._decoder.decode(outputs, self._lowest), self._least)
         if not found and senseless(outputs):
             # To be told of as a failure: an empty picture would be a thing's absence.
             raise ArithmeticError("no number came out that is finite")
@@ -165,5 +165,5 @@ class Detector:
         return tuple(made)
 
 
-def _skipped(code: str, began_s: float) -> LookResult:
+def _skip(code: str, began_s: float) -> LookResult:
     return LookResult((), 0, 0, time.monotonic() - began_s, code)

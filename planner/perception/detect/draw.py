@@ -17,7 +17,7 @@ TEXT_SCALE = 0.45
 ABOVE_PX = 4
 
 
-def drawn(picture: Picture, detections: Iterable[Detection]) -> Picture:
+def draw_detections(picture: Picture, detections: Iterable[Detection]) -> Picture:
     """Return a copy of a picture with each detection's box, label and score."""
     copy = picture.copy()
     for found in detections:

@@ -66,7 +66,7 @@ def unpack_color(data: bytes, said: tuple[int, int] | None = None) -> Picture | 
     trouble = color_trouble(read_header(data), said)
     if trouble is not None:
         return trouble
-    found = _decoded(data, cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
+    found = _decode(data, cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
     if found is None or found.dtype != np.uint8 or found.ndim != 3:
         return "picture_undecodable"
     return cast("Picture", found)
@@ -77,7 +77,7 @@ def unpack_depth(data: bytes, size: tuple[int, int]) -> Depth | str:
     trouble = depth_trouble(read_header(data), size)
     if trouble is not None:
         return trouble
-    found = _decoded(data, cv2.IMREAD_UNCHANGED)
+    found = _decode(data, cv2.IMREAD_UNCHANGED)
     if found is None or found.dtype != np.uint16 or found.shape != (size[1], size[0]):
         return "depth_undecodable"
     return cast("Depth", found) if found.any() else "depth_empty"
@@ -85,12 +85,12 @@ def unpack_depth(data: bytes, size: tuple[int, int]) -> Depth | str:
 
 def shrink(picture: Picture, long_side: int) -> bytes:
     """Return a JPEG of a picture whose longer side is at most ``long_side`` [px]. No metadata."""
-    small = scaled(picture, long_side)
+    small = scale_down(picture, long_side)
     _, data = cv2.imencode(".jpg", small, (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
     return data.tobytes()
 
 
-def scaled(picture: Picture, long_side: int) -> Picture:
+def scale_down(picture: Picture, long_side: int) -> Picture:
     """Return a picture whose longer side is at most ``long_side`` [px]."""
     height, width = picture.shape[:2]
     scale = long_side / max(height, width)
@@ -105,7 +105,7 @@ def _fits(header: PictureHeader) -> bool:
     return max(wide, high) <= MAX_SIDE_PX and wide * high <= MAX_PIXELS
 
 
-def _decoded(data: bytes, how: int) -> Any:
+def _decode(data: bytes, how: int) -> Any:
     """Return an array of whatever kind the picture is, or None."""
     try:
         return cv2.imdecode(np.frombuffer(data, np.uint8), how)

@@ -78,12 +78,12 @@ def _jpeg(data: bytes) -> PictureHeader | None:
         if marker in FRAMES and len(data) >= at + 10:
             frame = data[at + 4 : at + 10]
         if marker == SCAN:
-            return _framed(frame, whole=data.rfind(b"\xff\xd9", at) > 0)
+            return _read_frame(frame, whole=data.rfind(b"\xff\xd9", at) > 0)
         at += 2 + length
-    return _framed(frame, whole=False)
+    return _read_frame(frame, whole=False)
 
 
-def _framed(frame: bytes | None, *, whole: bool) -> PictureHeader | None:
+def _read_frame(frame: bytes | None, *, whole: bool) -> PictureHeader | None:
     if frame is None:
         return None
     height, width = int.from_bytes(frame[1:3], "big"), int.from_bytes(frame[3:5], "big")

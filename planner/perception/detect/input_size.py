@@ -46,17 +46,17 @@ def find_input(
         VisionFailure: ``model_not_detector``, ``model_input_odd`` or ``model_size_open``.
     """
     pictures = [slot for slot in slots if len(slot.shape) == 4]
-    shown = "; ".join(slot.shown() for slot in slots) or "none"
+    shown = "; ".join(slot.describe() for slot in slots) or "none"
     if not pictures:
         raise VisionFailure("model_not_detector", f"no input takes a picture: {shown}")
     picture, others = pictures[0], [slot for slot in slots if slot is not pictures[0]]
     strangers = [slot for slot in others if slot.name != SIZES or "int64" not in slot.kind]
     if strangers:
-        raise VisionFailure("model_input_odd", f"it also wants {strangers[0].shown()}")
+        raise VisionFailure("model_input_odd", f"it also wants {strangers[0].describe()}")
     axis = {FLOAT: 1, BYTES: 3}.get(picture.kind)
     batch = picture.shape[0]
     if axis is None or picture.shape[axis] != 3 or (isinstance(batch, int) and batch != 1):
-        raise VisionFailure("model_input_odd", f"{picture.shown()}; {EXPECTED}")
+        raise VisionFailure("model_input_odd", f"{picture.describe()}; {EXPECTED}")
     height, width = _sides(picture, 2 if axis == 1 else 1, metadata, input_px)
     sizes = SIZES if others else None
     return Input(picture.name, width, height, sizes, None if axis == 1 else _order(metadata))
@@ -75,7 +75,7 @@ def _sides(
         height, width = _open_sides(picture, metadata, input_px)
     low, high = SIDES_PX
     if not (low <= height <= high and low <= width <= high):
-        text = f"{picture.shown()}: {width} x {height} px; expected {low} to {high}"
+        text = f"{picture.describe()}: {width} x {height} px; expected {low} to {high}"
         raise VisionFailure("model_input_odd", text)
     return height, width
 
@@ -93,5 +93,5 @@ def _open_sides(
             return height, width
     if input_px is not None:
         return input_px, input_px
-    text = f"{picture.shown()}: export it with a fixed size, or set input_px in [vision], as 640"
+    text = f"{picture.describe()}: export it with a fixed size, or set input_px in [vision], as 640"
     raise VisionFailure("model_size_open", text)

@@ -22,7 +22,7 @@ from planner.perception.detect.session import (
     FRACTIONS,
     RUN_ERRORS,
     Array,
-    Session,
+    ModelSession,
     is_starved,
     kind_of,
     last_words,
@@ -34,7 +34,7 @@ GREY = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class ModelOptions:
     """Hold what the owner sets about a model."""
 
     path: Path
@@ -51,27 +51,27 @@ class Model:
 
     name: str
     file: OnnxFile
-    session: Session
+    session: ModelSession
     input: Input
     choice: Choice
     beside: dict[str, Array]
     """What it is fed beside the picture."""
 
 
-def open_model(wanted: Wanted) -> Model:
+def open_model(wanted: ModelOptions) -> Model:
     """Return the model of a file.
 
     Raises:
         VisionFailure: a code of :data:`planner.perception.failure.REFUSALS`.
     """
     file = examine(wanted.path)
-    session = Session(wanted.path, file, wanted.threads, wanted.provider)
+    session = ModelSession(wanted.path, file, wanted.threads, wanted.provider)
     taken = find_input(session.inputs, session.metadata, wanted.input_px)
     beside: dict[str, Array] = {}
     if taken.sizes is not None:
         # The input's own size: boxes then come in input pixels, as from every other family.
         beside[taken.sizes] = np.array([[taken.width, taken.height]], np.int64)
-    outputs = _tried(session, taken, beside)
+    outputs = _run_trial(session, taken, beside)
     choice = choose(_facts(wanted, session, taken, outputs), wanted.decoder)
     try:
         choice.decoder.decode(outputs, GREY)
@@ -81,7 +81,7 @@ def open_model(wanted: Wanted) -> Model:
     return Model(wanted.path.name, file, session, taken, choice, beside)
 
 
-def _tried(session: Session, taken: Input, beside: dict[str, Array]) -> Sequence[Array]:
+def _run_trial(session: ModelSession, taken: Input, beside: dict[str, Array]) -> Sequence[Array]:
     """Return what comes out for a grey picture; refuse where that can't be boxes of any layout."""
     try:
         outputs = session.run({taken.name: _grey(taken), **beside})
@@ -91,7 +91,7 @@ def _tried(session: Session, taken: Input, beside: dict[str, Array]) -> Sequence
         text = f"it failed on a trial picture: {last_words(error)}"
         raise VisionFailure("model_broken", text) from None
     if not any(kind_of(found) == FRACTIONS for found in outputs):
-        shown = "; ".join(slot.shown() for slot in session.outputs)
+        shown = "; ".join(slot.describe() for slot in session.outputs)
         raise VisionFailure(
             "model_not_detector", f"no output holds fractions, as scores are: {shown}"
         )
@@ -107,7 +107,9 @@ def _grey(taken: Input) -> Array:
     return np.full((1, taken.height, taken.width, 3), round(255 * GREY), np.uint8)
 
 
-def _facts(wanted: Wanted, session: Session, taken: Input, outputs: Sequence[Array]) -> Facts:
+def _facts(
+    wanted: ModelOptions, session: ModelSession, taken: Input, outputs: Sequence[Array]
+) -> Facts:
     labels = wanted.labels
     names = [slot.name for slot in session.outputs]
     return Facts(

@@ -43,7 +43,7 @@ class Facts:
             return 0
         return sum((self.width // stride) * (self.height // stride) for stride in strides)
 
-    def shown(self) -> str:
+    def describe(self) -> str:
         """Write the outputs for a person."""
         shapes = (f"{name} {'x'.join(map(str, shape))}" for name, shape in self.outputs.items())
         return ", ".join(shapes) if self.outputs else "none"

@@ -57,12 +57,12 @@ def examine(path: Path) -> OnnxFile:
         if size > MAX_FILE_BYTES:
             raise VisionFailure("model_unreadable", f"{path} has {size} bytes")
         with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-            return _examined(data, path)
+            return _examine(data, path)
     except OSError as error:
         raise VisionFailure("model_unreadable", f"{path}: {error.strerror}") from None
 
 
-def _examined(data: mmap.mmap, path: Path) -> OnnxFile:
+def _examine(data: mmap.mmap, path: Path) -> OnnxFile:
     ir_version, opset, graph = 0, 0, False
     try:
         for number, value in _fields(data, 0, len(data)):

@@ -37,7 +37,7 @@ class Recipe:
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class Placement:
     """Say where a picture lies in the input: input = picture * scale + offset, in pixels."""
 
     scale_x: float
@@ -59,17 +59,17 @@ class Placed:
         return slice(self.left, self.left + self.width)
 
 
-def place(picture: tuple[int, int], size: tuple[int, int], fit: str) -> Placed:
+def place(picture: tuple[int, int], size: tuple[int, int], fit: str) -> Placement:
     """Return where a picture (width, height) lies in an input of that width and height."""
     if fit == "stretched":
-        return Placed(size[0] / picture[0], size[1] / picture[1], 0, 0, *size)
+        return Placement(size[0] / picture[0], size[1] / picture[1], 0, 0, *size)
     scale = min(size[0] / picture[0], size[1] / picture[1])
     width = min(size[0], max(1, round(picture[0] * scale)))
     height = min(size[1], max(1, round(picture[1] * scale)))
     left, top = (size[0] - width) // 2, (size[1] - height) // 2
     if fit == "corner":
         left = top = 0
-    return Placed(width / picture[0], height / picture[1], left, top, width, height)
+    return Placement(width / picture[0], height / picture[1], left, top, width, height)
 
 
 class Preparer(Protocol):
@@ -79,7 +79,7 @@ class Preparer(Protocol):
     def buffer(self) -> NDArray[Any]:
         """Return the model's input; it stays where it is."""
 
-    def prepare(self, picture: Picture) -> tuple[NDArray[Any], Placed]:
+    def prepare(self, picture: Picture) -> tuple[NDArray[Any], Placement]:
         """Return the input, and where the picture lies in it; the next is written over it."""
 
 
@@ -99,9 +99,9 @@ class FloatPreparer:
             (source, _table(recipe.scale / deviation, -mean / deviation))
             for source, mean, deviation in zip(order, recipe.mean, recipe.deviation, strict=True)
         )
-        self._placed: Placed | None = None
+        self._placed: Placement | None = None
 
-    def prepare(self, picture: Picture) -> tuple[Floats, Placed]:
+    def prepare(self, picture: Picture) -> tuple[Floats, Placement]:
         """Return the input, 1 x 3 x height x width, and where the picture lies in it.
 
         The input is this object's own buffer: the next picture is written over it.

@@ -16,7 +16,7 @@ from planner.perception.detect.input_size import Input
 from planner.perception.detect.preprocess import (
     BORDER,
     FloatPreparer,
-    Placed,
+    Placement,
     Preparer,
     Recipe,
     place,
@@ -34,7 +34,7 @@ class BytePreparer:
         self._shape = self.buffer[0].shape
         self._placed, self._target = place(self._size, self._size, fit), self.buffer[0]
 
-    def prepare(self, picture: Picture) -> tuple[Picture, Placed]:
+    def prepare(self, picture: Picture) -> tuple[Picture, Placement]:
         """Return the input, 1 x height x width x 3, and where the picture lies in it.
 
         The input is this object's own buffer: the next picture is written over it.

@@ -33,7 +33,7 @@ class Providers:
     wanted: str | None = None
     """What the owner set, by its short name."""
 
-    def told(self, running: Sequence[str]) -> tuple[str, str]:
+    def explain(self, running: Sequence[str]) -> tuple[str, str]:
         """Return what really runs and why.
 
         Raises:

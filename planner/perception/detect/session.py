@@ -62,12 +62,12 @@ class Slot:
     shape: tuple[int | str | None, ...]
     kind: str
 
-    def shown(self) -> str:
+    def describe(self) -> str:
         """Write it for a person."""
         return f"{self.name} [{', '.join(map(str, self.shape))}] {self.kind}"
 
 
-class Session:
+class ModelSession:
     """Run one model."""
 
     def __init__(
@@ -96,7 +96,7 @@ class Session:
             self.metadata: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
         except RUN_ERRORS as error:
             raise _refusal(path, file, error) from None
-        self.provider, self.provider_why = chosen.told(self._session.get_providers())
+        self.provider, self.provider_why = chosen.explain(self._session.get_providers())
         self._fixed: Mapping[str, Array] | None = None
         self._binding: Any = None
         self._results: list[Array] = []

@@ -60,7 +60,7 @@ def lay_out(pictures: Sequence[tuple[Picture, str]], long_side: int) -> bytes:
     for number, (picture, label) in enumerate(pictures):
         top, left = number // grid.columns * down, number % grid.columns * across
         _write(sheet[top : top + LABEL_PX, left : left + grid.width], label)
-        tile = _fitted(picture, grid)
+        tile = _fit(picture, grid)
         sheet[top + LABEL_PX : top + LABEL_PX + tile.shape[0], left : left + tile.shape[1]] = tile
     _, data = cv2.imencode(".jpg", sheet, (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
     return data.tobytes()
@@ -74,7 +74,7 @@ def _with_columns(columns: int, count: int, size: tuple[int, int], long_side: in
     return Grid(columns, rows, max(1, int(size[0] * scale)), max(1, int(size[1] * scale)))
 
 
-def _fitted(picture: Picture, grid: Grid) -> Any:
+def _fit(picture: Picture, grid: Grid) -> Any:
     height, width = picture.shape[:2]
     scale = min(1.0, grid.width / width, grid.height / height)
     size = (max(1, int(width * scale)), max(1, int(height * scale)))

@@ -12,7 +12,7 @@ import pytest
 from planner.api import Access
 from planner.api.live_state import Feed
 from planner.api.object_changes import SAME_S, SIGHT_S
-from planner.perception import Detection, Look, Picture, Sight, Thing
+from planner.perception import Detection, LookSnapshot, Picture, Sight, Thing
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.planner.perception.scenes import image
@@ -20,7 +20,7 @@ from wire import Pose2
 
 CUP = Thing("cup_1", "cup", "red", 1.234, 2.0, 0.8, 0.05, 0.912, 90.0, 40.0, 7, "kitchen")
 CHAIR = Thing("chair_1", "chair", None, 3.0, 2.0, 0.4, 0.1, 0.5, 99.5, 99.0, 2, None)
-LOOK = Look(
+LOOK = LookSnapshot(
     5, 99.9, Pose2(0.0, 0.0, 0.0), 320, 240,
     (Detection("cup", 0.8, (10.4, 20.0, 30.0, 40.0), "red", 1.0),
      Detection("chair", 0.3, (50.0, 60.0, 90.0, 99.0))), ("cup_1", ""),

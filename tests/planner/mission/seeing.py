@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from planner.mission.events import Sighted
 from planner.mission.skills import Eyesight
-from planner.perception.snapshot import Look, Sight, Thing
+from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import GoalState
 from tests.planner.mission.lockstep import Together
 from wire import CameraConfig
@@ -30,7 +30,7 @@ class Seeing(Together):
             self.run(0.2)
             self.seq += 1
             fresh = tuple(replace(t, seen_s=self.now_s) for t in self.things)
-            look = Look(self.seq, self.now_s, None, 320, 240, ())
+            look = LookSnapshot(self.seq, self.now_s, None, 320, 240, ())
             self.event(Sighted(Sight(look, fresh, self.blind)))
 
     def see_until(self, goal: str, *states: GoalState, limit_s: float = 120.0) -> None:

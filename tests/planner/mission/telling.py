@@ -21,7 +21,7 @@ from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Eyesight
 from planner.mission.state import Mission
 from planner.perception.interfaces import Picture
-from planner.perception.snapshot import Look, Sight, Thing
+from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import (
     Bilingual,
     BrainTag,
@@ -125,7 +125,7 @@ class Telling(Together):
     # What the door asks of eyes
 
     @property
-    def looked(self) -> Picture | None:
+    def looked_picture(self) -> Picture | None:
         if self.sight.look is None:
             return None
         header = ImageHeader(
@@ -134,10 +134,10 @@ class Telling(Together):
         )  # fmt: skip
         return Picture(Image(header, b"jpeg"), None, self.now_s)
 
-    picture = looked
+    picture = looked_picture
 
     async def fresh(self) -> Picture | None:
-        return self.looked
+        return self.looked_picture
 
     def crash(self) -> None:
         """Lose the pictures that were kept, as with a process that ends."""
@@ -152,7 +152,7 @@ class Telling(Together):
             for one in self.truth:
                 if is_shown(pose, one) and one.id not in self.unseen:
                     self.known[one.id] = replace(one, seen_s=self.now_s)
-            look = Look(self.seq, self.now_s, pose, 320, 240, ())
+            look = LookSnapshot(self.seq, self.now_s, pose, 320, 240, ())
             self.sight = Sight(look, tuple(self.known.values()))
             self.event(Sighted(self.sight, EYES.classes))
 

@@ -35,7 +35,7 @@ from planner.mission.events import (
 from planner.mission.reducer import advance, motion_request
 from planner.mission.skills import Eyesight, ImageAnswer
 from planner.mission.state import Mission, MissionState
-from planner.perception.snapshot import Look as LookSeen
+from planner.perception.snapshot import LookSnapshot as LookSeen
 from planner.perception.snapshot import Sight, Thing
 from planner.plan import (
     Ask,

@@ -14,9 +14,9 @@ from planner.brain.image_questions import ImageDescription, ImagePoint, ImageQue
 from planner.mission.effects import AskEyes, KeepPicture
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import ImageAnswer
-from planner.perception.interfaces import Picture, PointRefused, Spot
+from planner.perception.interfaces import MapPoint, Picture, PointRefusal
 from planner.perception.snapshot import Detection, Sight
-from planner.perception.snapshot import Look as Looked
+from planner.perception.snapshot import LookSnapshot as Looked
 from planner.plan import (
     Bilingual,
     BrainTag,
@@ -64,7 +64,7 @@ class FakeEyes:
         return self.taken(self.seq)
 
     @property
-    def looked(self) -> Picture | None:
+    def looked_picture(self) -> Picture | None:
         return self.taken(self.seq - self.behind)
 
     def taken(self, seq: int) -> Picture:
@@ -83,11 +83,11 @@ class FakeEyes:
     def attend(self, who: str, wanted: bool) -> None:
         self.attended.append((who, wanted))
 
-    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+    async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
         self.pointed.append(picture.color.header.seq)
         if self.refuses is not None:
-            raise PointRefused(self.refuses)
-        return Spot(2.0, 4.2, 0.0 if y > 600 else 0.5, 0.05)
+            raise PointRefusal(self.refuses)
+        return MapPoint(2.0, 4.2, 0.0 if y > 600 else 0.5, 0.05)
 
     async def look_on(self) -> None:
         """Tell a new look every few milliseconds, as eyes do."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 
 from planner.perception import Box, Detection
-from planner.perception.data_association import Placed
-from planner.perception.interfaces import Spot
+from planner.perception.data_association import PlacedDetection
+from planner.perception.interfaces import MapPoint
 from planner.perception.pose_buffer import Stance
 from planner.perception.projection import View, pixel_of
 from planner.site import Site
@@ -59,7 +59,7 @@ def placed(
     color: str | None = "red",
     sigma_m: float = 0.05,
     box: Box | None = None,
-) -> Placed:
+) -> PlacedDetection:
     left = 40.0 * index
-    spot = Spot(x_m, y_m, 0.5, sigma_m)
-    return Placed(index, label, score, color, box or (left, 0.0, left + 30.0, 30.0), spot)
+    spot = MapPoint(x_m, y_m, 0.5, sigma_m)
+    return PlacedDetection(index, label, score, color, box or (left, 0.0, left + 30.0, 30.0), spot)

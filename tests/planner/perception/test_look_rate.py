@@ -37,7 +37,7 @@ def test_pictures_are_wanted_while_somebody_needs_waits_or_looks_on() -> None:
     assert attention.listens(10.0, glance=False)
     attention.attend("page", False)
     assert attention.poll_s(10.0) == IDLE_POLL_S
-    attention.shown(10.0)
+    attention.note_shown(10.0)
     assert attention.listens(10.0 + SHOWN_S, glance=False)
     assert attention.poll_s(10.0) == POLL_S
     assert not attention.listens(10.0 + SHOWN_S + 0.01, glance=False)

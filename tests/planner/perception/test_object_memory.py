@@ -10,16 +10,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.perception.data_association import Placed
-from planner.perception.interfaces import Spot
+from planner.perception.data_association import PlacedDetection
+from planner.perception.interfaces import MapPoint
 from planner.perception.object_tracker import (
     MOST_THINGS,
     UNSURE_S,
     WALKED_AWAY_S,
-    Remembered,
+    ObjectMemory,
     aged,
     forget,
-    recalled,
+    recall,
     remember,
 )
 from planner.perception.snapshot import Thing
@@ -36,19 +36,19 @@ def always(_: Thing) -> bool:
 
 
 def looked(
-    *looks: list[Placed],
+    *looks: list[PlacedDetection],
     expected: Callable[[Thing], bool] = always,
     step_s: float = 0.2,
-    begin: Remembered | None = None,
+    begin: ObjectMemory | None = None,
     from_s: float = 100.0,
-) -> Remembered:
-    memory = begin or Remembered()
+) -> ObjectMemory:
+    memory = begin or ObjectMemory()
     for number, look in enumerate(looks):
         memory, _ = remember(memory, look, expected, from_s + number * step_s)
     return memory
 
 
-def told(memory: Remembered) -> list[tuple[str, str | None]]:
+def told(memory: ObjectMemory) -> list[tuple[str, str | None]]:
     return [(thing.id, thing.color) for thing in memory.things]
 
 
@@ -87,7 +87,7 @@ BED, SOFA = placed("bed"), placed("sofa", x_m=1.5, score=0.7)
         ([[placed("sofa")], [placed("sofa"), placed("sofa", x_m=1.5, index=1)]], ["sofa_1"]),
     ],
 )
-def test_what_is_told_of(looks: list[list[Placed]], ids: list[str]) -> None:
+def test_what_is_told_of(looks: list[list[PlacedDetection]], ids: list[str]) -> None:
     assert [thing.id for thing in looked(*looks).things] == ids
 
 
@@ -96,10 +96,10 @@ def test_two_boxes_on_one_thing_are_one() -> None:
     twice = placed(index=1, score=0.7, x_m=1.02, box=(2.0, 0.0, 41.0, 40.0))
     behind = placed(index=2, x_m=2.5, box=(5.0, 5.0, 35.0, 35.0))
     other = placed("bottle", index=3, score=0.5, box=(1.0, 0.0, 40.0, 40.0))
-    memory, here = remember(Remembered(), [placed(box=box), twice, other], always, 1.0)
+    memory, here = remember(ObjectMemory(), [placed(box=box), twice, other], always, 1.0)
     assert told(memory) == [("cup_1", "red")]
     assert here == {0: "cup_1"}
-    memory, _ = remember(Remembered(), [placed(box=box), behind], always, 1.0)
+    memory, _ = remember(ObjectMemory(), [placed(box=box), behind], always, 1.0)
     assert len(memory.things) == 2  # in one line, at two depths
 
 
@@ -127,7 +127,7 @@ def test_what_is_looked_at_and_not_seen_is_forgotten_and_what_is_out_of_sight_is
 
 
 def test_a_person_walks_and_is_never_joined_over_a_gap() -> None:
-    def at(x_m: float) -> list[Placed]:
+    def at(x_m: float) -> list[PlacedDetection]:
         return [placed("person", x_m=x_m, color=None)]
 
     walking = looked(*[at(0.2 * n) for n in range(10)], expected=never)
@@ -150,7 +150,7 @@ def test_numbers_are_not_given_twice() -> None:
     memory = forget(looked([CUP, BLUE]), "cup_2")
     assert told(memory) == [("cup_1", "red")]
     assert told(looked([BLUE], begin=memory)) == [("cup_1", "red"), ("cup_3", "blue")]
-    again = recalled(looked([CUP, BLUE]).things, 200.0)
+    again = recall(looked([CUP, BLUE]).things, 200.0)
     assert told(looked([placed(x_m=5.0)], begin=again, from_s=200.0))[-1][0] == "cup_3"
     assert forget(again, None).things == ()
 
@@ -160,14 +160,18 @@ def test_no_more_is_kept_than_there_is_room_for() -> None:
         replace(looked([CUP]).things[0], id=f"cup_{n}", confidence=0.2 + 0.7 * (n % 7) / 7)
         for n in range(MOST_THINGS + 100)
     ]
-    kept = recalled(things, 200.0).things
+    kept = recall(things, 200.0).things
     assert len(kept) == MOST_THINGS
     assert min(thing.confidence for thing in kept) > 0.2
 
 
 def test_rubbish_is_no_thing() -> None:
-    spots = [Spot(nan, 0.0, 0.0, 0.1), Spot(0.0, inf, 0.0, 0.1), Spot(0.0, 0.0, 0.0, nan),
-             Spot(0.0, 0.0, 0.0, 0.0)]  # fmt: skip
+    spots = [
+        MapPoint(nan, 0.0, 0.0, 0.1),
+        MapPoint(0.0, inf, 0.0, 0.1),
+        MapPoint(0.0, 0.0, 0.0, nan),
+        MapPoint(0.0, 0.0, 0.0, 0.0),
+    ]
     look = [replace(CUP, index=n, spot=spot) for n, spot in enumerate(spots)]
     assert looked([*look, replace(CUP, score=nan), replace(CUP, score=0.0)]).kept == ()
 
@@ -176,7 +180,7 @@ _number = st.floats(-3.0, 3.0) | st.sampled_from([nan, inf, -inf, 1e308])
 _placed = st.builds(
     lambda label, x, y, sigma, score, color, left: replace(
         placed(label, score=score, color=color, box=(left, 0.0, left + 30.0, 30.0)),
-        spot=Spot(x, y, 0.5, sigma),
+        spot=MapPoint(x, y, 0.5, sigma),
     ),
     st.sampled_from(["cup", "person", "sofa", "thing"]), _number, _number,
     st.floats(0.01, 1.0) | st.just(nan), st.floats(0.0, 1.0) | st.just(nan),
@@ -187,7 +191,7 @@ _looks = st.lists(st.lists(_placed, max_size=5), max_size=6)
 
 @settings(max_examples=50)
 @given(_looks, st.booleans(), st.randoms(use_true_random=False))
-def test_laws_of_memory(looks: list[list[Placed]], look_at: bool, random: object) -> None:
+def test_laws_of_memory(looks: list[list[PlacedDetection]], look_at: bool, random: object) -> None:
     """No NaN, no id twice, confidence within bounds, ages never negative, and no order counts."""
     looks = [[replace(p, index=n) for n, p in enumerate(look)] for look in looks]
     mixed = [random.sample(look, len(look)) for look in looks]  # type: ignore[attr-defined]
@@ -204,7 +208,7 @@ def test_laws_of_memory(looks: list[list[Placed]], look_at: bool, random: object
 
 def test_of_two_boxes_alike_the_surer_place_counts_in_any_order() -> None:
     sure, unsure = (
-        replace(CUP, index=n, spot=Spot(0.0, 0.0, 0.5, s)) for n, s in ((0, 0.5), (1, 1.0))
+        replace(CUP, index=n, spot=MapPoint(0.0, 0.0, 0.5, s)) for n, s in ((0, 0.5), (1, 1.0))
     )
     assert looked([sure, unsure]).things == looked([unsure, sure]).things
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from planner.perception import Detection, PointRefused, Sight, VisionFailure
+from planner.perception import Detection, PointRefusal, Sight, VisionFailure
 from planner.perception.frame_source import OLDEST_S
 from planner.perception.look_rate import REST_S
 from planner.perception.pending_poses import KEPT
@@ -38,8 +38,8 @@ def test_what_is_in_the_picture_comes_onto_the_map() -> None:
         assert look is not None
         assert look.here == ("cup_1",)
         assert look.base_in_map == Pose2(1.0, 1.5, 0.0)
-        assert world.eyes.looked is not None
-        assert world.eyes.looked.color.header.seq == look.seq
+        assert world.eyes.looked_picture is not None
+        assert world.eyes.looked_picture.color.header.seq == look.seq
         assert world.told[-1] is world.eyes.sight
         assert world.eyes.version == 1
         assert world.eyes.classes == ("cup", "tv")
@@ -61,7 +61,7 @@ def test_a_slow_detector_skips_frames_and_the_newest_is_next() -> None:
         assert [seq for seq, _ in world.detector.looks] == [1]  # the tenth lies there too long
         await world.film(0.1)
         assert [seq for seq, _ in world.detector.looks] == [1, 11]
-        assert sum(world.eyes.skipped.values()) == 9
+        assert sum(world.eyes.skip_counts.values()) == 9
 
     play(story())
 
@@ -86,7 +86,7 @@ def test_pictures_are_judged_before_they_are_thought_upon(
         assert world.eyes.sight.blind == blind
         assert (reason is None) == (len(world.detector.looks) > 20)
         if reason is not None:
-            assert world.eyes.skipped[reason] > 20
+            assert world.eyes.skip_counts[reason] > 20
             assert len(world.detector.looks) <= 1, "what is shown again is of then"
             await world.film(0.5)
             assert world.eyes.sight.blind is None  # and it sees again
@@ -106,7 +106,7 @@ def test_a_camera_that_vanishes_or_was_never_there_is_said() -> None:
         assert len(world.eyes.sight.things) == 1  # what was seen is still known
         world.camera.colors.append(Rejected("invalid", "camera/color: x"))
         await world.turn()
-        assert world.eyes.skipped["malformed"] == 1
+        assert world.eyes.skip_counts["malformed"] == 1
         none = World(kind="none")
         await none.eyes.start()
         assert (none.eyes.sight.blind, none.eyes.classes) == ("no_camera", ())
@@ -153,7 +153,7 @@ def test_skipped_pictures_and_lost_poses_teach_nothing() -> None:
         world.detector.skipped = "picture_truncated"
         await world.film(1.0)
         assert (world.eyes.sight.look, world.eyes.sight.blind) == (None, "camera_unusable")
-        assert world.eyes.skipped["picture_truncated"] > 0
+        assert world.eyes.skip_counts["picture_truncated"] > 0
         world.detector.skipped = None
         world.poses.localization(
             Localization(odom_id="o", seq=1, stamp_s=world.now_s, quality=0.0, map_id=MAP_ID,
@@ -181,7 +181,7 @@ def test_a_thing_is_placed_on_the_floor_where_depth_measures_nothing() -> None:
         world.detector.found = (Detection("chair", 0.9, box),)
         await world.film(1.0)
         assert world.eyes.sight.blind is None
-        assert world.eyes.skipped["depth_empty"] > 3
+        assert world.eyes.skip_counts["depth_empty"] > 3
         (chair,) = world.eyes.sight.things
         assert chair.x_m == pytest.approx(2.5, abs=0.6)
         assert chair.y_m == pytest.approx(1.5, abs=0.05)
@@ -225,10 +225,10 @@ def test_a_pixel_leads_to_the_floor_by_its_own_picture(tmp_path: Path) -> None:
         assert (await world.eyes.spot(picture, 500, 900)).z_m == 0.0
         await world.film(20.0, hz=5.0)  # longer than poses are kept: a model thinks slowly
         assert (await world.eyes.spot(picture, 500, 900)).z_m == 0.0
-        with pytest.raises(PointRefused, match="point_no_pose"):
+        with pytest.raises(PointRefusal, match="point_no_pose"):
             await world.eyes.spot(replace(picture, color=image(1, 0.0), taken_s=1.0), 500, 900)
         world.detector.failure = VisionFailure("detector_down")
-        with pytest.raises(PointRefused, match="point_no_depth"):
+        with pytest.raises(PointRefusal, match="point_no_depth"):
             await world.eyes.spot(picture, 500, 900)
 
     play(story())

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.language.object_classes import kind_of
-from planner.perception.interfaces import PointRefused
+from planner.perception.interfaces import PointRefusal
 from planner.perception.pixel_to_map import point_on_map
 from planner.perception.projection import USUAL_SHARE, place, spot_at
 from planner.perception.raycast import first_wall_m
@@ -111,7 +111,7 @@ def pointed(x: float, y: float, depth_m: float | None, yaw_rad: float = 0.0) -> 
     """Point from the middle of the two rooms' first one; return what came of it."""
     try:
         point_on_map(view(1.0, 1.5, yaw_rad), two_room(), x, y, depth_m)
-    except PointRefused as refused:
+    except PointRefusal as refused:
         return refused.code
     return "ok"
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from planner.perception import Detection, LookResult, Sight, VisionFailure
-from planner.perception.dependencies import Means
+from planner.perception.dependencies import PerceptionParts
 from planner.perception.frame_update import Scenery
 from planner.perception.object_store import FILE, ThingStore
 from planner.perception.perception_loop import Sightseer
@@ -83,7 +83,7 @@ class World:
         self.camera, self.detector, self.seq = FakeCamera(), FakeDetector(), 0
         self.poses = Poses(MAP_ID)
         store = None if home is None else store_in(home, lambda: self.now_s)
-        self.means = Means(
+        self.means = PerceptionParts(
             Scenery(two_room(), CAMERA.model_copy(update=camera)), self.camera, self.detector,
             self.poses, store, rate_hz=10.0,
         )  # fmt: skip

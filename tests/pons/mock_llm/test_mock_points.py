@@ -20,8 +20,8 @@ from planner.brain.endpoint import EndpointBrain
 from planner.mission.effects import AskEyes
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills.perception import ImageAnswer
-from planner.perception import Detection, Look, Sight
-from planner.perception.interfaces import Eyes, Picture, Spot
+from planner.perception import Detection, LookSnapshot, Sight
+from planner.perception.interfaces import Eyes, MapPoint, Picture
 from planner.perception.pixel_to_map import point_on_map
 from planner.perception.pose_buffer import Stance
 from planner.perception.projection import FARTHEST_M, View
@@ -46,17 +46,17 @@ class Standing:
 
     def __init__(self, taken: Pose2) -> None:
         header = header_of(CAMERA, 7, 0.0)
-        self.picture = self.looked = Picture(
+        self.picture = self.looked_picture = Picture(
             Image(header=header, data=jpeg(header.width, header.height)), None, 0
         )
-        look = Look(7, 0.0, taken, header.width, header.height, (CUP,))
+        look = LookSnapshot(7, 0.0, taken, header.width, header.height, (CUP,))
         self.sight = Sight(look)
         self._view = View(header, CAMERA, Stance(taken))
 
     async def fresh(self) -> Picture:
         return self.picture
 
-    async def spot(self, picture: Picture, x: float, y: float) -> Spot:
+    async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
         assert picture is self.picture
         return point_on_map(self._view, SITE, x, y, None)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import shutil
 from typing import TYPE_CHECKING
 
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.process_client import DEFAULT_MODEL
 from tools.bench.report import ReportRow
 from tools.train.budget import BARE_FRAMES, GOAL_FALSE, GOAL_MAP50, UNSEEN_FRAMES
@@ -41,7 +41,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
                 "mAP50", "", f">= {GOAL_MAP50}", value="not measured", note="no default model"
             )
         ]
-    detector = Detector(Wanted(DEFAULT_MODEL), LEAST)
+    detector = OnnxDetector(ModelOptions(DEFAULT_MODEL), LEAST)
 
     def detect(jpeg: bytes) -> list[ScoredThing]:
         return [ScoredThing(it.label, it.score, it.box) for it in detector.look(jpeg).detections]

@@ -22,11 +22,11 @@ import numpy as np
 
 from planner.language.object_classes import LARGE_M, kind_of
 from planner.perception import Detection, Picture
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.depth_hints import hints
 from planner.perception.detect.depth_sampling import look_inside
 from planner.perception.frame_update import Scenery, saw
-from planner.perception.object_tracker import Remembered
+from planner.perception.object_tracker import ObjectMemory
 from planner.perception.pose_buffer import Stance
 from planner.perception.process_client import DEFAULT_MODEL
 from planner.perception.projection import View, place
@@ -95,7 +95,9 @@ class Lookout:
             for name, class_id in self._renderer.labels.values()
             if class_id in CLASSES and name in self._hulls
         ]
-        self.detector = Detector(Wanted(DEFAULT_MODEL)) if DEFAULT_MODEL.is_file() else None
+        self.detector = (
+            OnnxDetector(ModelOptions(DEFAULT_MODEL)) if DEFAULT_MODEL.is_file() else None
+        )
 
     def draw_pose(self, random: Random) -> Pose2:
         """Return a pose where the robot can stand."""
@@ -139,7 +141,7 @@ class Lookout:
     def found_boxes(self, frame: Frame, _: Pose2) -> Boxes:
         """Return what the default detector finds."""
         picture, depth = _as_camera(frame)
-        detector = cast("Detector", self.detector)
+        detector = cast("OnnxDetector", self.detector)
         return detector.find(picture, depth, focal_px(self.camera))
 
     def away_m(self, label: str, x_m: float, y_m: float) -> tuple[float, int]:
@@ -200,7 +202,7 @@ def _p95(errors: list[float]) -> str:
 def _tour(lookout: Lookout, see: See, number: int) -> Tour:
     """Look all round from some poses; return the errors of looks, and of memory at the end."""
     random, rng = Random(number), np.random.default_rng(number)
-    scenery, memory = Scenery(lookout.site, lookout.camera), Remembered()
+    scenery, memory = Scenery(lookout.site, lookout.camera), ObjectMemory()
     small: list[float] = []
     large: list[float] = []
     unplaced = 0

@@ -155,9 +155,11 @@ def _rounds(subject: Subject, count: int) -> dict[str, Any]:
     """Return milliseconds a frame of each way, round by round, the ways in turning order."""
     import numpy as np
 
-    from planner.perception.detect import Detector, Wanted, unpack_color
+    from planner.perception.detect import ModelOptions, OnnxDetector, unpack_color
 
-    detector = Detector(Wanted(subject.model, subject.labels, provider="cpu", threads=THREADS))
+    detector = OnnxDetector(
+        ModelOptions(subject.model, subject.labels, provider="cpu", threads=THREADS)
+    )
     shown = frames(subject)
     pictures: list[Any] = [unpack_color(one.color) for one in shown]
     inputs = [detector.prepare(picture).copy() for picture in pictures]

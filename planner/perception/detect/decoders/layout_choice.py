@@ -21,21 +21,21 @@ from planner.perception.detect.decoders.rfdetr import RfDetr
 from planner.perception.detect.decoders.rtdetr import RtDetr
 from planner.perception.detect.decoders.rtdetr_rows import RtDetrRows
 from planner.perception.detect.decoders.yolov5 import YoloV5
-from planner.perception.detect.decoders.yolov8 import YoloV8, turned
+from planner.perception.detect.decoders.yolov8 import YoloV8, is_turned
 from planner.perception.detect.decoders.yolox import YoloX
-from planner.perception.detect.decoders.yolox_decoded import YoloXDecoded
+from planner.perception.detect.decoders.yolox_decoded import DecodedYoloX
 from planner.perception.detect.model_info import Facts
 from planner.perception.failure import VisionFailure
 
 Kind = type[Decoder]
 ALL: dict[str, Kind] = {
     kind.NAME: kind
-    for kind in (YoloV5, YoloV8, EndToEnd, YoloX, YoloXDecoded, RtDetr, RtDetrRows, RfDetr)
+    for kind in (YoloV5, YoloV8, EndToEnd, YoloX, DecodedYoloX, RtDetr, RtDetrRows, RfDetr)
 }
-BY_CLASSES: tuple[Kind, ...] = (YoloV8, YoloV5, YoloX, YoloXDecoded)
+BY_CLASSES: tuple[Kind, ...] = (YoloV8, YoloV5, YoloX, DecodedYoloX)
 """Told apart by how many classes their shape makes beside how many names there are."""
 BY_NAMES: tuple[Kind, ...] = (RtDetr, RfDetr)
-BY_SHAPE: tuple[Kind, ...] = (YoloV5, YoloX, YoloXDecoded, YoloV8, EndToEnd)
+BY_SHAPE: tuple[Kind, ...] = (YoloV5, YoloX, DecodedYoloX, YoloV8, EndToEnd)
 DETECT = "detect"
 
 
@@ -60,7 +60,7 @@ def choose(facts: Facts, wanted: str | None = None) -> Choice:
     if kind is EndToEnd:
         check_suppressed(facts)
     elif kind not in BY_NAMES:
-        check_scores(facts, kind.NAME, in_rows=kind is not YoloV8 or turned(facts))
+        check_scores(facts, kind.NAME, in_rows=kind is not YoloV8 or is_turned(facts))
     return Choice(kind(facts), why, classes)
 
 
@@ -74,7 +74,7 @@ def _set(facts: Facts, wanted: str | None) -> tuple[Kind, str] | None:
             text = f"{who}: decoder {name[:40]!r}; known: {', '.join(ALL)}"
             raise VisionFailure("model_decoder_wrong", text)
         if kind.classes_of(facts) is None:
-            text = f"{who}: decoder {name!r}; outputs: {facts.shown()}"
+            text = f"{who}: decoder {name!r}; outputs: {facts.describe()}"
             raise VisionFailure("model_decoder_wrong", text)
         return kind, f"{who}: decoder = {name}"
     return None
@@ -90,13 +90,13 @@ def _by_metadata(facts: Facts) -> tuple[Kind, str] | None:
         return RtDetrRows, "metadata: described as RT-DETR"
     if not facts.names:
         return None
-    fitting = [kind for kind in _told(BY_CLASSES, facts) if _fits(kind, facts)]
+    fitting = [kind for kind in _choose_kinds(BY_CLASSES, facts) if _fits(kind, facts)]
     if len(fitting) != 1:
         return None
-    return fitting[0], f"{facts.names_from}: {len(facts.names)} names; output {facts.shown()}"
+    return fitting[0], f"{facts.names_from}: {len(facts.names)} names; output {facts.describe()}"
 
 
-def _told(kinds: Sequence[Kind], facts: Facts) -> list[Kind]:
+def _choose_kinds(kinds: Sequence[Kind], facts: Facts) -> list[Kind]:
     """Return the kinds of that shape; of a grid's two readings the one that the trial tells."""
     fitting = [kind for kind in kinds if kind.classes_of(facts) is not None]
     if not in_doubt(facts):
@@ -104,7 +104,7 @@ def _told(kinds: Sequence[Kind], facts: Facts) -> list[Kind]:
     objectness = has_objectness(facts)
     if objectness is None:
         either = " or ".join(f"{kind.NAME} ({kind.classes_of(facts)} classes)" for kind in fitting)
-        text = f"{facts.shown()} may be {either}, names alone don't tell: set [vision] decoder"
+        text = f"{facts.describe()} may be {either}, names alone don't tell: set [vision] decoder"
         raise VisionFailure("model_layout_unknown", text)
     return [kind for kind in fitting if objectness is (kind is not YoloV8)]
 
@@ -132,16 +132,16 @@ def _by_names(facts: Facts) -> tuple[Kind, str] | None:
 
 
 def _by_shape(facts: Facts) -> tuple[Kind, str]:
-    for kind in _told(BY_SHAPE, facts):
+    for kind in _choose_kinds(BY_SHAPE, facts):
         # One row for each picture is a classifier's: what suppresses has as many as it finds.
         if kind is not EndToEnd or facts.promised[:-1] != (1,):
-            return kind, f"shape: {facts.shown()}"
+            return kind, f"shape: {facts.describe()}"
     if all(len(shape) < 3 for shape in facts.outputs.values()):
-        raise VisionFailure("model_not_detector", f"outputs: {facts.shown()}")
+        raise VisionFailure("model_not_detector", f"outputs: {facts.describe()}")
     if facts.width % 32 or facts.height % 32:
-        text = f"no grid fits {facts.width} x {facts.height} px; outputs: {facts.shown()}"
+        text = f"no grid fits {facts.width} x {facts.height} px; outputs: {facts.describe()}"
         raise VisionFailure("model_input_odd", text)
-    text = f"outputs: {facts.shown()}; {len(facts.names)} class names; known: {', '.join(ALL)}"
+    text = f"outputs: {facts.describe()}; {len(facts.names)} class names; known: {', '.join(ALL)}"
     raise VisionFailure("model_layout_unknown", text)
 
 

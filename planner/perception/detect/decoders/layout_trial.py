@@ -89,19 +89,19 @@ def check_suppressed(facts: Facts) -> None:
     rows = facts.trial.reshape(-1, 6)
     rows = rows[finite_rows(rows)]
     scores = rows[:, 4]
-    _all(rows, (scores >= FILLED) & (scores <= HIGHEST_SCORE), "its score is none")
+    _require_all(rows, (scores >= FILLED) & (scores <= HIGHEST_SCORE), "its score is none")
     rows = rows[scores > 0.0]
-    _all(rows, integral(rows[:, 5]), "its class is no number of a class")
+    _require_all(rows, integral(rows[:, 5]), "its class is no number of a class")
     told = rows[rows[:, 4] >= SAYING]
     ordered = np.asarray((told[:, :2] <= told[:, 2:4]).all(axis=1))
-    _all(told, ordered, "its box ends before it begins")
+    _require_all(told, ordered, "its box ends before it begins")
     most = int(rows[:, 5].max(initial=0.0))
     if facts.names and most >= len(facts.names):
         text = f"class {most} came out, counted from 0; {len(facts.names)} names"
         raise VisionFailure("model_names_wrong", text)
 
 
-def _all(rows: Floats, good: NDArray[np.bool_], why: str) -> None:
+def _require_all(rows: Floats, good: NDArray[np.bool_], why: str) -> None:
     if not good.all():
         first = ", ".join(f"{number:.3g}" for number in rows[~good][0])
         raise VisionFailure("model_not_detector", f"a trial picture gave the row {first}: {why}")

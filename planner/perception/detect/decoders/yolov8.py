@@ -27,14 +27,14 @@ class YoloV8:
     SPARE: ClassVar[int] = 0
 
     def __init__(self, facts: Facts) -> None:
-        self._turned = turned(facts)
+        self._turned = is_turned(facts)
 
     @classmethod
     def classes_of(cls, facts: Facts) -> int | None:
         shape = facts.first
         if len(facts.outputs) != 1 or len(shape) != 3 or shape[0] != 1:
             return None
-        count = shape[2 if turned(facts) else 1] - 4
+        count = shape[2 if is_turned(facts) else 1] - 4
         named = count == len(facts.names)
         return count if count > 0 and (named or _cells_at(facts) is not None) else None
 
@@ -60,6 +60,6 @@ def _cells_at(facts: Facts) -> int | None:
     return next((axis for axis in (2, 1) if shape[axis] in counts), None)
 
 
-def turned(facts: Facts) -> bool:
+def is_turned(facts: Facts) -> bool:
     """Tell whether there is one row a cell."""
     return _cells_at(facts) == 1

@@ -16,7 +16,7 @@ from planner.perception.detect.model_info import Facts
 from planner.perception.detect.preprocess import Recipe
 
 
-class YoloXDecoded:
+class DecodedYoloX:
     """Decode 1 x cells x (5 + classes)."""
 
     NAME: ClassVar[str] = "yolox_decoded"

@@ -36,7 +36,7 @@ from planner.mission.skills.result_text import (
     unknown_words,
 )
 from planner.mission.skills.skill_state import Notes
-from planner.perception.snapshot import Look, Sight, Thing
+from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import RUNNABLE, Bilingual, Clarify, Language, Refuse
 from planner.plan import Answer as Reply
 from planner.site import Site
@@ -124,7 +124,9 @@ def answers() -> list[Bilingual]:
     seen = [thing("table", 1.6, 0.4), thing("cup", 1.7, 0.8), thing("cup", 3.2, 0.8, color="red")]
     texts = []
     for question, place, count in product(QUESTIONS, (None, "kitchen"), range(len(seen) + 1)):
-        sight = Sight(Look(1, 100.0, Pose2(0.0, 0.0, 0.0), 320, 240, ()), tuple(seen[:count]))
+        sight = Sight(
+            LookSnapshot(1, 100.0, Pose2(0.0, 0.0, 0.0), 320, 240, ()), tuple(seen[:count])
+        )
         fields: dict[str, Any] = {"facts": FACTS, "sight": sight, "now_s": 100.0, "spent_s": 5.0}
         eyes = Eyesight(CameraConfig(), ("cup", "table", "chair"), model=True)
         notes = Notes(here=(0.0, 0.0), stage=2, faced=(0.0, 1.5))

@@ -6,7 +6,7 @@ from typing import Any
 
 from planner.mission.skills import Eyesight, act_of
 from planner.mission.skills.skill_state import Notes
-from planner.perception.snapshot import Look, Sight, Thing
+from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
 
@@ -25,7 +25,7 @@ def thing(**more: Any) -> Thing:
 
 
 def sight(*things: Thing, blind: str | None = None) -> Sight:
-    return Sight(Look(1, NOW_S, HERE, 320, 240, ()), things, blind)
+    return Sight(LookSnapshot(1, NOW_S, HERE, 320, 240, ()), things, blind)
 
 
 def looking(kind: str, *things: Thing, notes: Notes | None = None, **more: Any) -> Any:

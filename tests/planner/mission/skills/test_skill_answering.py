@@ -11,7 +11,7 @@ import pytest
 from planner.mission.skills import Eyesight, Fail, Finish, Observe, act_of
 from planner.mission.skills.skill_state import Notes
 from planner.mission.state import SiteView, Target
-from planner.perception.snapshot import Look, Sight, Thing
+from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import Bilingual, Code
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
@@ -37,7 +37,7 @@ BEFORE = {"seen_s": NOW_S - 60.0}
 
 
 def asked(question: str, *things: Thing, **more: Any) -> Any:
-    sight = Sight(Look(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
+    sight = Sight(LookSnapshot(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
     fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight, "now_s": NOW_S}
     fields |= {"notes": Notes(here=(0.0, 0.0), stage=1), "spent_s": 5.0}
     place = more.pop("place", None)

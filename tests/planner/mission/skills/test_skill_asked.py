@@ -10,7 +10,7 @@ import pytest
 from planner.mission.skills import DriveLeg, Eyesight, Fail, Observe, act_of
 from planner.mission.skills.object_query import unknown_kind
 from planner.mission.state import SiteView, Target
-from planner.perception.snapshot import Look, Sight
+from planner.perception.snapshot import LookSnapshot, Sight
 from planner.plan import Bilingual, Code, Language
 from tests.planner.mission.fakes import FACTS, room
 from tests.planner.mission.skills.scenes import scene
@@ -80,7 +80,7 @@ def test_whatever_else_is_asked_is_looked_at(question: str) -> None:
 
 PIANO, OPEN = "is there a piano in the kitchen?", "what is there?"
 SEEING = Eyesight(CameraConfig(), CLASSES)
-PICTURE = Sight(Look(1, 0.0, Pose2(0.0, 0.0, 0.0), 320, 240, ()))
+PICTURE = Sight(LookSnapshot(1, 0.0, Pose2(0.0, 0.0, 0.0), 320, 240, ()))
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from planner.mission.skills import DriveLeg, Eyesight, Fail, Finish, Observe, Wa
 from planner.mission.skills.object_matching import picks_out, read_object
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.spatial_relations import stands
-from planner.perception.snapshot import Look, Sight, Thing
+from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import Code, Language
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
@@ -86,7 +86,7 @@ def test_positions_say_how_things_stand(thing: Thing, on: bool, under: bool, nea
 
 
 def looking(kind: str, words: str, *things: Thing, **more: Any) -> Any:
-    sight = Sight(Look(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
+    sight = Sight(LookSnapshot(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
     fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight, "now_s": NOW_S}
     return act_of(scene(kind, step={"object": words}, **{**fields, **more}))
 

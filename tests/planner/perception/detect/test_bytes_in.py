@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from tests.planner.perception.detect import tiny
 
 RED = (0, 0, 255)
@@ -14,8 +14,8 @@ RED = (0, 0, 255)
 SHAPE = (1, 64, 64, 3)
 
 
-def detector(folder: Path, **metadata: str) -> Detector:
-    return Detector(Wanted(tiny.of_bytes(folder / "m.onnx", SHAPE, metadata)))
+def detector(folder: Path, **metadata: str) -> OnnxDetector:
+    return OnnxDetector(ModelOptions(tiny.of_bytes(folder / "m.onnx", SHAPE, metadata)))
 
 
 @pytest.mark.parametrize(
@@ -54,5 +54,5 @@ def test_no_rows_at_all_are_an_empty_picture_and_no_failure(tmp_path: Path) -> N
 def test_a_size_left_open_is_taken_from_the_metadata(tmp_path: Path) -> None:
     shape = ("batch", "height", "width", 3)
     path = tiny.of_bytes(tmp_path / "m.onnx", shape, {"imgsz": "[64, 96]"})
-    about = Detector(Wanted(path)).about
+    about = OnnxDetector(ModelOptions(path)).about
     assert (about.width, about.height, about.decoder) == (96, 64, "end_to_end")

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.decoders import ALL
 from planner.perception.snapshot import Detection
 from tests.planner.perception.detect import tiny
@@ -60,7 +60,7 @@ def in_input(case: Case, box: Sequence[float] = THING) -> tuple[float, float, fl
     return left * scale_x, upper * scale_y + top, right * scale_x, lower * scale_y + top
 
 
-def detector(case: Case, folder: Path, outputs: Mapping[str, Array]) -> Detector:
+def detector(case: Case, folder: Path, outputs: Mapping[str, Array]) -> OnnxDetector:
     """Return a detector that puts out just that."""
     beside = (tiny.sizes(),) if case.beside else ()
     path = tiny.model(folder / "m.onnx", outputs, metadata=case.metadata, beside=beside)
@@ -68,7 +68,7 @@ def detector(case: Case, folder: Path, outputs: Mapping[str, Array]) -> Detector
     if case.labels:
         labels = folder / "names.txt"
         labels.write_text("\n".join(tiny.NAMES))
-    return Detector(Wanted(path, labels))
+    return OnnxDetector(ModelOptions(path, labels))
 
 
 @pytest.mark.parametrize("case", CASES, ids=IDS)
@@ -101,7 +101,7 @@ def test_of_several_boxes_for_one_thing_the_strongest_stays(case: Case, tmp_path
     assert [round(it.score, 2) for it in found] == ([0.9] if suppressed else [0.9, 0.6])
 
 
-def looked(looking: Detector, outputs: Iterable[Array]) -> tuple[Detection, ...]:
+def looked(looking: OnnxDetector, outputs: Iterable[Array]) -> tuple[Detection, ...]:
     """Return what it sees where its model puts out something else."""
     given = list(outputs)
     with pytest.MonkeyPatch.context() as patch:
@@ -148,7 +148,7 @@ def test_every_picture_itself_reaches_the_model(tmp_path: Path) -> None:
     score = np.array([[[0, 0, 0, 0, 1, 0]]], np.float32)
     red = np.array([1, 0, 0], np.float32).reshape(1, 3, 1, 1)
     path = tiny.live(tmp_path / "red.onnx", box, score, red, tiny.ULTRALYTICS)
-    looking = Detector(Wanted(path))
+    looking = OnnxDetector(ModelOptions(path))
     for color, expected in (((0, 0, 255), [1.0]), ((255, 0, 0), []), ((9, 9, 204), [0.8])):
         found = looking.look(tiny.jpeg(tiny.SIDE, tiny.SIDE, color)).detections
         assert [round(it.score, 1) for it in found] == expected

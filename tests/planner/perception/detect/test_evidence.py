@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.decoders import choose
 from planner.perception.detect.decoders.layout_trial import has_objectness
 from planner.perception.detect.decoders.yolox import grid
@@ -116,7 +116,7 @@ def test_what_scores_beyond_zero_to_one_is_of_another_layout(
 
 def test_a_model_of_others_tells_that_it_has_an_objectness(shared_data: Path) -> None:
     path, labels = shared_data / "models" / "yolox_nano.onnx", shared_data / "models"
-    yolox = Detector(Wanted(path, labels / "coco_classes.txt"))
+    yolox = OnnxDetector(ModelOptions(path, labels / "coco_classes.txt"))
     grey = np.full((1, 3, yolox.about.height, yolox.about.width), GREY, np.float32)
     (raw,) = yolox.model.session.run({yolox.model.input.name: grey})
     decoded = np.array(raw, np.float32)
@@ -133,4 +133,4 @@ def test_one_name_too_many_is_refused_for_a_model_of_others(
     for count in (79, 81):
         labels.write_text("\n".join(f"thing {number}" for number in range(count)))
         with pytest.raises(VisionFailure, match="model_names_wrong"):
-            Detector(Wanted(path, labels))
+            OnnxDetector(ModelOptions(path, labels))

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.perception.detect import Detector, Wanted, shrink, unpack_color
+from planner.perception.detect import ModelOptions, OnnxDetector, shrink, unpack_color
 from planner.perception.detect.image_header import read_header
 from planner.perception.failure import SKIPS
 from tests.planner.perception.detect import tiny
@@ -44,10 +44,10 @@ def resized(data: bytes, width: int, height: int) -> bytes:
 
 
 @pytest.fixture(scope="module")
-def detector(tmp_path_factory: pytest.TempPathFactory) -> Detector:
+def detector(tmp_path_factory: pytest.TempPathFactory) -> OnnxDetector:
     path = tmp_path_factory.mktemp("model") / "m.onnx"
     outputs = tiny.yolov8([Seen((16.0, 16.0, 48.0, 40.0), 1, 0.9)])
-    return Detector(Wanted(tiny.model(path, outputs, metadata=tiny.ULTRALYTICS)))
+    return OnnxDetector(ModelOptions(tiny.model(path, outputs, metadata=tiny.ULTRALYTICS)))
 
 
 BAD_COLOR = [
@@ -87,7 +87,7 @@ BAD_DEPTH = [
 
 @pytest.mark.parametrize(("data", "code"), BAD_COLOR)
 def test_a_bad_picture_is_skipped_with_its_reason(
-    data: bytes, code: str, detector: Detector
+    data: bytes, code: str, detector: OnnxDetector
 ) -> None:
     result = detector.look(data, DEEP, (64, 48))
     assert (result.skipped, result.detections) == (code, ())
@@ -95,27 +95,29 @@ def test_a_bad_picture_is_skipped_with_its_reason(
 
 
 @pytest.mark.parametrize(("data", "code"), BAD_DEPTH)
-def test_bad_depth_is_skipped_with_its_reason(data: bytes, code: str, detector: Detector) -> None:
+def test_bad_depth_is_skipped_with_its_reason(
+    data: bytes, code: str, detector: OnnxDetector
+) -> None:
     result = detector.look(JPEG, data, (64, 48))
     assert (result.skipped, result.detections) == (code, ())
     assert code in SKIPS
 
 
-def test_without_anything_measured_things_are_found_without_depth(detector: Detector) -> None:
+def test_without_anything_measured_things_are_found_without_depth(detector: OnnxDetector) -> None:
     result = detector.look(JPEG, encoded(".png", np.zeros_like(DEPTH)), (64, 48))
     assert (result.skipped, result.depth_lost) == (None, "depth_empty")
     assert [(it.label, it.depth_m) for it in result.detections] == [("cup", None)]
     assert result.depth_lost in SKIPS
 
 
-def test_after_every_bad_picture_a_good_one_is_seen(detector: Detector) -> None:
+def test_after_every_bad_picture_a_good_one_is_seen(detector: OnnxDetector) -> None:
     for data in (JPEG, PNG, encoded(".png", np.dstack((COLOR, COLOR[:, :, 0])))):
         result = detector.look(data, DEEP, (64, 48))
         assert (result.skipped, result.width, result.height) == (None, 64, 48)
         assert [it.label for it in result.detections] == ["cup"]
 
 
-def test_a_model_that_fails_on_a_picture_skips_it(detector: Detector) -> None:
+def test_a_model_that_fails_on_a_picture_skips_it(detector: OnnxDetector) -> None:
     def fail(_: object) -> list[Array]:
         raise RuntimeError("out of memory")
 
@@ -128,7 +130,7 @@ def test_a_model_that_fails_on_a_picture_skips_it(detector: Detector) -> None:
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_a_model_without_a_finite_number_failed_and_did_not_see_an_empty_room(
-    bad: float, detector: Detector
+    bad: float, detector: OnnxDetector
 ) -> None:
     out = np.full((1, 6, tiny.CELLS), bad, np.float32)
     with pytest.MonkeyPatch.context() as patch:
@@ -143,7 +145,7 @@ def test_a_model_without_a_finite_number_failed_and_did_not_see_an_empty_room(
 )
 @pytest.mark.parametrize("place", ["unpack_color", "dark", "in_picture", "look_inside"])
 def test_whatever_fails_on_a_picture_costs_that_picture_alone(
-    place: str, error: Exception, detector: Detector
+    place: str, error: Exception, detector: OnnxDetector
 ) -> None:
     def fail(*_: object) -> None:
         raise error
@@ -156,7 +158,7 @@ def test_whatever_fails_on_a_picture_costs_that_picture_alone(
 
 @pytest.mark.parametrize("bits", [1, 2, 4, 8])
 def test_a_picture_of_a_palette_is_seen_however_few_bits_choose(
-    bits: int, detector: Detector
+    bits: int, detector: OnnxDetector
 ) -> None:
     size, body = struct.pack(">IIBBBBB", 64, 48, bits, 3, 0, 0, 0), bytes(1 + 64 * bits // 8) * 48
     parts = ((b"IHDR", size), (b"PLTE", b"\x20\x80\xf0" * 2**bits), (b"IDAT", zlib.compress(body)))

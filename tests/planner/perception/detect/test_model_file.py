@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from onnx import TensorProto, helper
 
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.input_size import BYTES, EXPECTED, FLOAT
 from planner.perception.detect.onnx_file import examine
-from planner.perception.detect.session import Session
+from planner.perception.detect.session import ModelSession
 from planner.perception.failure import REFUSALS, VisionFailure
 from tests.planner.perception.detect import tiny
 
@@ -132,7 +132,7 @@ def test_what_is_no_detector_is_refused(
     make: Callable[[Path], Path], code: str, told: str, tmp_path: Path
 ) -> None:
     with pytest.raises(VisionFailure) as caught:
-        Detector(Wanted(make(tmp_path / "m.onnx")))
+        OnnxDetector(ModelOptions(make(tmp_path / "m.onnx")))
     assert caught.value.code == code
     assert told in caught.value.detail
     assert caught.value.message["en"].startswith(REFUSALS[code][0])
@@ -147,14 +147,14 @@ def test_a_size_left_open_is_taken_from_metadata_or_else_from_the_owner(
 ) -> None:
     shape = ("batch", 3, "height", "width")
     path = tiny.model(tmp_path / "m.onnx", GOOD, shape, tiny.ULTRALYTICS | metadata)
-    about = Detector(Wanted(path, input_px=input_px)).about
+    about = OnnxDetector(ModelOptions(path, input_px=input_px)).about
     assert (about.width, about.height) == (64, 64)
 
 
 def test_labels_take_the_place_of_the_names_in_the_file(tmp_path: Path) -> None:
     labels = tmp_path / "names.txt"
     labels.write_text("Robot\nCoffee Cup\n", "utf-8")
-    assert Detector(Wanted(good(tmp_path / "m.onnx"), labels)).about.classes == (
+    assert OnnxDetector(ModelOptions(good(tmp_path / "m.onnx"), labels)).about.classes == (
         "robot",
         "coffee_cup",
     )
@@ -163,13 +163,13 @@ def test_labels_take_the_place_of_the_names_in_the_file(tmp_path: Path) -> None:
         if content is not None:
             labels.write_bytes(content)
         with pytest.raises(VisionFailure, match=code):
-            Detector(Wanted(tmp_path / "m.onnx", labels))
+            OnnxDetector(ModelOptions(tmp_path / "m.onnx", labels))
 
 
 def test_words_beside_the_boxes_are_left_aside(tmp_path: Path) -> None:
     outputs = tiny.yolov5([]) | WORDS
     path = tiny.model(tmp_path / "m.onnx", outputs, metadata={"names": "['person', 'cup']"})
-    assert Detector(Wanted(path)).look(tiny.jpeg(64, 64)).skipped is None
+    assert OnnxDetector(ModelOptions(path)).look(tiny.jpeg(64, 64)).skipped is None
 
 
 def test_a_model_that_fails_the_second_time_is_refused(tmp_path: Path) -> None:
@@ -177,9 +177,9 @@ def test_a_model_that_fails_the_second_time_is_refused(tmp_path: Path) -> None:
         raise RuntimeError("out of memory")
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Session, "fix", fail)
+        patch.setattr(ModelSession, "fix", fail)
         with pytest.raises(VisionFailure, match=r"model_broken: .*second picture: out of memory"):
-            Detector(Wanted(good(tmp_path / "m.onnx")))
+            OnnxDetector(ModelOptions(good(tmp_path / "m.onnx")))
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.perception.detect.detections import Row, believed, in_picture, rows_of
+from planner.perception.detect.detections import Row, filter_rows, in_picture, rows_of
 from planner.perception.detect.nms import MAX_CANDIDATES, MAX_FOUND, strongest, suppress
 from planner.perception.detect.preprocess import BORDER, FloatPreparer, Preparer, Recipe, place
 from planner.perception.detect.preprocess_bytes import BytePreparer
@@ -120,7 +120,7 @@ BOX = (0.0, 0.0, 9.0, 9.0)
 )
 def test_only_possible_rows_are_believed(row: Row) -> None:
     good, halved = (*BOX, 0.9, 0), (*BOX, 1.0005, 1)
-    assert believed([good, row, halved], [0.4, 0.4]) == [good, (*BOX, 1.0, 1)]
+    assert filter_rows([good, row, halved], [0.4, 0.4]) == [good, (*BOX, 1.0, 1)]
 
 
 def test_slivers_and_what_lies_outside_the_picture_are_left_out() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import onnxruntime as ort
 import pytest
 
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.providers import CPU, ORDER, choose
 from planner.perception.detect.session import options
 from planner.perception.failure import VisionFailure
@@ -38,7 +38,7 @@ def test_the_fastest_offered_is_taken(
     chosen = choose(offered, wanted)
     assert (chosen.names, chosen.why) == (names, why)
     short = next(key for key, long in ORDER.items() if long == names[0])
-    assert chosen.told(names) == (short, why)
+    assert chosen.explain(names) == (short, why)
 
 
 @pytest.mark.parametrize(("offered", "wanted"), [((CPU,), "cuda"), ((AZURE,), None), ((), None)])
@@ -48,12 +48,12 @@ def test_what_is_not_offered_is_refused(offered: tuple[str, ...], wanted: str | 
 
 
 def test_what_was_offered_but_did_not_start_is_said_and_refused_where_it_was_set() -> None:
-    assert choose((CUDA, CPU)).told((CPU,)) == (
+    assert choose((CUDA, CPU)).explain((CPU,)) == (
         "cpu",
         "cuda was offered but did not start; cpu runs",
     )
     with pytest.raises(VisionFailure, match="cuda was offered but did not start"):
-        choose((CUDA, CPU), "cuda").told((CPU,))
+        choose((CUDA, CPU), "cuda").explain((CPU,))
 
 
 class Devices:
@@ -86,12 +86,12 @@ def test_what_runs_is_the_fastest_that_starts(
 ) -> None:
     path = tiny.model(tmp_path / "m.onnx", tiny.yolov8([]), metadata=tiny.ULTRALYTICS)
     devices = Devices(monkeypatch, (CPU, CUDA, TRT), work)
-    about = Detector(Wanted(path)).about
+    about = OnnxDetector(ModelOptions(path)).about
     assert devices.asked == [TRT, CUDA, CPU]
     assert (about.provider, about.provider_why) == (runs, why)
     if runs != "tensorrt":
         with pytest.raises(VisionFailure, match="provider_unavailable"):
-            Detector(Wanted(path, provider="tensorrt"))
+            OnnxDetector(ModelOptions(path, provider="tensorrt"))
 
 
 def test_sessions_leave_the_processor_to_others() -> None:

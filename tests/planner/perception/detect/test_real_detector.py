@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.result import LookResult
 
 SEEN = {
@@ -20,25 +20,25 @@ SEEN = {
 
 
 @pytest.fixture(scope="module")
-def detector(shared_data: Path) -> Detector:
+def detector(shared_data: Path) -> OnnxDetector:
     models = shared_data / "models"
-    return Detector(Wanted(models / "yolox_nano.onnx", models / "coco_classes.txt"))
+    return OnnxDetector(ModelOptions(models / "yolox_nano.onnx", models / "coco_classes.txt"))
 
 
-def test_it_is_read_as_what_it_is(detector: Detector) -> None:
+def test_it_is_read_as_what_it_is(detector: OnnxDetector) -> None:
     about = detector.about
     assert (about.decoder, about.width, about.height) == ("yolox", 416, 416)
     assert len(about.classes) == 80
 
 
-def test_it_sees_what_is_there(detector: Detector, shared_data: Path) -> None:
+def test_it_sees_what_is_there(detector: OnnxDetector, shared_data: Path) -> None:
     for name, expected in SEEN.items():
         result = detector.look((shared_data / "images" / name).read_bytes())
         assert expected <= {it.label for it in result.detections}, name
         assert_sane(result)
 
 
-def test_a_chair_is_where_it_stands(detector: Detector, shared_data: Path) -> None:
+def test_a_chair_is_where_it_stands(detector: OnnxDetector, shared_data: Path) -> None:
     result = detector.look((shared_data / "images" / "rai_vlm_image_7.jpg").read_bytes())
     chair = next(it for it in result.detections if it.label == "chair")
     assert chair.box == pytest.approx((508, 316, 639, 479), abs=6)

@@ -17,9 +17,9 @@ import pytest
 from numpy.typing import NDArray
 
 from planner.perception.color_classifier import IDS, _table
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.decoders import ALL
-from planner.perception.detect.detections import believed
+from planner.perception.detect.detections import filter_rows
 from planner.perception.detect.image_decode import Picture
 from planner.perception.detect.model_info import Facts
 
@@ -73,7 +73,7 @@ def overlap(one: Box, other: Box) -> float:
     return both / (sum(areas) - both)
 
 
-def plainly(detector: Detector, picture: Picture) -> list[Row]:
+def plainly(detector: OnnxDetector, picture: Picture) -> list[Row]:
     """Return what a YOLOX sees: fit in, run, read, cut, suppress."""
     about = detector.about
     scale = min(about.width / picture.shape[1], about.height / picture.shape[0])
@@ -130,7 +130,7 @@ def color(picture: Picture, box: Box) -> str | None:
 
 def test_photographs_show_what_they_show_by_the_plain_way(shared_data: Path) -> None:
     models = shared_data / "models"
-    detector = Detector(Wanted(models / "yolox_nano.onnx", models / "coco_classes.txt"))
+    detector = OnnxDetector(ModelOptions(models / "yolox_nano.onnx", models / "coco_classes.txt"))
     things = 0
     for path in sorted((shared_data / "images").glob("*.jpg"))[1:5]:
         picture = cast("Picture", cv2.imread(str(path)))
@@ -158,7 +158,7 @@ def test_any_output_is_read_as_row_by_row(name: str, bad: float) -> None:
     out = rows.T[None] if name == "yolov8" else rows[None]
     facts = Facts({"out": out.shape}, {}, ("a", "b", "c"), "labels", SIDE, SIDE)
     with np.errstate(invalid="ignore"):
-        found = believed(ALL[name](facts).decode([out], LEAST), [LEAST] * 3)
+        found = filter_rows(ALL[name](facts).decode([out], LEAST), [LEAST] * 3)
         plain = raw_yolox(rows, SIDE, SIDE) if name == "yolox" else rows_of_cells(rows, objectness)
     assert len(plain) > 10
     assert [row[5] for row in found] == [row[1] for row in plain]

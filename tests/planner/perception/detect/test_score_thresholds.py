@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from planner.perception.detect import Detector, Wanted
-from planner.perception.detect.detections import Row, believed
+from planner.perception.detect import ModelOptions, OnnxDetector
+from planner.perception.detect.detections import Row, filter_rows
 from planner.perception.detect.score_thresholds import MIN_SCORE, least_scores
 from tests.planner.perception.detect import tiny
 
@@ -33,7 +33,7 @@ def test_each_class_has_a_least_score_of_its_own() -> None:
         (0.0, 0.0, 9.0, 9.0, score, number)
         for score, number in ((0.5, 0), (0.5, 1), (0.6, 1), (0.4, 0))
     ]
-    assert believed(rows, [0.45, 0.55]) == [rows[0], rows[2]]
+    assert filter_rows(rows, [0.45, 0.55]) == [rows[0], rows[2]]
 
 
 def test_a_detector_believes_as_its_file_says(tmp_path: Path) -> None:
@@ -46,10 +46,10 @@ def test_a_detector_believes_as_its_file_says(tmp_path: Path) -> None:
     path = tiny.model(tmp_path / "m.onnx", tiny.yolov8(seen), metadata=said)
     picture = tiny.jpeg(tiny.SIDE, tiny.SIDE)
 
-    def labels(detector: Detector) -> list[str]:
+    def labels(detector: OnnxDetector) -> list[str]:
         return [it.label for it in detector.look(picture).detections]
 
-    detector = Detector(Wanted(path))
+    detector = OnnxDetector(ModelOptions(path))
     assert labels(detector) == [tiny.NAMES[1]]
     assert "0.45 to 0.55 by class" in detector.about.line
-    assert sorted(labels(Detector(Wanted(path), 0.3))) == sorted(tiny.NAMES)
+    assert sorted(labels(OnnxDetector(ModelOptions(path), 0.3))) == sorted(tiny.NAMES)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planner.perception.detect import Detector, Wanted
+from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.failure import VisionFailure
 from tests.planner.perception.detect import tiny
 from tests.planner.perception.detect.tiny import Array
@@ -21,9 +21,11 @@ def rows(*given: tuple[float, ...], fill: float = 0.0) -> Array:
     return np.array([[*given, *[(fill,) * 6] * 4]], np.float32)
 
 
-def detector(folder: Path, output: Array, metadata: dict[str, str] | None = None) -> Detector:
+def detector(folder: Path, output: Array, metadata: dict[str, str] | None = None) -> OnnxDetector:
     named = {"names": "['person', 'cup']"} | (metadata or {})
-    return Detector(Wanted(tiny.model(folder / "m.onnx", {"output0": output}, metadata=named)))
+    return OnnxDetector(
+        ModelOptions(tiny.model(folder / "m.onnx", {"output0": output}, metadata=named))
+    )
 
 
 NOISE = np.random.default_rng(5).normal(0.0, 1.0, (1, 512, 6)).astype(np.float32)
