@@ -29,14 +29,14 @@ class GridMap:
         x_m = self.origin_x_m + (column + 0.5) * self.resolution_m
         return x_m, self.origin_y_m + (row + 0.5) * self.resolution_m
 
-    def inside(self, x_m: float, y_m: float) -> bool:
+    def contains(self, x_m: float, y_m: float) -> bool:
         """Tell whether a point lies on the map."""
         column, row = self.cell_of(x_m, y_m)
         return 0 <= column < self.width and 0 <= row < self.height
 
     def at(self, x_m: float, y_m: float) -> int:
         """Return what stands at a point; beyond the edge nothing is known."""
-        if not self.inside(x_m, y_m):
+        if not self.contains(x_m, y_m):
             return UNKNOWN
         column, row = self.cell_of(x_m, y_m)
         return self.cells[row * self.width + column]

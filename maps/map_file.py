@@ -20,7 +20,7 @@ from pydantic import Field, StrictBool
 from maps.errors import SiteError
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from maps.image import GreyImage, read_image
-from maps.yaml_records import Record, parse_yaml, read_bytes, validate_record
+from maps.yaml_records import SiteRecord, parse_yaml, read_bytes, validate_record
 from wire.fingerprint import map_id
 from wire.site_map import MOST_MAP_BYTES, image_in, image_name
 
@@ -35,7 +35,7 @@ NO_OCCUPANCY = 255
 """Unknown, beside an occupancy of 0 to 100 percent."""
 
 
-class MapRecord(Record):
+class MapRecord(SiteRecord):
     """Mirror the keys of a Nav2 map.yaml."""
 
     image: Annotated[str, Field(min_length=1)]

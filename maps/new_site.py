@@ -21,7 +21,7 @@ from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from maps.map_file import SAVED_UNKNOWN
 from maps.rooms import propose_rooms
 from maps.site_fence import draw_fence, floor_around
-from maps.yaml_records import Record, parse_json, read_bytes
+from maps.yaml_records import SiteRecord, parse_json, read_bytes
 from wire.fence import Outline, fence_text
 from wire.fingerprint import map_id
 from wire.geometry import Pose2
@@ -41,7 +41,7 @@ _STAND_M = 0.15
 """Beside the robot's radius: room to turn where a run starts."""
 
 
-class RoomProposal(Record):
+class RoomProposal(SiteRecord):
     """Hold a room that nobody named yet."""
 
     id: Annotated[str, Field(pattern=r"^room_[1-9][0-9]{0,3}$")]
@@ -51,7 +51,7 @@ class RoomProposal(Record):
     clearance_m: float
 
 
-class RoomProposals(Record):
+class RoomProposals(SiteRecord):
     """Mirror rooms.json."""
 
     version: Annotated[int, Field(ge=1, le=1)] = 1
@@ -150,7 +150,7 @@ def _home(grid: GridMap, radius_m: float, start: Pose2 | None) -> Pose2:
             at = f"({start.x_m}, {start.y_m})"
             raise SiteError("place_in_obstacle", f"the start at {at} is not on free floor")
         return start
-    if grid.inside(0.0, 0.0):
+    if grid.contains(0.0, 0.0):
         column, row = grid.cell_of(0.0, 0.0)
         if clearance_m[row, column] >= radius_m + _STAND_M:
             return Pose2(0.0, 0.0, 0.0)

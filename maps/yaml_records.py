@@ -26,7 +26,7 @@ UNREADABLE = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError
 ``!!bool x`` by KeyError, a ``!!timestamp x`` by AttributeError and a ``!!int ''`` by IndexError."""
 
 
-class Record(BaseModel):
+class SiteRecord(BaseModel):
     """Be the frozen, closed base of every record that a site file holds."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)

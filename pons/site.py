@@ -176,7 +176,7 @@ def _rooms(folder: Path) -> int:
 
 def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
     from planner.site import Site, plain_name
-    from planner.site.taught_place_errors import PlaceRefused
+    from planner.site.taught_place_errors import PlaceRefusal
 
     proposals = {room.id: room for room in read_proposals(folder)}
     if room_id not in proposals:
@@ -185,7 +185,7 @@ def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
     room = proposals[room_id]
     try:
         names = (plain_name(english), plain_name(chinese))
-    except PlaceRefused as refused:
+    except PlaceRefusal as refused:
         raise SiteError("value_malformed", str(refused)) from None
     place_id = re.sub(r"[^a-z0-9]+", "_", names[0].lower()).strip("_")
     if not place_id[:1].isalpha():

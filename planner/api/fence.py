@@ -16,7 +16,7 @@ from fastapi import APIRouter
 from planner.api.interfaces import Services
 from planner.api.problems import Problem
 from planner.api.schemas import Body, OperatorOrder, OperatorProof
-from planner.site.fence_check import FenceRefused, check_fence
+from planner.site.fence_check import FenceRefusal, check_fence
 from planner.site.fence_diff import fence_diff
 from planner.site.fence_store import State
 from wire import VIRTUAL_KEY, Answer, FenceFile, FenceRequest, sign_fence
@@ -83,7 +83,7 @@ def _deciding(router: APIRouter, services: Services) -> None:
         try:
             await asyncio.to_thread(check_fence, order.fence, services.site, pose)
             item = await asyncio.to_thread(services.fences.propose, order.fence, order.source)
-        except FenceRefused as refused:
+        except FenceRefusal as refused:
             raise _problem(refused) from None
         return await asyncio.to_thread(_view, services, item)
 
@@ -140,12 +140,12 @@ def _request(services: Services, item: FenceProposal, order: OperatorOrder) -> F
 async def _found(services: Services, proposal_id: str) -> FenceProposal:
     try:
         return await asyncio.to_thread(services.fences.get, proposal_id)
-    except FenceRefused as refused:
+    except FenceRefusal as refused:
         raise _problem(refused) from None
 
 
 def _all(services: Services) -> list[dict[str, Any]]:
-    return [_view(services, item) for item in services.fences.all()]
+    return [_view(services, item) for item in services.fences.list_all()]
 
 
 def _view(services: Services, item: FenceProposal) -> dict[str, Any]:
@@ -155,5 +155,5 @@ def _view(services: Services, item: FenceProposal) -> dict[str, Any]:
     return {**item.model_dump(mode="json"), "diff": diff.model_dump(mode="json")}
 
 
-def _problem(refused: FenceRefused) -> Problem:
+def _problem(refused: FenceRefusal) -> Problem:
     return Problem(_STATUS.get(refused.code, 422), refused.code, refused.detail)

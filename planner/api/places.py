@@ -12,7 +12,7 @@ from planner.api.problems import Problem
 from planner.api.schemas import Body
 from planner.language.catalogue import say
 from planner.mission.known_places import KeptPlace, Lesson
-from planner.site import MAX_HERE, PlaceRefused, TaughtPlace
+from planner.site import MAX_HERE, PlaceRefusal, TaughtPlace
 from wire import Pose2
 from wire.bounded_types import Name
 from wire.geometry import Metres, Yaw
@@ -82,7 +82,7 @@ def routes(services: Services) -> APIRouter:
         """Forget a taught place, by id or name, of this map or another."""
         try:
             gone = await services.memory.forget(place_id, other_maps=True)
-        except PlaceRefused as refused:
+        except PlaceRefusal as refused:
             raise _problem(refused) from None
         return _record(gone)
 
@@ -113,7 +113,7 @@ async def _teach(
     )
     try:
         place, first = await services.memory.teach(lesson)
-    except PlaceRefused as refused:
+    except PlaceRefusal as refused:
         raise _problem(refused) from None
     if not first:
         response.status_code = 200
@@ -143,7 +143,7 @@ def _view(kept: KeptPlace) -> dict[str, Any]:
     return {**_record(kept.place), "why_not": kept.why_not, "message": message}
 
 
-def _problem(refused: PlaceRefused) -> Problem:
+def _problem(refused: PlaceRefusal) -> Problem:
     status = _STATUS.get(refused.code, 422)
     said = refused.why.model_dump()
     return Problem(status, refused.code, refused.detail, message=said)

@@ -15,7 +15,7 @@ from planner.language.catalogue import say
 from planner.language.stop import StopReading
 from planner.language.utterance import parse
 from planner.plan import Bilingual, Goal, Language
-from planner.voice import BadRecording, Heard, VoiceFailure, read_wav
+from planner.voice import BadSound, Recognition, VoiceFailure, read_wav
 
 STATUS = {
     "not_wav": 415,
@@ -104,16 +104,16 @@ def routes(services: Services) -> APIRouter:
     return router
 
 
-def _may_be_stop(services: Services, heard: Heard) -> bool:
+def _may_be_stop(services: Services, heard: Recognition) -> bool:
     """Return whether what was heard badly is a stop that the robot should rather obey."""
     return heard.confidence >= STOP_DOUBT and services.goals.hears_stop(heard.transcript)
 
 
-async def _heard(services: Services, data: bytes) -> Heard:
+async def _heard(services: Services, data: bytes) -> Recognition:
     try:
         sound = read_wav(data)
         return await services.ears.hear(sound, awaits_answer=services.goals.awaits_answer())
-    except BadRecording as bad:
+    except BadSound as bad:
         raise Problem(STATUS.get(bad.code, 400), bad.code, bad.detail) from None
     except VoiceFailure as failure:
         raise Problem(503, failure.code, failure.detail) from None

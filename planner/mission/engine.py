@@ -174,7 +174,7 @@ class Engine:
         if share == 1.0:
             return following.path
         if following.slowed is None or following.slowed[0] != share:
-            following.slowed = (share, following.path.slowed(share))
+            following.slowed = (share, following.path.scale_speed(share))
         return following.slowed[1]
 
     def _course(self, horizon: Horizon | None) -> Course:

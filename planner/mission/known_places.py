@@ -29,7 +29,7 @@ from planner.plan import Vocabulary
 from planner.site import (
     MAX_HERE,
     Place,
-    PlaceRefused,
+    PlaceRefusal,
     Site,
     TaughtPlace,
     TaughtPlaces,
@@ -144,7 +144,7 @@ class KnownPlaces:
         """Keep a place and return it, and whether it is new; a name taught before is moved here.
 
         Raises:
-            PlaceRefused: with the code of why not; nothing changed.
+            PlaceRefusal: with the code of why not; nothing changed.
         """
         return await _whole(self._teach(lesson))
 
@@ -152,7 +152,7 @@ class KnownPlaces:
         """Forget a taught place of this map, by its id or a name.
 
         Raises:
-            PlaceRefused: ``unknown_taught_place``, ``place_of_site``, ``disk_full`` or
+            PlaceRefusal: ``unknown_taught_place``, ``place_of_site``, ``disk_full`` or
                 ``places_unwritable``; nothing changed.
         """
         return await _whole(self._forget(name, other_maps=other_maps))
@@ -189,12 +189,12 @@ class KnownPlaces:
             await self._change(tuple(kept for kept in self._kept if kept is not found))
             return found
 
-    def _unknown(self, name: str, here: list[TaughtPlace]) -> PlaceRefused:
+    def _unknown(self, name: str, here: list[TaughtPlace]) -> PlaceRefusal:
         got = f"got {name[:40]!r}"
         if _owner(name, self.site.places) is not None:
-            return PlaceRefused("place_of_site", got)
+            return PlaceRefusal("place_of_site", got)
         names = ", ".join(kept.name.en for kept in here) or "none"
-        return PlaceRefused("unknown_taught_place", f"{got}; taught on this map: {names}")
+        return PlaceRefusal("unknown_taught_place", f"{got}; taught on this map: {names}")
 
     def _is_here(self, place: TaughtPlace) -> bool:
         return place.map_id == self.site.map_id
@@ -216,11 +216,11 @@ class KnownPlaces:
         """Say why a kept place can't be used: the site's files may have changed since."""
         if not self._is_here(kept):
             return "other_map"
-        if any(_owner(name, known) is not None for name in kept.as_place().spoken):
+        if any(_owner(name, known) is not None for name in kept.as_place().spoken_names):
             return "place_name_taken"
         try:
             check_spot(self.site, kept.pose, 0.0)
-        except PlaceRefused as refused:
+        except PlaceRefusal as refused:
             return refused.code
         return None
 
@@ -238,24 +238,24 @@ class KnownPlaces:
         asked = {names.en, names.zh}
         if lesson.place_id is not None:
             if self.site.place(lesson.place_id) is not None:
-                raise PlaceRefused("place_of_site", f"got {lesson.place_id!r}")
+                raise PlaceRefusal("place_of_site", f"got {lesson.place_id!r}")
             asked.add(plain_name(lesson.place_id.replace("_", " ")))  # an id can be said as well
         for name in sorted(asked):
             owner = _owner(name, others)
             if owner is not None:
-                raise PlaceRefused("place_name_taken", f"{name!r} names {owner.id!r}")
+                raise PlaceRefusal("place_name_taken", f"{name!r} names {owner.id!r}")
             alike = _drawn_alike(name, others)
             if alike is not None:
-                raise PlaceRefused("place_name_taken", f"{name!r} looks like {alike.id!r}")
+                raise PlaceRefusal("place_name_taken", f"{name!r} looks like {alike.id!r}")
             answers = any(consents(said) is not None for said in (name, unmask(fold(name))))
             if answers or name_reads_as_order(name, vocabulary):
-                raise PlaceRefused("place_name_reserved", f"got {name!r}")
+                raise PlaceRefusal("place_name_reserved", f"got {name!r}")
 
     def _check_room(self) -> None:
         here = sum(map(self._is_here, self._kept))
         if not (here < MAX_HERE and len(self._kept) < MAX_KEPT):
             detail = f"{here} on this map, at most {MAX_HERE}; {len(self._kept)} in all"
-            raise PlaceRefused("places_full", f"{detail}, at most {MAX_KEPT}; forget some first")
+            raise PlaceRefusal("places_full", f"{detail}, at most {MAX_KEPT}; forget some first")
 
     async def _spot(self, lesson: Lesson) -> Pose2:
         """Return where the place is to be: known, on this map, free and within reach."""
@@ -263,12 +263,12 @@ class KnownPlaces:
         status = aged.value if aged is not None and aged.age_s <= MAX_STATUS_AGE_S else None
         here = status.base_in_map if status is not None else None
         if status is None or here is None:
-            raise PlaceRefused("pose_unknown")
+            raise PlaceRefusal("pose_unknown")
         if status.map_id != self.site.map_id:
-            raise PlaceRefused("map_mismatch", f"{status.map_id}, expected {self.site.map_id}")
+            raise PlaceRefusal("map_mismatch", f"{status.map_id}, expected {self.site.map_id}")
         if lesson.pose is None:
             if not standing(status):
-                raise PlaceRefused("robot_moving")
+                raise PlaceRefusal("robot_moving")
             check_spot(self.site, here, 0.0)
             return here
         check_spot(self.site, lesson.pose, self._radius_m)
@@ -277,15 +277,15 @@ class KnownPlaces:
 
     async def _reach(self, start: Pose2, goal: Pose2) -> None:
         if self._router is None:
-            raise PlaceRefused("route_unavailable")
+            raise PlaceRefusal("route_unavailable")
         try:
             result = await self._router.route(RouteRequest(start, goal))
         except RouteFailure as failure:
             code = _ROUTE_CODES.get(failure.code, "route_unavailable")
-            raise PlaceRefused(code, failure.code) from None
+            raise PlaceRefusal(code, failure.code) from None
         if not result.moved_goal_m <= MOST_MOVED_M:
             detail = f"free floor is {result.moved_goal_m:.2f} m away"
-            raise PlaceRefused("place_in_obstacle", detail)
+            raise PlaceRefusal("place_in_obstacle", detail)
 
     def _new_id(self, lesson: Lesson, names: Names) -> str:
         """Return the id: the one asked for, else of the name, and so the same another day."""
@@ -302,7 +302,7 @@ class KnownPlaces:
 
     async def _change(self, places: tuple[TaughtPlace, ...]) -> None:
         if self._store is None:
-            raise PlaceRefused("places_unwritable", "this planner keeps no places")
+            raise PlaceRefusal("places_unwritable", "this planner keeps no places")
         await asyncio.to_thread(self._store.save, places)
         self._kept = places
         self.version += 1
@@ -320,7 +320,7 @@ def _names(lesson: Lesson) -> Names:
     """Return both names; the one that was not given is the other's."""
     given = [plain_name(name) for name in (lesson.en, lesson.zh) if name is not None]
     if not given:
-        raise PlaceRefused("place_name_malformed", "no name was given")
+        raise PlaceRefusal("place_name_malformed", "no name was given")
     return Names(
         en=given[0] if lesson.en is not None else given[-1],
         zh=given[-1] if lesson.zh is not None else given[0],
@@ -330,13 +330,15 @@ def _names(lesson: Lesson) -> Names:
 def _owner(name: str, places: tuple[Place, ...]) -> Place | None:
     """Return the place that answers to a name, as a sentence is read, or None."""
     wanted = squash(name)
-    return next((place for place in places if wanted in map(squash, place.spoken)), None)
+    return next((place for place in places if wanted in map(squash, place.spoken_names)), None)
 
 
 def _drawn_alike(name: str, places: tuple[Place, ...]) -> Place | None:
     """Return the place whose name a person could not tell from this one, or None."""
     seen = unmask(squash(name))
-    return next((p for p in places if seen in {unmask(squash(said)) for said in p.spoken}), None)
+    return next(
+        (p for p in places if seen in {unmask(squash(said)) for said in p.spoken_names}), None
+    )
 
 
 def _answers(kept: TaughtPlace, name: str) -> bool:

@@ -31,7 +31,7 @@ from planner.mission.known_places import Lesson
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_position
 from planner.plan import Answer, Bilingual, Code, Refuse
-from planner.site import PlaceRefused
+from planner.site import PlaceRefusal
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -126,7 +126,7 @@ class PlannerCommands:
     async def _remember(self, name: str) -> Answer | Refuse:
         try:
             place, new = await self._memory.teach(Lesson(en=name, by=SPOKEN_BY))
-        except PlaceRefused as refused:
+        except PlaceRefusal as refused:
             return not_kept(refused)
         names = Bilingual(en=place.name.en, zh=place.name.zh)
         if new:
@@ -136,7 +136,7 @@ class PlannerCommands:
     async def _forget(self, name: str) -> Answer | Refuse:
         try:
             place = await self._memory.forget(name)
-        except PlaceRefused as refused:
+        except PlaceRefusal as refused:
             return not_kept(refused)
         return Answer(
             text=say("commands.forgotten", name=Bilingual(en=place.name.en, zh=place.name.zh))
@@ -161,7 +161,7 @@ _SAID: dict[str, tuple[Bilingual, Bilingual]] = {
 """What is said when it was done, and when there was nothing to do it to."""
 
 
-def not_kept(refused: PlaceRefused) -> Refuse:
+def not_kept(refused: PlaceRefusal) -> Refuse:
     """Say why a place was not kept or not forgotten."""
     why = refused.why
     return Refuse(code=Code.PLACE_NOT_KEPT, reason=message(Code.PLACE_NOT_KEPT, why=why))

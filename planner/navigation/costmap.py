@@ -105,7 +105,7 @@ class Costmap:
 
     def with_obstacles(self, points: Points, robot_xy_m: tuple[float, float]) -> Costmap:
         """Add lidar points [m, in ``map``] that the map does not explain."""
-        news = self._unexplained(points, robot_xy_m)
+        news = self._find_unexplained(points, robot_xy_m)
         if len(news) == 0:
             return self
         occupied = self.occupied.copy()
@@ -113,7 +113,9 @@ class Costmap:
         clearance_m = distance_m(~occupied, self.grid.resolution_m)
         return Costmap(self.grid, self.radius_m, occupied, clearance_m, self.fence_gap_m)
 
-    def _unexplained(self, points: Points, robot_xy_m: tuple[float, float]) -> NDArray[np.float64]:
+    def _find_unexplained(
+        self, points: Points, robot_xy_m: tuple[float, float]
+    ) -> NDArray[np.float64]:
         seen: NDArray[np.float64] = np.asarray(points, np.float64).reshape(-1, 2)
         column = np.floor((seen[:, 0] - self.grid.origin_x_m) / self.grid.resolution_m)
         row = np.floor((seen[:, 1] - self.grid.origin_y_m) / self.grid.resolution_m)

@@ -51,7 +51,7 @@ class LegPath:
             along_m.append(along_m[-1] + hypot(b.x_m - a.x_m, b.y_m - a.y_m))
         return cls(tuple(points), tuple(along_m), heading_rad)
 
-    def slowed(self, share: float) -> LegPath:
+    def scale_speed(self, share: float) -> LegPath:
         """Return the path with its fastest speed cut to a share of itself, and no point faster."""
         fastest_mps = max(abs(point.speed_mps) for point in self.points)
         cap_mps = max(share * fastest_mps, MIN_SPEED_MPS)

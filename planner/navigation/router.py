@@ -118,8 +118,8 @@ class Router:
             line[-1] = (request.goal.x_m, request.goal.y_m)
         if not ends.start_escaped:
             line = np.concatenate([[start_m], line[1:] if len(line) > 1 else line])
-            return _shaped(costmap, line)
-        return np.concatenate([self._way_out(start_m, line[0]), _shaped(costmap, line)[1:]])
+            return _smooth(costmap, line)
+        return np.concatenate([self._way_out(start_m, line[0]), _smooth(costmap, line)[1:]])
 
     def _way_out(self, start_m: Line, free_m: Line) -> Line:
         """Return the straight way from a tight spot to free floor, without what the bridge refuses.
@@ -153,7 +153,7 @@ class Router:
         )
 
 
-def _shaped(costmap: Costmap, line: Line) -> Line:
+def _smooth(costmap: Costmap, line: Line) -> Line:
     """Return the best-shaped version of a way of cells that stays on free floor."""
     straight = straighten(costmap, line)
     for smooth in (evenly(relax(costmap, densify(straight))), evenly(straight, 0.06)):

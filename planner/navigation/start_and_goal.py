@@ -83,7 +83,7 @@ def choose_ends(costmap: Costmap, site: Site, request: RouteRequest) -> Ends:
 
 def _xy(costmap: Costmap, request: RouteRequest, which: str) -> tuple[float, float]:
     pose = request.start if which == "start" else request.goal
-    if not costmap.grid.inside(pose.x_m, pose.y_m):
+    if not costmap.grid.contains(pose.x_m, pose.y_m):
         raise RouteFailure(f"{which}_outside_map", f"({pose.x_m:.2f}, {pose.y_m:.2f})")
     return pose.x_m, pose.y_m
 

@@ -32,7 +32,7 @@ def straight_line(costmap: Costmap, request: RouteRequest) -> Line:
     grid = costmap.grid
     start_m = np.asarray((request.start.x_m, request.start.y_m))
     goal_m = np.asarray((request.goal.x_m, request.goal.y_m))
-    if not grid.inside(*start_m.tolist()):
+    if not grid.contains(*start_m.tolist()):
         raise RouteFailure("start_outside_map", f"({start_m[0]:.2f}, {start_m[1]:.2f})")
     line = sample(start_m, goal_m)
     free = _passable(costmap, line)

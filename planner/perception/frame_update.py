@@ -57,7 +57,7 @@ def _place_all(site: Site, view: View, detections: tuple[Detection, ...]) -> lis
     found: list[PlacedDetection] = []
     for index, seen in enumerate(detections):
         spot = place(view, seen)
-        if spot is None or not site.grid.inside(spot.x_m, spot.y_m):
+        if spot is None or not site.grid.contains(spot.x_m, spot.y_m):
             continue
         room = site.room_at(spot.x_m, spot.y_m)
         found.append(

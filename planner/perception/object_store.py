@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
-from maps.yaml_records import Record, parse_json, read_bytes
+from maps.yaml_records import SiteRecord, parse_json, read_bytes
 from planner.perception.object_tracker import MOST_THINGS
 from planner.perception.snapshot import Thing
 from planner.site import SiteError
@@ -36,7 +36,7 @@ Word = Annotated[str, Field(min_length=1, max_length=120)]
 Wall = Annotated[float, Field(ge=0.0, le=1e11)]
 
 
-class StoredThing(Record):
+class StoredThing(SiteRecord):
     """Mirror a thing; times are seconds of the wall clock."""
 
     id: Word
@@ -53,7 +53,7 @@ class StoredThing(Record):
     room: Word | None = None
 
 
-class StoredThings(Record):
+class StoredThings(SiteRecord):
     """Hold all that is kept, which is of one map; mirror objects.json of the layout before."""
 
     version: Annotated[int, Field(ge=1, le=1)] = 1

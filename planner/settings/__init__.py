@@ -1,10 +1,17 @@
 """Read the owner's settings: `$PONS_HOME/settings.toml` and a few environment variables."""
 
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Limits, Price
-from planner.settings.loader import FILE, Settings, exposed, load_settings, place_of, same_place
+from planner.settings.loader import (
+    FILE,
+    Settings,
+    find_exposed,
+    load_settings,
+    place_of,
+    same_place,
+)
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
-from planner.settings.presets import PRESETS, Mode, Preset, PresetName, TokensField
+from planner.settings.presets import PRESETS, JsonMode, Preset, PresetName, TokensField
 from planner.settings.vision import VisionSettings
 
 __all__ = [
@@ -14,9 +21,9 @@ __all__ = [
     "BudgetSettings",
     "DayLimits",
     "GoalLimits",
+    "JsonMode",
     "Limits",
     "MissionSettings",
-    "Mode",
     "ModelSettings",
     "Preset",
     "PresetName",
@@ -24,7 +31,7 @@ __all__ = [
     "Settings",
     "TokensField",
     "VisionSettings",
-    "exposed",
+    "find_exposed",
     "load_settings",
     "place_of",
     "same_place",

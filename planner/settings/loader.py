@@ -53,19 +53,19 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
             ``model_key``, ``budget_contradictory``.
     """
     tables = _tables(home / FILE)
-    for sentence in exposed(home):
+    for sentence in find_exposed(home):
         log.warning("settings_exposed: %s", sentence)
     model = tables.pop("model", None)
     if model is not None and not isinstance(model, dict):
         raise ConfigError("settings_malformed", f"{FILE}: [model] must be a table")
     chosen = _with_environment(_with_key(model, home, environment), environment)
     vision = with_environment(tables.pop("vision", {}), home, environment)
-    settings = _checked({**tables, "model": chosen, "vision": vision})
+    settings = _check({**tables, "model": chosen, "vision": vision})
     _need_key(settings.model)
     return settings
 
 
-def exposed(home: Path) -> list[str]:
+def find_exposed(home: Path) -> list[str]:
     """Say what of the settings others may change, or read though it is a key; mostly nothing.
 
     Raises:
@@ -221,11 +221,13 @@ def same_place(one: str, other: str) -> bool:
         return False
 
 
-def _checked(tables: dict[str, Any]) -> Settings:
+def _check(tables: dict[str, Any]) -> Settings:
     try:
         settings = Settings.model_validate(tables)
     except ValidationError as wrong:
-        problems = [_told(error["loc"], error["type"], error["msg"]) for error in wrong.errors()]
+        problems = [
+            _describe_error(error["loc"], error["type"], error["msg"]) for error in wrong.errors()
+        ]
         code = "model_incomplete" if all("missing" in p for p in problems) else "settings_malformed"
         raise ConfigError(code, f"{FILE}: {'; '.join(problems)}") from None
     most = settings.model.max_tokens if settings.model is not None else None
@@ -237,7 +239,7 @@ def _checked(tables: dict[str, Any]) -> Settings:
 
 def _need_key(model: ModelSettings | None) -> None:
     """Refuse a server that is known to want a key where the owner gave none."""
-    known = model.known if model is not None else None
+    known = model.known_preset if model is not None else None
     if model is None or known is None or not known.key_name or model.key is not None:
         return
     if same_place(model.url, known.url):
@@ -264,7 +266,7 @@ def _table(where: tuple[int | str, ...]) -> str:
     return ".".join(map(str, where[:-1]))
 
 
-def _told(where: tuple[int | str, ...], kind: str, text: str) -> str:
+def _describe_error(where: tuple[int | str, ...], kind: str, text: str) -> str:
     name = ".".join(map(str, where))
     if kind == "extra_forbidden":
         known = _TABLES[table].model_fields if (table := _table(where)) in _TABLES else {}

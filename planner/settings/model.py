@@ -18,7 +18,7 @@ from pydantic import (
     model_validator,
 )
 
-from planner.settings.presets import PRESETS, Mode, Preset, PresetName, known_as
+from planner.settings.presets import PRESETS, JsonMode, Preset, PresetName, known_as
 
 MAX_EXTRA_BYTES = 8_000
 MAX_EXTRA_DEPTH = 8
@@ -52,7 +52,7 @@ class ModelSettings(BaseModel):
     temperature: float | None = Field(default=0.0, ge=0.0, le=2.0)
     """None: the server's own."""
     max_tokens: int = Field(default=1000, ge=100, le=100_000)
-    mode: Mode | None = None
+    mode: JsonMode | None = None
     """None: found out at the first call and remembered."""
     stream: bool = True
     """Ask for the plan while it is written, so that it shows early."""
@@ -83,7 +83,7 @@ class ModelSettings(BaseModel):
 
     @field_validator("extra_body")
     @classmethod
-    def _bounded(cls, extra: dict[str, Any]) -> dict[str, Any]:
+    def _check_extra(cls, extra: dict[str, Any]) -> dict[str, Any]:
         own = sorted(extra.keys() & OWN_FIELDS)
         if own:
             raise ValueError(f"Pons writes {', '.join(own)} itself")
@@ -97,7 +97,7 @@ class ModelSettings(BaseModel):
         return extra
 
     @property
-    def known(self) -> Preset | None:
+    def known_preset(self) -> Preset | None:
         """Return what is known of the server, where a preset is named."""
         return PRESETS[self.preset] if self.preset is not None else None
 

@@ -34,7 +34,7 @@ from typing import Any, Literal
 TokensField = Literal["max_tokens", "max_completion_tokens"]
 
 
-class Mode(StrEnum):
+class JsonMode(StrEnum):
     """The ways to ask an endpoint for JSON, strictest first: the rungs of the ladder."""
 
     JSON_SCHEMA = "json_schema"
@@ -68,7 +68,7 @@ class Preset:
     url: str
     key_name: str = ""
     """What the vendor calls the key's variable: a word for messages. Empty: none is needed."""
-    mode: Mode = Mode.JSON_SCHEMA
+    mode: JsonMode = JsonMode.JSON_SCHEMA
     """The first rung."""
     tokens_field: TokensField = "max_tokens"
     max_tokens: int = 1000
@@ -97,7 +97,7 @@ PRESETS: Mapping[PresetName, Preset] = MappingProxyType(
             quiet={"reasoning_effort": "low"},
         ),
         PresetName.ANTHROPIC: Preset(
-            "https://api.anthropic.com/v1", key_name="ANTHROPIC_API_KEY", mode=Mode.TOOL
+            "https://api.anthropic.com/v1", key_name="ANTHROPIC_API_KEY", mode=JsonMode.TOOL
         ),
         PresetName.GEMINI: Preset(
             "https://generativelanguage.googleapis.com/v1beta/openai",
@@ -113,7 +113,7 @@ PRESETS: Mapping[PresetName, Preset] = MappingProxyType(
         PresetName.DEEPSEEK: Preset(
             "https://api.deepseek.com/v1",
             key_name="DEEPSEEK_API_KEY",
-            mode=Mode.TOOL,
+            mode=JsonMode.TOOL,
             quiet={"thinking": {"type": "disabled"}},
         ),
     }

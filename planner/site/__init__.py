@@ -2,13 +2,13 @@
 
 from maps import FREE, OCCUPIED, UNKNOWN, GridMap, LoadedMap, SiteError, load_map
 from planner.site.fence import Fence, SpeedZone
-from planner.site.fence_check import FenceRefused, check_fence
+from planner.site.fence_check import FenceRefusal, check_fence
 from planner.site.fence_diff import FenceDiff, fence_diff
 from planner.site.fence_store import FenceProposal, FenceProposals
-from planner.site.places import Place, normalised
+from planner.site.places import Place, normalise
 from planner.site.site import Site
 from planner.site.taught_place_check import check_spot, plain_name
-from planner.site.taught_place_errors import PlaceRefused
+from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_HERE, TaughtPlace, TaughtPlaces
 
 __all__ = [
@@ -20,11 +20,11 @@ __all__ = [
     "FenceDiff",
     "FenceProposal",
     "FenceProposals",
-    "FenceRefused",
+    "FenceRefusal",
     "GridMap",
     "LoadedMap",
     "Place",
-    "PlaceRefused",
+    "PlaceRefusal",
     "Site",
     "SiteError",
     "SpeedZone",
@@ -34,6 +34,6 @@ __all__ = [
     "check_spot",
     "fence_diff",
     "load_map",
-    "normalised",
+    "normalise",
     "plain_name",
 ]

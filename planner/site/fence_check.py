@@ -22,7 +22,7 @@ PLACE_M = 0.25
 """A stop pose keeps 0.15 m from the fence and a place counts as reached within 0.10 m."""
 
 
-class FenceRefused(Exception):
+class FenceRefusal(Exception):
     """A proposal can't be; ``code`` is stable, the text says what came and what was expected."""
 
     def __init__(self, code: str, detail: str) -> None:
@@ -35,11 +35,11 @@ def check_fence(fence: FenceFile, site: Site, robot_in_map: Pose2 | None) -> Non
     """Accept a fence for a site and for where the robot stands now, as far as that is known.
 
     Raises:
-        FenceRefused: the first thing that speaks against it.
+        FenceRefusal: the first thing that speaks against it.
     """
     refusal = next(_against(fence, site, robot_in_map), None)
     if refusal is not None:
-        raise FenceRefused(*refusal)
+        raise FenceRefusal(*refusal)
 
 
 def _against(fence: FenceFile, site: Site, robot_in_map: Pose2 | None) -> Iterator[tuple[str, str]]:

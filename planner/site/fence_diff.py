@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from maps.yaml_records import Record
+from maps.yaml_records import SiteRecord
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -24,7 +24,7 @@ LEAST_M2 = 0.01
 Span = tuple[float, float]
 
 
-class RoomChange(Record):
+class RoomChange(SiteRecord):
     """Tell what becomes allowed and what forbidden in one room."""
 
     room: str
@@ -32,7 +32,7 @@ class RoomChange(Record):
     removed_m2: float
 
 
-class FenceDiff(Record):
+class FenceDiff(SiteRecord):
     """Tell what becomes allowed and what forbidden for the robot's centre."""
 
     added_m2: float
@@ -56,7 +56,7 @@ def fence_diff(before: FenceFile, after: FenceFile, rooms: Sequence[Place]) -> F
     for index in range(STRIPS):
         y_m = low + (index + 0.5) * strip_m
         was, now = _free(before, y_m), _free(after, y_m)
-        gained, lost = _without(now, was), _without(was, now)
+        gained, lost = _subtract(now, was), _subtract(was, now)
         allowed += strip_m * _length(now)
         added += strip_m * _length(gained)
         removed += strip_m * _length(lost)
@@ -81,9 +81,9 @@ def fence_diff(before: FenceFile, after: FenceFile, rooms: Sequence[Place]) -> F
 
 def _free(fence: FenceFile, y_m: float) -> list[Span]:
     """Return where along a line the robot's centre may be."""
-    inside = _merged(span for outline in fence.allowed for span in _spans(outline, y_m))
-    holes = _merged(span for outline in fence.keep_outs for span in _spans(outline, y_m))
-    return _without(inside, holes)
+    inside = _merge(span for outline in fence.allowed for span in _spans(outline, y_m))
+    holes = _merge(span for outline in fence.keep_outs for span in _spans(outline, y_m))
+    return _subtract(inside, holes)
 
 
 def _spans(outline: Polygon, y_m: float) -> list[Span]:
@@ -100,7 +100,7 @@ def _cuts(outline: Polygon, y_m: float) -> Iterator[float]:
         xa, ya = xb, yb
 
 
-def _merged(spans: Iterable[Span]) -> list[Span]:
+def _merge(spans: Iterable[Span]) -> list[Span]:
     merged: list[Span] = []
     for begin, end in sorted(spans):
         if merged and begin <= merged[-1][1]:
@@ -110,7 +110,7 @@ def _merged(spans: Iterable[Span]) -> list[Span]:
     return merged
 
 
-def _without(spans: list[Span], holes: list[Span]) -> list[Span]:
+def _subtract(spans: list[Span], holes: list[Span]) -> list[Span]:
     left: list[Span] = []
     for begin, end in spans:
         at = begin
@@ -126,7 +126,7 @@ def _without(spans: list[Span], holes: list[Span]) -> list[Span]:
 
 
 def _common(a: list[Span], b: list[Span]) -> list[Span]:
-    return _without(a, _without(a, b))
+    return _subtract(a, _subtract(a, b))
 
 
 def _length(spans: list[Span]) -> float:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import ValidationError
 
-from maps.yaml_records import Record
-from planner.site.fence_check import FenceRefused
+from maps.yaml_records import SiteRecord
+from planner.site.fence_check import FenceRefusal
 from planner.state_database import StateDatabase
 from wire.bounded_types import Code, Fingerprint, Name
 from wire.fence import fence_text
@@ -32,7 +32,7 @@ MAX_KEPT = 64
 State = Literal["proposed", "accepted", "rejected"]
 
 
-class FenceProposal(Record):
+class FenceProposal(SiteRecord):
     """Hold one proposal and what became of it."""
 
     id: Fingerprint
@@ -47,7 +47,7 @@ class FenceProposal(Record):
     """Why the bridge refused it last, where it did."""
 
 
-def _now() -> datetime:
+def _read_clock() -> datetime:
     return datetime.now(UTC)
 
 
@@ -55,7 +55,7 @@ class FenceProposals:
     """Be the table of proposals. Reads and writes the disk: call it off the event loop."""
 
     def __init__(
-        self, database: StateDatabase, old_folder: Path, clock: Callable[[], datetime] = _now
+        self, database: StateDatabase, old_folder: Path, clock: Callable[[], datetime] = _read_clock
     ) -> None:
         """Say where they are kept, and where files of the layout before may lie."""
         self._database, self._old_folder = database, old_folder
@@ -63,7 +63,10 @@ class FenceProposals:
 
     @classmethod
     def in_home(
-        cls, home: Path, database: StateDatabase | None = None, clock: Callable[[], datetime] = _now
+        cls,
+        home: Path,
+        database: StateDatabase | None = None,
+        clock: Callable[[], datetime] = _read_clock,
     ) -> FenceProposals:
         """Return the proposals of a home folder."""
         return cls(database or StateDatabase(home), home / "fence" / "proposals", clock)
@@ -72,17 +75,17 @@ class FenceProposals:
         """Keep a proposal; the same text again is the same proposal, open anew.
 
         Raises:
-            FenceRefused: ``fence_proposals_full``.
+            FenceRefusal: ``fence_proposals_full``.
         """
         text = fence_text(fence)
         name = fingerprint(text.encode())
-        waiting = [item for item in self.all() if item.state == "proposed" and item.id != name]
+        waiting = [item for item in self.list_all() if item.state == "proposed" and item.id != name]
         if not len(waiting) < MAX_OPEN:
             text = f"{len(waiting)} proposals wait for an operator, at most {MAX_OPEN}"
-            raise FenceRefused("fence_proposals_full", f"{text}; reject some first")
+            raise FenceRefusal("fence_proposals_full", f"{text}; reject some first")
         return self._write(FenceProposal(id=name, text=text, by=by, created=self._clock()))
 
-    def all(self) -> list[FenceProposal]:
+    def list_all(self) -> list[FenceProposal]:
         """Return the proposals, newest first; a row that is none of ours is left alone."""
         try:
             self._database.take_over(self._old_folder, self._import)
@@ -100,23 +103,23 @@ class FenceProposals:
         """Return one.
 
         Raises:
-            FenceRefused: ``unknown_fence_proposal``.
+            FenceRefusal: ``unknown_fence_proposal``.
         """
-        for item in self.all():
+        for item in self.list_all():
             if item.id == name:
                 return item
-        known = ", ".join(item.id for item in self.all()[:8]) or "none"
-        raise FenceRefused("unknown_fence_proposal", f"no proposal {name!r}; there are: {known}")
+        known = ", ".join(item.id for item in self.list_all()[:8]) or "none"
+        raise FenceRefusal("unknown_fence_proposal", f"no proposal {name!r}; there are: {known}")
 
     def decide(self, name: str, state: State, by: str, reason: str | None = None) -> FenceProposal:
         """Write down what became of one.
 
         Raises:
-            FenceRefused: ``unknown_fence_proposal``.
+            FenceRefusal: ``unknown_fence_proposal``.
         """
         change = {"state": state, "decided_by": by, "decided": self._clock(), "reason": reason}
         item = self._write(self.get(name).model_copy(update=change))
-        gone = [item for item in self.all() if item.state != "proposed"][MAX_KEPT:]
+        gone = [item for item in self.list_all() if item.state != "proposed"][MAX_KEPT:]
         if gone:
             with self._database.change() as connection:
                 statement = "DELETE FROM fence_proposals WHERE id = ?"

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from maps.errors import SiteError
-from maps.yaml_records import Record, parse_yaml, read_bytes
+from maps.yaml_records import SiteRecord, parse_yaml, read_bytes
 from planner.language.folding import fold_words
 from planner.site.fence import Outline
 from planner.site.polygon import area_m2, contains
@@ -18,21 +18,21 @@ Name = Annotated[str, Field(min_length=1, max_length=80)]
 PlaceId = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,63}$")]
 
 
-class Names(Record):
+class Names(SiteRecord):
     """Name a place in English and in Chinese."""
 
     en: Name
     zh: Name
 
 
-class Aliases(Record):
+class Aliases(SiteRecord):
     """Give the other names people use, by language."""
 
     en: tuple[Name, ...] = ()
     zh: tuple[Name, ...] = ()
 
 
-class Place(Record):
+class Place(SiteRecord):
     """Describe a room or a place: its names, its outline where it has one, where to stand."""
 
     id: PlaceId
@@ -51,7 +51,7 @@ class Place(Record):
         return self
 
     @property
-    def spoken(self) -> tuple[str, ...]:
+    def spoken_names(self) -> tuple[str, ...]:
         """Return every name by which a person may mean this place; the id is one."""
         plain = self.id.replace("_", " ")
         names = (self.name.en, self.name.zh, *self.aliases.en, *self.aliases.zh)
@@ -67,7 +67,7 @@ class Place(Record):
         return self.polygon is not None and contains(self.polygon, x_m, y_m)
 
 
-class PlacesRecord(Record):
+class PlacesRecord(SiteRecord):
     """Mirror places.yaml."""
 
     version: Annotated[int, Field(ge=1, le=1)] = 1
@@ -75,7 +75,7 @@ class PlacesRecord(Record):
     places: Annotated[tuple[Place, ...], Field(min_length=1, max_length=10_000)]
 
 
-def normalised(name: str) -> str:
+def normalise(name: str) -> str:
     """Return a name as it is compared: one width, one case, one script, single spaces."""
     return fold_words(name)
 
@@ -103,8 +103,8 @@ def _check_names(record: PlacesRecord, path: Path) -> None:
         if place.id in ids:
             raise SiteError("place_duplicate_id", f"{path}: the id {place.id!r} is given twice")
         ids.add(place.id)
-        for name in place.spoken:
-            first = owner.setdefault(normalised(name), place.id)
+        for name in place.spoken_names:
+            first = owner.setdefault(normalise(name), place.id)
             if first != place.id:
                 text = f"{path}: {name!r} names both {first!r} and {place.id!r}"
                 raise SiteError("place_alias_clash", text)

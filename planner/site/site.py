@@ -9,7 +9,7 @@ from maps.errors import SiteError
 from maps.grid import FREE, GridMap
 from maps.map_file import load_map
 from planner.site.fence import Fence, load_fence
-from planner.site.places import Place, load_places, normalised
+from planner.site.places import Place, load_places, normalise
 from planner.site.polygon import area_m2
 
 
@@ -51,11 +51,11 @@ class Site:
         """Return the place of an id, or None."""
         return next((place for place in self.places if place.id == place_id), None)
 
-    def named(self, name: str) -> Place | None:
+    def find_place(self, name: str) -> Place | None:
         """Return the place that answers to a name in either language, or None. No guessing."""
-        wanted = normalised(name)
+        wanted = normalise(name)
         return next(
-            (place for place in self.places if wanted in map(normalised, place.spoken)), None
+            (place for place in self.places if wanted in map(normalise, place.spoken_names)), None
         )
 
     def room_at(self, x_m: float, y_m: float) -> Place | None:
@@ -67,7 +67,7 @@ class Site:
 def _check_standing(place: Place, grid: GridMap, fence: Fence) -> None:
     x_m, y_m = place.pose.x_m, place.pose.y_m
     at = f"the place {place.id!r} at ({x_m}, {y_m})"
-    if not grid.inside(x_m, y_m):
+    if not grid.contains(x_m, y_m):
         right_m = grid.origin_x_m + grid.width * grid.resolution_m
         top_m = grid.origin_y_m + grid.height * grid.resolution_m
         span = f"x {grid.origin_x_m} to {right_m}, y {grid.origin_y_m} to {top_m}"

@@ -9,7 +9,7 @@ from math import ceil, hypot
 from maps.grid import FREE
 from planner.language.folding import fold_width
 from planner.site.site import Site
-from planner.site.taught_place_errors import PlaceRefused
+from planner.site.taught_place_errors import PlaceRefusal
 from wire.geometry import Pose2
 
 MAX_CHARACTERS = 40
@@ -25,17 +25,17 @@ def plain_name(name: str) -> str:
     """Return a name as it is kept: one width, single spaces.
 
     Raises:
-        PlaceRefused: ``place_name_malformed``: empty, too long, or with what is no part of a name;
+        PlaceRefusal: ``place_name_malformed``: empty, too long, or with what is no part of a name;
             ``place_name_mixed``: with letters of two alphabets, one of which is drawn as the other.
     """
     kept = " ".join(fold_width(name[: 4 * MAX_CHARACTERS]).split())
     short = 1 <= len(kept) <= MAX_CHARACTERS and len(name) <= 4 * MAX_CHARACTERS
     if not (short and any(map(str.isalpha, kept)) and all(map(_in_a_name, kept))):
-        raise PlaceRefused("place_name_malformed", f"got {name[:MAX_CHARACTERS]!r}")
+        raise PlaceRefusal("place_name_malformed", f"got {name[:MAX_CHARACTERS]!r}")
     alphabets = {_alphabet(char) for char in kept if char.isalpha()} - _BESIDE_ANY
     if len(alphabets) > 1:
         found = ", ".join(sorted(alphabets))
-        raise PlaceRefused("place_name_mixed", f"got {name[:MAX_CHARACTERS]!r}: {found}")
+        raise PlaceRefusal("place_name_mixed", f"got {name[:MAX_CHARACTERS]!r}: {found}")
     return kept
 
 
@@ -52,15 +52,15 @@ def check_spot(site: Site, pose: Pose2, clearance_m: float) -> None:
     """Check that a robot may stand somewhere, with so much free floor around its centre [m].
 
     Raises:
-        PlaceRefused: ``place_outside_map``, ``place_in_obstacle`` or ``place_outside_fence``.
+        PlaceRefusal: ``place_outside_map``, ``place_in_obstacle`` or ``place_outside_fence``.
     """
     at = f"({pose.x_m:.2f}, {pose.y_m:.2f})"
-    if not site.grid.inside(pose.x_m, pose.y_m):
-        raise PlaceRefused("place_outside_map", at)
+    if not site.grid.contains(pose.x_m, pose.y_m):
+        raise PlaceRefusal("place_outside_map", at)
     if not all(site.grid.at(x_m, y_m) == FREE for x_m, y_m in _disc(site, pose, clearance_m)):
-        raise PlaceRefused("place_in_obstacle", at)
+        raise PlaceRefusal("place_in_obstacle", at)
     if not site.fence.allows(pose.x_m, pose.y_m):
-        raise PlaceRefused("place_outside_fence", at)
+        raise PlaceRefusal("place_outside_fence", at)
 
 
 def _disc(site: Site, pose: Pose2, radius_m: float) -> Iterator[tuple[float, float]]:

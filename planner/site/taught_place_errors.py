@@ -29,7 +29,7 @@ CODES = frozenset(
 """Every code; the catalogue has the sentence of each as ``taught_place.<code>``."""
 
 
-class PlaceRefused(Exception):
+class PlaceRefusal(Exception):
     """Refuse to teach or to forget; nothing changed."""
 
     def __init__(self, code: str, detail: str = "") -> None:

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Annotated
 from pydantic import Field
 
 from maps.errors import SiteError
-from maps.yaml_records import Record, parse_json, read_bytes
+from maps.yaml_records import SiteRecord, parse_json, read_bytes
 from planner.site.places import Names, Place, PlaceId
-from planner.site.taught_place_errors import PlaceRefused
+from planner.site.taught_place_errors import PlaceRefusal
 from planner.state_database import StateDatabase, StateUnavailable
 from wire.bounded_types import Fingerprint, Name
 from wire.geometry import Pose2
@@ -32,7 +32,7 @@ MAX_KEPT = 512
 """On all maps together."""
 
 
-class TaughtPlace(Record):
+class TaughtPlace(SiteRecord):
     """Hold one taught place: its names, where it is, on which map, by whom and when."""
 
     id: PlaceId
@@ -47,7 +47,7 @@ class TaughtPlace(Record):
         return Place(id=self.id, kind="place", name=self.name, pose=self.pose)
 
 
-class TaughtFile(Record):
+class TaughtFile(SiteRecord):
     """Mirror places.json."""
 
     version: Annotated[int, Field(ge=1, le=1)] = 1
@@ -88,7 +88,7 @@ class TaughtPlaces:
         """Put these in place of what was taught; either all of it is on disk, or nothing changed.
 
         Raises:
-            PlaceRefused: ``disk_full`` or ``places_unwritable``.
+            PlaceRefusal: ``disk_full`` or ``places_unwritable``.
         """
         try:
             self._database.take_over(self._old_file, self._import)  # where the start could not
@@ -97,7 +97,7 @@ class TaughtPlaces:
         except OSError as error:
             full = error.errno in (errno.ENOSPC, errno.EDQUOT)
             code = "disk_full" if full else "places_unwritable"
-            raise PlaceRefused(code, f"{self._database.path}: {error.strerror}") from None
+            raise PlaceRefusal(code, f"{self._database.path}: {error.strerror}") from None
 
     def _import(self, connection: sqlite3.Connection) -> None:
         _replace(connection, self._old_places())

@@ -4,15 +4,15 @@ What is heard is only text. It becomes a goal on the same way as typed text, sto
 """
 
 from planner.voice.process_client import VoiceWorker
-from planner.voice.recogniser import Heard, Recogniser, VoiceFailure
-from planner.voice.wav import MAX_BYTES, MAX_SECONDS, BadRecording, Sound, read_wav
+from planner.voice.recogniser import Recogniser, Recognition, VoiceFailure
+from planner.voice.wav import MAX_BYTES, MAX_SECONDS, BadSound, Sound, read_wav
 
 __all__ = [
     "MAX_BYTES",
     "MAX_SECONDS",
-    "BadRecording",
-    "Heard",
+    "BadSound",
     "Recogniser",
+    "Recognition",
     "Sound",
     "VoiceFailure",
     "VoiceWorker",

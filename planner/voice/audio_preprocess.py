@@ -31,7 +31,7 @@ def prepare(pcm: bytes, rate_hz: int, channels: int) -> bytes | None:
     peak = float(np.abs(mono).max(initial=0.0))
     if not peak >= SILENT_PEAK:
         return None
-    heard = _without_ends(resampled(mono * (LOUD_PEAK / peak), rate_hz))
+    heard = _without_ends(resample(mono * (LOUD_PEAK / peak), rate_hz))
     whole = np.concatenate([heard, np.zeros(int(TAIL_S * RATE_HZ))])
     whole += np.random.default_rng(0).normal(0.0, DITHER, len(whole))
     return bytes(np.clip(whole, -32_768, 32_767).astype("<i2").tobytes())
@@ -55,7 +55,7 @@ def _without_ends(samples: NDArray[np.float64]) -> NDArray[np.float64]:
     return samples[max(0, first - kept) : last + kept + 1]
 
 
-def resampled(samples: NDArray[np.float64], rate_hz: int) -> NDArray[np.float64]:
+def resample(samples: NDArray[np.float64], rate_hz: int) -> NDArray[np.float64]:
     """Return the samples at 16 kHz, by cutting or padding their spectrum."""
     if rate_hz == RATE_HZ:
         return samples

@@ -40,7 +40,7 @@ Timed = tuple[str, float, int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Decoded:
+class DecoderResult:
     """Hold what one search made of the samples."""
 
     text: str
@@ -49,12 +49,14 @@ class Decoded:
     words: tuple[Timed, ...]
 
 
-def stop_confidence(stop: Decoded, phones: Decoded, frames: float) -> float:
+def stop_confidence(stop: DecoderResult, phones: DecoderResult, frames: float) -> float:
     """Return how far to believe a stop, 0 to 1; from one half on it is believed."""
     return _sure(((stop.score - phones.score) / frames * 1e4 - STOP_LIMIT) / 2.0)
 
 
-def confidence(order: Decoded, phones: Decoded | None, words: Decoded, frames: float) -> float:
+def confidence(
+    order: DecoderResult, phones: DecoderResult | None, words: DecoderResult, frames: float
+) -> float:
     """Return how far to believe an order, 0 to 1; from one half on it is believed.
 
     Without ``phones`` its pauses are known to be silent.
@@ -70,7 +72,7 @@ def confidence(order: Decoded, phones: Decoded | None, words: Decoded, frames: f
     return _sure(min(margins))
 
 
-def misfits(order: Decoded, words: Decoded) -> list[tuple[float, int]]:
+def misfits(order: DecoderResult, words: DecoderResult) -> list[tuple[float, int]]:
     """Return each word's fit against a free search and its frames; the shortest are let off."""
     free = _by_frame(words)
     return [
@@ -80,7 +82,7 @@ def misfits(order: Decoded, words: Decoded) -> list[tuple[float, int]]:
     ]
 
 
-def pauses(order: Decoded, phones: Decoded) -> float:
+def pauses(order: DecoderResult, phones: DecoderResult) -> float:
     """Return how much better phones explain an order's pauses; 0 where they are silent."""
     free = _by_frame(phones)
     return sum(
@@ -89,7 +91,7 @@ def pauses(order: Decoded, phones: Decoded) -> float:
     )
 
 
-def long_pauses(order: Decoded) -> list[Timed]:
+def long_pauses(order: DecoderResult) -> list[Timed]:
     """Return the pauses that are long enough to hide a word."""
     return [
         timed
@@ -98,7 +100,7 @@ def long_pauses(order: Decoded) -> list[Timed]:
     ]
 
 
-def _by_frame(decoded: Decoded) -> list[float]:
+def _by_frame(decoded: DecoderResult) -> list[float]:
     scores = [0.0] * (max((end for *_, end in decoded.words), default=0) + 1)
     for _, score, start, end in decoded.words:
         for frame in range(start, end):

@@ -16,46 +16,46 @@ _SPOKEN = re.compile(r"[a-z']+(?: [a-z']+)*")
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
+class GrammarPart:
     """Hold one part of the language twice: for the decoder and as a pattern over ``word ``."""
 
     jsgf: str
     pattern: str
 
 
-def words(text: str) -> Form:
+def words(text: str) -> GrammarPart:
     """Say these words in this order."""
-    return Form(text, re.escape(text).replace("\\ ", " ") + " ")
+    return GrammarPart(text, re.escape(text).replace("\\ ", " ") + " ")
 
 
-def one_of(*forms: Form) -> Form:
+def one_of(*forms: GrammarPart) -> GrammarPart:
     """Say one of these."""
     jsgf = " | ".join(form.jsgf for form in forms)
-    return Form(f"({jsgf})", f"(?:{'|'.join(form.pattern for form in forms)})")
+    return GrammarPart(f"({jsgf})", f"(?:{'|'.join(form.pattern for form in forms)})")
 
 
-def maybe(form: Form) -> Form:
+def maybe(form: GrammarPart) -> GrammarPart:
     """Say it or not."""
-    return Form(f"[{form.jsgf}]", f"(?:{form.pattern})?")
+    return GrammarPart(f"[{form.jsgf}]", f"(?:{form.pattern})?")
 
 
-def any_number(form: Form) -> Form:
+def any_number(form: GrammarPart) -> GrammarPart:
     """Say it as often as wanted, or not at all."""
-    return Form(f"({form.jsgf})*", f"(?:{form.pattern})*")
+    return GrammarPart(f"({form.jsgf})*", f"(?:{form.pattern})*")
 
 
-def after(*forms: Form) -> Form:
+def after(*forms: GrammarPart) -> GrammarPart:
     """Say these one after the other."""
     jsgf = " ".join(form.jsgf for form in forms)
-    return Form(jsgf, "".join(form.pattern for form in forms))
+    return GrammarPart(jsgf, "".join(form.pattern for form in forms))
 
 
-def any_of(*texts: str) -> Form:
+def any_of(*texts: str) -> GrammarPart:
     """Say one of these texts."""
     return one_of(*map(words, texts))
 
 
-def _file(said: Form) -> str:
+def _file(said: GrammarPart) -> str:
     return f"#JSGF V1.0;\ngrammar spoken;\npublic <said> = {said.jsgf};\n"
 
 
@@ -81,7 +81,7 @@ ANSWERS = _file(any_of(*_ANSWERS, *_NEAR_ANSWERS))
 
 
 @dataclass(frozen=True, slots=True)
-class Language:
+class SpokenLanguage:
     """Hold what may be said on one site."""
 
     jsgf: str
@@ -106,27 +106,27 @@ def is_stop(transcript: str) -> bool:
     return transcript in _STOPS
 
 
-def language_of(names: Sequence[str], pronounced: Callable[[str], bool]) -> Language:
+def language_of(names: Sequence[str], pronounced: Callable[[str], bool]) -> SpokenLanguage:
     """Return what may be said about places with these names.
 
     ``pronounced`` tells whether the decoder knows how a word sounds.
     """
     unique = list(dict.fromkeys(" ".join(name.lower().replace("-", " ").split()) for name in names))
-    sayable = [name for name in unique if _SPOKEN.fullmatch(name) and _all(name, pronounced)]
+    sayable = [name for name in unique if _SPOKEN.fullmatch(name) and _can_say(name, pronounced)]
     kept = sayable[:MAX_NAMES]
     left_out = tuple(name for name in unique if name not in set(kept))
     orders = _orders(any_of(*kept) if kept else None)
     decoys = _decoys(any_of(*kept) if kept else None)
-    return Language(
+    return SpokenLanguage(
         _file(one_of(orders, decoys)), re.compile(orders.pattern), tuple(kept), left_out
     )
 
 
-def _all(name: str, pronounced: Callable[[str], bool]) -> bool:
+def _can_say(name: str, pronounced: Callable[[str], bool]) -> bool:
     return all(pronounced(word) for word in name.split())
 
 
-def _orders(place: Form | None) -> Form:
+def _orders(place: GrammarPart | None) -> GrammarPart:
     back = any_of("come back", "return home", "go home")
     asked = words("where are you")
     alone = one_of(
@@ -140,7 +140,7 @@ def _orders(place: Form | None) -> Form:
     return one_of(alone, after(maybe(_COURTESY), go, any_number(more), maybe(words("please"))))
 
 
-def _decoys(place: Form | None) -> Form:
+def _decoys(place: GrammarPart | None) -> GrammarPart:
     never = any_of("don't", "do not", "can't", "never")
     alone = one_of(after(never, words("stop")), words("go away"))
     if place is None:

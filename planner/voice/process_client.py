@@ -13,7 +13,7 @@ from asyncio.subprocess import Process
 from collections.abc import Sequence
 from typing import Any
 
-from planner.voice.recogniser import Heard, VoiceFailure
+from planner.voice.recogniser import Recognition, VoiceFailure
 from planner.voice.wav import Sound
 from processes.parent_death import worker_command
 from processes.worker import STREAM_ERRORS, exchange, reap, spawn
@@ -65,7 +65,7 @@ class VoiceWorker:
             await asyncio.gather(before, return_exceptions=True)
         await self._warm()
 
-    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Heard:
+    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
         """Return what was heard; ``awaits_answer`` says that a question waits for a yes or no.
 
         Raises:
@@ -96,7 +96,7 @@ class VoiceWorker:
         except VoiceFailure as failure:
             log.warning("no spoken orders: %s", failure)
 
-    async def _hear(self, sound: Sound, *, awaits_answer: bool) -> Heard:
+    async def _hear(self, sound: Sound, *, awaits_answer: bool) -> Recognition:
         process = await self._ready()
         self._number += 1
         head = {
@@ -110,7 +110,7 @@ class VoiceWorker:
                 answer, _ = await exchange(process, pack(head, sound.pcm))
             if answer.get("number") != self._number or "failed" in answer:
                 raise ValueError(str(answer.get("failed", "an answer out of turn")))
-            return _heard(answer)
+            return _read_answer(answer)
         except TimeoutError:
             await self._bury()
             raise VoiceFailure("voice_timed_out", f"after {HEAR_S:g} s") from None
@@ -155,6 +155,6 @@ class VoiceWorker:
             await asyncio.shield(reap(process))
 
 
-def _heard(answer: dict[str, Any]) -> Heard:
+def _read_answer(answer: dict[str, Any]) -> Recognition:
     sure = answer["understood"] is True
-    return Heard(str(answer["transcript"]), float(answer["confidence"]), sure)
+    return Recognition(str(answer["transcript"]), float(answer["confidence"]), sure)

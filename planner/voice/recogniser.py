@@ -17,7 +17,7 @@ three (docs/adr/0013)."""
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
+class Recognition:
     """Hold what was heard. Only an ``understood`` text may become a goal."""
 
     transcript: str
@@ -45,7 +45,7 @@ class VoiceFailure(Exception):
 class Recogniser(Protocol):
     """Hear recordings, one at a time, without holding the event loop."""
 
-    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Heard:
+    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
         """Return what was heard; ``awaits_answer`` says that a question waits for a yes or no.
 
         Raises:

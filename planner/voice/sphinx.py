@@ -19,18 +19,18 @@ import pocketsphinx
 
 from planner.voice.audio_preprocess import FRAME, prepare, quiet
 from planner.voice.common_words import COMMON
-from planner.voice.confidence import Decoded, confidence, long_pauses, stop_confidence
+from planner.voice.confidence import DecoderResult, confidence, long_pauses, stop_confidence
 from planner.voice.dictionary import Dictionary
 from planner.voice.grammar import (
     ANSWERS,
     OTHER_STOPS,
     STOPS,
-    Language,
+    SpokenLanguage,
     is_answer,
     is_stop,
     language_of,
 )
-from planner.voice.recogniser import Heard
+from planner.voice.recogniser import Recognition
 from processes.forked_job import ForkedJob
 
 _DICTIONARY = "en-us/cmudict-en-us.dict"
@@ -59,7 +59,7 @@ class Sphinx:
             OSError: it brought none.
         """
         known = Dictionary(Path(pocketsphinx.get_model_path(_DICTIONARY)))
-        self.language: Language = language_of(names, known.__contains__)
+        self.language: SpokenLanguage = language_of(names, known.__contains__)
         named = {*chain.from_iterable(name.split() for name in self.language.names)}
         forms = self.language.jsgf + STOPS + OTHER_STOPS + ANSWERS
         spoken = {*COMMON, *_WORD.findall(forms)}
@@ -80,7 +80,7 @@ class Sphinx:
 
     def hear(
         self, pcm: bytes, rate_hz: int, channels: int, *, awaits_answer: bool = False
-    ) -> Heard:
+    ) -> Recognition:
         """Return what was said and how sure that is. Same bytes, same answer, whatever came before.
 
         A yes or no is looked for only where ``awaits_answer`` says that a question waits for one.
@@ -90,14 +90,14 @@ class Sphinx:
         """
         samples = prepare(pcm, rate_hz, channels)
         if samples is None:
-            return Heard("", 0.0, understood=False)
+            return Recognition("", 0.0, understood=False)
         recording = _Recording(samples, lambda: self._phones(samples))
         heard, words = self._order_or_stop(recording)
         if awaits_answer and not heard.understood and words is not None:
             return self._answer(recording, words) or heard
         return heard
 
-    def _order_or_stop(self, recording: _Recording) -> tuple[Heard, Decoded | None]:
+    def _order_or_stop(self, recording: _Recording) -> tuple[Recognition, DecoderResult | None]:
         """Return what the orders and the stops make of it, and the everyday words found in it."""
         samples, frames = recording.samples, recording.frames
         with (
@@ -106,7 +106,7 @@ class Sphinx:
         ):
             order = bound.result()
             if order is None or not self.language.is_order(order.text):
-                heard = Heard("" if order is None else order.text, 0.0, understood=False)
+                heard = Recognition("" if order is None else order.text, 0.0, understood=False)
                 free = spoken.result()
                 return self._other_stop(recording, free) or heard, free
             stop = is_stop(order.text)
@@ -117,12 +117,12 @@ class Sphinx:
             sure = stop_confidence(order, phones, frames)
         else:
             sure = 0.0 if words is None else confidence(order, phones, words, frames)
-        heard = Heard(order.text, round(sure, 3), understood=sure >= _SURE)
+        heard = Recognition(order.text, round(sure, 3), understood=sure >= _SURE)
         if not heard.understood:
             heard = self._other_stop(recording, free) or heard
         return heard, free
 
-    def _other_stop(self, recording: _Recording, words: Decoded | None) -> Heard | None:
+    def _other_stop(self, recording: _Recording, words: DecoderResult | None) -> Recognition | None:
         """Look once more at what was no order for other ways to say stop, or return None.
 
         They are believed only where everyday words don't tell the sound better and where it is as
@@ -137,9 +137,9 @@ class Sphinx:
         sure = stop_confidence(stop, phones, frames)
         if confidence(stop, phones, words, frames) < _BEYOND_DOUBT or sure < _SURE:
             return None
-        return Heard(stop.text, round(sure, 3), understood=True)
+        return Recognition(stop.text, round(sure, 3), understood=True)
 
-    def _answer(self, recording: _Recording, words: Decoded) -> Heard | None:
+    def _answer(self, recording: _Recording, words: DecoderResult) -> Recognition | None:
         """Return the yes or no that was said and nothing else, or None.
 
         A yes drives, so it is believed only where it fits as well as any sounds would, everyday
@@ -157,14 +157,16 @@ class Sphinx:
         sure = confidence(answer, phones, words, frames)
         if sure < _BEYOND_DOUBT or stop_confidence(answer, phones, frames) < _SURE:
             return None
-        return Heard(answer.text, round(sure, 3), understood=True)
+        return Recognition(answer.text, round(sure, 3), understood=True)
 
-    def _phones(self, samples: bytes) -> Decoded:
+    def _phones(self, samples: bytes) -> DecoderResult:
         with ForkedJob(lambda: _decode(self._free, "phones", samples)) as sounds:
-            return sounds.result() or Decoded("", 0.0, ())  # fits perfectly: nothing is believed
+            return sounds.result() or DecoderResult(
+                "", 0.0, ()
+            )  # fits perfectly: nothing is believed
 
-    def _order(self, samples: bytes) -> Decoded | None:
-        order = _trimmed(_decode(self._decoder, "orders", samples))
+    def _order(self, samples: bytes) -> DecoderResult | None:
+        order = _trim(_decode(self._decoder, "orders", samples))
         if order is None or is_stop(order.text) or not self.language.is_order(order.text):
             # A stop must not drown among the names, nor pay for them in its score.
             order = _decode(self._decoder, "stops", samples) or order
@@ -174,13 +176,13 @@ class Sphinx:
 class _Recording:
     """Hold what is heard once, and the sounds found in it: they are asked for up to three times."""
 
-    def __init__(self, samples: bytes, decode_phones: Callable[[], Decoded]) -> None:
+    def __init__(self, samples: bytes, decode_phones: Callable[[], DecoderResult]) -> None:
         self.samples = samples
         self.frames = len(samples) / (2 * FRAME)
         self._decode_phones = decode_phones
 
     @cached_property
-    def phones(self) -> Decoded:
+    def phones(self) -> DecoderResult:
         return self._decode_phones()
 
 
@@ -202,7 +204,7 @@ def _decoder(sounds: Path, **beams: float) -> pocketsphinx.Decoder:
     )
 
 
-def _decode(decoder: pocketsphinx.Decoder, search: str, samples: bytes) -> Decoded | None:
+def _decode(decoder: pocketsphinx.Decoder, search: str, samples: bytes) -> DecoderResult | None:
     decoder.activate_search(search)
     decoder.start_utt()
     decoder.process_raw(samples, full_utt=True)
@@ -215,20 +217,20 @@ def _decode(decoder: pocketsphinx.Decoder, search: str, samples: bytes) -> Decod
         for part in decoder.seg()
         if part.word != "(NULL)"  # a joint of the grammar, no sound
     )
-    return Decoded(best.hypstr, math.log(best.score), words) if best.hypstr else None
+    return DecoderResult(best.hypstr, math.log(best.score), words) if best.hypstr else None
 
 
-def _is_drawn_out(stop: Decoded) -> bool:
+def _is_drawn_out(stop: DecoderResult) -> bool:
     """Return whether a short stop is laid over a longer sentence."""
     frames = sum(end - start for word, _, start, end in stop.words if not word.startswith("<"))
     return frames > _FRAMES_A_LETTER * len(stop.text.replace(" ", ""))
 
 
-def _silent_between(order: Decoded, samples: bytes) -> bool:
+def _silent_between(order: DecoderResult, samples: bytes) -> bool:
     return all(quiet(samples, start, end - start) for _, _, start, end in long_pauses(order))
 
 
-def _trimmed(order: Decoded | None) -> Decoded | None:
+def _trim(order: DecoderResult | None) -> DecoderResult | None:
     """Drop a short "and" or "then" at the end: what a decoder makes of a last breath.
 
     The frames stay in the whole sentence's score, so words that were said there still tell.
@@ -243,7 +245,7 @@ def _trimmed(order: Decoded | None) -> Decoded | None:
     if not dropped or sum(end - start for _, _, start, end in dropped) > _BREATH_FRAMES:
         return order
     kept = tuple(word for word in order.words if word not in dropped)
-    return Decoded(" ".join(said), order.score, kept)
+    return DecoderResult(" ".join(said), order.score, kept)
 
 
 def _unigrams(words: Sequence[str]) -> str:

@@ -36,7 +36,7 @@ _FOREIGN = (
 _ENCODINGS = {2: "ADPCM", 3: "floating point", 6: "A-law", 7: "mu-law", 0x55: "MP3"}
 
 
-class BadRecording(Exception):
+class BadSound(Exception):
     """The recording can't be used; ``code`` is stable."""
 
     def __init__(self, code: str, detail: str) -> None:
@@ -63,7 +63,7 @@ def read_wav(data: bytes) -> Sound:
     """Return the samples of a WAV file whose every number has been checked.
 
     Raises:
-        BadRecording: ``audio_empty``, ``not_wav``, ``wav_truncated``, ``wav_malformed``,
+        BadSound: ``audio_empty``, ``not_wav``, ``wav_truncated``, ``wav_malformed``,
             ``wav_unsupported``, ``audio_too_long``, ``audio_too_short``, ``body_too_large``.
     """
     _check_outside(data)
@@ -73,29 +73,29 @@ def read_wav(data: bytes) -> Sound:
             shape = _shape(data[start : start + size])
         elif kind == b"data":
             if shape is None:
-                raise BadRecording("wav_malformed", "the samples come before their format")
+                raise BadSound("wav_malformed", "the samples come before their format")
             return _sound(shape, data, start, size)
     missing = "samples" if shape else "format"
-    raise BadRecording("wav_malformed", f"there is no chunk of {missing}")
+    raise BadSound("wav_malformed", f"there is no chunk of {missing}")
 
 
 def _check_outside(data: bytes) -> None:
     if not data:
-        raise BadRecording("audio_empty", "0 bytes came; expected a WAV file")
+        raise BadSound("audio_empty", "0 bytes came; expected a WAV file")
     if len(data) > MAX_BYTES:
-        raise BadRecording("body_too_large", f"{len(data)} bytes came; at most {MAX_BYTES}")
+        raise BadSound("body_too_large", f"{len(data)} bytes came; at most {MAX_BYTES}")
     for mark, name in _FOREIGN:
         if data.startswith(mark):
-            raise BadRecording("not_wav", f"this is {name}; expected WAV with 16-bit PCM")
+            raise BadSound("not_wav", f"this is {name}; expected WAV with 16-bit PCM")
     if len(data) < _RIFF.size or data[:4] != b"RIFF" or data[8:12] != b"WAVE":
-        raise BadRecording("not_wav", f"begins with {data[:12]!r}; expected RIFF … WAVE")
+        raise BadSound("not_wav", f"begins with {data[:12]!r}; expected RIFF … WAVE")
     claimed = _RIFF.unpack_from(data)[1] + _CHUNK.size
     if claimed > len(data):
         text = f"the header speaks of {claimed} bytes, {len(data)} came"
-        raise BadRecording("wav_truncated", text)
+        raise BadSound("wav_truncated", text)
     if claimed + 1 < len(data):  # one byte may pad an odd chunk
         text = f"the header speaks of {claimed} bytes, {len(data)} came"
-        raise BadRecording("wav_malformed", text)
+        raise BadSound("wav_malformed", text)
 
 
 def _chunks(data: bytes) -> list[tuple[bytes, int, int]]:
@@ -107,13 +107,13 @@ def _chunks(data: bytes) -> list[tuple[bytes, int, int]]:
         at += _CHUNK.size
         if at + size > len(data):
             text = f"chunk {kind!r} speaks of {size} bytes, {len(data) - at} are left"
-            raise BadRecording("wav_truncated", text)
+            raise BadSound("wav_truncated", text)
         if len(found) >= MAX_CHUNKS:
-            raise BadRecording("wav_malformed", f"more than {MAX_CHUNKS} chunks")
+            raise BadSound("wav_malformed", f"more than {MAX_CHUNKS} chunks")
         found.append((kind, at, size))
         at += size + size % 2
     if at < len(data):
-        raise BadRecording("wav_malformed", f"{len(data) - at} bytes at the end are no chunk")
+        raise BadSound("wav_malformed", f"{len(data) - at} bytes at the end are no chunk")
     return found
 
 
@@ -121,33 +121,33 @@ def _shape(body: bytes) -> tuple[int, int]:
     """Return rate [Hz] and channels of a format chunk."""
     if len(body) not in _FORMAT_SIZES:
         text = f"a format chunk of {len(body)} bytes; expected 16, 18 or 40"
-        raise BadRecording("wav_malformed", text)
+        raise BadSound("wav_malformed", text)
     encoding, channels, rate_hz, bytes_per_s, block, bits = _FORMAT.unpack_from(body)
     if encoding == _EXTENSIBLE and len(body) == 40 and body[24:40] == _PCM_SUBFORMAT:
         encoding = _PCM
     if encoding != _PCM:
         name = _ENCODINGS.get(encoding, f"encoding {encoding:#06x}")
-        raise BadRecording("wav_unsupported", f"{name}; expected 16-bit PCM")
+        raise BadSound("wav_unsupported", f"{name}; expected 16-bit PCM")
     if bits != 16:
-        raise BadRecording("wav_unsupported", f"{bits} bits a sample; expected 16")
+        raise BadSound("wav_unsupported", f"{bits} bits a sample; expected 16")
     if channels not in (1, 2):
-        raise BadRecording("wav_unsupported", f"{channels} channels; expected 1 or 2")
+        raise BadSound("wav_unsupported", f"{channels} channels; expected 1 or 2")
     if not MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ:
         text = f"{rate_hz} Hz; expected {MIN_RATE_HZ} to {MAX_RATE_HZ}"
-        raise BadRecording("wav_unsupported", text)
+        raise BadSound("wav_unsupported", text)
     if block != 2 * channels or bytes_per_s != block * rate_hz:
         text = f"{bytes_per_s} bytes/s in blocks of {block} do not fit {channels} × {rate_hz} Hz"
-        raise BadRecording("wav_malformed", text)
+        raise BadSound("wav_malformed", text)
     return rate_hz, channels
 
 
 def _sound(shape: tuple[int, int], data: bytes, start: int, size: int) -> Sound:
     rate_hz, channels = shape
     if size % (2 * channels):
-        raise BadRecording("wav_malformed", f"{size} bytes of samples are no whole blocks")
+        raise BadSound("wav_malformed", f"{size} bytes of samples are no whole blocks")
     seconds = size / (2 * channels * rate_hz)
     if seconds > MAX_SECONDS:
-        raise BadRecording("audio_too_long", f"{seconds:.1f} s; at most {MAX_SECONDS:g} s")
+        raise BadSound("audio_too_long", f"{seconds:.1f} s; at most {MAX_SECONDS:g} s")
     if seconds < MIN_SECONDS:
-        raise BadRecording("audio_too_short", f"{seconds:.3f} s; at least {MIN_SECONDS:g} s")
+        raise BadSound("audio_too_short", f"{seconds:.3f} s; at least {MIN_SECONDS:g} s")
     return Sound(rate_hz, channels, data[start : start + size])

@@ -10,7 +10,7 @@ from contextlib import closing
 from pathlib import Path
 
 from bridge.operator_key import load_operator_key
-from planner.settings import exposed
+from planner.settings import find_exposed
 from planner.site import Site, SiteError
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.up import MIN_FREE_BYTES
@@ -75,7 +75,7 @@ def secrets(path: Path, *, virtual: bool) -> HealthFinding:
     """Look whether others may read or change the keys that lie in the home folder."""
     try:
         load_operator_key(path, virtual=virtual)
-        found = exposed(path)
+        found = find_exposed(path)
     except ConfigError as wrong:
         fix = BilingualWords(
             "mend or remove that file; as the bridge's user, `pons key new` makes operator.key",

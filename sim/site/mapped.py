@@ -15,7 +15,7 @@ from pydantic import ConfigDict, Field
 
 from maps import OCCUPIED, load_map
 from maps.cell_array import cell_array
-from maps.yaml_records import Record, parse_yaml, read_bytes
+from maps.yaml_records import SiteRecord, parse_yaml, read_bytes
 from sim.site.spec import Furniture, Home, HomePlace, HomeWall, Name, Room
 from wire import ConfigError
 from wire.geometry import Pose2
@@ -36,7 +36,7 @@ _DOCK = "home"
 _BOUNDS_M = 499.0
 
 
-class _Spot(Record):
+class _Spot(SiteRecord):
     """Take of a place what a robot's start needs; the planner judges the rest."""
 
     model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False)
@@ -44,7 +44,7 @@ class _Spot(Record):
     pose: Pose2
 
 
-class _Spots(Record):
+class _Spots(SiteRecord):
     model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False)
     home: str
     places: Annotated[tuple[_Spot, ...], Field(min_length=1, max_length=10_000)]

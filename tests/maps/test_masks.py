@@ -57,7 +57,7 @@ def test_every_painted_cell_is_closed(tmp_path: Path, yaw_rad: float, resolution
         along, up = (column + 0.5) * resolution_m, (row + 0.5) * resolution_m
         x_m = 3.0 + along * cos(yaw_rad) - up * sin(yaw_rad)
         y_m = 1.0 + along * sin(yaw_rad) + up * cos(yaw_rad)
-        assert closes(found, x_m, y_m) or not FLOOR.inside(x_m, y_m)
+        assert closes(found, x_m, y_m) or not FLOOR.contains(x_m, y_m)
     assert all(crosses_itself(area) is None for area in found.keep_outs)
 
 

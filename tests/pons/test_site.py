@@ -50,7 +50,7 @@ def test_a_proposed_room_gets_a_name_and_is_a_place(
     before = Site.load(site_of("mine", settings.home)).map_id
     assert site.run(settings, ["name", "mine", "room_1", "tea kitchen", "--zh", "茶水间"]) == 0
     loaded = Site.load(site_of("mine", settings.home))
-    found = loaded.named("茶水间")
+    found = loaded.find_place("茶水间")
     assert found is not None
     assert found.id == "tea_kitchen"
     assert loaded.map_id == before

@@ -78,7 +78,7 @@ def _codec(_folder: Path) -> Reader:
 
 
 def _wav(_folder: Path) -> Reader:
-    from planner.voice.wav import MAX_SECONDS, BadRecording, read_wav
+    from planner.voice.wav import MAX_SECONDS, BadSound, read_wav
 
     def read(data: bytes) -> object:
         sound = read_wav(data)
@@ -86,7 +86,7 @@ def _wav(_folder: Path) -> Reader:
             raise Unsound(f"{sound.seconds} s")
         return sound
 
-    return Reader(read, (BadRecording,))
+    return Reader(read, (BadSound,))
 
 
 def _mcap(folder: Path) -> Reader:

@@ -45,9 +45,9 @@ def _model() -> Loaded:
 
 
 def _wav() -> Loaded:
-    from planner.voice.wav import BadRecording, read_wav
+    from planner.voice.wav import BadSound, read_wav
 
-    return lambda folder: read_wav((folder / "said.wav").read_bytes()), (BadRecording,)
+    return lambda folder: read_wav((folder / "said.wav").read_bytes()), (BadSound,)
 
 
 def _mcap() -> Loaded:

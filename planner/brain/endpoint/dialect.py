@@ -28,7 +28,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from planner.brain.response_format import PLAN_FORM, ReplyForm
 from planner.brain.schema import Message
-from planner.settings import Mode, ModelSettings, TokensField
+from planner.settings import JsonMode, ModelSettings, TokensField
 
 MAX_JPEG_BYTES = 500_000
 """Twice what 1024 pixels take; to pack more would hold the event loop for over 10 ms."""
@@ -83,7 +83,7 @@ def why_refused(said: str) -> str | None:
     return "no_pictures" if _AT_ALL.search(said) and not _THE_WAY.search(said) else None
 
 
-LADDER = tuple(Mode)
+LADDER = tuple(JsonMode)
 """Strictest first."""
 
 Body = dict[str, Any]
@@ -94,7 +94,7 @@ _TOO_LONG = re.compile(r"context (?:length|window|size)|maximum context|prompt i
 class Dialect:
     """Say how to ask. ``fixed``: the owner chose the mode, so it is not stepped down from."""
 
-    mode: Mode = LADDER[0]
+    mode: JsonMode = LADDER[0]
     temperature: bool = True
     system: bool = True
     tokens_field: TokensField = "max_tokens"
@@ -110,7 +110,7 @@ class Dialect:
     @classmethod
     def first(cls, settings: ModelSettings) -> Dialect:
         """Return how a server is asked of which nothing but its preset is known."""
-        known = settings.known
+        known = settings.known_preset
         begin = cls() if known is None else cls(
             mode=known.mode, system=known.system, tokens_field=known.tokens_field
         )  # fmt: skip
@@ -155,7 +155,7 @@ def _about_system(complaint: str) -> bool:
 
 def quiet_of(settings: ModelSettings) -> Body:
     """Return what switches this server's thoughts off, as far as it is wanted and known."""
-    known = settings.known
+    known = settings.known_preset
     return {} if known is None or settings.thinking else dict(known.quiet)
 
 
@@ -217,11 +217,11 @@ def _tool(schema: Body, form: ReplyForm) -> Body:
     }
 
 
-_MODES: dict[Mode, Callable[[Body, ReplyForm], Body]] = {
-    Mode.JSON_SCHEMA: _json_schema,
-    Mode.TOOL: _tool,
-    Mode.JSON_OBJECT: lambda _schema, _form: {"response_format": {"type": "json_object"}},
-    Mode.PROMPT: lambda _schema, _form: {},
+_MODES: dict[JsonMode, Callable[[Body, ReplyForm], Body]] = {
+    JsonMode.JSON_SCHEMA: _json_schema,
+    JsonMode.TOOL: _tool,
+    JsonMode.JSON_OBJECT: lambda _schema, _form: {"response_format": {"type": "json_object"}},
+    JsonMode.PROMPT: lambda _schema, _form: {},
 }
 
 

@@ -17,7 +17,7 @@ from planner.brain.prompt import Prompt, tokens
 from planner.budget import Purse
 from planner.mission.site_view import vocabulary_of
 from planner.plan import EVERY_KIND, Language
-from planner.settings import GoalLimits, Mode, ModelSettings, Settings
+from planner.settings import GoalLimits, JsonMode, ModelSettings, Settings
 from planner.site import Site
 from pons.evals.cases import Case
 from pons.evals.matchers import read_expectation
@@ -58,7 +58,7 @@ class _Room:
     def left_s(self) -> float:
         return self.end_s - self.clock()
 
-    def brain(self, mode: Mode | None) -> EndpointBrain:
+    def brain(self, mode: JsonMode | None) -> EndpointBrain:
         """Return a brain that asks in one way, patient to the end of the exam at most."""
         timeout_s = max(0.5, min(self.model.timeout_s, self.left_s))
         changes = {"mode": mode, "timeout_s": timeout_s, "allow_offhost": True}
@@ -96,7 +96,7 @@ async def examine(
     began_s, goal = clock(), f"{GOAL}-{time.time_ns()}"
     with open_purse(settings, model, home, limits) as (purse, folder):
         room = _Room(purse, model, folder, goal, began_s + caps.seconds, clock)
-        rungs = [await _try_mode(room, mode) for mode in Mode]
+        rungs = [await _try_mode(room, mode) for mode in JsonMode]
         marked = await _answers(room, _best(rungs))
         eyes = await _eyes(room, _best(rungs))
         cost = spending_of(purse, goal)
@@ -105,13 +105,13 @@ async def examine(
     return Exam(model.name, host, tuple(rungs), marked, eyes, cost, took_s, prompt_tokens(site))
 
 
-def _best(rungs: list[ModeResult]) -> Mode | None:
+def _best(rungs: list[ModeResult]) -> JsonMode | None:
     """Return the strictest way that gave a right plan, else one that was taken at all."""
     good = [rung for rung in rungs if rung.right] or [rung for rung in rungs if rung.taken]
-    return Mode(good[0].mode) if good else None
+    return JsonMode(good[0].mode) if good else None
 
 
-async def _try_mode(room: _Room, mode: Mode) -> ModeResult:
+async def _try_mode(room: _Room, mode: JsonMode) -> ModeResult:
     if room.left_s <= 0.0:
         return ModeResult(mode.value, taken=False, right=False, why="not_asked")
     brain = room.brain(mode)
@@ -123,7 +123,7 @@ async def _try_mode(room: _Room, mode: Mode) -> ModeResult:
     return ModeResult(mode.value, taken, right, "" if right else marked.made)
 
 
-async def _answers(room: _Room, mode: Mode | None) -> tuple[MarkedAnswer, ...]:
+async def _answers(room: _Room, mode: JsonMode | None) -> tuple[MarkedAnswer, ...]:
     if mode is None:
         return tuple(MarkedAnswer(question, "no_answer") for question in QUESTIONS)
     marked = []
@@ -139,7 +139,7 @@ async def _answers(room: _Room, mode: Mode | None) -> tuple[MarkedAnswer, ...]:
     return tuple(marked)
 
 
-async def _eyes(room: _Room, mode: Mode | None) -> PictureResult:
+async def _eyes(room: _Room, mode: JsonMode | None) -> PictureResult:
     if mode is None or room.left_s <= 0.0:
         return PictureResult()
     brain = room.brain(mode)

@@ -18,7 +18,7 @@ from planner.mission.errors import BadState, UnknownGoal
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
 from planner.site import FenceProposals, Site
-from planner.voice import Heard, Sound, VoiceFailure
+from planner.voice import Recognition, Sound, VoiceFailure
 from tests.wire.examples import STATUS
 from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
 
@@ -158,11 +158,13 @@ class FakeEars:
     """Hear what the test says."""
 
     def __init__(self) -> None:
-        self.heard: Heard | VoiceFailure = Heard("go to the kitchen", 0.9, understood=True)
+        self.heard: Recognition | VoiceFailure = Recognition(
+            "go to the kitchen", 0.9, understood=True
+        )
         self.sounds: list[Sound] = []
         self.awaited: list[bool] = []
 
-    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Heard:
+    async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
         self.awaited.append(awaits_answer)
         self.sounds.append(sound)
         if isinstance(self.heard, VoiceFailure):

@@ -85,7 +85,7 @@ def test_what_can_not_be_is_refused_with_its_code(
     answer = client.post("/v1/fence/proposals", json=body(services, **changes))
     assert answer.status_code == 422
     assert answer.json()["code"] == code
-    assert services.fences.all() == []
+    assert services.fences.list_all() == []
 
 
 def test_a_fence_without_the_robot_is_refused(client: TestClient, services: FakeServices) -> None:

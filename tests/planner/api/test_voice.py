@@ -12,7 +12,7 @@ from planner.api import Access
 from planner.api.access import NotAllowed
 from planner.api.middleware import MAX_BODY_BYTES
 from planner.plan import Language
-from planner.voice import MAX_BYTES, Heard, VoiceFailure
+from planner.voice import MAX_BYTES, Recognition, VoiceFailure
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.planner.voice.speech import wav
@@ -60,7 +60,7 @@ def test_what_is_heard_becomes_a_goal(
 def test_what_is_not_heard_is_an_outcome_and_no_goal(
     client: TestClient, services: FakeServices
 ) -> None:
-    services.ears.heard = Heard("go to the kitchen", 0.3, understood=False)
+    services.ears.heard = Recognition("go to the kitchen", 0.3, understood=False)
     answer = client.post("/v1/voice", content=SECOND, headers=WAV)
     assert answer.status_code == 200
     body = answer.json()
@@ -78,11 +78,11 @@ def test_what_is_not_heard_is_an_outcome_and_no_goal(
 def test_what_is_heard_but_not_surely_waits_for_a_yes(
     client: TestClient, services: FakeServices
 ) -> None:
-    services.ears.heard = Heard("go to the kitchen", 0.6, understood=True)
+    services.ears.heard = Recognition("go to the kitchen", 0.6, understood=True)
     assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
-    services.ears.heard = Heard("yes", 0.6, understood=True)  # so it answers nothing
+    services.ears.heard = Recognition("yes", 0.6, understood=True)  # so it answers nothing
     assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
-    services.ears.heard = Heard("stop", 0.6, understood=True)
+    services.ears.heard = Recognition("stop", 0.6, understood=True)
     assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
     assert [(call[1], call[3]) for call in services.goals.calls] == [
         ("go to the kitchen", True),
@@ -101,10 +101,10 @@ def test_a_yes_or_no_is_looked_for_while_a_question_waits_for_one(
 
 def test_a_spoken_stop_carries_no_act_that_clears_a_hold() -> None:
     services = FakeServices(STATUS)  # held
-    services.ears.heard = Heard("stop now", 0.6, understood=True)
+    services.ears.heard = Recognition("stop now", 0.6, understood=True)
     with client_of(services) as client:
         assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
-        services.ears.heard = Heard("go home", 0.6, understood=True)
+        services.ears.heard = Recognition("go home", 0.6, understood=True)
         assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
     assert [act is None for act in services.goals.acts] == [True, False]
 

@@ -15,7 +15,7 @@ from planner.bridge_client import Aged
 from planner.mission.known_places import KnownPlaces, Lesson
 from planner.site import (
     MAX_HERE,
-    PlaceRefused,
+    PlaceRefusal,
     Site,
     SiteError,
     TaughtPlace,
@@ -75,7 +75,7 @@ def teach_many(kept: KnownPlaces) -> None:
 
 def refused(kept: KnownPlaces, *args: Any, **named: Any) -> str:
     before = kept.places
-    with pytest.raises(PlaceRefused) as why:
+    with pytest.raises(PlaceRefusal) as why:
         teach(kept, *args, **named)
     assert kept.places is before
     return why.value.code
@@ -214,7 +214,7 @@ def test_another_map_keeps_its_places_and_they_are_never_driven_to(tmp_path: Pat
     assert [(k.place.id, k.why_not) for k in kept.taught_places] == [("corner", "other_map")]
     assert "corner" not in kept.facts.targets
     assert "corner" not in kept.vocabulary
-    with pytest.raises(PlaceRefused, match="unknown_taught_place"):
+    with pytest.raises(PlaceRefusal, match="unknown_taught_place"):
         asyncio.run(kept.forget("corner"))
     asyncio.run(kept.forget("corner", other_maps=True))
     assert memory(tmp_path).taught_places == ()
@@ -256,7 +256,7 @@ def test_what_cannot_be_written_changes_nothing(tmp_path: Path, pragma: str, cod
     kept.use(Bridge(), StraightRouter())
     made = teach(kept, "corner")
     database.read(f"PRAGMA {pragma}")  # of this connection: as where the disk or home is so
-    with pytest.raises(PlaceRefused, match=code):
+    with pytest.raises(PlaceRefusal, match=code):
         teach_many(kept)  # until a page more is needed
     database.close()
     assert [shown.place for shown in memory(tmp_path).taught_places] == [

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.settings import FILE, Mode, ModelSettings, exposed, load_settings
+from planner.settings import FILE, JsonMode, ModelSettings, find_exposed, load_settings
 from wire import ConfigError
 
 KEY = "sk-secret-0123456789"
@@ -41,7 +41,7 @@ def test_a_model_by_file(tmp_path: Path) -> None:
     more = 'timeout_s = 7.5\nmode = "prompt"\nallow_offhost = true\nparallel = 1\n'
     found = model(tmp_path, LOCAL + more)
     assert found is not None
-    assert (found.name, found.timeout_s, found.mode) == ("qwen3:8b", 7.5, Mode.PROMPT)
+    assert (found.name, found.timeout_s, found.mode) == ("qwen3:8b", 7.5, JsonMode.PROMPT)
     assert (found.allow_offhost, found.parallel) == (True, 1)
 
 
@@ -187,13 +187,15 @@ def test_a_key_that_others_can_read_or_redirect_is_told_aloud(
         told
     )
     assert "sk-very" not in caplog.text
-    assert bool(exposed(tmp_path)) is (told is not None)
+    assert bool(find_exposed(tmp_path)) is (told is not None)
 
 
 def test_a_key_file_that_others_can_read_is_told(tmp_path: Path) -> None:
     (tmp_path / "settings.toml").write_text('[model]\nkey_file = "k"\n')
     (tmp_path / "settings.toml").chmod(0o600)
-    assert exposed(tmp_path) == []
+    assert find_exposed(tmp_path) == []
     (tmp_path / "k").write_text("secret")
     (tmp_path / "k").chmod(0o644)
-    assert exposed(tmp_path) == [f"{tmp_path / 'k'} has mode 0644: others can read the key in it"]
+    assert find_exposed(tmp_path) == [
+        f"{tmp_path / 'k'} has mode 0644: others can read the key in it"
+    ]

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from planner.brain.endpoint import Address
-from planner.settings import FILE, OWN_FIELDS, PRESETS, Mode, PresetName, load_settings
+from planner.settings import FILE, OWN_FIELDS, PRESETS, JsonMode, PresetName, load_settings
 from tests.conftest import ROOT
 from wire import ConfigError
 
@@ -55,7 +55,7 @@ def test_own_words_win_over_the_preset(tmp_path: Path) -> None:
     found = load(tmp_path, lines)
     assert (found.url, found.max_tokens) == ("http://127.0.0.1:9/v1", 300)
     assert found.mode is None
-    assert PRESETS[PresetName.ANTHROPIC].mode is Mode.TOOL
+    assert PRESETS[PresetName.ANTHROPIC].mode is JsonMode.TOOL
 
 
 def test_a_preset_by_environment_leaves_the_key_of_the_file_behind(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from planner.site import FenceProposals, FenceRefused, Site, check_fence, fence_diff
+from planner.site import FenceProposals, FenceRefusal, Site, check_fence, fence_diff
 from planner.site.fence_store import MAX_OPEN
 from wire import FenceFile, Pose2, fingerprint
 from wire.fence import MAX_CORNERS, fence_text
@@ -69,8 +69,8 @@ def test_outlines_that_overlap_count_once_and_zones_are_counted() -> None:
 # What is refused ---------------------------------------------------------------------------------
 
 
-def refused(proposal: FenceFile, pose: Pose2 | None = HERE) -> FenceRefused:
-    with pytest.raises(FenceRefused) as caught:
+def refused(proposal: FenceFile, pose: Pose2 | None = HERE) -> FenceRefusal:
+    with pytest.raises(FenceRefusal) as caught:
         check_fence(proposal, SITE, pose)
     assert caught.value.detail
     return caught.value
@@ -144,7 +144,7 @@ def test_a_proposal_is_named_by_the_hash_that_status_will_show(store: FencePropo
 def test_proposals_outlive_a_restart_and_come_newest_first(store: FenceProposals) -> None:
     first, second = store.propose(small(1), "cli"), store.propose(small(2), "page")
     again = FenceProposals.in_home(store._database.path.parent)
-    assert [item.id for item in again.all()] == [second.id, first.id]
+    assert [item.id for item in again.list_all()] == [second.id, first.id]
 
 
 def test_the_same_text_again_is_one_proposal_open_anew(store: FenceProposals) -> None:
@@ -152,14 +152,14 @@ def test_the_same_text_again_is_one_proposal_open_anew(store: FenceProposals) ->
     store.decide(item.id, "rejected", "cli")
     assert store.get(item.id).state == "rejected"
     assert store.propose(small(1), "cli").state == "proposed"
-    assert len(store.all()) == 1
+    assert len(store.list_all()) == 1
 
 
 def test_a_text_that_was_changed_on_the_disk_is_no_proposal(store: FenceProposals) -> None:
     item = store.propose(small(1), "cli")
     with store._database.change() as connection:
         connection.execute("UPDATE fence_proposals SET record = replace(record, '0.301', '0.001')")
-    with pytest.raises(FenceRefused, match="unknown_fence_proposal"):
+    with pytest.raises(FenceRefusal, match="unknown_fence_proposal"):
         store.get(item.id)
 
 
@@ -183,7 +183,7 @@ def test_files_of_the_layout_before_are_taken_over_once_and_kept_beside(
         (folder / f"{number:016x}.json").write_bytes(data)
     for _ in range(2):
         after = FenceProposals.in_home(tmp_path / "before")
-        assert after.all() == [item]
+        assert after.list_all() == [item]
     assert not folder.exists()
     beside = folder.with_name("proposals.old")
     assert {path.read_bytes() for path in beside.iterdir()} == odd | {whole.encode()}
@@ -191,7 +191,7 @@ def test_files_of_the_layout_before_are_taken_over_once_and_kept_beside(
 
 def test_too_many_that_wait_are_refused_until_some_are_decided(store: FenceProposals) -> None:
     items = [store.propose(small(number), "cli") for number in range(MAX_OPEN)]
-    with pytest.raises(FenceRefused, match="fence_proposals_full"):
+    with pytest.raises(FenceRefusal, match="fence_proposals_full"):
         store.propose(small(99), "cli")
     store.decide(items[0].id, "rejected", "cli")
     store.propose(small(99), "cli")
@@ -199,5 +199,5 @@ def test_too_many_that_wait_are_refused_until_some_are_decided(store: FencePropo
 
 def test_an_unknown_one_is_told_which_there_are(store: FenceProposals) -> None:
     item = store.propose(small(1), "cli")
-    with pytest.raises(FenceRefused, match=item.id):
+    with pytest.raises(FenceRefusal, match=item.id):
         store.decide("0" * 16, "accepted", "cli")

@@ -50,14 +50,14 @@ def test_the_room_around_a_point(good_site: Site, x_m: float, y_m: float, room: 
     "name", ["left_room", "Left  Room", "den", "DEN", "左边", "左房", "ｄｅｎ"]
 )
 def test_a_name_in_either_language_finds_the_place(good_site: Site, name: str) -> None:
-    found = good_site.named(name)
+    found = good_site.find_place(name)
     assert found is not None
     assert found.id == "left_room"
 
 
 def test_a_part_of_a_name_finds_nothing(good_site: Site) -> None:
-    assert good_site.named("room") is None
-    assert good_site.named("") is None
+    assert good_site.find_place("room") is None
+    assert good_site.find_place("") is None
 
 
 @pytest.mark.parametrize(
@@ -188,6 +188,6 @@ def test_the_default_home_has_its_rooms_in_both_languages() -> None:
     names = {"客厅": "living_room", "厨房": "kitchen", "卧室": "bedroom", "卫生间": "bathroom"}
     names |= {"书房": "study", "走廊": "hallway", "玄关": "entrance", "大门": "front_door"}
     for name, wanted in names.items():
-        found = site.named(name)
+        found = site.find_place(name)
         assert found is not None
         assert found.id == wanted

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from planner.voice.audio_preprocess import FRAME, RATE_HZ, SILENT_PEAK, prepare, quiet, resampled
+from planner.voice.audio_preprocess import FRAME, RATE_HZ, SILENT_PEAK, prepare, quiet, resample
 
 
 @pytest.mark.parametrize("rate_hz", [8_000, 11_025, 22_050, 44_100, 48_000])
 def test_a_tone_keeps_its_height(rate_hz: int) -> None:
     time_s = np.arange(rate_hz) / rate_hz
-    heard = resampled(np.sin(2 * np.pi * 440.0 * time_s), rate_hz)
+    heard = resample(np.sin(2 * np.pi * 440.0 * time_s), rate_hz)
     assert len(heard) == RATE_HZ
     assert int(np.argmax(np.abs(np.fft.rfft(heard)))) == 440
     assert np.abs(heard).max() == pytest.approx(1.0, abs=0.01)
@@ -19,7 +19,7 @@ def test_a_tone_keeps_its_height(rate_hz: int) -> None:
 
 def test_what_16_khz_cant_carry_is_taken_out() -> None:
     time_s = np.arange(48_000) / 48_000
-    assert np.abs(resampled(np.sin(2 * np.pi * 15_000.0 * time_s), 48_000)).max() < 0.01
+    assert np.abs(resample(np.sin(2 * np.pi * 15_000.0 * time_s), 48_000)).max() < 0.01
 
 
 def test_two_channels_become_one_and_quiet_becomes_loud() -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from planner.language.yes_no import consents
 from planner.voice import read_wav
-from planner.voice.recogniser import Heard
+from planner.voice.recogniser import Recognition
 from tests.planner.voice.speech import AUDIO, needs_clips, needs_espeak, speak, wav
 
 pytest.importorskip("pocketsphinx", reason="pocketsphinx has no wheel for this Python")
@@ -28,10 +28,10 @@ def ears() -> Sphinx:
     return Sphinx(NAMES)
 
 
-def hear(ears: Sphinx, data: bytes, *, awaits_answer: bool = False) -> Heard:
+def hear(ears: Sphinx, data: bytes, *, awaits_answer: bool = False) -> Recognition:
     sound = read_wav(data)
     heard = ears.hear(sound.pcm, sound.rate_hz, sound.channels, awaits_answer=awaits_answer)
-    assert isinstance(heard, Heard)
+    assert isinstance(heard, Recognition)
     return heard
 
 
@@ -156,7 +156,7 @@ def test_recorded_people_who_order_nothing_move_nothing(ears: Sphinx) -> None:
 
 @pytest.mark.parametrize("pcm", [bytes(32_000), b"\x01\x00" * 16_000, b"\xff\x7f" * 16_000])
 def test_silence_is_nothing(ears: Sphinx, pcm: bytes) -> None:
-    assert ears.hear(pcm, 16_000, 1) == Heard("", 0.0, understood=False)
+    assert ears.hear(pcm, 16_000, 1) == Recognition("", 0.0, understood=False)
 
 
 def test_the_shortest_noise_is_nothing(ears: Sphinx) -> None:

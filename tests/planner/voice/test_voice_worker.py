@@ -10,7 +10,7 @@ from contextlib import asynccontextmanager
 
 import pytest
 
-from planner.voice import Heard, Sound, VoiceFailure, VoiceWorker, process_client
+from planner.voice import Recognition, Sound, VoiceFailure, VoiceWorker, process_client
 from processes import worker_protocol
 from tests.processes.small_worker import story
 
@@ -60,10 +60,10 @@ async def test_the_real_process_hears_silence_and_ends() -> None:
     pytest.importorskip("pocketsphinx")
     async with running() as ears:
         ears.warm()
-        assert await ears.hear(SECOND) == Heard("", 0.0, understood=False)
+        assert await ears.hear(SECOND) == Recognition("", 0.0, understood=False)
         assert ears.left_out == ("xyzzy",)
         pid = ears.pid
-        assert await ears.hear(SECOND) == Heard("", 0.0, understood=False)
+        assert await ears.hear(SECOND) == Recognition("", 0.0, understood=False)
         assert ears.pid == pid
     with pytest.raises(ProcessLookupError):
         os.kill(pid or 0, 0)

@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.voice import MAX_BYTES, BadRecording, read_wav
+from planner.voice import MAX_BYTES, BadSound, read_wav
 from tests.planner.voice.speech import AUDIO, needs_clips, wav
 
 SECOND = bytes(32_000)
 
 
 def code_of(data: bytes) -> str:
-    with pytest.raises(BadRecording) as bad:
+    with pytest.raises(BadSound) as bad:
         read_wav(data)
     assert bad.value.detail
     return bad.value.code
@@ -119,6 +119,6 @@ def test_no_header_makes_anything_else_happen(at: int, value: int, cut: int, tai
     data[at] = value
     try:
         sound = read_wav(bytes(data[: len(data) - cut]) + tail)
-    except BadRecording:
+    except BadSound:
         return
     assert 0.1 <= sound.seconds <= 15.0

@@ -21,7 +21,7 @@ from planner.language.stop import is_stop
 from planner.mission.site_view import vocabulary_of
 from planner.plan import Step, StepPlan, Vocabulary
 from planner.site import Site
-from planner.voice import Heard, read_wav
+from planner.voice import Recognition, read_wav
 from pons.http import PlannerProblem, call
 from pons.settings import CHECKOUT
 from tools.bench.context import until
@@ -140,12 +140,12 @@ def _steps(text: str, vocabulary: Vocabulary) -> tuple[Step, ...] | str:
     return made.steps if isinstance(made, StepPlan) else ()
 
 
-def _hear(ears: Sphinx, text: str, voice: str, wpm: int) -> Heard:
+def _hear(ears: Sphinx, text: str, voice: str, wpm: int) -> Recognition:
     sound = read_wav(speak(text, voice, wpm))
     return ears.hear(sound.pcm, sound.rate_hz, sound.channels)
 
 
-def _text(heard: Heard) -> str:
+def _text(heard: Recognition) -> str:
     return heard.transcript if heard.understood else ""
 
 

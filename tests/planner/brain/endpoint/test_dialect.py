@@ -14,7 +14,7 @@ from planner.brain import BrainDown
 from planner.brain.endpoint.dialect import FILE, LADDER, Dialect, body_of
 from planner.brain.schema import schema_of
 from planner.plan import Vocabulary
-from planner.settings import PRESETS, Mode, PresetName
+from planner.settings import PRESETS, JsonMode, PresetName
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.endpoint.servers import (
     GO,
@@ -140,7 +140,7 @@ def test_a_mode_of_the_owner_is_kept_whatever_is_remembered(
     home: Vocabulary, tmp_path: Path
 ) -> None:
     think(brain(Server(lambda: wrote(GO)), tmp_path), HOME)
-    for mode in Mode:
+    for mode in JsonMode:
         server = Server(lambda: wrote(GO))
         think(brain(server, tmp_path, mode=mode), home)
         assert [rung(body) for body in server.bodies] == [mode.value]
