@@ -17,7 +17,7 @@ from planner import tls
 from planner.api import Access
 from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.api.connections import protocol
-from planner.app import Planner, Where, application
+from planner.app import Planner, PlannerPaths, application
 from processes.priority import add_nice
 from wire import ConfigError
 
@@ -40,7 +40,7 @@ def main(arguments: list[str] | None = None) -> int:
         secure = tls.context(given.tls_cert, given.tls_key)
         authority = tls.authority(given.tls_ca)
         access = _access(given.host, speaks_tls=secure is not None)
-        planner = Planner(Where(given.home, given.robot, given.site))
+        planner = Planner(PlannerPaths(given.home, given.robot, given.site))
     except ConfigError as wrong:  # a SiteError is one
         print(f"planner: {wrong}", file=sys.stderr)
         return wrong.exit_status
@@ -117,15 +117,15 @@ def _access(host: str, *, speaks_tls: bool) -> Access:
     named = {host} if host not in ("0.0.0.0", "::") else set()
     return Access(
         bind_host=host,
-        hosts=frozenset(LOOPBACK_NAMES | named | _listed("PONS_ALLOWED_HOSTS")),
-        origins=frozenset(_listed("PONS_ALLOWED_ORIGINS")),
+        hosts=frozenset(LOOPBACK_NAMES | named | _read_names("PONS_ALLOWED_HOSTS")),
+        origins=frozenset(_read_names("PONS_ALLOWED_ORIGINS")),
         operator_token=operator,
         viewer_token=viewer,
         speaks_tls=speaks_tls,
     )
 
 
-def _listed(name: str) -> set[str]:
+def _read_names(name: str) -> set[str]:
     return {word.strip() for word in os.environ.get(name, "").split(",") if word.strip()}
 
 

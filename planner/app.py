@@ -43,7 +43,7 @@ WATCH_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Where:
+class PlannerPaths:
     """Say where this planner's files are."""
 
     home: Path
@@ -54,7 +54,7 @@ class Where:
 class Planner:
     """Hold the parts of one planner; the services behind its routes."""
 
-    def __init__(self, where: Where) -> None:
+    def __init__(self, where: PlannerPaths) -> None:
         """Load everything and take the planner's place in the home folder.
 
         Raises:
@@ -80,8 +80,8 @@ class Planner:
         self.memory = KnownPlaces(self.site, taught, radius_m=radius_m)
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
-        self.ears = VoiceWorker(self._spoken())
-        self.memory.listen(lambda: self.ears.know(self._spoken()))
+        self.ears = VoiceWorker(self._list_spoken_names())
+        self.memory.listen(lambda: self.ears.know(self._list_spoken_names()))
         link = Link(WireBus(self._session), self.description)
         self.robot = LinkedRobot(link, self.description)
         self.detector = Opening(self.settings.vision, self.description)
@@ -102,7 +102,7 @@ class Planner:
         )
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 
-    def _spoken(self) -> list[str]:
+    def _list_spoken_names(self) -> list[str]:
         """Return the English names that may be said, the taught ones too."""
         return [name for place in self.memory.places for name in place.said_in_english]
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 TARGET = ROOT / "openapi.json"
 
 
-class _Unserved:
+class _EmptyServices:
     """Stand where services would: the contract is read, no route is called."""
 
     goals = None
@@ -31,7 +31,7 @@ class _Unserved:
 
 def render() -> str:
     """Return the contract as text."""
-    app = build(cast("Services", _Unserved()), Access("127.0.0.1"))
+    app = build(cast("Services", _EmptyServices()), Access("127.0.0.1"))
     return json.dumps(app.openapi(), ensure_ascii=False, indent=1, sort_keys=True) + "\n"
 
 

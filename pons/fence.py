@@ -104,7 +104,7 @@ def _review(settings: LaunchSettings, proposal_id: str) -> dict[str, Any]:
     """Fetch a proposal, hold its text to its name, and say what it would change.
 
     Raises:
-        Refused: ``fence_proposal_changed`` where the text is not the one of that name.
+        PlannerProblem: ``fence_proposal_changed`` where the text is not the one of that name.
     """
     item: dict[str, Any] = call(settings, "GET", f"{PROPOSALS}/{proposal_id}")
     text = str(item.get("text", ""))

@@ -49,7 +49,7 @@ def call(
 
     Raises:
         PlannerDown: no connection, no answer in time, or no JSON.
-        Refused: a problem+json answer, with its stable code.
+        PlannerProblem: a problem+json answer, with its stable code.
     """
     connection = _connection(settings, timeout_s)
     try:

@@ -21,7 +21,7 @@ class Role(StrEnum):
     OPERATOR = "operator"
 
 
-class NotAllowed(Exception):
+class AccessError(Exception):
     """The request is refused; ``code`` is stable, ``status`` is HTTP's."""
 
     def __init__(self, status: int, code: str, detail: str, *, guessed: bool = False) -> None:
@@ -83,7 +83,7 @@ class Access:
         """Return the asker's role.
 
         Raises:
-            NotAllowed: foreign host or origin, no valid token, a role that may not, or a body of
+            AccessError: foreign host or origin, no valid token, a role that may not, or a body of
                 another type than the path takes: JSON, or sound for /v1/voice.
         """
         host = headers.get("host", "")
@@ -94,20 +94,20 @@ class Access:
             return Role.VIEWER  # the page holds no secret, and a browser asks for it without token
         token = _bearer(headers.get("authorization", ""))
         if websocket and not token:
-            token = _offered(headers.get("sec-websocket-protocol", ""))
+            token = _find_token(headers.get("sec-websocket-protocol", ""))
         role = self._role(token)
         if not websocket and method not in SAFE_METHODS and path not in STOPPING_PATHS:
             if method in TYPED_METHODS:
                 _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))
             if role is not Role.OPERATOR:
-                raise NotAllowed(403, "operator_needed", f"a viewer may not {method} {path}")
+                raise AccessError(403, "operator_needed", f"a viewer may not {method} {path}")
         return role
 
     def _check_host(self, host: str) -> None:
         name = _hostname(f"//{host}")
         if name not in self.hosts:
             known = ", ".join(sorted(self.hosts))
-            raise NotAllowed(403, "foreign_host", f"host {host[:80]!r}; allowed: {known}")
+            raise AccessError(403, "foreign_host", f"host {host[:80]!r}; allowed: {known}")
 
     def _check_origin(self, origin: str | None, host: str) -> None:
         if origin is None or origin in self.origins:
@@ -117,7 +117,7 @@ class Access:
         if scheme in schemes and rest == host and _hostname(origin):
             return
         known = ", ".join(sorted({f"{schemes[0]}://{host}", *self.origins}))
-        raise NotAllowed(403, "foreign_origin", f"origin {origin[:80]!r}; allowed: {known}")
+        raise AccessError(403, "foreign_origin", f"origin {origin[:80]!r}; allowed: {known}")
 
     def _check_proxy(self, path: str, headers: dict[str, str]) -> None:
         """Refuse what a proxy hands on where no token tells its askers apart; never a stop."""
@@ -129,7 +129,7 @@ class Access:
                     f"the header {name[:80]!r} says that a proxy stands in front, so anybody may "
                     "ask; set PONS_OPERATOR_TOKEN for the planner"
                 )
-                raise NotAllowed(403, "proxy_without_token", detail)
+                raise AccessError(403, "proxy_without_token", detail)
 
     @property
     def _trusts_loopback(self) -> bool:
@@ -138,12 +138,12 @@ class Access:
     def _role(self, token: str) -> Role:
         if self._trusts_loopback:
             return Role.OPERATOR
-        if _same(token, self.operator_token):
+        if _is_same(token, self.operator_token):
             return Role.OPERATOR
-        if _same(token, self.viewer_token):
+        if _is_same(token, self.viewer_token):
             return Role.VIEWER
         detail = "send Authorization: Bearer with a valid token"
-        raise NotAllowed(401, "token_needed", detail, guessed=bool(token))
+        raise AccessError(401, "token_needed", detail, guessed=bool(token))
 
 
 def is_loopback(host: str) -> bool:
@@ -173,7 +173,7 @@ def _bearer(authorization: str) -> str:
     return token if scheme.lower() == "bearer" else ""
 
 
-def _offered(subprotocols: str) -> str:
+def _find_token(subprotocols: str) -> str:
     """Return the token among the subprotocols that a browser offers; empty if there is none."""
     for offer in subprotocols.split(","):
         name = offer.strip()
@@ -186,7 +186,7 @@ def _offered(subprotocols: str) -> str:
     return ""
 
 
-def _same(given: str, expected: str) -> bool:
+def _is_same(given: str, expected: str) -> bool:
     return bool(expected) and hmac.compare_digest(given.encode(), expected.encode())
 
 
@@ -196,4 +196,4 @@ def _check_type(content_type: str, expected: frozenset[str]) -> None:
         known = " or ".join(sorted(expected))
         found = f"content type {content_type[:80]!r}" if content_type else "no content type"
         text = f"{found}; expected {known}"
-        raise NotAllowed(415, "unsupported_media_type", text)
+        raise AccessError(415, "unsupported_media_type", text)

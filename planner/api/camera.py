@@ -6,7 +6,7 @@ from fastapi import APIRouter
 from starlette.responses import Response
 
 from planner.api.interfaces import Services
-from planner.api.problems import Problem
+from planner.api.problems import HttpProblem
 
 OLDEST_S = 5.0
 """An older picture is no view of anything: the answer is that the camera is silent."""
@@ -29,13 +29,13 @@ def routes(services: Services) -> APIRouter:
         The camera may rest while nobody looks: the first picture then takes up to a second.
         """
         if services.eyes.sight.blind == "no_camera":
-            raise Problem(503, "no_camera", "this robot has no camera")
+            raise HttpProblem(503, "no_camera", "this robot has no camera")
         picture = await services.eyes.show()
         age_s = None if picture is None else services.eyes.now_s - picture.taken_s
         kind = None if picture is None else KINDS.get(picture.color.data[:2])
         if picture is None or age_s is None or kind is None or not age_s <= OLDEST_S:
             said = "none came yet" if age_s is None else f"the newest is {age_s:.1f} s old"
-            raise Problem(503, "camera_silent", f"no picture to show: {said}")
+            raise HttpProblem(503, "camera_silent", f"no picture to show: {said}")
         return Response(
             picture.color.data,
             media_type=kind,

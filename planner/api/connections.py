@@ -77,14 +77,14 @@ class HttpConnection(HttpToolsProtocol):
         self._fields += 1
         if self._fields > self._bounds.fields:
             self._refused = (431, "headers_too_large", f"more than {self._bounds.fields} headers")
-            raise _Refused
+            raise _Refusal
         super().on_header(name, value)
 
     def on_headers_complete(self) -> None:
         if len(self.pipeline) >= self._bounds.pipelined:
             detail = f"more than {self._bounds.pipelined} requests before the first was answered"
             self._refused = (400, "malformed_request", detail)
-            raise _Refused
+            raise _Refusal
         self._in_body = True
         self._await(self._bounds.request_s)
         super().on_headers_complete()
@@ -93,7 +93,7 @@ class HttpConnection(HttpToolsProtocol):
         self._chunks += 1
         if self._chunks > self._bounds.chunks:
             self._refused = (413, "body_too_large", f"more than {self._bounds.chunks} chunks")
-            raise _Refused
+            raise _Refusal
 
     def on_body(self, body: bytes) -> None:
         self._overhead -= len(body)
@@ -103,7 +103,7 @@ class HttpConnection(HttpToolsProtocol):
         if self._body > self._bounds.body_bytes:
             detail = f"the body passed {self._bounds.body_bytes} bytes, which is the cap"
             self._refused = (413, "body_too_large", detail)
-            raise _Refused
+            raise _Refusal
         super().on_body(body)
 
     def on_message_complete(self) -> None:
@@ -249,11 +249,11 @@ class EventSocket(WebSocketsSansIOProtocol):
 
 def protocol(bounds: Bounds | None = None) -> type[HttpConnection]:
     """Return the protocol of one server, to be given to uvicorn as ``http``."""
-    crowd = Crowd(bounds or Bounds().within(raise_files()))
+    crowd = Crowd(bounds or Bounds().limit_to_files(raise_files()))
     return type("BoundedConnection", (HttpConnection,), {"crowd": crowd})
 
 
-class _Refused(Exception):
+class _Refusal(Exception):
     """End the parser's work; what is said stands in ``_refused``."""
 
 

@@ -54,7 +54,7 @@ class Bounds:
     grace_s: float = 0.05
     """How long a connection has at least, so that the request that came with it is read."""
 
-    def within(self, files: int) -> Bounds:
+    def limit_to_files(self, files: int) -> Bounds:
         """Return these bounds for a process that may open so many files."""
         room = max(16, files - RESERVED_FILES)
         burst = min(self.burst, room)
@@ -130,7 +130,7 @@ class Crowd:
         if self._count > self.bounds.burst:
             self._make_room()
         elif self._trim is None and not self._fits(own):
-            self._trim = loop.call_later(self.bounds.grace_s, self._trimmed)
+            self._trim = loop.call_later(self.bounds.grace_s, self._close_surplus)
         if self._timer is None:
             self._timer = loop.call_later(self.LOOK_S, self._look)
 
@@ -160,7 +160,7 @@ class Crowd:
     def _fits(self, own: dict[Visitor, None]) -> bool:
         return len(own) <= self.bounds.an_address and self._count <= self.bounds.all
 
-    def _trimmed(self) -> None:
+    def _close_surplus(self) -> None:
         self._trim = None
         for own in tuple(self._visitors.values()):
             for _ in range(len(own) - self.bounds.an_address):

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from fastapi import APIRouter
 
 from planner.api.interfaces import Services
-from planner.api.problems import Problem
+from planner.api.problems import HttpProblem
 from planner.api.schemas import Body, OperatorOrder, OperatorProof
 from planner.site.fence_check import FenceRefusal, check_fence
 from planner.site.fence_diff import fence_diff
@@ -65,7 +65,7 @@ def _reading(router: APIRouter, services: Services) -> None:
     @router.get("/proposals", operation_id="list_fence_proposals")
     async def proposals() -> dict[str, Any]:
         """List proposals, newest first, each with what it would change."""
-        return {"proposals": await asyncio.to_thread(_all, services)}
+        return {"proposals": await asyncio.to_thread(_list_proposals, services)}
 
     @router.get("/proposals/{proposal_id}", operation_id="get_fence_proposal")
     async def proposal(proposal_id: Name) -> dict[str, Any]:
@@ -94,12 +94,12 @@ def _deciding(router: APIRouter, services: Services) -> None:
         item = await _found(services, proposal_id)
         answer = await services.robot.offer_fence(_request(services, item, asked))
         if answer is None:
-            raise Problem(503, "bridge_silent", "the bridge did not answer within 2 s")
+            raise HttpProblem(503, "bridge_silent", "the bridge did not answer within 2 s")
         state: State = "accepted" if answer.accepted else "proposed"
         reason = None if answer.accepted else answer.code
         await asyncio.to_thread(services.fences.decide, item.id, state, asked.source, reason)
         if not answer.accepted:
-            raise Problem(409, answer.code, answer.detail or "the bridge refused the fence")
+            raise HttpProblem(409, answer.code, answer.detail or "the bridge refused the fence")
         return answer
 
     @router.post("/proposals/{proposal_id}/reject", operation_id="reject_fence")
@@ -108,7 +108,7 @@ def _deciding(router: APIRouter, services: Services) -> None:
         asked = order or Rejection()
         item = await _found(services, proposal_id)
         if item.state != "proposed":
-            raise Problem(409, "fence_decided", f"{item.id} was {item.state} already")
+            raise HttpProblem(409, "fence_decided", f"{item.id} was {item.state} already")
         item = await asyncio.to_thread(services.fences.decide, item.id, "rejected", asked.source)
         return await asyncio.to_thread(_view, services, item)
 
@@ -117,16 +117,18 @@ def _request(services: Services, item: FenceProposal, order: OperatorOrder) -> F
     """Return the request with the person's proof, or signed where the drive is virtual.
 
     Raises:
-        Problem: ``bridge_silent`` or ``operator_proof_needed``.
+        HttpProblem: ``bridge_silent`` or ``operator_proof_needed``.
     """
     given: OperatorProof | None = order.operator
     if given is not None:
         return FenceRequest(id=given.id, source=order.source, fence=item.text, proof=given.proof)
     status = services.robot.status
     if status is None:
-        raise Problem(503, "bridge_silent", "no bridge is heard, so no fence can be put in force")
+        raise HttpProblem(
+            503, "bridge_silent", "no bridge is heard, so no fence can be put in force"
+        )
     if not status.drive.virtual:
-        raise Problem(
+        raise HttpProblem(
             403,
             "operator_proof_needed",
             "a fence on this robot needs a proof made with the operator's key; use "
@@ -144,7 +146,7 @@ async def _found(services: Services, proposal_id: str) -> FenceProposal:
         raise _problem(refused) from None
 
 
-def _all(services: Services) -> list[dict[str, Any]]:
+def _list_proposals(services: Services) -> list[dict[str, Any]]:
     return [_view(services, item) for item in services.fences.list_all()]
 
 
@@ -155,5 +157,5 @@ def _view(services: Services, item: FenceProposal) -> dict[str, Any]:
     return {**item.model_dump(mode="json"), "diff": diff.model_dump(mode="json")}
 
 
-def _problem(refused: FenceRefusal) -> Problem:
-    return Problem(_STATUS.get(refused.code, 422), refused.code, refused.detail)
+def _problem(refused: FenceRefusal) -> HttpProblem:
+    return HttpProblem(_STATUS.get(refused.code, 422), refused.code, refused.detail)

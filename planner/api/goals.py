@@ -8,11 +8,11 @@ from fastapi import APIRouter, Header, Query, Request
 
 from planner.api.crowd import address_of
 from planner.api.interfaces import Services
-from planner.api.listing import listed
+from planner.api.listing import list_goals
 from planner.api.operator import act_behind, persons_act
-from planner.api.problems import Problem
+from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
-from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalOrder, Move, NewGoal, Reply
+from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalMove, GoalOrder, GoalReply, NewGoal
 from planner.language.catalogue import say
 from planner.language.utterance import Utterance, parse
 from planner.mission.errors import MissionError
@@ -38,13 +38,13 @@ Limit = Annotated[int, Query(ge=1, le=200)]
 def routes(services: Services) -> APIRouter:
     """Return the routes below /v1/goals."""
     router = APIRouter(prefix="/v1/goals", tags=["goals"])
-    door = Door(services)
+    door = GoalIntake(services)
     _giving(router, services, door)
     _acting(router, services, door)
     return router
 
 
-class Door:
+class GoalIntake:
     """Let a sentence in that is no longer than an order and comes in time; a stop always."""
 
     def __init__(self, services: Services) -> None:
@@ -57,28 +57,30 @@ class Door:
         One that is too long to be kept may still stop the robot.
 
         Raises:
-            Problem: ``goal_too_long`` or ``too_many_goals``.
+            HttpProblem: ``goal_too_long`` or ``too_many_goals``.
         """
         said = parse(text)
         stops, length = self._services.goals.hears_stop(text), len(text)
         if not length <= MAX_GOAL_CHARACTERS:
             detail = f"{length} characters; at most {MAX_GOAL_CHARACTERS} are taken"
             if not stops:
-                raise Problem(422, "goal_too_long", detail)
+                raise HttpProblem(422, "goal_too_long", detail)
             await self._services.goals.stop("api")
             told = STOPPED_BUT_LONG.model_dump()
-            raise Problem(422, "goal_too_long", f"{detail}; the robot was stopped", message=told)
+            raise HttpProblem(
+                422, "goal_too_long", f"{detail}; the robot was stopped", message=told
+            )
         if stops:
             return said
         address = address_of(request.client.host) if request.client else ""
         wait_s = self._rates.wait_s(address)
         if wait_s is not None:
             detail = f"at most {AT_ONCE} at once, then {A_SECOND:g} a second; wait {wait_s:.1f} s"
-            raise Problem(429, "too_many_goals", detail)
+            raise HttpProblem(429, "too_many_goals", detail)
         return said
 
 
-def _giving(router: APIRouter, services: Services, door: Door) -> None:
+def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
     goals = services.goals
 
     @router.post("", status_code=202, operation_id="give_goal")
@@ -105,7 +107,7 @@ def _giving(router: APIRouter, services: Services, door: Door) -> None:
 
         Long texts are shortened, and what would make more than 0.9 MB is left out.
         """
-        return {"goals": listed(goals.goals(limit))}
+        return {"goals": list_goals(goals.goals(limit))}
 
     @router.get("/{goal_id}", operation_id="get_goal")
     async def one(goal_id: str) -> Goal:
@@ -113,7 +115,7 @@ def _giving(router: APIRouter, services: Services, door: Door) -> None:
         return goals.goal(goal_id)
 
 
-def _acting(router: APIRouter, services: Services, door: Door) -> None:
+def _acting(router: APIRouter, services: Services, door: GoalIntake) -> None:
     goals = services.goals
 
     @router.post("/{goal_id}/cancel", operation_id="cancel_goal")
@@ -139,19 +141,19 @@ def _acting(router: APIRouter, services: Services, door: Door) -> None:
         return await goals.confirm(goal_id, act=act)
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
-    async def answer(goal_id: str, reply: Reply, request: Request) -> Goal:
+    async def answer(goal_id: str, reply: GoalReply, request: Request) -> Goal:
         """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
         said = await door.judge(reply.text, request)
         act = act_behind(services.robot, said, reply.operator)
         return await goals.answer(goal_id, reply.text, act=act)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")
-    async def move(goal_id: str, where: Move) -> Goal:
+    async def move(goal_id: str, where: GoalMove) -> Goal:
         """Put a queued goal before another, or last."""
         return await goals.move(goal_id, where.before)
 
 
-def problem(error: MissionError) -> Problem:
+def problem(error: MissionError) -> HttpProblem:
     """Say a mission's refusal over HTTP, in both languages."""
     status = STATUS.get(error.code, 409)
-    return Problem(status, error.code, error.message.en, message=error.message.model_dump())
+    return HttpProblem(status, error.code, error.message.en, message=error.message.model_dump())

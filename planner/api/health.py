@@ -10,7 +10,7 @@ from prometheus_client.core import GaugeMetricFamily
 from starlette.responses import PlainTextResponse, Response
 
 from planner.api.interfaces import Services
-from planner.api.problems import Problem
+from planner.api.problems import HttpProblem
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -34,7 +34,9 @@ def routes(services: Services) -> APIRouter:
         """Answer 200 when a goal could be carried out once the robot is armed."""
         lacking = missing(services)
         if lacking:
-            raise Problem(503, "not_ready", f"waiting for: {', '.join(lacking)}", waiting=lacking)
+            raise HttpProblem(
+                503, "not_ready", f"waiting for: {', '.join(lacking)}", waiting=lacking
+            )
         return {"status": "ready"}
 
     @router.get("/metrics", operation_id="metrics", response_class=PlainTextResponse)
@@ -93,7 +95,7 @@ class _Collector:
         skipped = GaugeMetricFamily(
             "pons_eyes_skipped", "Pictures not thought upon since start", labels=["reason"]
         )
-        for reason, count in sorted(eyes.skipped.items()):
+        for reason, count in sorted(eyes.skip_counts.items()):
             skipped.add_metric([reason], count)
         blind = GaugeMetricFamily("pons_eyes_blind", "1 for why nothing is seen", labels=["reason"])
         if sight.blind is not None:

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
 
 
-class Stopped(Protocol):
+class StopConfirmation(Protocol):
     """Say whether the bridge has confirmed a stop."""
 
     @property
-    def echoed(self) -> bool: ...
+    def is_echoed(self) -> bool: ...
 
 
 class Goals(Protocol):
@@ -67,7 +67,7 @@ class Goals(Protocol):
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal: ...
 
-    async def stop(self, source: str) -> Stopped: ...
+    async def stop(self, source: str) -> StopConfirmation: ...
 
     def path(self) -> Leg | None: ...
 
@@ -105,7 +105,7 @@ class Budget(Protocol):
     def usage(self, goal: str | None = None) -> Usage: ...
 
 
-class Eyes(Protocol):
+class PerceptionView(Protocol):
     """Show what is seen and remembered; ``version`` rises when a thing comes or goes."""
 
     @property
@@ -128,7 +128,7 @@ class Eyes(Protocol):
     def counts(self) -> Mapping[str, int]: ...
 
     @property
-    def skipped(self) -> Mapping[str, int]: ...
+    def skip_counts(self) -> Mapping[str, int]: ...
 
     @property
     def lag_s(self) -> float: ...
@@ -169,4 +169,4 @@ class Services(Protocol):
     def ears(self) -> Recogniser: ...
 
     @property
-    def eyes(self) -> Eyes: ...
+    def eyes(self) -> PerceptionView: ...

@@ -25,14 +25,14 @@ BODY_S = 0.5
 _OF_THE_BODY = frozenset({b"content-type", b"content-length", b"transfer-encoding"})
 
 
-class Unrefused(APIRoute):
+class LenientRoute(APIRoute):
     """Answer a request whose body can't be used as if it had none."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """Return the handler that tries a second time, bare; the route ran in neither case yet."""
         handle = super().get_route_handler()
 
-        async def answered(request: Request) -> Response:
+        async def answer(request: Request) -> Response:
             try:
                 async with asyncio.timeout(BODY_S):
                     await request.body()  # kept by the request
@@ -43,7 +43,7 @@ class Unrefused(APIRoute):
             except (RequestValidationError, HTTPException):
                 return await handle(_bare(request))
 
-        return answered
+        return answer
 
 
 def _bare(request: Request) -> Request:

@@ -22,7 +22,7 @@ TEXT_CHARACTERS = (300, 60, 12)
 """Of each text; the next smaller where the goal would still be larger than ``GOAL_BYTES``."""
 
 
-def listed(goals: Iterable[Goal]) -> list[dict[str, Any]]:
+def list_goals(goals: Iterable[Goal]) -> list[dict[str, Any]]:
     """Return goals as JSON in their order, the last ones left out where there is no room."""
     found, spent = [], 0
     for goal in goals:
@@ -40,18 +40,18 @@ def _view(goal: Goal) -> tuple[dict[str, Any], int]:
         return whole, size
     view = whole
     for most in TEXT_CHARACTERS:
-        view = _shortened(whole, most)
+        view = _shorten(whole, most)
         size = len(json.dumps(view, ensure_ascii=False).encode())
         if size <= GOAL_BYTES:
             break
     return view, size
 
 
-def _shortened(value: Any, most: int) -> Any:
+def _shorten(value: Any, most: int) -> Any:
     if isinstance(value, str):
         return value if len(value) <= most else value[: most - 1] + "…"
     if isinstance(value, dict):
-        return {key: _shortened(one, most) for key, one in value.items()}
+        return {key: _shorten(one, most) for key, one in value.items()}
     if isinstance(value, list):
-        return [_shortened(one, most) for one in value]
+        return [_shorten(one, most) for one in value]
     return value

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from starlette.exceptions import HTTPException
 
-from planner.api.access import Access, NotAllowed
+from planner.api.access import Access, AccessError
 from planner.api.problems import response
 from planner.api.token_guesses import Guesses
 from planner.voice import MAX_BYTES
@@ -64,7 +64,7 @@ class Guard:
             role = self._access.judge(
                 scope.get("method", "GET"), scope["path"], headers, websocket=websocket
             )
-        except NotAllowed as refusal:
+        except AccessError as refusal:
             if refusal.guessed:
                 await self._guesses.slow(scope.get("client"))
             await _refuse(refusal, scope, receive, send)
@@ -73,9 +73,9 @@ class Guard:
         if websocket:
             await self._app(scope, receive, send)
         else:
-            await self._capped(scope, receive, send)
+            await self._cap_body(scope, receive, send)
 
-    async def _capped(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def _cap_body(self, scope: Scope, receive: Receive, send: Send) -> None:
         counted = 0
         most = LARGE_BODIES.get(scope["path"], MAX_BODY_BYTES)
 
@@ -87,10 +87,10 @@ class Guard:
                 raise HTTPException(413, f"the body passed {most} bytes, which is the cap")
             return message
 
-        await self._app(scope, counting_receive, _dressed(send))
+        await self._app(scope, counting_receive, _add_headers(send))
 
 
-def _dressed(send: Send) -> Send:
+def _add_headers(send: Send) -> Send:
     """Return a way to send on which each answer gets the security headers."""
 
     async def sending(message: Message) -> None:
@@ -103,10 +103,10 @@ def _dressed(send: Send) -> Send:
     return sending
 
 
-async def _refuse(refusal: NotAllowed, scope: Scope, receive: Receive, send: Send) -> None:
+async def _refuse(refusal: AccessError, scope: Scope, receive: Receive, send: Send) -> None:
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": WS_POLICY_VIOLATION,
                     "reason": refusal.code})  # fmt: skip
         return
     problem = response(refusal.status, refusal.code, refusal.detail)
-    await problem(scope, receive, _dressed(send))
+    await problem(scope, receive, _add_headers(send))

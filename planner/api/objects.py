@@ -8,7 +8,7 @@ from fastapi import APIRouter, Path
 
 from planner.api.interfaces import Services
 from planner.api.problem_messages import saying_of
-from planner.api.problems import Problem
+from planner.api.problems import HttpProblem
 from planner.language.object_names import name_object
 from planner.perception.failure import REFUSALS
 
@@ -43,7 +43,7 @@ def routes(services: Services) -> APIRouter:
         known = {thing.id for thing in services.eyes.sight.things}
         if thing_id not in known:
             names = ", ".join(sorted(known)[:20]) or "none"
-            raise Problem(404, "unknown_object", f"got {thing_id[:60]!r}; known: {names}")
+            raise HttpProblem(404, "unknown_object", f"got {thing_id[:60]!r}; known: {names}")
         return {"forgotten": [thing.id for thing in services.eyes.forget(thing_id)]}
 
     return router
@@ -56,7 +56,7 @@ def objects_view(services: Services) -> dict[str, Any]:
     return {
         "version": eyes.version,
         **_blind(sight.blind),
-        "classes": [{"id": label, "name": _named(label)} for label in eyes.classes],
+        "classes": [{"id": label, "name": _name_object(label)} for label in eyes.classes],
         "objects": [thing_view(thing, eyes.now_s) for thing in sight.things],
     }
 
@@ -80,7 +80,7 @@ def thing_view(thing: Thing, now_s: float) -> dict[str, Any]:
     return {
         "id": thing.id,
         "label": thing.label,
-        "name": _named(thing.label, thing.color),
+        "name": _name_object(thing.label, thing.color),
         "color": thing.color,
         "x_m": round(thing.x_m, 2),
         "y_m": round(thing.y_m, 2),
@@ -104,7 +104,7 @@ def _look(look: LookSnapshot, now_s: float) -> dict[str, Any]:
         "boxes": [
             {
                 "label": seen.label,
-                "name": _named(seen.label, seen.color),
+                "name": _name_object(seen.label, seen.color),
                 "score": round(seen.score, 2),
                 "box": [round(edge) for edge in seen.box],
                 "color": seen.color,
@@ -115,7 +115,7 @@ def _look(look: LookSnapshot, now_s: float) -> dict[str, Any]:
     }
 
 
-def _named(label: str, color: str | None = None) -> dict[str, str]:
+def _name_object(label: str, color: str | None = None) -> dict[str, str]:
     return name_object(label, color).model_dump()
 
 

@@ -12,8 +12,8 @@ from typing import Any
 from fastapi import APIRouter
 
 from planner.api.interfaces import Robot, Services
-from planner.api.lenient_body import Unrefused
-from planner.api.problems import Problem
+from planner.api.lenient_body import LenientRoute
+from planner.api.problems import HttpProblem
 from planner.api.schemas import OperatorOrder, OperatorProof, Steer, StopOrder
 from planner.language.utterance import Utterance
 from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, signed_request
@@ -28,7 +28,7 @@ def routes(services: Services) -> APIRouter:
 
 
 def _stopping(services: Services) -> APIRouter:
-    router = APIRouter(route_class=Unrefused)
+    router = APIRouter(route_class=LenientRoute)
     robot = services.robot
 
     @router.post("/stop", operation_id="stop")
@@ -36,7 +36,7 @@ def _stopping(services: Services) -> APIRouter:
         """Stop now and hold until a person acts. Never refused."""
         stopped = await services.goals.stop((order or StopOrder()).source)
         status = robot.status
-        return {"confirmed": stopped.echoed, "mode": status.mode if status else None}
+        return {"confirmed": stopped.is_echoed, "mode": status.mode if status else None}
 
     @router.post("/estop", operation_id="estop")
     async def estop(order: OperatorOrder | None = None) -> Answer:
@@ -78,14 +78,14 @@ async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None) -> Answer
     """Ask the bridge and return its verdict.
 
     Raises:
-        Problem: ``bridge_silent``, ``operator_proof_needed`` or the bridge's own refusal code.
+        HttpProblem: ``bridge_silent``, ``operator_proof_needed`` or the bridge's own refusal code.
     """
     asked = order or OperatorOrder()
     answer = await robot.ask(kind, request(robot, kind, asked.source, asked.operator))
     if answer is None:
-        raise Problem(503, "bridge_silent", f"the bridge did not answer {kind} within 2 s")
+        raise HttpProblem(503, "bridge_silent", f"the bridge did not answer {kind} within 2 s")
     if not answer.accepted:
-        raise Problem(409, answer.code, answer.detail or f"the bridge refused {kind}")
+        raise HttpProblem(409, answer.code, answer.detail or f"the bridge refused {kind}")
     return answer
 
 
@@ -93,7 +93,7 @@ def persons_act(robot: Robot, given: OperatorProof | None) -> OpRequest | None:
     """Return the resume that a goal carries: the person's own, or ours on a virtual drive.
 
     Raises:
-        Problem: ``operator_proof_needed`` where something is held on metal and no proof came.
+        HttpProblem: ``operator_proof_needed`` where something is held on metal and no proof came.
     """
     status = robot.status
     if given is None and (status is None or not (status.drive.virtual or status.held)):
@@ -105,13 +105,13 @@ def act_behind(robot: Robot, said: Utterance, given: OperatorProof | None) -> Op
     """Return the resume that comes with a person's sentence, where it may lead to motion.
 
     Raises:
-        Problem: as ``persons_act``; never for a sentence that may mean stop.
+        HttpProblem: as ``persons_act``; never for a sentence that may mean stop.
     """
     if said.stays_put:
         return None
     try:
         return persons_act(robot, given)
-    except Problem:
+    except HttpProblem:
         if said.may_mean_stop:
             return None
         raise
@@ -121,7 +121,7 @@ def request(robot: Robot, kind: OpKind, source: str, given: OperatorProof | None
     """Return the request with the person's proof, or signed where the drive is virtual.
 
     Raises:
-        Problem: ``bridge_silent`` or ``operator_proof_needed``.
+        HttpProblem: ``bridge_silent`` or ``operator_proof_needed``.
     """
     if given is not None:
         return OpRequest(id=given.id, source=source, proof=given.proof)
@@ -130,9 +130,9 @@ def request(robot: Robot, kind: OpKind, source: str, given: OperatorProof | None
         return OpRequest(id=request_id, source=source)
     status = robot.status
     if status is None:
-        raise Problem(503, "bridge_silent", f"no bridge is heard, so nobody can {kind}")
+        raise HttpProblem(503, "bridge_silent", f"no bridge is heard, so nobody can {kind}")
     if not status.drive.virtual:
-        raise Problem(
+        raise HttpProblem(
             403,
             "operator_proof_needed",
             f"{kind} on this robot needs a proof made with the operator's key; use the page or "

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Path, Response
 from pydantic import Field
 
 from planner.api.interfaces import Services
-from planner.api.problems import Problem
+from planner.api.problems import HttpProblem
 from planner.api.schemas import Body
 from planner.language.catalogue import say
 from planner.mission.known_places import KeptPlace, Lesson
@@ -143,7 +143,7 @@ def _view(kept: KeptPlace) -> dict[str, Any]:
     return {**_record(kept.place), "why_not": kept.why_not, "message": message}
 
 
-def _problem(refused: PlaceRefusal) -> Problem:
+def _problem(refused: PlaceRefusal) -> HttpProblem:
     status = _STATUS.get(refused.code, 422)
     said = refused.why.model_dump()
-    return Problem(status, refused.code, refused.detail, message=said)
+    return HttpProblem(status, refused.code, refused.detail, message=said)

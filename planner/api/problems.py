@@ -26,7 +26,7 @@ MAX_FOUND = 80
 METHODS = ("DELETE", "GET", "HEAD", "PATCH", "POST", "PUT")
 
 
-class Problem(Exception):
+class HttpProblem(Exception):
     """Refuse a request: status, stable code, and what came, was expected and exists."""
 
     def __init__(self, status: int, code: str, detail: str, **more: Any) -> None:
@@ -55,13 +55,13 @@ def response(
 
 def install(app: FastAPI) -> None:
     """Make every error of the application a problem."""
-    app.add_exception_handler(Problem, _problem)
+    app.add_exception_handler(HttpProblem, _problem)
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http)
 
 
 async def _problem(_: Request, error: Exception) -> JSONResponse:
-    if not isinstance(error, Problem):
+    if not isinstance(error, HttpProblem):
         raise error
     return response(error.status, error.code, error.detail, **error.more)
 

@@ -59,14 +59,14 @@ class GoalOrder(Body):
     operator: OperatorProof | None = None
 
 
-class Reply(Body):
+class GoalReply(Body):
     """Answer a goal's question."""
 
     text: Text
     operator: OperatorProof | None = None
 
 
-class Move(Body):
+class GoalMove(Body):
     """Put a queued goal before another one; last without ``before``."""
 
     before: Name | None = None

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 from planner.api.goals import IdempotencyKey
 from planner.api.interfaces import Services
 from planner.api.operator import act_behind
-from planner.api.problems import Problem
+from planner.api.problems import HttpProblem
 from planner.language.catalogue import say
 from planner.language.stop import StopReading
 from planner.language.utterance import parse
@@ -48,7 +48,7 @@ class SpokenOutcome(BaseModel):
     message: Bilingual | None = None
 
 
-class Spoken(BaseModel):
+class VoiceResult(BaseModel):
     """Say what was heard and what became of it."""
 
     model_config = ConfigDict(frozen=True)
@@ -72,18 +72,20 @@ def routes(services: Services) -> APIRouter:
         confirm: Confirm = False,
         replace: Replace = False,
         idempotency_key: IdempotencyKey = None,
-    ) -> Spoken:
+    ) -> VoiceResult:
         """Give a goal by an English recording (WAV, 16-bit PCM, at most 15 s).
 
         202 with the goal, which waits for a yes where the order was heard but not quite surely; 200
         without one where none was heard: nothing new begins.
         """
-        heard = await _heard(services, await request.body())
+        heard = await _recognise(services, await request.body())
         if not (heard.understood or _may_be_stop(services, heard)):
             response.status_code = 200
             told = NO_ANSWER_HEARD if services.goals.awaits_answer() else NOT_HEARD
             outcome = SpokenOutcome(code="not_heard", message=told)
-            return Spoken(transcript=heard.transcript, confidence=heard.confidence, outcome=outcome)
+            return VoiceResult(
+                transcript=heard.transcript, confidence=heard.confidence, outcome=outcome
+            )
         text = heard.transcript
         goal = await services.goals.submit(
             text,
@@ -93,7 +95,7 @@ def routes(services: Services) -> APIRouter:
             idempotency_key=idempotency_key,
             act=act_behind(services.robot, parse(text), None),
         )
-        return Spoken(
+        return VoiceResult(
             transcript=text,
             confidence=heard.confidence,
             understood=text,
@@ -109,11 +111,11 @@ def _may_be_stop(services: Services, heard: Recognition) -> bool:
     return heard.confidence >= STOP_DOUBT and services.goals.hears_stop(heard.transcript)
 
 
-async def _heard(services: Services, data: bytes) -> Recognition:
+async def _recognise(services: Services, data: bytes) -> Recognition:
     try:
         sound = read_wav(data)
         return await services.ears.hear(sound, awaits_answer=services.goals.awaits_answer())
     except BadSound as bad:
-        raise Problem(STATUS.get(bad.code, 400), bad.code, bad.detail) from None
+        raise HttpProblem(STATUS.get(bad.code, 400), bad.code, bad.detail) from None
     except VoiceFailure as failure:
-        raise Problem(503, failure.code, failure.detail) from None
+        raise HttpProblem(503, failure.code, failure.detail) from None

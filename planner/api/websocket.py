@@ -20,7 +20,7 @@ from planner.api import problems
 from planner.api.access import SUBPROTOCOL
 from planner.api.crowd import address_of
 from planner.api.interfaces import Services
-from planner.api.listing import listed
+from planner.api.listing import list_goals
 from planner.api.live_state import Body, Feed, Listener, text_of
 from planner.api.objects import sight_view
 from planner.api.rates import Rate
@@ -147,7 +147,7 @@ def snapshot(services: Services) -> dict[str, Any]:
     """Return all that a page needs to begin, or to begin again."""
     return {
         "robot": robot_view(services),
-        "goals": listed(services.goals.goals(50)),
+        "goals": list_goals(services.goals.goals(50)),
         "about": about(services),
         "path": path_view(services),
         "scan": scan_view(services),
@@ -190,7 +190,7 @@ async def _listen(
         order = _order(message)
         if order.get("stop") is True:
             stopped = await services.goals.stop("page")
-            await sender.send("stopped", {"confirmed": stopped.echoed})
+            await sender.send("stopped", {"confirmed": stopped.is_echoed})
         elif not rate.take(time.monotonic()):
             detail = f"at most {AT_ONCE} messages at once, then {A_SECOND:g} a second"
             await sender.send("problem", {"code": "too_many_messages", "detail": detail})

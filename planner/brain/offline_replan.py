@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from planner.brain.interface import Observation
 from planner.language.catalogue import join, message, say
-from planner.plan import Answer, Bilingual, Clarify, Code, Refuse, StepPlan
+from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Refuse, StepPlan
 
 _READS_NO_ANSWER = say("replan.reads_no_answer")
 _NO_OTHER_WAY = say("replan.no_other_way")
@@ -24,8 +24,8 @@ def _whole(seen: Observation) -> Bilingual:
 
 
 def rest_of(
-    plan: StepPlan | Answer | Clarify | Refuse, observed: Sequence[Observation]
-) -> StepPlan | Answer | Clarify | Refuse:
+    plan: StepPlan | AnswerPlan | Clarify | Refuse, observed: Sequence[Observation]
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return what is left of a sentence's plan after what was observed."""
     if not observed or not isinstance(plan, StepPlan):
         return plan
@@ -41,4 +41,4 @@ def rest_of(
         return StepPlan(steps=left)
     told = [_whole(seen) for seen in observed if seen.step != "decide"]
     told = told or [_NO_OTHER_WAY]
-    return Answer(text=told[-1])
+    return AnswerPlan(text=told[-1])

@@ -15,9 +15,9 @@ from pydantic import ValidationError
 from planner.brain.errors import BadPlan, BrainConfigError
 from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.brain.streamed_draft import Draft, Hear
-from planner.plan import PLAN, Answer, BrainTag, Clarify, Refuse, StepPlan
+from planner.plan import PLAN, AnswerPlan, BrainTag, Clarify, Refuse, StepPlan
 
-Reply = StepPlan | Answer | Clarify | Refuse | str | Exception
+Reply = StepPlan | AnswerPlan | Clarify | Refuse | str | Exception
 
 
 @dataclass
@@ -64,7 +64,7 @@ class ScriptedBrain:
         return ThinkResult(plan=plan, brain=self.tag, calls=1)
 
 
-def _parse_reply(text: str) -> StepPlan | Answer | Clarify | Refuse:
+def _parse_reply(text: str) -> StepPlan | AnswerPlan | Clarify | Refuse:
     try:
         return PLAN.validate_json(text)
     except ValidationError as error:

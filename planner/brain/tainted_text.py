@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner.brain.errors import BadPlan, BrainDown
 from planner.language.catalogue import say
-from planner.plan import Answer, StepPlan
+from planner.plan import AnswerPlan, StepPlan
 
 if TYPE_CHECKING:
     from planner.brain.interface import Brain, Observation, ThinkRequest, ThinkResult
@@ -44,7 +44,7 @@ def deeds(plan: Plan) -> dict[str, Any]:
 
     A question stays: it is looked at with, decided by, or answered by a person who is then obeyed.
     """
-    if isinstance(plan, Answer):
+    if isinstance(plan, AnswerPlan):
         return {"kind": plan.kind}
     if not isinstance(plan, StepPlan):
         return plan.model_dump()
@@ -59,7 +59,7 @@ def speaks(plan: Plan) -> bool:
     """Tell whether a plan has words that what was read might fill."""
     if isinstance(plan, StepPlan):
         return any(step.kind == "say" for step in plan.steps)
-    return isinstance(plan, Answer)
+    return isinstance(plan, AnswerPlan)
 
 
 async def think_warily(

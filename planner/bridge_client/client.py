@@ -53,7 +53,7 @@ class StopResult:
     """Tell whether the bridge has echoed a stop."""
 
     id: str
-    echoed: bool
+    is_echoed: bool
     waited_s: float
 
 

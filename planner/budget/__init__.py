@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from planner.budget.budget import Purse
 from planner.budget.ledger import FOLDER, Ledger
-from planner.budget.report import Amounts, Most, Refused, Usage
-from planner.budget.utc_day import Clocks
+from planner.budget.report import Amounts, BudgetLimits, BudgetRefusal, Usage
+from planner.budget.utc_day import DayClocks
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -15,7 +15,16 @@ if TYPE_CHECKING:
     from planner.settings import Settings
     from planner.state_database import StateDatabase
 
-__all__ = ["Amounts", "Clocks", "Ledger", "Most", "Purse", "Refused", "Usage", "purse_of"]
+__all__ = [
+    "Amounts",
+    "BudgetLimits",
+    "BudgetRefusal",
+    "DayClocks",
+    "Ledger",
+    "Purse",
+    "Usage",
+    "purse_of",
+]
 
 
 def purse_of(settings: Settings, home: Path, database: StateDatabase | None = None) -> Purse:

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 
 from planner.brain.errors import OutOfBudget
 from planner.brain.usage_meter import THINKING_ABOUT
-from planner.budget.report import Amounts, Most, Refused, Usage
-from planner.budget.totals import Overrun, Spent, cost, overrun
-from planner.budget.utc_day import Clocks, Days
+from planner.budget.report import Amounts, BudgetLimits, BudgetRefusal, Usage
+from planner.budget.totals import Expense, Overrun, cost, overrun
+from planner.budget.utc_day import DayClocks, Days
 from planner.language.catalogue import say
-from planner.plan import same
+from planner.plan import say_same
 
 if TYPE_CHECKING:
     from planner.budget.ledger import Judge, Ledger
@@ -43,7 +43,7 @@ class Purse:
         *,
         model: str | None = None,
         most_reply: int = 0,
-        clocks: Clocks | None = None,
+        clocks: DayClocks | None = None,
     ) -> None:
         """Take up what was spent before.
 
@@ -59,12 +59,12 @@ class Purse:
         """
         self._budget, self._ledger, self._model = budget, ledger, model
         self._most_reply = most_reply
-        self._clocks = clocks or Clocks()
+        self._clocks = clocks or DayClocks()
         self._days = Days(ledger.newest, self._clocks)
         self._day = self._days.today()
         ledger.remember(self._day)
         self._under_way = self._calls = self._idle = 0
-        self._refused: Refused | None = None
+        self._refused: BudgetRefusal | None = None
         self.changes = 0
         """Rises with every change of the meter, so that who shows it knows when to look."""
 
@@ -84,7 +84,7 @@ class Purse:
             self._idle += 1
             log.error("a call that no goal asked for was refused")
             raise self._refuse(OutOfBudget("no goal asked for this call", IDLE))
-        worst = self._priced(1, prompt_tokens, self._most_reply)
+        worst = self._price(1, prompt_tokens, self._most_reply)
         day = self._today()
         try:
             over = await self._ledger.spend(day, goal, worst, self._judge(worst))
@@ -103,7 +103,7 @@ class Purse:
         """Correct what was counted for a call by what it came to."""
         prompt, reply = (min(MAX_TOKENS, max(0, n)) for n in (prompt_tokens, reply_tokens))
         seconds = max(0.0, self._clocks.monotonic_s() - call.began_s)
-        came_to = self._priced(1, prompt, reply) + Spent(seconds=seconds)
+        came_to = self._price(1, prompt, reply) + Expense(seconds=seconds)
         self._under_way -= 1
         self.changes += 1
         self._ledger.settle(call.day, call.goal, came_to - call.counted)
@@ -118,9 +118,9 @@ class Purse:
             resets_in_s=round(self._days.resets_in_s()),
             currency=self._currency,
             today=_amounts(self._ledger.of_day(day)),
-            day_limits=Most(**self._budget.day.model_dump()),
+            day_limits=BudgetLimits(**self._budget.day.model_dump()),
             goal=None if goal is None else _amounts(self._ledger.of_goal(goal)),
-            goal_limits=Most(**self._budget.goal.model_dump()),
+            goal_limits=BudgetLimits(**self._budget.goal.model_dump()),
             under_way=self._under_way,
             calls_since_start=self._calls,
             idle_calls=self._idle,
@@ -141,14 +141,14 @@ class Purse:
     def _currency(self) -> str | None:
         return self._budget.price.currency if self._budget.price is not None else None
 
-    def _priced(self, calls: int, prompt: int, reply: int) -> Spent:
+    def _price(self, calls: int, prompt: int, reply: int) -> Expense:
         money = cost(self._budget.price, prompt, reply)
-        return Spent(calls=calls, prompt_tokens=prompt, reply_tokens=reply, money=money)
+        return Expense(calls=calls, prompt_tokens=prompt, reply_tokens=reply, money=money)
 
-    def _judge(self, worst: Spent) -> Judge:
+    def _judge(self, worst: Expense) -> Judge:
         """Return how the sums of a day and a goal are held against the limits; see ``Ledger``."""
 
-        def judge(today: Spent, mine: Spent) -> Overrun | None:
+        def judge(today: Expense, mine: Expense) -> Overrun | None:
             return overrun("goal", mine, worst, self._budget.goal) or overrun(
                 "day", today, worst, self._budget.day
             )
@@ -166,7 +166,7 @@ class Purse:
         return day
 
     def _refuse(self, error: OutOfBudget) -> OutOfBudget:
-        self._refused = Refused(code=error.code, message=error.said)
+        self._refused = BudgetRefusal(code=error.code, message=error.said)
         self.changes += 1
         return error
 
@@ -174,13 +174,15 @@ class Purse:
 class OpenCall:
     """Be one call that has gone out; see `planner.brain.usage_meter.Bill`."""
 
-    def __init__(self, purse: Purse, day: date, goal: str, counted: Spent, began_s: float) -> None:
+    def __init__(
+        self, purse: Purse, day: date, goal: str, counted: Expense, began_s: float
+    ) -> None:
         self._purse = purse
         self.day, self.goal, self.counted, self.began_s = day, goal, counted, began_s
         self._open = True
 
     @property
-    def most(self) -> int:
+    def max_reply_tokens(self) -> int:
         """Return the tokens that the reply may have at most."""
         return self.counted.reply_tokens
 
@@ -191,14 +193,14 @@ class OpenCall:
             self._purse.settle(self, prompt_tokens, reply_tokens)
 
 
-def _amounts(spent: Spent) -> Amounts:
+def _amounts(spent: Expense) -> Amounts:
     rounded = asdict(spent) | {"seconds": round(spent.seconds, 3), "money": round(spent.money, 6)}
     return Amounts(**rounded)
 
 
 def refusal(over: Overrun, resets_in_s: float, currency: str | None) -> OutOfBudget:
     """Return the error of a limit that the next call would pass."""
-    unit = same(currency or "") if over.kind == "money" else say(f"budget.{over.kind}")
+    unit = say_same(currency or "") if over.kind == "money" else say(f"budget.{over.kind}")
     spent, limit = _number(over.spent), _number(over.limit)
     minutes = int(resets_in_s // 60) + 1
     later = say("budget.at_midnight", hours=minutes // 60, minutes=minutes % 60)

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field, fields
 from datetime import date, timedelta
 from typing import TYPE_CHECKING, Any
 
-from planner.budget.totals import Overrun, Spent
+from planner.budget.totals import Expense, Overrun
 from planner.state_database import StateDatabase, StateUnavailable
 from wire import ConfigError, Unwritable
 
@@ -43,16 +43,16 @@ MAX_DAY_BYTES = 64_000_000
 NOT_YET = ".not-yet"
 """Ends a day that a clock, which had leapt ahead, counted to: it counts no more."""
 _NAME = re.compile(r"(\d{4}-\d\d-\d\d)\.jsonl")
-_FIELDS = tuple(each.name for each in fields(Spent))
+_FIELDS = tuple(each.name for each in fields(Expense))
 _SUMS = ", ".join(f"total({name})" for name in _FIELDS)
 _ADD = (
     f"INSERT INTO spent VALUES (?, ?, {', '.join('?' for _ in _FIELDS)}) ON CONFLICT DO UPDATE SET "
     + ", ".join(f"{name} = {name} + excluded.{name}" for name in _FIELDS)
 )
 _IS_DAY = "day GLOB '????-??-??'"
-_UNREADABLE = Spent(calls=1)
+_UNREADABLE = Expense(calls=1)
 
-Judge = Callable[[Spent, Spent], Overrun | None]
+Judge = Callable[[Expense, Expense], Overrun | None]
 """Tells, of the sums of a day and of a goal, the limit that a change would pass."""
 
 
@@ -62,14 +62,14 @@ class _Move:
 
     day: date
     goal: str
-    change: Spent = field(default_factory=Spent)
+    change: Expense = field(default_factory=Expense)
     judge: Judge | None = None
     """None: a correction, which is never refused."""
 
     @property
-    def corrects(self) -> Spent:
+    def corrects(self) -> Expense:
         """Return what is told before it is kept."""
-        return self.change if self.judge is None else Spent()
+        return self.change if self.judge is None else Expense()
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +77,9 @@ class Balance:
     """Hold the sums of a day and a goal as the disk has them; ``overrun``: nothing was spent."""
 
     day: date
-    today: Spent
+    today: Expense
     goal: str
-    mine: Spent
+    mine: Expense
     overrun: Overrun | None = None
 
 
@@ -98,8 +98,8 @@ class Ledger:
             ConfigError: ``budget_unreadable``, ``state_version``.
         """
         self._database, self._old_folder, self._owned = database, old_folder, owned
-        self._days: dict[date, Spent] = {}
-        self._goals: dict[str, Spent] = {}
+        self._days: dict[date, Expense] = {}
+        self._goals: dict[str, Expense] = {}
         self._queue: deque[tuple[Future[Balance], _Move]] = deque()
         self._closed = False
         self._thread = ThreadPoolExecutor(1, "budget")
@@ -142,20 +142,20 @@ class Ledger:
         with suppress(OSError), self._database.change(sync=False):
             pass
 
-    def of_day(self, day: date) -> Spent:
+    def of_day(self, day: date) -> Expense:
         """Return what was spent on a day, as of the last time that the disk was asked."""
         self._collect()
         waiting = (move.corrects for _, move in self._queue if move.day == day)
-        return sum(waiting, self._days.get(day, Spent()))
+        return sum(waiting, self._days.get(day, Expense()))
 
-    def of_goal(self, goal: str) -> Spent:
+    def of_goal(self, goal: str) -> Expense:
         """Return what a goal has spent, likewise."""
         self._collect()
         goal = goal[:MAX_ID]
         waiting = (move.corrects for _, move in self._queue if move.goal == goal)
-        return sum(waiting, self._goals.get(goal, Spent()))
+        return sum(waiting, self._goals.get(goal, Expense()))
 
-    async def spend(self, day: date, goal: str, change: Spent, judge: Judge) -> Overrun | None:
+    async def spend(self, day: date, goal: str, change: Expense, judge: Judge) -> Overrun | None:
         """Keep a change unless it is too much; on return it outlives this process.
 
         Args:
@@ -170,7 +170,7 @@ class Ledger:
         future = self._ask(_Move(day, goal[:MAX_ID], change, judge))
         return (await asyncio.wrap_future(future)).overrun
 
-    def settle(self, day: date, goal: str, change: Spent) -> None:
+    def settle(self, day: date, goal: str, change: Expense) -> None:
         """Correct what was spent; it is told at once and kept soon."""
         self._ask(_Move(day, goal[:MAX_ID], change))
 
@@ -199,7 +199,7 @@ class Ledger:
     def _do(self, move: _Move) -> Balance:
         """Read the sums and, where it is asked for and within the limits, add a change to them."""
         day, goal, change = move.day, move.goal, move.change
-        if change == Spent():
+        if change == Expense():
             return Balance(day, *self._balance(self._database.read, day, goal))
         self._database.take_over(self._old_folder, self._import)  # where the start could not
         with self._database.change(sync=False) as connection:
@@ -228,7 +228,7 @@ class Ledger:
 
     def _balance(
         self, read: Callable[..., list[tuple[Any, ...]]], day: date, goal: str
-    ) -> tuple[Spent, str, Spent]:
+    ) -> tuple[Expense, str, Expense]:
         today = read(f"SELECT {_SUMS} FROM spent WHERE day = ?", (day.isoformat(),))
         mine = read(f"SELECT {_SUMS} FROM spent WHERE goal = ? AND {_IS_DAY}", (goal,))
         return _sum(today), goal, _sum(mine)
@@ -255,7 +255,7 @@ class Ledger:
             if future.cancelled():
                 continue
             if (error := future.exception()) is not None:
-                if move.corrects != Spent():  # it stays counted at its worst
+                if move.corrects != Expense():  # it stays counted at its worst
                     log.warning("what a call came to can't be written: %s", error)
                 continue
             found = future.result()
@@ -316,21 +316,21 @@ def _reader(connection: sqlite3.Connection) -> Callable[..., list[tuple[Any, ...
     return lambda query, values: connection.execute(query, values).fetchall()
 
 
-def _add(connection: sqlite3.Connection, day: str, goal: str, change: Spent) -> None:
+def _add(connection: sqlite3.Connection, day: str, goal: str, change: Expense) -> None:
     amounts = (round(getattr(change, name), 9) for name in _FIELDS)
     connection.execute(_ADD, (day, goal, *amounts))
 
 
-def _sum(rows: list[tuple[Any, ...]]) -> Spent:
-    return _amounts_of(rows[0]) if rows else Spent()
+def _sum(rows: list[tuple[Any, ...]]) -> Expense:
+    return _amounts_of(rows[0]) if rows else Expense()
 
 
-def _amounts_of(sums: Any) -> Spent:
+def _amounts_of(sums: Any) -> Expense:
     calls, prompt_tokens, reply_tokens, seconds, money = sums
-    return Spent(int(calls), int(prompt_tokens), int(reply_tokens), seconds, money)
+    return Expense(int(calls), int(prompt_tokens), int(reply_tokens), seconds, money)
 
 
-def _read_line(line: bytes) -> tuple[str, Spent]:
+def _read_line(line: bytes) -> tuple[str, Expense]:
     """Return the goal and change of a line of the layout before."""
     try:
         record = json.loads(line)
@@ -338,7 +338,7 @@ def _read_line(line: bytes) -> tuple[str, Spent]:
         right = isinstance(goal, str) and all(
             isinstance(value, int | float) and abs(value) <= 1e12 for value in record.values()
         )
-        return (goal, Spent(**record)) if right else ("", _UNREADABLE)
+        return (goal, Expense(**record)) if right else ("", _UNREADABLE)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return "", _UNREADABLE
 

@@ -19,7 +19,7 @@ class Amounts(Frozen):
     money: float
 
 
-class Most(Frozen):
+class BudgetLimits(Frozen):
     """Hold the limits; none where money has none."""
 
     calls: int
@@ -29,7 +29,7 @@ class Most(Frozen):
     money: float | None
 
 
-class Refused(Frozen):
+class BudgetRefusal(Frozen):
     """Say why a call was last refused: cleared by the next one that goes out."""
 
     code: str
@@ -44,10 +44,10 @@ class Usage(Frozen):
     resets_in_s: float = Field(ge=0.0)
     currency: str | None  # none: no price is set, so money stays zero
     today: Amounts
-    day_limits: Most
+    day_limits: BudgetLimits
     goal: Amounts | None = None  # what one goal has spent, where one was asked for
-    goal_limits: Most
+    goal_limits: BudgetLimits
     under_way: int = Field(ge=0)  # calls that have gone out and not ended
     calls_since_start: int = Field(ge=0)
     idle_calls: int = Field(ge=0)  # calls that no goal asked for: refused, and a defect
-    refused: Refused | None = None
+    refused: BudgetRefusal | None = None

@@ -13,7 +13,7 @@ KINDS: tuple[Kind, ...] = ("calls", "prompt_tokens", "reply_tokens", "seconds", 
 
 
 @dataclass(frozen=True, slots=True)
-class Spent:
+class Expense:
     """Hold what was spent, or is about to be. Never negative but as a correction."""
 
     calls: int = 0
@@ -22,8 +22,8 @@ class Spent:
     seconds: float = 0.0
     money: float = 0.0
 
-    def __add__(self, other: Spent) -> Spent:
-        return Spent(
+    def __add__(self, other: Expense) -> Expense:
+        return Expense(
             self.calls + other.calls,
             self.prompt_tokens + other.prompt_tokens,
             self.reply_tokens + other.reply_tokens,
@@ -31,8 +31,8 @@ class Spent:
             self.money + other.money,
         )
 
-    def __sub__(self, other: Spent) -> Spent:
-        return self + Spent(
+    def __sub__(self, other: Expense) -> Expense:
+        return self + Expense(
             -other.calls,
             -other.prompt_tokens,
             -other.reply_tokens,
@@ -60,7 +60,7 @@ def cost(price: Price | None, prompt_tokens: int, reply_tokens: int) -> float:
 
 
 def overrun(
-    per: Literal["goal", "day"], spent: Spent, more: Spent, limits: Limits
+    per: Literal["goal", "day"], spent: Expense, more: Expense, limits: Limits
 ) -> Overrun | None:
     """Return the first limit that ``more`` would pass, or None.
 

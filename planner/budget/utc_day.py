@@ -16,7 +16,7 @@ DAY_S = 86_400.0
 
 
 @dataclass(frozen=True, slots=True)
-class Clocks:
+class DayClocks:
     """Read the two clocks; tests set them."""
 
     unix_s: Callable[[], float] = time.time
@@ -26,7 +26,7 @@ class Clocks:
 class Days:
     """Remember the newest day, and since when the wall clock is behind it."""
 
-    def __init__(self, newest: date | None, clocks: Clocks) -> None:
+    def __init__(self, newest: date | None, clocks: DayClocks) -> None:
         self._clocks = clocks
         self._newest = newest
         self._behind_since_s: float | None = None

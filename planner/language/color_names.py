@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planner.language.catalogue import CATALOGUE, noun
-from planner.plan import Bilingual, same
+from planner.plan import Bilingual, say_same
 
 COLORS = CATALOGUE.keys("color")
 _WORDS_EN = {color: CATALOGUE.synonyms(f"color.{color}", "en") for color in COLORS}
@@ -56,4 +56,4 @@ def may_be(one: str | None, other: str | None) -> bool:
 
 def color_name(color: str) -> Bilingual:
     """Return what to call a colour."""
-    return noun(f"color.{color}") if color in COLORS else same(color)
+    return noun(f"color.{color}") if color in COLORS else say_same(color)

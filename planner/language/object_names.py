@@ -14,7 +14,7 @@ from planner.language import color_names
 from planner.language.catalogue import CATALOGUE, list_names, noun, plural, say
 from planner.language.folding import CHINESE, fold, fold_words
 from planner.language.object_classes import KINDS
-from planner.plan import Bilingual, Language, same
+from planner.plan import Bilingual, Language, say_same
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -123,7 +123,7 @@ def singles_out(words: str, classes: Collection[str] = ()) -> bool:
 
 def name_object(label: str, color: str | None = None) -> Bilingual:
     """Return what to call a thing."""
-    name = noun(f"noun.{label}") if label in KINDS else same(_bare(label))
+    name = noun(f"noun.{label}") if label in KINDS else say_same(_bare(label))
     return _with_color(name, color)
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import list_names, message, say
-from planner.plan import Code, Outcome, same
+from planner.plan import Code, Outcome, say_same
 
 if TYPE_CHECKING:
-    from planner.plan import Bilingual, Rejection, Vocabulary
+    from planner.plan import Bilingual, PlanRejection, Vocabulary
 
 SHOWN = 30
 
@@ -22,7 +22,7 @@ def known_places(vocabulary: Vocabulary, limit: int = SHOWN) -> Bilingual:
     return list_names(names) if names else say("place.none")
 
 
-def rejection_outcome(rejection: Rejection, vocabulary: Vocabulary) -> Outcome:
+def rejection_outcome(rejection: PlanRejection, vocabulary: Vocabulary) -> Outcome:
     """Return the outcome of a goal whose plan may not be walked."""
     first = rejection.first
     if first.code is Code.UNKNOWN_PLACE:
@@ -30,5 +30,5 @@ def rejection_outcome(rejection: Rejection, vocabulary: Vocabulary) -> Outcome:
     elif first.code is Code.BAD_PLAN:
         said = message(first.code, why=first.what)
     else:
-        said = message(first.code, part=same(first.what))
+        said = message(first.code, part=say_same(first.what))
     return Outcome(code=first.code, message=said)

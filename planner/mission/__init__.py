@@ -11,7 +11,7 @@
     goal(id) -> Goal;  goals(limit=50) -> tuple[Goal, ...]  (open ones first, each newest first)
     await cancel(id) | pause(id) | move(id, before=None) -> Goal
     await resume(id=None, act=None) | confirm(id, act=None) | answer(id, text, act=None) -> Goal
-    await stop(source) -> StopResult(id, echoed, waited_s)
+    await stop(source) -> StopResult(id, is_echoed, waited_s)
     subscribe() -> Subscription: async iterator of (seq, dict), ``async with`` or ``close()``
     snapshot() -> dict with seq, planner_id, running, queue, goals, status
     failed -> what ended the mission loop, if anything did;  journal_trouble -> str | None

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.formatting import angle, metres
-from planner.plan import Bilingual, Code, StepState, same
+from planner.plan import Bilingual, Code, StepState, say_same
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -83,7 +83,7 @@ def _place(mission: Mission, step: StepRecord) -> str:
 
 def _name(facts: SiteView, place: str) -> Bilingual:
     target = facts.targets.get(place)
-    return target.name if target is not None else same(place or "?")
+    return target.name if target is not None else say_same(place or "?")
 
 
 def _tell_steps(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:

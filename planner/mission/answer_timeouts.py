@@ -14,7 +14,7 @@ from planner.mission.outcomes import ended_outcome
 from planner.mission.queue import finish
 from planner.mission.state import MAX_OPEN, Mission, MissionState
 from planner.mission.transitions import GoalFact
-from planner.plan import Bilingual, Code, GoalState, Outcome, same
+from planner.plan import Bilingual, Code, GoalState, Outcome, say_same
 
 if TYPE_CHECKING:
     from planner.mission.transaction import Transaction
@@ -92,7 +92,7 @@ def _make_way(turn: Transaction, mission: Mission, newer: str) -> None:
 
 
 def _repeat_question(mission: Mission) -> Bilingual:
-    return mission.outcome.message if mission.outcome is not None else same(mission.text[:200])
+    return mission.outcome.message if mission.outcome is not None else say_same(mission.text[:200])
 
 
 def _end(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from planner.mission.skills.perception import ImageAnswer as EyeAnswer
 from planner.mission.state import Mission, SiteView
 from planner.perception.snapshot import Sight
-from planner.plan import Answer, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
+from planner.plan import AnswerPlan, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
 from wire import Status
 
 
@@ -42,7 +42,7 @@ class Planned:
     """The brain answered; ``failure`` where there is no usable plan."""
 
     id: str
-    plan: StepPlan | Answer | Clarify | Refuse | None
+    plan: StepPlan | AnswerPlan | Clarify | Refuse | None
     failure: Outcome | None = None
     brain: BrainTag | None = None
 

@@ -40,7 +40,7 @@ from planner.mission.state import Mission, MissionState
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
@@ -150,7 +150,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
     if isinstance(plan, StepPlan | Clarify):  # surely an order
         close_older(turn, mission)
     match plan:
-        case Answer():
+        case AnswerPlan():
             words = message(Code.ANSWERED, text=plan.text)
             outcome = Outcome(code=Code.ANSWERED, message=words)
             finish(turn, mission, BrainCause.ANSWERS, outcome)

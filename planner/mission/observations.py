@@ -10,7 +10,7 @@ from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.language.catalogue import list_names, say
 from planner.language.formatting import angle, metres
 from planner.mission.state import Mission, SiteView
-from planner.plan import Bilingual, StepRecord, StepState, same
+from planner.plan import Bilingual, StepRecord, StepState, say_same
 
 RESULTS = {
     StepState.SUCCEEDED: "succeeded",
@@ -82,7 +82,7 @@ def _detail(facts: SiteView, step: StepRecord) -> Bilingual:
 
 def _describe_places(facts: SiteView, step: StepRecord) -> Bilingual:
     wanted = (step.place,) if step.place else step.places
-    names = [facts.targets[p].name if p in facts.targets else same(p) for p in wanted]
+    names = [facts.targets[p].name if p in facts.targets else say_same(p) for p in wanted]
     if step.reason is None:
         return list_names(names)
     if not names:

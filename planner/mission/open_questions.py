@@ -25,7 +25,7 @@ from planner.plan import (
     GoalState,
     Outcome,
     StepState,
-    same,
+    say_same,
 )
 
 MAX_ANSWER = 2000
@@ -75,7 +75,7 @@ def takes_yes(mission: Mission) -> bool:
 
 def take_sentence(turn: Transaction, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
     """End a goal whose words answer another; return whose they answer, None of several."""
-    names = list_names(same(f"“{turn.book.missions[asked].text[:60]}”") for asked in asking)
+    names = list_names(say_same(f"“{turn.book.missions[asked].text[:60]}”") for asked in asking)
     if len(asking) > 1:
         said = say("question.for_none", names=names)
         outcome = Outcome(code=Code.AMBIGUOUS, message=said)

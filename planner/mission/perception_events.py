@@ -24,7 +24,7 @@ from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.perception.snapshot import Sight
-from planner.plan import Code, same
+from planner.plan import Code, say_same
 from wire import wrap
 
 SETTLE_S = 0.15
@@ -107,7 +107,7 @@ def end_gaze_if_due(turn: Transaction) -> None:
         _end_gaze(turn, activity)
     else:
         why = turn.book.sight.blind or "camera_silent"
-        said = message(Code.BLIND, why=same(why))
+        said = message(Code.BLIND, why=say_same(why))
         fail_step(turn, Fail(Code.BLIND, why, said))
 
 

@@ -23,7 +23,7 @@ from planner.plan import (
     Outcome,
     StepRecord,
     check_plan,
-    same,
+    say_same,
 )
 
 NO_STEPS = say("plan.no_steps")
@@ -49,10 +49,10 @@ def unwalkable(
         case Code.BAD_PLAN:
             said = message(first.code, why=first.what if steps else NO_STEPS)
         case Code.UNKNOWN_PLACE:
-            known = same(", ".join(sorted(book.facts.targets)))
+            known = say_same(", ".join(sorted(book.facts.targets)))
             said = message(first.code, name=first.what, near="", known=known)
         case _:
-            said = first.said or message(first.code, part=same(first.what))
+            said = first.said or message(first.code, part=say_same(first.what))
     return Outcome(code=first.code, message=said)
 
 

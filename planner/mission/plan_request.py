@@ -85,7 +85,7 @@ def thinker(
             vocabulary=vocabulary,
             room=ask.room,
             language=ask.language,
-            runnable=means.offered,
+            runnable=means.plannable,
             blind=means.blind,
             things=things_of(classes) if means.detector else frozenset(),
             goal=ask.id,

@@ -30,7 +30,7 @@ from planner.mission.events import Planned
 from planner.mission.known_places import Lesson
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_position
-from planner.plan import Answer, Bilingual, Code, Refuse
+from planner.plan import AnswerPlan, Bilingual, Code, Refuse
 from planner.site import PlaceRefusal
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class PlannerCommands:
             return await self._brain(ask)
         return Planned(ask.id, await self.carry_out(intent, mission))
 
-    async def carry_out(self, intent: Intent, mission: Mission) -> Answer | Refuse:
+    async def carry_out(self, intent: Intent, mission: Mission) -> AnswerPlan | Refuse:
         """Do it and say how it went."""
         book = self._loop.book
         match intent:
@@ -92,53 +92,53 @@ class PlannerCommands:
             case ResumeCommand():
                 return self._command_goal("resume", events.Resume, goal_to_resume(book, mission.id))
             case Doing():
-                return Answer(text=doing(book, self._loop.status_age_s, mission.id))
+                return AnswerPlan(text=doing(book, self._loop.status_age_s, mission.id))
             case Slower() | Faster():
                 return self._change_speed(slower=isinstance(intent, Slower))
             case WhereCommand() | Replace():
-                return Answer(text=tell_position(book, self._loop.status_age_s))
+                return AnswerPlan(text=tell_position(book, self._loop.status_age_s))
 
     def _command_goal(
         self, what: str, make: Callable[[str], Command], goal_id: str | None
-    ) -> Answer:
+    ) -> AnswerPlan:
         """Give a command about a goal and say what became of it."""
         done, nothing = _SAID[what]
         if goal_id is None:
-            return Answer(text=nothing)
+            return AnswerPlan(text=nothing)
         text = self._loop.book.missions[goal_id].text[:60]
         error = self._loop.obey(make(goal_id))
         if error is not None:
-            return Answer(text=error.message)
-        return Answer(text=say("commands.done", done=done, text=text))
+            return AnswerPlan(text=error.message)
+        return AnswerPlan(text=say("commands.done", done=done, text=text))
 
-    def _change_speed(self, *, slower: bool) -> Answer:
+    def _change_speed(self, *, slower: bool) -> AnswerPlan:
         """Change the speed cap of the running goal and say what it is now."""
         running = self._loop.book.running
         if running is None:
-            return Answer(text=_NOTHING_RUNS)
+            return AnswerPlan(text=_NOTHING_RUNS)
         error = self._loop.obey(events.ChangeSpeed(running, slower=slower))
         if error is not None:
-            return Answer(text=error.message)
+            return AnswerPlan(text=error.message)
         mission = self._loop.book.missions[running]
         share, text = f"{100.0 * mission.speed_share:.0f} %", mission.text[:60]
-        return Answer(text=say("commands.speed_cap", share=share, text=text))
+        return AnswerPlan(text=say("commands.speed_cap", share=share, text=text))
 
-    async def _remember(self, name: str) -> Answer | Refuse:
+    async def _remember(self, name: str) -> AnswerPlan | Refuse:
         try:
             place, new = await self._memory.teach(Lesson(en=name, by=SPOKEN_BY))
         except PlaceRefusal as refused:
             return not_kept(refused)
         names = Bilingual(en=place.name.en, zh=place.name.zh)
         if new:
-            return Answer(text=say("commands.remembered", names=names))
-        return Answer(text=say("commands.place_moved", names=names))
+            return AnswerPlan(text=say("commands.remembered", names=names))
+        return AnswerPlan(text=say("commands.place_moved", names=names))
 
-    async def _forget(self, name: str) -> Answer | Refuse:
+    async def _forget(self, name: str) -> AnswerPlan | Refuse:
         try:
             place = await self._memory.forget(name)
         except PlaceRefusal as refused:
             return not_kept(refused)
-        return Answer(
+        return AnswerPlan(
             text=say("commands.forgotten", name=Bilingual(en=place.name.en, zh=place.name.zh))
         )
 

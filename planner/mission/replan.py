@@ -23,7 +23,7 @@ from planner.mission.step_failure import give_up
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import BrainCause, Cause, GoalFact
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
@@ -35,7 +35,7 @@ from planner.plan import (
     StepRecord,
     StepState,
     plan_record,
-    same,
+    say_same,
 )
 
 SAME_AGAIN = say("plan.same_again")
@@ -108,7 +108,7 @@ def _no_steps(
     turn: Transaction, mission: Mission, plan: Plan | None, failure: Outcome | None
 ) -> None:
     decides = mission.failure is None
-    if isinstance(plan, Answer) and decides:
+    if isinstance(plan, AnswerPlan) and decides:
         note_step(turn, mission, state=StepState.SUCCEEDED)
         said = message(Code.ANSWERED, text=plan.text)
         end_running(turn, BrainCause.ANSWERS, Code.ANSWERED, said=said)
@@ -225,4 +225,4 @@ def _name(facts: SiteView, place: str) -> Bilingual:
     if place == BACK:
         return say("confirmation.start")
     target = facts.targets.get(place)
-    return target.name if target is not None else same(place)
+    return target.name if target is not None else say_same(place)

@@ -17,7 +17,7 @@ from planner.mission.queue import notes_now
 from planner.mission.skills import ImageAnswer, Scene
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
-from planner.plan import Bilingual, StepRecord, same
+from planner.plan import Bilingual, StepRecord, say_same
 from wire import Pose2
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def first_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual | None
         return None
     place = facts.home if step.kind == "return_home" else step.place
     if place:
-        name = facts.targets[place].name if place in facts.targets else same(place)
+        name = facts.targets[place].name if place in facts.targets else say_same(place)
         return say("deed.drive_to", name=name)
     code = f"deed.{step.kind}"
     return say(code if CATALOGUE.has(code) else "deed.go_on", what=step.object or "")

@@ -310,7 +310,7 @@ class Missions:
 
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
-        self.loop.event(dataclasses.replace(given, echoed=result.echoed))
+        self.loop.event(dataclasses.replace(given, echoed=result.is_echoed))
         return self.goal(given.id)
 
     def _newest_paused(self) -> str:

@@ -9,7 +9,7 @@ from planner.mission.account import place_name
 from planner.mission.bridge_status import standing, worst_row
 from planner.mission.outcomes import spot_at
 from planner.mission.state import Mission, MissionState, SiteView
-from planner.plan import Bilingual, Code, GoalState, same
+from planner.plan import Bilingual, Code, GoalState, say_same
 from wire import Pose2, Status
 
 NEAR_M = 1.0
@@ -76,7 +76,7 @@ def doing(book: MissionState, age_s: float, asking: str = "") -> Bilingual:
     motion = _motion(book.status, age_s)
     task = _task(book, asking)
     waiting = len([i for i in book.queue if i != asking])
-    more = say("status.more_in_queue", waiting=waiting) if waiting else same("")
+    more = say("status.more_in_queue", waiting=waiting) if waiting else say_same("")
     return say("status.whole", task=task, motion=motion, more=more)
 
 

@@ -1,7 +1,15 @@
 """Say what may be planned: the closed vocabulary of plans, steps, outcomes, places and goals."""
 
-from planner.plan.base import Bilingual, Frozen, Language, same
-from planner.plan.check import BARE, NEEDS_DETECTOR, Means, Reason, Rejection, check_plan, lacking
+from planner.plan.base import Bilingual, Frozen, Language, say_same
+from planner.plan.check import (
+    BARE,
+    NEEDS_DETECTOR,
+    Means,
+    PlanRejection,
+    Reason,
+    check_plan,
+    lacking,
+)
 from planner.plan.goal import (
     ENDED,
     BrainTag,
@@ -17,7 +25,16 @@ from planner.plan.goal import (
 )
 from planner.plan.outcome import Outcome, Spot
 from planner.plan.outcome_codes import Code
-from planner.plan.responses import MAX_STEPS, PLAN, Answer, Clarify, Option, Plan, Refuse, StepPlan
+from planner.plan.responses import (
+    MAX_STEPS,
+    PLAN,
+    AnswerPlan,
+    Clarify,
+    Option,
+    Plan,
+    Refuse,
+    StepPlan,
+)
 from planner.plan.steps import (
     DRIVES,
     EVERY_KIND,
@@ -33,7 +50,7 @@ from planner.plan.steps import (
     GoToObject,
     GoToPoint,
     Look,
-    Move,
+    MoveStraight,
     Patrol,
     ReturnHome,
     Say,
@@ -54,7 +71,7 @@ __all__ = [
     "NEEDS_DETECTOR",
     "PLAN",
     "RUNNABLE",
-    "Answer",
+    "AnswerPlan",
     "Ask",
     "Bilingual",
     "BrainTag",
@@ -76,7 +93,7 @@ __all__ = [
     "Language",
     "Look",
     "Means",
-    "Move",
+    "MoveStraight",
     "Option",
     "Outcome",
     "Patrol",
@@ -84,9 +101,9 @@ __all__ = [
     "PlaceId",
     "Plan",
     "PlanRecord",
+    "PlanRejection",
     "Reason",
     "Refuse",
-    "Rejection",
     "ReturnHome",
     "Say",
     "Spot",
@@ -102,5 +119,5 @@ __all__ = [
     "lacking",
     "places_of",
     "plan_record",
-    "same",
+    "say_same",
 ]

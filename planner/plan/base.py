@@ -34,6 +34,6 @@ class Bilingual(Frozen):
         return self.zh if language == Language.ZH else self.en
 
 
-def same(text: str) -> Bilingual:
+def say_same(text: str) -> Bilingual:
     """Say the same words in both languages: names, and text that someone else wrote."""
     return Bilingual(en=text, zh=text)

@@ -18,7 +18,7 @@ from collections.abc import Callable, Container, Iterator
 from planner.plan.base import Bilingual, Frozen
 from planner.plan.goal import StepRecord, plan_record
 from planner.plan.outcome_codes import Code
-from planner.plan.responses import MAX_STEPS, Answer, Clarify, Plan, Refuse, StepPlan
+from planner.plan.responses import MAX_STEPS, AnswerPlan, Clarify, Plan, Refuse, StepPlan
 from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step, places_of
 
 NEEDS_DETECTOR = frozenset({"find", "count", "follow", "go_to_object"})
@@ -42,7 +42,7 @@ class Means(Frozen):
         return RUNNABLE | POINTS | look | (NEEDS_DETECTOR if self.detector else frozenset())
 
     @property
-    def offered(self) -> frozenset[str]:
+    def plannable(self) -> frozenset[str]:
         """Return the kinds that a brain may plan with: it sees no picture to point at."""
         return self.runnable - POINTS
 
@@ -72,7 +72,7 @@ class Reason(Frozen):
     said: Bilingual | None = None  # in words for a person, where the code alone does not say it
 
 
-class Rejection(Frozen):
+class PlanRejection(Frozen):
     """Refuse a plan, with every reason found; ``planner.language.plan_rejections`` tells it."""
 
     reasons: tuple[Reason, ...]
@@ -94,7 +94,7 @@ def check_plan(
     runnable: frozenset[str] = RUNNABLE,
     blind: Code = Code.NO_CAMERA,
     unknown_object: Callable[[StepRecord], Bilingual | None] | None = None,
-) -> Rejection | None:
+) -> PlanRejection | None:
     """Return every reason against carrying out a plan, or None where there is none.
 
     Args:
@@ -108,11 +108,11 @@ def check_plan(
 
     Bounds of numbers hold from birth (the models refuse them), so they are not looked at again.
     """
-    if isinstance(plan, Answer | Clarify | Refuse):
+    if isinstance(plan, AnswerPlan | Clarify | Refuse):
         return None
     steps = plan.steps if isinstance(plan, StepPlan) else plan
     reasons = (*_faults(steps, places, runnable, blind), *_unknown(plan, unknown_object))
-    return Rejection(reasons=reasons) if reasons else None
+    return PlanRejection(reasons=reasons) if reasons else None
 
 
 def _faults(

@@ -12,7 +12,7 @@ from pydantic import AwareDatetime, Field
 from planner.plan.base import Bilingual, Frozen, Language
 from planner.plan.outcome import Outcome, Spot
 from planner.plan.outcome_codes import Code
-from planner.plan.responses import Answer, Clarify, Option, Refuse, StepPlan
+from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
 
 
 class GoalState(StrEnum):
@@ -144,12 +144,12 @@ class Goal(Frozen):
     updated: AwareDatetime
 
 
-def plan_record(plan: StepPlan | Answer | Clarify | Refuse) -> PlanRecord:
+def plan_record(plan: StepPlan | AnswerPlan | Clarify | Refuse) -> PlanRecord:
     """Flatten a plan for the goal's record, every step pending."""
     match plan:
         case StepPlan():
             return PlanRecord(kind=plan.kind, steps=tuple(map(_step_record, plan.steps)))
-        case Answer():
+        case AnswerPlan():
             return PlanRecord(kind=plan.kind, text=plan.text)
         case Clarify():
             return PlanRecord(

@@ -23,7 +23,7 @@ class StepPlan(Frozen):
     steps: tuple[Step, ...]
 
 
-class Answer(Frozen):
+class AnswerPlan(Frozen):
     """Answer a question; nothing moves."""
 
     kind: Literal["answer"] = "answer"
@@ -54,5 +54,5 @@ class Refuse(Frozen):
     reason: Bilingual
 
 
-Plan = Annotated[StepPlan | Answer | Clarify | Refuse, Field(discriminator="kind")]
-PLAN: TypeAdapter[StepPlan | Answer | Clarify | Refuse] = TypeAdapter(Plan)
+Plan = Annotated[StepPlan | AnswerPlan | Clarify | Refuse, Field(discriminator="kind")]
+PLAN: TypeAdapter[StepPlan | AnswerPlan | Clarify | Refuse] = TypeAdapter(Plan)

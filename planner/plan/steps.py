@@ -75,7 +75,7 @@ class Turn(Frozen):
     angle_rad: float = Field(ge=-4 * pi, le=4 * pi)
 
 
-class Move(Frozen):
+class MoveStraight(Frozen):
     """Drive straight by a distance [m] along the heading, backwards where negative."""
 
     kind: Literal["move"] = "move"
@@ -145,7 +145,7 @@ Step = Annotated[
     | Ask
     | Decide
     | Turn
-    | Move
+    | MoveStraight
     | Patrol
     | GoToObject
     | GoToPoint

@@ -74,7 +74,7 @@ def points_of(scan: Scan, robot: RobotDescription) -> Points:
     """Return where beams came back, in ``base`` [m].
 
     Raises:
-        CalibrationRefused: ``no_lidar``: fewer than half of them did.
+        CalibrationRefusal: ``no_lidar``: fewer than half of them did.
     """
     lidar_in_base = Pose2(robot.lidar.x_m, robot.lidar.y_m, robot.lidar.yaw_rad)
     points: Points = []
@@ -117,7 +117,7 @@ def clear_to_turn(points: Points, radius_m: float) -> None:
     """See that the robot may turn on the spot.
 
     Raises:
-        CalibrationRefused: ``no_room``.
+        CalibrationRefusal: ``no_room``.
     """
     nearest = min(hypot(x, y) for x, y in points)
     if not nearest >= radius_m + ASIDE_M:
@@ -130,7 +130,7 @@ def best_way(points: Points, radius_m: float, headings: Sequence[float] = EVERYW
     """Choose the heading that needs the least turning among those with room for a long run.
 
     Raises:
-        CalibrationRefused: ``no_room``, with what the best heading has.
+        CalibrationRefusal: ``no_room``, with what the best heading has.
     """
     clear_to_turn(points, radius_m)
     best = max((_way(points, radius_m, heading) for heading in headings), key=lambda w: w.worth_m)

@@ -118,7 +118,7 @@ def findings(
         when: UTC time, for the evidence.
 
     Raises:
-        CalibrationRefused: ``spread_too_wide`` or ``out_of_bounds``.
+        CalibrationRefusal: ``spread_too_wide`` or ``out_of_bounds``.
     """
     base, limits, drive = robot.base, robot.limits, robot.drive
     radius_m = radius_of(straights, robot)
@@ -165,7 +165,7 @@ def radius_of(straights: Sequence[StraightRun], robot: RobotDescription) -> floa
     """Return the wheel radius that the runs in a line agree on [m].
 
     Raises:
-        CalibrationRefused: ``spread_too_wide`` or ``out_of_bounds``.
+        CalibrationRefusal: ``spread_too_wide`` or ``out_of_bounds``.
     """
     radius_m = _close("base.wheel_radius_m", [run.radius_m for run in straights], RADIUS_SPREAD)
     _plausible("base.wheel_radius_m", radius_m, robot.base.wheel_radius_m)

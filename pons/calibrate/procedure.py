@@ -71,7 +71,7 @@ def calibrate(
     """Drive and measure; the robot stands when this returns or raises.
 
     Raises:
-        CalibrationRefused: nothing was measured that may be believed.
+        CalibrationRefusal: nothing was measured that may be believed.
     """
     status = rig.listen()
     ready(status, robot)
@@ -105,7 +105,7 @@ def ready(status: Status, robot: RobotDescription) -> None:
     """See that the robot is this one, armed, standing and nobody else's.
 
     Raises:
-        CalibrationRefused: it is not.
+        CalibrationRefusal: it is not.
     """
     if status.mode in _MODES:
         who = f"mode {status.mode.value}"
@@ -191,7 +191,7 @@ def _retry_lost(
     """Take a run; one that was lost is taken again, a few times.
 
     Raises:
-        CalibrationRefused: it was lost each time, or cannot be taken.
+        CalibrationRefusal: it was lost each time, or cannot be taken.
     """
     before = RunLost("run_lost", "")
     for _ in range(TRIES):

@@ -48,7 +48,7 @@ def went_m(
     """Return how far the robot went along its heading, without sign [m].
 
     Raises:
-        CalibrationRefused: the reference cannot say.
+        CalibrationRefusal: the reference cannot say.
         RunLost: this run's wall or truth got lost.
     """
     if kind == MEASURED:
@@ -89,7 +89,7 @@ def wall_m(scans: Sequence[Scan], robot: RobotDescription) -> float:
     """Return the distance along the heading to the flat wall ahead [m].
 
     Raises:
-        CalibrationRefused: ``no_wall``: what is ahead is not flat, or nothing is.
+        CalibrationRefusal: ``no_wall``: what is ahead is not flat, or nothing is.
     """
     points = [point for scan in scans for point in points_of(scan, robot)]
     return wall_ahead(points, len(scans)).distance_m

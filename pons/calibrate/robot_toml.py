@@ -35,7 +35,7 @@ def edit_values(text: str, found: Sequence[CalibrationFinding]) -> str:
     """Return the file's text with these values, each below its evidence.
 
     Raises:
-        CalibrationRefused: ``robot_toml_shape``: written otherwise than one key a line.
+        CalibrationRefusal: ``robot_toml_shape``: written otherwise than one key a line.
     """
     lines = text.splitlines()
     for one in found:
@@ -97,7 +97,7 @@ def replace(path: Path, before: str, after: str, stamp: str) -> Path:
     """Put the new text in the file's place; return where the old one is kept.
 
     Raises:
-        CalibrationRefused: ``robot_toml_shape``: the file changed meanwhile.
+        CalibrationRefusal: ``robot_toml_shape``: the file changed meanwhile.
         ConfigError: the new file would be refused.
         OSError: it cannot be written.
     """

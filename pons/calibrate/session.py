@@ -129,7 +129,7 @@ class CalibrationRig:
         """Wait for the first words of bridge, drive and lidar.
 
         Raises:
-            CalibrationRefused: ``no_bridge``, ``no_drive`` or ``no_lidar``.
+            CalibrationRefusal: ``no_bridge``, ``no_drive`` or ``no_lidar``.
         """
         self._until(lambda: self.status is not None, FIRST_S)
         if self.status is None:
@@ -146,7 +146,7 @@ class CalibrationRig:
         """Take the stick over: released, neutral, then held.
 
         Raises:
-            CalibrationRefused, RunLost: the bridge does not give it.
+            CalibrationRefusal, RunLost: the bridge does not give it.
         """
         self._wish = (0.0, 0.0, False)
         self._for(0.25)
@@ -166,7 +166,7 @@ class CalibrationRig:
         """Ask for a velocity until something is true.
 
         Raises:
-            CalibrationRefused, RunLost: the bridge or the way stopped it, or it took too long.
+            CalibrationRefusal, RunLost: the bridge or the way stopped it, or it took too long.
         """
         self._wish = (v_mps, w_radps, True)
         end_s = self.now_s + limit_s
@@ -242,7 +242,7 @@ class CalibrationRig:
         """See whether this hand still has the robot.
 
         Raises:
-            CalibrationRefused, RunLost: it has not.
+            CalibrationRefusal, RunLost: it has not.
         """
         if self.now_s - self._heard_s > SILENT_S:
             raise CalibrationRefusal("no_bridge", "the bridge fell silent during a run")

@@ -32,7 +32,7 @@ def wall_ahead(points: Points, scans: int = 1) -> WallFit:
         scans: of so many scans.
 
     Raises:
-        CalibrationRefused: ``no_wall``: what is ahead is not flat, or nothing is.
+        CalibrationRefusal: ``no_wall``: what is ahead is not flat, or nothing is.
     """
     near = _ahead(points)
     if len(near) < FEWEST * scans:

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from itertools import permutations
 from math import radians
 
-from planner.plan import Answer, Clarify, Refuse, StepPlan
+from planner.plan import AnswerPlan, Clarify, Refuse, StepPlan
 from pons.evals.mentioned_names import plain
 from pons.evals.world import HOME, START, EvalEvent, walk
 
-Made = StepPlan | Answer | Clarify | Refuse
+Made = StepPlan | AnswerPlan | Clarify | Refuse
 CLOSE = 0.02
 _STILL = frozenset({"clarify", "refuse", "still", "answer"})
 _KINDS = frozenset(

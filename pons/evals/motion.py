@@ -16,7 +16,7 @@ from planner.plan import (
     Follow,
     GoToObject,
     GoToPoint,
-    Move,
+    MoveStraight,
     ReturnHome,
     Step,
     StepPlan,
@@ -77,7 +77,7 @@ def _unnamed_part(step: Step, said: str) -> str:
             return "a point that no sentence names"
         case Turn():
             return _turn(degrees(step.angle_rad), said)
-        case Move():
+        case MoveStraight():
             return _move(step.distance_m, said)
     return ""
 

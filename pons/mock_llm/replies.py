@@ -9,7 +9,7 @@ import json
 from typing import Any
 
 from planner.brain.schema import CLARIFY_CODES, REFUSE_CODES
-from planner.plan import Answer, Clarify, Code, Refuse, StepPlan
+from planner.plan import AnswerPlan, Clarify, Code, Refuse, StepPlan
 
 NOWHERE = ("wine_cellar", "helipad", "nuclear_reactor")
 GARBAGE = (
@@ -20,13 +20,13 @@ GARBAGE = (
 )
 
 
-def reply_of(plan: StepPlan | Answer | Clarify | Refuse) -> dict[str, Any]:
+def reply_of(plan: StepPlan | AnswerPlan | Clarify | Refuse) -> dict[str, Any]:
     """Return a plan in the flat shape that the prompt asks for."""
     match plan:
         case StepPlan():
             steps = [step.model_dump(mode="json", exclude_none=True) for step in plan.steps]
             return {"kind": "plan", "steps": steps}
-        case Answer():
+        case AnswerPlan():
             return {"kind": "answer", **plan.text.model_dump()}
         case Clarify():
             options = [option.text for option in plan.options]

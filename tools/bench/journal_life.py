@@ -30,7 +30,7 @@ from planner.bridge_client import Link
 from planner.mission import BadState, Clocks, JournalSync, MissionJournal, Missions
 from planner.mission.event_hub import Hub
 from planner.navigation import RoutePoint, RouteRequest, RouteResult
-from planner.plan import ENDED, Ask, GoalState, Move, Say, StepPlan, Turn
+from planner.plan import ENDED, Ask, GoalState, MoveStraight, Say, StepPlan, Turn
 from planner.site import Site
 from tools.bench.minimal_sim import MinimalBody, PaperBridge
 from tools.lockstep.scene import SITES
@@ -46,8 +46,8 @@ LIFE_S = 30.0
 LATE_S = 0.003
 PLANS = {
     "turn about": (Say(text="one"), Turn(angle_rad=2.5), Say(text="two")),
-    "drive up": (Move(distance_m=0.6), Ask(question="three?"), Say(text="four")),
-    "drive off": (Say(text="five"), Move(distance_m=-0.4), Turn(angle_rad=-1.0)),
+    "drive up": (MoveStraight(distance_m=0.6), Ask(question="three?"), Say(text="four")),
+    "drive off": (Say(text="five"), MoveStraight(distance_m=-0.4), Turn(angle_rad=-1.0)),
 }
 TURNED_RAD, GONE_M = 1.5, 0.2
 OFF = 0.3

@@ -134,7 +134,7 @@ class Request:
         if not self.task.done():
             return None
         verdict: Answer | StopResult | None = self.task.result()
-        silent = isinstance(verdict, StopResult) and not verdict.echoed
+        silent = isinstance(verdict, StopResult) and not verdict.is_echoed
         return None if silent else verdict
 
 

@@ -20,7 +20,7 @@ from planner.brain.schema import schema_of
 from planner.brain.streamed_draft import Hear
 from planner.brain.usage_meter import Meter
 from planner.language.catalogue import message, say
-from planner.plan import PLAN, BrainTag, Code, Refuse, Vocabulary, same
+from planner.plan import PLAN, BrainTag, Code, Refuse, Vocabulary, say_same
 from planner.settings import ModelSettings
 
 if TYPE_CHECKING:
@@ -143,5 +143,5 @@ def _make_refusal(words: str, request: ThinkRequest) -> Refuse:
     """Take a model's own refusal as one: the offline brain must not do what a model would not."""
     told = clean(words)[:200]
     rule = say("model.declined", told=told)
-    said = message(Code.UNSAFE, part=same(clean(request.text)[:60]), rule=rule)
+    said = message(Code.UNSAFE, part=say_same(clean(request.text)[:60]), rule=rule)
     return Refuse(code=Code.UNSAFE, reason=said)

@@ -25,7 +25,7 @@ from planner.plan import (
     MAX_STEPS,
     PLAN,
     RUNNABLE,
-    Answer,
+    AnswerPlan,
     Clarify,
     Refuse,
     Step,
@@ -146,7 +146,7 @@ _CODES = {"clarify": CLARIFY_CODES, "refuse": REFUSE_CODES}
 # Marks that turn or hide text, and what is no text at all, have no place in words for a person.
 _UNSEEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn"})
 
-Planned = StepPlan | Answer | Clarify | Refuse
+Planned = StepPlan | AnswerPlan | Clarify | Refuse
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from planner.language.grammar.noun_phrases import go_to, several_of, up_to
 from planner.language.grammar.numbers import angle_rad, metres, seconds, times
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
 from planner.language.grammar.step_builders import ASIDE, look, missing, one_at_a_time
-from planner.plan import Code, ComeBack, GoTo, Move, Patrol, ReturnHome, Say, Turn, Wait
+from planner.plan import Code, ComeBack, GoTo, MoveStraight, Patrol, ReturnHome, Say, Turn, Wait
 
 HOW_FAR = message_of("grammar.how_far")
 _BACKWARD = ("back", "reverse", "后", "倒", "退")
@@ -151,7 +151,7 @@ def move(found: Match[str], reading: Reading) -> Meaning:
     length += _HALF_M if groups.get("half") else 0.0
     try:
         backward = way.startswith(_BACKWARD)
-        return Steps((Move(distance_m=-length if backward else length),))
+        return Steps((MoveStraight(distance_m=-length if backward else length),))
     except ValidationError:
         return ClauseProblem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
 

@@ -44,7 +44,7 @@ from planner.language.utterance import parse
 from planner.plan import (
     NEEDS_CAMERA,
     RUNNABLE,
-    Answer,
+    AnswerPlan,
     Clarify,
     Code,
     Frozen,
@@ -82,7 +82,7 @@ NOWHERE = Context()
 
 def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
-) -> StepPlan | Answer | Clarify | Refuse:
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
     refused = refuse_bad_text(text)
     if refused is not None:
@@ -114,7 +114,7 @@ class _Sentence:
 
 def _offering(
     said: str, sentence: _Sentence, vocabulary: Vocabulary, context: Context
-) -> StepPlan | Answer | Clarify | Refuse:
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Read a sentence; where an option would be no order by itself, ask without any."""
     made = _read_once(said, sentence, vocabulary, context)
     options = made.options if isinstance(made, Clarify) else ()
@@ -137,7 +137,7 @@ def _read_once(
     vocabulary: Vocabulary,
     context: Context,
     offers: bool = True,
-) -> StepPlan | Answer | Clarify | Refuse:
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Read a normalised sentence once."""
     text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
     lexicon = lexicon_of(vocabulary)
@@ -188,7 +188,7 @@ def _limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> 
 
 def _apply_vetoes(
     marked: MarkedText, setting: Setting
-) -> StepPlan | Answer | Clarify | Refuse | None:
+) -> StepPlan | AnswerPlan | Clarify | Refuse | None:
     """Look for words that turn an order into something else, in both languages at once."""
     text = marked.restore(marked.text)
     if TAMPERING.pattern.search(text):

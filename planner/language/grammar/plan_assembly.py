@@ -23,7 +23,7 @@ from planner.language.place_lists import known_places
 from planner.plan import (
     DRIVES,
     MAX_STEPS,
-    Answer,
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
@@ -33,7 +33,7 @@ from planner.plan import (
     Follow,
     GoTo,
     Language,
-    Move,
+    MoveStraight,
     Option,
     Patrol,
     Refuse,
@@ -44,7 +44,7 @@ from planner.plan import (
     Turn,
     Vocabulary,
     Wait,
-    same,
+    say_same,
 )
 
 # What no other wording can mend is told first.
@@ -64,7 +64,7 @@ _SHOWN = 60  # characters of the sentence that a message repeats
 _SPAN = say("grammar.wait_too_long")
 _NO_ROOM = say("grammar.room_unknown")
 
-Plan = StepPlan | Answer | Clarify | Refuse
+Plan = StepPlan | AnswerPlan | Clarify | Refuse
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +179,7 @@ def _lacking(worst: ClauseProblem, offered: tuple[Step, ...], setting: Setting) 
 
 def _ask(problem: ClauseProblem, options: tuple[Option, ...], setting: Setting) -> Clarify:
     if problem.code is Code.INCOMPLETE:
-        what = problem.what or same("?")
+        what = problem.what or say_same("?")
         question = message(problem.code, part=_cut(problem.part), what=what)
     elif problem.code is Code.UNKNOWN_PLACE:
         question = _unknown(problem, setting)
@@ -191,20 +191,20 @@ def _ask(problem: ClauseProblem, options: tuple[Option, ...], setting: Setting) 
 def _unknown(problem: ClauseProblem, setting: Setting) -> Bilingual:
     vocabulary = setting.vocabulary
     names = [vocabulary.name(place) for place in problem.places if setting.offers]
-    near = say("grammar.did_you_mean", names=list_names(names)) if names else same("")
+    near = say("grammar.did_you_mean", names=list_names(names)) if names else say_same("")
     return message(problem.code, name=_cut(problem.name), near=near, known=known_places(vocabulary))
 
 
-def _answer(topic: Topic, setting: Setting) -> Answer:
+def _answer(topic: Topic, setting: Setting) -> AnswerPlan:
     if topic is Topic.PLACES:
         names = known_places(setting.vocabulary)
-        return Answer(text=say("grammar.places", names=names))
+        return AnswerPlan(text=say("grammar.places", names=names))
     words = answer_topic(topic, setting.now)
     if words is not None:
-        return Answer(text=words)
+        return AnswerPlan(text=words)
     if setting.room is None:
-        return Answer(text=_NO_ROOM)
-    return Answer(text=say("grammar.in_room", name=setting.vocabulary.name(setting.room)))
+        return AnswerPlan(text=_NO_ROOM)
+    return AnswerPlan(text=say("grammar.in_room", name=setting.vocabulary.name(setting.room)))
 
 
 def _steps_of(
@@ -239,7 +239,7 @@ def _drives(steps: Sequence[Step]) -> bool:
 
 
 def _cut(part: str) -> Bilingual:
-    return same(part if len(part) <= _SHOWN else part[: _SHOWN - 1] + "…")
+    return say_same(part if len(part) <= _SHOWN else part[: _SHOWN - 1] + "…")
 
 
 def sentence(steps: Sequence[Step], vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingual:
@@ -285,14 +285,14 @@ def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingua
             return say("order.follow", object=_with_article(step.object))
         case Turn():
             return _turn_said(round(degrees(step.angle_rad)))
-        case Move():
+        case MoveStraight():
             code = "order.forward" if step.distance_m > 0 else "order.back"
             return say(code, far=f"{abs(step.distance_m):g}")
         case Patrol():
             names = join((name_of(place) for place in step.places), "joint.and_the")
             return say("order.patrol", names=names)
         case _:
-            return same(step.kind)
+            return say_same(step.kind)
 
 
 def _seen_said(step: Find | Count, place: Bilingual | None) -> Bilingual:
@@ -310,4 +310,4 @@ def _turn_said(angle_deg: int) -> Bilingual:
 def _with_article(label: str) -> Bilingual:
     """Put the article before a thing, where the language has one; a name has none."""
     bare = label[:1].isupper() or not label.isascii()
-    return same(label) if bare else say("order.the", object=label)
+    return say_same(label) if bare else say("order.the", object=label)

@@ -39,7 +39,7 @@ from planner.mission.skills.say import say
 from planner.mission.skills.skill_state import NOTHING, Notes
 from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
-from planner.plan import Code, same
+from planner.plan import Code, say_same
 
 SKILLS: MappingProxyType[str, Callable[[Scene], SkillAction]] = MappingProxyType(
     {
@@ -70,7 +70,7 @@ def act_of(scene: Scene) -> SkillAction:
     if skill is not None and code is None:
         return skill(scene)
     code = code or Code.NO_CAPABILITY
-    return Fail(code, code.value, message(code, part=same(scene.step.kind)))
+    return Fail(code, code.value, message(code, part=say_same(scene.step.kind)))
 
 
 __all__ = [

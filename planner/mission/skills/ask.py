@@ -21,7 +21,7 @@ from planner.mission.skills.actions import (
     SkillAction,
     Think,
 )
-from planner.plan import Bilingual, Code, same
+from planner.plan import Bilingual, Code, say_same
 
 THOUGHT, AGAIN = 1, 2
 """Stages: the answer is thought about; it was asked once more."""
@@ -35,7 +35,9 @@ def ask(scene: Scene) -> SkillAction:
     answer, notes = scene.step.answer, scene.notes
     if answer is None:
         again = notes.stage == AGAIN
-        return Question(_shall_i(scene), notes) if again else Question(same(scene.step.text or ""))
+        return (
+            Question(_shall_i(scene), notes) if again else Question(say_same(scene.step.text or ""))
+        )
     if scene.upon is None:
         return Finish()
     yes = parse(answer).consent

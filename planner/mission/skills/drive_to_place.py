@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
 from planner.mission.skills.actions import DriveLeg, Fail, Finish, Scene, SkillAction
-from planner.plan import Code, same
+from planner.plan import Code, say_same
 
 if TYPE_CHECKING:
     from planner.mission.state import SiteView
@@ -31,7 +31,7 @@ def drive_to(scene: Scene, place: str) -> DriveLeg | Fail:
 
 def place_gone(facts: SiteView, place: str) -> Fail:
     """Say that a place was forgotten since the plan was made, and what there is."""
-    known = same(", ".join(sorted(facts.targets)))
+    known = say_same(", ".join(sorted(facts.targets)))
     said = message(Code.UNKNOWN_PLACE, name=place, near="", known=known)
     return Fail(Code.UNKNOWN_PLACE, "place_gone", said)
 

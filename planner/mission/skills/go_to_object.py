@@ -49,7 +49,7 @@ from planner.mission.skills.result_text import name_with_article
 from planner.mission.skills.search import make_filter, search, short_of
 from planner.mission.skills.skill_state import Notes
 from planner.perception.snapshot import Thing
-from planner.plan import Code, Found, same
+from planner.plan import Code, Found, say_same
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -137,7 +137,11 @@ def _short_m(notes: Notes) -> float:
 
 def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> SkillAction:
     if notes.stand >= len(SIDES_RAD):
-        name = name_with_article(notes.label, notes.color) if notes.label is not None else same("?")
+        name = (
+            name_with_article(notes.label, notes.color)
+            if notes.label is not None
+            else say_same("?")
+        )
         return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
     spot, heading = short_of(pose, at[:2], _short_m(notes), SIDES_RAD[notes.stand])
     there, otherwise = notes.but(stage=FACE), notes.but(stand=notes.stand + 1)

@@ -2,7 +2,7 @@
 
 Law: the point counts in the picture that the plan was made on, from where that was taken; a wall,
 the sky and what lies outside the fence are refused before anything moves. No brain that plans is
-shown a picture or offered this step (``Means.offered``), so no sign can choose the point, and
+shown a picture or offered this step (``Means.plannable``), so no sign can choose the point, and
 nobody is asked; where a model that looks points, see pointing.py. Verdict: the bridge reached the
 leg. Budget: one leg.
 """

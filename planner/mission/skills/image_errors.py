@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from planner.brain.model_error_codes import REASONS
 from planner.language.catalogue import message, say
 from planner.mission.skills.actions import Fail
-from planner.plan import Bilingual, Code, same
+from planner.plan import Bilingual, Code, say_same
 
 if TYPE_CHECKING:
     from planner.mission.skills.perception import ImageAnswer
@@ -33,7 +33,7 @@ def why_silent(answer: ImageAnswer | None) -> Bilingual | None:
 
 def point_refused(code: str) -> Fail:
     """Say why a point of the picture is not driven to."""
-    why = say(f"point.{code.removeprefix('point_')}") if code in POINTS else same(code)
+    why = say(f"point.{code.removeprefix('point_')}") if code in POINTS else say_same(code)
     said = message(Code.POINT_REFUSED, why=why)
     return Fail(Code.POINT_REFUSED, code, said)
 
@@ -43,5 +43,5 @@ def not_pointed(words: str, answer: ImageAnswer) -> Fail:
     if answer.failure in POINTS:
         return point_refused(answer.failure)
     why = why_silent(answer) or _UNSEEN
-    said = message(Code.NOT_FOUND, thing=same(words), looked=why)
+    said = message(Code.NOT_FOUND, thing=say_same(words), looked=why)
     return Fail(Code.NOT_FOUND, answer.failure or "not_found", said)

@@ -35,7 +35,7 @@ from planner.mission.skills.scene_answers import SceneAnswer, answer
 from planner.mission.skills.search import begin, spots
 from planner.mission.skills.skill_state import Notes
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
-from planner.plan import Bilingual, Code, same
+from planner.plan import Bilingual, Code, say_same
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def _facing(notes: Notes, pose: Pose2) -> Bilingual:
 def _never_there(scene: Scene) -> Fail:
     """Say that nothing was looked at: what was not seen there is no no."""
     target = scene.facts.targets.get(scene.step.place or "")
-    name = target.name if target is not None else same("?")
+    name = target.name if target is not None else say_same("?")
     return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
 
 

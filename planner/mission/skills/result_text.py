@@ -10,7 +10,7 @@ from planner.language.object_classes import HOME
 from planner.language.object_names import list_kinds as labels_listed
 from planner.language.object_names import name_object, named_several, singles_out
 from planner.mission.skills.spatial_relations import name_related
-from planner.plan import Bilingual, Code, same
+from planner.plan import Bilingual, Code, say_same
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -45,7 +45,7 @@ def known_things(classes: tuple[str, ...]) -> Bilingual:
 
 def unknown_name(name: str, classes: tuple[str, ...]) -> Bilingual:
     """Say that these eyes don't know such a thing, and what they know."""
-    return message(Code.OBJECT_UNKNOWN, name=same(name), known=known_things(classes))
+    return message(Code.OBJECT_UNKNOWN, name=say_same(name), known=known_things(classes))
 
 
 def unknown_words(words: str, classes: tuple[str, ...], kind: str = "") -> Bilingual:
@@ -89,8 +89,8 @@ def looked_in(facts: SiteView, rooms: Iterable[str], shut: Iterable[str], spent:
 
     Of things that are ``alike``, it is said that light may have changed their colour.
     """
-    seen = [room_name(facts, r) or same(r) for r in rooms]
-    closed = [room_name(facts, r) or same(r) for r in shut]
+    seen = [room_name(facts, r) or say_same(r) for r in rooms]
+    closed = [room_name(facts, r) or say_same(r) for r in shut]
     told = [say("result.looked_in", rooms=list_names(seen, "joint.and"))] if seen else []
     if closed:
         told.append(say("result.no_way_to", rooms=list_names(closed, "joint.and")))

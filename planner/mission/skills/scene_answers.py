@@ -15,7 +15,7 @@ from planner.mission.skills.object_query import FLOOR, sought_in, unknown_kind
 from planner.mission.skills.result_text import list_things, name_count, unknown_name
 from planner.mission.skills.search import make_filter
 from planner.mission.skills.spatial_relations import judge_relation, on_floor
-from planner.plan import Bilingual, same
+from planner.plan import Bilingual, say_same
 
 if TYPE_CHECKING:
     from planner.language.questions import Relation
@@ -159,11 +159,11 @@ def _at(scene: Scene, by: WantedObject | None) -> Bilingual:
     """Say where was looked; nothing of a place that is the neighbour itself."""
     target = scene.facts.targets.get(scene.step.place or "")
     if target is None:
-        return same("")
+        return say_same("")
     if target.room:
         return say("scene.in", name=target.name)
     if by is not None and (resolve(target.name.en) or ("",))[0] == by.label:
-        return same("")
+        return say_same("")
     return say("scene.near", name=target.name)
 
 

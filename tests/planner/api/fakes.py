@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from planner.brain import Brain, OfflineBrain
-from planner.budget import Amounts, Most, Usage
+from planner.budget import Amounts, BudgetLimits, Usage
 from planner.language.stop import is_stop
 from planner.mission import KnownPlaces, Leg
 from planner.mission.errors import BadState, UnknownGoal
@@ -34,7 +34,7 @@ def goal(goal_id: str = "g1", text: str = "go", state: GoalState = GoalState.RUN
 class StopEcho:
     """Say that the bridge has confirmed."""
 
-    echoed: bool = True
+    is_echoed: bool = True
 
 
 class FakeGoals:
@@ -186,7 +186,7 @@ class FakeBudget:
     def usage(self, goal: str | None = None) -> Usage:
         self.asked.append(goal)
         spent = Amounts(calls=self.calls, prompt_tokens=9, reply_tokens=3, seconds=0.5, money=0.1)
-        most = Most(calls=20, prompt_tokens=100, reply_tokens=50, seconds=60.0, money=None)
+        most = BudgetLimits(calls=20, prompt_tokens=100, reply_tokens=50, seconds=60.0, money=None)
         return Usage(
             model="m",
             day=datetime(2026, 1, 1, tzinfo=UTC).date(),
@@ -212,7 +212,7 @@ class FakeEyes:
         self.now_s = 100.0
         self.classes: tuple[str, ...] = ("person", "cup")
         self.counts = {"looks": 3}
-        self.skipped = {"stale": 2}
+        self.skip_counts = {"stale": 2}
         self.lag_s, self.took_s = 0.08, 0.03
         self.picture: Picture | None = None
         self.shown = 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.api.access import Access, NotAllowed, Role, is_loopback
+from planner.api.access import Access, AccessError, Role, is_loopback
 
 LOCAL = Access("127.0.0.1")
 OPEN = Access(
@@ -30,7 +30,7 @@ def test_loopback_needs_no_token(host: str) -> None:
 )
 @pytest.mark.parametrize("websocket", [False, True])
 def test_a_foreign_host_is_refused_everywhere(host: str, websocket: bool) -> None:
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         LOCAL.judge("GET", "/v1/events", headers(host), websocket=websocket)
     assert refused.value.code == "foreign_host"
 
@@ -48,7 +48,7 @@ def test_a_foreign_host_is_refused_everywhere(host: str, websocket: bool) -> Non
 )
 @pytest.mark.parametrize("websocket", [False, True])
 def test_a_foreign_origin_is_refused_everywhere(origin: str, websocket: bool) -> None:
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         LOCAL.judge("GET", "/v1/events", headers(origin=origin), websocket=websocket)
     assert refused.value.code == "foreign_origin"
 
@@ -62,7 +62,7 @@ def test_over_tls_a_page_that_came_without_it_may_not_ask() -> None:
     secure = Access("127.0.0.1", speaks_tls=True)
     asked = headers(origin="https://127.0.0.1:8420")
     assert secure.judge("GET", "/v1/events", asked, websocket=True) is Role.OPERATOR
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         secure.judge("GET", "/v1/events", headers(origin="http://127.0.0.1:8420"), websocket=True)
     assert refused.value.code == "foreign_origin"
     assert "https://127.0.0.1:8420" in refused.value.detail
@@ -76,13 +76,13 @@ def test_behind_a_proxy_that_adds_the_tls_its_page_may_ask() -> None:
 
 def test_the_authoritys_certificate_is_seen_before_any_token_is_typed() -> None:
     assert OPEN.judge("GET", "/ca.crt", headers("robot.lan")) is Role.VIEWER
-    with pytest.raises(NotAllowed):
+    with pytest.raises(AccessError):
         OPEN.judge("POST", "/ca.crt", headers("robot.lan", **JSON))
 
 
 @pytest.mark.parametrize("content_type", ["", "text/plain", "application/x-www-form-urlencoded"])
 def test_a_change_of_state_needs_json(content_type: str) -> None:
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         LOCAL.judge("POST", "/v1/goals", headers(content_type=content_type))
     assert (refused.value.status, refused.value.code) == (415, "unsupported_media_type")
 
@@ -101,7 +101,7 @@ def test_stopping_asks_for_no_ceremony(path: str) -> None:
     "authorization", ["", "Bearer", "Bearer ", "Bearer wrong", "Basic op-secret", "op-secret"]
 )
 def test_elsewhere_a_token_is_needed(authorization: str) -> None:
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         OPEN.judge("GET", "/v1/robot", headers("robot.lan", authorization=authorization))
     assert (refused.value.status, refused.value.code) == (401, "token_needed")
 
@@ -110,7 +110,7 @@ def test_a_viewer_looks_and_stops_but_does_not_drive() -> None:
     viewer = headers("robot.lan", authorization="Bearer view-secret", **JSON)
     assert OPEN.judge("GET", "/v1/robot", viewer) is Role.VIEWER
     assert OPEN.judge("POST", "/v1/stop", viewer) is Role.VIEWER
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         OPEN.judge("POST", "/v1/goals", viewer)
     assert refused.value.code == "operator_needed"
 
@@ -122,7 +122,7 @@ def test_an_operator_drives() -> None:
 
 def test_an_empty_token_opens_nothing() -> None:
     nobody = Access("0.0.0.0", hosts=frozenset({"robot.lan"}))
-    with pytest.raises(NotAllowed):
+    with pytest.raises(AccessError):
         nobody.judge("GET", "/v1/robot", headers("robot.lan", authorization="Bearer "))
 
 
@@ -138,14 +138,14 @@ def test_loopback_is_told_from_the_rest(host: str, expected: bool) -> None:
 @pytest.mark.parametrize("host", ["[", "[::1", "[abc]", "a[b", "ℂ℀", "\x00", "@", ":"])
 @pytest.mark.parametrize("path", ["/", "/v1/stop", "/v1/events"])
 def test_a_malformed_host_is_a_foreign_one(host: str, path: str) -> None:
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         LOCAL.judge("GET", path, headers(host), websocket=path == "/v1/events")
     assert (refused.value.status, refused.value.code) == (403, "foreign_host")
 
 
 @pytest.mark.parametrize("origin", ["http://[", "http://[::1", "http://", "://", "[", "http:[", ""])
 def test_a_malformed_origin_is_a_foreign_one(origin: str) -> None:
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         LOCAL.judge("POST", "/v1/stop", headers(origin=origin))
     assert (refused.value.status, refused.value.code) == (403, "foreign_origin")
 
@@ -160,7 +160,7 @@ PROXIED = ["X-Forwarded-For", "x-forwarded-proto", "X-Forwarded-Host", "Forwarde
 )
 def test_without_a_token_nobody_asks_through_a_proxy(name: str, path: str, websocket: bool) -> None:
     asked = {**headers(**JSON), name.lower(): "203.0.113.9"}
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         LOCAL.judge("GET", path, asked, websocket=websocket)
     assert (refused.value.status, refused.value.code) == (403, "proxy_without_token")
     assert "PONS_OPERATOR_TOKEN" in refused.value.detail
@@ -180,6 +180,6 @@ def test_with_a_token_a_proxy_may_stand_in_front() -> None:
 
 @pytest.mark.parametrize(("authorization", "guessed"), [("", False), ("Bearer wrong", True)])
 def test_a_wrong_token_is_told_from_none(authorization: str, guessed: bool) -> None:
-    with pytest.raises(NotAllowed) as refused:
+    with pytest.raises(AccessError) as refused:
         OPEN.judge("GET", "/v1/robot", headers("robot.lan", authorization=authorization))
     assert refused.value.guessed is guessed

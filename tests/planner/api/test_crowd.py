@@ -11,7 +11,7 @@ from planner.api.crowd import RESERVED_FILES, Bounds, address_of, raise_files
 
 @pytest.mark.parametrize("files", [64, 256, 512, 1_024, 4_096, 65_536])
 def test_connections_leave_files_for_everything_else(files: int) -> None:
-    bounds = Bounds().within(files)
+    bounds = Bounds().limit_to_files(files)
     assert bounds.an_address <= bounds.all < bounds.burst
     assert bounds.burst + RESERVED_FILES <= max(files, RESERVED_FILES + 16)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from planner.api.listing import MOST_BYTES, listed
+from planner.api.listing import MOST_BYTES, list_goals
 from planner.plan import Bilingual, GoalState, PlanRecord, StepRecord
 from tests.planner.api.fakes import goal
 
@@ -20,7 +20,7 @@ def huge(number: int, state: GoalState) -> object:
 
 def test_a_list_of_the_longest_goals_is_below_a_megabyte_and_names_all_that_are_open() -> None:
     goals = [huge(n, GoalState.QUEUED if n < 33 else GoalState.FAILED) for n in range(200)]
-    found = listed(goals)  # type: ignore[arg-type]  # goals all the same
+    found = list_goals(goals)  # type: ignore[arg-type]  # goals all the same
     assert len(json.dumps(found, ensure_ascii=False).encode()) < 1_000_000
     assert [one["id"] for one in found[:33]] == [f"g{n}" for n in range(33)]
     assert MOST_BYTES < 1_000_000
@@ -28,9 +28,9 @@ def test_a_list_of_the_longest_goals_is_below_a_megabyte_and_names_all_that_are_
 
 def test_an_ordinary_goal_is_shown_as_it_is() -> None:
     one = goal(text="go to the kitchen, then to the hall; then 回来")
-    assert listed([one]) == [one.model_dump(mode="json")]
+    assert list_goals([one]) == [one.model_dump(mode="json")]
 
 
 def test_a_long_text_ends_in_a_mark() -> None:
-    [one] = listed([goal(text=LONG)])
+    [one] = list_goals([goal(text=LONG)])
     assert one["text"] == "去" * 299 + "…"

@@ -9,7 +9,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner.api import Access
-from planner.api.access import NotAllowed
+from planner.api.access import AccessError
 from planner.api.middleware import MAX_BODY_BYTES
 from planner.plan import Language
 from planner.voice import MAX_BYTES, Recognition, VoiceFailure
@@ -162,7 +162,7 @@ def test_another_type_is_refused(client: TestClient, kind: str) -> None:
 
 def test_sound_is_taken_nowhere_else() -> None:
     headers = {"host": "127.0.0.1", **WAV}
-    with pytest.raises(NotAllowed, match="unsupported_media_type"):
+    with pytest.raises(AccessError, match="unsupported_media_type"):
         Access("127.0.0.1").judge("POST", "/v1/goals", headers)
 
 

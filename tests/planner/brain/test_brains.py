@@ -17,7 +17,7 @@ from planner.brain import (
     ScriptedBrain,
     ThinkRequest,
 )
-from planner.plan import Answer, GoTo, StepPlan, Vocabulary, Wait
+from planner.plan import AnswerPlan, GoTo, StepPlan, Vocabulary, Wait
 
 GOOD = StepPlan(steps=(Wait(seconds=1.0),))
 
@@ -35,7 +35,7 @@ def test_offline_brain_plans_and_names_itself(home: Vocabulary) -> None:
 
 def test_offline_brain_knows_the_room_it_is_told(home: Vocabulary) -> None:
     answer = ask(OfflineBrain(), home, "你在哪", room="kitchen")
-    assert isinstance(answer, Answer)
+    assert isinstance(answer, AnswerPlan)
     assert answer.text.zh == "我在厨房。"
 
 

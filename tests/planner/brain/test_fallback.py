@@ -22,7 +22,7 @@ from planner.brain import (
 from planner.brain.circuit_breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
 from planner.brain.model_error_codes import REASONS, reason
 from planner.language.catalogue import message
-from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, same
+from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, say_same
 
 BY_MODEL = StepPlan(steps=(Wait(seconds=1.0),))
 BY_GRAMMAR = StepPlan(steps=(GoTo(place="kitchen"),))
@@ -123,7 +123,7 @@ def test_a_wrong_key_rests_at_once(home: Vocabulary) -> None:
 
 
 def test_a_spent_budget_is_told_in_its_own_words_and_is_no_failure(home: Vocabulary) -> None:
-    said = same("400 of 400 calls")
+    said = say_same("400 of 400 calls")
     model = ScriptedBrain([OutOfBudget("calls", said)] * (2 * TRIPS) + [BY_MODEL])
     brain = FallbackBrain(model, OfflineBrain(), Clock())
     for _ in range(2 * TRIPS - 1):

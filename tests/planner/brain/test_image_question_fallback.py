@@ -20,7 +20,7 @@ from planner.brain.image_questions import (
     PosedPicture,
 )
 from planner.perception import Detection
-from planner.plan import Bilingual, BrainTag, same
+from planner.plan import Bilingual, BrainTag, say_same
 
 MODEL = BrainTag(name="m", version="1")
 PICTURE = PosedPicture(b"", 320, 240, 7)
@@ -37,7 +37,7 @@ class Scripted:
 
     async def describe(self, *_: object) -> ImageDescription:
         self._next()
-        return ImageDescription(same("a cup"), True, MODEL)
+        return ImageDescription(say_same("a cup"), True, MODEL)
 
     async def point(self, *_: object) -> ImagePoint | NotThere:
         self._next()
@@ -50,7 +50,7 @@ class Scripted:
 
 
 def by_detector(question: str, found: Sequence[DetectedObject]) -> tuple[Bilingual, bool | None]:
-    return same(f"{question} {' '.join(each.label for each in found)}"), bool(found)
+    return say_same(f"{question} {' '.join(each.label for each in found)}"), bool(found)
 
 
 def describe(looker: FallbackLooker) -> ImageDescription:
@@ -64,7 +64,7 @@ def describe(looker: FallbackLooker) -> ImageDescription:
     [
         (NotSent("x", why="pictures_offhost"), "pictures_offhost", False),
         (NotSent("x", why="no_pictures"), "no_pictures", False),
-        (OutOfBudget("x", same("spent")), "out_of_budget", False),
+        (OutOfBudget("x", say_same("spent")), "out_of_budget", False),
         (BadPlan("x"), "bad_plan", False),
         (BrainDown("x", why="timeout"), "timeout", True),
         (BrainDown("x", why="bad_key"), "bad_key", True),
@@ -77,7 +77,7 @@ def test_the_detector_answers_for_a_model_that_fails(
     looker = FallbackLooker(model, by_detector, breaker, clock=lambda: 5.0)
     for _ in range(TRIPS + 2):
         said = describe(looker)
-        assert (said.text, said.seen) == (same("a cup? cup"), True)
+        assert (said.text, said.seen) == (say_same("a cup? cup"), True)
         assert (said.brain.name, said.brain.fallback_from) == ("detector", "m")
         assert said.brain.fallback_message is not None
         assert said.brain.fallback_reason in (why, "resting")

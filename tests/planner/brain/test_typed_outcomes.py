@@ -13,14 +13,14 @@ from planner.mission.events import Planned
 from planner.mission.plan_request import thinker
 from planner.plan import (
     EVERY_KIND,
-    Answer,
+    AnswerPlan,
     Clarify,
     Code,
     Language,
     Refuse,
     StepPlan,
     Vocabulary,
-    same,
+    say_same,
 )
 from tests.planner.mission.lockstep import Together, go
 
@@ -73,7 +73,7 @@ RULES = {
 }
 
 
-def think(text: str, home: Vocabulary, **more: object) -> StepPlan | Answer | Clarify | Refuse:
+def think(text: str, home: Vocabulary, **more: object) -> StepPlan | AnswerPlan | Clarify | Refuse:
     asked = {"text": text, "vocabulary": home, "runnable": EVERY_KIND, **more}
     return asyncio.run(OfflineBrain().think(ThinkRequest.model_validate(asked))).plan
 
@@ -144,7 +144,7 @@ def test_a_robot_that_is_not_armed_is_told_in_both_languages() -> None:
 
 
 def seen(step: str, result: str) -> Observation:
-    return Observation.model_validate({"step": step, "result": result, "detail": same("x")})
+    return Observation.model_validate({"step": step, "result": result, "detail": say_same("x")})
 
 
 @pytest.mark.parametrize(
@@ -169,12 +169,12 @@ def test_nothing_that_is_over_is_ordered_again(
 
 def test_a_plan_walked_to_its_end_is_told(home: Vocabulary) -> None:
     made = think("wait 5 seconds", home, observed=(seen("wait", "succeeded"),))
-    assert made == Answer(text=same("x"))
+    assert made == AnswerPlan(text=say_same("x"))
 
 
 def test_the_clock_is_told_and_a_step_says_it(home: Vocabulary) -> None:
     answer = think("what time is it", home)
-    assert isinstance(answer, Answer)
+    assert isinstance(answer, AnswerPlan)
     assert "When you asked it was" in answer.text.en
     made = think("go to the kitchen and tell me a joke", home)
     assert isinstance(made, StepPlan)

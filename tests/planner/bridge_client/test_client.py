@@ -62,7 +62,7 @@ def test_stop_is_repeated_until_echoed() -> None:
     bridge = FakeBridge()
     link = Link(bridge, ROBOT, clock=Clock())
     result = with_polls(bridge, link, link.stop("test"))
-    assert result.echoed
+    assert result.is_echoed
     assert bridge.held is not None
     assert bridge.held.id == result.id
 
@@ -72,7 +72,7 @@ def test_stop_gives_up_aloud_after_two_seconds() -> None:
     sent: list[object] = []
     bridge.send = sent.append  # type: ignore[method-assign,assignment]  # a bridge that hears nothing
     result = asyncio.run(Link(bridge, ROBOT, clock=clock).stop("test"))
-    assert not result.echoed
+    assert not result.is_echoed
     assert result.waited_s >= 2.0
     assert len(sent) >= 2
     assert all(isinstance(m, Stop) and m.id == result.id for m in sent)

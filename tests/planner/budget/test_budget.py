@@ -17,10 +17,10 @@ from hypothesis import strategies as st
 
 from planner.brain import OutOfBudget
 from planner.brain.usage_meter import thinking_about
-from planner.budget import Clocks, Ledger, Purse, Usage
+from planner.budget import DayClocks, Ledger, Purse, Usage
 from planner.budget.budget import OpenCall
 from planner.budget.ledger import FOLDER, KEPT_DAYS, LOOK_BACK_DAYS
-from planner.budget.totals import Spent, cost, overrun
+from planner.budget.totals import Expense, cost, overrun
 from planner.budget.utc_day import DAY_S, Days, utc_date
 from planner.settings import BudgetSettings, DayLimits, GoalLimits, Price
 from planner.state_database import FILE, StateDatabase
@@ -46,8 +46,8 @@ class Time:
         self.monotonic_s += seconds
 
     @property
-    def clocks(self) -> Clocks:
-        return Clocks(lambda: self.unix_s, lambda: self.monotonic_s)
+    def clocks(self) -> DayClocks:
+        return DayClocks(lambda: self.unix_s, lambda: self.monotonic_s)
 
 
 @contextmanager
@@ -79,7 +79,7 @@ def test_a_call_is_counted_at_its_worst_and_settled_by_what_it_came_to(tmp_path:
     with purse(tmp_path, time) as kept:
         with thinking_about("g1"):
             bill = open_(kept)
-        assert bill.most == 10
+        assert bill.max_reply_tokens == 10
         now = kept.usage("g1")
         assert (now.under_way, now.today.calls, now.today.reply_tokens) == (1, 1, 10)
         assert now.goal == now.today
@@ -403,12 +403,12 @@ def test_a_clock_out_of_its_mind_is_the_first_day(unix_s: float) -> None:
 def test_the_arithmetic_of_cost_and_limits() -> None:
     assert cost(None, 10, 10) == 0.0
     assert cost(FEW.price, 1_000_000, 100_000) == 2000.0
-    one = Spent(1, 2, 3, 4.0, 5.0)
+    one = Expense(1, 2, 3, 4.0, 5.0)
     assert one + one - one == one
-    assert overrun("goal", Spent(), Spent(calls=12), GoalLimits()) is None
-    over = overrun("goal", Spent(calls=12), Spent(calls=1), GoalLimits())
+    assert overrun("goal", Expense(), Expense(calls=12), GoalLimits()) is None
+    over = overrun("goal", Expense(calls=12), Expense(calls=1), GoalLimits())
     assert over is not None
     assert (over.kind, over.spent, over.limit) == ("calls", 12.0, 12.0)
-    nan = overrun("day", Spent(money=float("nan")), Spent(), DayLimits(money=1.0))
+    nan = overrun("day", Expense(money=float("nan")), Expense(), DayLimits(money=1.0))
     assert nan is not None
     assert nan.kind == "money"

@@ -9,20 +9,20 @@ import pytest
 from planner.mission.events import Cancel, Reply
 from planner.mission.replan import SAME_AGAIN
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Ask,
     Bilingual,
     Code,
     Decide,
     GoTo,
-    Move,
+    MoveStraight,
     Patrol,
     ReturnHome,
     Say,
     Step,
     Turn,
     Wait,
-    same,
+    say_same,
 )
 from tests.planner.mission.driving import CANCELLED, FAILED, SUCCEEDED
 from tests.planner.mission.fakes import FACTS
@@ -90,7 +90,7 @@ def test_who_has_been_to_a_place_and_finds_no_way_back_has_not_arrived() -> None
 
 
 def test_a_drive_that_was_never_begun_says_nothing_about_an_arrival() -> None:
-    world = rethinking(go("hall", "dock", "kitchen", "dock"), Answer(text=same("no")))
+    world = rethinking(go("hall", "dock", "kitchen", "dock"), AnswerPlan(text=say_same("no")))
     goal = world.give(None)
     shut(world, "kitchen")
     assert told(world, goal, state=FAILED) == (
@@ -107,7 +107,7 @@ def test_another_place_that_was_gone_to_instead_is_told_so() -> None:
 
 def test_what_was_answered_is_told_whatever_a_brain_says_after_it() -> None:
     first = plan(GoTo(place="kitchen"), Ask(question="tea?"), Decide(question="what then?"))
-    world = rethinking(first, Answer(text=same("I was told.")))
+    world = rethinking(first, AnswerPlan(text=say_same("I was told.")))
     goal = world.give(None)
     while not world.goal(goal).outcome:
         world.run()
@@ -118,7 +118,7 @@ def test_what_was_answered_is_told_whatever_a_brain_says_after_it() -> None:
 
 
 def test_what_failed_and_what_was_left_undone_are_named() -> None:
-    first = plan(DINNER, GoTo(place="kitchen"), Turn(angle_rad=1.0), Move(distance_m=0.5),
+    first = plan(DINNER, GoTo(place="kitchen"), Turn(angle_rad=1.0), MoveStraight(distance_m=0.5),
                  Patrol(places=("hall", "kitchen")), Ask(question="tea?"))  # fmt: skip
     world = shut(rethinking(first, None), "kitchen")
     world.thoughts[1] = first  # the same again
@@ -129,7 +129,9 @@ def test_what_failed_and_what_was_left_undone_are_named() -> None:
 
 
 def test_a_patrol_that_ends_on_its_way_names_the_stops_it_made() -> None:
-    world = rethinking(plan(Patrol(places=("hall", "kitchen", "dock"))), Answer(text=same("no")))
+    world = rethinking(
+        plan(Patrol(places=("hall", "kitchen", "dock"))), AnswerPlan(text=say_same("no"))
+    )
     goal = world.give(None)
     shut(world, "dock")
     en = told(world, goal, state=FAILED)

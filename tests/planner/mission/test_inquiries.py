@@ -17,7 +17,7 @@ from planner.mission.reducer import asked_about_picture
 from planner.mission.skills.perception import ImageAnswer
 from planner.mission.state import MissionState
 from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
-from planner.plan import Language, same
+from planner.plan import Language, say_same
 from tests.planner.mission.fakes import FACTS
 from tests.planner.perception.watching import World
 from wire import Pose2
@@ -50,7 +50,7 @@ class Asking:
 
 
 def answered(ask: AskEyes) -> Told:
-    return Told(ask.id, ask.ticket, ImageAnswer(text=same("a sofa")))
+    return Told(ask.id, ask.ticket, ImageAnswer(text=say_same("a sofa")))
 
 
 def test_a_question_nobody_waits_for_is_cancelled_at_once() -> None:
@@ -99,7 +99,7 @@ def test_an_answer_is_told_and_a_fault_of_the_eyes_is_one() -> None:
 
     asking = asyncio.run(story())
     assert [told.answer for told in asking.told] == [
-        ImageAnswer(text=same("a sofa")),
+        ImageAnswer(text=say_same("a sofa")),
         ImageAnswer(failure="unavailable"),
     ]
     assert asking.broken == [], "the mission loop goes on"

@@ -15,7 +15,7 @@ from planner.mission.events import (
 )
 from planner.mission.state import MAX_ENDED
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
@@ -91,7 +91,7 @@ def test_a_question_waits_for_an_answer_and_holds_nobody(world: Together) -> Non
 def test_answers_and_refusals_end_at_once(world: Together) -> None:
     said = Bilingual(en="In the hall.", zh="在走廊。")
     told, refused, lost = (world.give(None) for _ in range(3))
-    world.event(Planned(told, Answer(text=said)))
+    world.event(Planned(told, AnswerPlan(text=said)))
     world.event(Planned(refused, Refuse(code=Code.NO_CAPABILITY, reason=said)))
     world.event(Planned(lost, None))
     assert world.goal(told).state is SUCCEEDED

@@ -28,7 +28,7 @@ from planner.plan import (
     GoalState,
     GoTo,
     Language,
-    Move,
+    MoveStraight,
     Say,
     StepPlan,
 )
@@ -83,7 +83,7 @@ def test_on_another_map_places_are_found_anew_and_there_is_no_way_back() -> None
 def test_a_move_of_which_nobody_knows_how_far_it_came_is_not_done_again() -> None:
     before = on_map(Together(), MAP_A)
     before.run(0.2)
-    goal = before.give(StepPlan(steps=(Move(distance_m=2.0),)))
+    goal = before.give(StepPlan(steps=(MoveStraight(distance_m=2.0),)))
     before.run(1.0)
     after = restarted(before, MAP_B)
     mission = after.goal(goal)

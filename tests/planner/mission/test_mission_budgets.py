@@ -6,14 +6,14 @@ import pytest
 
 from planner.mission.api_view import goal_of, progress_of
 from planner.mission.events import Pause, Resume
-from planner.plan import Code, Move, StepPlan, Wait
+from planner.plan import Code, MoveStraight, StepPlan, Wait
 from tests.planner.mission.driving import FAILED, PAUSED, SUCCEEDED, standing_still
 from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason, Mode, Pose2
 
 
 def moving(world: Together, distance_m: float = 2.0) -> str:
-    goal = world.give(StepPlan(steps=(Move(distance_m=distance_m),)))
+    goal = world.give(StepPlan(steps=(MoveStraight(distance_m=distance_m),)))
     world.plans[goal] = None  # whoever thinks again finds nothing better
     world.run(1.0)
     assert world.bridge.pose.x_m > 0.2
@@ -63,7 +63,7 @@ def test_a_leg_that_leads_elsewhere_spends_its_budget(world: Together) -> None:
 
 def test_a_line_that_ends_early_moves_nothing(world: Together) -> None:
     world.ends = Pose2(0.2, 0.0, 0.0)
-    goal = world.give(StepPlan(steps=(Move(distance_m=2.0),)))
+    goal = world.give(StepPlan(steps=(MoveStraight(distance_m=2.0),)))
     world.run(1.0)
     assert len(world.routes) == 1
     step = world.goal(goal).steps[0]

@@ -18,7 +18,7 @@ from planner.plan import (
     Option,
     Refuse,
     StepPlan,
-    same,
+    say_same,
 )
 from planner.site import Site
 from tests.planner.brain.conftest import HOME
@@ -31,7 +31,7 @@ ASKS = GoalState.NEEDS_CLARIFICATION
 
 
 def which(text: str, *options: str) -> Clarify:
-    offers = tuple(Option(label=same(each), text=each) for each in options)
+    offers = tuple(Option(label=say_same(each), text=each) for each in options)
     return Clarify(code=Code.AMBIGUOUS, question=Bilingual(en=text, zh=text), options=offers)
 
 
@@ -115,8 +115,8 @@ def test_the_offline_brain_goes_on_with_nothing_after_an_answer_it_can_not_read(
     assert isinstance(plan.steps[0], GoTo)
     assert isinstance(plan.steps[1], Ask)
     walked = (
-        Observation(step="go_to", result="succeeded", detail=same("kitchen")),
-        Observation(step="ask", result="answered", detail=same("Answer: “maybe”")),
+        Observation(step="go_to", result="succeeded", detail=say_same("kitchen")),
+        Observation(step="ask", result="answered", detail=say_same("Answer: “maybe”")),
     )
     again = asyncio.run(OfflineBrain().think(bare.model_copy(update={"observed": walked}))).plan
     assert isinstance(again, Refuse)

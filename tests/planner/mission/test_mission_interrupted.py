@@ -8,7 +8,7 @@ from planner.mission.events import (
     Resume,
     Tick,
 )
-from planner.plan import Code, Move, StepPlan, Turn
+from planner.plan import Code, MoveStraight, StepPlan, Turn
 from tests.planner.mission.driving import (
     FAILED,
     PAUSED,
@@ -97,9 +97,9 @@ def test_a_row_that_stays_revokes_the_mission(
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, reason)
 
 
-@pytest.mark.parametrize("step", [Turn(angle_rad=1.0), Move(distance_m=1.0)])
+@pytest.mark.parametrize("step", [Turn(angle_rad=1.0), MoveStraight(distance_m=1.0)])
 def test_a_measured_step_without_a_pose_is_given_up_like_any_other(
-    world: Together, step: Turn | Move
+    world: Together, step: Turn | MoveStraight
 ) -> None:
     world.bridge.localized, world.bridge.rows = False, (row("LOC_LOST"),)
     world.run(0.2)

@@ -58,7 +58,7 @@ from planner.plan import (
     Turn,
     Wait,
 )
-from planner.plan import Move as MoveStep
+from planner.plan import MoveStraight as MoveStep
 from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, row, status
 from wire import Action, CameraConfig, Held, HeldReason, LegReport, Mode, Pose2, Twist2

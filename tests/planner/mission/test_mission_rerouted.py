@@ -10,7 +10,7 @@ from planner.mission.events import (
     Resume,
 )
 from planner.mission.legs import RETRY_S
-from planner.plan import Code, Move, StepPlan, StepState
+from planner.plan import Code, MoveStraight, StepPlan, StepState
 from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import row
 from tests.planner.mission.lockstep import Together, go
@@ -112,7 +112,7 @@ def test_a_step_that_waits_to_try_again_waits_while_the_pose_jumps_and_then_trie
 ) -> None:
     world.bridge.localized = False
     world.run(0.2)
-    goal = world.give(StepPlan(steps=(Move(distance_m=1.0),)))
+    goal = world.give(StepPlan(steps=(MoveStraight(distance_m=1.0),)))
     world.run(0.2)
     assert isinstance(world.book.activity, Retrying), "a move needs to know where it begins"
     world.bridge.localized, world.bridge.rows = True, (row("POSE_JUMP"),)

@@ -12,7 +12,7 @@ from planner.mission.events import Cancel, Confirm, Known, Pause, Planned, Reply
 from planner.mission.replan import ROAMS
 from planner.mission.skills import Eyesight
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Ask,
     Bilingual,
     Clarify,
@@ -124,7 +124,7 @@ def test_a_thought_that_is_paused_and_resumed_counts_once() -> None:
 @pytest.mark.parametrize(
     ("thought", "state", "code"),
     [
-        (Answer(text=SAYS), SUCCEEDED, Code.ANSWERED),
+        (AnswerPlan(text=SAYS), SUCCEEDED, Code.ANSWERED),
         (Refuse(code=Code.UNSAFE, reason=SAYS), GoalState.REFUSED, Code.UNSAFE),
         ("the same", FAILED, Code.BAD_PLAN),
         (go("cellar"), FAILED, Code.UNKNOWN_PLACE),

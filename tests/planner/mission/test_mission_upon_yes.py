@@ -17,7 +17,7 @@ from planner.language.catalogue import message
 from planner.language.yes_no import consents
 from planner.mission.events import Confirm, Pause, Reply, Resume, Stopped, Tick
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Ask,
     Bilingual,
     BrainTag,
@@ -160,7 +160,7 @@ THOUGHTS: tuple[tuple[Any, GoalState, Code], ...] = (
     (go("hall"), CONFIRMS, Code.CONFIRM),
     (StepPlan(steps=(Say(text="well"), ReturnHome())), CONFIRMS, Code.CONFIRM),
     (StepPlan(steps=(Say(text="all right"),)), SUCCEEDED, Code.DONE),
-    (Answer(text=SAYS), SUCCEEDED, Code.ANSWERED),
+    (AnswerPlan(text=SAYS), SUCCEEDED, Code.ANSWERED),
     (Refuse(code=Code.UNSAFE, reason=SAYS), GoalState.REFUSED, Code.UNSAFE),
     (Clarify(code=Code.AMBIGUOUS, question=SAYS), ASKS, Code.ASKED),
     (DOWN, ASKS, Code.ASKED),

@@ -12,7 +12,7 @@ from planner.mission.answer_timeouts import has_room
 from planner.mission.events import Reply, Tick
 from planner.mission.state import MAX_OPEN
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Ask,
     Bilingual,
     Clarify,
@@ -21,7 +21,7 @@ from planner.plan import (
     Option,
     Refuse,
     StepPlan,
-    same,
+    say_same,
 )
 from tests.planner.mission.driving import CANCELLED, FAILED, standing_still
 from tests.planner.mission.lockstep import Together, go, talk
@@ -31,7 +31,7 @@ from wire import HeldReason
 ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION
 SAYS = Bilingual(en="Which?", zh="哪个？")
 WHICH = Clarify(code=Code.AMBIGUOUS, question=SAYS)
-OFFERS = WHICH.model_copy(update={"options": (Option(label=same("x"), text="go there"),)})
+OFFERS = WHICH.model_copy(update={"options": (Option(label=say_same("x"), text="go there"),)})
 STEP = StepPlan(steps=(Ask(question="Shall I?"), *go("kitchen").steps))
 PLAN = go("kitchen")
 KINDS = (WHICH, OFFERS, STEP, PLAN)
@@ -99,7 +99,7 @@ def test_after_an_answer_the_next_question_has_its_whole_time() -> None:
         (PLAN, True),
         (talk(), True),
         (WHICH, True),
-        (Answer(text=SAYS), False),
+        (AnswerPlan(text=SAYS), False),
         (Refuse(code=Code.UNSAFE, reason=SAYS), False),
         (None, False),
     ],

@@ -86,7 +86,7 @@ def test_stop_and_cancel_end_thinking_at_once(tmp_path: Path, site: Site) -> Non
             second = await world.missions.submit("go to the sofa")
             assert (await world.missions.cancel(first.id)).state is GoalState.CANCELLED
             result = await world.missions.stop("test")
-            assert result.echoed
+            assert result.is_echoed
             assert world.missions.goal(second.id).reason == "stop"
             thinking = [t for t in asyncio.all_tasks() if "_understand" in repr(t)]
             assert all(t.cancelling() or t.done() for t in thinking)

@@ -27,7 +27,7 @@ from planner.plan import (
     Language,
     Look,
     StepPlan,
-    same,
+    say_same,
 )
 from planner.site import Site
 from tests.planner.mission.live import LiveBridge, Together, planner, run
@@ -203,7 +203,7 @@ def test_a_look_round_shows_a_model_the_picture_of_each_direction(
 def test_pictures_are_kept_for_few_goals_and_only_while_they_are_the_newest() -> None:
     async def story() -> None:
         eyes, looker = FakeEyes(LiveBridge(pose=START)), FakeLooker()
-        door, names = EyeDoor(eyes, looker), (same("ahead"), same("behind"))
+        door, names = EyeDoor(eyes, looker), (say_same("ahead"), say_same("behind"))
         ask = AskEyes("g1", 1, Language.EN, words="?", views=names, now=names[1])
         for number in (0, 1):
             eyes.seq = 10 + number

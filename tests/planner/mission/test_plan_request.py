@@ -10,7 +10,7 @@ from planner.brain import BrainDown, FallbackBrain, OfflineBrain, OutOfBudget, S
 from planner.brain.scripted import Reply
 from planner.mission import AskBrain, Planned
 from planner.mission.plan_request import thinker
-from planner.plan import Code, GoTo, Language, StepPlan, same
+from planner.plan import Code, GoTo, Language, StepPlan, say_same
 from tests.planner.brain.conftest import HOME
 
 NOWHERE = StepPlan(steps=(GoTo(place="wine_cellar"),))
@@ -32,7 +32,7 @@ async def _think(brain: ScriptedBrain | FallbackBrain, ask: AskBrain) -> Planned
         (NOWHERE, Code.UNKNOWN_PLACE),
         ("no json", Code.BAD_PLAN),
         (DOWN, Code.MODEL_UNAVAILABLE),
-        (OutOfBudget("spent", same("8 of 8 calls")), Code.OUT_OF_BUDGET),
+        (OutOfBudget("spent", say_same("8 of 8 calls")), Code.OUT_OF_BUDGET),
     ],
 )
 def test_a_brain_that_fails_gives_an_outcome_and_no_plan(reply: Reply, code: Code) -> None:

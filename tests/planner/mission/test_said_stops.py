@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.plan import Answer, Bilingual, Clarify, Code, GoalState
+from planner.plan import AnswerPlan, Bilingual, Clarify, Code, GoalState
 from planner.site import Site
 from tests.planner.mission.live import KITCHEN, Together, planner, run
 from wire import HeldReason, OpRequest
@@ -15,7 +15,7 @@ RUNNING, PAUSED, SUCCEEDED = GoalState.RUNNING, GoalState.PAUSED, GoalState.SUCC
 OVER = (SUCCEEDED, GoalState.NEEDS_CLARIFICATION, GoalState.CANCELLED)
 """A question is given up for the next one of the same source."""
 ACT = OpRequest(id="a", source="test")
-SMALL_TALK = Answer(text=Bilingual(en="hello", zh="你好"))
+SMALL_TALK = AnswerPlan(text=Bilingual(en="hello", zh="你好"))
 UNREAD = Clarify(code=Code.NOT_UNDERSTOOD, question=Bilingual(en="what?", zh="什么？"))
 
 
@@ -49,7 +49,7 @@ def test_it_stops_what_runs_whether_the_brain_answers_or_hangs(
 
 @pytest.mark.parametrize("reply", [SMALL_TALK, UNREAD])
 def test_words_without_a_plan_bring_no_act_to_the_bridge(
-    tmp_path: Path, site: Site, reply: Answer | Clarify
+    tmp_path: Path, site: Site, reply: AnswerPlan | Clarify
 ) -> None:
     async def story() -> None:
         async with planner(tmp_path, site, reply, reply) as world:

@@ -10,7 +10,7 @@ from planner.brain.scripted import Reply
 from planner.language.yes_no import consents
 from planner.mission.state import MAX_OPEN
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
@@ -209,7 +209,7 @@ def test_a_hundred_unclear_orders_keep_no_order_out(
 
 def test_open_goals_stand_first_in_every_list_however_old(tmp_path: Path, site: Site) -> None:
     async def story() -> None:
-        said = Answer(text=Bilingual(en="Well.", zh="好吧。"))
+        said = AnswerPlan(text=Bilingual(en="Well.", zh="好吧。"))
         async with planner(tmp_path, site, KITCHEN, DRIVES, said) as world:
             plan = await world.missions.submit("go to the kitchen", confirm=True)
             await world.reach(plan.id, CONFIRMS)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from planner.mission.state import Mission
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Ask,
     Bilingual,
     Code,
@@ -25,7 +25,7 @@ from planner.plan import (
     Say,
     Step,
     StepPlan,
-    same,
+    say_same,
 )
 from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS
@@ -90,7 +90,7 @@ def tours() -> list[Goal]:
         tour = plan(Patrol(places=("hall", "kitchen")), Decide(question="what did you see?"))
         if shut:
             tour = plan(GoTo(place="dock"), *tour.steps)
-        end = Answer(text=NOTHING) if tells else plan(Say(text="I have looked"))
+        end = AnswerPlan(text=NOTHING) if tells else plan(Say(text="I have looked"))
         again = plan(look, Decide(question="and now?"))
         thoughts = (tour, again, end) if not shut else (tour, again, end, end)
         goals.append(Goal(f"tour {label} {language} {there} {shut} {tells}", thoughts, truth,
@@ -253,7 +253,7 @@ def test_a_place_that_was_not_reached_was_not_looked_at() -> None:
 def test_a_brain_s_denial_stands_beside_what_the_detector_saw() -> None:
     thoughts = (
         plan(*kitchen().thoughts[0].steps, Decide(question="and?")),
-        Answer(text=same("Nobody is there.")),
+        AnswerPlan(text=say_same("Nobody is there.")),
     )
     _, mission = played(Goal("denied", thoughts, kitchen().truth), "honest")
     assert mission.outcome is not None
@@ -291,7 +291,7 @@ steps = st.one_of(
               st.sampled_from(["kitchen", "hall"])),
 )  # fmt: skip
 plans = st.lists(steps, min_size=1, max_size=4).map(lambda all_: plan(*all_))
-ends = plans | st.just(Answer(text=NOTHING)) | st.none()
+ends = plans | st.just(AnswerPlan(text=NOTHING)) | st.none()
 
 
 @at_least(40)

@@ -19,7 +19,7 @@ from planner.plan import (
     NEEDS_CAMERA,
     PLAN,
     RUNNABLE,
-    Answer,
+    AnswerPlan,
     Bilingual,
     BrainTag,
     Clarify,
@@ -32,7 +32,7 @@ from planner.plan import (
     Option,
     Outcome,
     PauseReason,
-    Rejection,
+    PlanRejection,
     Spot,
     Step,
     StepPlan,
@@ -116,7 +116,7 @@ def test_a_plan_cannot_also_refuse() -> None:
         PLAN.validate_python(mixed)
 
 
-def rejected(steps: tuple[Any, ...]) -> Rejection:
+def rejected(steps: tuple[Any, ...]) -> PlanRejection:
     verdict = check_plan(StepPlan(steps=steps), HOME)
     assert verdict is not None
     return verdict
@@ -173,7 +173,7 @@ def test_all_reasons_are_collected_and_the_hopeless_one_is_told() -> None:
 
 
 def test_answers_and_questions_pass_untouched() -> None:
-    answer = Answer(text=Bilingual(en="here", zh="这里"))
+    answer = AnswerPlan(text=Bilingual(en="here", zh="这里"))
     question = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="?", zh="？"))
     assert check_plan(answer, HOME) is None
     assert check_plan(question, HOME) is None

@@ -32,7 +32,7 @@ def test_every_preset_can_be_asked(name: PresetName, tmp_path: Path) -> None:
     assert address.local or address.url.startswith("https://")
     assert not known.quiet.keys() & OWN_FIELDS
     found = load(tmp_path, f'[model]\npreset = "{name}"\nname = "m"\nkey = "{KEY}"\n')
-    assert (found.url, found.max_tokens, found.known) == (known.url, known.max_tokens, known)
+    assert (found.url, found.max_tokens, found.known_preset) == (known.url, known.max_tokens, known)
 
 
 def test_the_documented_lines_are_the_presets(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ import itertools
 import pytest
 
 from planner.language.grammar import plan
-from planner.plan import Answer, Bilingual, Entry, StepPlan, Vocabulary
+from planner.plan import AnswerPlan, Bilingual, Entry, StepPlan, Vocabulary
 from planner.voice.grammar import MAX_NAMES, language_of
 
 NAMES = ("kitchen", "living room", "tv")
@@ -32,7 +32,7 @@ ORDERS = [
 @pytest.mark.parametrize("text", ORDERS)
 def test_the_offline_brain_reads_what_may_be_said(text: str) -> None:
     assert LANGUAGE.is_order(text)
-    assert isinstance(plan(text, SITE), StepPlan | Answer)
+    assert isinstance(plan(text, SITE), StepPlan | AnswerPlan)
 
 
 @pytest.mark.parametrize("text", ["stop", "stop now", "please stop"])

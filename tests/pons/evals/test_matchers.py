@@ -8,7 +8,7 @@ import pytest
 
 from planner.plan import (
     PLAN,
-    Answer,
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
@@ -16,7 +16,7 @@ from planner.plan import (
     Refuse,
     StepPlan,
     Vocabulary,
-    same,
+    say_same,
 )
 from pons.evals.cases import Case, MissingSuite, read_tsv
 from pons.evals.category_rules import LAWS
@@ -56,8 +56,8 @@ def find(what: str, place: str | None = None) -> dict[str, object]:
 
 SAY: dict[str, object] = {"kind": "say", "text": "hello"}
 BACK: dict[str, object] = {"kind": "come_back"}
-ASK = Clarify(code=Code.AMBIGUOUS, question=same("?"))
-NO = Refuse(code=Code.NEGATED, reason=same("no"))
+ASK = Clarify(code=Code.AMBIGUOUS, question=say_same("?"))
+NO = Refuse(code=Code.NEGATED, reason=say_same("no"))
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ NO = Refuse(code=Code.NEGATED, reason=same("no"))
         ("go kitchen | clarify negated", ASK, False),
         ("still negated", NO, True),
         ("clarify", NO, False),
-        ("answer", Answer(text=same("x")), True),
+        ("answer", AnswerPlan(text=say_same("x")), True),
         ("find cup @kitchen", plan(find("red cup", "kitchen")), True),
         ("find cup @kitchen", plan(go("kitchen"), find("cup")), True),
         ("go kitchen > find cup @kitchen", plan(find("cup", "kitchen")), True),

@@ -26,7 +26,7 @@ from planner.brain.interface import Observation
 from planner.brain.tainted_text import think_warily
 from planner.budget import Ledger, Purse
 from planner.perception import Detection
-from planner.plan import GoTo, StepPlan, same
+from planner.plan import GoTo, StepPlan, say_same
 from planner.settings import BudgetSettings, ModelSettings
 from pons.mock_llm.pictures import NUMBER_OF_BAD_POINTS, with_words
 from tests.planner.brain.conftest import HOME
@@ -89,7 +89,7 @@ def test_it_takes_what_was_found_in_any_picture_of_a_sheet_for_seen(
     mock: RunningMock, tmp_path: Path
 ) -> None:
     mock.set()
-    names = [same("ahead"), same("left")]
+    names = [say_same("ahead"), say_same("left")]
     views = tuple(DirectionView(PLAIN, n, [CUP] if n == names[1] else []) for n in names)
 
     async def lay_out(pictures: Any, long_side: int) -> bytes:
@@ -200,7 +200,9 @@ def test_a_mock_that_obeys_signs_does_so(mock: RunningMock, tmp_path: Path) -> N
         model = EndpointBrain(ModelSettings(url=mock.url, name="m"), tmp_path)
         found = []
         for text in sorted(obeyed - {"plan"}):
-            seen = Observation(step="look", result="succeeded", detail=same("."), read=same(text))
+            seen = Observation(
+                step="look", result="succeeded", detail=say_same("."), read=say_same(text)
+            )
             request = ThinkRequest(text="go to the bedroom", vocabulary=HOME, observed=(seen,))
             think = think_warily(model, request) if wary else model.think(request)
             found.append((await think).plan)

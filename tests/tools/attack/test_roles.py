@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.api.access import Access, NotAllowed
+from planner.api.access import Access, AccessError
 from tools.attack.roles import ASKERS, METHODS, all_requests, expected_status, fits
 
 TOKENS = {"operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": ""}
@@ -21,7 +21,7 @@ def test_the_planners_own_rules_say_the_same(asker: str) -> None:
         try:
             ACCESS.judge(method, path, headers)
             refused = None
-        except NotAllowed as refusal:
+        except AccessError as refusal:
             refused = refusal.status
         assert expected_status(asker, method, path) == refused
 

@@ -14,7 +14,7 @@ from planner.plan import (
     Decide,
     GoalState,
     GoTo,
-    Move,
+    MoveStraight,
     Patrol,
     Say,
     Step,
@@ -92,7 +92,7 @@ def test_it_turns_by_the_angle_that_was_asked_and_drives_nowhere(
 def test_it_moves_straight_by_the_distance_that_was_asked(
     world_with: World, distance_m: float
 ) -> None:
-    world = world_with((Move(distance_m=distance_m),))
+    world = world_with((MoveStraight(distance_m=distance_m),))
     before, goal = world.truth, world.say("move")
     (step,) = done(world, goal)
     assert goal.state is GoalState.SUCCEEDED
@@ -105,7 +105,7 @@ def test_it_moves_straight_by_the_distance_that_was_asked(
 
 
 def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told(world_with: World) -> None:
-    world = world_with((Move(distance_m=5.0),))
+    world = world_with((MoveStraight(distance_m=5.0),))
     before, goal = world.truth, world.say("move")
     (step,) = done(world, goal)
     assert (goal.state, goal.record.reason, step.reason) == (

@@ -79,7 +79,7 @@ def test_behind_a_blocked_door_nobody_arrives_and_nothing_is_denied(
     told: list[Bilingual] = []
     for order in ("to the kitchen, then say dinner is ready; else say it here", "look there"):
         goal = world.say(order)
-        world.run_until(lambda _, goal=goal: goal.ended, limit_s=240.0)  # type: ignore[misc]
+        world.run_until(lambda _, goal=goal: goal.has_ended, limit_s=240.0)  # type: ignore[misc]
         outcome = goal.record.outcome
         assert outcome is not None
         told.append(outcome.message)

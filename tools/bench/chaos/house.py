@@ -167,7 +167,7 @@ class House:
     # Requests -----------------------------------------------------------------------------------
 
     def ask(self, method: str, path: str, body: dict[str, Any] | None = None) -> Any:
-        """Send one request. Raises PlannerDown, Refused."""
+        """Send one request. Raises PlannerDown, PlannerProblem."""
         return call(self.settings, method, path, body, timeout_s=4.0)
 
     def ready(self) -> bool:

@@ -75,7 +75,7 @@ class Bystander:
         self._house, self._witness = house, witness
 
     def give(self, text: str, limit_s: float = 10.0) -> str:
-        """Give a goal; return its id. Raises PlannerDown, Refused."""
+        """Give a goal; return its id. Raises PlannerDown, PlannerProblem."""
         end_s = time.monotonic() + limit_s
         while True:
             try:
@@ -86,7 +86,7 @@ class Bystander:
                 time.sleep(PAUSE_S)
 
     def goal(self, goal_id: str) -> dict[str, Any]:
-        """Return a goal's record. Raises PlannerDown, Refused."""
+        """Return a goal's record. Raises PlannerDown, PlannerProblem."""
         record: dict[str, Any] = self._house.ask("GET", f"/v1/goals/{goal_id}")
         return record
 

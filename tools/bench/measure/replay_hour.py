@@ -90,7 +90,7 @@ def _drive(lab: BenchLab, index: int) -> dict[str, float]:
         tours = cycle(TOURS[index % len(TOURS) :] + TOURS[: index % len(TOURS)])
         goal: Any = None
         while world.tick_count < SLICE_TICKS:
-            if goal is None or goal.ended:
+            if goal is None or goal.has_ended:
                 goal = world.say(next(tours))
             world.tick()
         recorder = taken.recorder

@@ -37,7 +37,7 @@ class Decoder(Protocol):
         """Return how many classes the outputs tell of; None where they are of another layout."""
 
     def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
-        """Return boxes in input pixels. What is not finite is left out, or left to `believed`."""
+        """Return boxes in input pixels. `filter_rows` drops what is not finite."""
 
 
 def floats(output: NDArray[np.generic]) -> Floats:

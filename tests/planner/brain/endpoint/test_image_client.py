@@ -40,7 +40,7 @@ from planner.brain.image_questions import (
 from planner.brain.model_error_codes import REASONS, reason
 from planner.budget import Ledger, Purse
 from planner.perception import Detection
-from planner.plan import Bilingual, Language, Vocabulary, same
+from planner.plan import Bilingual, Language, Vocabulary, say_same
 from planner.settings import BudgetSettings, GoalLimits
 from tests.planner.brain.endpoint.servers import (
     GO,
@@ -364,8 +364,8 @@ POINT = {"picture": True, "there": True, "x": 0, "y": 1000}
     ("reply", "found"),
     [
         (LOOK, ReplyWords(Bilingual(en="A cup.", zh="一个杯子。"), seen=True)),
-        ({"en": "A cup."}, ReplyWords(same("A cup."), seen=None)),
-        ({"zh": "杯子", "seen": False}, ReplyWords(same("杯子"), seen=False)),
+        ({"en": "A cup."}, ReplyWords(say_same("A cup."), seen=None)),
+        ({"zh": "杯子", "seen": False}, ReplyWords(say_same("杯子"), seen=False)),
         ({**LOOK, "picture": False}, NoPicture()),
         (
             {"en": "\u202eg\x00.", "zh": " a\n b "},

@@ -14,7 +14,7 @@ import pytest
 from planner.brain import BadPlan, BrainDown, FallbackBrain, OfflineBrain, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
 from planner.brain.endpoint.dialect import FILE
-from planner.plan import Answer, Code, GoTo, Refuse, StepPlan, Vocabulary
+from planner.plan import AnswerPlan, Code, GoTo, Refuse, StepPlan, Vocabulary
 from tests.planner.brain.endpoint.servers import (
     GO,
     KEY,
@@ -265,7 +265,7 @@ def test_the_key_shows_nowhere(
                     seen.append(f"{failed} {failed!r} {failed.brain}")
                 else:
                     seen.append(thought.model_dump_json())
-                    assert status != 200 or isinstance(thought.plan, Answer)
+                    assert status != 200 or isinstance(thought.plan, AnswerPlan)
             await model.close()
 
         asyncio.run(story())

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from planner.brain.endpoint import Unusable, judge
 from planner.brain.endpoint.plan_reply import MAX_CHARACTERS, NoObject, one_object
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Clarify,
     Code,
     Find,
@@ -128,7 +128,7 @@ def test_a_step_that_needs_a_camera_is_left_to_the_mission() -> None:
 def test_words_for_people_are_cleaned_and_cut() -> None:
     words = "a\u202eb\ud800c\x00d\ne" + "x" * 5000
     judged = judge(json.dumps({"kind": "answer", "en": words}), HOME)
-    assert isinstance(judged, Answer)
+    assert isinstance(judged, AnswerPlan)
     assert judged.text.en.startswith("abcd e")
     assert len(judged.text.en) <= 600
     assert judged.text.zh == judged.text.en

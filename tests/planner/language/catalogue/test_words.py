@@ -30,7 +30,7 @@ from planner.language.catalogue import (
     words,
 )
 from planner.language.place_lists import known_places
-from planner.plan import Answer, Bilingual, Clarify, Code, Entry, Language, Vocabulary, same
+from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Entry, Language, Vocabulary, say_same
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -107,8 +107,8 @@ def test_whole_answers_come_in_the_third_language(shouting: Catalogue) -> None:
     def think(text: str) -> Bilingual:
         request = ThinkRequest(text=text, vocabulary=home, language=Language.EN)
         plan = asyncio.run(OfflineBrain().think(request)).plan
-        assert isinstance(plan, Answer | Clarify)
-        return plan.text if isinstance(plan, Answer) else plan.question
+        assert isinstance(plan, AnswerPlan | Clarify)
+        return plan.text if isinstance(plan, AnswerPlan) else plan.question
 
     assert think("where can you go?").of("xx") == "I CAN DRIVE TO: KITCHEN."
     asked = think("go to the cellar").of("xx")
@@ -119,7 +119,7 @@ def test_whole_answers_come_in_the_third_language(shouting: Catalogue) -> None:
 def test_what_a_language_lacks_is_told_in_english() -> None:
     thin = Catalogue((Words("en", {"a.b": "yes {x}"}), Words("zh", {"a.b": "是 {x}"}),
                       Words("xx", {})))  # fmt: skip
-    assert thin.say("a.b", x=same("1")).of("xx") == "yes 1"
+    assert thin.say("a.b", x=say_same("1")).of("xx") == "yes 1"
     assert thin.say("a.b", x=1).of("zh") == "是 1"
 
 
@@ -136,15 +136,15 @@ def test_an_unknown_code_and_an_open_blank_are_refused() -> None:
 
 
 def test_lists_and_joints_are_each_languages_own() -> None:
-    names = [Bilingual(en="hall", zh="门厅"), KITCHEN.name, same("x")]
+    names = [Bilingual(en="hall", zh="门厅"), KITCHEN.name, say_same("x")]
     assert list_names(names) == Bilingual(en="hall, kitchen, x", zh="门厅、厨房、x")
     assert list_names(names, "joint.and") == Bilingual(en="hall, kitchen and x", zh="门厅、厨房、x")
     assert list_names(names[:1], "joint.and") == names[0]
-    assert list_names(()) == same("")
+    assert list_names(()) == say_same("")
     assert join(names) == Bilingual(en="hall kitchen x", zh="门厅厨房x")
 
 
 def test_words_from_elsewhere_are_quoted_where_none_are_ours() -> None:
     assert say_or_quote("paused", "operator").en == "a person paused it"
-    assert say_or_quote("paused", "odd") == same("odd")
+    assert say_or_quote("paused", "odd") == say_same("odd")
     assert template(Code.BLIND).en == "I can't see now ({why})."

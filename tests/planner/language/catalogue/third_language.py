@@ -38,7 +38,7 @@ from planner.mission.skills.result_text import (
 from planner.mission.skills.skill_state import Notes
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import RUNNABLE, Bilingual, Clarify, Language, Refuse
-from planner.plan import Answer as Reply
+from planner.plan import AnswerPlan as Reply
 from planner.site import Site
 from pons_assets import DEFAULT_SITE
 from tests.planner.mission.skills.scenes import scene

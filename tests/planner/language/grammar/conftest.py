@@ -11,7 +11,7 @@ import pytest
 from planner.language.grammar import Context, plan
 from planner.plan import (
     EVERY_KIND,
-    Answer,
+    AnswerPlan,
     Ask,
     Bilingual,
     Clarify,
@@ -21,7 +21,7 @@ from planner.plan import (
     Follow,
     GoTo,
     Look,
-    Move,
+    MoveStraight,
     Patrol,
     Say,
     StepPlan,
@@ -84,7 +84,7 @@ def in_short(text: str, vocabulary: Vocabulary, runnable: frozenset[str] = EVERY
     match made:
         case StepPlan():
             return " ".join(_short(step) for step in made.steps)
-        case Answer():
+        case AnswerPlan():
             return f"answer: {made.text.en}"
         case Clarify():
             return f"clarify {made.code.value}"
@@ -104,7 +104,7 @@ def _short(step: object) -> str:
             return f"{step.kind}={what}" + "".join(f"@{place}" for place in places_of(step))
         case Turn():
             return f"turn={round(degrees(step.angle_rad))}"
-        case Move(distance_m=metres):
+        case MoveStraight(distance_m=metres):
             return f"move={metres:g}"
         case Patrol(places=places):
             return f"patrol={','.join(places)}"

@@ -11,7 +11,7 @@ from planner.language.grammar import plan as plan_in
 from planner.plan import (
     EVERY_KIND,
     RUNNABLE,
-    Answer,
+    AnswerPlan,
     Clarify,
     Code,
     Refuse,
@@ -116,11 +116,13 @@ BEFORE_ZH = ["", "请", "麻烦你", "嗯，", "机器人，", "那个，", "你
 AFTER_ZH = ["", "吧", "，谢谢", "，好吗", "或者走廊", "，然后回来", "！"]
 
 
-def plan(text: str, runnable: frozenset[str] = EVERY_KIND) -> StepPlan | Answer | Clarify | Refuse:
+def plan(
+    text: str, runnable: frozenset[str] = EVERY_KIND
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
     return plan_in(text, HOME, Context(room="study", runnable=runnable, now=NOON))
 
 
-def named(made: StepPlan | Answer | Clarify | Refuse) -> set[str]:
+def named(made: StepPlan | AnswerPlan | Clarify | Refuse) -> set[str]:
     """Return the places that a plan moves to, or that the options of a question would."""
     plans = [plan(option.text) for option in made.options] if isinstance(made, Clarify) else [made]
     assert all(isinstance(one, StepPlan) for one in plans) or not isinstance(made, Clarify)

@@ -9,7 +9,7 @@ import pytest
 from planner.language.grammar import Context, plan
 from planner.plan import (
     EVERY_KIND,
-    Answer,
+    AnswerPlan,
     Clarify,
     Code,
     Language,
@@ -290,8 +290,8 @@ def test_what_the_brain_plans_can_run_and_reads_the_same_in_both_languages(
 ) -> None:
     made = plan(text, home, WHOLE)
     assert check_plan(made, home, EVERY_KIND) is None
-    if isinstance(made, Clarify | Refuse | Answer):
-        said = made.text if isinstance(made, Answer) else None
+    if isinstance(made, Clarify | Refuse | AnswerPlan):
+        said = made.text if isinstance(made, AnswerPlan) else None
         said = said or (made.question if isinstance(made, Clarify) else None)
         said = said or (made.reason if isinstance(made, Refuse) else None)
         assert said is not None

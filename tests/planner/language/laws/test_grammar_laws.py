@@ -16,7 +16,7 @@ from planner.plan import (
     DRIVES,
     EVERY_KIND,
     PLAN,
-    Answer,
+    AnswerPlan,
     Bilingual,
     Clarify,
     Entry,
@@ -127,7 +127,7 @@ PARTS = [
 ]
 
 
-def plan(text: str, home: Vocabulary) -> StepPlan | Answer | Clarify | Refuse:
+def plan(text: str, home: Vocabulary) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Plan for a robot that can do every kind of step: the most that could move it."""
     return plan_in(text, home, Context(runnable=EVERY_KIND))
 

@@ -6,7 +6,7 @@ import pytest
 
 from planner.language.grammar import plan
 from planner.plan import (
-    Answer,
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
@@ -37,7 +37,7 @@ def test_an_empty_world_goes_nowhere(vocabulary: Vocabulary) -> None:
 
 def test_a_brain_that_does_not_know_where_it_is_says_so(home: Vocabulary) -> None:
     made = plan("where are you", home)
-    assert made == Answer(
+    assert made == AnswerPlan(
         text=Bilingual(en="I don't know where I am yet.", zh="我还不知道自己在哪里。")
     )
 

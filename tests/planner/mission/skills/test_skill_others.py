@@ -20,7 +20,7 @@ from planner.mission.skills import (
     Think,
     act_of,
 )
-from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, Means, StepState, same
+from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, Means, StepState, say_same
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2
@@ -35,7 +35,7 @@ def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
     blind = Means(camera=True)
     assert blind.runnable - RUNNABLE == {"go_to_point"}
     assert Means(camera=True, model=True).runnable - blind.runnable == {"look"}
-    assert blind.offered == RUNNABLE, "who sees no picture can't point at it"
+    assert blind.plannable == RUNNABLE, "who sees no picture can't point at it"
     assert [m.lacks("find") for m in (Means(), blind)] == [Code.NO_CAMERA, Code.NO_DETECTOR]
 
 
@@ -56,7 +56,7 @@ def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
         ("wait", {"seconds": 3.0}, {}, Stand(3.0)),
         ("say", {"text": "hi"}, {}, Speak("hi")),
         ("say", {"text": "hi", "state": StepState.RUNNING}, {}, Skip("perhaps_said")),
-        ("ask", {"text": "who?"}, {}, Question(same("who?"))),
+        ("ask", {"text": "who?"}, {}, Question(say_same("who?"))),
         ("ask", {"text": "who?", "answer": "me"}, {}, Finish()),
         ("decide", {"text": "where?"}, {}, Think()),
     ],

@@ -15,7 +15,7 @@ from planner.mission.skills.model_pointing import ANSWER
 from planner.mission.skills.perception import Eyesight, ImageAnswer
 from planner.mission.skills.skill_state import NOTHING
 from planner.perception import Sight
-from planner.plan import Bilingual, Code, same
+from planner.plan import Bilingual, Code, say_same
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig
 
@@ -48,7 +48,7 @@ def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "answer", [ImageAnswer(text=same("a sofa")), ImageAnswer(failure="camera_silent")]
+    "answer", [ImageAnswer(text=say_same("a sofa")), ImageAnswer(failure="camera_silent")]
 )
 def test_nothing_is_excused_where_nothing_went_wrong(answer: ImageAnswer) -> None:
     act = look(after("look", ASKED, answer, text="what is there?"))
@@ -69,8 +69,15 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
     act = look(ahead)
     assert isinstance(act, AskImage)
     assert (act.words, act.point) == ("what is there?", False)
-    told = look(after("look", ASKED, ImageAnswer(text=same("a man"), seen=True), text="有人吗？",
-                      sight=Sight(blind=NONE)))  # fmt: skip
+    told = look(
+        after(
+            "look",
+            ASKED,
+            ImageAnswer(text=say_same("a man"), seen=True),
+            text="有人吗？",
+            sight=Sight(blind=NONE),
+        )
+    )
     assert isinstance(told, Finish)
     assert told.said == NO_DETECTOR, "without a detector nobody has seen that nobody is there"
     assert told.read is not None

@@ -24,7 +24,7 @@ from planner.plan import (
     StepPlan,
     Wait,
     plan_record,
-    same,
+    say_same,
 )
 from planner.settings import BudgetSettings
 from pons.__main__ import main
@@ -41,7 +41,7 @@ TWO_ROOM = CHECKOUT / "sites" / "two_room"
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
 LOUNGE = StepPlan(steps=(GoTo(place="living_room"),))
 ASKED = Clarify(
-    code=Code.NOT_UNDERSTOOD, question=message(Code.NOT_UNDERSTOOD, part=same("x")), options=()
+    code=Code.NOT_UNDERSTOOD, question=message(Code.NOT_UNDERSTOOD, part=say_same("x")), options=()
 )
 
 
@@ -111,7 +111,7 @@ def test_what_holds_no_sentences_says_where_they_are(raw: bytes, tmp_path: Path)
         (KITCHEN, ASKED, Difference.DIFFERS),
         (
             ASKED,
-            ASKED.model_copy(update={"question": same("what do you mean?")}),
+            ASKED.model_copy(update={"question": say_same("what do you mean?")}),
             Difference.WORDS,
         ),
         (

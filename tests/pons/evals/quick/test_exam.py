@@ -24,7 +24,7 @@ from planner.brain.jpeg_metadata import jpeg_size
 from planner.budget import Ledger, Purse
 from planner.budget.budget import OpenCall
 from planner.budget.utc_day import utc_date
-from planner.plan import BrainTag, same
+from planner.plan import BrainTag, say_same
 from planner.settings import (
     FILE,
     BudgetSettings,
@@ -116,7 +116,7 @@ class Scripted:
         assert asked.goal == "exam"
         if self.failure is not None:
             raise self.failure
-        return ImageDescription(same(self.words), None, TAG)
+        return ImageDescription(say_same(self.words), None, TAG)
 
     async def point(self, _asked: ImageQuestion) -> ImagePoint | NotThere:
         return self.at
