@@ -109,7 +109,7 @@ def _robot(path: Path | None) -> RobotDescription:
 
 
 def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
-    """Read the site's fence and map and what is known of the brakes; mint this run's name."""
+    """Read the site's fence, map and learnt brakes; mint this run's name."""
     learnt, trouble = load_learnt(path_of(home, robot), robot)
     fence, fence_hash = load_fence(site / "fence.json")
     return CoreConfig(

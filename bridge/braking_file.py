@@ -1,4 +1,4 @@
-"""Keep what was learnt of a robot's brakes between runs: one small file per robot and robot.toml.
+"""Keep a robot's learnt braking between runs: one small file per robot and robot.toml.
 
 Read once at start, while nothing has torque. Written by a thread of its own, never by the loop,
 whole or not at all. The file's name holds robot.toml's hash: another robot.toml, such as one that

@@ -35,7 +35,7 @@ class GridMap:
         return 0 <= column < self.width and 0 <= row < self.height
 
     def at(self, x_m: float, y_m: float) -> int:
-        """Return what stands at a point; beyond the edge nothing is known."""
+        """Return the cell at a point; beyond the edge nothing is known."""
         if not self.contains(x_m, y_m):
             return UNKNOWN
         column, row = self.cell_of(x_m, y_m)

@@ -96,7 +96,7 @@ def validate_record(value: object, model: type[R], where: Path) -> R:
 
 
 class _UniqueKeys(yaml.SafeLoader):
-    """Load plain YAML, and refuse a key that is given twice and what is not written out."""
+    """Load plain YAML; refuse a key that is given twice, and any alias."""
 
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
         """Refuse aliases: ten lines of them name more values than any memory holds."""

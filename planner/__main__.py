@@ -95,7 +95,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
 
 
 def _access(host: str, *, speaks_tls: bool) -> Access:
-    """Read who may ask from the owner's environment.
+    """Read the access rules from the owner's environment.
 
     Raises:
         ConfigError: reachable from outside without a token, or with a short one.

@@ -126,7 +126,7 @@ class Planner:
         await self.eyes.start()
 
     async def close(self) -> None:
-        """End all parts; what ran comes back paused in the next process."""
+        """End all parts; goals that ran come back paused in the next process."""
         await self.eyes.close()
         await self.goals.close()
         if self._opening is not None:

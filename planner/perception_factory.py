@@ -97,7 +97,7 @@ def eyes_of(
 def looker_of(
     model: EndpointBrain | None, brain: Brain, worker: VisionWorker
 ) -> FallbackLooker | None:
-    """Return whoever asks the owner's model about pictures; None without a model.
+    """Return the asker of the owner's model about pictures; None without a model.
 
     Where no picture may be sent to it, each goal that would have sent one is told why.
     """
@@ -124,7 +124,7 @@ def looker_of(
 
 
 def _by_detector(_: str, seen: Sequence[DetectedObject]) -> tuple[Bilingual, bool | None]:
-    """Tell what the detector saw; whether that answers the question nobody says."""
+    """Tell the detector's findings; they may or may not answer the question."""
     names = [name_object(one.label, one.color) for one in seen]
     known = list_names(names) if names else say("look.nothing_known")
     return say("look.i_see", names=known), None

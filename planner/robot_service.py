@@ -28,7 +28,7 @@ class LinkedRobot:
         return self._link.status.value if self._link.status else None
 
     def obstacles(self) -> tuple[tuple[float, float], ...]:
-        """Return what the lidar sees now as points in ``map`` [m]."""
+        """Return the lidar's points now in ``map`` [m]."""
         return self._link.obstacles()
 
     def ages_s(self) -> dict[str, float | None]:

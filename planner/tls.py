@@ -40,7 +40,7 @@ class ServerLoop(uvloop.Loop):
 
 
 def context(certificate: Path | None, key: Path | None) -> ssl.SSLContext | None:
-    """Return what serves this certificate; None where none is given.
+    """Return the TLS context of this certificate; None where none is given.
 
     Raises:
         ConfigError: half of the pair, an unreadable file, a key that others may read or that asks

@@ -257,7 +257,7 @@ _TOOLS = _BARE_TOOLS | {
 
 
 def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
-    """Run what looks at the robot, or works on it, without the planner."""
+    """Run a tool that looks at the robot, or works on it, without the planner."""
     if said.word == "doctor":
         from pons import doctor
 

@@ -47,7 +47,7 @@ Name = x509.DNSName | x509.IPAddress
 
 @dataclass(frozen=True, slots=True)
 class IssuedCertificate:
-    """Say what the planner serves and what a device must trust."""
+    """Hold the planner's certificate and the authority that a device must trust."""
 
     authority: Path
     planner: Path
@@ -59,7 +59,7 @@ class IssuedCertificate:
     """The files that were made or renewed now."""
 
     def trust_lines(self) -> tuple[str, ...]:
-        """Return what a person needs in order to trust this robot."""
+        """Return a person's instructions to trust this robot."""
         made = f"{', '.join(self.made)} made now; " if self.made else ""
         return (
             f"certificate for {', '.join(self.names)} ({made}it ends {self.ends:%Y-%m-%d})",
@@ -68,7 +68,7 @@ class IssuedCertificate:
         )
 
     def planner_arguments(self) -> list[str]:
-        """Return what the planner process is started with."""
+        """Return the planner process's arguments for it."""
         pair = ["--tls-cert", str(self.planner), "--tls-key", str(self.planner)]
         return [*pair, "--tls-ca", str(self.authority)]
 
@@ -239,7 +239,7 @@ def _text(name: Name) -> str:
 
 
 def _subtree(name: Name) -> x509.GeneralName:
-    """Return what permits one name: an address as the network of itself alone."""
+    """Return the constraint that permits one name: an address as the network of itself alone."""
     if isinstance(name, x509.DNSName):
         return name
     return x509.IPAddress(ipaddress.ip_network(str(name.value)))

@@ -1,4 +1,4 @@
-"""Show what the bridge has learnt of this robot's brakes, and forget it: ``pons braking [forget]``.
+"""Show the bridge's learnt braking of this robot, and forget it: ``pons braking [forget]``.
 
 Forgetting is a person's act after a repair. It needs the bridge to be down: it would otherwise go
 on with what it knows, and write it again.
@@ -21,7 +21,7 @@ EXIT_DONE, EXIT_REFUSED, EXIT_MISCONFIGURED = 0, 3, 2
 
 
 def run(settings: LaunchSettings, *, forget: bool) -> int:
-    """Print what counts, or forget what was learnt; 0 done, 2 robot.toml is wrong, 3 refused."""
+    """Print the braking in force, or forget it; 0 done, 2 robot.toml is wrong, 3 refused."""
     try:
         robot = load_robot(settings.robot)
     except ConfigError as wrong:

@@ -152,7 +152,7 @@ def _first_status(settings: LaunchSettings, ears: Subscriber[Status], robot_id: 
 
 
 def _silence(settings: LaunchSettings) -> NoBridge:
-    """Say that nothing was heard, and what keeps this user from the socket, if anything does."""
+    """Tell that nothing was heard, and the obstacle to this user's socket, if there is one."""
     why = unreachable(settings.home, BRIDGE_DOOR)
     hint = "is `pons up` running?" if why is None else f"{why}; is `pons up` running, as this user?"
     return NoBridge(f"no_bridge: no status from a bridge within 2 s; {hint}")

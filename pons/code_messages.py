@@ -12,12 +12,12 @@ def sentence(code: str) -> tuple[str, str] | None:
 
 
 def code_lines(code: str) -> list[str]:
-    """Return what to print below a cause, a fault or a refusal: one line, none without words."""
+    """Return the line to print below a cause, a fault or a refusal; none without words."""
     words = sentence(code)
     return [] if words is None else [f"  {' / '.join(words)}"]
 
 
 def lack_lines(code: str) -> list[str]:
-    """Return what to print below a thing waited for."""
+    """Return the lines to print below a thing waited for."""
     words = WANTS.get(code)
     return code_lines(code) if words is None else [f"  {' / '.join(words)}"]

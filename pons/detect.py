@@ -1,4 +1,4 @@
-"""Try a detector on pictures of one's own: say what was chosen and why, then what it sees."""
+"""Try a detector on pictures of one's own: report its setup and why, then its detections."""
 
 from __future__ import annotations
 

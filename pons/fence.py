@@ -30,7 +30,7 @@ PROPOSALS = "/v1/fence/proposals"
 
 
 class NotSaid(Exception):
-    """The order lacks something, or names what is not there."""
+    """The order lacks something, or names an absent thing."""
 
 
 def run(settings: LaunchSettings, act: str, what: str | None) -> int:
@@ -101,7 +101,7 @@ def _reject(settings: LaunchSettings, proposal_id: str) -> int:
 
 
 def _review(settings: LaunchSettings, proposal_id: str) -> dict[str, Any]:
-    """Fetch a proposal, hold its text to its name, and say what it would change.
+    """Fetch a proposal, hold its text to its name, and show the changes it would make.
 
     Raises:
         PlannerProblem: ``fence_proposal_changed`` where the text is not the one of that name.
@@ -120,7 +120,7 @@ def _review(settings: LaunchSettings, proposal_id: str) -> dict[str, Any]:
 
 
 def _diff(site: Path, after: FenceFile) -> dict[str, Any]:
-    """Compare with the site's own file, not with what a planner says is in force."""
+    """Compare with the site's own file, not with the planner's word on the fence in force."""
     before = load_fence(site / "fence.json").record
     rooms = [place for place in load_places(site / "places.yaml").places if place.kind == "room"]
     return fence_diff(before, after, rooms).model_dump(mode="json")

@@ -65,7 +65,7 @@ def say(settings: LaunchSettings, text: str, *, wait: bool, replace: bool = Fals
 
 
 def say_wav(settings: LaunchSettings, path: Path, *, wait: bool, replace: bool = False) -> int:
-    """Give a goal by a recording; tell what was heard and follow it."""
+    """Give a goal by a recording; tell its transcript and follow it."""
     try:
         with path.open("rb") as file:
             sound = file.read(MAX_WAV_BYTES + 1)

@@ -1,4 +1,4 @@
-"""Describe where and on what a measurement was taken. Reads /proc and git; changes nothing."""
+"""Describe a measurement's machine, commit and date. Reads /proc and git; changes nothing."""
 
 from __future__ import annotations
 

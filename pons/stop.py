@@ -79,7 +79,7 @@ def _straight_to_the_bridge(settings: LaunchSettings) -> str | None:
 
 
 def in_a_line(trouble: Exception) -> str:
-    """Say what went wrong without a traceback; a person reads it while a robot moves."""
+    """Describe an error without a traceback; a person reads it while a robot moves."""
     text = " ".join(str(trouble).split())
     return text if ": " in text else f"{type(trouble).__name__}: {text}"
 

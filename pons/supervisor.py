@@ -132,7 +132,7 @@ class Child:
                 return
 
     def stop(self, patience_s: float) -> None:
-        """End it: SIGTERM, then SIGKILL for what is left of its group."""
+        """End it: SIGTERM, then SIGKILL for the rest of its group."""
         if self.process is None:
             return
         self.signal(signal.SIGTERM)
@@ -145,7 +145,7 @@ class Child:
         self.process = None
 
     def last_words(self, lines: int = 8) -> str:
-        """Return the end of what it has logged since its start; earlier runs said other things."""
+        """Return the end of its log since its start; earlier runs logged other things."""
         try:
             with self.log.open(encoding="utf-8", errors="replace") as text:
                 text.seek(self.log_began)

@@ -1,4 +1,4 @@
-"""Turn what the API answers into lines for a terminal. Knows no network."""
+"""Turn the API's answers into lines for a terminal. Knows no network."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def how_to_answer(goal: Json, language: str) -> str:
 
 
 def figures(outcome: Json | None) -> str:
-    """Give the outcome's numbers: asked, reached, metres, seconds, what limited it."""
+    """Give the outcome's numbers: request, result, metres, seconds, limits."""
     if not outcome:
         return ""
     spots = ((name, outcome.get(name)) for name in ("asked", "reached"))
@@ -87,7 +87,7 @@ WEAK_BRAKES = (
 
 
 def braking_line(braking: Json) -> str:
-    """Say what the gates count on when the robot brakes."""
+    """Give the braking that the gates count on."""
     source = f"learnt from {braking['stops']} stops" if braking["learnt"] else "configured"
     trouble = f" ({braking['trouble']})" if braking["trouble"] else ""
     return (
@@ -97,7 +97,7 @@ def braking_line(braking: Json) -> str:
 
 
 def robot_lines(robot: Json) -> list[str]:
-    """Describe the robot's state, what is up and what limits it."""
+    """Describe the robot's state, the rows that are up and its limits."""
     status = robot.get("status")
     if not status:
         return ["bridge: no status heard"]
@@ -124,13 +124,13 @@ def robot_lines(robot: Json) -> list[str]:
 
 
 def _holder_line(held: Json) -> str:
-    """Name who holds the robot; a fault by its cause."""
+    """Name the robot's holder; a fault by its cause."""
     reason = str(held["reason"])
     return f"fault: {held['id']}" if reason == "fault" else reason
 
 
 def _trouble(status: Json) -> list[str]:
-    """Say what the robot waits for, what it is held by and whom it refused, and what to do."""
+    """Tell the robot's open waits, holds and refusals, and the remedies."""
     codes, held = status["waiting_for"], status.get("held") or {}
     refused = [
         answer

@@ -27,7 +27,7 @@ _INET6 = Path("/proc/net/if_inet6")
 
 
 def run(settings: LaunchSettings) -> int:
-    """Be ``pons tls``: make or renew what is due, and say what devices must trust."""
+    """Run ``pons tls``: make or renew certificates that are due, and name the one to trust."""
     try:
         issued = prepare(settings)
     except ConfigError as wrong:

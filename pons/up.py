@@ -226,7 +226,7 @@ def say(text: str) -> None:
 
 
 def check(settings: LaunchSettings) -> RobotDescription:
-    """Look for what would fail later and less clearly.
+    """Look for causes of a later and less clear failure.
 
     Raises:
         CannotStart: a file is missing or wrong, or the disk is full.

@@ -1,4 +1,4 @@
-"""Double the pause before each new start of what keeps failing. Told the time; reads no clock."""
+"""Double the pause before each restart of a failing process. Told the time; reads no clock."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Do work in a fork of this process and hand its result back; what it changes is lost with it.
+"""Do work in a fork of this process and hand its result back; its changes are lost with it.
 
 For work that spoils its tools and takes a core: each piece begins with the same memory, two run at
 once, and one that crashes fails alone. The forking process must have one thread.
@@ -55,7 +55,7 @@ class ForkedJob(Generic[T]):
             os.waitpid(self._pid, 0)
 
     def result(self) -> T:
-        """Wait for the end and return what came of it; once.
+        """Wait for the end and return the job's result; once.
 
         Raises:
             ChildProcessError: the work raised or crashed; its traceback is on standard error.

@@ -53,7 +53,7 @@ class SupervisedWorker:
         first_word_s: float,
         longest_pause_s: float,
     ) -> None:
-        """Take what to run; nothing is started.
+        """Take the worker's command line; nothing is started.
 
         Args:
             module: its end calls :func:`processes.worker_main.run_worker`.
@@ -268,7 +268,7 @@ async def exchange(process: Process, frame: bytes) -> Frame:
 
 
 def kill(process: Process) -> None:
-    """Kill a worker, whatever state it is in."""
+    """Kill a worker in any state."""
     # Not process.kill(): it reaps a dead process, and asyncio's own watcher then finds no child.
     if process.returncode is None:
         with contextlib.suppress(ProcessLookupError):

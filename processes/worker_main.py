@@ -82,7 +82,7 @@ class ParentPipes:
 
 
 def run_worker(main: Callable[..., int]) -> NoReturn:
-    """Run a worker's ``main`` on the pipes to its parent, and exit with what it returns.
+    """Run a worker's ``main`` on the pipes to its parent, and exit with its status.
 
     Args:
         main: called with the pipes and the command line's arguments.

@@ -68,7 +68,7 @@ class WorkerFailure(Exception):
 
 @dataclass(frozen=True, slots=True)
 class FailureCodes:
-    """The codes of one worker for what may become of its process."""
+    """Name one worker's codes for the ways in which its process can end."""
 
     failure: type[WorkerFailure]
     down: str

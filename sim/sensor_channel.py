@@ -36,7 +36,7 @@ class Channel(Generic[M]):
     """Pass one key's messages, one call per tick."""
 
     def __init__(self, payload: tuple[str, ...], garbage: Callable[[M], dict[str, Any]]) -> None:
-        """Say what the sensor measures.
+        """Set the sensor's measuring function.
 
         Args:
             payload: the fields that hold what was measured; a stuck sensor repeats these.
@@ -48,7 +48,7 @@ class Channel(Generic[M]):
         self._tick = 0
 
     def through(self, message: M | None, troubles: frozenset[Trouble]) -> M | None:
-        """Take this tick's message, if one was due; return what arrives in this tick, if any."""
+        """Take this tick's message, if one was due; return the one that arrives now, if any."""
         self._tick += 1
         if not (troubles or self._late):  # nearly always: a channel is asked every tick
             self._stuck = None

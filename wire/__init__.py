@@ -1,4 +1,4 @@
-"""Hold what crosses a process boundary and nothing else: messages, keys, codec, frames, session.
+"""Hold all that crosses a process boundary: messages, keys, codec, frames, session.
 
 This door gives the messages and geometry; ``wire.keys`` is the key table and ``wire.session`` the
 only place that knows the transport.

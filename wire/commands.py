@@ -31,7 +31,7 @@ class Hello(Record):
 
 
 class Grant(Record):
-    """Say how far and how long one mission may move. What is left outlives epochs."""
+    """Allow one mission so much way and time. The remainder outlives epochs."""
 
     planner_id: Name
     epoch: Epoch

@@ -52,7 +52,7 @@ STILL = Twist2(0.0, 0.0)
 
 
 def wrap(angle_rad: float) -> float:
-    """Bring an angle into [-pi, pi]; what is not finite becomes NaN, never an exception."""
+    """Bring an angle into [-pi, pi]; infinity becomes NaN, never an exception."""
     if -pi <= angle_rad <= pi:
         return angle_rad  # nearly always
     return atan2(sin(angle_rad), cos(angle_rad)) if isfinite(angle_rad) else float("nan")

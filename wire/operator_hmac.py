@@ -1,4 +1,4 @@
-"""Prove and check that an operator meant a request, by HMAC-SHA-256 over what it is for.
+"""Prove and check that an operator meant a request, by HMAC-SHA-256 over its content.
 
 The bytes signed are kind, robot, nonce and id, and for a fence the SHA-256 of its text, each
 preceded by its length, so that no two different requests share them. The key stays with the

@@ -43,7 +43,7 @@ class Base(Record):
 
 
 class Limits(Record):
-    """Bound what the bridge may ever send. Each bound has its reason beside it."""
+    """Bound the bridge's commands for ever. Each bound has its reason beside it."""
 
     max_speed_mps: float = Field(default=0.5, ge=0.05, le=2.0)
     """Forward and back; a walking person is 1.4."""
@@ -67,7 +67,7 @@ class Limits(Record):
 
 
 class DriveConfig(Record):
-    """Choose the drive and state what is known of its dynamics."""
+    """Choose the drive and state its known dynamics."""
 
     kind: Literal["sim"] = "sim"
     lag_s: float = Field(default=0.06, ge=0.005, le=0.5)
@@ -165,7 +165,7 @@ class RealTime(Record):
 
 
 class Recording(Record):
-    """Bound what the black box takes of the disk. There is no value that switches it off."""
+    """Bound the black box's share of the disk. There is no value that switches it off."""
 
     file_mb: int = Field(default=64, ge=4, le=1024)
     """A file that is larger ends, and the next begins."""
@@ -282,7 +282,7 @@ def load_robot(path: Path) -> RobotDescription:
 
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str:
-    """Describe a validation error in one line: what came, what was expected, what exists."""
+    """Describe a validation error in one line: the value, the expectation, the known keys."""
     lines = []
     for item in error.errors(include_url=False):
         where = ".".join(str(part) for part in item["loc"]) or "whole file"

@@ -23,7 +23,7 @@ Range = Annotated[float, Field(ge=0.0, le=1_000.0)]
 
 
 class DriveState(Record):
-    """Report what the drive does and what is wired to it."""
+    """Report the drive's motion and the inputs that are wired to it."""
 
     boot_id: Name
     seq: Count

@@ -16,7 +16,7 @@ from wire.geometry import Metres, Pose2, Twist2
 
 
 class SimFault(StrEnum):
-    """Name what can be broken. What stands beside each is what hardware then does or says."""
+    """Name the faults that can be simulated; beside each stands the hardware's reaction."""
 
     DRIVE_DEAF = "drive_deaf"  # no command arrives: a broken cable forth
     DRIVE_OFF = "drive_off"  # no state arrives: a broken cable back
@@ -83,7 +83,7 @@ class SimThing(Record):
 
 
 class SimScene(Record):
-    """Tell the simulated camera what to draw: where the robot and all movable things are."""
+    """Give the simulated camera its scene: where the robot and all movable things are."""
 
     boot_id: Name
     seq: Count

@@ -1,4 +1,4 @@
-"""Define the bridge's status and events: the only word on what really happened."""
+"""Define the bridge's status and events: the only word on the robot's real state."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Mode(StrEnum):
 
 
 class Action(StrEnum):
-    """Name what a row may do, mildest first."""
+    """Name a row's actions, mildest first."""
 
     NONE = "NONE"
     CAP = "CAP"
@@ -69,14 +69,14 @@ class Held(Record):
 
 
 class Owner(Record):
-    """Name who may send waypoints or external velocities."""
+    """Name the owner, the one that may send waypoints or external velocities."""
 
     planner_id: Name
     kind: OwnerKind
 
 
 class GrantLeft(Record):
-    """Show what the bridge has left for the mission granted in this epoch."""
+    """Show the bridge's remainder for the mission granted in this epoch."""
 
     mission: Name
     metres: Length
@@ -97,7 +97,7 @@ class LegReport(Record):
 
 
 class RowReport(Record):
-    """Show one row that is up, and what it saw."""
+    """Show one row that is up, and its evidence."""
 
     row: RowName
     action: Action
@@ -131,7 +131,7 @@ class LimitsInForce(Record):
 
 
 class BrakingReport(Record):
-    """Tell what the gates count on when the robot brakes: robot.toml, or worse where learnt."""
+    """Report the braking that gates count on: robot.toml's, or worse where learnt."""
 
     lag_s: Annotated[float, Field(ge=0.0, le=2.0)]
     decel_mps2: Annotated[float, Field(ge=0.0, le=10.0)]

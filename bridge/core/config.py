@@ -1,4 +1,4 @@
-"""Hold what is fixed while the bridge runs. Read once by ``__main__`` and bound to every step."""
+"""Hold the bridge's constants. Read once by ``__main__`` and bound to every step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hold what one tick decided: the next state, at most one command, and what to tell the others."""
+"""Hold one tick's decision: the next state, at most one command, and the messages to send."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from wire.value import value
 
 @value
 class Decision:
-    """Answer one step. The shell sends what is not None and feeds ``state`` to the next step."""
+    """Answer one step. The shell sends its set parts and feeds ``state`` to the next step."""
 
     state: BridgeState
     command: DriveCommand | None

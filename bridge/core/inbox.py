@@ -1,4 +1,4 @@
-"""Hold what arrived since the last tick, already parsed. All of it may be late, wrong or hostile.
+"""Hold the messages since the last tick, parsed. All of them may be late, wrong or hostile.
 
 The time of receipt of everything in here is the ``now_s`` of the step that is given it. Whether a
 proof's HMAC fits was judged where the bytes were read, so that no key ever reaches the core or a
@@ -55,7 +55,7 @@ class ArrivedAt:
 
 @value
 class LoopFacts:
-    """Tell what the shell measured of its own loop; the core cannot look at a clock."""
+    """Hold the shell's measurements of its own loop; the core cannot look at a clock."""
 
     late_s: float = 0.0
     """How long after its time this tick started."""
@@ -123,7 +123,7 @@ class FenceArrival:
 
 @value
 class FenceDone:
-    """Tell what became of a request: ``ok`` with both hashes, or why the fence can't be."""
+    """Report a fence request's end: ``ok`` with both hashes, or why the fence can't be."""
 
     id: str
     code: str

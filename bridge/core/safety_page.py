@@ -1,4 +1,4 @@
-"""Write docs/safety.md from the tables, so that it cannot say what the code does not do.
+"""Write docs/safety.md from the tables, so that it states nothing that the code does not do.
 
 ``python -m bridge.core.safety_page`` writes it; with ``--check`` it fails if that file
 differs, with

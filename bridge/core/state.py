@@ -68,7 +68,7 @@ class SelfTest:
 
 @value
 class Voice:
-    """Remember what was said last, and when."""
+    """Remember the messages said last, and when."""
 
     status_seq: int = 0
     ring: tuple[float, ...] = ()
@@ -132,7 +132,7 @@ class BridgeState:
     """The ramp towards standstill that it is learning from."""
 
     def sources(self) -> str:
-        """Return the letters of what moves the robot or holds a grant."""
+        """Return the letters of the sources that move the robot or hold a grant."""
         owner = self.ownership.owner
         if self.grants.mission is None or owner is None:
             return self.source

@@ -1,4 +1,4 @@
-"""Hold what the core remembers of motion: what was asked and sent, the stop in progress, brakes.
+"""Hold the core's memory of motion: requests and commands, the stop in progress, brakes.
 
 Records only; the laws that fill them stand in :mod:`bridge.core.motion` and in
 :mod:`bridge.core.modes`.
@@ -63,7 +63,7 @@ class Learnt:
     __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     def in_force(self) -> Braking:
-        """Return what gates may count on."""
+        """Return the braking that gates may count on."""
         if self.lag_more_s == 0.0 and self.decel_share == 1.0:
             return AS_CONFIGURED
         return Braking(self.lag_more_s, self.decel_share)
@@ -119,7 +119,7 @@ class Profile(StrEnum):
 
 @value
 class LimiterState:
-    """Remember what was sent last, and how each wheel's speed was changing [m/s2]."""
+    """Remember the twist sent last, and how each wheel's speed was changing [m/s2]."""
 
     sent: Twist2 = STILL
     left_mps2: _Accel = 0.0
@@ -237,7 +237,7 @@ class Gate:
 
 @dataclass(slots=True)
 class Motion:
-    """Remember what was asked and what was really sent."""
+    """Remember the requested and the sent twists."""
 
     asked: Twist2 = STILL
     """What the source in charge wants, before gates and limits."""
@@ -254,5 +254,5 @@ class Motion:
     margin_m: float | None = None
 
     def forget_sent(self) -> None:
-        """Begin at rest when torque comes back: what was sent before it went is no speed now."""
+        """Begin at rest when torque comes back: a twist sent before it went is no speed now."""
         self.limiter = LimiterState()

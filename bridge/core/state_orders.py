@@ -1,4 +1,4 @@
-"""Hold what the core remembers of owner, grants, operator, leg, stick and an asked-for fence."""
+"""Hold the core's memory of owner, grants, operator, leg, stick and an asked-for fence."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MAX_MISSIONS = 64
 
 @dataclass(frozen=True, slots=True)
 class Ownership:
-    """Remember who owns the robot, and the newest status that the owner has shown to have seen."""
+    """Remember the robot's owner, and the newest status that the owner has shown to have seen."""
 
     owner: Owner | None = None
     last_owner_id: str | None = None
@@ -27,7 +27,7 @@ class Ownership:
 
 @dataclass(frozen=True, slots=True)
 class MissionLeft:
-    """Keep what one mission id may still use; no later grant adds to it."""
+    """Keep the budget left to one mission id; no later grant adds to it."""
 
     mission: str
     metres: float
@@ -60,7 +60,7 @@ class Grants:
         return replace(self, mission=None, metres=0.0, seconds=0.0, book=book[-MAX_MISSIONS:])
 
     def spent_part(self) -> str | None:
-        """Name what is used up while a mission is granted; None if nothing is."""
+        """Name the budget used up while a mission is granted; None if none is."""
         if self.mission is None:
             return None
         for name, left in (
@@ -74,7 +74,7 @@ class Grants:
         return None
 
     def spent_hand_part(self) -> str | None:
-        """Name what a hand on the stick has used up; None if nothing is."""
+        """Name the budget that a hand on the stick has used up; None if none is."""
         if not self.hand_metres > 0.0:
             return "hand's metres"
         return None if self.hand_seconds > 0.0 else "hand's seconds"

@@ -1,4 +1,4 @@
-"""Hold what the core remembers of sensors and its own loop, and the windows of the detectors."""
+"""Hold the core's memory of sensors and its own loop, and the windows of the detectors."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class DriveMemory:
 
 @dataclass(frozen=True, slots=True)
 class LidarMemory:
-    """Remember the newest scan, the points it gave, and what is normal for it."""
+    """Remember the newest scan, its points, and the returns that are normal for it."""
 
     newest: Scan | None = None
     received_s: float | None = None
@@ -63,7 +63,7 @@ class Drift:
 
 @value
 class PoseMemory:
-    """Remember what says where ``odom`` lies in ``map``, and the gyro."""
+    """Remember the pose of ``odom`` in ``map``, its sources, and the gyro."""
 
     localization: Localization | None = None
     """The newest of this odom_id and map, good or poor."""
@@ -105,7 +105,7 @@ class LoopMemory:
 
 @value
 class SentBounds:
-    """Bound what was sent to both wheels [m/s at the rim] since a time."""
+    """Bound the commands sent to both wheels [m/s at the rim] since a time."""
 
     since_s: float
     left_low: float
@@ -142,7 +142,7 @@ class DetectorMemory:
 
 @value
 class Flood:
-    """Count what came on each command key, in this half window and in the one before."""
+    """Count the messages on each command key, in this half window and in the one before."""
 
     half_since_s: float = 0.0
     counts: tuple[int, ...] = ()

@@ -92,7 +92,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
 
 
 def _listen(tick: TickContext) -> None:
-    """Hear everybody in the order of rank; a stop voids what came with it."""
+    """Hear all parties in the order of rank; a stop voids the messages that came with it."""
     inbox = tick.inbox = rate_limit.rate_limited(tick)
     message_score.drain(tick)
     requests.renew_nonce(tick)
@@ -115,7 +115,7 @@ def _listen(tick: TickContext) -> None:
 
 
 def _obey(tick: TickContext) -> None:
-    """Hear the owner, the stick and the external brain, each after what it builds on.
+    """Hear the owner, the stick and the external brain, in this order.
 
     Who owns comes before what is granted, the pose before waypoints that start at it, and the hand
     on the stick before the brains that it outranks.
@@ -141,13 +141,13 @@ def _obey(tick: TickContext) -> None:
 
 
 def _locate(tick: TickContext) -> None:
-    """Find the robot in ``map``; where it was displaced, what was granted before is void."""
+    """Find the robot in ``map``; where it was displaced, earlier grants are void."""
     if sensor_update.locate(tick):
         revoke(tick)
 
 
 def _void(tick: TickContext) -> None:
-    """Count what came with a stop and is not obeyed."""
+    """Count the messages that came with a stop and are not obeyed."""
     inbox = tick.inbox
     came = (inbox.hellos, inbox.grants, inbox.heartbeats, inbox.teleop, inbox.external)
     for messages in (*came, inbox.waypoints):

@@ -1,4 +1,4 @@
-"""Carry one tick through the core: what is fixed, what is written, what arrived, what is said.
+"""Carry one tick through the core: settings, the next state, arrivals, messages to send.
 
 Lives for one ``step`` and is then dropped. Every part of the core takes it; each field of ``s`` is
 assigned to in one module alone, which tests/bridge/core/laws/test_wings.py lists and holds.

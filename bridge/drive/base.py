@@ -20,7 +20,7 @@ class Drive(Protocol):
     braking: Braking
 
     def read(self) -> tuple[DriveState | Rejected, ...]:
-        """Return what arrived since the last call, oldest first, at most the 4 newest."""
+        """Return the states since the last call, oldest first, at most the 4 newest."""
 
     def write(self, command: DriveCommand | None) -> None:
         """Send one command; None sends nothing, which SELFTEST needs to see the time-out work."""

@@ -52,7 +52,7 @@ class McapFile:
 
     @property
     def size_bytes(self) -> int:
-        """Return the file's size, without what waits for a flush."""
+        """Return the file's size, without the messages that wait for a flush."""
         return self._sink.tell()
 
     def add(self, topic: str, at_ns: int, sequence: int, data: bytes) -> None:

@@ -1,4 +1,4 @@
-"""Decide who may ask what: hosts, origins and tokens. Pure; knows no server.
+"""Decide on each request's rights: hosts, origins and tokens. Pure; knows no server.
 
 Loopback needs no token, but Host and Origin are judged there too: a web page of another site, or a
 name that somebody points at 127.0.0.1, must not drive the robot.
@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 
 
 class Role(StrEnum):
-    """Say what somebody may do."""
+    """Name how far a token's bearer may go."""
 
     VIEWER = "viewer"
     OPERATOR = "operator"

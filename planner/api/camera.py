@@ -1,4 +1,4 @@
-"""Serve the newest picture as the camera gave it. Opens none: boxes are drawn by whoever looks."""
+"""Serve the newest picture as the camera gave it. Opens none: the viewer draws the boxes."""
 
 from __future__ import annotations
 

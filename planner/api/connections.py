@@ -125,7 +125,7 @@ class HttpConnection(HttpToolsProtocol):
         super().handle_websocket_upgrade()
 
     def send_400_response(self, msg: str) -> None:
-        """Say what was refused; uvicorn calls this for all that its parser can't take."""
+        """Answer a request that uvicorn's parser can't take."""
         status, code, detail = self._refused or (400, "malformed_request", msg)
         self._refuse(status, code, detail)
 
@@ -178,7 +178,7 @@ class HttpConnection(HttpToolsProtocol):
 
 
 class EventSocket(WebSocketsSansIOProtocol):
-    """Be uvicorn's WebSocket, reading little at a time, and nothing from who reads nothing."""
+    """Be uvicorn's WebSocket; read little at a time, and nothing from a peer that does not read."""
 
     def __init__(self, *, visitor: Visitor, crowd: Crowd, **given: Any) -> None:
         super().__init__(**given)
@@ -254,7 +254,7 @@ def protocol(bounds: Bounds | None = None) -> type[HttpConnection]:
 
 
 class _Refusal(Exception):
-    """End the parser's work; what is said stands in ``_refused``."""
+    """End the parser's work; the response stands in ``_refused``."""
 
 
 _TOO_LONG = "a request may have {} bytes beside its body"

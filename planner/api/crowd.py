@@ -1,4 +1,4 @@
-"""Bound what strangers hold of the server, so that a new connection's stop is always served.
+"""Bound the strangers' share of the server, so that a new connection's stop is always served.
 
 Nobody's token is known before a request is complete, so what comes before that is bounded for all:
 its seconds, its bytes and the number of connections. Room is made, never refused: where too many
@@ -26,7 +26,7 @@ MOST_FILES = 65_536
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """State what one connection, one address and all of them may hold."""
+    """Bound the sockets of one connection, one address and all of them."""
 
     request_s: float = 5.0
     """From the opening, or a request's first byte, to its complete head; a body has as long again,
@@ -73,7 +73,7 @@ def raise_files() -> int:
 
 
 class Standing(IntEnum):
-    """Say what a connection holds, in the order in which room is made."""
+    """Name a connection's claim to stay, in the order in which room is made."""
 
     WAITING = 0
     """Not a complete request: silent, slow, or idle after an answer."""
@@ -135,14 +135,14 @@ class Crowd:
             self._timer = loop.call_later(self.LOOK_S, self._look)
 
     def stand(self, visitor: Visitor, standing: Standing) -> None:
-        """Note what a connection holds now; of its kind it is the youngest again."""
+        """Note a connection's claim now; of its kind it is the youngest again."""
         own = self._visitors.get(visitor.address, {})
         if visitor in own:
             visitor.standing = standing
             own[visitor] = own.pop(visitor)
 
     def settle(self, visitor: Visitor) -> None:
-        """Count a socket that was let in no longer: whoever let it in does."""
+        """Count a socket that was let in no longer: the server that let it in does."""
         self.leave(visitor)
         visitor.due_s = None
         self._sockets.add(visitor)
@@ -178,7 +178,7 @@ class Crowd:
         gone.transport.abort()
 
     def _look(self) -> None:
-        """End what is overdue; look again while anybody is here."""
+        """End overdue connections; look again while any is here."""
         loop = asyncio.get_running_loop()
         now_s = loop.time()
         for visitor in [one for own in self._visitors.values() for one in own] + [*self._sockets]:
@@ -191,7 +191,7 @@ class Crowd:
 
 
 def address_of(host: str) -> str:
-    """Return what counts as one address: of IPv6 its first 64 bits, which one network owns."""
+    """Return the part of an address that is counted: of IPv6 its first 64 bits, one network's."""
     try:
         found = ipaddress.ip_address(host.partition("%")[0])
     except ValueError:

@@ -55,7 +55,7 @@ OWN_PROBLEMS: dict[str, tuple[int, ...]] = {
 
 
 def with_problems(schema: dict[str, Any]) -> dict[str, Any]:
-    """Add each operation's problems to a contract; what FastAPI says of 422 is replaced by ours."""
+    """Add each operation's problems to a contract; FastAPI's own 422 is replaced by ours."""
     schemas = schema["components"]["schemas"]
     schemas[_SCHEMA] = _PROBLEM
     for name in ("HTTPValidationError", "ValidationError"):

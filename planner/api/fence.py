@@ -1,4 +1,4 @@
-"""Serve the fence: what is in force, what is proposed, and an operator's yes or no.
+"""Serve the fence: the one in force, the proposals, and an operator's yes or no.
 
 A proposal changes nothing. The yes goes to the bridge with a proof that binds the very text that
 was reviewed; the bridge alone writes it, and only while DISARMED.
@@ -64,12 +64,12 @@ def _reading(router: APIRouter, services: Services) -> None:
 
     @router.get("/proposals", operation_id="list_fence_proposals")
     async def proposals() -> dict[str, Any]:
-        """List proposals, newest first, each with what it would change."""
+        """List proposals, newest first, each with the changes it would make."""
         return {"proposals": await asyncio.to_thread(_list_proposals, services)}
 
     @router.get("/proposals/{proposal_id}", operation_id="get_fence_proposal")
     async def proposal(proposal_id: Name) -> dict[str, Any]:
-        """Give one proposal whole: its text is what an operator signs."""
+        """Give one proposal whole: its text is the one that an operator signs."""
         item = await _found(services, proposal_id)
         return await asyncio.to_thread(_view, services, item)
 

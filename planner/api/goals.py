@@ -85,7 +85,7 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
 
     @router.post("", status_code=202, operation_id="give_goal")
     async def give(new: NewGoal, request: Request, idempotency_key: IdempotencyKey = None) -> Goal:
-        """Give a goal in words. What is understood but impossible ends refused.
+        """Give a goal in words. An understood but impossible one ends refused.
 
         A plain yes or no answers what waits for one (a step's question, a plan, a brain's only
         offer), where nothing else can be meant.

@@ -48,7 +48,7 @@ def routes(services: Services) -> APIRouter:
 
 
 def missing(services: Services) -> list[str]:
-    """Name what is not there yet: a silent process, an owner, the bridge's own wants."""
+    """Name the missing parts: a silent process, an owner, the bridge's own wants."""
     ages = services.robot.ages_s()
     lacking = [
         name

@@ -44,7 +44,7 @@ class Goals(Protocol):
     ) -> Goal: ...
 
     def hears_stop(self, text: str) -> bool:
-        """Return whether these words would stop the robot now, whatever else they may mean."""
+        """Return whether these words would stop the robot now, with any other meaning besides."""
         ...
 
     def awaits_answer(self) -> bool:
@@ -95,7 +95,7 @@ class Robot(Protocol):
 
 
 class Budget(Protocol):
-    """Show what the model has cost; ``changes`` rises with every change."""
+    """Show the model's cost; ``changes`` rises with every change."""
 
     @property
     def changes(self) -> int: ...
@@ -106,7 +106,7 @@ class Budget(Protocol):
 
 
 class PerceptionView(Protocol):
-    """Show what is seen and remembered; ``version`` rises when a thing comes or goes."""
+    """Show the sight and the remembered things; ``version`` rises when a thing comes or goes."""
 
     @property
     def sight(self) -> Sight: ...
@@ -142,7 +142,7 @@ class PerceptionView(Protocol):
 
 
 class Services(Protocol):
-    """Hold what one planner is made of."""
+    """Hold the parts of one planner."""
 
     @property
     def goals(self) -> Goals: ...

@@ -1,4 +1,4 @@
-"""Serve a route whatever its body is: for what stops the robot, an odd body is no reason to refuse.
+"""Serve a route with any body: for a stop, an odd body is no reason to refuse.
 
 A hurried ``curl -d '{}'`` without a content type, half a JSON, a megabyte of noise, a connection
 that breaks off, or a body that does not come: each still stops, as if the body had been empty.
@@ -26,7 +26,7 @@ _OF_THE_BODY = frozenset({b"content-type", b"content-length", b"transfer-encodin
 
 
 class LenientRoute(APIRoute):
-    """Answer a request whose body can't be used as if it had none."""
+    """Answer a request with an unusable body as if it had none."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """Return the handler that tries a second time, bare; the route ran in neither case yet."""

@@ -1,4 +1,4 @@
-"""Make what every page watches once, however many watch: robot, scan, path, meter, sight, as JSON.
+"""Build the pages' common state once for all watchers: robot, scan, path, meter, sight, as JSON.
 
 Latest wins: a listener that falls behind skips to the newest and never holds the others up. Runs
 only while somebody listens. Knows no socket.
@@ -92,7 +92,7 @@ class Feed:
             await asyncio.sleep(PULSE_S)
 
     def look(self) -> None:
-        """Offer what is due or has changed."""
+        """Offer the parts that are due or have changed."""
         now_s = self._clock()
         news = _turning_point(self._services)
         due_s = STANDING_S if _stands(self._services) else ROBOT_S

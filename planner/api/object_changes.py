@@ -1,4 +1,4 @@
-"""Judge when what is seen is worth telling a page anew. Pure but for the services it looks at."""
+"""Decide when a sight is worth telling a page anew. Pure but for the services it looks at."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TREMBLE_PX = 4.0
 
 
 class SightNews:
-    """Remember what was told last."""
+    """Remember the sight told last."""
 
     def __init__(self, services: Services) -> None:
         self._services = services
@@ -25,7 +25,7 @@ class SightNews:
         self._told_s = float("-inf")
 
     def due(self, now_s: float) -> bool:
-        """Say whether to tell now; what is said so counts as told."""
+        """Return whether to tell now; a yes counts as told."""
         eyes = self._services.eyes
         sight = eyes.sight
         if sight is self._told or not now_s - self._told_s >= SIGHT_S:

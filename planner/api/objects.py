@@ -1,4 +1,4 @@
-"""Serve what was seen: the things remembered on the map, and forgetting them. An operator's act."""
+"""Serve the remembered things on the map, and an operator's order to forget them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def routes(services: Services) -> APIRouter:
 
     @router.get("", operation_id="list_objects")
     async def objects() -> dict[str, Any]:
-        """List what was seen and is remembered, why nothing is seen now, and what could be.
+        """List the remembered objects, why nothing is seen now, and the classes that could be.
 
         What has one of `sightings` was in one picture alone, and may be a mistake.
         """
@@ -34,7 +34,7 @@ def routes(services: Services) -> APIRouter:
 
     @router.delete("", operation_id="forget_objects")
     async def forget_all() -> dict[str, Any]:
-        """Forget all that was seen; what is there will be seen again."""
+        """Forget all objects; those that are there will be seen again."""
         return {"forgotten": [thing.id for thing in services.eyes.forget()]}
 
     @router.delete("/{thing_id}", operation_id="forget_object")
@@ -62,7 +62,7 @@ def objects_view(services: Services) -> dict[str, Any]:
 
 
 def sight_view(services: Services) -> dict[str, Any]:
-    """Return the newest look and the things that changed of late: what a page draws."""
+    """Return the newest look and the objects that changed of late, as a page draws them."""
     eyes = services.eyes
     sight, now_s = eyes.sight, eyes.now_s
     since_s = now_s - RETOLD_S

@@ -64,7 +64,7 @@ def _powering(router: APIRouter, robot: Robot) -> None:
 
     @router.post("/resume", operation_id="resume")
     async def resume(order: OperatorOrder | None = None) -> Answer:
-        """Clear what a stop, a take-over or a restart has held."""
+        """Clear the hold of a stop, a take-over or a restart."""
         return await act(robot, "resume", order)
 
     @router.post("/teleop", operation_id="teleop", status_code=202)

@@ -90,7 +90,7 @@ def routes(services: Services) -> APIRouter:
 
 
 def places_view(services: Services) -> dict[str, Any]:
-    """Return what is known of places; ``version`` changes with it."""
+    """Return the known places; ``version`` changes with them."""
     memory = services.memory
     return {
         "version": memory.version,

@@ -1,4 +1,4 @@
-"""Own what a person is told about what can't be used or armed, by the problem's code.
+"""Own the sentences on parts that can't be used or armed, by the problem's code.
 
 ``detail`` beside it names what came and what was expected, for whoever wrote the client.
 """

@@ -27,7 +27,7 @@ METHODS = ("DELETE", "GET", "HEAD", "PATCH", "POST", "PUT")
 
 
 class HttpProblem(Exception):
-    """Refuse a request: status, stable code, and what came, was expected and exists."""
+    """Refuse a request: status, stable code, the value given, the expectation, the choices."""
 
     def __init__(self, status: int, code: str, detail: str, **more: Any) -> None:
         super().__init__(f"{code}: {detail}")

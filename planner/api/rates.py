@@ -1,4 +1,4 @@
-"""Bound how often something may be asked, by whom. A stop is never asked about here."""
+"""Bound how often each asker may ask. A stop is never asked about here."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Serve what is known: the robot as the bridge reports it, and the map. Read only."""
+"""Serve the robot as the bridge reports it, and the map. Read only."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def routes(services: Services) -> APIRouter:
 
     @router.get("/robot", operation_id="get_robot")
     async def robot() -> dict[str, Any]:
-        """Show the bridge's newest status, where the robot is, how old everything is, who plans."""
+        """Show the bridge's newest status, the robot's pose, all ages, and the brain in charge."""
         return robot_view(services)
 
     @router.get("/map", operation_id="get_map")
@@ -55,7 +55,7 @@ def _localization_kind(services: Services) -> str:
 
 
 def about(services: Services) -> dict[str, Any]:
-    """Return what does not change while the planner runs: the robot's body and its limits."""
+    """Return the constants of a planner's run: the robot's body and its limits."""
     robot = services.robot.description
     return {
         "base": robot.base.model_dump(mode="json"),
@@ -64,7 +64,7 @@ def about(services: Services) -> dict[str, Any]:
 
 
 def scan_view(services: Services) -> list[int]:
-    """Return what the lidar sees as x, y, x, y, … in ``map`` [cm]: half the bytes of metres."""
+    """Return the lidar's points as x, y, x, y, … in ``map`` [cm]: half the bytes of metres."""
     return [round(100.0 * value) for point in services.robot.obstacles() for value in point]
 
 

@@ -73,7 +73,7 @@ class GoalMove(Body):
 
 
 class StopOrder(Body):
-    """Stop now; say who asks, for the record."""
+    """Stop now; ``source`` names the asker, for the record."""
 
     source: Name = "api"
 

@@ -27,7 +27,7 @@ LOG_S = 10.0
 
 
 class Guesses:
-    """Remember who guessed how often."""
+    """Remember each address's wrong tokens."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock

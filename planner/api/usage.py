@@ -1,4 +1,4 @@
-"""Serve the meter: what the model has cost, of how much, and when the budget comes back."""
+"""Serve the meter: the model's cost, the limits, and when the budget comes back."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ class SpokenOutcome(BaseModel):
 
 
 class VoiceResult(BaseModel):
-    """Say what was heard and what became of it."""
+    """Report the transcript of a recording and the goal that it became."""
 
     model_config = ConfigDict(frozen=True)
 
@@ -107,7 +107,7 @@ def routes(services: Services) -> APIRouter:
 
 
 def _may_be_stop(services: Services, heard: Recognition) -> bool:
-    """Return whether what was heard badly is a stop that the robot should rather obey."""
+    """Return whether a badly heard recording is a stop that the robot should rather obey."""
     return heard.confidence >= STOP_DOUBT and services.goals.hears_stop(heard.transcript)
 
 

@@ -1,4 +1,4 @@
-"""Stream what happens over a WebSocket: a snapshot, then deltas, each with a rising seq.
+"""Stream the planner's events over a WebSocket: a snapshot, then deltas, each with a rising seq.
 
 The same socket takes ``{"stop": true}``, so that a page whose POSTs hang can still stop the robot,
 and ``{"snapshot": true}`` from a page that has lost count, in text or in bytes. A stop is taken at
@@ -118,7 +118,7 @@ async def serve(
 
 
 class _Sender:
-    """Number what is sent; several tasks share one socket."""
+    """Number the messages of a socket that several tasks share."""
 
     def __init__(self, socket: WebSocket, turns: asyncio.Lock) -> None:
         self._socket, self._turns = socket, turns
@@ -130,7 +130,7 @@ class _Sender:
         await self.send_body(text_of(kind, content))
 
     async def show(self, services: Services) -> None:
-        """Send a snapshot, in this socket's turn; whatever else there is follows the first one."""
+        """Send a snapshot, in this socket's turn; all later messages follow the first one."""
         async with self._turns:
             await asyncio.sleep(APART_S)
         self._begun.set()
@@ -204,7 +204,7 @@ async def _listen(
 
 
 def _order(message: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a frame says, of text or of bytes; nothing where it can't be read."""
+    """Return the order in a frame, of text or of bytes; None where it can't be read."""
     said: str | bytes = message.get("text") or message.get("bytes") or ""
     if len(said) > MAX_FROM_CLIENT:
         return {}

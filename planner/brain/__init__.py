@@ -1,4 +1,4 @@
-"""Think: what a brain is, the brains that ship, and the stop lane that asks none of them.
+"""Think: the brain's interface, the brains that ship, and the stop lane that asks none of them.
 
 The door opens each name on first use, so that `from planner.language.stop import is_stop` stays
 free of pydantic: a stop must not wait for an import.

@@ -1,4 +1,4 @@
-"""Say who plans now: which brain, whether a model is asked or rests, and why it last failed.
+"""Report the brain in charge: its name, whether a model is asked or rests, its last failure.
 
 What a monitor and the page show; no brain decides by it.
 """
@@ -35,7 +35,7 @@ class LastError(Frozen):
 
 
 class Mind(Frozen):
-    """Show who plans."""
+    """Show the brain in charge."""
 
     name: str
     breaker: BreakerState | None = None  # none: no model is set, the offline brain plans alone
@@ -44,7 +44,7 @@ class Mind(Frozen):
 
 
 def mind_of(brain: Brain) -> Mind:
-    """Return who plans, as of now."""
+    """Return the brain in charge now."""
     if not isinstance(brain, FallbackBrain):
         return Mind(name=brain.tag.name)
     why, rests_s = brain.last_failure, brain.rests_s()

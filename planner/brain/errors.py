@@ -1,4 +1,4 @@
-"""Class a brain's errors by who must act. Standard library alone."""
+"""Class a brain's errors by the party that must act. Standard library alone."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class BrainDown(Exception):
 
 
 class OutOfBudget(BrainDown):
-    """Nobody's fault: what the owner allows to be spent is spent, so no call went out."""
+    """Nobody's fault: the owner's budget is spent, so no call went out."""
 
     code = "out_of_budget"
 

@@ -1,4 +1,4 @@
-"""Ask the model; where it fails, let the offline brain answer what it can, visibly.
+"""Ask the model; where it fails, answer by the offline brain, visibly.
 
 The thought then carries the offline brain's tag with the model's name and the reason. What the
 offline brain can't do alone ends typed: the model is unavailable, or wrote no usable plan.

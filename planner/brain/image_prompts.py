@@ -78,7 +78,7 @@ def _messages(
 
 
 def _single(asked: ImageQuestion) -> dict[str, Any]:
-    """Tell of one picture which way it shows, where that is known, and what was found in it."""
+    """Describe one picture to the model: its direction where known, and its detections."""
     told: dict[str, Any] = {}
     if asked.direction is not None:
         told["direction"] = {"en": asked.direction.en, "zh": asked.direction.zh}
@@ -86,7 +86,7 @@ def _single(asked: ImageQuestion) -> dict[str, Any]:
 
 
 def _sheet(asked: ImageQuestion) -> dict[str, Any]:
-    """Tell of each picture on a sheet its number, its direction and what was found in it."""
+    """Describe each picture on a sheet: its number, its direction and its detections."""
     most = max(LEAST_LISTED, MAX_LISTED // len(asked.views))
     pictures = [
         {
@@ -100,14 +100,14 @@ def _sheet(asked: ImageQuestion) -> dict[str, Any]:
 
 
 def label_of(number: int, view: DirectionView) -> str:
-    """Return what stands above a picture of a sheet: ``1 ahead``."""
+    """Return the label above a picture of a sheet: ``1 ahead``."""
     return f"{number} {view.direction.en}"
 
 
 def list_detections(
     picture: PosedPicture, found: Sequence[DetectedObject], most: int = MAX_LISTED
 ) -> list[dict[str, Any]]:
-    """Return what the detector found, the largest first, as the prompts say it."""
+    """Return the detector's findings, the largest first, as the prompts say them."""
     ordered = sorted(found, key=_area, reverse=True)[:most]
     return [line for each in ordered if (line := _line(picture, each)) is not None]
 

@@ -1,4 +1,4 @@
-"""Ask the model about a picture; where it fails, tell what the detector saw, visibly.
+"""Ask the model about a picture; where it fails, give the detector's findings, visibly.
 
 The answer then carries the detector's tag with the model's name and the reason. It shares the
 breaker of whoever plans by the same model: a server that is down makes no look wait.

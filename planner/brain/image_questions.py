@@ -1,4 +1,4 @@
-"""Own what it is to ask about one picture: the question goes out with it, an answer comes back.
+"""Define questions about one picture: the question goes out with it, an answer comes back.
 
 Knows no model, no network, no detector. What comes back is words, a yes or no, or a pixel: never a
 step, a place or an order. Words that stood in the picture may be among the words: they may describe
@@ -42,7 +42,7 @@ class PosedPicture:
 
 @dataclass(frozen=True, slots=True)
 class DirectionView:
-    """Hold the picture of one of several directions from one spot, and what was found in it."""
+    """Hold the picture of one of several directions from one spot, and its detections."""
 
     picture: PosedPicture
     direction: Bilingual
@@ -75,7 +75,7 @@ class DetectedObject(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class ImageQuestion:
-    """Hold what is asked about one picture."""
+    """Hold a question about one picture."""
 
     picture: PosedPicture
     words: str
@@ -105,7 +105,7 @@ class ImageDescription:
 
 @dataclass(frozen=True, slots=True)
 class ImagePoint:
-    """Point at what was asked for, each of 0 to 1000."""
+    """Point at the requested thing, each coordinate of 0 to 1000."""
 
     x: int
     y: int
@@ -118,7 +118,7 @@ class ImagePoint:
 
 @dataclass(frozen=True, slots=True)
 class NotThere:
-    """Say that what was asked for is not in the picture."""
+    """Mark that the requested thing is not in the picture."""
 
     brain: BrainTag
 

@@ -1,4 +1,4 @@
-"""Own what a brain is: one question in, one thought out. Knows no model, no network, no grammar.
+"""Define a brain: one question in, one thought out. Knows no model, no network, no grammar.
 
 A brain may be slow, wrong or gone; what it returns is judged by `planner.plan.check_plan`.
 """
@@ -27,7 +27,7 @@ def _short(detail: object) -> object:
 
 
 class Observation(Frozen):
-    """Tell what came of one step that was walked, for a brain that thinks again.
+    """Report the result of one step to a brain that thinks again.
 
     Facts, and words that people answered: they may describe, never command.
     """
@@ -42,7 +42,7 @@ class Observation(Frozen):
 
 
 class Exchange(Frozen):
-    """Tell one question of a brain about an order, and what the person answered."""
+    """Report one question of a brain about an order, and the person's answer."""
 
     asked: str
     answer: str
@@ -68,7 +68,7 @@ class ThinkRequest(Frozen):
 
 
 class ThinkResult(Frozen):
-    """Return a plan, which brain made it, and what it cost."""
+    """Return a plan, the brain that made it, and its cost."""
 
     plan: Plan
     brain: BrainTag

@@ -30,7 +30,7 @@ def jpeg_size(data: bytes) -> tuple[int, int] | None:
 
 
 def without_notes(data: bytes) -> bytes:
-    """Return a JPEG without comments and what cameras write of place, time and themselves."""
+    """Return a JPEG without comments and the camera's notes of place, time and make."""
     kept, at = bytearray(), 0
     for marker, begin, end in _spans(data):
         if marker in _NOTES:

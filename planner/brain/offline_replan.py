@@ -1,4 +1,4 @@
-"""Think again after something came of the steps: what is left of the same plan, and nothing twice.
+"""Think again after steps have run: the rest of the same plan, and nothing twice.
 
 A grammar has no second idea. It never orders a step again that is over, and says so where the rest
 is not its own plan's. What a person answered it does not read: that is no reason to go on.
@@ -17,7 +17,7 @@ _NO_OTHER_WAY = say("replan.no_other_way")
 
 
 def _whole(seen: Observation) -> Bilingual:
-    """Return what is known of a step, and beside it what a model read."""
+    """Return the facts known of a step, and beside them a model's reading."""
     if seen.read is None:
         return seen.detail
     return join(text for text in (seen.detail, seen.read) if text.en)
@@ -26,7 +26,7 @@ def _whole(seen: Observation) -> Bilingual:
 def rest_of(
     plan: StepPlan | AnswerPlan | Clarify | Refuse, observed: Sequence[Observation]
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
-    """Return what is left of a sentence's plan after what was observed."""
+    """Return the rest of a sentence's plan after these observations."""
     if not observed or not isinstance(plan, StepPlan):
         return plan
     if observed[-1].step == "ask":  # neither yes nor no: a person is asked again, nothing goes on

@@ -142,7 +142,7 @@ def _place_lines(vocabulary: Vocabulary, names: int) -> list[str]:
 
 
 def _order(request: ThinkRequest) -> dict[str, object]:
-    """Return what the person wants: an order, or one, what was asked about it, and the answer."""
+    """Return the person's wish: an order, or one with the question about it and the answer."""
     asked = [each for each in request.exchanges if each.asked]
     if not asked:
         return {"order": request.text}
@@ -155,7 +155,7 @@ def _order(request: ThinkRequest) -> dict[str, object]:
 
 
 def _reports(observed: Sequence[Observation], language: Language) -> list[dict[str, str]]:
-    """Return what came of the newest steps, oldest first, within a bound."""
+    """Return the results of the newest steps, oldest first, within a bound."""
     reports: list[dict[str, str]] = []
     left = _REPORTED
     for each in reversed(observed):

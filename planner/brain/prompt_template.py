@@ -1,4 +1,4 @@
-"""Read versioned prompt templates: ``prompts/*.md``, whose first line is their version."""
+"""Read versioned prompt templates ``prompts/*.md``, each with its version in the first line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Name what a model is asked to fill in: the schema's name, the forced tool's, and a word on it."""
+"""Name the reply that a model is to fill in: the schema's name, the forced tool's, a hint."""
 
 from __future__ import annotations
 

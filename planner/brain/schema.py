@@ -46,7 +46,7 @@ def step_models(runnable: frozenset[str] = RUNNABLE) -> dict[str, type[Frozen]]:
 
 
 def step_line(model: type[Frozen]) -> str:
-    """Describe one step to a model: its shape and what it does."""
+    """Describe one step to a model: its shape and its effect."""
     fields = [f'"kind":"{_kind(model)}"']
     fields += [f'"{name}":{_describe_field(name, shape)}' for name, shape in _fields(model).items()]
     return f"{{{','.join(fields)}}} {(model.__doc__ or '').splitlines()[0]}"
@@ -109,7 +109,7 @@ def _plain(name: str, shape: dict[str, Any], ids: list[str]) -> dict[str, Any]:
 
 
 def _describe_field(name: str, shape: dict[str, Any]) -> str:
-    """Say in a word what a field holds."""
+    """Name a field's content in a word."""
     if name in _PLACES:
         return "[id,…]" if _type(shape) == "array" else "id"
     if _type(shape) == "string":

@@ -17,7 +17,7 @@ MAX_DRAFT = 2000
 
 
 class Draft(Frozen):
-    """Hold what a brain has written so far."""
+    """Hold a brain's text so far."""
 
     text: str = Field(max_length=MAX_DRAFT)
     """As the model writes it, without thoughts, keys and characters that nobody sees."""

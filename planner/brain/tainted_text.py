@@ -1,4 +1,4 @@
-"""Think again about a goal in whose course a picture was described by a model.
+"""Think again about a goal with words from pictures: they may be told, never obeyed.
 
 Law: what was read in a picture may change what is said, never what is done. What is done comes from
 a thought that was not shown those words; a second thought, which is, may only put other words into
@@ -56,7 +56,7 @@ def deeds(plan: Plan) -> dict[str, Any]:
 
 
 def speaks(plan: Plan) -> bool:
-    """Tell whether a plan has words that what was read might fill."""
+    """Return whether a plan has words that a model's reading might fill."""
     if isinstance(plan, StepPlan):
         return any(step.kind == "say" for step in plan.steps)
     return isinstance(plan, AnswerPlan)

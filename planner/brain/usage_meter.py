@@ -1,4 +1,4 @@
-"""Own what a brain must tell whoever keeps the budget: each call before it is made, and its end.
+"""Own a brain's report to the budget: each call before it is made, and its end.
 
 A call goes out inside a goal's thinking or not at all: ``THINKING_ABOUT`` says whose. Knows no
 limit, no price and no network.
@@ -16,7 +16,7 @@ THINKING_ABOUT: ContextVar[str | None] = ContextVar("THINKING_ABOUT", default=No
 
 
 class Bill(Protocol):
-    """Be one open call. Closed once, whatever became of it."""
+    """Be one open call. Closed once, with any result."""
 
     @property
     def max_reply_tokens(self) -> int:
@@ -24,12 +24,12 @@ class Bill(Protocol):
         ...
 
     def close(self, prompt_tokens: int, reply_tokens: int) -> None:
-        """Say what the server billed, or may have billed where it did not say."""
+        """Report the tokens billed by the server, or an upper bound where it does not say."""
         ...
 
 
 class Meter(Protocol):
-    """Count what is spent, and refuse what may not be."""
+    """Count the usage of models, and refuse calls beyond the budget."""
 
     async def open(self, prompt_tokens: int) -> Bill:
         """Count a call that is about to go out.
@@ -45,7 +45,7 @@ class Meter(Protocol):
 
 @contextmanager
 def thinking_about(goal: str) -> Iterator[None]:
-    """Say whose thinking the calls within are."""
+    """Attribute model calls inside the block to a goal."""
     token = THINKING_ABOUT.set(goal)
     try:
         yield

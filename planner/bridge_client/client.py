@@ -137,7 +137,7 @@ class Link:
         return self._aged(self._scan)
 
     def obstacles(self) -> tuple[tuple[float, float], ...]:
-        """Return what the lidar sees now as points in ``map`` [m]; none without scan or pose."""
+        """Return the lidar's points now in ``map`` [m]; none without scan or pose."""
         scan, status = self.scan, self.status
         if scan is None or status is None or not scan.age_s <= SCAN_FRESH_S:
             return ()
@@ -150,7 +150,7 @@ class Link:
     # What is said -------------------------------------------------------------------------------
 
     def send(self, messages: tuple[Record, ...]) -> None:
-        """Send what the owner says, in order."""
+        """Send the owner's messages, in order."""
         for message in messages:
             self._bus.send(message)
 

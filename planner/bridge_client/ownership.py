@@ -1,4 +1,4 @@
-"""Say what an owner says to the bridge: hello, grant, heartbeat, waypoints. Pure; no time, no IO.
+"""Write an owner's messages to the bridge: hello, grant, heartbeat, waypoints. Pure: no IO.
 
 Told each bridge status, what the mission wants now and what it last consumed. Laws: everything
 names the epoch of the status it answers, so nothing from before an epoch change is ever sent; a
@@ -34,7 +34,7 @@ HALTS = 3
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """Name who asks to own the robot and what he believes of it."""
+    """Name the planner that asks to own the robot, and its view of the robot."""
 
     planner_id: str
     robot_hash: str
@@ -45,7 +45,7 @@ class Identity:
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """Say what the mission wants now. ``points`` None: stand, and end what is followed."""
+    """Hold the mission's wish now. ``points`` None: stand, and end the leg being followed."""
 
     mission: str | None = None
     leg: int = 0
@@ -58,7 +58,7 @@ STANDING = Course()
 
 @dataclass(frozen=True, slots=True)
 class OwnerState:
-    """Remember what was said in this epoch."""
+    """Remember the messages said in this epoch."""
 
     epoch: str | None = None
     seq: int = 0
@@ -102,7 +102,7 @@ def on_status(
 def on_course(
     identity: Identity, state: OwnerState, status: Status, course: Course, now_s: float
 ) -> tuple[OwnerState, tuple[Record, ...]]:
-    """Say at once what a changed course needs: a grant, a first horizon, or a halt."""
+    """Return a changed course's first messages: a grant, a first horizon, or a halt."""
     state = _in_epoch(state, status)
     if not owns(identity, status):
         return state, ()

@@ -1,4 +1,4 @@
-"""Hold the planner's ends of the wire: what it hears, what it says. No thread, no decision.
+"""Hold the planner's ends of the wire, both ways. No thread, no decision.
 
 Every read is a non-blocking drain of a ring and every send drops rather than waits, so that the
 event loop may do both.

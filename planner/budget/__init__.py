@@ -1,4 +1,4 @@
-"""Keep what a model may cost: limits per goal and per day, spent in one place, kept on disk."""
+"""Keep the models' budget: limits per goal and per day, spent in one place, kept on disk."""
 
 from __future__ import annotations
 

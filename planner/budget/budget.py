@@ -45,7 +45,7 @@ class Purse:
         most_reply: int = 0,
         clocks: DayClocks | None = None,
     ) -> None:
-        """Take up what was spent before.
+        """Take up the earlier expense.
 
         Args:
             budget: limits and prices.
@@ -100,7 +100,7 @@ class Purse:
         return OpenCall(self, day, goal, worst, self._clocks.monotonic_s())
 
     def settle(self, call: OpenCall, prompt_tokens: int, reply_tokens: int) -> None:
-        """Correct what was counted for a call by what it came to."""
+        """Correct a call's estimate by its real cost."""
         prompt, reply = (min(MAX_TOKENS, max(0, n)) for n in (prompt_tokens, reply_tokens))
         seconds = max(0.0, self._clocks.monotonic_s() - call.began_s)
         came_to = self._price(1, prompt, reply) + Expense(seconds=seconds)

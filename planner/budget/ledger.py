@@ -120,7 +120,7 @@ class Ledger:
         return cls(StateDatabase(home), home / FOLDER, owned=True)
 
     def remember(self, today: date) -> None:
-        """Read what the goals of the last days have spent, and throw very old days away.
+        """Read the expense of the last days' goals, and throw very old days away.
 
         Raises:
             ConfigError: ``budget_unreadable``.

@@ -1,4 +1,4 @@
-"""Own the meter as people and monitors read it: what was spent, of how much, and until when."""
+"""Own the meter as people and monitors read it: the expense, the limits, and until when."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from planner.plan import Bilingual, Frozen
 
 
 class Amounts(Frozen):
-    """Hold what was spent."""
+    """Hold an expense."""
 
     calls: int
     prompt_tokens: int

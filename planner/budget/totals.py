@@ -14,7 +14,7 @@ KINDS: tuple[Kind, ...] = ("calls", "prompt_tokens", "reply_tokens", "seconds", 
 
 @dataclass(frozen=True, slots=True)
 class Expense:
-    """Hold what was spent, or is about to be. Never negative but as a correction."""
+    """Hold an expense, past or expected. Never negative but as a correction."""
 
     calls: int = 0
     prompt_tokens: int = 0
@@ -52,7 +52,7 @@ class Overrun:
 
 
 def cost(price: Price | None, prompt_tokens: int, reply_tokens: int) -> float:
-    """Return what tokens cost, in the price's currency."""
+    """Return the money that tokens cost, in the price's currency."""
     if price is None:
         return 0.0
     prompt, reply = price.prompt_per_million, price.reply_per_million

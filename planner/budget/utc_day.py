@@ -58,7 +58,7 @@ class Days:
 
 
 def utc_date(unix_s: float) -> date:
-    """Return the UTC date of a wall clock; what no calendar holds is its first day."""
+    """Return the UTC date of a wall clock; a time beyond the calendar is its first day."""
     try:
         return datetime.fromtimestamp(unix_s, UTC).date()
     except (ValueError, OverflowError, OSError):

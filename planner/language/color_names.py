@@ -48,7 +48,7 @@ def color_of(words: str) -> str | None:
 
 
 def may_be(one: str | None, other: str | None) -> bool:
-    """Tell whether two looks at one thing may give these; what has no colour may be any."""
+    """Return whether two looks at one thing may give these colours; no colour may be any."""
     if one is None or other is None or one == other:
         return True
     return frozenset((one, other)) in _NEAR

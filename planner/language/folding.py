@@ -1,4 +1,4 @@
-"""Fold what people write differently and mean alike: width, case, script, look-alike letters.
+"""Fold spellings that mean alike: width, case, script, look-alike letters.
 
 The only place that folds text; code that compares words folds both sides here. Standard library
 alone, pure, and stable: folding twice changes nothing more. The table of scripts is generated from

@@ -122,7 +122,7 @@ def singles_out(words: str, classes: Collection[str] = ()) -> bool:
 
 
 def name_object(label: str, color: str | None = None) -> Bilingual:
-    """Return what to call a thing."""
+    """Return a thing's name, with its colour where one is given."""
     name = noun(f"noun.{label}") if label in KINDS else say_same(_bare(label))
     return _with_color(name, color)
 
@@ -188,7 +188,7 @@ def _chinese_match(text: str, own: tuple[str, ...]) -> re.Match[str] | None:
 
 
 def _besides(found: re.Match[str]) -> str:
-    """Return what a phrase says besides the thing's name and colour."""
+    """Return the words of a phrase besides the thing's name and colour."""
     rest = found.string
     for start, end in sorted((found.span(g) for g in "cdn"), reverse=True):
         rest = rest[:start] + " " + rest[end:] if start >= 0 else rest
@@ -203,7 +203,7 @@ def _read_match(found: re.Match[str], names: dict[str, str]) -> tuple[str, str |
 
 @lru_cache(maxsize=8)
 def _english_patterns(own: tuple[str, ...]) -> tuple[re.Pattern[str], ...]:
-    """Return the patterns of things and of people, which differ in what may follow them."""
+    """Return the patterns of things and of people, which differ in their following words."""
     people = [w for w, label in _english_names().items() if label == "person"]
     things = [w for w, label in _english_names().items() if label != "person"]
     own_words = [re.escape(name.replace("_", " ")) for name in own]

@@ -23,7 +23,7 @@ REMEMBERED = 64
 
 @dataclass(frozen=True, slots=True)
 class Utterance:
-    """Hold a sentence and what it says by itself, whatever the robot does."""
+    """Hold a sentence and its meaning by itself, at any state of the robot."""
 
     text: str
     intent: Intent | None
@@ -59,7 +59,7 @@ class Utterance:
 
 @lru_cache(maxsize=REMEMBERED)
 def parse(text: str) -> Utterance:
-    """Return what a sentence says by itself; the stop lane reads it first."""
+    """Return a sentence's meaning by itself; the stop lane reads it first."""
     reading, intent = read_stop(text), intent_of(text)
     rest = intent.rest if isinstance(intent, Replace) else None
     return Utterance(

@@ -93,7 +93,7 @@ _CHINESE = {
 
 
 class _Word(NamedTuple):
-    """Hold one word or phrase of an answer, and what it is there for."""
+    """Hold one word or phrase of an answer, and its role there."""
 
     text: str
     kind: str
@@ -103,7 +103,7 @@ class _Reader:
     """Cut clauses of one language into known words, the longest first: linear in their length."""
 
     def __init__(self, words: dict[str, str], gap: str) -> None:
-        """Take the words of each kind and what stands between two of them."""
+        """Take the words of each kind and the joints between two of them."""
         written = {word: kind for kind, text in words.items() for word in text.split("|")}
         hasty = {word.replace("'", ""): kind for word, kind in written.items()}
         self._kinds = {**hasty, **written}

@@ -21,7 +21,7 @@ class WaypointLatency:
         self._since_s[goal_id] = now_s
 
     def first_waypoint(self, goal_id: str, now_s: float) -> float | None:
-        """Stop the watch; return what it showed the first time, None ever after."""
+        """Stop the watch; return its reading the first time, None ever after."""
         since_s = self._since_s.pop(goal_id, None)
         if since_s is None:
             return None

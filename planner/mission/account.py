@@ -1,4 +1,4 @@
-"""Account for the steps of a goal that ends: what came of each, in their order, for a person. Pure.
+"""Account for the steps of a goal that ends: each one's result, in order, for a person. Pure.
 
 Law: "Arrived" is said of a place only where the last drive to it came there; what was said, asked
 and answered stands in it; so does what the detector saw, whatever a model says after it.
@@ -27,7 +27,7 @@ _OBJECT_STEPS = frozenset({"find", "count", "follow", "go_to_object"})
 
 
 def account(facts: SiteView, mission: Mission, code: Code, said: Bilingual | None) -> Bilingual:
-    """Return what came of each step, and ``said`` where no step has said it yet.
+    """Return each step's result, and ``said`` where no step has said it yet.
 
     Args:
         facts: the site's names.
@@ -47,7 +47,7 @@ def account(facts: SiteView, mission: Mission, code: Code, said: Bilingual | Non
 
 
 def outcome_code(mission: Mission) -> Code:
-    """Return the code of a goal whose steps are all over: what its last step that counts came to.
+    """Return the code of a goal whose steps are all over: that of its last step that counts.
 
     Words and waits count for nothing; after a drive that failed nobody has arrived.
     """
@@ -111,7 +111,7 @@ def _tell_steps(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
 
 
 def _after(sentence: Bilingual, *, instead: bool) -> Iterator[Bilingual]:
-    """Yield a sentence; where a step had failed before it, as what was done in place of that."""
+    """Yield a sentence; where a step had failed before it, tell it as done in place of that."""
     yield say("account.instead", sentence=sentence) if instead else sentence
 
 
@@ -175,7 +175,7 @@ def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
 
 
 def _amount(step: StepRecord) -> Bilingual:
-    """Say how far a turn or a move came, by odometry, and what was asked."""
+    """Tell how far a turn or a move came, by odometry, and the order."""
     turned = step.kind == "turn"
     put = angle if turned else metres
     asked = put((step.angle_rad if turned else step.distance_m) or 0.0)
@@ -235,6 +235,6 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
 
 
 def _join_sentences(told: Sequence[Bilingual]) -> Bilingual:
-    """Return sentences as one text; what is said twice in a row is told once."""
+    """Return sentences as one text; of two equal ones in a row one is told."""
     kept = [each for at, each in enumerate(told) if at == 0 or each != told[at - 1]]
     return join(kept)

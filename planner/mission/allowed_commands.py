@@ -50,6 +50,6 @@ def _bad(mission: Mission, command: Command, allowed: frozenset[GoalState]) -> B
 
 
 def api_name(command: type[Command]) -> str:
-    """Return what a command is called in the API."""
+    """Return a command's name in the API."""
     name = command.__name__.lower()
     return {"reply": "answer"}.get(name, name)

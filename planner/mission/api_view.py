@@ -33,7 +33,7 @@ def goal_of(book: MissionState, mission: Mission) -> Goal:
 
 
 def progress_of(book: MissionState) -> Progress | None:
-    """Return what is left of the running step: metres, radians or seconds; None of no motion."""
+    """Return the rest of the running step: metres, radians or seconds; None of no motion."""
     mission, activity = book.missions.get(book.running or ""), book.activity
     if mission is None or activity is None or mission.current_step is None:
         return None
@@ -50,7 +50,7 @@ def progress_of(book: MissionState) -> Progress | None:
 
 
 def _plan_now(book: MissionState, mission: Mission) -> PlanRecord | None:
-    """Return the plan with what is left of the step that runs now."""
+    """Return the plan with the rest of the step that runs now."""
     plan = mission.plan
     progress = progress_of(book) if mission.id == book.running else None
     if plan is None or progress is None:

@@ -1,4 +1,4 @@
-"""Read one bridge status for what it means to a mission. Pure questions, no memory."""
+"""Read one bridge status for its meaning to a mission. Pure questions, no memory."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def refused_grant(status: Status, mission_id: str) -> str | None:
 
 
 def amount_done(before: Status | None, now: Status, *, turning: bool) -> float:
-    """Return what odometry says was turned [rad], or gone along the heading [m], in between."""
+    """Return the odometry's turn [rad], or way along the heading [m], in between."""
     if before is None or before.boot != now.boot or now.seq <= before.seq:
         return 0.0
     a, b = before.base_in_odom, now.base_in_odom
@@ -77,7 +77,7 @@ def amount_done(before: Status | None, now: Status, *, turning: bool) -> float:
 
 
 def driven_m(before: Status | None, now: Status) -> float:
-    """Return what odometry says was driven between two statuses of one boot [m]."""
+    """Return the odometry's way between two statuses of one boot [m]."""
     if before is None or before.boot != now.boot or now.seq <= before.seq:
         return 0.0
     a, b = before.base_in_odom, now.base_in_odom

@@ -1,4 +1,4 @@
-"""End a goal that a person said no to: nothing of it moves, and what it was to do is told."""
+"""End a goal that a person said no to: nothing of it moves, and its deed is told."""
 
 from __future__ import annotations
 

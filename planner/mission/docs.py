@@ -1,4 +1,4 @@
-"""Write the tables of docs/missions.md from the code, so that they can't say what it does not do.
+"""Write the tables of docs/missions.md from the code, so that they state nothing else.
 
 ``python -m planner.mission.docs`` writes the part between its two marks; with ``--check`` it fails
 if that part differs, with ``--print`` it prints it.

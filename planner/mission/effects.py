@@ -105,7 +105,7 @@ class Journal:
 
 @dataclass(frozen=True, slots=True)
 class SayAloud:
-    """Tell whoever listens to events words to speak or show. At most once, even across a crash."""
+    """Give listeners to events words to speak or show. At most once, even across a crash."""
 
     id: str
     text: str
@@ -113,7 +113,7 @@ class SayAloud:
 
 @dataclass(frozen=True, slots=True)
 class GoalChange:
-    """Tell who listens that a goal is not what it was."""
+    """Tell listeners that a goal has changed."""
 
     id: str
 
@@ -133,7 +133,7 @@ Effect = (
 
 @dataclass(frozen=True, slots=True)
 class MotionRequest:
-    """Say what the bridge should be asked for now. Empty: stand, and ask for nothing."""
+    """Hold the motion to ask of the bridge now. Empty: stand, and ask for nothing."""
 
     mission: str | None = None
     """Ask for a grant for this mission."""

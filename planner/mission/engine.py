@@ -25,7 +25,7 @@ SPIN_MPS = 0.05
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """Hand out what to send now and what to do."""
+    """Hold the messages to send now and the effects to carry out."""
 
     messages: tuple[Record, ...] = ()
     effects: tuple[Effect, ...] = ()
@@ -178,7 +178,7 @@ class Engine:
         return following.slowed[1]
 
     def _course(self, horizon: Horizon | None) -> Course:
-        """Return what is wanted of the bridge now; ``horizon`` was cut on the status answered."""
+        """Return the course for the bridge now; ``horizon`` was cut on the status answered."""
         self._wish = wanted = motion_request(self.book)
         following = self._following
         ours = following is not None and (following.mission, following.leg) == (

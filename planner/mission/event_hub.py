@@ -52,7 +52,7 @@ class Subscription:
         self.close()
 
     def close(self) -> None:
-        """Hear no more; whoever iterates is let go."""
+        """Hear no more; a waiting iterator ends."""
         self._closed = True
         self._hub.forget(self)
         self._news.set()

@@ -79,7 +79,7 @@ class Sighted:
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """What was asked about the picture is answered."""
+    """A question about the picture was answered."""
 
     id: str
     ticket: int

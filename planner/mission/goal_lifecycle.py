@@ -208,7 +208,7 @@ def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
 
 
 def _in_hand(turn: Transaction, new: Mission) -> Mission | None:
-    """Return what "forget that" means: the running goal, else the newest that thinks or asks.
+    """Return the goal that "forget that" means: the running, else the newest that thinks or asks.
 
     A goal that a person paused keeps its place, and so do those that wait.
     """
@@ -321,7 +321,7 @@ def _forget_poses(turn: Transaction, mission: Mission) -> None:
 
 
 def _queue(event: Restarted, missions: dict[str, Mission]) -> tuple[str, ...]:
-    """Return who waits, in the order that was journalled; whoever is missing there comes last."""
+    """Return the waiting goals, in the order that was journalled; goals missing there come last."""
     waiting = [m.id for m in missions.values() if m.state is GoalState.QUEUED]
     known = [i for i in dict.fromkeys(event.queue) if i in waiting]
     return (*known, *(i for i in waiting if i not in known))

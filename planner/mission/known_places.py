@@ -70,7 +70,7 @@ class KeptPlace:
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """Ask for a place to be kept: its names, where, who asks."""
+    """Ask for a place to be kept: its names, its pose, the person who asks."""
 
     en: str | None = None
     zh: str | None = None
@@ -131,7 +131,7 @@ class KnownPlaces:
         return self._facts
 
     def use(self, link: Hears, router: RouteService) -> None:
-        """Take where the robot is heard, and who finds ways to a point."""
+        """Take the source of the robot's pose, and the finder of ways to a point."""
         self._link, self._router = link, router
 
     def listen(self, told: Callable[[], None]) -> None:
@@ -200,7 +200,7 @@ class KnownPlaces:
         return place.map_id == self.site.map_id
 
     def _judge(self) -> None:
-        """Work out anew what may be driven to, and what a plan may name."""
+        """Work out anew the places that may be driven to, and those a plan may name."""
         good: list[Place] = []
         shown: list[KeptPlace] = []
         for kept in self._kept:

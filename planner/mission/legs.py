@@ -141,7 +141,7 @@ STEERED = say("goal.steered")
 
 
 def measure_from(turn: Transaction, mission: Mission, pose: Pose2 | None) -> Mission:
-    """Note where a measured step begins, or began: what is done lies behind the robot."""
+    """Note where a measured step begins, or began: the way done lies behind the robot."""
     step = mission.current_step
     if step is None or pose is None or step.kind not in BY_AMOUNT or mission.began_at is not None:
         return mission

@@ -111,7 +111,7 @@ class Loop:
 
     @property
     def failure(self) -> BaseException | None:
-        """Return what ended the loop, if something did."""
+        """Return the error that ended the loop, if one did."""
         task = self._task
         if task is None or not task.done() or task.cancelled():
             return None
@@ -164,7 +164,7 @@ class Loop:
         return kept.keys
 
     async def close(self) -> None:
-        """End everything; what ran comes back paused in the next process."""
+        """End everything; goals that ran come back paused in the next process."""
         if self._task is not None:
             self._task.cancel()
             await asyncio.gather(self._task, return_exceptions=True)
@@ -256,7 +256,7 @@ class Loop:
             self._tell_progress()
 
     def _tell_progress(self) -> None:
-        """Tell what is left of the running step where it changed; the record shows it, too."""
+        """Tell the rest of the running step where it changed; the record shows it, too."""
         progress = progress_of(self.book)
         if progress is not None and progress != self._progress:
             self.hub.publish({"type": "progress", **progress})

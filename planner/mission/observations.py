@@ -1,4 +1,4 @@
-"""Tell what came of a goal's steps, for a brain that thinks again. Facts and figures, no advice.
+"""Report the results of a goal's steps to a brain that thinks again. Facts and figures, no advice.
 
 What a person answered is quoted, and cut to what an observation holds: it may inform a plan, and
 every plan is validated whatever informed it.
@@ -33,7 +33,7 @@ def list_observations(facts: SiteView, mission: Mission) -> tuple[Observation, .
 
 
 def exchanges_of(mission: Mission) -> tuple[Exchange, ...]:
-    """Return what was asked about the order and answered, before any step; oldest first."""
+    """Return the questions about the order and their answers, before any step; oldest first."""
     asked = (*mission.questions, *("" for _ in mission.replies))
     pairs = zip(asked, mission.replies, strict=False)
     return tuple(Exchange(asked=question, answer=answer) for question, answer in pairs)

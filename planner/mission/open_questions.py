@@ -74,7 +74,7 @@ def takes_yes(mission: Mission) -> bool:
 
 
 def take_sentence(turn: Transaction, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
-    """End a goal whose words answer another; return whose they answer, None of several."""
+    """End a goal whose words answer another; return the goal they answer, None of several."""
     names = list_names(say_same(f"“{turn.book.missions[asked].text[:60]}”") for asked in asking)
     if len(asking) > 1:
         said = say("question.for_none", names=names)

@@ -1,4 +1,4 @@
-"""Say how a goal ended, with figures: what was asked, what was reached, how far, what limited it.
+"""Tell how a goal ended, with figures: the order, the result, how far, and the limits.
 
 "Arrived" is what odometry and the bridge say, never a model.
 """
@@ -68,7 +68,7 @@ def accepted_at(mission: Mission) -> Pose2 | None:
 
 
 def limits(mission: Mission) -> tuple[str, ...]:
-    """Return the bridge's names for what held the speed down, the longest first."""
+    """Return the bridge's names for the limits on the speed, the longest first."""
     counts = mission.limited
     total = sum(counts.values())
     named = sorted((-n, name) for name, n in counts.items() if n >= MIN_LIMIT_SHARE * total)
@@ -84,7 +84,7 @@ def ended_outcome(
     code: Code,
     said: Bilingual | None,
 ) -> Outcome:
-    """Return the outcome of a mission that had begun: what came of each step, and the figures.
+    """Return the outcome of a mission that had begun: each step's result, and the figures.
 
     ``said``: how it ends, where no step tells that.
     """

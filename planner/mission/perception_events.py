@@ -97,7 +97,7 @@ def on_standing(turn: Transaction) -> None:
 
 
 def end_gaze_if_due(turn: Transaction) -> None:
-    """End a gaze, or the wait for an answer, whose time is over; without any picture it fails."""
+    """End a gaze, or the wait for an answer, at its time; without any picture it fails."""
     activity = turn.book.activity
     if not isinstance(activity, (Observing, AskingImage)) or turn.now_s < activity.until_s:
         return
@@ -132,7 +132,7 @@ def _counts(gaze: Observing, sight: Sight) -> bool:
 
 
 def _has_enough(turn: Transaction, gaze: Observing, sight: Sight) -> bool:
-    """Tell whether a gaze has seen enough: what is wanted, or as many pictures as it was to."""
+    """Return whether a gaze has found its object, or as many pictures as it was to."""
     since_s = gaze.standing_s if gaze.standing_s is not None else turn.now_s
     if gaze.wanted is None:
         return gaze.looked >= gaze.looks
@@ -143,7 +143,7 @@ def _has_enough(turn: Transaction, gaze: Observing, sight: Sight) -> bool:
 
 
 def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> bool:
-    """Tell whether the skill is to be asked because of what is seen now."""
+    """Return whether the sight now is a reason to ask the skill."""
     if turn.now_s - activity.asked_s < ASK_S:
         return False
     if isinstance(activity, Observing):
@@ -175,7 +175,7 @@ def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
 
 
 def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
-    """Tell whether what is asked for is what is being done."""
+    """Return whether the running activity already serves this request."""
     if isinstance(activity, Observing):
         return isinstance(act, Observe)
     if not isinstance(act, DriveLeg) or act.way is not activity.way:

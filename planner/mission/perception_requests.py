@@ -38,7 +38,7 @@ AS_NEW_S = 1.0
 
 
 class EyeDoor:
-    """Stand between the missions and whoever sees."""
+    """Stand between the missions and perception."""
 
     def __init__(self, eyes: Eyes | None, looker: Looker | None = None) -> None:
         """Ask these eyes, and this model about their pictures."""
@@ -158,7 +158,7 @@ def _pose_picture(eyes: Eyes, picture: Picture) -> Shown:
 
 
 def _detections(eyes: Eyes, picture: Picture) -> tuple[Detection, ...]:
-    """Return what was found in this very picture, where it was thought upon."""
+    """Return the detections of this very picture, where it was thought upon."""
     look = eyes.sight.look
     same = look is not None and look.seq == picture.color.header.seq
     return look.detections if look is not None and same else ()

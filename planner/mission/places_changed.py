@@ -1,4 +1,4 @@
-"""Take other places for the old ones while goals are open: what was forgotten is driven to no more.
+"""Replace the places while goals are open: a forgotten place is driven to no more.
 
 Law: a goal that still names a forgotten place ends at once, typed, and the robot stands; a leg to a
 place that was moved is laid anew.

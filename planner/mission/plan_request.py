@@ -37,7 +37,7 @@ class Hearing:
         expect: Callable[[tuple[Step, ...]], None],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Say who is told.
+        """Set the listener.
 
         Args:
             publish: tells the listeners.
@@ -119,7 +119,7 @@ def thinker(
 
 @lru_cache(maxsize=8)
 def things_of(classes: tuple[str, ...]) -> frozenset[str]:
-    """Return what people call the things that a detector knows, in both languages.
+    """Return people's names for the things that a detector knows, in both languages.
 
     None while it has not said what it knows: an unknown place is then told as one.
     """

@@ -101,7 +101,7 @@ class PlannerCommands:
     def _command_goal(
         self, what: str, make: Callable[[str], Command], goal_id: str | None
     ) -> AnswerPlan:
-        """Give a command about a goal and say what became of it."""
+        """Give a command about a goal and tell its result."""
         done, nothing = _SAID[what]
         if goal_id is None:
             return AnswerPlan(text=nothing)
@@ -112,7 +112,7 @@ class PlannerCommands:
         return AnswerPlan(text=say("commands.done", done=done, text=text))
 
     def _change_speed(self, *, slower: bool) -> AnswerPlan:
-        """Change the speed cap of the running goal and say what it is now."""
+        """Change the speed cap of the running goal and tell the new one."""
         running = self._loop.book.running
         if running is None:
             return AnswerPlan(text=_NOTHING_RUNS)

@@ -1,4 +1,4 @@
-"""Keep the queue: who has the robot, who waits, who is kept waiting until a person acts.
+"""Keep the queue: the goal that has the robot, those that wait, and those waiting for a person.
 
 One mission runs at a time. A pause frees the robot but keeps those waiting where they are; only a
 goal that a person gives afterwards, or a resume, goes on. Who waits for an answer alone goes on
@@ -124,7 +124,7 @@ def settle_activity(turn: Transaction) -> Mission | None:
 def _settle_step(
     turn: Transaction, mission: Mission, activity: Activity, since_s: float
 ) -> Mission:
-    """Write what a step that looks has spent, and what its skill remembers."""
+    """Write down a looking step's expense, and its skill's notes."""
     return turn.put(
         mission,
         step_s=round(mission.step_s + max(0.0, turn.now_s - since_s), 3),
@@ -134,7 +134,7 @@ def _settle_step(
 
 
 def notes_now(mission: Mission, activity: Activity | None) -> Notes:
-    """Return what the skill of the running step remembers now."""
+    """Return the notes of the running step's skill now."""
     kept = activity.notes if isinstance(activity, (Driving, Observing, AskingImage)) else None
     return kept if kept is not None else mission.notes
 
@@ -153,7 +153,7 @@ def pause_running(turn: Transaction, reason: str, cause: Cause = GoalFact.INTERR
 def yield_robot(
     turn: Transaction, mission: Mission, cause: Cause, reason: str | None, said: Outcome | None
 ) -> None:
-    """Leave the robot standing and free while a person is asked; who waits is kept waiting."""
+    """Leave the robot standing and free while a person is asked; queued goals are kept waiting."""
     turn.set(running=None, activity=None)
     turn.move_to(mission, cause, reason=reason, outcome=said)
     for mission_id in turn.book.queue:

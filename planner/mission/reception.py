@@ -1,4 +1,4 @@
-"""Receive a person's sentence: decide once, before any brain, what it is to the missions.
+"""Receive a person's sentence: decide once, before any brain, its role for the missions.
 
 The one door for text, voice, page, command line and the lockstep harness: whoever feeds the
 missions asks :func:`receive` and does what it says, a stop first of all. Pure; only
@@ -45,7 +45,7 @@ class Repeats:
     """Remember the newest keys of requests and the goals they made, as many as the journal does."""
 
     def __init__(self, kept: Iterable[GoalKey] = ()) -> None:
-        """Begin with what the journal kept, oldest first."""
+        """Begin with the journal's keys, oldest first."""
         self._keys = {each.key: each for each in kept}
 
     def find(self, key: str | None) -> GoalKey | None:
@@ -68,7 +68,7 @@ class Repeats:
 
 @dataclass(frozen=True, slots=True)
 class Reception:
-    """Say what is to be done with a sentence."""
+    """Hold the decision on a sentence."""
 
     given: Submitted
     stops: bool = False
@@ -93,7 +93,7 @@ def receive(
     key: str | None = None,
     repeats: Repeats | None = None,
 ) -> Reception:
-    """Return what is to be done with a sentence that came now.
+    """Return the decision on a sentence that came now.
 
     Args:
         book: where everything stands.
@@ -147,7 +147,7 @@ def _body_of(given: Submitted) -> str:
 
 @dataclass(frozen=True, slots=True)
 class AnswerReception:
-    """Say what is to be done with words that came as the answer to one goal's question."""
+    """Hold the decision on words that came as the answer to one goal's question."""
 
     refused: MissionError | None = None
     """The goal takes no answer now."""
@@ -164,7 +164,7 @@ class AnswerReception:
 def receive_answer(
     book: MissionState, said: Utterance, goal_id: str, now_s: float
 ) -> AnswerReception:
-    """Return what is to be done with words that came as the answer to a goal.
+    """Return the decision on words that came as the answer to a goal.
 
     What is said to the planner itself ("where are you", "hold on") is done beside the question,
     which stays open: no sentence that needs no proof is ever taken as the answer.
@@ -186,7 +186,7 @@ def receive_answer(
 
 
 def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
-    """Return whether these words would stop the robot now, whatever else they may mean."""
+    """Return whether these words would stop the robot now, with any other meaning besides."""
     return said.orders_stop or (said.may_mean_stop and is_active(book, now_s))
 
 

@@ -60,7 +60,7 @@ __all__ = ["AskBrain", "advance", "motion_request"]
 def advance(
     book: MissionState, event: Event, now_s: float
 ) -> tuple[MissionState, tuple[Effect, ...]]:
-    """Return the next book and what to ask of the world. Same arguments, same answer.
+    """Return the next book and the effects asked of the world. Same arguments, same answer.
 
     A command that the state doesn't allow changes nothing; ask ``allowed_commands.refusal`` why.
     """
@@ -75,7 +75,7 @@ def advance(
 
 
 def motion_request(book: MissionState) -> MotionRequest:
-    """Return what the bridge should be asked for now.
+    """Return the motion to ask of the bridge now.
 
     A grant may be asked for as soon as a mission that drives has the robot; a leg is streamed only
     once the step's beginning is on disk.

@@ -82,7 +82,7 @@ def _steps(plan: Plan | None, mission: Mission) -> tuple[StepRecord, ...] | None
 
 
 def _is_answer(mission: Mission) -> bool:
-    """Tell whether an answer that was neither yes nor no is what is thought about."""
+    """Return whether the brain thinks about an answer that was neither yes nor no."""
     return mission.current_step is not None and mission.current_step.kind == "ask"
 
 
@@ -121,7 +121,7 @@ def _no_steps(
 
 
 def _end(turn: Transaction, mission: Mission, cause: Cause, why: Outcome) -> None:
-    """End the goal; where a step had failed, that failure is what is told."""
+    """End the goal; where a step had failed, that failure is told."""
     if mission.failure is not None:
         give_up(turn, mission)
         return
@@ -156,7 +156,7 @@ ROAMS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point", "lo
 
 
 def needs_yes(facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | None:
-    """Return what a person is asked before these new steps are walked, or None.
+    """Return the question to a person before these new steps are walked, or None.
 
     ``new_place``: the person named where to go, or what to; a brain that found that shut must not
     choose another destination by itself, nor roam for what was not asked for. After an answer that
@@ -206,7 +206,7 @@ def _roams(step: StepRecord) -> bool:
 
 
 def _make_key(step: StepRecord) -> tuple[str, str, str | None, int | None, int | None]:
-    """Return what a step is after; a look round is the same whatever it is to answer."""
+    """Return a step's aim as a key; a look round is the same for any question."""
     what = (step.object or "").strip().casefold()
     if step.kind == "look":
         what = "round" if _roams(step) else "ahead"

@@ -82,7 +82,7 @@ class RouteAhead:
         return await self._router.route(request)
 
     async def close(self) -> None:
-        """Let go of what is being searched."""
+        """Let go of the search under way."""
         search = self._search
         self._drop()
         if search is not None:

@@ -32,7 +32,7 @@ def scene_of(
     gazed_s: float | None = None,
     answer: ImageAnswer | None = None,
 ) -> Scene:
-    """Return what the skill of the current step is told; ``gazed_s``: a gaze has just ended."""
+    """Return the inputs of the current step's skill; ``gazed_s``: a gaze has just ended."""
     activity = turn.book.activity
     began_s = activity.since_s if isinstance(activity, TIMED) else None
     since_s = began_s if began_s is not None else turn.now_s
@@ -68,7 +68,7 @@ _UNTIL = frozenset({"ask", "decide"})
 
 
 def upon_yes(facts: SiteView, mission: Mission) -> Bilingual | None:
-    """Return what the robot does next upon a yes to the question of the current step.
+    """Return the robot's next act upon a yes to the question of the current step.
 
     None where nothing moves before the next question or thought.
     """
@@ -83,7 +83,7 @@ def upon_yes(facts: SiteView, mission: Mission) -> Bilingual | None:
 
 
 def first_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual | None:
-    """Say what the first of these steps that may move the robot does; None where none moves."""
+    """Name the first of these steps that may move the robot; None where none moves."""
     step = next(filter(moves, steps), None)
     if step is None:
         return None

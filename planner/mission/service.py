@@ -1,4 +1,4 @@
-"""Take goals and commands in and answer for them: the door that the API uses, with what it shows.
+"""Take goals and commands in and answer for them: the API's door to the missions.
 
 Every call is judged against the book at once, journalled before it returns, and carried out by the
 loop. An order to stop is judged before anything else and waits for no brain and no disk.
@@ -183,7 +183,7 @@ class Missions:
         return self.goal(goal_id)
 
     def hears_stop(self, text: str) -> bool:
-        """Return whether these words would stop the robot now, whatever else they may mean."""
+        """Return whether these words would stop the robot now, with any other meaning besides."""
         return hears_stop(self.loop.book, parse(text), self._clocks.monotonic())
 
     def awaits_answer(self) -> bool:
@@ -191,7 +191,7 @@ class Missions:
         return awaits_answer(self.loop.book)
 
     async def _ensure_written(self, goal_id: str, request: GoalKey | None) -> None:
-        """Wait until a goal is written down; what can't be is taken back."""
+        """Wait until a goal is written down; take back one that can't be."""
         try:
             await self.loop.wait_written()
         except JournalDown:
@@ -257,7 +257,7 @@ class Missions:
 
     @property
     def failure(self) -> BaseException | None:
-        """Return what ended the mission loop, if something did: the process should end then."""
+        """Return the error that ended the mission loop, if one did: the process should end then."""
         return self.loop.failure
 
     @property

@@ -1,4 +1,4 @@
-"""Take from a site what the reducer needs of it, and what a brain may name."""
+"""Take the reducer's part of a site, and the names that a brain may use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Say in both languages where the robot is and what it does, from the bridge's facts. Pure."""
+"""Tell in both languages the robot's position and activity, from the bridge's facts. Pure."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _spot(facts: SiteView, pose: Pose2) -> Bilingual:
 
 
 def doing(book: MissionState, age_s: float, asking: str = "") -> Bilingual:
-    """Say what the robot does now; the goal that asks (``asking``) is not counted."""
+    """Tell the robot's activity now; the goal that asks (``asking``) is not counted."""
     motion = _motion(book.status, age_s)
     task = _task(book, asking)
     waiting = len([i for i in book.queue if i != asking])

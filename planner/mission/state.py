@@ -202,5 +202,5 @@ class MissionState:
 
     @property
     def means(self) -> Means:
-        """Return what the robot can do besides driving and talking, as its eyes are now."""
+        """Return the robot's means besides driving and talking, as its eyes are now."""
         return self.eyes.means(self.sight.blind)

@@ -85,7 +85,7 @@ def on_tick(turn: Transaction) -> None:
 def _measure(
     turn: Transaction, before: Status | None, status: Status, since_s: float, left_m: float | None
 ) -> None:
-    """Add up what odometry says, for how long the leg was followed, and what limited it."""
+    """Add up the odometry, the time that the leg was followed, and the limits met."""
     activity, mission = turn.book.activity, turn.running
     if activity is None or mission is None or mission.current_step is None:
         return

@@ -182,7 +182,7 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
 
 
 def _result(act: Finish) -> dict[str, object]:
-    """Return what a step that looks came to, for its record."""
+    """Return a looking step's result, for its record."""
     return {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
 
 

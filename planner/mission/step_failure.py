@@ -75,7 +75,7 @@ def _drop_leg(turn: Transaction, notes: Notes) -> None:
 
 
 def give_up(turn: Transaction, mission: Mission) -> None:
-    """End the running goal with what failed in it, where no way back is left to drive."""
+    """End the running goal with its failure, where no way back is left to drive."""
     why = mission.failure
     if why is not None and why.code in IN_VAIN and _go_back(turn, mission):
         return
@@ -111,7 +111,7 @@ def _go_back(turn: Transaction, mission: Mission) -> bool:
 
 
 def _append(before: Outcome, said: Bilingual) -> Outcome:
-    """Return a failure with what failed on the way back told after it."""
+    """Return a failure with the one on the way back told after it."""
     told = before.message
     both = say("step_failure.both", told=told, said=said)
     return Outcome(code=before.code, message=both)

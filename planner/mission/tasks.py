@@ -32,7 +32,7 @@ class RouteService(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Answers:
-    """Say where answers go, and what the lidar sees when a way round is wanted."""
+    """Name where answers go, and the lidar's points when a way round is wanted."""
 
     planned: Callable[[Planned], None]
     routed: Callable[[AskRoute, tuple[RoutePoint, ...] | None, str | None], None]

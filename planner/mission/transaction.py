@@ -73,7 +73,7 @@ class Transaction:
         return activity if isinstance(activity, Driving) else None
 
     def change(self, **changes: Any) -> None:
-        """Change fields of what the running step does, if it does anything."""
+        """Change fields of the running step's activity, if it has one."""
         activity = self.book.activity
         if activity is None:
             return

@@ -31,7 +31,7 @@ class PersonCause(StrEnum):
 
 
 class BrainCause(StrEnum):
-    """Name what a brain answers, and what is found in the plan that it made."""
+    """Name a brain's answers, and the faults found in its plan."""
 
     ANSWERS = "a brain answered in words"
     REFUSES = "a brain refused, or wrote no plan that can be carried out"

@@ -1,4 +1,4 @@
-"""Say what it costs the robot's centre to be in each cell. Knows the map, the fence and obstacles.
+"""Compute each cell's cost for the robot's centre. Knows the map, the fence and obstacles.
 
 Arrays are (rows, columns) like the map's cells: row 0 is the lowest y. A cell is blocked where the
 robot's disc would touch an obstacle or the unknown, or where its centre would leave the fence.
@@ -41,7 +41,7 @@ OWN_BODY_M = 0.20
 
 @dataclass(frozen=True)
 class Costmap:
-    """Hold clearance and cost for one moment: the map, or the map and what the lidar adds."""
+    """Hold clearance and cost for one moment: the map, or the map with the lidar's points."""
 
     grid: GridMap
     radius_m: float

@@ -1,4 +1,4 @@
-"""Define what is asked of the route search and what comes back. Data only: no numpy, no process."""
+"""Define the route search's request and result. Data only: no numpy, no process."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def dark(picture: Pixels) -> bool:
 
 
 def _brightness(picture: Pixels, share: float) -> float:
-    """Return what so many percent of a picture's pixels are darker than, by their largest channel.
+    """Return the brightness below which so many percent of pixels lie, by their largest channel.
 
     As numpy's percentile, which takes five times as long to find out what it was given.
     """

@@ -61,7 +61,7 @@ class PlacedDetection:
 
 
 def single(placed: Sequence[PlacedDetection]) -> list[PlacedDetection]:
-    """Return the placed, best first, without second boxes on what is one thing."""
+    """Return the placed, best first, without second boxes on one thing."""
     left: list[PlacedDetection] = []
     for p in sorted(placed, key=_rank):
         if not any(_same_box(kept, p) for kept in left):
@@ -147,7 +147,7 @@ def _sigma_now_m(thing: Thing, now_s: float) -> float:
 
 
 def _unlike(thing: Thing, p: PlacedDetection) -> float:
-    """Return what the colours add to the cost."""
+    """Return the colours' part of the cost."""
     kind = kind_of(p.label)
     if kind.mobile or thing.color is None or p.color is None or thing.color == p.color:
         return 0.0

@@ -86,7 +86,7 @@ class _PendingPicture:
 
 
 class Pictures:
-    """Keep the newest pictures and what is to be said of their kind."""
+    """Keep the newest pictures and the report on their kind."""
 
     def __init__(self, camera: Camera, rate_hz: float = 10.0) -> None:
         """Take pictures of a camera that is to send so many a second."""
@@ -116,7 +116,7 @@ class Pictures:
             self._depth = self._last = self._whole = self._first_s = None
 
     def is_settled(self, now_s: float) -> bool:
-        """Tell whether it is known by now what the camera gives: no use in waiting longer."""
+        """Return whether the camera's kind is known by now: no use in waiting longer."""
         if self._since_s is None or now_s - self._since_s >= FIRST_S or self._whole is not None:
             return True
         return self._first_s is not None and now_s - self._first_s >= DEPTH_WAIT_S
@@ -138,7 +138,7 @@ class Pictures:
         return "camera_frozen" if self._repeats >= FROZEN_AFTER else None
 
     def poll(self, now_s: float, *, busy: bool) -> None:
-        """Take what came. ``busy``: a look is under way, which is why a picture may be passed."""
+        """Take the messages. ``busy``: a look is under way, so a picture may be passed."""
         depth = self._camera.depth()
         if isinstance(depth, Image):
             self._depth = (depth, now_s)
@@ -197,7 +197,7 @@ class Pictures:
         self._heard.append(_PendingPicture(self._last, now_s))
 
     def _count_again(self, color: Image, now_s: float) -> None:
-        """Pass over a picture that shows what the one before did: of then, whatever its stamp."""
+        """Pass over a picture that repeats the one before, at any stamp."""
         self.skipped["frozen"] += 1
         if now_s - _taken_s(color, now_s) <= OLDEST_S:
             self._fresh_s = now_s  # it is frozen, not silent
@@ -206,7 +206,7 @@ class Pictures:
             self._heard = []
 
     def _pass(self, reason: str, now_s: float) -> None:
-        """Pass over what could have been handed out; what waits for its depth may still be."""
+        """Pass over pictures that could have been handed out; one waiting for its depth stays."""
         waiting = [heard for heard in self._heard if not self._ripe(heard, now_s)]
         self.skipped[reason] += len(self._heard) - len(waiting)
         self._heard = waiting

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Scenery:
-    """Hold what does not change from look to look."""
+    """Hold the constants from look to look."""
 
     site: Site
     camera: CameraConfig
@@ -38,7 +38,7 @@ def saw(
     detections: tuple[Detection, ...],
     stance: Stance | None,
 ) -> tuple[ObjectMemory, LookSnapshot]:
-    """Return what is remembered after one look, and the look. Without a pose nothing is learnt."""
+    """Return the memory after one look, and the look. Without a pose nothing is learnt."""
     header = picture.color.header
     named = tuple(replace(seen, label=canonical(seen.label)) for seen in detections)
     look = LookSnapshot(header.seq, picture.taken_s, None, header.width, header.height, named)

@@ -1,4 +1,4 @@
-"""Say what others ask of the eyes, and what the eyes ask of a detector. Protocols and data only.
+"""Define perception's interface, and its demands on a detector. Protocols and data only.
 
 Missions, routes and lockstep stand behind these, so that no test needs a camera or a model.
 """
@@ -50,7 +50,7 @@ class PointRefusal(Exception):
 
 
 class Eyes(Protocol):
-    """See. What is asked here answers at once, but for ``spot``."""
+    """Define perception for its users. All but ``spot`` answer at once."""
 
     @property
     def sight(self) -> Sight:
@@ -78,7 +78,7 @@ class Eyes(Protocol):
         """Say that somebody needs eyes now, or no longer: looks come at the full rate meanwhile."""
 
     async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
-        """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
+        """Return the point of the map at a point of a picture (x right, y down, each 0 to 1000).
 
         Raises:
             PointRefusal: nothing there can be driven up to.
@@ -90,14 +90,14 @@ class Detector(Protocol):
 
     @property
     def classes(self) -> tuple[str, ...]:
-        """Return the ids of what it can find; none until it is ready."""
+        """Return the ids of the known classes; none until it is ready."""
 
     async def look(self, color: Image, depth: Image | None) -> LookResult:
-        """Think upon one picture. Never raises for what a picture holds.
+        """Think upon one picture. Never raises for its content.
 
         Raises:
             VisionFailure: the detector itself is down, or there is none.
         """
 
     async def depth_at(self, depth: Image, u_px: float, v_px: float) -> float | None:
-        """Return what was measured around a pixel [m]; None where nothing was."""
+        """Return the depth measured around a pixel [m]; None where nothing was."""

@@ -1,4 +1,4 @@
-"""Put what was seen, and what sees, into the frames of the vision process. Pure."""
+"""Put detections and the detector's description into the vision process's frames. Pure."""
 
 from __future__ import annotations
 
@@ -35,5 +35,5 @@ def _detection(item: dict[str, Any]) -> Detection:
 
 
 def read_about(head: dict[str, Any] | None) -> DetectorInfo | None:
-    """Return what runs; None where no model does. Raises KeyError or TypeError."""
+    """Return the running detector; None without a model. Raises KeyError or TypeError."""
     return None if head is None else DetectorInfo(**{**head, "classes": tuple(head["classes"])})

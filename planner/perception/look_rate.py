@@ -25,7 +25,7 @@ REST_S = 1.0
 
 
 class Attention:
-    """Know who wants the eyes, since when they look and until when they rest."""
+    """Keep the eyes' users, since when they look and until when they rest."""
 
     def __init__(self, rate_hz: float, camera_hz: float) -> None:
         """Take the rate of looks while somebody needs eyes, and that of the camera."""

@@ -1,4 +1,4 @@
-"""Hold what is known by eye, tell it to who listens, and bring it to the disk. Looks at nothing."""
+"""Hold the map of objects, tell it to listeners, and bring it to the disk. Looks at nothing."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ AGING_S = 0.5
 
 
 class ObjectMap:
-    """Remember, and make the sight anew when something in it has changed."""
+    """Hold the objects and build the sight anew when one of them has changed."""
 
     def __init__(self, scenery: Scenery, store: ThingStore | None, blind: str | None) -> None:
         """Begin with nothing; ``blind``: why nothing is seen now, if so."""
@@ -52,15 +52,15 @@ class ObjectMap:
         self._listeners.append(told)
 
     async def load(self, now_s: float) -> None:
-        """Take up what an earlier process remembered; it is told with the next sight."""
+        """Take up an earlier process's objects; they are told with the next sight."""
         self._memory = recall(await self._keeper.load(now_s), now_s)
 
     async def close(self, now_s: float) -> None:
-        """Keep what is remembered."""
+        """Save the objects."""
         await self._keeper.close(self.sight.things, now_s)
 
     def mark_saved(self) -> None:
-        """Take what is told for what the disk holds."""
+        """Mark the current objects as saved."""
         self._keeper.mark_saved(self.sight.things, self.version)
 
     def keep(self, now_s: float) -> None:
@@ -68,13 +68,13 @@ class ObjectMap:
         self._keeper.keep(self.sight.things, self.version, now_s)
 
     def take(self, picture: Picture, result: LookResult, stance: Stance | None) -> None:
-        """Take in what a look found; it is told with the next sight."""
+        """Take in a look's findings; they are told with the next sight."""
         self._memory, self._look = saw(
             self._scenery, self._memory, picture, result.detections, stance
         )
 
     def age(self, now_s: float) -> bool:
-        """Let go of what time alone takes; say whether anything went."""
+        """Forget the objects that time alone takes; return whether any went."""
         if now_s - self._aged_s < AGING_S:
             return False
         self._aged_s, before = now_s, self._memory
@@ -82,7 +82,7 @@ class ObjectMap:
         return self._memory is not before
 
     def forget(self, thing_id: str | None) -> tuple[Thing, ...]:
-        """Forget one thing, or all; return what was forgotten."""
+        """Forget one thing, or all; return the forgotten ones."""
         before = self._memory
         self._memory = forget(before, thing_id)
         left = {thing.id for thing in self._memory.things}

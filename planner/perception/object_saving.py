@@ -1,4 +1,4 @@
-"""Bring what is remembered to the disk now and then, in a thread, never two at a time."""
+"""Save the objects now and then, in a thread, never two at a time."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ class Keeper:
         self._things: tuple[Thing, ...] = ()
 
     async def load(self, now_s: float) -> tuple[Thing, ...]:
-        """Return what an earlier process remembered."""
+        """Return the objects that an earlier process remembered."""
         if self._store is None:
             return ()
         return await asyncio.to_thread(self._store.load, now_s)
 
     def mark_saved(self, things: tuple[Thing, ...], version: int) -> None:
-        """Take note of what the disk holds."""
+        """Note the objects that the disk holds."""
         self._things, self._version = things, version
 
     def keep(self, things: tuple[Thing, ...], version: int, now_s: float) -> None:

@@ -101,7 +101,7 @@ class ThingStore:
         return tuple(_from_stored(thing, now_s, offset_s) for thing in kept.things)
 
     def save(self, things: tuple[Thing, ...], now_s: float) -> bool:
-        """Put these in place of what was kept; say whether they are on the disk."""
+        """Put these in place of the stored ones; return whether they are on the disk."""
         offset_s = self._wall() - now_s
         kept = StoredThings(
             map_id=self._map_id, things=tuple(_to_stored(thing, offset_s) for thing in things)

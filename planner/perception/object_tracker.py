@@ -1,4 +1,4 @@
-"""Remember what was seen, and forget what is no longer where it was. Pure: told looks and the time.
+"""Track seen things, and forget those no longer in place. Pure: told looks and the time.
 
 Laws: nothing is remembered from one weak look alone; one thing is told once, however many boxes lie
 on it, and no two large things stand in each other; what should have been seen and was not loses
@@ -52,7 +52,7 @@ WALKED_AWAY_S = 60.0
 
 @dataclass(frozen=True, slots=True)
 class ThingTrack:
-    """Hold one thing with what only memory needs of it."""
+    """Hold one thing with its tracking record."""
 
     thing: Thing
     looks: int = 1
@@ -74,7 +74,7 @@ class ObjectMemory:
 
     @property
     def things(self) -> tuple[Thing, ...]:
-        """Return what is sure enough to be told."""
+        """Return the things that are sure enough to be told."""
         return tuple(kept.thing for kept in self.kept if kept.sure)
 
 
@@ -84,7 +84,7 @@ def remember(
     expected: Callable[[Thing], bool],
     now_s: float,
 ) -> tuple[ObjectMemory, dict[int, str]]:
-    """Take one look; return what is remembered then, and the thing's id of each placed index.
+    """Take one look; return the memory then, and the thing's id of each placed index.
 
     Args:
         before: what was remembered.
@@ -117,7 +117,7 @@ def remember(
 
 
 def aged(before: ObjectMemory, now_s: float) -> ObjectMemory:
-    """Forget what time alone takes: who walked away, what was never confirmed."""
+    """Forget the objects that time alone takes: people who walked away, unconfirmed things."""
     left = tuple(kept for kept in before.kept if not _is_over(kept, now_s))
     return before if len(left) == len(before.kept) else replace(before, kept=left)
 
@@ -129,7 +129,7 @@ def forget(before: ObjectMemory, thing_id: str | None) -> ObjectMemory:
 
 
 def recall(things: Iterable[Thing], now_s: float) -> ObjectMemory:
-    """Begin with what an earlier process remembered."""
+    """Begin with an earlier process's objects."""
     kept = tuple(
         ThingTrack(thing, LOOKS, sure=True, votes=((thing.color, 1.0),) if thing.color else ())
         for thing in things
@@ -174,7 +174,7 @@ def _update(kept: ThingTrack, p: PlacedDetection, now_s: float) -> ThingTrack:
 
 
 def _is_enough(p: PlacedDetection) -> bool:
-    """Say whether one sighting is enough: of what is cut off, many things look alike."""
+    """Return whether one sighting is enough: cut off at the edge, many things look alike."""
     return p.whole and p.score >= STRONG
 
 

@@ -1,4 +1,4 @@
-"""Keep count of what changed among the things that are known, for who asks since when."""
+"""Count the changes among the known things, for a client that asks since when."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class Changes:
-    """Compare what was known with what is."""
+    """Compare the things known before with those of now."""
 
     def __init__(self) -> None:
         self.version = 0
@@ -20,7 +20,7 @@ class Changes:
         """When each thing was last seen or doubted."""
 
     def note(self, old: Things, new: Things, now_s: float) -> None:
-        """Take what is known now in place of what was."""
+        """Take the things known now in place of the former ones."""
         before = {thing.id: thing for thing in old}
         for thing in new:
             if before.get(thing.id) is not thing:

@@ -1,4 +1,4 @@
-"""See, as the planner does it: newest picture to the detector, what comes back to map and memory.
+"""Run perception: newest picture to the detector, its detections to map and memory.
 
 One look at a time, on the event loop, which it never holds for long: thinking is the detector's
 process, the disk a thread's. Whatever becomes of camera or detector, this says why it is blind, and
@@ -144,7 +144,7 @@ class Sightseer:
                 await asyncio.sleep(POLL_S)
 
     async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
-        """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
+        """Return the point of the map at a point of a picture (x right, y down, each 0 to 1000).
 
         Raises:
             PointRefusal: nothing there can be driven up to.
@@ -163,7 +163,7 @@ class Sightseer:
         return point_on_map(view, means.scenery.site, x, y, depth_m)
 
     def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]:
-        """Forget one thing, or all; return what was forgotten."""
+        """Forget one thing, or all; return the forgotten ones."""
         forgotten = self._known.forget(thing_id)
         self._tell()
         return forgotten
@@ -171,7 +171,7 @@ class Sightseer:
     # Life --------------------------------------------------------------------------------------
 
     async def start(self) -> None:
-        """Take up what was remembered, and begin to look."""
+        """Take up the saved objects, and begin to look."""
         await self._known.load(self._clock())
         self._tell()
         self._known.mark_saved()
@@ -179,7 +179,7 @@ class Sightseer:
             self._open(0.0)
 
     async def close(self) -> None:
-        """End all looking, and keep what is remembered."""
+        """End all looking, and save the objects."""
         running, self._task = self._task, None
         tasks = [t for t in (running, self._thinking) if t is not None]
         for task in tasks:
@@ -272,7 +272,7 @@ class Sightseer:
         self._tell()
 
     def _finish_look(self, task: asyncio.Task[None]) -> None:
-        """Free the place for the next look; say what no one foresaw."""
+        """Free the place for the next look; log an unforeseen error."""
         self._thinking = None
         if not task.cancelled() and (error := task.exception()) is not None:
             self.counts["look_broken"] += 1

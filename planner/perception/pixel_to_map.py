@@ -29,7 +29,7 @@ def pixel(view: View, x: float, y: float) -> tuple[float, float]:
 
 
 def point_on_map(view: View, site: Site, x: float, y: float, depth_m: float | None) -> MapPoint:
-    """Return what lies at a point of a picture (x right, y down, each 0 to 1000).
+    """Return the point of the map at a point of a picture (x right, y down, each 0 to 1000).
 
     Raises:
         PointRefusal: it shows no floor and nothing that stands on free floor.

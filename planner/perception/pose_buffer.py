@@ -49,7 +49,7 @@ class Stance:
 
 
 class Poses:
-    """Keep what odometry and localization said lately."""
+    """Keep the latest messages of odometry and localization."""
 
     def __init__(self, map_id: str) -> None:
         self._map_id = map_id

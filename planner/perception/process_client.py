@@ -59,7 +59,7 @@ class VisionWorker(SupervisedWorker):
 
     @property
     def classes(self) -> tuple[str, ...]:
-        """Return the ids of what it can find; none until it is ready, and none without a model."""
+        """Return the ids of the known classes; none until it is ready, and none without a model."""
         return () if self.about is None else tuple(filter(None, self.about.classes))
 
     async def start(self, timeout_s: float = READY_S) -> None:
@@ -127,7 +127,7 @@ class VisionWorker(SupervisedWorker):
     async def depth_at(
         self, depth: Image, u_px: float, v_px: float, timeout_s: float = LOOK_S
     ) -> float | None:
-        """Return what was measured around a pixel [m]; None where nothing was.
+        """Return the depth measured around a pixel [m]; None where nothing was.
 
         Raises:
             VisionFailure: ``detector_down`` or ``detector_timed_out``.
@@ -147,7 +147,7 @@ class VisionWorker(SupervisedWorker):
 
 
 def settings_text(settings: VisionSettings) -> str:
-    """Return what the process is told of the settings."""
+    """Return the process's part of the settings."""
     path = settings.model
     if path is None and DEFAULT_MODEL.is_file():
         path = DEFAULT_MODEL

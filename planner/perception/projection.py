@@ -1,4 +1,4 @@
-"""Put what a picture shows onto the map. Pure maths; never NaN: what does not work out is None.
+"""Project pixels onto the map. Pure maths; never NaN: an impossible result is None.
 
 Camera frame (``wire.CameraConfig``): on ``base`` at x, y, z, turned by yaw, pitched down by pitch,
 never rolled. Pinhole (``wire.ImageHeader``): a pixel (u, v) at depth d along the optical axis lies
@@ -181,7 +181,7 @@ def _spot(
 
 
 def cut_off(view: View, seen: Detection) -> bool:
-    """Tell whether a box reaches the picture's edge: who knows how much of the thing it shows?"""
+    """Return whether a box reaches the picture's edge: it may show only a part of the thing."""
     left, top, right, bottom = seen.box
     inside_x = left > EDGE_PX and right < view.header.width - EDGE_PX
     return not (inside_x and top > EDGE_PX and bottom < view.header.height - EDGE_PX)

@@ -1,4 +1,4 @@
-"""Own what the vision process answers: one picture's detections, and what it runs. Data only."""
+"""Own the vision process's answers: one picture's detections, and its setup. Data only."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from planner.perception.snapshot import Detection
 
 @dataclass(frozen=True, slots=True)
 class LookResult:
-    """Hold what was found in one picture, or why it was skipped."""
+    """Hold the detections in one picture, or why it was skipped."""
 
     detections: tuple[Detection, ...]
     width: int

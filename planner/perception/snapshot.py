@@ -1,4 +1,4 @@
-"""Own what eyes report: detections in a picture, things on the map, one look as a whole. Data only.
+"""Own the eyes' reports: detections in a picture, things on the map, one look whole. Data only.
 
 Pixels: x right, y down, from the picture's upper left corner. Positions: metres in ``map``. Times:
 ``*_s`` on this planner's monotonic clock. No numpy: missions and routes read these too.
@@ -76,7 +76,7 @@ class LookSnapshot:
 
 @dataclass(frozen=True, slots=True)
 class Sight:
-    """Say what is known by eye now: the newest look and all that is remembered."""
+    """Hold perception's knowledge now: the newest look and all remembered things."""
 
     look: LookSnapshot | None = None
     things: tuple[Thing, ...] = ()

@@ -1,4 +1,4 @@
-"""Say what may be planned: the closed vocabulary of plans, steps, outcomes, places and goals."""
+"""Define the planning vocabulary: plans, steps, outcomes, places and goals. Closed."""
 
 from planner.plan.base import Bilingual, Frozen, Language, say_same
 from planner.plan.check import (

@@ -27,7 +27,7 @@ POINTS = frozenset({"go_to_point"})
 
 
 class Means(Frozen):
-    """Say what a robot has beyond wheels and a voice."""
+    """Hold the robot's parts beyond wheels and a voice."""
 
     camera: bool = False
     detector: bool = False  # recognises what the camera shows
@@ -48,11 +48,11 @@ class Means(Frozen):
 
     @property
     def blind(self) -> Code:
-        """Return what is said of a step that needs eyes and can't be done."""
+        """Return the message on a step that needs eyes and can't be done."""
         return Code.NO_DETECTOR if self.camera else Code.NO_CAMERA
 
     def lacks(self, kind: str) -> Code | None:
-        """Return what is missing for a kind of step, or None where nothing is."""
+        """Return the part missing for a kind of step, or None where nothing is."""
         if kind in self.runnable:
             return None
         return self.blind if kind in NEEDS_CAMERA else Code.NO_CAPABILITY
@@ -79,7 +79,7 @@ class PlanRejection(Frozen):
 
     @property
     def first(self) -> Reason:
-        """Return what a person must hear first: what no repair can mend."""
+        """Return the reason that a person must hear first: one that no repair can mend."""
         return next((reason for reason in self.reasons if not reason.repairable), self.reasons[0])
 
     @property
@@ -148,5 +148,5 @@ def _unknown(
 
 
 def lacking(step: Step | StepRecord, blind: Code = Code.NO_CAMERA) -> Code:
-    """Name what the robot lacks for a step that it can't run; ``blind``: what its eyes lack."""
+    """Name the robot's lack for a step that it can't run; ``blind``: its eyes' lack."""
     return blind if step.kind in NEEDS_CAMERA else Code.NO_CAPABILITY

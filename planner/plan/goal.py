@@ -62,7 +62,7 @@ class StepState(StrEnum):
 
 
 class Found(Frozen):
-    """Show a thing that was seen: what, where in `map` [m], how far away, how long ago."""
+    """Show a thing that was seen: its kind, its point in `map` [m], how far away, how long ago."""
 
     label: str
     color: str | None = None
@@ -75,7 +75,7 @@ class Found(Frozen):
 
 
 class StepRecord(Frozen):
-    """Show one step: what it asks, where it stands, what was reached and why not."""
+    """Show one step: its request, its state, its result and why not."""
 
     kind: str
     place: str | None = None
@@ -129,7 +129,7 @@ class BrainTag(Frozen):
 
 
 class Goal(Frozen):
-    """Show a goal whole: what was said, what was understood, where it stands, how it ended."""
+    """Show a goal whole: the sentence, its reading, its state, how it ended."""
 
     id: str
     text: str

@@ -22,7 +22,7 @@ class Spot(Frozen):
 
 
 class Outcome(Frozen):
-    """Tell how a goal ended, with what was asked, what was reached and what limited it."""
+    """Tell how a goal ended, with the request, the result and the limits."""
 
     code: Code
     message: Bilingual

@@ -31,7 +31,7 @@ class AnswerPlan(Frozen):
 
 
 class Option(Frozen):
-    """Offer one reply to a question: what the button says, and the sentence it stands for."""
+    """Offer one reply to a question: the button's text, and the sentence it stands for."""
 
     label: Bilingual
     text: str = Field(min_length=1, max_length=2000)

@@ -18,7 +18,7 @@ Alias = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, ma
 
 
 class Entry(Frozen):
-    """Name one room or place: its id, its name in both languages and what else it is called."""
+    """Name one room or place: its id, its name in both languages and its other names."""
 
     id: PlaceId
     kind: Literal["room", "place"]
@@ -34,7 +34,7 @@ class Entry(Frozen):
 
 
 class Vocabulary(Frozen):
-    """List what exists. An id occurs once; a spelling may be shared, and is then ambiguous."""
+    """List the site's names. An id occurs once; a spelling may be shared, and is then ambiguous."""
 
     entries: tuple[Entry, ...] = ()
 

@@ -1,4 +1,4 @@
-"""Own what the owner may set about spending: limits per goal and per day, and what tokens cost.
+"""Own the owner's settings about spending: limits per goal and per day, and the price of tokens.
 
 Data only. A model is asked within these limits or not at all; there is no way to have none.
 """
@@ -20,7 +20,7 @@ class _Table(BaseModel):
 
 
 class Price(_Table):
-    """Say what a million tokens cost, in any one currency."""
+    """Give the price of a million tokens, in any one currency."""
 
     prompt_per_million: Amount = 0.0
     reply_per_million: Amount = 0.0
@@ -28,7 +28,7 @@ class Price(_Table):
 
 
 class GoalLimits(_Table):
-    """Limit what one goal may spend, from its first thought to its end."""
+    """Limit one goal's expense, from its first thought to its end."""
 
     calls: Count = 12
     prompt_tokens: Count = 60_000
@@ -40,7 +40,7 @@ class GoalLimits(_Table):
 
 
 class DayLimits(_Table):
-    """Limit what one day may spend, from midnight to midnight UTC."""
+    """Limit one day's expense, from midnight to midnight UTC."""
 
     calls: Count = 2_000
     prompt_tokens: Count = 6_000_000
@@ -53,7 +53,7 @@ Limits = GoalLimits | DayLimits
 
 
 class BudgetSettings(_Table):
-    """Hold what may be spent."""
+    """Hold the spending limits."""
 
     goal: GoalLimits = GoalLimits()
     day: DayLimits = DayLimits()

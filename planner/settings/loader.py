@@ -1,4 +1,4 @@
-"""Load the owner's settings once, at the start. What is unknown or contradictory refuses to start.
+"""Load the owner's settings once, at the start. Unknown or contradictory ones refuse to start.
 
 Nothing but a model setting switches a model on: `[model]` in settings.toml, PONS_MODEL_URL or
 PONS_MODEL_PRESET. Keys that other programs use (OPENAI_API_KEY and the like) are never looked at.
@@ -66,7 +66,7 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
 
 
 def find_exposed(home: Path) -> list[str]:
-    """Say what of the settings others may change, or read though it is a key; mostly nothing.
+    """List the settings that others may change, or read though they are a key; mostly none.
 
     Raises:
         ConfigError: ``settings_unreadable``, ``settings_malformed``.
@@ -213,7 +213,7 @@ def _place(model: dict[str, Any]) -> str:
 
 
 def same_place(one: str, other: str) -> bool:
-    """Tell whether two URLs lead to one scheme, host and port; what is no URL leads nowhere."""
+    """Return whether two URLs lead to one scheme, host and port; a text that is no URL does not."""
     try:
         a, b = urlsplit(one), urlsplit(other)
         return (a.scheme, a.hostname, a.port) == (b.scheme, b.hostname, b.port)

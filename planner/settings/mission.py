@@ -1,4 +1,4 @@
-"""Own what the owner may set about goals: how far one may go by itself before a person is asked.
+"""Own the owner's settings about goals: how far one may go by itself before a person is asked.
 
 Data only; ``planner.mission.Rules`` is made of it, with the same names and meanings.
 """
@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 
 class MissionSettings(BaseModel):
-    """Bound what one goal may do by itself."""
+    """Bound one goal's own deeds."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, hide_input_in_errors=True

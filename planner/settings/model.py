@@ -1,4 +1,4 @@
-"""Own what the owner may set about the model: where it is, how to ask it, and with which key.
+"""Own the owner's settings about the model: where it is, how to ask it, and with which key.
 
 Data only. A key never shows: not in a repr, not in a dump, not in an error.
 """
@@ -75,7 +75,7 @@ class ModelSettings(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _with_preset(cls, given: Any) -> Any:
-        """Fill in what the preset knows; a name that is none is told by the field itself."""
+        """Fill in the preset's fields; an unknown name is refused by the field itself."""
         preset = known_as(given.get("preset")) if isinstance(given, dict) else None
         if preset is None:
             return given
@@ -98,7 +98,7 @@ class ModelSettings(BaseModel):
 
     @property
     def known_preset(self) -> Preset | None:
-        """Return what is known of the server, where a preset is named."""
+        """Return the server's preset, where one is named."""
         return PRESETS[self.preset] if self.preset is not None else None
 
 

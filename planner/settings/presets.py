@@ -1,4 +1,4 @@
-"""List the servers that are known by name: where they listen and what they take. Data only.
+"""List the servers known by name: their address and their capabilities. Data only.
 
 A preset saves typing and a few refused calls; it switches nothing on. `[model]` must name it, with
 a model and, for a server elsewhere, with `allow_offhost` and a key of its own: the variables that

@@ -1,4 +1,4 @@
-"""Own what the owner may set about seeing: which detector, how often, with how much of the machine.
+"""Own the owner's settings about seeing: which detector, how often, with how much of the machine.
 
 Data only. Nothing set is a choice too: the model that comes with Pons, where it is there.
 """
@@ -18,7 +18,7 @@ ProviderName = Literal["tensorrt", "cuda", "openvino", "coreml", "cpu"]
 
 
 class VisionSettings(BaseModel):
-    """Say what looks at the camera's pictures."""
+    """Hold the owner's settings of the detector and its rate."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, hide_input_in_errors=True

@@ -23,7 +23,7 @@ PLACE_M = 0.25
 
 
 class FenceRefusal(Exception):
-    """A proposal can't be; ``code`` is stable, the text says what came and what was expected."""
+    """Refuse a fence proposal; ``code`` is stable, the text gives the value and the expectation."""
 
     def __init__(self, code: str, detail: str) -> None:
         super().__init__(f"{code}: {detail}")

@@ -1,4 +1,4 @@
-"""Say what a fence changes against another: square metres gained and lost, and in which rooms.
+"""Compare a fence with another: square metres gained and lost, and in which rooms.
 
 Cuts both into horizontal strips; along a strip's middle line the spans are exact. Knows outlines
 and rooms; no files, no robot.
@@ -25,7 +25,7 @@ Span = tuple[float, float]
 
 
 class RoomChange(SiteRecord):
-    """Tell what becomes allowed and what forbidden in one room."""
+    """Give the areas that become allowed and forbidden in one room."""
 
     room: str
     added_m2: float
@@ -33,7 +33,7 @@ class RoomChange(SiteRecord):
 
 
 class FenceDiff(SiteRecord):
-    """Tell what becomes allowed and what forbidden for the robot's centre."""
+    """Give the areas that become allowed and forbidden for the robot's centre."""
 
     added_m2: float
     removed_m2: float

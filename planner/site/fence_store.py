@@ -33,7 +33,7 @@ State = Literal["proposed", "accepted", "rejected"]
 
 
 class FenceProposal(SiteRecord):
-    """Hold one proposal and what became of it."""
+    """Hold one proposal and the decision on it."""
 
     id: Fingerprint
     text: str
@@ -112,7 +112,7 @@ class FenceProposals:
         raise FenceRefusal("unknown_fence_proposal", f"no proposal {name!r}; there are: {known}")
 
     def decide(self, name: str, state: State, by: str, reason: str | None = None) -> FenceProposal:
-        """Write down what became of one.
+        """Write down the decision on a proposal.
 
         Raises:
             FenceRefusal: ``unknown_fence_proposal``.

@@ -1,4 +1,4 @@
-"""Read the rooms and places of a site and what people call them. Knows no map and no fence."""
+"""Read the rooms and places of a site and people's names for them. Knows no map and no fence."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ def edges(polygon: Polygon) -> Iterator[tuple[Point, Point]]:
 
 
 def area_m2(polygon: Polygon) -> float:
-    """Return the area enclosed (shoelace formula), whatever the winding."""
+    """Return the area enclosed (shoelace formula), of either winding."""
     return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in edges(polygon))) / 2
 
 

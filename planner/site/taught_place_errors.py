@@ -33,7 +33,7 @@ class PlaceRefusal(Exception):
     """Refuse to teach or to forget; nothing changed."""
 
     def __init__(self, code: str, detail: str = "") -> None:
-        """Keep the code and the sentence: what came, what was expected, what exists."""
+        """Keep the code and the sentence: the value, the expectation, the choices."""
         self.why = say(f"taught_place.{code}")
         en = self.why.en
         super().__init__(f"{code}: {en}" + (f" ({detail})" if detail else ""))

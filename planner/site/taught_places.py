@@ -67,7 +67,7 @@ class TaughtPlaces:
         return cls(database or StateDatabase(home), home / FILE)
 
     def load(self) -> tuple[TaughtPlace, ...]:
-        """Return what was taught; nothing where nothing ever was.
+        """Return the taught places; none where nothing ever was taught.
 
         Raises:
             SiteError: a file or a row can't be read or is not ours. It is never passed over: what a
@@ -85,7 +85,7 @@ class TaughtPlaces:
         return tuple(parse_json(record.encode(), TaughtPlace, path) for (record,) in rows)
 
     def save(self, places: tuple[TaughtPlace, ...]) -> None:
-        """Put these in place of what was taught; either all of it is on disk, or nothing changed.
+        """Put these in place of the taught ones; either all are on disk, or nothing changed.
 
         Raises:
             PlaceRefusal: ``disk_full`` or ``places_unwritable``.

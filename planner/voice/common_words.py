@@ -1,4 +1,4 @@
-"""Own the everyday English words that a robot overhears: what an order must sound better than.
+"""Own the everyday English words that a robot overhears: an order must sound better than they do.
 
 Not what may be said to it, only what else may be said near it. Words of every length and sound
 matter more here than words of any meaning.

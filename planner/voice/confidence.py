@@ -1,4 +1,4 @@
-"""Doubt what a grammar search found: it always finds the order that fits best, whatever was said.
+"""Doubt a grammar search's result: it always finds the order that fits best, of any sound.
 
 The same samples are decoded twice more, freely: as phones, which fit anything, and as everyday
 words. An order is believed where no word of it fits much worse than the words that would have been
@@ -41,7 +41,7 @@ Timed = tuple[str, float, int, int]
 
 @dataclass(frozen=True, slots=True)
 class DecoderResult:
-    """Hold what one search made of the samples."""
+    """Hold one search's result over the samples."""
 
     text: str
     score: float

@@ -1,4 +1,4 @@
-"""Own how words sound: the model's dictionary and what it lacks, cut down to the words in use.
+"""Own the words' sounds: the model's dictionary and its gaps, cut down to the words in use.
 
 A decoder prepares every search for every word that it knows, used or not: with all 135 000 each
 start took a second of a processor more. Pure but for reading the file.

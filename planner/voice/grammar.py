@@ -1,4 +1,4 @@
-"""Own what may be said: the orders as a JSGF grammar, and the same as a pattern. Pure.
+"""Own the spoken orders: as a JSGF grammar, and the same as a pattern. Pure.
 
 The orders are forms that the offline brain reads; the decoys are what people also say near a robot
 and what must not be bent into an order. A decoder may return a sentence's beginning where the end
@@ -82,7 +82,7 @@ ANSWERS = _file(any_of(*_ANSWERS, *_NEAR_ANSWERS))
 
 @dataclass(frozen=True, slots=True)
 class SpokenLanguage:
-    """Hold what may be said on one site."""
+    """Hold the spoken orders of one site."""
 
     jsgf: str
     orders: re.Pattern[str]
@@ -107,7 +107,7 @@ def is_stop(transcript: str) -> bool:
 
 
 def language_of(names: Sequence[str], pronounced: Callable[[str], bool]) -> SpokenLanguage:
-    """Return what may be said about places with these names.
+    """Return the language of orders about places with these names.
 
     ``pronounced`` tells whether the decoder knows how a word sounds.
     """

@@ -1,4 +1,4 @@
-"""Run the recogniser in another process and keep one at hand. Knows pipes; not what is said.
+"""Run the recogniser in another process and keep one at hand. Knows pipes; not words.
 
 Started ahead of the first recording and again after a death, by whoever asks next. Whatever becomes
 of it, a caller gets an answer or a typed failure in bounded time.
@@ -66,7 +66,7 @@ class VoiceWorker:
         await self._warm()
 
     async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
-        """Return what was heard; ``awaits_answer`` says that a question waits for a yes or no.
+        """Return the recognition; ``awaits_answer``: a question waits for a yes or no.
 
         Raises:
             VoiceFailure: ``recogniser_unavailable``, ``voice_busy`` or ``voice_timed_out``.

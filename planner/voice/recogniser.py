@@ -1,4 +1,4 @@
-"""Own what a recogniser is: one recording in, a text with a confidence out. Knows no engine.
+"""Define a recogniser: one recording in, a text with a confidence out. Knows no engine.
 
 Another recogniser (for Chinese, say) takes the place of the built-in one by this Protocol alone.
 """
@@ -18,7 +18,7 @@ three (docs/adr/0013)."""
 
 @dataclass(frozen=True, slots=True)
 class Recognition:
-    """Hold what was heard. Only an ``understood`` text may become a goal."""
+    """Hold a transcript. Only an ``understood`` one may become a goal."""
 
     transcript: str
     """What was said, as far as it was heard; empty for silence."""
@@ -46,7 +46,7 @@ class Recogniser(Protocol):
     """Hear recordings, one at a time, without holding the event loop."""
 
     async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
-        """Return what was heard; ``awaits_answer`` says that a question waits for a yes or no.
+        """Return the recognition; ``awaits_answer``: a question waits for a yes or no.
 
         Raises:
             VoiceFailure: ``recogniser_unavailable``, ``voice_busy`` or ``voice_timed_out``.

@@ -81,7 +81,7 @@ class Sphinx:
     def hear(
         self, pcm: bytes, rate_hz: int, channels: int, *, awaits_answer: bool = False
     ) -> Recognition:
-        """Return what was said and how sure that is. Same bytes, same answer, whatever came before.
+        """Return the transcript and its confidence. Same bytes, same answer, after any other call.
 
         A yes or no is looked for only where ``awaits_answer`` says that a question waits for one.
 
@@ -98,7 +98,7 @@ class Sphinx:
         return heard
 
     def _order_or_stop(self, recording: _Recording) -> tuple[Recognition, DecoderResult | None]:
-        """Return what the orders and the stops make of it, and the everyday words found in it."""
+        """Return the reading as an order or a stop, and the everyday words found in it."""
         samples, frames = recording.samples, recording.frames
         with (
             ForkedJob(lambda: _decode(self._free, "words", samples)) as spoken,
@@ -123,7 +123,7 @@ class Sphinx:
         return heard, free
 
     def _other_stop(self, recording: _Recording, words: DecoderResult | None) -> Recognition | None:
-        """Look once more at what was no order for other ways to say stop, or return None.
+        """Look once more at samples without an order for other ways to say stop, or return None.
 
         They are believed only where everyday words don't tell the sound better and where it is as
         short as they are: "bring me a cup of tea" was heard as "freeze" (docs/adr/0013).
@@ -231,7 +231,7 @@ def _silent_between(order: DecoderResult, samples: bytes) -> bool:
 
 
 def _trim(order: DecoderResult | None) -> DecoderResult | None:
-    """Drop a short "and" or "then" at the end: what a decoder makes of a last breath.
+    """Drop a short "and" or "then" at the end: a decoder's reading of a last breath.
 
     The frames stay in the whole sentence's score, so words that were said there still tell.
     """

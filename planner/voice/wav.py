@@ -1,4 +1,4 @@
-"""Read a WAV's header and judge it before a sample is touched. Knows bytes; not what is said.
+"""Read a WAV's header and judge it before a sample is touched. Knows bytes; not words.
 
 The standard library's `wave` believes a header's sizes and refuses by exceptions of many kinds;
 here every number is compared with the bytes that came, and each refusal has its code.

@@ -1,4 +1,4 @@
-"""Say why a calibration ends without a result: a stable code, English and Chinese, what to do."""
+"""Name why a calibration ends without a result: a stable code, English and Chinese, the remedy."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class CalibrationRefusal(Exception):
         self.detail = detail
 
     def lines(self) -> list[str]:
-        """Return what a person reads."""
+        """Return the text for a person."""
         english, chinese = WORDS[self.code]
         head = f"{self.code}: {self.detail}" if self.detail else self.code
         return [head, f"  {english}", f"  {chinese}"]

@@ -50,7 +50,7 @@ class StraightRun:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationFinding:
-    """Give one value, what it rests on, and what it was."""
+    """Give one value, its evidence, and the former one."""
 
     table: str
     key: str
@@ -187,7 +187,7 @@ def gains(response_s: float, transport_s: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True)
 class _Evidence:
-    """Word what a value rests on."""
+    """Word the evidence of a value."""
 
     when: str
 
@@ -200,7 +200,7 @@ class _Evidence:
         )
 
     def by_rule(self, response_s: float) -> str:
-        """Give what a gain was derived from."""
+        """Give the source that a gain was derived from."""
         return f"calibrated {self.when}: derived from a motor of {response_s:.3f} s and its delay"
 
 

@@ -1,4 +1,4 @@
-"""Find a motor's dead zone, gain and lag, and how it brakes, in what one straight run recorded.
+"""Find a motor's dead zone, gain and lag, and its braking, in one straight run's recording.
 
 The model is the one that wheel control feeds forward: what is told, less the dead zone, times a
 gain, through a first-order lag and whole ticks of delay. Pure arithmetic on ticks; knows no wire.
@@ -39,7 +39,7 @@ class Motor:
 
 
 def plateau(ticks: Sequence[TrackTick], wheel: int, begin: int, end: int) -> tuple[float, float]:
-    """Return the mean of what a wheel was told and of what it did between two ticks [rad/s].
+    """Return the means of a wheel's commanded and real speed between two ticks [rad/s].
 
     Raises:
         RunLost: too few ticks were heard there.
@@ -67,7 +67,7 @@ def statics(slow: tuple[float, float], fast: tuple[float, float]) -> tuple[float
 
 
 def fit_motor(ticks: Sequence[TrackTick], wheel: int, dead_zone_radps: float, gain: float) -> Motor:
-    """Return the lag and delay with which the model comes nearest to what the wheel did."""
+    """Return the lag and delay with which the model comes nearest to the wheel's motion."""
     told = [_beyond_dead_zone(tick.told[wheel], dead_zone_radps, gain) for tick in ticks]
     did = [None if tick.did is None else tick.did[wheel] for tick in ticks]
     best = (float("inf"), SHORTEST_LAG_S, 0)

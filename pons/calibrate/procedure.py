@@ -50,7 +50,7 @@ _AFTERMATH = {"not_armed", "fault", "no_room"}
 
 @dataclass(frozen=True, slots=True)
 class CalibrationPlan:
-    """Say what is wanted."""
+    """Hold the options of a calibration."""
 
     reference: str | None
     """None: truth where a simulator tells it, else the lidar."""

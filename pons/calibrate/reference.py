@@ -36,7 +36,7 @@ FINE_RAD = 0.0005
 
 @dataclass(frozen=True, slots=True)
 class WallLook:
-    """Hold what was seen while standing."""
+    """Hold the wall as seen while standing."""
 
     truth: SimTruth | None
     scans: tuple[Scan, ...]

@@ -85,7 +85,7 @@ def _table(lines: list[str], name: str) -> tuple[int | None, int]:
 
 
 def difference(path: Path, before: str, after: str) -> str:
-    """Return what changes, as diff -u shows it."""
+    """Return the changes, as diff -u shows them."""
     return "\n".join(
         difflib.unified_diff(
             before.splitlines(), after.splitlines(), str(path), str(path), lineterm="", n=1

@@ -30,7 +30,7 @@ EVEN_TICKS = round(EVEN_S * 100)
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Hold what one run recorded, from standing to standing."""
+    """Hold one run's recording, from standing to standing."""
 
     track: DriveTrack
     before: WallLook

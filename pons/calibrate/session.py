@@ -75,7 +75,7 @@ class CalibrationRig:
         return self._clock()
 
     def pump(self) -> None:
-        """Let a moment pass: hear everybody, say what is due."""
+        """Let a moment pass: hear everybody, send all messages that are due."""
         self._wait()
         now_s = self._clock()
         status = self._status.newest()

@@ -26,7 +26,7 @@ MOST_MISSING = 8
 
 @dataclass(frozen=True, slots=True)
 class TrackTick:
-    """Give one drive tick of both wheels: what they were told and, where heard, what they did."""
+    """Give one drive tick of both wheels: commanded and, where heard, real speeds."""
 
     seq: int
     told: tuple[float, float]
@@ -105,7 +105,7 @@ class DriveTrack:
         ]
 
     def _told_at(self, seq: int, known: list[int]) -> tuple[float, float]:
-        """Return what a command said; between two that were heard, what lies between."""
+        """Return a command's speeds; between two that were heard, interpolate."""
         at = bisect_left(known, seq)
         low, high = known[max(0, at - 1)], known[min(at, len(known) - 1)]
         if high == seq or low >= high:
@@ -119,5 +119,5 @@ class DriveTrack:
 
 
 def unwound(turn_rad: float, near_rad: float) -> float:
-    """Return the turn that differs by whole turns and lies nearest to what wheels say."""
+    """Return the turn that differs by whole turns and lies nearest to the wheels' figure."""
     return turn_rad + 2 * pi * round((near_rad - turn_rad) / (2 * pi))

@@ -1,4 +1,4 @@
-"""Find the flat wall ahead in what a scan shows. Pure geometry.
+"""Find the flat wall ahead in a scan. Pure geometry.
 
 Frame ``base``: x forward, y left. Distances are counted along x from the robot's middle.
 """
@@ -48,7 +48,7 @@ def wall_ahead(points: Points, scans: int = 1) -> WallFit:
 
 
 def _ahead(points: Points) -> Points:
-    """Return what lies before the robot, on the nearest surface there."""
+    """Return the points before the robot, on the nearest surface there."""
     ahead = [(x, y) for x, y in points if x > 0.0 and abs(y) <= HALF_M]
     if not ahead:
         return []

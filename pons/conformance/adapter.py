@@ -1,4 +1,4 @@
-"""Say what the kit needs of a bridge under test. Small, so that another vendor's bridge fits in.
+"""Define the kit's needs of a bridge under test. Small, so that another vendor's bridge fits in.
 
 A bridge that speaks this project's wire needs no adapter: ``pons conformance --bridge MODULE``
 starts it in the place of ours. One that speaks something else is given this face: what is said to

@@ -1,4 +1,4 @@
-"""State what a bridge under test may do: its limits, and how soon it must have noticed. No IO."""
+"""Bound a bridge under test: its limits, and how soon it must have noticed. No IO."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Be ``pons conformance``: play broken and hostile brains at a bridge and print what held.
+"""Run ``pons conformance``: play broken and hostile brains at a bridge and print the results.
 
 Starts simulator, localization and bridge in a home of its own; leaves nothing behind. Exit status:
 0 every cell held, 1 one did not, 2 nothing could be tested or a row not be judged, 130 Ctrl-C.

@@ -26,7 +26,7 @@ KEPT = 80
 
 
 def plain(said: list[Said], _status: Status) -> list[Sent]:
-    """Send what is said as it is."""
+    """Send a message as it is."""
     return [(key, pack(message)) for key, message in said]
 
 

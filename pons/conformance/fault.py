@@ -1,4 +1,4 @@
-"""Describe one thing that a brain, or the link to it, can do wrong, and what must then hold."""
+"""Describe one fault of a brain, or of the link to it, and the claims that must then hold."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def commands(change: Change) -> Breaker:
 
 
 def everything(change: Change) -> Breaker:
-    """Break whatever is said."""
+    """Break every message."""
 
     def breaker(said: list[tuple[str, Message]], status: Status) -> list[Sent]:
         return [(key, _bytes(change(dict(message), status))) for key, message in said]

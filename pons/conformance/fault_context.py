@@ -1,4 +1,4 @@
-"""Give a fault what it plays with: the brain, the bridge, helpers, and the moments that count."""
+"""Give a fault its means: the brain, the bridge, helpers, and the moments that count."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ class FaultContext:
         return self.moves() and abs(self.adapter.record.truths[-1].v_mps) > FAST_MPS
 
     def describe(self) -> str:
-        """Say what the bridge says."""
+        """Describe the bridge's status."""
         status = self.adapter.status()
         if status is None:
             return "the bridge says nothing"

@@ -39,7 +39,7 @@ HOUR_S = 3600.0
 
 
 def _replay(stage: FaultContext) -> Breaker:
-    """Say what was said in the last seconds once more, byte for byte."""
+    """Send the last seconds' messages once more, byte for byte."""
     recorded, turn = list(stage.driver.sent), count()
 
     def breaker(_said: list[tuple[str, Message]], _status: Status) -> list[Sent]:

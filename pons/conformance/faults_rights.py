@@ -1,4 +1,4 @@
-"""Ask for what is not one's own: another's robot, an old epoch, endless budgets, a held robot."""
+"""Ask for rights of others: another's robot, an old epoch, endless budgets, a held robot."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ BEGIN, END = "<!-- matrix: begin -->", "<!-- matrix: end -->"
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """Say where and on what a matrix was taken."""
+    """Name a matrix's bridge, site, commit, date, machine and seed."""
 
     bridge: str
     site: str

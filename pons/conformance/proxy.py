@@ -15,7 +15,7 @@ POLL_S = 0.005
 
 
 class ProxyWay(StrEnum):
-    """Say what becomes of what the brain sends, and of what it should hear."""
+    """Name the fate of messages from the brain, and of those to it."""
 
     OPEN = "open"
     KEPT = "kept"

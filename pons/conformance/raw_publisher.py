@@ -1,4 +1,4 @@
-"""Say bytes on any key of one robot, as they are: what breaks messages can't use their models."""
+"""Send bytes on any key of one robot, as they are: broken messages can't use their models."""
 
 from __future__ import annotations
 

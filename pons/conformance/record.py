@@ -1,4 +1,4 @@
-"""Keep what was seen of a bridge from outside: its commands, its word, and what really moved.
+"""Keep a bridge's record from outside: its commands, its word, and the robot's real motion.
 
 Times are this process's monotonic clock at receipt. A command carries its number; the bridge's word
 carries its tick; the two differ by the ticks in which no command was sent, which only grows in the
@@ -54,7 +54,7 @@ class WheelSample:
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """Hold what the robot really did."""
+    """Hold the robot's real motion."""
 
     at_s: float
     v_mps: float
@@ -95,7 +95,7 @@ class DriveRecord:
 
 
 def between(items: list[T], from_s: float, to_s: float = float("inf")) -> list[T]:
-    """Return what came in a span of time."""
+    """Return the messages of a span of time."""
     first = bisect_left(items, from_s, key=_at)
     last = len(items) if to_s == float("inf") else bisect_left(items, to_s, key=_at)
     return items[first:last]

@@ -36,7 +36,7 @@ GRANTED_IN = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.STOPPING})
 
 @dataclass
 class ReferenceBrain:
-    """Hold what one brain remembers."""
+    """Hold one brain's memory."""
 
     kind: OwnerKind
     brain_id: str
@@ -89,7 +89,7 @@ class ReferenceBrain:
     # What is said -------------------------------------------------------------------------------
 
     def hello(self, status: Status) -> Said:
-        """Ask to own the robot, believing what the bridge says of it."""
+        """Ask to own the robot, believing the bridge's word on it."""
         return "cmd/hello", {
             "planner_id": self.brain_id, "kind": self.kind, "seen": status.seq,
             "protocol": PROTOCOL, "robot_hash": status.robot_hash,

@@ -72,7 +72,7 @@ class Fairness:
         return self._timer.timing_since(from_s)
 
     def judge(self, adapter: Adapter, cells: dict[str, MatrixCell], from_s: float) -> Try | None:
-        """Return what failed since then and whether the machine did; None where nothing failed."""
+        """Return the failure since then and whether the machine caused it; None without one."""
         bad = {name: cell for name, cell in cells.items() if cell.ok is False}
         if not bad:
             return None

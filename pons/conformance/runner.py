@@ -103,7 +103,7 @@ class Runner:
         self.driver = BrainDriver(brain, adapter.status, adapter.say)
 
     def play(self, faults: list[Fault]) -> Iterator[MatrixRow]:
-        """Play one after another; what can't be played has failed."""
+        """Play one after another; a fault that can't be played has failed."""
         drives = self.drive_well()
         lost = 0
         for fault in faults:
@@ -172,7 +172,7 @@ class Runner:
         return None
 
     def _judge(self, from_s: float, facts_s: float) -> dict[str, MatrixCell]:
-        """Judge what must hold at every moment, up to now."""
+        """Judge the claims that must hold at every moment, up to now."""
         record, bounds, to_s = self._adapter.record, self._adapter.bounds, time.monotonic()
         return {
             "speed": verdict.speed(record, bounds, facts_s, to_s),
@@ -214,7 +214,7 @@ class Runner:
         return owner is not None and owner.planner_id == self.driver.brain.brain_id
 
     def _needed_request(self) -> OpKind | None:
-        """Return what a person would do now."""
+        """Return a person's next request."""
         status = self._adapter.status()
         if status is None:
             return None

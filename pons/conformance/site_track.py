@@ -22,7 +22,7 @@ STRIDE = 2
 
 
 def find_track(folder: Path, radius_m: float) -> TestTrack:
-    """Return the longest free line along x or y of a site, cut to what is needed.
+    """Return the longest free line along x or y of a site, cut to the length needed.
 
     Raises:
         CannotTest: no line is long enough.

@@ -57,7 +57,7 @@ NOT_ASKED = MatrixCell(None, "-")
 
 
 def speed(record: DriveRecord, bounds: MotionBounds, from_s: float, to_s: float) -> MatrixCell:
-    """Hold what the robot does within its speeds, and what its wheels are told near them.
+    """Require the robot's motion within its speeds, and the wheels' commands near them.
 
     Near: what makes a wheel turn as meant (dead zone, lag, correction) is part of a command.
     """
@@ -256,7 +256,7 @@ def alive(
 
 
 def _forgiven(due: float, period_s: float, host: HostTiming) -> float:
-    """Return how many ticks may be missed, of those due: a few, and what the host took."""
+    """Return how many ticks may be missed, of those due: a few, and the host's own delays."""
     few = TICKS_OFF + LATE_SHARE * due
     return min(few + host.lost_s / period_s, TICKS_OFF + MOST_MISSED * due)
 
@@ -271,7 +271,7 @@ def contacts(record: DriveRecord, from_s: float, to_s: float) -> MatrixCell:
 
 
 def held_up(record: DriveRecord, bounds: MotionBounds, from_s: float, to_s: float) -> bool:
-    """Tell whether the machine held the simulator up: what came of that, no bridge has done."""
+    """Return whether the machine held the simulator up: its effects are no bridge's doing."""
     wheels = between(record.wheels, from_s, to_s)
     lost_s = (
         (b.made_s - a.made_s) - (b.number - a.number) * bounds.period_s for a, b in pairwise(wheels)

@@ -17,7 +17,7 @@ PATIENCE_S = 2.0
 
 
 class HelperLost(Exception):
-    """A helper did not say what it should."""
+    """A helper did not give its expected line."""
 
 
 class Helper:
@@ -38,7 +38,7 @@ class Helper:
         self._hear("going")
 
     def end(self) -> str:
-        """Let it finish, else kill it; return what else it said."""
+        """Let it finish, else kill it; return the rest of its lines."""
         try:
             said, _ = self.process.communicate(timeout=PATIENCE_S)
         except (subprocess.TimeoutExpired, ValueError, OSError):
@@ -66,7 +66,7 @@ class HelperPool:
             self._spare = Helper(self._adapter.helper())
 
     def take(self) -> Helper:
-        """Return a loaded one; whoever takes it ends it."""
+        """Return a loaded helper; its taker ends it."""
         self.load()
         helper, self._spare = self._spare, None
         if helper is None:

@@ -1,4 +1,4 @@
-"""Say what this machine lacks for the robot, and how to mend it: ``pons doctor``.
+"""List this machine's lacks for the robot, and how to mend them: ``pons doctor``.
 
 Changes nothing, starts nothing that lasts, and works with or without a running robot.
 """

@@ -1,4 +1,4 @@
-"""Run every check in order, print what was found, and return the worst verdict as exit status."""
+"""Run every check in order, print the findings, and return the worst verdict as exit status."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def run(settings: LaunchSettings, *, as_json: bool = False, jitter: bool = False
 
 
 def findings(settings: LaunchSettings) -> list[HealthFinding]:
-    """Return what every check finds, the machine first."""
+    """Return every check's findings, the machine first."""
     described, robot = path_checks.robot(settings.robot)
     sited, site = path_checks.site(settings.site)
     running = bool(path_checks.listening(settings.home))
@@ -68,7 +68,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
 
 
 def run_check(name: str, check: Callable[[], HealthFinding]) -> HealthFinding:
-    """Return what a check finds; one that the system itself cuts short must not hide the others."""
+    """Return a check's findings; one that the system itself cuts short must not hide the others."""
     try:
         return check()
     except (OSError, SubprocessError, RuntimeError) as error:

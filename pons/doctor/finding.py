@@ -1,4 +1,4 @@
-"""Own what a check finds: a verdict, what was found, and how to mend it, in both languages."""
+"""Own a check's finding: a verdict, the facts, and how to mend it, in both languages."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class BilingualWords:
 
 @dataclass(frozen=True, slots=True)
 class HealthFinding:
-    """Hold what one check found."""
+    """Hold one check's finding."""
 
     name: str
     """Stable, in snake_case."""

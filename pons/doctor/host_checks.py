@@ -128,7 +128,7 @@ def _node_version(path: str) -> tuple[int, int] | None:
 
 
 def _user() -> str:
-    """Return who would be given the right."""
+    """Return the user that would be given the right."""
     try:
         return os.environ.get("SUDO_USER") or pwd.getpwuid(os.getuid()).pw_name
     except KeyError:

@@ -35,7 +35,7 @@ class Lateness:
     scheduled: str
 
     def cells(self) -> tuple[str, ...]:
-        """Return the row as text; what a tool does not tell is a dash."""
+        """Return the row as text; a dash for a figure that a tool does not give."""
         shown = ("-" if n is None else f"{n:.0f}" for n in (self.p50_us, self.p99_us, self.max_us))
         missed = "-" if self.missed is None else str(self.missed)
         return (self.loop, str(self.ticks), *shown, missed, self.scheduled)

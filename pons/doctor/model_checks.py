@@ -1,4 +1,4 @@
-"""Check what understands people: the model endpoint where one is set, and the recogniser."""
+"""Check the parts that understand people: the model endpoint if set, and the recogniser."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ ROOMY_BYTES = 10 * MIN_FREE_BYTES
 
 
 def robot(path: Path) -> tuple[HealthFinding, RobotDescription]:
-    """Read robot.toml; what can't be read counts as the default robot for the other checks."""
+    """Read robot.toml; an unreadable one counts as the default robot for the other checks."""
     try:
         described = load_robot(path)
     except ConfigError as wrong:
@@ -114,7 +114,7 @@ def disk(path: Path) -> HealthFinding:
 
 
 def sockets(path: Path) -> HealthFinding:
-    """Look at the socket paths, and for what dead processes left."""
+    """Look at the socket paths, and for the leftovers of dead processes."""
     where = Endpoints(path)
     longest = max(len(os.fsencode(where.socket(door))) for door in DOORS)
     if not longest <= MAX_SOCKET_PATH:

@@ -1,1 +1,1 @@
-"""Score what a brain plans: suites, a mock world, matchers, laws by category, a table."""
+"""Score a brain's plans: suites, a mock world, matchers, laws by category, a table."""

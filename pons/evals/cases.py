@@ -1,4 +1,4 @@
-"""Own what a suite is: sentences, each with what is expected of it, in one world."""
+"""Own an eval suite: sentences, each with its expectation, in one world."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class MissingSuite(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """Hold one sentence and what is expected of it: a law by category, or a matcher."""
+    """Hold one sentence and its expectation: a law by category, or a matcher."""
 
     text: str
     group: str

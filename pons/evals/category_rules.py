@@ -1,4 +1,4 @@
-"""Own what is allowed of a sentence by its category, for suites that others wrote.
+"""Own the laws on a sentence by its category, for suites that others wrote.
 
 The table of a data set's description, as data: which steps, which answers, what no motion may come
 of. The judge reads the category and the names in the sentence; it shares nothing with any brain.
@@ -25,7 +25,7 @@ _FIRST = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class Law:
-    """Say what one category allows."""
+    """Hold one category's permissions."""
 
     steps: frozenset[str] = frozenset()  # kinds of steps of a plan; none: no plan at all
     needs: frozenset[str] = frozenset()  # a plan has one of these
@@ -62,7 +62,7 @@ def _code_fault(what: str, code: str, allowed: frozenset[str] | None) -> str:
 
 
 def route_fault(plan: StepPlan, text: str, vocabulary: Vocabulary) -> str:
-    """Return what is wrong with the places of a plan: all that are named, in the named order.
+    """Return the fault of a plan's places: all that are named, in the named order.
 
     A place may be visited once more than it is named where the sentence speaks of a way back.
     """

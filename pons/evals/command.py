@@ -27,7 +27,7 @@ REACHED, MISSED, REFUSED = 0, 1, 2
 
 @dataclass(frozen=True, slots=True)
 class SuiteScore:
-    """Hold what came of one suite."""
+    """Hold one suite's results."""
 
     name: str
     verdicts: tuple[SentenceVerdict, ...]
@@ -134,7 +134,7 @@ async def _score_suites(
 
 
 async def _score_each(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[SuiteScore]]:
-    """Score to the end of the suites or of the budget: what was paid for is kept."""
+    """Score to the end of the suites or of the budget: paid results are kept."""
     verdicts: list[list[SentenceVerdict]] = [[] for _ in suites]
     try:
         for suite, mine in zip(suites, verdicts, strict=True):

@@ -1,4 +1,4 @@
-"""Read what a suite expects of a sentence, and compare it with what a plan would do.
+"""Read a suite's expectation of a sentence, and compare it with a plan's acts.
 
 ``go kitchen > find cup @kitchen > back`` in this order · ``{go kitchen & go study}`` in any order ·
 ``go kitchen | clarify ambiguous`` either. Expectations are compared with the trace of a walk
@@ -40,7 +40,7 @@ class Act:
     optional: bool = False
 
     def fits(self, event: EvalEvent) -> bool:
-        """Tell whether an event is what is expected."""
+        """Return whether an event is the expected one."""
         if event.kind != self.kind or (self.where is not None and event.where != self.where):
             return False
         if self.number is not None:

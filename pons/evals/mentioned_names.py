@@ -1,4 +1,4 @@
-"""Find what a sentence names, for the judge alone: plain text search, no grammar.
+"""Find the names in a sentence, for the judge alone: plain text search, no grammar.
 
 It shares no code with any brain, so that a brain's misreading can't hide in the judge's.
 """

@@ -113,7 +113,7 @@ def split_word(word: str) -> tuple[str, str]:
 
 
 def agree_on(bill: str, *, yes: bool) -> bool:
-    """Show on standard error what will be spent or sent; return whether a person agrees."""
+    """Show on standard error the expense or the data to send; return whether a person agrees."""
     print(bill, file=sys.stderr)
     if yes:
         return True
@@ -149,7 +149,7 @@ def open_purse(
 
 
 def spending_of(purse: Purse, goal: str) -> Spending:
-    """Return what one goal has cost so far."""
+    """Return one goal's expense so far."""
     spent = purse.usage(goal).goal
     if spent is None:
         return Spending()

@@ -61,7 +61,7 @@ def wrong_motions(plan: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[st
 
 
 def _unnamed_part(step: Step, said: str) -> str:
-    """Return what of a step, besides its places, the sentence does not say."""
+    """Return the part of a step, besides its places, that the sentence does not say."""
     match step:
         case ReturnHome():
             return "" if re.search(_HOME, said) else "no word of home"

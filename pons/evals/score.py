@@ -1,4 +1,4 @@
-"""Ask a brain every sentence of a suite and judge what it makes of each. Plans only: nothing runs.
+"""Ask a brain every sentence of a suite and judge each answer. Plans only: nothing runs.
 
 A sentence is right where its outcome is allowed, its plan is valid in the closed world with every
 kind of step, and no step moves to what the sentence does not name.
@@ -23,7 +23,7 @@ from pons.evals.world import EvalWorld
 
 @dataclass(frozen=True, slots=True)
 class SentenceVerdict:
-    """Hold what a brain made of one sentence, and what is wrong with it."""
+    """Hold a brain's decision on one sentence, and its faults."""
 
     case: Case
     made: Made
@@ -40,12 +40,12 @@ class SentenceVerdict:
 
     @property
     def explanation(self) -> str:
-        """Say what is wrong, in one line."""
+        """Give the faults, in one line."""
         return "; ".join((*([self.fault] if self.fault else []), *self.wrong))
 
     @property
     def kind_and_code(self) -> str:
-        """Return what came, in a word or two, or the steps of a plan."""
+        """Return the decision in a word or two, or the steps of a plan."""
         if isinstance(self.made, StepPlan):
             return " > ".join(_short(step.model_dump()) for step in self.made.steps)
         return f"{self.made.kind} {getattr(self.made, 'code', '')}".strip()
@@ -104,7 +104,7 @@ async def _one(
 
 
 def _nothing(case: Case, made: Refuse, fault: str, seconds: float) -> SentenceVerdict:
-    """Return the verdict over no decision: a fault, whatever is expected of the sentence."""
+    """Return the verdict over no decision: a fault under any expectation."""
     return SentenceVerdict(case, made, fault[:200], (), seconds)
 
 

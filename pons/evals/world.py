@@ -50,7 +50,7 @@ class _Walk:
 
 
 def walk(plan: StepPlan) -> tuple[EvalEvent, ...]:
-    """Return what a plan would do, in order."""
+    """Return a plan's acts, in order."""
     trace = _Walk()
     for step in plan.steps:
         if isinstance(step, ComeBack | ReturnHome):

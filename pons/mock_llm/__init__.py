@@ -1,4 +1,4 @@
-"""Serve the offline brain over the OpenAI protocol, with switches for what real servers do wrong.
+"""Serve the offline brain over the OpenAI protocol, with switches for real servers' faults.
 
 The tests' main model, and a demonstration's. It knows no site: the closed world is read from each
 request, so any client that sends our prompt or a schema with places gets a plan.

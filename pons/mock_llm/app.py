@@ -28,7 +28,7 @@ EVENTS = "text/event-stream"
 
 
 class Mock:
-    """Hold the switches and what was asked."""
+    """Hold the switches and the requests."""
 
     def __init__(self, switches: Switches) -> None:
         self.switches = switches

@@ -1,4 +1,4 @@
-"""Wrap what the model wrote as a chat completion, and as a fault would."""
+"""Wrap a model's text as a chat completion, and as a fault would."""
 
 from __future__ import annotations
 

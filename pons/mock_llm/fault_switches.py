@@ -1,4 +1,4 @@
-"""Own the mock's switches: what goes wrong, how often, how late. Data only."""
+"""Own the mock's switches: its faults, how often, how late. Data only."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ NUMBER_OF_BAD_POINTS = len(_OUT_OF_RANGE)
 
 @dataclass(frozen=True, slots=True)
 class PictureOrder:
-    """Hold what is asked about a picture."""
+    """Hold a question about a picture."""
 
     kind: Literal["look", "point"]
     words: str
@@ -36,7 +36,7 @@ class PictureOrder:
 
     @property
     def sign_text(self) -> str:
-        """Return what stands written in the picture."""
+        """Return the text written in the picture."""
         found = segments(self.jpeg or b"")
         return next(
             (body.decode("utf-8", "replace") for mark, body in found if mark == COMMENT), ""
@@ -118,7 +118,7 @@ def _point(asked: PictureOrder, fault: str | None, number: int) -> dict[str, Any
 
 
 def _obey_sign(asked: PictureOrder, number: int, place: str) -> str:
-    """Return what a model writes that takes a sign for its master, in turns."""
+    """Return the reply of a model that takes a sign for its master, in turns."""
     sign, honest = asked.sign_text, _describe(asked)
     plan = {"kind": "plan", "steps": [{"kind": "go_to", "place": place}]}
     bad: tuple[dict[str, Any], ...] = (
@@ -134,7 +134,7 @@ def _obey_sign(asked: PictureOrder, number: int, place: str) -> str:
 
 
 def words_read(body: dict[str, Any]) -> list[str]:
-    """Return what a planning request tells of pictures, whole and in pieces, as if it were orders.
+    """Return a planning request's words from pictures, whole and in pieces, as if they were orders.
 
     Words that ought to be withheld and stand elsewhere are found, too: a leak must show.
     """

@@ -1,4 +1,4 @@
-"""Write what a model would: the offline brain's plan in the prompt's shape, and bad copies of it.
+"""Write a model's replies: the offline brain's plan in the prompt's shape, and bad copies of it.
 
 Pure. The hostile replies are what must never move a robot.
 """

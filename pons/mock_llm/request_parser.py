@@ -19,7 +19,7 @@ _STEP = re.compile(r'^\{"kind":"([a-z_]+)"', re.MULTILINE)
 
 
 def request_of(body: dict[str, Any]) -> ThinkRequest:
-    """Return what the offline brain is to think about."""
+    """Return the offline brain's request."""
     texts = [(m.get("role"), _words(m.get("content"))) for m in _dicts(body.get("messages"))]
     page = "\n".join(text for _, text in texts)
     vocabulary = _vocabulary(page, body)

@@ -19,7 +19,7 @@ Floats = NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Canvas:
-    """Give arrays of (rows, columns), or of (3, rows, columns) for what has a direction."""
+    """Give arrays of (rows, columns), or of (3, rows, columns) for directions."""
 
     aimed: Floats
     """Where each ray goes in ``map``, a unit vector."""

@@ -1,4 +1,4 @@
-"""Draw furniture, so that a person tells at a glance what it is. Each stays in its outline.
+"""Draw furniture that a person recognizes at a glance. Each piece stays in its outline.
 
 Every function takes a size (depth, breadth, height) [m] and the coat of one piece and gives its
 parts in the piece's own frame.

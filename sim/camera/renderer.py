@@ -65,7 +65,7 @@ class Renderer:
         return numbers
 
     def render(self, base_in_map: Pose2, things: Iterable[SimThing] = ()) -> Frame:
-        """Draw what the camera sees.
+        """Draw the camera's picture.
 
         Args:
             base_in_map: where the robot stands.

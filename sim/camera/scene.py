@@ -50,7 +50,7 @@ _INSCRIBED = sqrt(0.5)
 
 @dataclass(frozen=True, slots=True)
 class Instance:
-    """Hold one thing to draw: what it is, its parts, and where they stand."""
+    """Hold one thing to draw: its identity, its parts, and where they stand."""
 
     id: str
     class_id: str

@@ -40,7 +40,7 @@ _PLAIN_WALLS: Final = (
 
 @dataclass(frozen=True, slots=True)
 class Appearance:
-    """Hold one look. The plain one is what the simulator shows."""
+    """Hold one look of the scene. The plain one is the simulator's."""
 
     seed: int = 0
     light: tuple[float, float, float] = (0.42, 0.30, 0.86)

@@ -51,7 +51,7 @@ class PerceptionProcess:
         self._memory = ObjectMemory()
         self._taken: list[PendingLook] = []
         self.picture: Picture | None = None
-        self.looked: Picture | None = None
+        self.looked_picture: Picture | None = None
         self._seq = 0
         self.classes = NAMES
         self.blind: str | None = None
@@ -118,7 +118,7 @@ class PerceptionProcess:
         self._memory, self.look = saw(
             self._scenery, aged(self._memory, now_s), taken.picture, taken.detections, stance
         )
-        self.looked = taken.picture
+        self.looked_picture = taken.picture
         return self.sight
 
     def look_with(self, finder: Finder) -> None:

@@ -37,7 +37,7 @@ START_S = 1_000.0
 
 
 class TooLong(Exception):
-    """What was waited for did not come within its simulated time."""
+    """The awaited event did not come within its simulated time."""
 
 
 class World:

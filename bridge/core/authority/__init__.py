@@ -1,1 +1,1 @@
-"""Hold who may move the robot, how far and how long: owner, grants, legs, epoch."""
+"""Hold the right to move the robot, how far and how long: owner, grants, legs, epoch."""

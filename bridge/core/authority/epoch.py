@@ -42,7 +42,7 @@ def hold(tick: TickContext, reason: HeldReason, held_id: str) -> None:
 
 
 def revoke(tick: TickContext) -> None:
-    """End what is granted and followed now; its remainder stays in the book for another grant."""
+    """End the grant and the leg; the remainder stays in the book for another grant."""
     end_grant(tick)
     forget_horizon(tick)
 

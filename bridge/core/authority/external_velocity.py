@@ -51,6 +51,6 @@ def asks_to_move(tick: TickContext) -> bool:
 
 
 def requested_twist(tick: TickContext) -> Twist2:
-    """Return what the other brain asks for."""
+    """Return the twist that the external brain asks for."""
     external = tick.s.external
     return STILL if external is None else Twist2(external.v_mps, external.w_radps)

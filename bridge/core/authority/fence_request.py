@@ -43,7 +43,7 @@ def hear_fence(tick: TickContext, arrived: FenceArrival) -> None:
 
 
 def hear_done(tick: TickContext, done: FenceDone) -> None:
-    """Give the verdict on what was being written."""
+    """Give the verdict on the fence that was being written."""
     asked = tick.s.fence_asked
     if asked is None or asked.id != done.id or asked.written:
         return
@@ -57,7 +57,7 @@ def hear_done(tick: TickContext, done: FenceDone) -> None:
 
 
 def _against(tick: TickContext, arrived: FenceArrival) -> Iterator[tuple[str, str]]:
-    """Yield code and detail of what speaks against a request, the first one decides."""
+    """Yield code and detail of each objection to a fence request; the first one decides."""
     if tick.stopped:
         yield "stopped", "a stop came in the same tick; ask again"
     yield from bad_proof(tick, KIND, arrived.id, arrived.nonce, authentic=arrived.authentic)

@@ -1,4 +1,4 @@
-"""Meter motion: what a mission may still use, and what was driven since a person last acted.
+"""Meter motion: the budget left to a mission, and the way driven since a person last acted.
 
 What is left belongs to the mission id and survives epochs; no later grant adds to it. A hand on the
 stick is a person's, but its messages bear no proof and may be anybody's: it has a meter of its own.
@@ -62,7 +62,7 @@ def hear_grant(tick: TickContext, grant: Grant) -> str | None:
 
 
 def renew_budgets(tick: TickContext) -> None:
-    """Refill what may be driven between two acts of a person."""
+    """Refill the budget for driving between two acts of a person."""
     tick.s.grants = replace(
         tick.s.grants,
         operator_metres=OPERATOR_METRES,
@@ -82,7 +82,7 @@ def void_hand_budget(tick: TickContext) -> None:
 
 
 def end_grant(tick: TickContext) -> None:
-    """End the grant; what it had left stays in the book for another grant of the same mission."""
+    """End the grant; its remainder stays in the book for another grant of the same mission."""
     tick.s.grants = tick.s.grants.return_budget()
 
 
@@ -92,7 +92,7 @@ def forget_arming(tick: TickContext) -> None:
 
 
 def meter(tick: TickContext, before: BridgeState) -> None:
-    """Take one tick's way and time off what is left to who caused it.
+    """Charge one tick's way and time to the mission or operator that caused the motion.
 
     The way of a stop counts too, or a planner that is stopped again and again would go further than
     granted. Its time does not: a robot that must stop uses nothing up.

@@ -1,4 +1,4 @@
-"""Decide who owns the robot: by hello, standing, and only while nobody alive owns it."""
+"""Give the robot an owner: by hello, standing, and only while it has no living owner."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ def _speeds_fit(speeds: list[float], max_speed_mps: float) -> bool:
 
 
 def _all_within(values: Iterable[float], low: float, high: float) -> bool:
-    """Tell whether all lie within; what is not a number does not."""
+    """Return whether all values lie within their bounds; NaN does not."""
     return not [value for value in values if not low <= value <= high]
 
 

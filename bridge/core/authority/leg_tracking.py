@@ -139,5 +139,5 @@ def forget_horizon(tick: TickContext) -> None:
 
 
 def forget_refusal(tick: TickContext) -> None:
-    """Show no refusal of what was said in an epoch that is over; its horizon is void, too."""
+    """Drop the refusal of an epoch that is over; its horizon is void, too."""
     tick.s.leg = replace(tick.s.leg, horizon=None, path=None, refusal=None)

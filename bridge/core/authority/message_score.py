@@ -1,4 +1,4 @@
-"""Score what the owner says: a bucket that fills with each bad message and empties with time.
+"""Score the owner's messages: a bucket that fills with each bad one and empties with time.
 
 Only messages of this epoch, of the owner and under a grant are scored, or of the hand that steers;
 bytes that are no message are charged to whoever may use that key now.
@@ -37,7 +37,7 @@ def good(tick: TickContext) -> None:
 
 
 def hear_rejected(tick: TickContext) -> None:
-    """Count what was no message; score it where its key's owner is in charge."""
+    """Count bytes that were no message; score them where their key's owner is in charge."""
     letters = tick.s.sources() if tick.inbox.rejected else ""
     for item in tick.inbox.rejected:
         if _KEYS.get(item.key, "-") in letters:

@@ -1,4 +1,4 @@
-"""Keep who owns the robot, and tell whether that owner lives. The only writer of ``ownership``.
+"""Keep the robot's owner, and tell whether it lives. The only writer of ``ownership``.
 
 Alive means that the newest status the owner has shown to have seen was sent at most 300 ms ago.
 """
@@ -19,7 +19,7 @@ LIVE_S = 0.3
 
 
 def is_alive(tick: TickContext) -> bool:
-    """Tell whether there is an owner who has shown to live."""
+    """Return whether there is an owner that has shown to live."""
     ownership = tick.s.ownership
     return (
         ownership.owner is not None
@@ -85,7 +85,7 @@ def begin_ownership(tick: TickContext, owner: Owner, sent_s: float) -> None:
 
 
 def end_ownership(tick: TickContext) -> None:
-    """Take the robot from its owner; what it has shown to have seen stays known."""
+    """Take the robot from its owner; the newest status it has seen stays known."""
     tick.s.ownership = replace(tick.s.ownership, owner=None)
 
 

@@ -1,4 +1,4 @@
-"""Drop what comes on a command key faster than its sender may speak. Row CMD_FLOOD.
+"""Drop messages on a command key that come faster than their sender may speak. Row CMD_FLOOD.
 
 Counted are payloads as they arrive, parsed or not, in a sliding 250 ms made of two halves. A key
 over its limit is not heard in that tick: a flooded heartbeat is no heartbeat. Stops and operators'
@@ -37,7 +37,7 @@ _FIELDS = ("waypoints", "teleop", "external", "grants", "heartbeats", "hellos")
 
 
 def rate_limited(tick: TickContext) -> Inbox:
-    """Return this tick's inbox without what came too fast; remember the counts."""
+    """Return this tick's inbox without messages that came too fast; remember the counts."""
     inbox, flood = tick.inbox, tick.s.flood
     goes_on = not flood.counts or tick.now_s - flood.half_since_s < WINDOW_S / 2
     if goes_on and not inbox.arrived and flood.level_s == 0.0:

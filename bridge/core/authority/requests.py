@@ -70,7 +70,7 @@ def settle_openly(tick: TickContext, kind: str, sender: str) -> None:
 
 
 def answers_to_echo(tick: TickContext) -> tuple[Answer, ...]:
-    """Return what the next status echoes, oldest first."""
+    """Return the answers that the next status echoes, oldest first."""
     operator = tick.s.operator
     settled = [
         item.answer for item in operator.answers[-SHOWN:] if tick.now_s - item.at_s <= SHOWN_S
@@ -105,7 +105,7 @@ def nonce_text(tick: TickContext) -> str:
 
 
 def old_nonce_text(tick: TickContext) -> str | None:
-    """Return the nonce before, while what was signed under it may still arrive."""
+    """Return the nonce before, while orders signed under it may still arrive."""
     operator = tick.s.operator
     if operator.old_nonce_no is None or not tick.now_s <= operator.old_until_s:
         return None
@@ -124,7 +124,7 @@ def renew_nonce(tick: TickContext) -> None:
 def bad_proof(
     tick: TickContext, kind: str, request_id: str, nonce: str | None, *, authentic: bool
 ) -> Iterator[tuple[str, str]]:
-    """Yield code and detail of what is wrong with a proof: its HMAC, its nonce, or a second use."""
+    """Yield code and detail of each fault of a proof: its HMAC, its nonce, or a second use."""
     if nonce is None or not authentic:
         yield "bad_proof", "the proof is missing or not made with this robot's operator key"
         return
@@ -141,7 +141,7 @@ def bad_proof(
 
 
 def use_nonce(tick: TickContext, kind: str, request_id: str) -> None:
-    """Spend the nonce: the one now shown stays valid for a moment, for what is already signed."""
+    """Spend the nonce: the one now shown stays valid for a moment, for orders already signed."""
     operator = tick.s.operator
     used = tuple(
         f"{number} {kind} {request_id}"

@@ -1,4 +1,4 @@
-"""Keep what is known of the hand on the stick. The only writer of ``stick``.
+"""Keep the state of the hand on the stick. The only writer of ``stick``.
 
 Whether a hand may take the robot over is decided in :mod:`bridge.core.modes.teleop`; here stands
 what it must have shown before: released, then neutral, in this epoch.
@@ -20,7 +20,7 @@ _SOURCES = 8
 
 
 def note_pressed(tick: TickContext) -> None:
-    """Remember that somebody's dead-man is pressed now, whoever's it is."""
+    """Remember that an operator's dead-man is pressed now, of any stick."""
     tick.s.stick = replace(tick.s.stick, pressed_s=tick.now_s)
 
 

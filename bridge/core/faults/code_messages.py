@@ -1,4 +1,4 @@
-"""Say for each code that is no row, in English and Chinese, what a person should read and do.
+"""Give each code that is no row its words for a person, in English and Chinese.
 
 The page's copy (web/src/i18n/codes.json) is printed from here by ``scripts/page_words.py``.
 """

@@ -1,4 +1,4 @@
-"""Detect motion that does not fit what was sent: stuck, running away, turning unlike the gyro."""
+"""Detect motion that does not fit the commands: stuck, running away, turning unlike the gyro."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def runaway(tick: TickContext, dirty: Dirty) -> None:
 
 
 def _fits(sent: tuple[SentBounds, ...], left: float, right: float) -> bool:
-    """Tell whether wheels do what was sent, or stand, or something between; with the slack."""
+    """Return whether wheels follow the command, or stand, or something between; with the slack."""
     fits_left, fits_right = abs(left) <= SLACK_MPS, abs(right) <= SLACK_MPS
     for bounds in reversed(sent):  # the newest most often settles it
         if fits_left and fits_right:
@@ -79,7 +79,7 @@ def _is_between(speed: float, low: float, high: float) -> bool:
 
 
 def _remember(tick: TickContext, left: float, right: float) -> None:
-    """Widen the newest bounds by what was sent, or begin new ones; forget what can't show."""
+    """Widen the newest bounds by the twist sent, or begin new ones; drop those too old to show."""
     watch, now_s = tick.s.watch, tick.now_s
     newest = watch.sent[-1] if watch.sent else None
     if newest is None or now_s - newest.since_s >= BUCKET_S:
@@ -103,7 +103,7 @@ def _remember(tick: TickContext, left: float, right: float) -> None:
 
 
 def progress(tick: TickContext, dirty: Dirty) -> None:
-    """Judge whether the robot gets on; where it does not, whatever asked for it loses its grant."""
+    """Judge whether the robot gets on; where it does not, the motion's source loses its grant."""
     watch = tick.s.watch
     if not tick.is_moving and watch.stuck_s == 0.0:
         watch.progress_at = None

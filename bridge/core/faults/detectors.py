@@ -1,4 +1,4 @@
-"""Detect what can be wrong: one function a row or a few, read as one table.
+"""Detect faults: one function a row or a few, read as one table.
 
 A detector takes the tick and a list, to which it adds each stage whose trouble it sees, with the
 evidence. It keeps its own windows in ``watch`` and changes nothing else: what follows of it is for
@@ -90,7 +90,7 @@ def brain(tick: TickContext, dirty: Dirty) -> None:
 
 
 def commands(tick: TickContext, dirty: Dirty) -> None:
-    """Judge what is being followed, the owner's manners, and what may still be driven."""
+    """Judge the source being followed, the owner's manners, and the budgets left to drive."""
     s = tick.s
     horizon = s.leg.horizon
     if horizon is not None and horizon.points and not s.leg.reached:
@@ -110,7 +110,7 @@ def commands(tick: TickContext, dirty: Dirty) -> None:
 
 
 def hand(tick: TickContext, dirty: Dirty) -> None:
-    """Judge what a hand on the stick may still drive, while it drives or asks to."""
+    """Judge the budget left to a hand on the stick, while it drives or asks to."""
     s = tick.s
     pressed_s = s.stick.pressed_s
     asks = pressed_s is not None and tick.now_s - pressed_s <= HAND_SHOWN_S
@@ -197,7 +197,7 @@ def buttons(tick: TickContext, dirty: Dirty) -> None:
 
 
 def blind(tick: TickContext, dirty: Dirty) -> None:
-    """Judge how many beams come back, beside what is normal here; none at all is never normal."""
+    """Judge how many beams come back, beside the normal number here; none is never normal."""
     lidar, watch = tick.s.lidar, tick.s.watch
     if lidar.picture is None:
         return

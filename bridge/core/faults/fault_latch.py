@@ -1,4 +1,4 @@
-"""Keep what detectors saw for as long as the table says, and find the worst that binds now.
+"""Latch the detectors' rows for as long as the table says, and find the worst that binds now.
 
 No row masks another: every stage is kept by itself, and the worst of those that bind decides.
 """
@@ -27,7 +27,7 @@ def binds(stage: FaultStage, letters: str) -> bool:
 
 
 def update(tick: TickContext, dirty: Dirty) -> None:
-    """Raise what is dirty, let go what has been clean for long enough."""
+    """Raise the dirty rows, release those that have been clean for long enough."""
     rows = tick.s.rows
     if not (rows or dirty):
         return
@@ -48,7 +48,7 @@ def update(tick: TickContext, dirty: Dirty) -> None:
 
 
 def _clean(tick: TickContext, stage: FaultStage, for_s: float) -> bool:
-    """Tell whether a stage whose trouble is over ends by itself.
+    """Return whether a stage whose trouble is over ends by itself.
 
     BRAIN_LOST ends with an owner's return where nothing moves: without a grant nothing will. It is
     judged anew in every tick, because an owner may come back while the robot is still stopping.
@@ -101,12 +101,12 @@ def cap(tick: TickContext) -> tuple[float, str]:
 
 
 def clear_on_grant(tick: TickContext) -> None:
-    """Let go what a new grant ends; a detector that is still dirty raises it again at once."""
+    """Release rows that a new grant ends; a detector that is still dirty raises its row again."""
     _let_go(tick, lambda stage: stage.clears is Clears.ON_GRANT)
 
 
 def clear_on_arm(tick: TickContext) -> None:
-    """Let go what arming ends.
+    """Release the rows that arming ends.
 
     What needs a reset and rose while the drive was off never made a FAULT that could be reset: the
     person who arms has it before them, and arming has waited until it was clean.
@@ -115,7 +115,7 @@ def clear_on_arm(tick: TickContext) -> None:
 
 
 def clear_on_reset(tick: TickContext) -> None:
-    """Let go what a reset ends; the caller has seen that it was clean for 2 s."""
+    """Release the rows that a reset ends; the caller has seen them clean for 2 s."""
     _let_go(tick, lambda stage: stage.clears is Clears.ON_RESET)
 
 

@@ -1,4 +1,4 @@
-"""Say for each row, in English and Chinese, what a person should read when it is up."""
+"""Give each row its words for a person while it is up, in English and Chinese."""
 
 from __future__ import annotations
 

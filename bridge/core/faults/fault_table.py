@@ -1,4 +1,4 @@
-"""Hold the one table of what can be wrong: detector, window, binding, action, clearing, words.
+"""Hold the one table of faults: detector, window, binding, action, clearing, words.
 
 docs/safety.md, the dashboard's sentences and the exhaustive test are made from it. A row is one
 detector with one or more stages; the worst active stage wins and none masks another. No row and no
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Clears(StrEnum):
-    """Say what ends a stage once its detector is clean."""
+    """Name how a stage ends once its detector is clean."""
 
     AUTO = "AUTO"
     """Clean for ``clean_s``; such a stage may only CAP or HOLD2."""
@@ -36,7 +36,7 @@ ALL = ""
 
 @dataclass(frozen=True, slots=True)
 class FaultStage:
-    """Give one threshold of a row and what it does."""
+    """Give one threshold of a row and its action."""
 
     name: str
     """Row and place in it, ``LIDAR_STALE.1``; unique."""

@@ -1,4 +1,4 @@
-"""Name what can hurt or go wrong, what watches for it, where in the code, and which test proves it.
+"""List the hazards: the watcher of each, its place in the code, and the test that proves it.
 
 docs/safety.md prints this table; a test holds every function and every test in it to exist, each
 test to name its row, and every row, gate and detector to be here. Data only.

@@ -37,7 +37,7 @@ class Zone:
 
 @dataclass(frozen=True, slots=True)
 class FenceCell:
-    """Hold what is near one square of the floor."""
+    """Hold the fence's edges near one square of the floor."""
 
     edges: tuple[Edge, ...]
     """All of the boundary within sight of any point of the square."""
@@ -60,7 +60,7 @@ class FenceGrid:
     """Every square from which the boundary, or its inside, can be seen."""
 
     def allows(self, x_m: float, y_m: float) -> bool:
-        """Tell whether the centre may be at a point; what is not a number may be nowhere."""
+        """Return whether the robot's centre may be at a point; NaN is nowhere allowed."""
         cell = self._cell(x_m, y_m)
         if cell is None:
             return False
@@ -146,7 +146,7 @@ def _cell_at(
     allowed: tuple[Polygon, ...],
     keep_outs: tuple[Polygon, ...],
 ) -> FenceCell:
-    """Gather what is near the square around a point."""
+    """Gather the edges near the square around a point."""
     half = cell_m / sqrt(2) + 1e-6
     near = tuple(e for e in boundary if nearest_m((e,), x_m, y_m) <= SIGHT_M + half)
     inside = None

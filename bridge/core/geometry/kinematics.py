@@ -53,7 +53,7 @@ def wheels_of(twist: Twist2, base: Base) -> WheelSpeeds:
 
 
 def twist_of(left_radps: float, right_radps: float, base: Base) -> Twist2:
-    """Return the body velocity of two wheel speeds, held within what the wire can say.
+    """Return the body velocity of two wheel speeds, held within the wire's bounds.
 
     A measurement beyond it stays a very large speed of the same sign, so that whoever compares it
     with what was sent still sees a runaway. What is not finite is standstill: a drive that says so

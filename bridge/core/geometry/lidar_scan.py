@@ -209,6 +209,6 @@ def _rays(
 
 
 def _wrap_turn(angle_rad: float) -> float:
-    """Bring an angle into [0, 2 pi); what is not a number becomes 0."""
+    """Bring an angle into [0, 2 pi); NaN and infinity become 0."""
     turned = angle_rad % tau if -1e6 <= angle_rad <= 1e6 else 0.0
     return turned if turned < tau else 0.0

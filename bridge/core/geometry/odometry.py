@@ -88,7 +88,7 @@ def roll(pose: Pose2, left_m: float, right_m: float, separation_m: float) -> Pos
 
 
 def along_arc(pose: Pose2, length_m: float, turn_rad: float) -> Pose2:
-    """Move a pose along an arc of signed length and turn; what leaves the world moves nothing."""
+    """Move a pose along an arc of signed length and turn; a step out of the world moves nothing."""
     if not isfinite(turn_rad):
         return pose
     x, y = arc_end(pose, length_m, turn_rad)

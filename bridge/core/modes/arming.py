@@ -1,4 +1,4 @@
-"""Say what still speaks against arming and against a reset. Accepting conditions, all named."""
+"""List the objections to arming and to a reset. Accepting conditions, all named."""
 
 from __future__ import annotations
 

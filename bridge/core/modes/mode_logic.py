@@ -1,4 +1,4 @@
-"""Decide the mode from what is up, in one place and one order, every tick.
+"""Decide the mode from the rows that are up, in one place and one order, every tick.
 
 Protective stop, then the worst row, then the stop in progress, then what the robot is called to do.
 Rows are evaluated here and never from callbacks.
@@ -35,7 +35,7 @@ _HOLD2 = SEVERITY[Action.HOLD2]
 
 
 def detect(tick: TickContext) -> None:
-    """Run every detector and keep what it saw as long as its row says."""
+    """Run every detector and keep its finding as long as its row says."""
     dirty: fault_latch.Dirty = []
     for detector in DETECTORS:
         detector(tick, dirty)
@@ -103,7 +103,7 @@ def escalate_stop(tick: TickContext, action: Action, why: str, *, reset_needed: 
 
 
 def arrive(tick: TickContext, *, at_end: bool) -> None:
-    """Leave ACTIVE when what was asked is done and the robot stands."""
+    """Leave ACTIVE when the request is done and the robot stands."""
     s = tick.s
     if s.mode is not Mode.ACTIVE:
         return

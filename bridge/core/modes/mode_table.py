@@ -1,4 +1,4 @@
-"""Hold the mode table. What is absent is forbidden; docs and the exhaustive test come from it.
+"""Hold the mode table. Absent transitions are forbidden; docs and the exhaustive test use it.
 
 The key is the mode and what happened: the worst action of the active rows, an operator's request,
 or a fact about the robot. Output follows from the mode alone: outside MOVING the target is zero.
@@ -12,7 +12,7 @@ from wire import Action, Mode
 
 
 class RequestCause(StrEnum):
-    """Name what a person can ask for. ARM and RESET mean: asked, proven and all conditions met."""
+    """Name a person's requests. ARM and RESET mean: asked, proven and all conditions met."""
 
     ARM = "arm"
     DISARM = "disarm"
@@ -24,7 +24,7 @@ class RequestCause(StrEnum):
 
 
 class Fact(StrEnum):
-    """Name what can become true by itself."""
+    """Name the causes that come true by themselves."""
 
     UP = "the process is up"
     PROVEN = "self test passed"

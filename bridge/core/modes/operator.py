@@ -64,7 +64,7 @@ def estop(tick: TickContext, why: str) -> None:
 
 
 def _against(tick: TickContext, op: OperatorArrival) -> Iterator[tuple[str, str]]:
-    """Yield code and detail of what speaks against a request, the first one decides."""
+    """Yield code and detail of each objection to an operator's request; the first one decides."""
     if op.kind in _PROVEN:
         if tick.stopped:
             yield "stopped", "a stop came in the same tick; ask again"

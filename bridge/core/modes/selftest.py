@@ -1,4 +1,4 @@
-"""Prove the drive before anybody may arm it. Waits for what has not come; faults what is wrong.
+"""Prove the drive before anybody may arm it. Waits for missing messages; raises faults.
 
 The drive's own dead-man is proven by withholding commands until the drive says that it has timed
 out, which is the one exception to one command per tick.

@@ -22,7 +22,7 @@ SLACK_MPS = 0.10
 
 
 def plan_stop(memory: LimiterState, base: Base, limits: Limits, profile: Profile) -> StopPlan:
-    """Plan the stop that begins at what was sent last.
+    """Plan the stop that begins at the twist sent last.
 
     Peak deceleration from m = (peak^2 - first^2) / 2j + peak^2 / 2j when the speed m is too small
     to reach the limit; otherwise what those two ramps leave is braked flat.
@@ -53,7 +53,7 @@ def _against(speed: float, accel: float) -> float:
 
 
 def planned_twist(plan: StopPlan, elapsed_s: float) -> Twist2:
-    """Return what is to be sent ``elapsed_s`` after the stop began; before it, the start."""
+    """Return the twist to send ``elapsed_s`` after the stop began; before it, the start."""
     if not plan.rim_mps > 0.0:
         return STILL
     return scale_twist(plan.start, planned_rim_mps(plan, elapsed_s) / plan.rim_mps)
@@ -88,5 +88,5 @@ def too_slow(plan: StopPlan, measured: Twist2, elapsed_s: float, lag_s: float, b
 
 
 def too_long(plan: StopPlan, elapsed_s: float, lag_s: float) -> bool:
-    """Tell whether the stop, its dwell at standstill not counted, outlasts what was planned."""
+    """Return whether the stop, its dwell at standstill not counted, outlasts its plan."""
     return not elapsed_s <= 1.5 * (plan.duration_s + lag_s) + 0.3

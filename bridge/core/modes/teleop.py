@@ -59,7 +59,7 @@ def watch(tick: TickContext) -> None:
 
 
 def requested_twist(tick: TickContext) -> Twist2:
-    """Return what the stick asks for."""
+    """Return the twist that the stick asks for."""
     return Twist2(tick.s.stick.v_mps, tick.s.stick.w_radps)
 
 

@@ -1,4 +1,4 @@
-"""Change the mode, by the table alone, and do what entering a mode means.
+"""Change the mode, by the table alone, and do each mode's entry actions.
 
 The only writer of ``mode``. A stop that begins anywhere is planned here, so that it can be judged.
 No mode that has torque touches what was sent last: stop, follower and hand all go on from it.
@@ -160,6 +160,6 @@ def _power_down(tick: TickContext, to: Mode, why: str) -> None:
 
 
 def _hold_for_fault(tick: TickContext, why: str) -> None:
-    """Hold for what needs a person, unless somebody already asked for one."""
+    """Hold until a person has mended the fault, unless somebody already asked for a hold."""
     if tick.s.held is None:
         hold(tick, HeldReason.FAULT, why)

@@ -62,7 +62,7 @@ ALIKE = 0.8
 
 
 def watch(tick: TickContext, before: BridgeState) -> None:
-    """Follow the ramp under way by one tick; called once what is sent is decided."""
+    """Follow the ramp under way by one tick; called once the command is decided."""
     s = tick.s
     ramp, now = s.ramp, s.motion.limiter.sent
     if ramp is None and now == before.motion.limiter.sent:
@@ -89,7 +89,7 @@ def _measures(tick: TickContext) -> bool:
 
 
 def _follow(tick: TickContext, ramp: Ramp, sent: float) -> None:
-    """Add one tick: what is measured now is what the command of the last tick did."""
+    """Add one tick: the motion measured now is the effect of the last tick's command."""
     s = tick.s
     robot, dt_s = tick.config.robot, tick.dt_s
     real = fastest_rim(s.odometry.measured, robot.base.wheel_separation_m)
@@ -129,7 +129,7 @@ def _crossing_s(
 
 
 def after_stop(known: Learnt, ramp: Ramp, robot: RobotDescription) -> Learnt:
-    """Return what is known after a ramp has come to standstill.
+    """Return the brakes' estimate after a ramp has come to standstill.
 
     One sent harder than the robot brakes says nothing of how late it was, unless it took longer
     than all that is known explains.
@@ -146,7 +146,7 @@ def after_stop(known: Learnt, ramp: Ramp, robot: RobotDescription) -> Learnt:
 
 
 def after_cut(known: Learnt, ramp: Ramp, robot: RobotDescription, now_s: float) -> Learnt:
-    """Return what is known after a stop whose torque went away: how hard it braked until then.
+    """Return the brakes' estimate after a stop whose torque went away, judged until then.
 
     Such a stop was found too slow. Lag and the time that the jerk limit takes are left out of it.
     """
@@ -162,7 +162,7 @@ def after_cut(known: Learnt, ramp: Ramp, robot: RobotDescription, now_s: float) 
 
 
 def _with_slope(known: Learnt, ramp: Ramp, robot: RobotDescription) -> Learnt:
-    """Return what is known once the slope of a ramp has been looked at.
+    """Return the brakes' estimate with the slope of a ramp taken into account.
 
     One that kept up with what was sent shows that the robot can brake so hard at least.
     """
@@ -183,7 +183,7 @@ def _with_slope(known: Learnt, ramp: Ramp, robot: RobotDescription) -> Learnt:
 
 
 def _take(tick: TickContext, ramp: Ramp, after: Learnt) -> None:
-    """Put what one stop showed to what is known; say so where that changes what gates count on."""
+    """Add one stop's measurement to the estimate; report it where the gates' figures change."""
     s = tick.s
     before, s.learnt, s.ramp = s.learnt, after, None
     if after.lag_more_s != before.lag_more_s or after.decel_share != before.decel_share:

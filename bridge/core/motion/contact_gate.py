@@ -1,4 +1,4 @@
-"""Let nothing of a motion pass that goes on into what a bumper feels or a cliff sensor misses.
+"""Block motion that goes on into a bumper's contact or towards a cliff.
 
 By direction: what leads away passes slowly, and so does a turn in place, which sweeps nothing but
 the disc itself. Bumpers sit front and rear, the cliff sensor in front; one that is not told counts
@@ -29,7 +29,7 @@ def touched_input(state: DriveState | None, v_mps: float) -> str | None:
 
 
 def contact_gate(state: DriveState | None, twist: Twist2) -> Twist2:
-    """Return what passes of a motion while the newest drive state shows a contact or a cliff."""
+    """Return the part of a motion that passes while the drive state shows a contact or a cliff."""
     if state is None or state.bumper_front is state.bumper_rear is state.cliff is False:
         return twist
     if touched_input(state, twist.v_mps) is not None:

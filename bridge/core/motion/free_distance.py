@@ -220,7 +220,7 @@ def _clearance(points: Points, x: float, y: float) -> float:
 
 
 def _loses_clearance(points: Points, start: Pose2, curve: float, now: float, radius: float) -> bool:
-    """Tell whether going on brings the nearest point nearer; at contact, by whatever little."""
+    """Return whether going on brings the nearest point nearer; at contact, by any amount."""
     lost = _CLEARANCE_LOST_M if now > radius + 0.01 else 0.0
     return not all(
         _clearance(points, place.x_m, place.y_m) >= now - lost

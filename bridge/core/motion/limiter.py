@@ -1,4 +1,4 @@
-"""Shape what is asked into what may be sent this tick: the only way a velocity changes.
+"""Shape the requested twist into this tick's command: the only way a velocity changes.
 
 Owns rates: acceleration, deceleration and jerk at the wheels, and the memory they need, which is
 the last value really sent (before dead-zone feed-forward) and never one that was measured: what an
@@ -36,7 +36,7 @@ def shape(
     profile: Profile = Profile.NORMAL,
     room_m: float | None = None,
 ) -> LimiterState:
-    """Return what is sent this tick; its ``sent`` is the tick's velocity.
+    """Return this tick's limiter state; its ``sent`` is the tick's velocity.
 
     Args:
         target: what is asked; anything not finite is standstill. Saturated here once more.
@@ -72,7 +72,7 @@ def shape(
 
 
 def tick_length(dt_s: float, period_s: float) -> float:
-    """Hold a tick's length within half a period and two; what is not a number is one period."""
+    """Hold a tick's length between half a period and two; NaN counts as one period."""
     if not 0.0 < period_s <= 1.0:
         period_s = PERIOD_S
     if 0.5 * period_s <= dt_s <= 2 * period_s:

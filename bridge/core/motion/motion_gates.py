@@ -1,4 +1,4 @@
-"""Let through of a command what lidar, fence and bumpers leave of it, by direction.
+"""Pass the part of a command that lidar, fence and bumpers leave, by direction.
 
 The gate scales, down to nothing towards the trouble; what loses no clearance passes slowly. Shut
 for 0.5 s while waypoints or external velocities move the robot it is ``blocked``: a HOLD2 that ends
@@ -39,7 +39,7 @@ UNKNOWN_MPS = 0.2
 
 
 def apply(tick: TickContext, twist: Twist2) -> Twist2:
-    """Return what may pass of a command; remember how free its way is, and the room to stop in."""
+    """Return the gated command; remember how free its way is, and the room to stop in."""
     s = tick.s
     motion, picture = s.motion, s.lidar.picture
     motion.free_m = tick.room_m = None

@@ -1,4 +1,4 @@
-"""Let pass what the lidar's free space allows of a motion: the OBSTACLE gate.
+"""Pass the part of a motion that the lidar's free space allows: the OBSTACLE gate.
 
 Owns the joint verdict on what is asked and on what the robot really does, since after a change of
 mind it still follows the old curve for a while. Scales along the curve, down to nothing towards the
@@ -36,7 +36,7 @@ _SAME_CURVE_PER_M = 0.05
 
 @value
 class ObstaclePass:
-    """Tell what passes of a motion, and why."""
+    """Hold the part of a motion that passes the obstacle gate, and why."""
 
     twist: Twist2
     """What may be asked of the limiter; standstill if the gate is shut."""
@@ -142,7 +142,7 @@ def _carried_on(
     reaction: float,
     share: float,
 ) -> float:
-    """Return the factor on what is asked that the arc the robot is still on allows."""
+    """Return the factor on the request that the arc still being driven allows."""
     if really.touching:
         return 1.0  # it loses no clearance; what is asked has been judged by itself
     decel = path_decel_mps2(measured, robot.base, robot.limits, share)

@@ -63,7 +63,7 @@ def carry_over(state: FollowState) -> FollowState:
 
 
 def is_reached(residual_m: float, residual_rad: float) -> bool:
-    """Tell whether residuals count as reached; what is not a number does not."""
+    """Return whether residuals count as reached; NaN does not."""
     return residual_m <= REACHED_M and residual_rad <= REACHED_RAD
 
 
@@ -84,7 +84,7 @@ def follow(
     limits: Limits,
     lag_s: float,
 ) -> PursuitCommand:
-    """Return what velocity the path asks for, within robot.toml's limits.
+    """Return the velocity that the path asks for, within robot.toml's limits.
 
     Args:
         state: :data:`NEW` for a path that has just come.

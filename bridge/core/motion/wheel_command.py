@@ -1,4 +1,4 @@
-"""Turn what is wanted into the tick's one command. The only place where a command is born.
+"""Turn the request into the tick's one command. The only place where a command is born.
 
 In ACTIVE and TELEOP the source in charge is followed, through caps, gate and limiter; in every
 other mode the target is zero and the output ramps to it, or the torque is off.
@@ -46,7 +46,7 @@ def move(tick: TickContext) -> None:
 
 
 def _reconsider(tick: TickContext) -> None:
-    """Judge a blocked way on what its owner asks now: a velocity still fresh, or the follower.
+    """Judge a blocked way on its owner's request now: a velocity still fresh, or the follower.
 
     What the follower would remember of it is not kept: a blocked robot stands and follows nothing.
     """
@@ -60,7 +60,7 @@ def _reconsider(tick: TickContext) -> None:
 
 
 def requested_twist(tick: TickContext) -> tuple[Twist2, bool]:
-    """Return what the source in charge asks for, and whether it is at its leg's end."""
+    """Return the twist that the source in charge asks for, and whether its leg has ended."""
     s = tick.s
     if s.mode is Mode.TELEOP:
         return teleop.requested_twist(tick), False
@@ -76,7 +76,7 @@ def requested_twist(tick: TickContext) -> tuple[Twist2, bool]:
 
 
 def follow_horizon(tick: TickContext) -> PursuitCommand | None:
-    """Return what following the horizon asks for; None without a horizon or a place in ``map``."""
+    """Return the twist that the horizon asks for; None without a horizon or a pose in ``map``."""
     s = tick.s
     if s.leg.path is None or tick.robot_in_map is None:
         return None
@@ -125,7 +125,7 @@ def forget_after_gap(tick: TickContext) -> None:
 
 
 def limit(tick: TickContext, asked: Twist2) -> LimiterState:
-    """Return what is sent: asked, then caps, gate and rates. Zero is the target unless moving."""
+    """Return the limited twist: request, then caps, gate and rates. Zero unless moving."""
     s = tick.s
     robot = tick.config.robot
     powered = s.mode in POWERED or (s.mode is Mode.ESTOPPED and s.stopping is not None)
@@ -153,7 +153,7 @@ def limit(tick: TickContext, asked: Twist2) -> LimiterState:
 
 
 def command(tick: TickContext) -> DriveCommand:
-    """Write down what both wheels are told, so that they turn as what is sent means.
+    """Set both wheels' speeds so that they turn as the sent twist means.
 
     Behind the limiter's memory, which keeps what was meant: rates and stopping stay true.
     """

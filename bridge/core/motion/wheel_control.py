@@ -1,4 +1,4 @@
-"""Make one wheel turn as it is meant to: feed forward what is known of its motor, correct the rest.
+"""Make one wheel turn at its target speed: feed the motor's model forward, correct the rest.
 
 Stands behind the limiter, whose memory keeps what was meant. Fed forward are the dead zone and the
 motor's lag (a first-order motor told ``meant + T d(meant)/dt`` turns as meant); the same model says
@@ -92,7 +92,7 @@ def control_wheel(
 
 
 def _begin_turning(reading_radps: float | None, most_radps: float) -> Wheel:
-    """Begin anew with a wheel that stood, or turned the other way: from what it turns, if known."""
+    """Begin anew with a wheel that stood, or turned the other way: from its speed, if known."""
     if reading_radps is not None and -most_radps <= reading_radps <= most_radps:
         return Wheel(expected_radps=reading_radps, due_radps=reading_radps)
     return AT_REST
@@ -127,5 +127,5 @@ def _correct(
 
 
 def _clamp_speed(speed: float, most: float) -> float:
-    """Hold a speed between standing and the most; what is no number stands."""
+    """Hold a speed between zero and the maximum; NaN counts as zero."""
     return speed if 0.0 <= speed <= most else most if speed > most else 0.0

@@ -1,4 +1,4 @@
-"""Take in what drive, lidar, localization, gyro and buttons said, and how old it is.
+"""Take in the messages of drive, lidar, localization, gyro and buttons, and their ages.
 
 First in a tick, so that orders are judged on the newest facts. Writes only what it remembers.
 """
@@ -190,7 +190,7 @@ def _hear_scan(tick: TickContext, scan: Scan) -> None:
 
 
 def order_of(further: int, now_s: float, received_s: float | None, lost_s: float) -> str:
-    """Say what a number tells that is so much further than the last: nothing, old, ahead, again.
+    """Classify a sequence number so far beyond the last: nothing, old, ahead, again.
 
     After a silence any number counts, or a single false one would shut out for ever whom it
     pretended to be; until then one that is far ahead is not believed.
@@ -262,7 +262,7 @@ def _is_jump(tick: TickContext, last: Localization, new: Localization) -> bool:
 def _add_drift(
     had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState
 ) -> Drift:
-    """Add one correction, and forgive what odometry may have been wrong since the last."""
+    """Add one correction, and forgive the odometry's possible error since the last."""
     moved_m = odometry.travelled_m - had.travelled_m
     turned_rad = odometry.turned_rad - had.turned_rad
     x_m, y_m, yaw_rad = had.x_m + x_m, had.y_m + y_m, had.yaw_rad + yaw_rad

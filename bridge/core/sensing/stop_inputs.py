@@ -17,7 +17,7 @@ _UNPROVEN = frozenset({Mode.BOOT, Mode.SELFTEST})
 
 
 def hear_link(tick: TickContext, link: EstopLink) -> None:
-    """Take in what the stop button's link says."""
+    """Take in the stop button link's message."""
     buttons = tick.s.buttons
     tick.s.buttons = replace(buttons, link_pressed=link.pressed, link_received_s=tick.now_s)
 

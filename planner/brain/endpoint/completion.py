@@ -37,7 +37,7 @@ def complaint_of(content: object) -> str:
 
 
 def generated_by(content: object) -> str | None:
-    """Return what the model wrote where a server refuses it as an error of its own, or None."""
+    """Return the model's text where a server refuses it as an error of its own, or None."""
     written = _error(content).get("failed_generation")
     return written if isinstance(written, str) else None
 
@@ -55,7 +55,7 @@ def _error(content: object) -> dict[str, Any]:
 
 @dataclass(frozen=True, slots=True)
 class Tokens:
-    """Count what was billed."""
+    """Count the tokens billed."""
 
     total: int = 0
     prompt: int = 0
@@ -79,7 +79,7 @@ class ModelReply:
 
 
 def read_reply(content: object, tool: str = NAME) -> ModelReply:
-    """Return what a server answered with 200; ``tool``: the only one that may be called.
+    """Return a server's answer with status 200; ``tool``: the only one that may be called.
 
     Raises:
         BrainDown: ``bad_reply``: it is no chat completion; ``server_error``: it says so itself.
@@ -115,7 +115,7 @@ def read_json(raw: bytes) -> Any:
 
 
 def _text(message: dict[str, Any], tool: str) -> tuple[str, str | None]:
-    """Return the words of a message, and what is odd about it."""
+    """Return the words of a message, and its oddity if it has one."""
     content = message.get("content")
     if isinstance(content, list):  # parts, as some servers write them
         parts = [part.get("text") for part in content if isinstance(part, dict)]
@@ -210,12 +210,12 @@ class Assembly:
 
     @property
     def text(self) -> str:
-        """Return what the model has written so far: its words, else the first call's arguments."""
+        """Return the model's text so far: its words, else the first call's arguments."""
         content = "".join(self._content)
         return content if content.strip() or not self._calls else self._calls[0].arguments
 
     def add(self, event: Any) -> None:
-        """Take one event in; what is none of a completion is passed over.
+        """Take one event in; one that is no part of a completion is passed over.
 
         Raises:
             StreamFailure: it is an error, or no JSON at all.

@@ -119,7 +119,7 @@ class Dialect:
         return begin
 
     def simpler(self, complaint: str, quiet: frozenset[str] = frozenset()) -> Iterator[Dialect]:
-        """Yield what to try after a 400 with these words, the likeliest first.
+        """Yield the dialects to try after a 400 with these words, the likeliest first.
 
         A parameter is given up where the complaint names it; else the ladder is stepped down.
 
@@ -154,7 +154,7 @@ def _about_system(complaint: str) -> bool:
 
 
 def quiet_of(settings: ModelSettings) -> Body:
-    """Return what switches this server's thoughts off, as far as it is wanted and known."""
+    """Return the fields that switch this server's thoughts off, as far as wanted and known."""
     known = settings.known_preset
     return {} if known is None or settings.thinking else dict(known.quiet)
 
@@ -169,7 +169,7 @@ def body_of(
     form: ReplyForm = PLAN_FORM,
     picture: str | None = None,
 ) -> Body:
-    """Return the body of one call; what Pons writes itself wins over all that is extra.
+    """Return the body of one call; fields that Pons writes itself win over extra ones.
 
     Args:
         settings: of the model.

@@ -57,7 +57,7 @@ class ReplyPoint:
 
 @dataclass(frozen=True, slots=True)
 class Absent:
-    """Say that what was asked for is not there."""
+    """Mark that the requested thing is not in the picture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,7 +242,7 @@ class EndpointLooker:
         end_s: float,
         judged: Callable[[str], T | NoPicture | Unusable],
     ) -> T:
-        """Return what a reply is judged to be, after one repair turn at most."""
+        """Return the verdict on a reply, after one repair turn at most."""
         reasons: list[str] = []
         asked = messages
         for _ in range(2):

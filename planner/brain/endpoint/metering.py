@@ -42,7 +42,7 @@ class Weight:
         self._grow(rest)
 
     def tokens(self, per_token: int) -> int:
-        """Return the tokens of what came, of so many bytes each."""
+        """Return the tokens of a reply, of so many bytes each."""
         self._end()
         own = self._size - self._events * self._least
         return max(self._events, own // per_token)
@@ -164,7 +164,7 @@ class _Read(httpx.AsyncByteStream):
         return self._sent, self._wrote() if whole else self._bill.max_reply_tokens
 
     def _wrote(self) -> int:
-        """Return what a reply without figures may have cost."""
+        """Return the possible cost [tokens] of a reply without figures."""
         weight, each = self._weight, CHARACTERS_PER_TOKEN
         wrote = self._size // each if weight is None else weight.tokens(each)
         return min(self._bill.max_reply_tokens, wrote)

@@ -74,7 +74,7 @@ class EndpointBrain:
         self._prompt.messages(ThinkRequest(text="", vocabulary=vocabulary))
 
     def looker(self, shrink: Shrink | None = None, lay_out: LayOut | None = None) -> EndpointLooker:
-        """Return whoever asks the same model about pictures, over the same line.
+        """Return the asker of the same model about pictures, over the same line.
 
         Raises:
             ConfigError: ``prompt_missing``, ``prompt_malformed``.
@@ -86,7 +86,7 @@ class EndpointBrain:
         await self._client.close()
 
     async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
-        """Return the model's plan of a sentence; who listens hears it as it is written.
+        """Return the model's plan of a sentence; a listener hears it as it is written.
 
         Raises:
             BadPlan: neither reply is a plan.

@@ -49,7 +49,7 @@ def _no_constant(name: str) -> float:
 
 
 def _refuse_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return an object; of two values for one key neither is what was meant."""
+    """Return an object; refuse it where a key stands twice."""
     found = dict(pairs)
     if len(found) != len(pairs):
         raise ValueError("a key stands twice in one object")
@@ -188,7 +188,7 @@ def judge(
 
 
 def _reshape(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
-    """Return the reply in the plan's own shape; what does not belong there is a reason."""
+    """Return the reply in the plan's own shape; fields that do not belong there are reasons."""
     kind = reply.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
         return Unusable((f"kind must be one of {', '.join(KINDS)}",))
@@ -256,7 +256,7 @@ def _at(step: int | None) -> str:
 
 
 def _describe_error(error: Any) -> str:
-    """Say where pydantic found what; the value itself is not repeated."""
+    """Describe a pydantic error by place and kind; the value itself is not repeated."""
     return f"{'.'.join(clean(str(part))[:40] for part in error['loc'][:6])}: {error['msg'][:160]}"
 
 
@@ -301,7 +301,7 @@ class Drafting:
             self._hear(draft)
 
     def draft_of(self, text: str) -> Draft:
-        """Return what can be shown of a text that goes on."""
+        """Return the part of an unfinished text that can be shown."""
         spoken = without_thoughts(text)
         shown = clean(spoken[-MAX_DRAFT:])
         return Draft(text=shown, steps=tuple(self._steps(spoken)))

@@ -180,7 +180,7 @@ class Events:
         self._line += rest
 
     def end(self) -> Iterator[Any]:
-        """Yield what the last bytes held: some servers end without an empty line."""
+        """Yield the events in the last bytes: some servers end without an empty line."""
         whole, self._line = bytes(self._line), bytearray()
         yield from self._take(whole)
         yield from self._take(b"")

@@ -1,4 +1,4 @@
-"""Own the line to one endpoint: consent, client, dialect, and the turns of those who ask.
+"""Own the line to one endpoint: consent, client, dialect, and the turns of its callers.
 
 A body that is refused is made simpler and sent again; a stream that breaks is asked for plainly.
 Neither has any effect outside of the call: nothing moves before a whole reply was judged.
@@ -165,7 +165,7 @@ T = TypeVar("T")
 
 
 class Line:
-    """Be shared by all that ask one model: whoever plans, and whoever looks."""
+    """Share one model's connection between the planning and the looking brain."""
 
     def __init__(
         self,
@@ -193,7 +193,7 @@ class Line:
         self._turns = asyncio.Semaphore(settings.parallel)
 
     async def turn(self, goal: str, talk: Callable[[float], Awaitable[T]], wanted: str) -> T:
-        """Return what comes of talking, inside one deadline that spans waiting for a turn.
+        """Return a conversation's result, inside one deadline that spans waiting for a turn.
 
         Args:
             goal: whose budget pays.

@@ -155,7 +155,7 @@ class Catalogue:
         return self.build(lambda language: self.render(code, language, facts))
 
     def join(self, texts: Iterable[Bilingual], joint: str = "joint.sentence") -> Bilingual:
-        """Return texts as one, with what a language puts between two of them."""
+        """Return texts as one, with each language's joint between two of them."""
         several = tuple(texts)
         return self.build(
             lambda language: self.raw(joint, language).join(t.of(language) for t in several)
@@ -295,7 +295,7 @@ def template(code: Code) -> Bilingual:
 
 
 def join(texts: Iterable[Bilingual], joint: str = "joint.sentence") -> Bilingual:
-    """Return texts as one, with what a language puts between two of them."""
+    """Return texts as one, with each language's joint between two of them."""
     return CATALOGUE.join(texts, joint)
 
 

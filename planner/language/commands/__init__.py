@@ -1,4 +1,4 @@
-"""Tell what a person says to the planner itself, before any brain: pause, go on, remember this.
+"""Read a person's orders to the planner itself, before any brain: pause, go on, remember this.
 
 Pure, both languages, whole sentences only. The one door of this package.
 """

@@ -1,4 +1,4 @@
-"""List what a person may say to the planner itself. Data only."""
+"""List a person's commands to the planner itself. Data only."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class PauseCommand:
 
 @dataclass(frozen=True, slots=True)
 class ResumeCommand:
-    """Go on with what was paused last."""
+    """Go on with the goal that was paused last."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,12 +46,12 @@ class Replace:
 
 @dataclass(frozen=True, slots=True)
 class WhereCommand:
-    """Say where the robot is."""
+    """Ask for the robot's position."""
 
 
 @dataclass(frozen=True, slots=True)
 class Doing:
-    """Say what the robot does now."""
+    """Ask for the robot's present activity."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class Slower:
 
 @dataclass(frozen=True, slots=True)
 class Faster:
-    """Double it again, up to what the goal began with."""
+    """Double the speed cap again, up to the goal's first one."""
 
 
 Intent = (

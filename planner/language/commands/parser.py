@@ -63,7 +63,7 @@ class _FoldedText:
 
 
 def intent_of(text: str) -> Intent | None:
-    """Return what a sentence asks of the planner itself, or None."""
+    """Return the command to the planner itself in a sentence, or None."""
     if not text.strip() or len(text) > MAX_READ or any(map(_unseen, text)):
         return None
     said = _fold(text)
@@ -95,7 +95,7 @@ def _slowing(said: _FoldedText, grammar: ModuleType) -> Intent | None:
 
 
 def _unseen(char: str) -> bool:
-    """Tell what may make a person see another sentence than the one that is read."""
+    """Return whether a sentence has characters that show a person another sentence."""
     return unicodedata.category(char) in ("Cc", "Cf", "Cs", "Co") and char not in "\t\n\r"
 
 
@@ -129,7 +129,7 @@ def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
 
 
 def _read_lesson(said: _FoldedText, grammar: ModuleType) -> Intent | None:
-    """Read what is to be remembered or forgotten; the name as it was written."""
+    """Read the name to be remembered or forgotten, as it was written."""
     kinds: tuple[tuple[str, type[Remember] | type[Forget]], ...] = (
         ("REMEMBER", Remember),
         ("FORGET", Forget),

@@ -1,4 +1,4 @@
-"""Check what keeps a sentence from being an order: denials, vetoes, and what it would do.
+"""Check a sentence for reasons not to take it as an order: denials, vetoes, harm.
 
 - Words that deny, except or switch off. Where one stands, nothing is offered: "go to every room but
   the kitchen" must not be answered with "did you mean: go to the kitchen?". In doubt a sentence

@@ -121,7 +121,7 @@ _GERUND = re.compile(rf"^(?:you (?=\w)|(?P<verb>{'|'.join(_GERUNDS)})\b)")
 
 
 def in_order(text: str) -> str:
-    """Return a marked sentence with what is to be done first standing first."""
+    """Return a marked sentence with the clause to be done first standing first."""
     if len(_WORDS.findall(text)) != 1:
         return text
     plain = text.rstrip(".!? 。")
@@ -179,14 +179,14 @@ _LEAD = re.compile(r"^(?:back )?(?:to|into|in|inside|on) ")
 
 @dataclass(frozen=True, slots=True)
 class ClauseReading:
-    """Hold a clause with what it meant and the scene that it was read in."""
+    """Hold a clause with its meaning and the context that it was read in."""
 
     clause: Clause
     meaning: Meaning
     reading: Reading
 
     def at(self, place: str, read: Callable[[Clause, Reading], Meaning]) -> Meaning:
-        """Return what the clause would have meant, had the robot been at another place."""
+        """Return the clause's meaning, had the robot been at another place."""
         scene = replace(self.reading.scene, place=place)
         return read(self.clause, replace(self.reading, scene=scene))
 
@@ -194,7 +194,7 @@ class ClauseReading:
 def at_each(
     heard: Sequence[ClauseReading], read: Callable[[Clause, Reading], Meaning]
 ) -> tuple[Meaning, ...]:
-    """Return the meanings of all clauses, what follows several places done at each of them."""
+    """Return the meanings of all clauses; one after several places is done at each of them."""
     meanings: list[Meaning] = []
     at = 0
     while at < len(heard):
@@ -267,7 +267,7 @@ def _spread(
     places: tuple[str, ...],
     read: Callable[[Clause, Reading], Meaning],
 ) -> Meaning:
-    """Return what the clauses order, done at each place; or the question where."""
+    """Return the steps that clauses order, done at each place; or the question where."""
     meanings = [act.meaning for act in acts if isinstance(act.meaning, Steps)]
     steps = [step for meaning in meanings for step in meaning.steps]
     rooms = {e.id for e in acts[0].reading.vocabulary.entries if e.kind == "room"}

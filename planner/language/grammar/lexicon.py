@@ -48,14 +48,14 @@ class Mention:
 
 @dataclass(frozen=True, slots=True)
 class MarkedText:
-    """Hold a sentence whose place names are private characters, and what they stand for."""
+    """Hold a sentence whose place names are private characters, and the names behind them."""
 
     text: str
     mentions: tuple[Mention, ...]
     people: tuple[str, ...] = ()  # names of persons, marked by FIRST_NAME and up
 
     def mention(self, mark: str) -> Mention:
-        """Return what a private character stands for."""
+        """Return the mention that a private character stands for."""
         return self.mentions[ord(mark) - FIRST_MARK]
 
     def restore(self, part: str) -> str:

@@ -80,7 +80,7 @@ _ONE = re.compile(r"(?:every|each)\b(?! of)")
 
 
 def several(words: str) -> str | None:
-    """Return what is meant by words for several, without their number; None where one will do."""
+    """Return the thing meant by words for several, without their number; None for a single one."""
     people = _PEOPLE.fullmatch(words)
     if people is not None:
         return f"people{people['rest']}" if words.isascii() else "人"

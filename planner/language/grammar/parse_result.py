@@ -18,7 +18,7 @@ from planner.plan import Bilingual, Code, Find, Language, Step, Turn, Vocabulary
 
 @dataclass(frozen=True, slots=True)
 class Steps:
-    """Hold the steps that a clause orders, and of whom or what it spoke."""
+    """Hold the steps that a clause orders, and the persons and things it spoke of."""
 
     steps: tuple[Step, ...]
     person: str | None = None
@@ -36,7 +36,7 @@ class TopicQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ClauseProblem:
-    """Say why a clause can't be done: the part of the sentence, and what may be offered."""
+    """Hold why a clause can't be done: the part of the sentence, and the offers instead."""
 
     code: Code
     part: str
@@ -149,14 +149,14 @@ Build = Callable[[Match[str], Reading], Meaning | None]
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """Read a clause that matches the pattern whole; what the pattern leaves out is unread."""
+    """Read a clause that matches the pattern whole; words beyond the pattern are unread."""
 
     pattern: Pattern[str]
     build: Build
 
 
 def read_by(rules: Sequence[Rule], clause: str, reading: Reading) -> Meaning:
-    """Return what the first fitting rule reads; a clause that no rule reads whole is a problem."""
+    """Return the first fitting rule's reading; a clause that no rule reads whole is a problem."""
     for rule in rules:
         found = rule.pattern.fullmatch(clause)
         meaning = rule.build(found, reading) if found else None
@@ -179,7 +179,7 @@ def read_place(found: Match[str], group: str) -> str | None:
 
 
 def ahead(reading: Reading, meaning: Steps) -> Reading:
-    """Return the reading of what a clause says after its first part."""
+    """Return the reading of a clause after its first part."""
     return replace(reading, scene=reading.scene.after(meaning))
 
 

@@ -67,7 +67,7 @@ _SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto 
 
 
 class Context(Frozen):
-    """Tell a brain what it may know besides the sentence: where and when it is, what it can do."""
+    """Hold a brain's facts besides the sentence: place, time, the robot's capabilities."""
 
     room: str | None = None
     language: Language | None = None

@@ -1,4 +1,4 @@
-"""Make one plan of what the clauses mean: all of them, or a question, or an honest no.
+"""Make one plan of the clauses' meanings: all of them, or a question, or an honest no.
 
 One clause that can't be read or done holds the whole sentence back; what could be done without it
 is offered, never done unasked.
@@ -115,7 +115,7 @@ def unsafe(rule: Bilingual, part: str) -> Refuse:
 
 
 def _aloud(meaning: Meaning, setting: Setting) -> Meaning:
-    """Say what a topic tells, where it is one part of an order."""
+    """Say a topic's text, where it is one part of an order."""
     words = answer_topic(meaning.topic, setting.now) if isinstance(meaning, TopicQuestion) else None
     return Steps((Say(text=words.of(setting.language)),)) if words else meaning
 
@@ -223,7 +223,7 @@ def _steps_of(
 
 
 def _offer(meanings: Sequence[Meaning]) -> tuple[Step, ...]:
-    """Return what could be driven without the parts that can't be done."""
+    """Return the part of the order that could be driven without the impossible parts."""
     steps: list[Step] = []
     for meaning in meanings:
         if isinstance(meaning, Steps):
@@ -250,7 +250,7 @@ def sentence(steps: Sequence[Step], vocabulary: Vocabulary, lexicon: Lexicon) ->
 
 
 def _goes_without_saying(steps: Sequence[Step], at: int) -> bool:
-    """Tell whether a drive is only the way to what is done next in the same place."""
+    """Return whether a drive is only the way to the next step in the same place."""
     step, after = steps[at], steps[at + 1] if at + 1 < len(steps) else None
     return isinstance(step, GoTo) and isinstance(after, Find | Count) and after.place == step.place
 

@@ -1,4 +1,4 @@
-"""Own what the robot can tell without looking: itself, the clock, a joke, and what it can't know.
+"""Own the robot's answers without looking: itself, the clock, a joke, and its limits.
 
 A topic is a table row: how each language asks for it, and what is said. No network, no model.
 """
@@ -169,7 +169,7 @@ def topic_of(words: str) -> Topic | None:
 
 
 def answer_topic(topic: Topic, now: datetime | None) -> Bilingual | None:
-    """Return what is said of a topic, or None where that takes more than a table."""
+    """Return the text on a topic, or None where that takes more than a table."""
     if topic in (Topic.TIME, Topic.DAY, Topic.MONTH_DAY):
         return _NO_CLOCK if now is None else _clock(topic, now)
     if topic not in _SAID:

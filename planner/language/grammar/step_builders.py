@@ -1,4 +1,4 @@
-"""Make steps of what a rule found: meet, follow, guide, find, count, look. One way for all tongues.
+"""Make steps of a rule's finds: meet, follow, guide, find, count, look. One way for all tongues.
 
 A person known only by name has to be somewhere that the sentence names; what is missing is asked
 for, never guessed.
@@ -87,7 +87,7 @@ def arrive(place: str | None, reading: Reading) -> tuple[Step, ...]:
 
 
 def label_of(words: str, reading: Reading) -> str:
-    """Return what to look for, in the sentence's own words."""
+    """Return the thing to look for, in the sentence's own words."""
     said = _AT_HAND.sub("", reading.marked.restore(words).strip(" ,的"))
     return _ARTICLE.sub("", said).strip()[:_TITLE]
 
@@ -212,7 +212,7 @@ def look_everywhere(question: str, reading: Reading) -> Meaning:
 
 
 def offer_search(words: str, part: str, reading: Reading) -> Meaning:
-    """Offer to search for what a question asks the whereabouts of: no word of it orders a drive.
+    """Offer to search for the thing a question asks about: no word of it orders a drive.
 
     Where a clause before it drove somewhere, it is looked for there.
     """
@@ -225,7 +225,7 @@ def offer_search(words: str, part: str, reading: Reading) -> Meaning:
 
 
 def missing(what: Bilingual, part: str, reading: Reading, name: str = "") -> ClauseProblem:
-    """Say what the sentence leaves open."""
+    """Name the part that the sentence leaves open."""
     filled = build(lambda language: what.of(language).format(name=name))
     return reading.problem(Code.INCOMPLETE, part, what=filled)
 

@@ -31,7 +31,7 @@ class Relation(StrEnum):
 
 
 class Whereabouts(NamedTuple):
-    """Say how a thing is to stand to what."""
+    """Hold a thing's relation to its neighbour, in words."""
 
     relation: Relation | None
     """None: in, behind or before it, which no position tells."""

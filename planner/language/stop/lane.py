@@ -33,7 +33,7 @@ MAX_READ = 400
 
 
 class StopReading(Enum):
-    """What a sentence says about stopping."""
+    """Name a sentence's meaning for a stop."""
 
     ORDER = "order"
     POSSIBLE = "possible"
@@ -93,7 +93,7 @@ _NOISE_ZH = re.compile(r"[呃嗯额]+|(?:那个|这个)(?=[,…。]|呃|嗯|$)")
 
 
 def read_stop(text: str) -> StopReading:
-    """Return what a sentence says about stopping, in English or Chinese or both."""
+    """Return a sentence's meaning for a stop, in English or Chinese or both."""
     head = _see(text[:MAX_READ])
     if _is_order(head):
         return StopReading.ORDER

@@ -64,7 +64,7 @@ SKILLS: MappingProxyType[str, Callable[[Scene], SkillAction]] = MappingProxyType
 
 
 def act_of(scene: Scene) -> SkillAction:
-    """Return what a step asks for now; it fails where its camera or detector is gone by now."""
+    """Return a step's wish now; it fails where its camera or detector is gone by now."""
     code = scene.eyes.means(scene.sight.blind).lacks(scene.step.kind)
     skill = SKILLS.get(scene.step.kind)
     if skill is not None and code is None:

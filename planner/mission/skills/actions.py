@@ -1,4 +1,4 @@
-"""Define what a skill is told and what it may ask for. Data only: no book, no bridge, no clock.
+"""Define a skill's inputs and the actions it may ask for. Data only: no book, no bridge, no clock.
 
 A skill is a pure function of a :class:`Scene`: asked when its step begins, after each leg of it was
 reached, and again after a pause or a crash. It answers with one act; the mission carries it out.
@@ -121,7 +121,7 @@ class Observe:
 
 @dataclass(frozen=True, slots=True)
 class AskImage:
-    """Ask about the picture, standing: a vision model in words, or what a pixel shows.
+    """Ask about the picture, standing: a vision model in words, or the point behind a pixel.
 
     With ``x`` and ``y`` (0 to 1000) the point there; else with ``point`` where these words are;
     else what is seen, as an answer to these words: in the pictures of all ``views``, the names of
@@ -164,7 +164,7 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Think:
-    """Have the brain think again with what was seen and heard."""
+    """Have the brain think again with the sights and answers so far."""
 
     notes: Notes | None = None
     """Held from now on; a thought with the same notes as before is the same one, interrupted."""

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 def count(scene: Scene) -> SkillAction:
-    """Return what to do next to see everything, or the number."""
+    """Return the next act towards seeing everything, or the number."""
     wanted = wanted_of(scene)
     if wanted is None:
         return unknown(scene)
@@ -103,5 +103,5 @@ def _tell_count(scene: Scene, wanted: WantedObject) -> Finish:
 
 
 def _space_number(what: Bilingual) -> Bilingual:
-    """Part a number from the Chinese words before it, whatever they are."""
+    """Part a number from the Chinese words before it."""
     return say("object_step.part", what=what)

@@ -30,7 +30,7 @@ def drive_to(scene: Scene, place: str) -> DriveLeg | Fail:
 
 
 def place_gone(facts: SiteView, place: str) -> Fail:
-    """Say that a place was forgotten since the plan was made, and what there is."""
+    """Tell that a place was forgotten since the plan was made, and the places there are."""
     known = say_same(", ".join(sorted(facts.targets)))
     said = message(Code.UNKNOWN_PLACE, name=place, near="", known=known)
     return Fail(Code.UNKNOWN_PLACE, "place_gone", said)

@@ -20,7 +20,7 @@ from planner.plan import Code
 
 
 def find(scene: Scene) -> SkillAction:
-    """Return what to do next in the search, or what came of it."""
+    """Return the search's next act, or its result."""
     wanted = wanted_of(scene)
     if wanted is None:
         return unknown(scene)
@@ -52,6 +52,6 @@ def not_found(scene: Scene, wanted: WantedObject) -> Fail:
 
 
 def unknown(scene: Scene) -> Fail:
-    """Say that these eyes don't know the thing, and what they know."""
+    """Tell that these eyes don't know the thing, and the things they know."""
     said = unknown_words(scene.step.object or "", scene.eyes.classes, scene.step.kind)
     return Fail(Code.OBJECT_UNKNOWN, "object_unknown", said)

@@ -97,7 +97,7 @@ def _in_sight(scene: Scene, wanted: WantedObject) -> Thing | None:
 
 
 def _find_in_sight(scene: Scene, wanted: WantedObject) -> list[Thing]:
-    """Return who was seen just now, surely or not."""
+    """Return the persons seen just now, surely or not."""
     since_s = scene.now_s - NEW_S
     return [t for t in scene.sight.things if t.label == wanted.label and t.seen_s >= since_s]
 

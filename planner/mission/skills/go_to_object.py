@@ -96,7 +96,7 @@ def set_off(
     at: tuple[float, float, float],
     wanted: WantedObject | None = None,
 ) -> SkillAction:
-    """Return the first leg to what is known to be at a point."""
+    """Return the first leg to an object known to be at a point."""
     near = away_m(pose, at[:2]) <= _short_m(notes) + NEAR_ENOUGH_M
     notes = notes.but(at=at, stage=FACE if near else DRIVE, stand=0)
     return approach(scene.but(notes), pose, wanted)
@@ -159,7 +159,7 @@ def _judge(scene: Scene, pose: Pose2, wanted: WantedObject | None) -> SkillActio
 
 
 def _is_hidden(scene: Scene, near: Thing) -> bool:
-    """Tell whether what was seen on the way is out of sight from here, behind a table or cut off.
+    """Return whether an object seen on the way is out of sight from here, hidden or cut off.
 
     The memory knows what hides it: a thing that the looks should have shown is less sure by now.
     """
@@ -174,7 +174,7 @@ def _near(
     wanted: WantedObject | None,
     things: Iterable[Thing],
 ) -> Thing | None:
-    """Return which of these, seen twice at least, is what was driven up to at a point."""
+    """Return the one of these, seen twice at least, that was driven up to at a point."""
     label = scene.notes.label
     seen = [t for t in things if t.label == label and fits(t, wanted) and twice(t)]
     near = min(seen, key=lambda t: _apart_m(t, at), default=None)
@@ -186,7 +186,7 @@ def _apart_m(thing: Thing, at: tuple[float, float, float]) -> float:
 
 
 def _look_anew(scene: Scene, wanted: WantedObject | None) -> SkillAction:
-    """Look for what is gone once more."""
+    """Look for a lost object once more."""
     notes = scene.notes
     if wanted is None or notes.again > 0:
         return _fail_moved(scene)

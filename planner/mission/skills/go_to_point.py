@@ -1,4 +1,4 @@
-"""Drive to what a point of the picture shows: onto floor, or short of what stands there.
+"""Drive to the point that a pixel shows: onto floor, or short of a thing that stands there.
 
 Law: the point counts in the picture that the plan was made on, from where that was taken; a wall,
 the sky and what lies outside the fence are refused before anything moves. No brain that plans is

@@ -1,4 +1,4 @@
-"""Label what a vision model read of pictures: whose words they are, and what it was shown. Pure.
+"""Label a vision model's reading of pictures: its source, and the pictures shown. Pure.
 
 Law: the words stand beside what the detector saw and never in its place; a yes of either is not
 taken back by a no of the other, still less by one about another direction.

@@ -71,7 +71,7 @@ def look(scene: Scene) -> SkillAction:
 
 
 def _finish(scene: Scene, pose: Pose2, question: str) -> Finish:
-    """Tell what was seen, and what a model read or why it did not."""
+    """Tell the sights, and a model's reading or why there is none."""
     notes, views = scene.notes, scene.eyes.views
     told = SceneAnswer(NO_DETECTOR) if _model_alone(scene) else answer(scene, question)
     said, silent = [told.said], why_silent(scene.answer)
@@ -93,7 +93,7 @@ def _facing(notes: Notes, pose: Pose2) -> Bilingual:
 
 
 def _never_there(scene: Scene) -> Fail:
-    """Say that nothing was looked at: what was not seen there is no no."""
+    """Tell that nothing was looked at: an unseen thing there is no proof of absence."""
     target = scene.facts.targets.get(scene.step.place or "")
     name = target.name if target is not None else say_same("?")
     return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
@@ -111,7 +111,7 @@ def _unknown(scene: Scene, question: str) -> Fail | None:
 
 
 def _model_alone(scene: Scene) -> bool:
-    """Tell whether nothing but the model can say what is ahead: no gaze would ever end."""
+    """Return whether only the model can name the things ahead: no gaze would ever end."""
     alone = scene.eyes.model and scene.sight.blind == "no_detector"
     return alone and scene.step.place is None
 

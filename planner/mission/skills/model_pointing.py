@@ -1,4 +1,4 @@
-"""Have a vision model point at what the detector does not know, and a person say yes to the point.
+"""Have a vision model point at a thing unknown to the detector, and a person agree to the point.
 
 Law: a sign in the picture can move the point (docs/adr/0023), so where a model pointed is driven to
 only upon the plain yes of a person who was told where it is, in words made of figures and the map's
@@ -46,7 +46,7 @@ _DECLINED = say("look.declined")
 
 
 def agree_on_point(scene: Scene, pose: Pose2) -> SkillAction | At:
-    """Return the point once a person has said yes to it; until then, what is to be done for it."""
+    """Return the point once a person has said yes to it; until then, the next act towards it."""
     notes, words, answer = scene.notes, scene.step.object or "", scene.answer
     if notes.pointed is not None:
         return _take_answer(scene, pose, notes.pointed)

@@ -60,7 +60,7 @@ def along(pose: Pose2, began: Pose2) -> float:
 
 
 def no_room(goal: Pose2, pose: Pose2, short_m: float) -> Fail:
-    """Say how much room there is for what is left of a way, of which ``short_m`` are not free."""
+    """Tell how much room the rest of a way has, of which ``short_m`` are not free."""
     left_m = hypot(goal.x_m - pose.x_m, goal.y_m - pose.y_m)
     room_m = max(0.0, left_m - short_m)
     said = message(Code.NO_ROOM, room=f"{room_m:.1f}", asked=f"{left_m:.1f}")

@@ -1,4 +1,4 @@
-"""Read a sight for what a skill wants of it: which things fit, which of them are sure. Pure."""
+"""Match a sight with a skill's object: the things that fit, and which are sure. Pure."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ SOMEBODY = frozenset(
 
 
 def wanted_of(scene: Scene) -> WantedObject | None:
-    """Return what the step's words mean to these eyes, or None."""
+    """Return the object that the step's words mean to these eyes, or None."""
     return read_object(scene.step.object or "", scene.language, scene.eyes.classes)
 
 
 def read_object(words: str, language: Language, classes: tuple[str, ...]) -> WantedObject | None:
-    """Return what words mean to eyes that know these classes (none: not known yet), or None."""
+    """Return the object that words mean to eyes of these classes (none: not known yet), or None."""
     somebody = fold(words.strip()) in SOMEBODY
     related = _read_related(words, language, classes)
     found = resolve("person" if somebody else words, language, classes) if not related else None
@@ -51,7 +51,7 @@ def read_object(words: str, language: Language, classes: tuple[str, ...]) -> Wan
 
 
 def _read_related(words: str, language: Language, classes: tuple[str, ...]) -> WantedObject | None:
-    """Return what is meant by a neighbour that these eyes know, too; None without one."""
+    """Return the object meant by a neighbour that these eyes know, too; None without one."""
     parts = split_relation(words)
     if parts is None or any(singles_out(parts[at], classes) for at in (0, 2)):
         return None
@@ -64,7 +64,7 @@ def _read_related(words: str, language: Language, classes: tuple[str, ...]) -> W
 
 
 def picks_out(words: str, kind: str, language: Language, classes: tuple[str, ...]) -> bool:
-    """Tell whether words mean one among several by what this kind of step can't judge.
+    """Return whether words mean one among several by a mark that this kind of step can't judge.
 
     Where a thing stands by another can be judged of things, not of somebody who walks.
     """
@@ -73,7 +73,7 @@ def picks_out(words: str, kind: str, language: Language, classes: tuple[str, ...
 
 
 def one_of(scene: Scene) -> WantedObject | None:
-    """Return what the words mean where the robot goes up to it, or None: any of a kind won't do."""
+    """Return the object that words mean where the robot goes up to it; None: any won't do."""
     step, classes = scene.step, scene.eyes.classes
     picked = picks_out(step.object or "", step.kind, scene.language, classes)
     return None if picked else wanted_of(scene)
@@ -121,18 +121,18 @@ def lasting(thing: Thing) -> bool:
 
 
 def fresh(sight: Sight, wanted: WantedObject | None, since_s: float) -> tuple[Thing, ...]:
-    """Return what fits and was seen since then, sure or not."""
+    """Return the things that fit and were seen since then, sure or not."""
     seen = (t for t in sight.things if t.seen_s >= since_s and fits(t, wanted))
     return tuple(t for t in seen if is_placed(t, wanted, sight.things))
 
 
 def list_confirmed(sight: Sight, wanted: WantedObject | None, since_s: float) -> tuple[Thing, ...]:
-    """Return what fits, is sure, and was seen since then."""
+    """Return the things that fit, are sure, and were seen since then."""
     return tuple(t for t in fresh(sight, wanted, since_s) if sure(t))
 
 
 def seen_now(scene: Scene, wanted: WantedObject | None) -> tuple[Thing, ...]:
-    """Return what fits and the gaze that has just ended has shown, sure or not."""
+    """Return the things that fit and were shown by the gaze that has just ended, sure or not."""
     return fresh(scene.sight, wanted, scene.gazed_s) if scene.gazed_s is not None else ()
 
 

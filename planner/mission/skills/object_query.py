@@ -25,7 +25,7 @@ FLOOR = WantedObject("floor")
 
 @dataclass(frozen=True, slots=True)
 class ObjectQuery:
-    """Say what is asked for."""
+    """Hold the object that a question asks for."""
 
     what: WantedObject | None = None
     """None: all that is there."""
@@ -39,7 +39,7 @@ class ObjectQuery:
 def sought_in(
     question: str, facts: SiteView, place: str | None, classes: tuple[str, ...]
 ) -> ObjectQuery:
-    """Return what a question asks for of eyes with these classes.
+    """Return the query in a question to eyes with these classes.
 
     Args:
         question: as it was said.

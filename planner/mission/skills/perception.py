@@ -1,4 +1,4 @@
-"""Say what a robot can see with: its camera, what its detector knows, whether a model is there."""
+"""Hold the robot's means of sight: its camera, its detector's classes, whether a model is there."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Eyesight:
     """A vision model may be asked."""
 
     def means(self, blind: str | None) -> Means:
-        """Return what the robot can do by this, if it is blind for that reason (None: it sees)."""
+        """Return the robot's means by this, if it is blind for that reason (None: it sees)."""
         if self.camera is None or self.camera.kind == "none" or blind == "no_camera":
             return BARE
         return Means(camera=True, detector=blind != "no_detector", model=self.model)

@@ -39,17 +39,17 @@ def name_count(count: int, label: str, color: str | None = None) -> Bilingual:
 
 
 def known_things(classes: tuple[str, ...]) -> Bilingual:
-    """List what can be recognised; what most detectors of a home know, where it is not known."""
+    """List the things that can be recognised; where unknown, those of most home detectors."""
     return labels_listed(classes or [kind.id for kind in HOME])
 
 
 def unknown_name(name: str, classes: tuple[str, ...]) -> Bilingual:
-    """Say that these eyes don't know such a thing, and what they know."""
+    """Tell that these eyes don't know such a thing, and the things they know."""
     return message(Code.OBJECT_UNKNOWN, name=say_same(name), known=known_things(classes))
 
 
 def unknown_words(words: str, classes: tuple[str, ...], kind: str = "") -> Bilingual:
-    """Say that these eyes don't know a thing and what they know, or not which one is meant.
+    """Tell that these eyes don't know a thing, or which one is meant, and the known ones.
 
     What they can tell besides depends on the kind of step: somebody who walks has no neighbour.
     """
@@ -85,7 +85,7 @@ def found_at(facts: SiteView, label: str, color: str | None, room: str | None, a
 
 def looked_in(facts: SiteView, rooms: Iterable[str], shut: Iterable[str], spent: str | None,
               alike: Sequence[Thing] = ()) -> Bilingual:  # fmt: skip
-    """Say which rooms were looked through, which could not be reached, and what ran out.
+    """Tell the rooms looked through, those out of reach, and the budget that ran out.
 
     Of things that are ``alike``, it is said that light may have changed their colour.
     """

@@ -1,4 +1,4 @@
-"""Say in which rooms a kind of thing is likely, by what people call the rooms. Pure, a table.
+"""Rank rooms by how likely a kind of thing is there, by people's names for them. Pure, a table.
 
 It orders the rooms of a search and leaves none out: a home whose rooms are called otherwise, or a
 thing that may be anywhere, is searched by distance alone.

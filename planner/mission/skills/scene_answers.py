@@ -1,4 +1,4 @@
-"""Answer a question by what was seen in its step, in both languages. Pure.
+"""Answer a question by the sights of its step, in both languages. Pure.
 
 Yes is what stands where it was asked for; no needs the neighbour to be seen now; what the eyes
 can't judge, or don't know well enough where it is, is said to be so.
@@ -55,7 +55,7 @@ class SceneAnswer(NamedTuple):
 
 
 def answer(scene: Scene, question: str) -> SceneAnswer:
-    """Say what was seen during this step; where one thing is asked for, whether it was."""
+    """Tell the sights of this step; where one thing is asked for, whether it was there."""
     sought = sought_in(question, scene.facts, scene.step.place, scene.eyes.classes)
     late = _unknown(scene, question) if sought.what is None else None
     if late is not None:
@@ -98,7 +98,7 @@ def _sort_by_relation(things: Things, relation: Relation, by: list[Thing] | None
 def _tell_beside(
     what: WantedObject | None, so: SortedThings, spot: SpotPhrases, *, seen: bool
 ) -> SceneAnswer:
-    """Say whether what is asked for stands by its neighbour; ``seen``: that one was seen now."""
+    """Tell whether the object stands by its neighbour; ``seen``: that one was seen now."""
     at, beside = spot.at, spot.beside
     if so.there:
         found = _name_things(so.there, what)
@@ -135,7 +135,7 @@ def _without_neighbour(
 
 
 def _plainly(what: WantedObject | None, things: Things, at: Bilingual) -> SceneAnswer:
-    """Say what was seen of what is asked for, without any neighbour."""
+    """Tell the sights of the object, without any neighbour."""
     if what is None:
         if not things:
             return SceneAnswer(say("scene.nothing", at=at))  # fmt: skip

@@ -1,4 +1,4 @@
-"""Search for one thing: look again at what is remembered, then look round in rooms. Pure.
+"""Search for one thing: look again at remembered ones, then look round in rooms. Pure.
 
 ``search`` returns the next leg or gaze, the thing itself once a gaze has confirmed it, or its notes
 when all was looked at or the budget is spent. What is seen on the way is gone to at once.
@@ -57,7 +57,7 @@ AWAY = 2.5
 
 
 def search(scene: Scene, pose: Pose2, wanted: WantedObject) -> DriveLeg | Observe | Thing | Notes:
-    """Return what to do next, or the thing that was found, or the notes when it was not."""
+    """Return the next act, or the thing that was found, or the notes when it was not."""
     scene = begin(scene, pose, wanted, first=True)
     next_ = _next(scene, pose, wanted)
     if not affords(scene, pose, next_):
@@ -88,7 +88,7 @@ def _next(scene: Scene, pose: Pose2, wanted: WantedObject) -> DriveLeg | Observe
 
 
 def affords(scene: Scene, pose: Pose2, next_: object) -> bool:
-    """Tell whether what is left of the metres is likely to last for what is to be done next."""
+    """Return whether the metres left are likely to last for the next act."""
     if not isinstance(next_, DriveLeg):
         return True
     way_m = ROUND_ABOUT * away_m(pose, (next_.goal.x_m, next_.goal.y_m))
@@ -103,7 +103,7 @@ def find_spent_budget(scene: Scene) -> str | None:
 
 
 def make_filter(scene: Scene) -> PlaceFilter:
-    """Return what tells whether a thing lies where the step is to look."""
+    """Return the test whether a thing lies where the step is to look."""
     return PlaceFilter(scene)
 
 
@@ -175,12 +175,12 @@ def _list_confirmed(scene: Scene, wanted: WantedObject) -> tuple[Thing, ...]:
 
 
 def _worth(scene: Scene, wanted: WantedObject) -> list[Thing]:
-    """Return what is worth a second look: remembered things, and what this gaze is not sure of."""
+    """Return the things worth a second look: remembered ones, and unsure ones of this gaze."""
     return [t for t in _list_remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted)]
 
 
 def alike(scene: Scene, wanted: WantedObject) -> list[Thing]:
-    """Return what would fit if its colour were seen wrongly, from afar or in bad light."""
+    """Return the things that would fit if their colour were seen wrongly, as from afar."""
     inside, others = make_filter(scene), _list_remembered(scene, wanted)
     return [
         t for t in others if inside(t) and not fits(t, wanted) and may_be(t.color, wanted.color)

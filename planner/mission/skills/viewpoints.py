@@ -119,7 +119,7 @@ def spots_in(target: Target, first: Point | None = None) -> tuple[Viewpoint, ...
 
 
 def near_spot(target: Target, first: Point | None = None) -> tuple[Viewpoint, ...]:
-    """Return the spot that shows the floor before the feet of who stood at the others, or none."""
+    """Return the spot that shows the floor at the feet of one at the other spots, or None."""
     pose = (target.pose.x_m, target.pose.y_m)
     began = first or pose
     at = _before_the_feet(target.polygon, _cover(target.polygon, began, pose), pose)

@@ -19,7 +19,7 @@ NOBODY = frozenset({"", "background", "n_a", "none", "no_object"})
 
 
 def literal(text: str) -> object:
-    """Return what a text writes down as JSON or as a Python literal; None where it is neither."""
+    """Return the value that a text writes as JSON or as a Python literal; None if neither."""
     if len(text) > MAX_TEXT:
         return None
     try:

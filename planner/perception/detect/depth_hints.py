@@ -53,7 +53,7 @@ def _nearest_m(box: Boxes, kind: Kind, size: tuple[int, int], focal_px: float | 
 
 
 def _before(boxes: Boxes, row: int) -> Boxes:
-    """Return the boxes of what stands before a thing, or on it."""
+    """Return the boxes of things that stand before a thing, or on it."""
     box, area = boxes[row], (boxes[:, 2] - boxes[:, 0]) * (boxes[:, 3] - boxes[:, 1])
     wide = np.minimum(boxes[:, 2], box[2]) - np.maximum(boxes[:, 0], box[0])
     high = np.minimum(boxes[:, 3], box[3]) - np.maximum(boxes[:, 1], box[1])

@@ -35,7 +35,7 @@ Boxes = NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True)
 class Hint:
-    """Say where in a box a thing of its class is to be looked for, and what else is in there."""
+    """Name where in a box a thing of its class is to be looked for, and its company in there."""
 
     part: tuple[float, float, float, float] = MIDDLE
     """Left, top, right, bottom, as shares of the box."""
@@ -52,7 +52,7 @@ ANY = Hint()
 
 @dataclass(frozen=True, slots=True)
 class Inner:
-    """Hold what the middle of a box shows."""
+    """Hold the pixels in the middle of a box."""
 
     color: str | None
     depth_m: float | None
@@ -154,7 +154,7 @@ def foreground(
 
 
 def depth_at(depth: Depth, u_px: float, v_px: float) -> float | None:
-    """Return what was measured around a pixel [m]; wider around it where it is a hole.
+    """Return the depth measured around a pixel [m]; wider around it where it is a hole.
 
     None where nothing was, and for a pixel whose place is not finite: who points may be a model.
     """

@@ -1,4 +1,4 @@
-"""Own what is found as rows of numbers: believe possible ones only, bring them to the picture.
+"""Own detections as rows of numbers: believe possible ones only, bring them to the picture.
 
 Few rows are left once a decoder has read its output, and right after a run numpy's calls are cold:
 5 to 10 us each. As Python's own numbers a row or two take a quarter of the time.

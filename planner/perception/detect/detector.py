@@ -79,7 +79,7 @@ class OnnxDetector:
         said: tuple[int, int] | None = None,
         focal_px: float | None = None,
     ) -> LookResult:
-        """Return what a picture shows.
+        """Return the detections in a picture.
 
         Args:
             color: JPEG, or PNG of eight bits.

@@ -62,7 +62,7 @@ def depth_trouble(header: PictureHeader | None, size: tuple[int, int]) -> str | 
 
 
 def unpack_color(data: bytes, said: tuple[int, int] | None = None) -> Picture | str:
-    """Return a picture, or the code of what is wrong with it."""
+    """Return a picture, or the code of its fault."""
     trouble = color_trouble(read_header(data), said)
     if trouble is not None:
         return trouble
@@ -73,7 +73,7 @@ def unpack_color(data: bytes, said: tuple[int, int] | None = None) -> Picture | 
 
 
 def unpack_depth(data: bytes, size: tuple[int, int]) -> Depth | str:
-    """Return the depth of a picture of that width and height, or the code of what is wrong."""
+    """Return the depth of a picture of that width and height, or the code of its fault."""
     trouble = depth_trouble(read_header(data), size)
     if trouble is not None:
         return trouble
@@ -106,7 +106,7 @@ def _fits(header: PictureHeader) -> bool:
 
 
 def _decode(data: bytes, how: int) -> Any:
-    """Return an array of whatever kind the picture is, or None."""
+    """Return an array of the picture's own kind, or None."""
     try:
         return cv2.imdecode(np.frombuffer(data, np.uint8), how)
     except cv2.error:

@@ -25,7 +25,7 @@ ALONE = frozenset({0x01, *range(0xD0, 0xD8)})
 
 @dataclass(frozen=True, slots=True)
 class PictureHeader:
-    """Hold what a picture says of itself."""
+    """Hold a picture's statements about itself."""
 
     kind: Literal["jpeg", "png"]
     width: int

@@ -35,7 +35,7 @@ GREY = 0.5
 
 @dataclass(frozen=True, slots=True)
 class ModelOptions:
-    """Hold what the owner sets about a model."""
+    """Hold the owner's settings of a model."""
 
     path: Path
     labels: Path | None = None
@@ -82,7 +82,7 @@ def open_model(wanted: ModelOptions) -> Model:
 
 
 def _run_trial(session: ModelSession, taken: Input, beside: dict[str, Array]) -> Sequence[Array]:
-    """Return what comes out for a grey picture; refuse where that can't be boxes of any layout."""
+    """Return the outputs for a grey picture; refuse those that can't be boxes of any layout."""
     try:
         outputs = session.run({taken.name: _grey(taken), **beside})
     except RUN_ERRORS as error:
@@ -140,5 +140,5 @@ def _numbers(found: object) -> NDArray[np.float32] | None:
 
 
 def _shape(found: object) -> Shape:
-    """Return an output's shape; that of a lone number for what is no tensor."""
+    """Return an output's shape; that of a lone number where it is no tensor."""
     return found.shape if isinstance(found, np.ndarray) else ()

@@ -1,4 +1,4 @@
-"""Own what is known of a model that ran one trial picture: names, shapes, metadata. Data only."""
+"""Own the facts of a model that ran one trial picture: names, shapes, metadata. Data only."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Shape = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """Hold what decides how a model's output is read."""
+    """Hold the facts that decide how a model's output is read."""
 
     outputs: Mapping[str, Shape]
     """By name, in the model's order; the shapes that came out of the trial."""

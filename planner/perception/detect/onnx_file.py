@@ -24,7 +24,7 @@ MAX_VARINT_BYTES = 10
 
 @dataclass(frozen=True, slots=True)
 class OnnxFile:
-    """Hold what the outermost fields say."""
+    """Hold the values of the outermost fields."""
 
     ir_version: int
     opset: int
@@ -40,7 +40,7 @@ class _Foreign(Exception):
 
 
 def examine(path: Path) -> OnnxFile:
-    """Return what a model file says of itself.
+    """Return a model file's statements about itself.
 
     Raises:
         VisionFailure: ``model_missing``, ``model_unreadable``, ``model_not_onnx`` or

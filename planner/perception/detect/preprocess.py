@@ -134,7 +134,7 @@ class FloatPreparer:
 
 
 def _table(factor: float, offset: float) -> Floats | None:
-    """Return what each byte becomes; None where it stays what it is."""
+    """Return each byte's new value; None where it stays the same."""
     if (factor, offset) == (1.0, 0.0):
         return None
     return np.arange(256, dtype=np.float32) * np.float32(factor) + np.float32(offset)

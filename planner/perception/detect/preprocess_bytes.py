@@ -60,7 +60,7 @@ class BytePreparer:
 
 
 def preparer(recipe: Recipe, taken: Input) -> Preparer:
-    """Return what prepares pictures for a model's input; of a recipe bytes need the fit alone."""
+    """Return the preparer of pictures for a model's input; of a recipe bytes need the fit alone."""
     if taken.bytes_in is None:
         return FloatPreparer(recipe, taken.width, taken.height)
     return BytePreparer(recipe.fit, taken.bytes_in, taken.width, taken.height)

@@ -1,4 +1,4 @@
-"""Choose where a model runs, by what the installed onnxruntime offers. Says what it chose and why.
+"""Choose where a model runs, among the installed onnxruntime's providers; report why.
 
 An offer is what was compiled in; whether it works here shows only when a session opens, and what
 then really runs is asked of the session. Azure's provider sends pictures away: it is never taken.
@@ -26,7 +26,7 @@ SHORT = {long: short for short, long in ORDER.items()}
 
 @dataclass(frozen=True, slots=True)
 class Providers:
-    """Hold what a session is asked for, first choice first, and why."""
+    """Hold the providers that a session is asked for, first choice first, and why."""
 
     names: tuple[str, ...]
     why: str
@@ -34,7 +34,7 @@ class Providers:
     """What the owner set, by its short name."""
 
     def explain(self, running: Sequence[str]) -> tuple[str, str]:
-        """Return what really runs and why.
+        """Return the provider that really runs and why.
 
         Raises:
             VisionFailure: ``provider_unavailable`` where the owner set another.

@@ -56,7 +56,7 @@ _NEWEST = re.compile(r"till opset (\d+)")
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """Name one input or output and what it holds; a size that is left open is a word or None."""
+    """Name one input or output and its shape; a size that is left open is a word or None."""
 
     name: str
     shape: tuple[int | str | None, ...]
@@ -110,7 +110,7 @@ class ModelSession:
         return found
 
     def fix(self, feeds: Mapping[str, Array], outputs: Sequence[Array]) -> None:
-        """Run these very feeds, whose arrays stay where they are, into the same outputs each time.
+        """Run these very feeds, in their own arrays, into the same outputs each time.
 
         That saves making and copying the outputs: 0.1 ms of 7. Only on the CPU, and where the
         model promises the shapes that came out of a trial.
@@ -143,7 +143,7 @@ def options(threads: int) -> Any:
 
 
 def kind_of(found: object) -> str:
-    """Return numpy's letter for what an output holds; none for a list, which some graphs give."""
+    """Return numpy's letter for an output's type; none for a list, which some graphs give."""
     return found.dtype.kind if isinstance(found, np.ndarray) else ""
 
 
@@ -194,12 +194,12 @@ def bound_memory(provider: str | None = None) -> None:
 
 
 def is_starved(error: Exception) -> bool:
-    """Tell whether memory was refused, by what onnxruntime and C++ say of it."""
+    """Return whether memory was refused, by the words of onnxruntime and C++."""
     text = str(error).lower()
     spoken = ("bad_alloc", "bad allocation", "failed to allocate", "out of memory")
     return isinstance(error, MemoryError) or any(words in text for words in spoken)
 
 
 def last_words(error: Exception) -> str:
-    """Return the end of what the library says; before it stand its own files and functions."""
+    """Return the end of the library's message; before it stand its own files and functions."""
     return " ".join(str(error).split())[-MAX_WORDS:]

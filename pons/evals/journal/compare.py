@@ -1,4 +1,4 @@
-"""Tell whether two decisions about one sentence differ, and in what. Pure.
+"""Compare two decisions about one sentence. Pure.
 
 Steps are compared by what they do. The words of an answer, a question or a ``say`` may differ
 without the robot doing anything else, so that counts apart.
@@ -31,13 +31,13 @@ def difference(one: PlanRecord, other: PlanRecord) -> Difference:
 
 
 def deed(plan: PlanRecord) -> tuple[object, ...]:
-    """Return what a plan does, without its words."""
+    """Return a plan's acts, without its words."""
     code = plan.code.value if plan.code is not None else ""
     return (plan.kind, code, *map(_act, plan.steps))
 
 
 def words(plan: PlanRecord) -> tuple[object, ...]:
-    """Return what a plan says."""
+    """Return a plan's words."""
     said = (plan.text.en, plan.text.zh) if plan.text is not None else ()
     return (*said, *(step.text for step in plan.steps))
 

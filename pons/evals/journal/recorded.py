@@ -1,4 +1,4 @@
-"""Read from a journal what was decided about each sentence. The journal itself is never touched.
+"""Read a journal's decisions about each sentence. The journal itself is never touched.
 
 A copy is read, so that a running planner is not held and a file on a stick needs no right to write.
 What a black box holds is motion, no words: its sentences are in the journal of the same home.
@@ -49,7 +49,7 @@ class RecordedDecision:
 
 @dataclass(frozen=True, slots=True)
 class RecordedDecisions:
-    """Hold what a journal gives."""
+    """Hold a journal's decisions."""
 
     decisions: tuple[RecordedDecision, ...]
     """Newest first."""
@@ -94,7 +94,7 @@ def _records(path: Path) -> list[str]:
 
 
 def _first_plans(records: list[str]) -> RecordedDecisions:
-    """Take each sentence's first plan; what was thought again after a failed step saw more."""
+    """Take each sentence's first plan; one made again after a failed step saw more."""
     first: dict[tuple[str, int], RecordedDecision] = {}
     goals: set[str] = set()
     unreadable = 0

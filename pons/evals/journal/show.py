@@ -1,4 +1,4 @@
-"""Show which decisions would differ, what would have stopped them, and what was not looked at."""
+"""Show the decisions that would differ, the guards that would have stopped them, and the rest."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LIMITS_ZH = (
 
 
 def verdict(again: SecondThought) -> str:
-    """Say what would have become of the model's decision."""
+    """Name the fate that the model's decision would have had."""
     if again.relation == "none":
         return "the offline brain would have answered"
     if again.refused:

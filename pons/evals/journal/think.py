@@ -60,7 +60,7 @@ class SecondThought:
 
 
 def most_calls(sentences: int) -> int:
-    """Return the calls that so many sentences may cost: what is promised is what is allowed."""
+    """Return the calls that so many sentences may cost: the promise is the limit."""
     return CALLS_EACH * sentences + PROBES
 
 

@@ -45,7 +45,7 @@ class Caps:
 
 @dataclass
 class _Room:
-    """Hold what an exam under way needs."""
+    """Hold the means of an exam under way."""
 
     purse: Purse
     model: ModelSettings
@@ -74,7 +74,7 @@ async def examine(
     caps: Caps,
     clock: Callable[[], float] = time.monotonic,
 ) -> Exam:
-    """Return what the exam found.
+    """Return the exam's results.
 
     Args:
         settings: the owner's, for limits and prices.

@@ -1,4 +1,4 @@
-"""The exam of ``pons eval --quick``: say what it will spend, ask, examine, grade, show."""
+"""Run ``pons eval --quick``: announce the cost, ask, examine, grade, show."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def run(
 
 
 def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> str:
-    """Say what an exam may cost at most, before it costs anything."""
+    """Give an exam's highest cost, before it costs anything."""
     sent, written = caps.calls * PROMPT_TOKENS, caps.calls * model.max_tokens
     price = settings.budget.price
     money = (

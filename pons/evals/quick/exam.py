@@ -1,4 +1,4 @@
-"""Own what an exam finds: each rung of the ladder, each answer, what it cost. Data only."""
+"""Own an exam's results: each rung of the ladder, each answer, its cost. Data only."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class MarkedAnswer:
 
 @dataclass(frozen=True, slots=True)
 class PictureResult:
-    """Say what a model made of a picture."""
+    """Give a model's reading of a picture."""
 
     result: Literal["right", "wrong", "none", "no_answer", "not_asked"] = "not_asked"
     """``none``: it takes no pictures. ``wrong``: it takes them and does not see."""
@@ -59,7 +59,7 @@ class Exam:
     """Of one call with this robot's own places."""
 
     def of(self, part: ExamPart) -> tuple[MarkedAnswer, ...]:
-        """Return what was asked of a part."""
+        """Return the questions of a part."""
         return tuple(m for m in self.marked if m.question.part is part and m.result != "not_asked")
 
     @property

@@ -46,7 +46,7 @@ NEAR = 120
 
 
 async def examine_eyes(looker: Looker, goal: str) -> PictureResult:
-    """Return what a model makes of the picture: two calls, and two repairs at most."""
+    """Return a model's reading of the picture: two calls, and two repairs at most."""
     try:
         said = await looker.describe(ImageQuestion(PICTURE, QUESTION, goal=goal))
         named = "red" in said.text.en.lower() and "blue" not in said.text.en.lower()

@@ -26,7 +26,7 @@ _STRICT = frozenset({"json_schema", "tool", "json_object"})
 
 @dataclass(frozen=True, slots=True)
 class GradeReason:
-    """Say what keeps a model from a better grade than this."""
+    """Name a model's obstacle to a better grade."""
 
     most: str
     words: BilingualWords

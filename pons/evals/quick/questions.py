@@ -1,4 +1,4 @@
-"""Own the exam: its world, its questions and what is right. Data only.
+"""Own the exam: its world, its questions and their right answers. Data only.
 
 Nobody's words but ours are sent, and a robot that took every answer would stand: plans are judged,
 never walked.
@@ -26,7 +26,7 @@ class ExamPart(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class ExamQuestion:
-    """Hold one order, and what is right: see ``pons.evals.matchers``."""
+    """Hold one order, and its right answer: see ``pons.evals.matchers``."""
 
     part: ExamPart
     text: str

@@ -148,7 +148,7 @@ def _skip_report(found: Match[str], reading: Reading) -> Meaning | None:
 
 
 def _seen_here(found: Match[str], reading: Reading) -> Meaning | None:
-    """Look where nothing named a place; what is counted elsewhere is read by the next rules."""
+    """Look where nothing named a place; counting elsewhere is left to the next rules."""
     return None if reading.scene.place else look(found[0], None, reading)
 
 

@@ -1,4 +1,4 @@
-"""Read English orders: what vetoes a sentence, where clauses end, and what a clause can mean.
+"""Read English orders: the vetoes, the ends of clauses, and the meanings of a clause.
 
 A clause is read whole or not at all; the rules name every word that they pass over.
 """

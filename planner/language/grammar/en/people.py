@@ -77,7 +77,7 @@ def _meet(found: Match[str], reading: Reading) -> Meaning:
 
 
 def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
-    """Drive up to somebody whom eyes know for a person; who is only named is met."""
+    """Drive up to a person whom the detector knows; one who is only named is met."""
     who, place = found["who"], place_of(read_place(found, "at"), reading)
     if isinstance(place, ClauseProblem) or not is_known(who, reading.things):
         return _meet(found, reading)
@@ -124,7 +124,7 @@ def _introduce(found: Match[str], reading: Reading) -> Meaning:
 
 
 def _tell(found: Match[str], reading: Reading) -> Meaning | None:
-    """Tell a topic: to whoever is there, or to somebody who is found first."""
+    """Tell a topic to the person there, or to one who is found first."""
     topic = topic_of(found["topic"])
     if topic is None:
         return None

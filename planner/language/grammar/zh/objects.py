@@ -1,4 +1,4 @@
-"""Own the Chinese rules about looking: find, count, look, what is there, on, under or near it.
+"""Own the Chinese rules about looking: find, count, look, things there, on, under or near it.
 
 "椅子上有几本书", "椅子旁边有没有箱子" are read by the rules at the end. What stands on or near a
 place of the site is read by the rules about places; where eyes don't know the neighbour ("楼上",
@@ -94,7 +94,7 @@ def _skip_report(_found: Match[str], reading: Reading) -> Meaning | None:
 
 
 def _look_here(found: Match[str], reading: Reading) -> Meaning | None:
-    """Look where nothing named a place; what is counted elsewhere is read by the next rules."""
+    """Look where nothing named a place; counting elsewhere is left to the next rules."""
     return None if reading.scene.place else _look(found, reading)
 
 

@@ -1,4 +1,4 @@
-"""Define what each decoder can do, and what several of them share."""
+"""Define a decoder's interface, and the parts that several of them share."""
 
 from __future__ import annotations
 

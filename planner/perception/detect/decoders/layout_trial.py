@@ -35,7 +35,7 @@ def in_doubt(facts: Facts) -> bool:
 
 
 def has_objectness(facts: Facts) -> bool | None:
-    """Tell whether a grid's rows hold an objectness, whatever the names; None where nothing says.
+    """Return whether a grid's rows hold an objectness, by the figures alone; None if unclear.
 
     Boxes that are not in pixels are a YOLOX's raw ones. The heads of those who write ``task`` into
     the metadata have no objectness. Numbers that are all zero say nothing against that.

@@ -49,7 +49,7 @@ class RtDetr:
 
 
 def _numbers(labels: NDArray[np.generic]) -> NDArray[np.intp]:
-    """Return class numbers; -1 for what is none."""
+    """Return class numbers; -1 where there is none."""
     if np.issubdtype(labels.dtype, np.integer):
         return np.asarray(labels[0], np.intp)
     return np.nan_to_num(floats(labels), nan=-1.0, posinf=-1.0, neginf=-1.0).astype(np.intp)

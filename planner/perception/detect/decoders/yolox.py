@@ -58,7 +58,7 @@ class YoloX:
         return rows_of(boxes, scores[kept], classes[kept])
 
     def _boxes(self, raw: Floats, cells: NDArray[np.intp]) -> Floats:
-        """Return what some cells say of their boxes, in input pixels; written over what is raw."""
+        """Return the boxes of some cells, in input pixels; written over the raw ones."""
         grid = self._grid.take(cells, axis=0)
         raw[:, :2] += grid[:, :2]
         np.exp(raw[:, 2:], out=raw[:, 2:])
