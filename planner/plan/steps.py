@@ -1,4 +1,4 @@
-"""Own the closed vocabulary of steps: all that a plan may ask of the robot.
+"""Own the closed vocabulary of steps: what a plan may ask of the robot, and nothing else.
 
 No step carries map coordinates or a speed; a place is an id of the vocabulary. Lengths are metres,
 angles radians (counter-clockwise positive), times seconds.
@@ -62,7 +62,7 @@ class Ask(Frozen):
 
 
 class Decide(Frozen):
-    """Think again with the sights and answers until here."""
+    """Think again with what was seen and heard until here."""
 
     kind: Literal["decide"] = "decide"
     question: Words
@@ -98,7 +98,7 @@ class GoToObject(Frozen):
 
 
 class GoToPoint(Frozen):
-    """Drive to the point at a point of the picture (x right, y down, each 0 to 1000)."""
+    """Drive to what lies at a point of the picture (x right, y down, each 0 to 1000)."""
 
     kind: Literal["go_to_point"] = "go_to_point"
     x: int = Field(ge=0, le=1000)
@@ -122,7 +122,7 @@ class Count(Frozen):
 
 
 class Look(Frozen):
-    """Look and answer a question about the sight."""
+    """Look and answer a question about what is seen."""
 
     kind: Literal["look"] = "look"
     question: Words

@@ -12,7 +12,7 @@ import pytest
 from planner.brain import ThinkRequest
 from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.brain.prompt import BUDGET_TOKENS, Prompt, tokens
-from planner.brain.schema import schema_of, step_models
+from planner.brain.schema import schema_of, step_line, step_models
 from planner.mission.site_view import vocabulary_of
 from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
 from planner.site import Site
@@ -133,6 +133,13 @@ def test_rendered_as_it_was(home: Vocabulary) -> None:
     )
     golden = (Path(__file__).parent / "golden_plan_prompt.txt").read_text("utf-8")
     assert f"{system['content']}\n---\n{user['content']}\n" == golden
+
+
+def test_each_step_is_told_as_it_was() -> None:
+    """A docstring of a step is a line of the prompt: reworded, it is another prompt."""
+    golden = (Path(__file__).parent / "golden_step_lines.txt").read_text("utf-8")
+    models = step_models(EVERY_KIND).values()
+    assert "".join(f"{step_line(model)}\n" for model in models) == golden
 
 
 def test_names_and_orders_cannot_leave_their_place() -> None:
