@@ -5,11 +5,15 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Iterator
+from contextlib import closing
+from datetime import date
 from pathlib import Path
 
 import pytest
 from websockets.sync.client import connect
 
+from planner.budget.ledger import Ledger
+from planner.budget.totals import Expense
 from planner.settings import FILE
 from pons.mock_llm import Switches
 from pons.mock_llm.replies import HOSTILE_COUNT
@@ -97,15 +101,18 @@ def test_an_idle_robot_with_a_page_open_asks_nothing(robot: Robot, mock: Running
     assert (mock.report()["calls"], after["calls_since_start"]) == (before, before)
 
 
+def spend_elsewhere(robot: Robot, calls: int) -> None:
+    """Count calls as another program of the same home does."""
+    day = date.fromisoformat(robot.system.http("GET", "/v1/usage").body["day"])
+    with closing(Ledger.in_home(robot.system.home)) as ledger:
+        ledger.settle(day, "elsewhere", Expense(calls=calls))
+
+
 def test_a_spent_budget_is_told_and_the_offline_brain_plans(
     robot: Robot, mock: RunningMock
 ) -> None:
     """Another program of the same home spends what there is; the robot keeps to it at once."""
-    spent = (
-        robot.system.home / "spent" / f"{robot.system.http('GET', '/v1/usage').body['day']}.jsonl"
-    )
-    with spent.open("a") as ledger:
-        ledger.write('{"goal": "elsewhere", "calls": 2000}\n')
+    spend_elsewhere(robot, 2000)
     before = mock.report()["calls"]
     waits = ended(robot, robot.system.give(SHORT))
     assert (waits["state"], waits["brain"]["fallback_reason"]) == ("succeeded", "out_of_budget")
@@ -115,8 +122,7 @@ def test_a_spent_budget_is_told_and_the_offline_brain_plans(
     assert "预算" in lost["outcome"]["message"]["zh"]
     assert robot.system.http("GET", "/v1/usage").body["refused"]["code"] == "out_of_budget"
     assert mock.report()["calls"] == before
-    with spent.open("a") as ledger:
-        ledger.write('{"goal": "elsewhere", "calls": -2000}\n')
+    spend_elsewhere(robot, -2000)
 
 
 def test_a_stop_works_while_the_model_hangs(robot: Robot, mock: RunningMock) -> None:
