@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
     from planner.brain import Brain
     from planner.budget import Usage
-    from planner.mission import KnownPlaces, Leg
+    from planner.mission import Leg
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
-    from planner.site import FenceProposals, Site
+    from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser
     from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
 

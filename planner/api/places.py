@@ -11,8 +11,8 @@ from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem
 from planner.api.schemas import Body
 from planner.language.catalogue import say
-from planner.mission.known_places import KeptPlace, Lesson
 from planner.site import MAX_HERE, PlaceRefusal, TaughtPlace
+from planner.site.known_places import KeptPlace, Lesson
 from wire import Pose2
 from wire.bounded_types import Name
 from wire.geometry import Metres, Yaw

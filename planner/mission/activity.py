@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from planner.mission.skills.actions import Way
 from planner.mission.skills.perception import WantedObject
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import SkillStateBase
 from planner.plan import Bilingual
 from wire import Pose2
 
@@ -42,11 +42,11 @@ class Driving(_StepActivity):
     """When this leg began: the step's time is counted from here."""
     asked_s: float
     """When the skill was asked last."""
-    notes: Notes | None = None
+    state: SkillStateBase | None = None
     """What the skill remembers while this leg lasts."""
-    then: Notes | None = None
+    then: SkillStateBase | None = None
     """And once it is reached."""
-    otherwise: Notes | None = None
+    otherwise: SkillStateBase | None = None
     """And where its way is shut; None: then the step fails."""
     wanted: WantedObject | None = None
     """As soon as this is seen for sure the skill is asked again."""
@@ -103,8 +103,8 @@ class Observing(_StepActivity):
     """When this ends anyhow."""
     looks: int
     """New pictures that are waited for."""
-    notes: Notes | None = None
-    then: Notes | None = None
+    state: SkillStateBase | None = None
+    then: SkillStateBase | None = None
     wanted: WantedObject | None = None
     """This ends as soon as that is seen for sure."""
     watch: bool = False
@@ -126,8 +126,8 @@ class AskingImage(_StepActivity):
     """The question whose answer is waited for."""
     until_s: float
     """When the wait ends without one."""
-    notes: Notes | None = None
-    then: Notes | None = None
+    state: SkillStateBase | None = None
+    then: SkillStateBase | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

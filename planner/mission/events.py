@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planner.mission.skills.perception import ImageAnswer as EyeAnswer
-from planner.mission.state import Mission, SiteView
+from planner.mission.state import Mission
 from planner.perception.snapshot import Sight
 from planner.plan import AnswerPlan, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
+from planner.site.site_view import SiteView
 from wire import Status
 
 

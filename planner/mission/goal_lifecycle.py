@@ -34,7 +34,6 @@ from planner.mission.queue import (
     release_queue,
 )
 from planner.mission.replan import fingerprint, rethought
-from planner.mission.skills import NOTHING
 from planner.mission.spoken_status import go_on_told, stop_told
 from planner.mission.state import Mission, MissionState
 from planner.mission.transaction import Transaction
@@ -313,7 +312,7 @@ def _forget_poses(turn: Transaction, mission: Mission) -> None:
         said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
         finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "map_changed")
     elif mission.map_id:
-        mission = turn.put(mission, accepted_at=None, notes=NOTHING)
+        mission = turn.put(mission, accepted_at=None, skill_state=None)
         if mission.state is GoalState.PAUSED:
             said = Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED)
             turn.put(mission, outcome=said)

@@ -39,12 +39,11 @@ from planner.mission.errors import MissionError
 from planner.mission.event_hub import Hub
 from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
 from planner.mission.gc_control import Collector
-from planner.mission.journal import GoalKey
 from planner.mission.journal_sync import Disk
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.skills import Eyesight
-from planner.mission.state import MissionState, Rules
+from planner.mission.state import GoalKey, MissionState, Rules
 from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
 from planner.navigation import RoutePoint
 from wire import OpRequest, Status, Waypoints

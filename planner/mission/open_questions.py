@@ -100,7 +100,7 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
     mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
     release_answered(turn)
     if mission.current_step is not None and mission.current_step.kind == "ask":
-        act = ask(scene_of(turn, mission).but(mission.notes))
+        act = ask(scene_of(turn, mission))
         if isinstance(act, Fail) and act.said is not None:
             decline(turn, mission, act.said)
             return

@@ -26,9 +26,9 @@ from planner.mission.answer_timeouts import has_room
 from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
-from planner.mission.journal import MAX_KEYS, GoalKey
+from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, takes_yes
-from planner.mission.state import MissionState
+from planner.mission.state import GoalKey, MissionState
 from planner.plan import GoalState
 
 if TYPE_CHECKING:

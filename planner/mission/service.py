@@ -38,8 +38,8 @@ from planner.mission.events import (
     Submitted,
 )
 from planner.mission.journal_sync import Disk
-from planner.mission.known_places import KnownPlaces
 from planner.mission.loop import Clocks, Loop
+from planner.mission.place_survey import RobotSurvey
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import (
@@ -55,13 +55,13 @@ from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import RouteService
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, Language
-from planner.site import Site
+from planner.site import KnownPlaces, Site
 from wire import OpRequest, RobotDescription
 
 if TYPE_CHECKING:
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
-    from planner.mission.journal import GoalKey
+    from planner.mission.state import GoalKey
 
 
 class Missions:
@@ -81,7 +81,7 @@ class Missions:
     ) -> None:
         """Put the parts together; ``site`` is a site, or the memory of its places."""
         self.link, self.memory = link, site if isinstance(site, KnownPlaces) else KnownPlaces(site)
-        self.memory.use(link, router)
+        self.memory.use(RobotSurvey(link, router))
         site = self.memory.site
         planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)

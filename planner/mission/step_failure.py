@@ -15,7 +15,7 @@ from planner.mission.effects import AskBrain
 from planner.mission.observations import exchanges_of, list_observations
 from planner.mission.outcomes import failure, spot_at
 from planner.mission.queue import end_running, note_step, settle_activity
-from planner.mission.skills import NOTHING, Fail, Notes
+from planner.mission.skills import Fail, SkillStateBase
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
@@ -63,12 +63,12 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
     give_up(turn, mission)
 
 
-def _drop_leg(turn: Transaction, notes: Notes) -> None:
+def _drop_leg(turn: Transaction, state: SkillStateBase) -> None:
     """Go on in the step without this leg: its skill is asked soon, standing."""
     mission = settle_activity(turn)
     if mission is None:
         return
-    turn.put(mission, notes=notes)
+    turn.put(mission, skill_state=state)
     retry_s = turn.now_s + AGAIN_S
     again = Retrying(record=turn.next_entry, retry_s=retry_s, since_s=turn.now_s)
     turn.set(activity=again)
@@ -125,7 +125,7 @@ def to_step(turn: Transaction, mission: Mission, index: int) -> Mission:
         part=0,
         began_at=None,
         done=0.0,
-        notes=NOTHING,
+        skill_state=None,
         step_s=0.0,
         step_m=0.0,
     )

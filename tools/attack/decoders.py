@@ -261,8 +261,8 @@ def _offline(_folder: Path) -> Reader:
 
 @cache
 def _vocabulary() -> Any:
-    from planner.mission.site_view import vocabulary_of
     from planner.site import Site
+    from planner.site.site_view import vocabulary_of
 
     return vocabulary_of(Site.load(seeds.SITES / "home"))
 

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, cast
 from planner.bridge_client import Link, LinkError, StopResult, WireBus
 from planner.language.utterance import parse
 from planner.mission import Clocks, Missions
-from planner.mission.journal import GoalKey, JournalContents
+from planner.mission.journal import JournalContents
+from planner.mission.state import GoalKey
 from tools.lockstep.latencies import TICK_S
 from tools.lockstep.tick_loop import TickLoop
 from wire import VIRTUAL_KEY, OpKind, OpRequest, signed_request

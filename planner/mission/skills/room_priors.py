@@ -12,7 +12,7 @@ from planner.language.room_names import sorts_of_room
 
 if TYPE_CHECKING:
     from planner.mission.skills.perception import WantedObject
-    from planner.mission.state import Target
+    from planner.site.site_view import Target
 
 _MEALS = (
     "cup bottle fridge wine_glass fork knife spoon bowl cake pizza sandwich hot_dog donut banana "

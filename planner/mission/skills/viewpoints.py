@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from planner.mission.skills.perception import WantedObject
-    from planner.mission.state import SiteView, Target
     from planner.perception.snapshot import Thing
+    from planner.site.site_view import SiteView, Target
     from wire import Pose2
 
 Point = tuple[float, float]

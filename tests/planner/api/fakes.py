@@ -13,11 +13,11 @@ from typing import Any
 from planner.brain import Brain, OfflineBrain
 from planner.budget import Amounts, BudgetLimits, Usage
 from planner.language.stop import is_stop
-from planner.mission import KnownPlaces, Leg
+from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
-from planner.site import FenceProposals, Site
+from planner.site import FenceProposals, KnownPlaces, Site
 from planner.voice import Recognition, Sound, VoiceFailure
 from tests.wire.examples import STATUS
 from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status

@@ -12,8 +12,8 @@ from starlette.testclient import TestClient
 from planner.api import Access
 from planner.api.live_state import Feed
 from planner.bridge_client import Aged
-from planner.mission import KnownPlaces
-from planner.site import TaughtPlaces
+from planner.mission.place_survey import RobotSurvey
+from planner.site import KnownPlaces, TaughtPlaces
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import BASE, client_of
 from tests.planner.mission.live import StraightRouter
@@ -41,7 +41,7 @@ def services(tmp_path: Path) -> FakeServices:
     changes = {"base_in_map": HERE, "map_id": made.site.map_id, "measured": Twist2(0.0, 0.0)}
     made.robot._status = STATUS.model_copy(update=changes)
     made.memory = KnownPlaces(made.site, TaughtPlaces.in_home(tmp_path))
-    made.memory.use(Heard(made), StraightRouter())
+    made.memory.use(RobotSurvey(Heard(made), StraightRouter()))
     return made
 
 

@@ -197,6 +197,7 @@ class World:
     def _journal(self, entry: Journal) -> None:
         self.entries.append(entry)
         for mission in entry.missions:
+            assert Mission.model_validate_json(mission.model_dump_json()) == mission, "as read"
             here = mission.steps[mission.step : mission.step + 1]
             if mission.state is GoalState.RUNNING and here and here[0].state is StepState.RUNNING:
                 self.written.setdefault((mission.id, mission.step), entry.entry)

@@ -12,7 +12,7 @@ import pytest
 from planner.brain.interface import ThinkRequest
 from planner.brain.prompt import Prompt
 from planner.bridge_client import Aged
-from planner.mission.known_places import KnownPlaces, Lesson
+from planner.mission.place_survey import RobotSurvey
 from planner.site import (
     MAX_HERE,
     PlaceRefusal,
@@ -21,6 +21,7 @@ from planner.site import (
     TaughtPlace,
     TaughtPlaces,
 )
+from planner.site.known_places import KnownPlaces, Lesson
 from planner.site.places import Names
 from planner.site.taught_places import FILE, TaughtFile
 from planner.state_database import StateDatabase
@@ -60,7 +61,7 @@ def memory(
     router: StraightRouter | None = None,
 ) -> KnownPlaces:
     made = KnownPlaces(site, TaughtPlaces.in_home(home), clock=lambda: DAY)
-    made.use(bridge or Bridge(), router or StraightRouter())
+    made.use(RobotSurvey(bridge or Bridge(), router or StraightRouter()))
     return made
 
 
@@ -253,7 +254,7 @@ def test_an_id_of_ones_own_is_judged_as_a_name(tmp_path: Path) -> None:
 def test_what_cannot_be_written_changes_nothing(tmp_path: Path, pragma: str, code: str) -> None:
     database = StateDatabase(tmp_path)
     kept = KnownPlaces(SITE, TaughtPlaces.in_home(tmp_path, database), clock=lambda: DAY)
-    kept.use(Bridge(), StraightRouter())
+    kept.use(RobotSurvey(Bridge(), StraightRouter()))
     made = teach(kept, "corner")
     database.read(f"PRAGMA {pragma}")  # of this connection: as where the disk or home is so
     with pytest.raises(PlaceRefusal, match=code):

@@ -15,49 +15,42 @@ from datetime import UTC, datetime
 from itertools import chain, count
 from typing import Any, Protocol, TypeVar
 
-from planner.bridge_client import Aged
 from planner.language.folding import fold, unmask
 from planner.language.grammar.sentence_text import squash
 from planner.language.reserved_names import name_reads_as_order
 from planner.language.yes_no import consents
-from planner.mission.bridge_status import standing
-from planner.mission.site_view import facts_of, vocabulary_of
-from planner.mission.state import SiteView
-from planner.mission.tasks import RouteService
-from planner.navigation import RouteFailure, RouteRequest
 from planner.plan import Vocabulary
-from planner.site import (
-    MAX_HERE,
-    Place,
-    PlaceRefusal,
-    Site,
-    TaughtPlace,
-    TaughtPlaces,
-    check_spot,
-    plain_name,
-)
-from planner.site.places import Names
-from planner.site.taught_places import MAX_KEPT
-from wire import Pose2, Status
+from planner.site.places import Names, Place
+from planner.site.site import Site
+from planner.site.site_view import SiteView, facts_of, vocabulary_of
+from planner.site.taught_place_check import check_spot, plain_name
+from planner.site.taught_place_errors import PlaceRefusal
+from planner.site.taught_places import MAX_HERE, MAX_KEPT, TaughtPlace, TaughtPlaces
+from wire.geometry import Pose2
 
 T = TypeVar("T")
-MAX_STATUS_AGE_S = 0.5
-MOST_MOVED_M = 0.05
-"""A route that ends farther from the point than this says that nobody can stand on it."""
 _NO_ID = re.compile(r"[^a-z0-9]+")
-_ROUTE_CODES = {
-    "no_route": "place_unreachable",
-    "start_blocked": "place_unreachable",
-    "goal_blocked": "place_in_obstacle",
-    "goal_outside_map": "place_outside_map",
-}
 
 
-class Hears(Protocol):
-    """Hold the newest status and its age, as the link does."""
+class PlaceSurvey(Protocol):
+    """Tell where the robot is and whether it could drive to a point."""
 
-    @property
-    def status(self) -> Aged[Status] | None: ...
+    def robot_pose(self, map_id: str, *, must_stand: bool) -> Pose2:
+        """Return the robot in ``map``.
+
+        Raises:
+            PlaceRefusal: ``pose_unknown``, ``map_mismatch`` or ``robot_moving``.
+        """
+        ...
+
+    async def check_way(self, start: Pose2, goal: Pose2) -> None:
+        """Accept a point of ``map`` that the robot can drive to and stand on.
+
+        Raises:
+            PlaceRefusal: ``place_unreachable``, ``place_in_obstacle``, ``place_outside_map`` or
+                ``route_unavailable``.
+        """
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,8 +91,7 @@ class KnownPlaces:
         """Take up what was taught. Raises SiteError where the file is not ours."""
         self.site = site
         self._store, self._radius_m = store, radius_m
-        self._link: Hears | None = None
-        self._router: RouteService | None = None
+        self._survey: PlaceSurvey | None = None
         self._clock = clock
         self._lock = asyncio.Lock()
         self.version = 0
@@ -130,9 +122,9 @@ class KnownPlaces:
         """Return the places as the reducer knows them."""
         return self._facts
 
-    def use(self, link: Hears, router: RouteService) -> None:
-        """Take the source of the robot's pose, and the finder of ways to a point."""
-        self._link, self._router = link, router
+    def use(self, survey: PlaceSurvey) -> None:
+        """Take the source of the robot's pose, which also finds ways to a point."""
+        self._survey = survey
 
     def listen(self, told: Callable[[], None]) -> None:
         """Have something called after each change."""
@@ -259,33 +251,15 @@ class KnownPlaces:
 
     async def _spot(self, lesson: Lesson) -> Pose2:
         """Return where the place is to be: known, on this map, free and within reach."""
-        aged = self._link.status if self._link is not None else None
-        status = aged.value if aged is not None and aged.age_s <= MAX_STATUS_AGE_S else None
-        here = status.base_in_map if status is not None else None
-        if status is None or here is None:
+        if self._survey is None:
             raise PlaceRefusal("pose_unknown")
-        if status.map_id != self.site.map_id:
-            raise PlaceRefusal("map_mismatch", f"{status.map_id}, expected {self.site.map_id}")
+        here = self._survey.robot_pose(self.site.map_id, must_stand=lesson.pose is None)
         if lesson.pose is None:
-            if not standing(status):
-                raise PlaceRefusal("robot_moving")
             check_spot(self.site, here, 0.0)
             return here
         check_spot(self.site, lesson.pose, self._radius_m)
-        await self._reach(here, lesson.pose)
+        await self._survey.check_way(here, lesson.pose)
         return lesson.pose
-
-    async def _reach(self, start: Pose2, goal: Pose2) -> None:
-        if self._router is None:
-            raise PlaceRefusal("route_unavailable")
-        try:
-            result = await self._router.route(RouteRequest(start, goal))
-        except RouteFailure as failure:
-            code = _ROUTE_CODES.get(failure.code, "route_unavailable")
-            raise PlaceRefusal(code, failure.code) from None
-        if not result.moved_goal_m <= MOST_MOVED_M:
-            detail = f"free floor is {result.moved_goal_m:.2f} m away"
-            raise PlaceRefusal("place_in_obstacle", detail)
 
     def _new_id(self, lesson: Lesson, names: Names) -> str:
         """Return the id: the one asked for, else of the name, and so the same another day."""
