@@ -108,6 +108,7 @@ PARTS = (
     "planner",
     "localization",
     "bridge",
+    "sensors",
     "sim",
     "pons",
 )

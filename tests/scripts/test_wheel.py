@@ -17,6 +17,7 @@ PRODUCT = {
     "planner",
     "localization",
     "bridge",
+    "sensors",
     "sim",
     "pons",
 }
