@@ -11,6 +11,7 @@ from setuptools import find_packages
 
 PRODUCT = {
     "processes",
+    "devices",
     "pons_assets",
     "wire",
     "maps",
