@@ -2,15 +2,15 @@
 
 from sensors.lidar.ldrobot import LdRobotDecoder
 from sensors.lidar.rplidar import RplidarDecoder
-from sensors.lidar.turn import Beams, ScanShape, Turn, TurnCollector
+from sensors.lidar.turn import Beams, LidarTurn, ScanShape, TurnCollector
 from sensors.lidar.ydlidar import YdlidarDecoder
 
 __all__ = [
     "Beams",
     "LdRobotDecoder",
+    "LidarTurn",
     "RplidarDecoder",
     "ScanShape",
-    "Turn",
     "TurnCollector",
     "YdlidarDecoder",
 ]

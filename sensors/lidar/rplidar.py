@@ -75,7 +75,7 @@ measured."""
 
 
 class RplidarDecoder:
-    """Turn a stream that begins with an answer's head into beams."""
+    """LidarTurn a stream that begins with an answer's head into beams."""
 
     closing: tuple[bytes, ...] = (STOP,)
 
@@ -105,9 +105,9 @@ class RplidarDecoder:
             if self._type == 0:
                 self._find_answer()
             elif self._type == _STANDARD:
-                found += self._standard(arrival_s)
+                found += self._read_standard(arrival_s)
             else:
-                found += self._framed(arrival_s)
+                found += self._read_frame(arrival_s)
             if len(self._kept) == before:
                 return found
 
@@ -131,7 +131,7 @@ class RplidarDecoder:
         else:
             del kept[:2]  # the answer to another question, or noise
 
-    def _standard(self, arrival_s: float) -> list[Beams]:
+    def _read_standard(self, arrival_s: float) -> list[Beams]:
         kept, angles, distances = self._kept, [], []
         at = 0
         need = 5 * RESYNC if self._trusted < RESYNC else 5
@@ -154,7 +154,7 @@ class RplidarDecoder:
         del kept[:at]
         return [self._beams(angles, angles, distances, arrival_s)] if angles else []
 
-    def _framed(self, arrival_s: float) -> list[Beams]:
+    def _read_frame(self, arrival_s: float) -> list[Beams]:
         kept = self._kept
         if len(kept) < 84:
             return []

@@ -49,7 +49,7 @@ class Beams:
 
 
 @dataclass(frozen=True, slots=True)
-class Turn:
+class LidarTurn:
     """Hold one turn of the sensor without a gap, in the order of the beams."""
 
     angles_deg: tuple[float, ...]
@@ -72,9 +72,9 @@ class TurnCollector:
         self.broken = 0
         """Turns with a gap or too long; the first, which was joined half-way, does not count."""
 
-    def add(self, beams: Beams) -> list[Turn]:
+    def add(self, beams: Beams) -> list[LidarTurn]:
         """Take beams in the order of their times; return the turns that they complete."""
-        whole: list[Turn] = []
+        whole: list[LidarTurn] = []
         for index, (angle, swept, distance) in enumerate(
             zip(beams.angles_deg, beams.swept_deg, beams.distances_m, strict=True)
         ):
@@ -91,8 +91,8 @@ class TurnCollector:
             self._last_s = taken_s
         return whole
 
-    def _close(self) -> Turn | None:
-        turn = Turn(tuple(self._angles), tuple(self._distances), self._first_s, self._last_s)
+    def _close(self) -> LidarTurn | None:
+        turn = LidarTurn(tuple(self._angles), tuple(self._distances), self._first_s, self._last_s)
         swept = self._swept
         self._angles, self._swept, self._distances = [], [], []
         begun, self._begun = self._begun, True
@@ -126,7 +126,7 @@ class ScanShape:
     clockwise: bool = True
     """The sensor counts its angles clockwise, seen from above; False where it hangs upside down."""
 
-    def scan(self, turn: Turn, boot_id: str, seq: int) -> Scan:
+    def scan(self, turn: LidarTurn, boot_id: str, seq: int) -> Scan:
         """Return a turn as a scan: each direction holds the nearest return that fell into it.
 
         The frame's x is the sensor's own zero; how that is mounted is ``[lidar] yaw_rad``. A turn
@@ -149,7 +149,7 @@ class ScanShape:
             ranges_m=self._ranges(turn),
         )
 
-    def _ranges(self, turn: Turn) -> tuple[float | None, ...]:
+    def _ranges(self, turn: LidarTurn) -> tuple[float | None, ...]:
         nearest: list[float | None] = [None] * self.beams
         looked = [False] * self.beams
         share = self.beams / 360.0

@@ -48,7 +48,7 @@ MODELS = {
 
 
 class YdlidarDecoder:
-    """Turn the sensor's bytes into beams; what does not check is dropped and counted."""
+    """LidarTurn the sensor's bytes into beams; what does not check is dropped and counted."""
 
     max_gap_deg = MAX_GAP_DEG
 

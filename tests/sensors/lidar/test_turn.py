@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sensors.lidar import Beams, ScanShape, Turn, TurnCollector
+from sensors.lidar import Beams, LidarTurn, ScanShape, TurnCollector
 from sensors.lidar.turn import MAX_GAP_DEG
 from wire import Scan
 from wire.robot import LidarConfig
@@ -63,7 +63,7 @@ def test_no_return_is_lost_and_none_is_shown_farther(
     angles = tuple(angle + draws.uniform(0.0, 0.79) for angle in ANGLES)
     far = tuple(draws.choice((0.0, draws.uniform(0.0, 9.0))) for _ in ANGLES)
     shape = ScanShape(count, LIDAR, clockwise=clockwise)
-    scan = shape.scan(Turn(angles, far, 5.0, 5.1), "b", 1)
+    scan = shape.scan(LidarTurn(angles, far, 5.0, 5.1), "b", 1)
     for angle, distance in zip(angles, far, strict=True):
         if not 0.0 < distance <= LIDAR.range_max_m:
             continue
@@ -79,7 +79,7 @@ def test_no_return_is_lost_and_none_is_shown_farther(
 def test_a_post_stands_where_the_sensor_saw_it(clockwise: bool) -> None:
     """At 90 degrees of its own count: right of a clockwise sensor, left of one upside down."""
     far = tuple(2.0 if 88.0 < angle < 92.0 else 0.0 for angle in ANGLES)
-    scan = ScanShape(450, LIDAR, clockwise=clockwise).scan(Turn(ANGLES, far, 0.0, 0.1), "b", 1)
+    scan = ScanShape(450, LIDAR, clockwise=clockwise).scan(LidarTurn(ANGLES, far, 0.0, 0.1), "b", 1)
     seen = [at for at, r in zip(directions(scan), scan.ranges_m, strict=True) if r is not None]
     middle = sum(seen) / len(seen)
     side = -1.0 if clockwise else 1.0
@@ -92,7 +92,7 @@ def test_a_post_stands_where_the_sensor_saw_it(clockwise: bool) -> None:
 def test_the_first_beam_taken_is_the_one_at_the_stamp(clockwise: bool) -> None:
     """Beam k was taken at stamp + k steps, counted from the end where the sensor is clockwise."""
     far = tuple(1.0 + k / 1000 for k in range(450))
-    scan = ScanShape(450, LIDAR, clockwise=clockwise).scan(Turn(ANGLES, far, 7.0, 7.1), "b", 1)
+    scan = ScanShape(450, LIDAR, clockwise=clockwise).scan(LidarTurn(ANGLES, far, 7.0, 7.1), "b", 1)
     assert scan.stamp_s == 7.0
     taken = scan.ranges_m[::-1] if scan.clockwise else scan.ranges_m
     assert list(taken) == pytest.approx([round(r, 4) for r in far])
@@ -103,8 +103,8 @@ def test_the_first_beam_taken_is_the_one_at_the_stamp(clockwise: bool) -> None:
 def test_scans_always_have_the_same_directions() -> None:
     shape = ScanShape(360, LIDAR)
     shifted = tuple((angle + 0.3) % 360 for angle in ANGLES)
-    first = shape.scan(Turn(ANGLES, (1.0,) * 450, 0.0, 0.1), "b", 1)
-    second = shape.scan(Turn(shifted, (1.0,) * 450, 0.1, 0.19), "b", 2)
+    first = shape.scan(LidarTurn(ANGLES, (1.0,) * 450, 0.0, 0.1), "b", 1)
+    second = shape.scan(LidarTurn(shifted, (1.0,) * 450, 0.1, 0.19), "b", 2)
     assert directions(first) == directions(second)
 
 
