@@ -17,7 +17,7 @@ BUCKETS = 20
 
 
 class SensorClock:
-    """LidarTurn the sensor's seconds into ours."""
+    """Turn the sensor's seconds into ours."""
 
     def __init__(self) -> None:
         self._least: deque[tuple[float, float]] = deque()

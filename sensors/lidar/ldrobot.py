@@ -45,7 +45,7 @@ def crc8(data: bytes) -> int:
 
 
 class LdRobotDecoder:
-    """LidarTurn the sensor's bytes into beams; what does not check is dropped and counted."""
+    """Turn the sensor's bytes into beams; what does not check is dropped and counted."""
 
     baud = BAUD
     max_gap_deg = MAX_GAP_DEG

@@ -75,7 +75,7 @@ measured."""
 
 
 class RplidarDecoder:
-    """LidarTurn a stream that begins with an answer's head into beams."""
+    """Turn a stream that begins with an answer's head into beams."""
 
     closing: tuple[bytes, ...] = (STOP,)
 

@@ -48,7 +48,7 @@ MODELS = {
 
 
 class YdlidarDecoder:
-    """LidarTurn the sensor's bytes into beams; what does not check is dropped and counted."""
+    """Turn the sensor's bytes into beams; what does not check is dropped and counted."""
 
     max_gap_deg = MAX_GAP_DEG
 
