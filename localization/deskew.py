@@ -52,7 +52,8 @@ def deskew(scan: Scan, lidar: LidarConfig, trail: OdometryTrail) -> PointCloud:
     y_m = lidar.y_m + ranges_m[index] * np.sin(angle)
     end_s = scan.stamp_s + sweep_s(scan)
     if scan.time_increment_s > 0.0 and len(index):
-        stamps_s = np.asarray(scan.stamp_s + scan.time_increment_s * index, np.float64)
+        order = len(ranges_m) - 1 - index if scan.clockwise else index  # as they were taken
+        stamps_s = np.asarray(scan.stamp_s + scan.time_increment_s * order, np.float64)
         poses = trail.carried_at(stamps_s)
         at = trail.carried_at(np.array([end_s]))[0]
         x_m, y_m = _seen_from(at, poses, x_m, y_m)

@@ -21,10 +21,10 @@ from maps.errors import SiteError
 from maps.grid import FREE, GridMap
 from maps.map_file import NO_OCCUPANCY, load_occupancy
 from maps.outlines import outlines
-from wire.fence import SpeedZone
+from wire.fence import MAX_CORNERS, FenceFile, SpeedZone
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -67,6 +67,29 @@ class MaskAreas:
 
     keep_outs: tuple[Polygon, ...]
     speed_zones: tuple[SpeedZone, ...] = ()
+
+
+def join_masks(fence: FenceFile, masks: Sequence[MaskAreas]) -> FenceFile:
+    """Return a fence with the areas of masks joined to its own, each area once.
+
+    Raises:
+        SiteError: ``map_too_ragged``: the outlines take more corners than a fence may have.
+    """
+    keep_outs = dict.fromkeys((*fence.keep_outs, *(a for mask in masks for a in mask.keep_outs)))
+    zones = list(fence.speed_zones)
+    zones += [zone for mask in masks for zone in mask.speed_zones if zone not in zones]
+    lines = (*fence.allowed, *keep_outs, *(zone.polygon for zone in zones))
+    corners = sum(map(len, lines))
+    if not (corners <= MAX_CORNERS and len(keep_outs) <= 200 and len(zones) <= 200):
+        text = f"with the masks the fence takes {corners} corners in {len(lines)} outlines"
+        raise SiteError("map_too_ragged", f"{text}; at most {MAX_CORNERS} and 200 of a kind")
+    return FenceFile(
+        version=1,
+        map_id=fence.map_id,
+        allowed=fence.allowed,
+        keep_outs=tuple(keep_outs),
+        speed_zones=tuple(zones),
+    )
 
 
 def read_keep_outs(path: Path, onto: GridMap) -> MaskAreas:

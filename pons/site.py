@@ -1,6 +1,7 @@
-"""Make a site of a map: ``pons site import | list | rooms | name | check``. Needs no planner.
+"""Make a site of a map: ``pons site import | list | rooms | name | masks | check``.
 
-Works on folders; a running robot takes a changed site at its next start.
+Works on folders and needs no planner; a running robot takes a changed site at its next start.
+``masks`` changes nothing: it prints the fence that would hold, for ``pons fence propose``.
 """
 
 from __future__ import annotations
@@ -14,12 +15,14 @@ from typing import TYPE_CHECKING
 
 from maps import SiteError, load_map
 from maps.map_file import load_picture
-from maps.masks import SpeedScale, read_keep_outs, read_speed_zones
+from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text, read_proposals
 from pons.settings import site_of
 from wire import ConfigError, Pose2, load_robot
+from wire.fence import fence_text
 
 if TYPE_CHECKING:
+    from maps.grid import GridMap
     from maps.map_file import LoadedMap
     from maps.masks import MaskAreas
     from pons.settings import LaunchSettings
@@ -45,11 +48,7 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument(
         "--unknown", choices=("unknown", "free"), help="what grey 205 is where the file frees it"
     )
-    made.add_argument("--keepout", type=Path, metavar="YAML", help="a Nav2 keep-out mask")
-    made.add_argument("--speed", type=Path, metavar="YAML", help="a Nav2 speed mask")
-    made.add_argument("--speed-kind", choices=("percent", "mps"), default="percent")
-    made.add_argument("--speed-base", type=float, default=100.0)
-    made.add_argument("--speed-multiplier", type=float, default=-1.0)
+    _add_masks(made)
     acts.add_parser("list", help="list the sites")
     for act, what in (
         ("rooms", "show the rooms that are proposed, with and without a name"),
@@ -61,7 +60,18 @@ def parser() -> argparse.ArgumentParser:
     named.add_argument("room", help="room_1 and so on, as `pons site rooms` shows them")
     named.add_argument("english", help="what people call it")
     named.add_argument("--zh", metavar="NAME", help="its Chinese name")
+    masked = acts.add_parser("masks", help="print the site's fence with masks joined to it")
+    masked.add_argument("name", help="a site, by name or folder")
+    _add_masks(masked)
     return top
+
+
+def _add_masks(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--keepout", type=Path, metavar="YAML", help="a Nav2 keep-out mask")
+    parser.add_argument("--speed", type=Path, metavar="YAML", help="a Nav2 speed mask")
+    parser.add_argument("--speed-kind", choices=("percent", "mps"), default="percent")
+    parser.add_argument("--speed-base", type=float, default=100.0)
+    parser.add_argument("--speed-multiplier", type=float, default=-1.0)
 
 
 def run(settings: LaunchSettings, words: list[str]) -> int:
@@ -79,6 +89,8 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
             return _check(folder, _radius_m(settings))
         if said.act == "rooms":
             return _rooms(folder)
+        if said.act == "masks":
+            return _print_fence_with_masks(settings, folder, said)
         return _name_room(folder, said.room, said.english, said.zh or said.english)
     except ConfigError as refused:
         zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
@@ -98,7 +110,7 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     loaded = _load(said)
     robot = load_robot(settings.robot)
     start = None if said.start is None else _pose(said.start)
-    made = new_site(loaded, robot.base.radius_m, start, _masks(said, loaded, robot))
+    made = new_site(loaded, robot.base.radius_m, start, _masks(said, loaded.grid, robot))
     folder = settings.home / "sites" / said.name
     made.write(folder)
     kept = "" if not loaded.kept_unknown else f", {loaded.kept_unknown} pixels of grey 205"
@@ -130,15 +142,15 @@ def _load(said: argparse.Namespace) -> LoadedMap:
     return loaded
 
 
-def _masks(said: argparse.Namespace, loaded: LoadedMap, robot: RobotDescription) -> list[MaskAreas]:
+def _masks(said: argparse.Namespace, grid: GridMap, robot: RobotDescription) -> list[MaskAreas]:
     found = []
     if said.keepout is not None:
-        found.append(read_keep_outs(said.keepout, loaded.grid))
+        found.append(read_keep_outs(said.keepout, grid))
     if said.speed is not None:
         scale = SpeedScale(
             robot.limits.max_speed_mps, said.speed_kind, said.speed_base, said.speed_multiplier
         )
-        found.append(read_speed_zones(said.speed, loaded.grid, scale))
+        found.append(read_speed_zones(said.speed, grid, scale))
     return found
 
 
@@ -211,6 +223,26 @@ def _replace(path: Path, data: bytes) -> None:
         beside.replace(path)
     except OSError as error:
         raise SiteError("site_unwritable", f"{path}: {error.strerror}") from error
+
+
+def _print_fence_with_masks(
+    settings: LaunchSettings, folder: Path, said: argparse.Namespace
+) -> int:
+    """Print the fence in force with the masks' areas joined, as text for ``pons fence propose``."""
+    from planner.site import Site
+
+    if said.keepout is None and said.speed is None:
+        print("masks_none: say --keepout MASK.yaml, --speed MASK.yaml or both", file=sys.stderr)
+        return EXIT_USAGE
+    site = Site.load(folder)
+    masks = _masks(said, site.grid, load_robot(settings.robot))
+    fence = join_masks(site.fence.record, masks)
+    print(fence_text(fence), end="")
+    closed = sum(len(mask.keep_outs) for mask in masks)
+    slowed = sum(len(mask.speed_zones) for mask in masks)
+    told = f"{closed} areas closed, {slowed} slowed by the masks"
+    print(f"{told}; to put it in force: pons fence propose FILE", file=sys.stderr)
+    return EXIT_DONE
 
 
 def _check(folder: Path, radius_m: float) -> int:

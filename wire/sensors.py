@@ -76,6 +76,9 @@ class Scan(Record):
     time_increment_s: Annotated[float, Field(ge=0.0, le=0.01)] = 0.0
     """Between two beams, as in sensor_msgs/LaserScan; ``stamp_s`` is the first beam's. 0: all beams
     were taken at one instant."""
+    clockwise: bool = False
+    """The lidar turns clockwise: it took the last beam listed first, at ``stamp_s``, and the first
+    listed last."""
 
 
 class Imu(Record):

@@ -20,12 +20,15 @@ def at(share: float) -> Pose2:
     return Pose2(BEGAN.x_m + 0.05 * share, BEGAN.y_m, BEGAN.yaw_rad + 0.1 * share)
 
 
-def test_beams_are_put_where_the_robot_was() -> None:
-    swept = tuple(cast(ROOM, at(beam / (BEAMS - 1)))[beam] for beam in range(BEAMS))
+@pytest.mark.parametrize("clockwise", [False, True])
+def test_beams_are_put_where_the_robot_was(clockwise: bool) -> None:
+    shares = [beam / (BEAMS - 1) for beam in range(BEAMS)]
+    taken = shares[::-1] if clockwise else shares
+    swept = tuple(cast(ROOM, at(share))[beam] for beam, share in enumerate(taken))
     trail = OdometryTrail()
     for step in range(6):
         trail.add(odometry_of(step * 0.02, between(at(0.0), at(step / 5))))
-    scan = scan_of(swept, 0.0, sweep_s=SWEEP_S)
+    scan = scan_of(swept, 0.0, sweep_s=SWEEP_S).model_copy(update={"clockwise": clockwise})
     assert sweep_s(scan) == pytest.approx(SWEEP_S)
     cloud = deskew(scan, LidarConfig(), trail)
     still = points_of(cast(ROOM, at(1.0)))

@@ -11,9 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from maps import GridMap, SiteError
-from maps.masks import MaskAreas, SpeedScale, read_keep_outs, read_speed_zones
+from maps.masks import MaskAreas, SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from planner.site.polygon import contains
-from wire.fence import crosses_itself
+from wire.fence import MAX_CORNERS, FenceFile, SpeedZone, crosses_itself
 
 FLOOR = GridMap(200, 160, 0.05, 0.0, 0.0, bytes(200 * 160))  # 10 m x 8 m, all free
 SCALE = SpeedScale(fastest_mps=0.5)
@@ -117,3 +117,29 @@ def test_unknown_says_nothing(tmp_path: Path) -> None:
         occupied_thresh=0.65, free_thresh=0.196,
     )  # fmt: skip
     assert read_keep_outs(path, FLOOR).keep_outs == ()
+
+
+SQUARE = ((0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0))
+FENCE = FenceFile(
+    version=1,
+    map_id="0123456789abcdef",
+    allowed=(SQUARE,),
+    keep_outs=(((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)),),
+    speed_zones=(SpeedZone(polygon=SQUARE, max_speed_mps=0.3),),
+)
+
+
+def test_masks_join_a_fence_and_take_nothing_from_it(tmp_path: Path) -> None:
+    path = mask(tmp_path, painted((slice(30, 60), slice(40, 90), 0)))
+    areas = read_keep_outs(path, FLOOR)
+    joined = join_masks(FENCE, [areas])
+    assert joined.keep_outs == (*FENCE.keep_outs, *areas.keep_outs)
+    assert (joined.allowed, joined.speed_zones) == (FENCE.allowed, FENCE.speed_zones)
+    assert join_masks(joined, [areas]) == joined, "the same mask again changes nothing"
+
+
+def test_masks_of_too_many_corners_are_refused(tmp_path: Path) -> None:
+    many = tuple(((0.01 * k, 0.0), (0.01 * k, 1.0), (1.0, 1.0)) for k in range(MAX_CORNERS // 3))
+    with pytest.raises(SiteError, match="at most 1000") as refused:
+        join_masks(FENCE, [MaskAreas(many)])
+    assert refused.value.code == "map_too_ragged"

@@ -11,6 +11,7 @@ from planner.site import Site
 from pons import site
 from pons.settings import LaunchSettings, site_of
 from pons_assets import ROBOT_FILE
+from wire import FenceFile
 
 
 @pytest.fixture
@@ -87,6 +88,29 @@ def test_what_cannot_be_is_refused_by_name(
     given = [word.format(plan=plan, image=image) for word in words]
     assert site.run(settings, given) == status
     assert code in capsys.readouterr().err
+
+
+def test_masks_of_a_site_that_exists_make_a_fence_to_propose(
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    folder = site_of("mine", settings.home)
+    before = (folder / "fence.json").read_bytes()
+    text = plan.read_text().replace("map.pgm", "closed.pgm")
+    (plan.parent / "mask.yaml").write_text(text)
+    picture = (plan.parent / "map.pgm").read_bytes()
+    header = picture[: picture.index(b"255\n") + 4]
+    (plan.parent / "closed.pgm").write_bytes(header + bytes(len(picture) - len(header)))
+    capsys.readouterr()
+    words = ["masks", "mine", "--keepout", str(plan.parent / "mask.yaml")]
+    assert site.run(settings, words) == 0
+    said = capsys.readouterr()
+    fence = FenceFile.model_validate_json(said.out)
+    assert len(fence.keep_outs) > len(Site.load(folder).fence.record.keep_outs)
+    assert "pons fence propose" in said.err
+    assert (folder / "fence.json").read_bytes() == before, "nothing is in force yet"
+    assert site.run(settings, ["masks", "mine"]) == 2
+    assert "masks_none" in capsys.readouterr().err
 
 
 def test_our_own_sites_are_well(settings: LaunchSettings) -> None:

@@ -102,12 +102,14 @@ COME_ALONG = {"starlette", "pydantic-core", "pons", "pons-robot"}
 """What fastapi and pydantic are faces of, and ourselves."""
 PARTS = (
     "processes",
+    "devices",
     "pons_assets",
     "wire",
     "maps",
     "planner",
     "localization",
     "bridge",
+    "sensors",
     "sim",
     "pons",
 )

@@ -11,12 +11,14 @@ from setuptools import find_packages
 
 PRODUCT = {
     "processes",
+    "devices",
     "pons_assets",
     "wire",
     "maps",
     "planner",
     "localization",
     "bridge",
+    "sensors",
     "sim",
     "pons",
 }

@@ -1,0 +1,5 @@
+"""Talk to devices on serial lines. Below drives and sensors alike; knows no robot and no wire."""
+
+from devices.serial_port import PortTrouble, SerialPort
+
+__all__ = ["PortTrouble", "SerialPort"]

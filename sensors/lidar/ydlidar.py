@@ -1,0 +1,134 @@
+"""Decode YDLidar X2, X4, G and TG: packets of a few beams with a check over 16-bit words.
+
+Layout: the development manuals and YDLidar-SDK: ``AA 55 | CT | LSN | FSA u16 | LSA u16 | CS u16
+| LSN samples``. CT bit 0: a turn begins. The angle of the first and the last beam is the upper
+15 bits in 1/64 degree, the others lie evenly between. A sample is u16, or 3 bytes where an
+intensity comes first. Those that triangulate send 1/4 mm and see each beam under an angle that
+depends on the distance d [mm]: atan(21.8 (155.3 - d) / (155.3 d)) is added. CS is the xor of
+55AA, FSA, each sample's words, CT with LSN, and LSA. Angles grow clockwise. Distance 0: nothing.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from math import atan, degrees
+
+from sensors.lidar.clock import SensorClock
+from sensors.lidar.turn import MAX_GAP_DEG, Beams
+
+HEAD = b"\xaa\x55"
+SCAN, STOP, INFO, HEALTH = b"\xa5\x60", b"\xa5\x65", b"\xa5\x90", b"\xa5\x92"
+HEAD_BYTES = 10
+MOST_BEAMS = 255
+_WORD = struct.Struct("<H")
+
+
+@dataclass(frozen=True, slots=True)
+class YdlidarModel:
+    """Hold what differs between the models."""
+
+    baud: int
+    talks: bool
+    """It sends by itself and takes no request."""
+    sample_bytes: int
+    unit_m: float
+    triangulates: bool
+    beams_per_s: float
+
+
+MODELS = {
+    "x2": YdlidarModel(115_200, True, 2, 0.000_25, True, 3_000.0),
+    "x4": YdlidarModel(128_000, False, 2, 0.000_25, True, 5_000.0),
+    "g2": YdlidarModel(230_400, False, 3, 0.000_25, True, 5_000.0),
+    "g4": YdlidarModel(230_400, False, 2, 0.000_25, True, 9_000.0),
+    "tg15": YdlidarModel(512_000, False, 2, 0.001, False, 20_000.0),
+}
+"""Bauds and rates: the data sheets and the SDK's list of models."""
+
+
+class YdlidarDecoder:
+    """Turn the sensor's bytes into beams; what does not check is dropped and counted."""
+
+    max_gap_deg = MAX_GAP_DEG
+
+    def __init__(self, model: YdlidarModel) -> None:
+        self.baud = model.baud
+        self.opening: tuple[bytes, ...] = () if model.talks else (STOP, SCAN)
+        self.closing: tuple[bytes, ...] = () if model.talks else (STOP,)
+        self._model = model
+        self._clock = SensorClock()
+        self._kept = bytearray()
+        self._counted = 0
+        self.frames = 0
+        self.spoilt = 0
+
+    def feed(self, data: bytes, arrival_s: float) -> list[Beams]:
+        """Take bytes as they came, read at ``arrival_s`` on our clock; return the beams in them."""
+        kept = self._kept
+        kept += data
+        found: list[Beams] = []
+        while (start := kept.find(HEAD)) >= 0 and len(kept) - start >= HEAD_BYTES:
+            size = HEAD_BYTES + kept[start + 3] * self._model.sample_bytes
+            if len(kept) - start < size:
+                break
+            packet = bytes(kept[start : start + size])
+            if packet[3] and packet_check(packet, self._model.sample_bytes) == 0:
+                found.append(self._beams(packet, arrival_s))
+                self.frames += 1
+                del kept[: start + size]
+            else:
+                self.spoilt += 1
+                self._counted = 0
+                self._clock.reset()  # how many beams were lost is not known
+                del kept[: start + 1]
+        del kept[: start if start >= 0 else max(0, len(kept) - 1)]
+        return found
+
+    def _beams(self, packet: bytes, arrival_s: float) -> Beams:
+        model, count = self._model, packet[3]
+        first, last = (_WORD.unpack_from(packet, at)[0] >> 1 for at in (4, 6))
+        swept_deg = ((last - first) / 64.0) % 360.0
+        step_deg = swept_deg / (count - 1) if count > 1 else 0.0
+        distances = [
+            _WORD.unpack_from(packet, at + model.sample_bytes - 2)[0]
+            for at in range(HEAD_BYTES, len(packet), model.sample_bytes)
+        ]
+        if model.sample_bytes == 3:
+            distances = [raw & 0xFFFC for raw in distances]  # two bits belong to the intensity
+        swept = [(first / 64.0 + index * step_deg) % 360.0 for index in range(count)]
+        angles = swept
+        if model.triangulates:
+            angles = [
+                angle + _triangulation_deg(raw * model.unit_m * 1000.0)
+                for angle, raw in zip(swept, distances, strict=True)
+            ]
+        self._counted += count
+        period_s = 1.0 / model.beams_per_s
+        last_s = self._clock.note(self._counted * period_s, arrival_s)
+        return Beams(
+            angles_deg=tuple(angle % 360.0 for angle in angles),
+            swept_deg=tuple(swept),
+            distances_m=tuple(raw * model.unit_m for raw in distances),
+            first_s=last_s - (count - 1) * period_s,
+            period_s=period_s,
+        )
+
+
+def packet_check(packet: bytes, sample_bytes: int = 2) -> int:
+    """Return the xor of a packet's words, its own check among them: 0 where it is good."""
+    words = [_WORD.unpack_from(packet, at)[0] for at in range(0, HEAD_BYTES, 2)]
+    check = 0
+    for word in words:
+        check ^= word
+    for at in range(HEAD_BYTES, len(packet), sample_bytes):
+        if sample_bytes == 3:
+            check ^= packet[at]
+        check ^= _WORD.unpack_from(packet, at + sample_bytes - 2)[0]
+    return check
+
+
+def _triangulation_deg(distance_mm: float) -> float:
+    if not distance_mm > 0.0:
+        return 0.0
+    return degrees(atan(21.8 * (155.3 - distance_mm) / (155.3 * distance_mm)))
