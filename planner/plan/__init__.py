@@ -21,6 +21,7 @@ from planner.plan.goal import (
     StepRecord,
     StepState,
     fault,
+    places_of,
     plan_record,
 )
 from planner.plan.outcome import Outcome, Spot
@@ -57,7 +58,6 @@ from planner.plan.steps import (
     Step,
     Turn,
     Wait,
-    places_of,
 )
 from planner.plan.vocabulary import Entry, PlaceId, Vocabulary
 

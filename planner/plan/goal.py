@@ -13,6 +13,7 @@ from planner.plan.base import Bilingual, Frozen, Language
 from planner.plan.outcome import Outcome, Spot
 from planner.plan.outcome_codes import Code
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
+from planner.plan.steps import Step
 
 
 class GoalState(StrEnum):
@@ -164,3 +165,10 @@ def _step_record(step: Frozen) -> StepRecord:
     if "question" in fields:
         fields["text"] = fields.pop("question")
     return StepRecord.model_validate(fields)
+
+
+def places_of(step: Step | StepRecord) -> tuple[str, ...]:
+    """Return the place ids that a step names."""
+    place: str | None = getattr(step, "place", None)
+    places: tuple[str, ...] = getattr(step, "places", ())
+    return (place,) if place else places
