@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import ast
-import tomllib
 from string import Formatter
 from typing import TYPE_CHECKING
 
 import pytest
 
 from planner.language.catalogue import CATALOGUE
-from planner.language.catalogue.words import FOLDER, PLACES, read_plain_lines
+from planner.language.catalogue.words import PLACES
 from planner.language.object_classes import KINDS
 from planner.plan import Code
 
@@ -39,14 +38,6 @@ def test_every_language_has_every_message(language: str) -> None:
 def test_things_have_words_in_every_language_and_plurals_are_of_things() -> None:
     assert set(CATALOGUE.keys("noun")) == set(KINDS)
     assert {code.removeprefix("plural.") for code in PLURALS} <= set(KINDS)
-
-
-@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.toml")), ids=lambda path: str(path.stem))
-def test_our_files_are_as_plain_as_the_quick_reader_needs(path: Path) -> None:
-    tables = tomllib.loads(path.read_text("utf-8"))
-    assert read_plain_lines(path.read_text("utf-8")) == {
-        f"{group}.{key}": text for group, table in tables.items() for key, text in table.items()
-    }
 
 
 @pytest.mark.parametrize("language", sorted(MESSAGES))
