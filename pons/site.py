@@ -133,12 +133,14 @@ def _load(said: argparse.Namespace) -> LoadedMap:
         loaded = load_picture(said.map, said.resolution, at, frees_saved_unknown=frees)
     share = loaded.kept_unknown / max(1, len(loaded.grid.cells))
     if share >= ASK_FROM_SHARE and said.unknown is None:
-        text = (
-            f"{100 * share:.0f} % of {said.map} is grey 205, which map savers write for unknown "
-            f"and free_thresh {loaded.record.free_thresh:g} makes free; say which it is: "
-            "--unknown unknown or --unknown free"
-        )
-        raise SiteError("map_unknown_word", text)
+        from planner.language.catalogue import say
+
+        threshold = loaded.record.free_thresh
+        told = say(
+            "site_refusal.map_unknown_word",
+            share=100.0 * share, map=str(said.map), threshold=threshold,
+        )  # fmt: skip
+        raise SiteError("map_unknown_word", told.en, told.zh)
     return loaded
 
 

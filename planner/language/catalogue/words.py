@@ -6,6 +6,7 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 from string import Formatter
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
@@ -257,6 +258,16 @@ def message(code: Code, /, **facts: Fact) -> Bilingual:
         KeyError: a blank of the sentence was given no fact.
     """
     return CATALOGUE.say(f"outcome.{code.value}", **facts)
+
+
+def pair_up(group: str, codes: Iterable[str]) -> Mapping[str, tuple[str, str]]:
+    """Return each code's message in English and Chinese, for a process that carries both.
+
+    Raises:
+        UnknownMessage: there is none of a code in this group.
+    """
+    said = {code: say(f"{group}.{code}") for code in codes}
+    return MappingProxyType({code: (both.en, both.zh) for code, both in said.items()})
 
 
 def template(code: Code) -> Bilingual:
