@@ -24,8 +24,7 @@ from planner.plan.goal import (
     places_of,
     plan_record,
 )
-from planner.plan.outcome import Outcome, Spot
-from planner.plan.outcome_codes import Code
+from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import (
     MAX_STEPS,
     PLAN,

@@ -17,7 +17,7 @@ from collections.abc import Callable, Container, Iterator
 
 from planner.plan.base import Bilingual, Frozen
 from planner.plan.goal import StepRecord, places_of, plan_record
-from planner.plan.outcome_codes import Code
+from planner.plan.outcome import Code
 from planner.plan.responses import MAX_STEPS, AnswerPlan, Clarify, Plan, Refuse, StepPlan
 from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step
 

@@ -10,8 +10,7 @@ from enum import StrEnum
 from pydantic import AwareDatetime, Field
 
 from planner.plan.base import Bilingual, Frozen, Language
-from planner.plan.outcome import Outcome, Spot
-from planner.plan.outcome_codes import Code
+from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
 from planner.plan.steps import Step
 

@@ -16,7 +16,7 @@ from planner.plan.base import Bilingual
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from planner.plan.outcome_codes import Code
+    from planner.plan.outcome import Code
 
     Fact = Bilingual | str | int | float | None
 

@@ -3,9 +3,9 @@
 Precondition: without a vision model, the one kind of thing that is asked for is known to the
 detector. Law: a place that is named is driven to and looked round in; else one gaze ahead, or round
 where the words ask for it. The answer is what the detector saw, by kind, colour, number and
-neighbour (answering.py). Beside it stands, labelled, what a vision model read in the pictures of
-all these directions (reading.py): its words may repeat what stands written there, so they describe
-and never command. Where a model is set and does not answer, why is told. Verdict: looked; a place
+neighbour (scene_answers.py). Beside it stands, labelled, what a vision model read in the pictures
+of all these directions: its words may repeat what stands written there, so they describe and
+never command. Where a model is set and does not answer, why is told. Verdict: looked; a place
 to which there was no way was not. Budget: one leg and one turn about.
 """
 
@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import join, message, say
+from planner.language.catalogue import build, join, message, raw, say
 from planner.language.questions import looks_round
 from planner.mission.skills.actions import (
     AskImage,
@@ -26,7 +26,6 @@ from planner.mission.skills.actions import (
     SkillAction,
 )
 from planner.mission.skills.directions import direction, goes_round, list_directions
-from planner.mission.skills.image_answers import reading
 from planner.mission.skills.image_errors import why_silent
 from planner.mission.skills.look_around import LOOKS, look_round
 from planner.mission.skills.object_query import unknown_kind
@@ -39,7 +38,9 @@ from planner.plan import Bilingual, Code, say_same
 from wire import wrap
 
 if TYPE_CHECKING:
+    from planner.mission.skills.perception import ImageAnswer
     from wire import Pose2
+
 
 NO_DETECTOR = say("look.no_detector")
 """Who has none has not seen that nothing is there."""
@@ -137,3 +138,58 @@ def _look_next(scene: Scene[LookState], pose: Pose2, question: str) -> SkillActi
         return Observe(LOOKS + 1, then=scene.state.but(stage=LookStage.GAZED))
     at = scene.state.here or (pose.x_m, pose.y_m)
     return look_round(scene, pose, (Viewpoint(HERE, room_at(scene.facts, at), at),), None)
+
+
+_ENDS = (".", "!", "?", "…", "”", "。", "！", "？")
+
+
+def reading(
+    answer: ImageAnswer, detected: bool | None, faced: tuple[float, ...], views: int, now: Bilingual
+) -> Bilingual | None:
+    """Return a model's words about pictures with their label; None where it has none.
+
+    They stand beside what the detector saw and never in its place; a yes of either is not taken
+    back by a no of the other, still less by one about another direction.
+
+    Args:
+        answer: what came of the question.
+        detected: whether the detector saw what was asked for; None: open, or it can't tell.
+        faced: the directions of this look, from how the robot stood when it began [rad].
+        views: in how many directions one looks for a whole turn.
+        now: the direction of the newest picture.
+    """
+    if answer.text is None:
+        return None
+    shown = _name_pictures(answer.shown, faced, views, now)
+    words = _end_sentence(answer.text)
+    lead = _lead(answer.seen, detected, shown)
+    return say("image.reading", lead=lead, words=words)
+
+
+def _lead(seen: bool | None, detected: bool | None, shown: Bilingual) -> Bilingual:
+    if seen is None or seen is detected:
+        return say("image.adds", shown=shown)  # fmt: skip
+    if not seen:
+        return say("image.says_no", shown=shown)
+    return say("image.but_says_yes" if detected is False else "image.says_yes", shown=shown)
+
+
+def _name_pictures(count: int, faced: tuple[float, ...], views: int, now: Bilingual) -> Bilingual:
+    """Say which pictures the model was shown: of each direction, or the newest alone."""
+    if count < 2 or count != len(faced):
+        alone = len(faced) > 1
+        return say("image.only_picture" if alone else "image.picture", now=now)
+    if goes_round(faced, views):
+        return say("image.all_directions")
+    names = list_directions(tuple(map(direction, faced)))
+    return say("image.pictures", names=names)
+
+
+def _end_sentence(text: Bilingual) -> Bilingual:
+    """Return a text with a full stop behind it, where nothing ends it."""
+
+    def end_text(language: str) -> str:
+        own = text.of(language)
+        return own if own.endswith(_ENDS) else own + raw("joint.full_stop", language)
+
+    return build(end_text)

@@ -11,8 +11,7 @@ import pytest
 
 from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
-from planner.language.identification import language_of
-from planner.language.utterance import parse
+from planner.language.utterance import language_of, parse
 from planner.mission import reception
 from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold

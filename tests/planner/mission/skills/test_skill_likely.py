@@ -10,9 +10,8 @@ from planner.language.catalogue import CATALOGUE
 from planner.language.object_classes import KINDS
 from planner.language.questions import Relation
 from planner.mission.skills import DriveLeg, Eyesight, Observe, WantedObject, act_of
-from planner.mission.skills.room_priors import THINGS, likely_rooms
 from planner.mission.skills.skill_state import RoomTourState
-from planner.mission.skills.viewpoints import in_order
+from planner.mission.skills.viewpoints import THINGS, in_order, likely_rooms
 from planner.perception.snapshot import Sight, Thing
 from planner.plan import Bilingual
 from planner.site.site_view import SiteView, Target
