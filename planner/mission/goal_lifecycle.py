@@ -5,18 +5,21 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.language.utterance import parse
 from planner.mission.activity import Thinking
-from planner.mission.answer_timeouts import ask_anew, close_older, make_room, waiting_since
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
+    ask_anew,
     ask_plainly,
     asks,
+    close_older,
     confirms,
     find_offer,
+    make_room,
     take_answer,
     take_no,
     take_sentence,
+    waiting_since,
 )
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_check import unwalkable

@@ -7,7 +7,6 @@ nothing. The order is the law: what a person or a fault demands comes before any
 from __future__ import annotations
 
 from planner.mission.activity import AskingImage, Driving, Observing, Retrying
-from planner.mission.answer_timeouts import end_unanswered
 from planner.mission.bridge_status import (
     GATES,
     amount_done,
@@ -26,6 +25,7 @@ from planner.mission.legs import (
     hand_steers,
     settle_amounts,
 )
+from planner.mission.open_questions import end_unanswered
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import end_gaze_if_due, on_standing, stand_while_blind
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
