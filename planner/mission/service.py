@@ -40,6 +40,7 @@ from planner.mission.events import (
 from planner.mission.journal_sync import Disk
 from planner.mission.known_places import KnownPlaces
 from planner.mission.loop import Clocks, Loop
+from planner.mission.obstacle_feed import ObstacleFeed, ScanObserver
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import (
@@ -93,11 +94,25 @@ class Missions:
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
         self._think = PlannerCommands(self._ask_brain, self.memory, self.loop).think
         self._repeats = Repeats()
+        self.obstacles: ObstacleFeed | None = None
         self.memory.listen(self._on_places)
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
         """See with these eyes, and ask this model about their pictures."""
         self.loop.see(eyes, looker, self._robot.camera)
+
+    def show_scans(self, observer: ScanObserver) -> None:
+        """Show scans to the route search, which remembers what the map does not know."""
+        loop, clock = self.loop, self._clocks.monotonic
+        self.obstacles = ObstacleFeed(
+            self.link,
+            self._robot.lidar,
+            self.memory.site.map_id,
+            observer,
+            lambda: loop.way_ahead,
+            clock,
+        )
+        loop.show_scans(self.obstacles)
 
     # Life ---------------------------------------------------------------------------------------
 
