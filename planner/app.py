@@ -100,6 +100,7 @@ class Planner:
             brain=self.brain,
             disk=JournalSync(self._journal),
         )
+        self.goals.show_scans(self._router)
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 
     def _list_spoken_names(self) -> list[str]:

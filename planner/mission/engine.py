@@ -72,6 +72,15 @@ class Engine:
             return None
         return Leg(following.mission, following.leg, following.path.points)
 
+    def way_ahead(self, reach_m: float) -> tuple[tuple[float, float], ...]:
+        """Return the path's points from the robot on, in ``map`` [m]; none while it is to stand."""
+        following = self._following
+        if following is None or self.leg is None:
+            return ()
+        path, done_m = following.path, following.progress_m
+        ahead = zip(path.points, path.along_m, strict=True)
+        return tuple((p.x_m, p.y_m) for p, m in ahead if done_m <= m <= done_m + reach_m)
+
     def status(self, status: Status, now_s: float) -> Output:
         """Judge one bridge status and answer it as the owner."""
         horizon, before = self._cut(status), self._following

@@ -50,6 +50,7 @@ from wire import OpRequest, Status, Waypoints
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
+    from planner.mission.scan_sender import ScanSender
     from planner.perception.interfaces import Eyes
     from planner.perception.snapshot import Sight
     from wire import CameraConfig
@@ -57,6 +58,8 @@ if TYPE_CHECKING:
 POLL_S = 0.005
 """Half a bridge tick: a status waits 2.5 ms on average; an empty drain costs 0.1 µs."""
 TICK_S = 0.1
+AHEAD_M = 3.0
+"""Of the way, held against each scan: what closes it farther off may be gone until then."""
 STATUS_NEWS_S = 0.2
 """Statuses are told to listeners at 5 Hz, and at once when mode, epoch or hold change."""
 
@@ -91,6 +94,7 @@ class Loop:
         self._door = EyeDoor(None)
         self._attends = False
         self._acts: dict[str, OpRequest] = {}
+        self._obstacles: ScanSender | None = None
 
     @property
     def book(self) -> MissionState:
@@ -133,6 +137,15 @@ class Loop:
         eyesight = Eyesight(camera, eyes.classes, model=looker is not None)
         self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
         eyes.listen(self._on_sight)
+
+    def show_scans(self, obstacles: ScanSender) -> None:
+        """Show scans to the route search from now on."""
+        self._obstacles = obstacles
+
+    @property
+    def way_ahead(self) -> tuple[tuple[float, float], ...]:
+        """Return the points of the way from the robot on, in ``map`` [m]; none while it stands."""
+        return self._engine.way_ahead(AHEAD_M)
 
     async def start(
         self, think: Think, router: RouteService, *, freeze: bool, rounds: bool
@@ -241,6 +254,8 @@ class Loop:
     def tick(self) -> None:
         """Let the missions look at the clock, and do what is to be done now and then."""
         self.event(Tick())
+        if self._obstacles is not None and (seen := self._obstacles.due()) is not None:
+            self._spawn(self._obstacles.show(seen))
         for event in self._link.events():
             self.hub.publish({"type": "bridge", "event": event.model_dump(mode="json")})
         newest = self.book.status

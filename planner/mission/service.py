@@ -51,6 +51,7 @@ from planner.mission.reception import (
     receive_answer,
 )
 from planner.mission.route_prefetch import RouteAhead
+from planner.mission.scan_sender import ScanObserver, ScanSender
 from planner.mission.state import MissionState, Rules
 from planner.mission.tasks import RouteService
 from planner.perception.interfaces import Eyes
@@ -93,11 +94,20 @@ class Missions:
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
         self._think = PlannerCommands(self._ask_brain, self.memory, self.loop).think
         self._repeats = Repeats()
+        self.obstacles: ScanSender | None = None
         self.memory.listen(self._on_places)
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
         """See with these eyes, and ask this model about their pictures."""
         self.loop.see(eyes, looker, self._robot.camera)
+
+    def show_scans(self, observer: ScanObserver) -> None:
+        """Show scans to the route search, which remembers what the map does not know."""
+        lidar, map_id = self._robot.lidar, self.memory.site.map_id
+        self.obstacles = ScanSender(
+            self.link, lidar, map_id, observer, lambda: self.loop.way_ahead, self._clocks.monotonic
+        )
+        self.loop.show_scans(self.obstacles)
 
     # Life ---------------------------------------------------------------------------------------
 

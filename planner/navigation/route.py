@@ -89,3 +89,42 @@ class RouteResult:
     moved_goal_m: float  # from the goal to where the route ends, for want of free floor; 0 as asked
     start_escaped: bool  # the way begins by leaving a place too near to an obstacle
     took_s: float  # in the search itself
+
+
+@dataclass(frozen=True, slots=True)
+class ScanObservation:
+    """Show the route search one scan, and the way that the robot is on."""
+
+    base_in_map: Pose2
+    lidar_in_base: Pose2
+    first_rad: float
+    step_rad: float
+    range_min_m: float
+    ranges_m: tuple[float | None, ...]
+    at_s: float  # on the planner's clock; never goes back
+    ahead: tuple[
+        tuple[float, float], ...
+    ] = ()  # points of the way from the robot on, in ``map`` [m]
+
+
+@dataclass(frozen=True, slots=True)
+class Mover:
+    """Show something that moves: a disc in ``map`` with its velocity."""
+
+    number: int
+    x_m: float
+    y_m: float
+    vx_mps: float
+    vy_mps: float
+    radius_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class ObstacleReport:
+    """Say what the obstacle layer holds after a scan."""
+
+    version: int  # rises with each scan
+    blocked_ahead_m: float | None  # along ``ahead`` to where standing things close it; None: open
+    movers: tuple[Mover, ...]
+    cells: bytes  # columns and rows of cells that hold something, pairs of u16, little endian
+    suspicions: bytes  # the same of cells where something may still stand

@@ -124,7 +124,8 @@ def test_routes_with_costs_worked_out_beforehand_are_as_long(two_room: Site) -> 
     cold, warm = Router(two_room, LIMITS), Router(two_room, LIMITS)
     for _ in warm.warm():
         pass
-    assert (cold.goals_known, warm.goals_known) == (0, len(two_room.places))
+    assert cold.goals_known == 0
+    assert warm.goals_known >= len(two_room.places)
     for a, b in permutations(two_room.places, 2):
         one, two = (router.route(RouteRequest(a.pose, b.pose)) for router in (cold, warm))
         assert two.length_m == pytest.approx(one.length_m, rel=0.03)
