@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 from maps import SiteError, load_map
 from maps.map_file import load_picture
 from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
-from maps.new_site import ASK_FROM_SHARE, new_site, place_text, read_proposals
+from maps.new_site import ASK_FROM_SHARE, new_site, place_text
+from maps.room_proposals import read_proposals
 from pons.settings import site_of
 from wire import ConfigError, Pose2, load_robot
 from wire.fence import fence_text

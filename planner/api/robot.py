@@ -33,7 +33,7 @@ def robot_view(services: Services) -> dict[str, Any]:
     """Return the robot as people see it."""
     status = services.robot.status
     pose = status.base_in_map if status else None
-    room = services.site.room_at(pose.x_m, pose.y_m) if pose else None
+    room = services.memory.room_at(pose.x_m, pose.y_m) if pose else None
     return {
         "status": status.model_dump(mode="json") if status else None,
         "room": room.id if room else None,

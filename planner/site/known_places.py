@@ -10,17 +10,19 @@ import asyncio
 import hashlib
 import re
 from collections.abc import Callable, Coroutine
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from itertools import chain, count
 from typing import Any, Protocol, TypeVar
 
+from maps.room_proposals import RoomProposal, read_proposals
 from planner.language.folding import fold, unmask
 from planner.language.grammar.sentence_text import squash
 from planner.language.reserved_names import name_reads_as_order
 from planner.language.yes_no import consents
 from planner.plan import Vocabulary
 from planner.site.places import Names, Place
+from planner.site.polygon import area_m2
 from planner.site.site import Site
 from planner.site.site_view import SiteView, facts_of, vocabulary_of
 from planner.site.taught_place_check import check_spot, plain_name
@@ -71,6 +73,8 @@ class Lesson:
     """In ``map``; None: where the robot stands."""
     by: str = "api"
     place_id: str | None = None
+    room: str | None = None
+    """The id of a proposed room, which is to be known by this name; it says the pose then."""
 
 
 def _read_clock() -> datetime:
@@ -94,6 +98,7 @@ class KnownPlaces:
         self._survey: PlaceSurvey | None = None
         self._clock = clock
         self._lock = asyncio.Lock()
+        self._proposed = read_proposals(site.folder)
         self.version = 0
         """Rises with every change."""
         self._listeners: list[Callable[[], None]] = []
@@ -121,6 +126,16 @@ class KnownPlaces:
     def facts(self) -> SiteView:
         """Return the places as the reducer knows them."""
         return self._facts
+
+    @property
+    def proposed_rooms(self) -> tuple[RoomProposal, ...]:
+        """Return the rooms that were cut out of the map, named or not."""
+        return self._proposed
+
+    def room_at(self, x_m: float, y_m: float) -> Place | None:
+        """Return the room around a point of ``map``, a taught one too; the smallest of several."""
+        around = [p for p in self._places if p.kind == "room" and p.contains(x_m, y_m)]
+        return min(around, key=lambda room: area_m2(room.polygon or ()), default=None)
 
     def use(self, survey: PlaceSurvey) -> None:
         """Take the source of the robot's pose, which also finds ways to a point."""
@@ -156,6 +171,9 @@ class KnownPlaces:
             names = _names(lesson)
             before = self._find_taught(lesson, names)
             self._check_names(lesson, names, before)
+            room = self._find_proposed(lesson)
+            if room is not None:
+                lesson = replace(lesson, pose=room.pose)
             pose = await self._spot(lesson)
             if before is None:
                 self._check_room()
@@ -166,10 +184,21 @@ class KnownPlaces:
                 map_id=self.site.map_id,
                 by=lesson.by,
                 taught=self._clock(),
+                polygon=None if room is None else room.polygon,
             )
             others = tuple(kept for kept in self._kept if kept is not before)
             await self._change((*others, place))
             return place, before is None
+
+    def _find_proposed(self, lesson: Lesson) -> RoomProposal | None:
+        """Return the proposed room that a lesson names, if it names one; one has one name."""
+        if lesson.room is None:
+            return None
+        room = next((room for room in self._proposed if room.id == lesson.room), None)
+        if room is None:
+            known = ", ".join(room.id for room in self._proposed) or "none"
+            raise PlaceRefusal("unknown_room", f"got {lesson.room[:40]!r}; proposed: {known}")
+        return room
 
     async def _forget(self, name: str, *, other_maps: bool) -> TaughtPlace:
         async with self._lock:

@@ -133,3 +133,13 @@ def test_a_question_needs_no_operators_act(client: TestClient, services: FakeSer
         client.post("/v1/goals", json={"text": text})
     client.post("/v1/goals", json={"text": "continue"})
     assert [act is None for act in services.goals.acts] == [True, True, True, True, False]
+
+
+def test_a_place_has_one_spot(client: TestClient) -> None:
+    """A room says its own spot: with a point besides, nobody knows which is meant."""
+    point, name = {"x_m": 1.0, "y_m": 1.0}, {"en": "attic"}
+    both = client.post("/v1/places", json={"name": name, "point": point, "room": "room_1"})
+    assert (both.status_code, both.json()["code"]) == (422, "invalid_request")
+    unknown = client.post("/v1/places", json={"name": name, "room": "room_1"})
+    assert (unknown.status_code, unknown.json()["code"]) == (404, "unknown_room")
+    assert client.get("/v1/places").json()["proposed_rooms"] == []
