@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from planner.api.objects import sight_view
-from planner.api.robot import path_view, robot_view, scan_view
+from planner.api.robot import obstacle_view, path_view, robot_view, scan_view
 from planner.api.usage import usage_view
 from wire import Mode
 
@@ -29,6 +29,8 @@ STANDING_S = 0.2
 """Between two looks at a robot that stands: nothing of it changes but ages, which carry on by
 themselves in whoever was told them. A turning point is told at once all the same."""
 SCAN_S = 0.2
+LAYERS_S = 0.5
+"""Between two looks at what the route search remembers; told where it changed."""
 SIGHT_S = 0.2
 SAME_S = 0.5
 """So long a look that shows the same again is not told: boxes tremble, nothing has changed. A page
@@ -74,6 +76,8 @@ class Feed:
         self._driven: tuple[str, int] | None = None
         self._metered = 0
         self._places = 0
+        self._layers_s = float("-inf")
+        self._layers: dict[str, Any] = {}
         self._sight = SightNews(services)
 
     def listen(self) -> Listener:
@@ -120,6 +124,12 @@ class Feed:
             self._offer("places", {"version": version})
         if self._sight.due(now_s):
             self._offer("sight", {"sight": sight_view(self._services)})
+        if now_s - self._layers_s >= LAYERS_S:
+            self._layers_s = now_s
+            layers = obstacle_view(self._services)
+            if layers != self._layers:
+                self._layers = layers
+                self._offer("obstacles", {"obstacles": layers})
         if now_s - self._scan_s >= SCAN_S:
             self._scan_s = now_s
             self._offer("scan", {"scan": scan_view(self._services)})
