@@ -106,12 +106,12 @@ def places_view(services: Services) -> dict[str, Any]:
         "home": memory.site.home.id,
         "places": memory.places,
         "taught": [_view(kept) for kept in memory.taught_places],
-        "proposed_rooms": [_proposed(memory, room) for room in memory.proposed_rooms],
+        "proposed_rooms": [_view_proposal(memory, room) for room in memory.proposed_rooms],
         "most": MAX_HERE,
     }
 
 
-def _proposed(memory: KnownPlaces, room: RoomProposal) -> dict[str, Any]:
+def _view_proposal(memory: KnownPlaces, room: RoomProposal) -> dict[str, Any]:
     """Return a proposed room with the place that has its middle, if one has."""
     known = memory.room_at(room.pose.x_m, room.pose.y_m)
     return {**room.model_dump(mode="json"), "known_as": known.id if known is not None else None}

@@ -180,7 +180,7 @@ function LayerSwitches() {
             data-layer={name}
             onChange={() => toggleLayer(name)}
           />
-          <span class={`swatch swatch-${name}`} aria-hidden="true" />
+          <span class={`layer-swatch swatch-of-${name}`} aria-hidden="true" />
           {t(`map.layer_${name}`)}
         </label>
       ))}
