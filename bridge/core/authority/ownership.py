@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.message_age import sent_at
+from bridge.core.tick_context import sent_at
 from wire import Owner
 
 if TYPE_CHECKING:

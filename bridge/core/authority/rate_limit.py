@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from bridge.core.geometry.debounce import fill
 from bridge.core.state_senses import Flood
+from bridge.core.tick_context import fill
 
 if TYPE_CHECKING:
     from bridge.core.inbox import Inbox

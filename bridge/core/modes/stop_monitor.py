@@ -10,10 +10,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bridge.core.faults.detectors import ENC_LONG_S
-from bridge.core.geometry.debounce import fill
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.stop_profile import too_long, too_slow
 from bridge.core.modes.transition import forget_stop, go, note_slow
+from bridge.core.tick_context import fill
 from wire import STILL, Action, Mode
 
 if TYPE_CHECKING:

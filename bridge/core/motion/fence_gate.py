@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.odometry import along_arc
+from bridge.core.geometry.kinematics import along_arc
 from bridge.core.motion.braking import STANDING_MPS, TURNING_MPS, stop_length_m
 from wire import margins
 

@@ -10,9 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.debounce import fill
 from bridge.core.geometry.kinematics import saturate, scale_twist
-from bridge.core.geometry.message_age import sensor_age_s
 from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.contact_gate import contact_gate, touched_input
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
@@ -20,7 +18,7 @@ from bridge.core.motion.free_distance import free_length
 from bridge.core.motion.obstacle_gate import obstacle_gate
 from bridge.core.sensing.look_distance import FREE_M, look_m
 from bridge.core.state_motion import Gate
-from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
+from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS, fill, sensor_age_s
 from wire import STILL, Mode, Twist2, wrap
 
 if TYPE_CHECKING:

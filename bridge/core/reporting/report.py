@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.message_age import append_sent
 from bridge.core.reporting.status import build
+from bridge.core.tick_context import append_sent
 from wire import Event, Odometry
 
 if TYPE_CHECKING:

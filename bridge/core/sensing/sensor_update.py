@@ -9,18 +9,17 @@ from dataclasses import replace
 from math import hypot, radians
 from typing import TYPE_CHECKING
 
+from bridge.core.geometry.kinematics import advance
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.geometry.message_age import sensor_age_s
-from bridge.core.geometry.odometry import advance
 from bridge.core.sensing.look_distance import sight_m
 from bridge.core.sensing.stop_inputs import hear_link
 from bridge.core.state_senses import Drift, PoseMemory
-from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
+from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS, sensor_age_s
 from wire import compose, wrap
 from wire.geometry import MAX_COORDINATE_M
 
 if TYPE_CHECKING:
-    from bridge.core.geometry.odometry import OdometryState
+    from bridge.core.geometry.kinematics import OdometryState
     from bridge.core.inbox import Inbox
     from bridge.core.tick_context import TickContext
     from wire import DriveState, Localization, Pose2, Scan

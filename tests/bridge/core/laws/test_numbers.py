@@ -145,7 +145,7 @@ NUMBERS: dict[str, dict[str, float]] = {
     "modes.stop_monitor": {"DWELL_S": 0.2, "SLOW_S": 0.15},
     "reporting.report": {"EVERY_S": 0.05, "AT_LEAST_S": 0.025},
     "tick_context": {"STANDING_MPS": 0.02, "STANDING_RADPS": 0.05},
-    "geometry.debounce": {"DRAIN": 0.25, "LONGEST_S": 0.05},
+    "tick_context": {"DRAIN": 0.25, "LONGEST_S": 0.05},
 }
 
 

@@ -11,9 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bridge.core.geometry.fence import build_fence
-from bridge.core.geometry.kinematics import saturate, scale_twist
+from bridge.core.geometry.kinematics import along_arc, saturate, scale_twist
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import reaction_s
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
 from bridge.core.motion.limiter import shape, stopping_m
