@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.rate_limit import FULL_S
+from bridge.core.authority.message_limits import FULL_S
 from bridge.core.faults import detect_motion
 from bridge.core.faults.detect_motion import ENC_S
 from bridge.core.sensing.sensor_update import (

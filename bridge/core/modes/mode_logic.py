@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority import external_velocity
 from bridge.core.authority.epoch import hold, revoke
-from bridge.core.authority.grants import end_grant
 from bridge.core.authority.leg_tracking import forget_horizon, has_arrived
+from bridge.core.authority.ownership import end_grant
 from bridge.core.faults import (
     fault_latch,
 )

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import hold, new_epoch, release
-from bridge.core.authority.grants import forget_arming, renew_budgets, void_hand_budget
+from bridge.core.authority.ownership import forget_arming, renew_budgets, void_hand_budget
 from bridge.core.authority.requests import bad_proof, settle, use_nonce, verdict_on, void_nonces
 from bridge.core.faults.fault_latch import clear_on_arm, clear_on_reset
 from bridge.core.modes import selftest

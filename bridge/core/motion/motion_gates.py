@@ -16,7 +16,7 @@ from bridge.core.motion.contact_gate import contact_gate, touched_input
 from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
 from bridge.core.motion.free_distance import free_length
 from bridge.core.motion.obstacle_gate import obstacle_gate
-from bridge.core.sensing.look_distance import FREE_M, look_m
+from bridge.core.sensing.sensor_update import FREE_M, look_m
 from bridge.core.state_motion import Gate
 from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS, fill, sensor_age_s
 from wire import STILL, Mode, Twist2, wrap

@@ -22,7 +22,7 @@ from bridge.core.motion.braking import (
     speed_within,
 )
 from bridge.core.motion.free_distance import FreeLength, free_length
-from bridge.core.sensing.look_distance import REACH_M, ROUNDING_M, look_m
+from bridge.core.sensing.sensor_update import REACH_M, ROUNDING_M, look_m
 from bridge.core.state_motion import AS_CONFIGURED, Braking
 from wire.geometry import STILL, Pose2, Twist2
 from wire.value import value

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.core.authority import hello as hello_module
+from bridge.core.authority import epoch as epoch_module
 from bridge.core.authority import requests
 from bridge.core.faults.code_messages import FAULTS, GATES, ORDERS, REFUSALS, SENTENCES, WANTS
 from bridge.core.faults.fault_messages import WORDS
@@ -62,7 +62,7 @@ def test_what_keeps_a_robot_from_arming_or_a_reset_has_words() -> None:
 
 
 def test_what_refuses_a_hello_or_an_order_has_words() -> None:
-    hello = codes_in(hello_module, "_against")
+    hello = codes_in(epoch_module, "_against")
     assert {"robot_mismatch", "fence_mismatch", "map_mismatch", "owner_alive"} < hello
     order = codes_in(operator, "_against") | codes_in(requests, "bad_proof")
     assert {"bad_proof", "stopped"} < order

@@ -43,17 +43,17 @@ def test_no_two_files_import_each_other_and_no_more_do_so_in_a_circle() -> None:
 
 
 WRITERS = {
-    "bad_bucket": "authority.message_score",
+    "bad_bucket": "authority.message_limits",
     "buttons": "sensing.stop_inputs",
     "command_seq": "motion.wheel_command",
     "drive": "sensing.sensor_update",
     "epoch_no": "authority.epoch",
     "external": "authority.external_velocity",
     "fault": "modes.transition",
-    "fence_asked": "authority.fence_request",
-    "flood": "authority.rate_limit",
+    "fence_asked": "authority.requests",
+    "flood": "authority.message_limits",
     "gate": "motion.motion_gates",
-    "grants": "authority.grants",
+    "grants": "authority.ownership",
     "held": "authority.epoch",
     "learnt": "motion.brake_learning",
     "leg": "authority.leg_tracking",

@@ -21,7 +21,7 @@ from bridge.core.motion.motion_gates import (
     reconsider,
     scan_age_s,
 )
-from bridge.core.sensing.look_distance import look_m
+from bridge.core.sensing.sensor_update import look_m
 from bridge.core.state_motion import Gate, Learnt
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import MAP_ID
