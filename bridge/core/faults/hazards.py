@@ -153,7 +153,7 @@ LAWS: tuple[Hazard, ...] = (
            "modes.teleop.hear_teleop",
            ("test_step_story.py::test_teleop_takes_over_only_after_released_and_neutral",)),
     Hazard("A stop does not slow the robot", "too slow or too long ends with the torque off",
-           "modes.stop_monitor.judge",
+           "modes.mode_logic.judge",
            (f"{_WINDOWS}::test_a_stop_that_does_not_slow_the_robot_cuts_the_torque",)),
     Hazard("The bridge was frozen, and ramps down a speed that the robot has lost meanwhile",
            "a gap longer than the drive's time-out begins at zero", "motion.wheel_command.forget_after_gap",

@@ -19,14 +19,19 @@ from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
 
 NUMBERS: dict[str, dict[str, float]] = {
-    "modes.arming": {"CLEAN_S": 2.0, "STANDING_S": 0.5, "STICK_S": 0.25},
+    "modes.operator": {"CLEAN_S": 2.0, "STANDING_S": 0.5, "STICK_S": 0.25},
     "motion.braking": {
         "CREEP_MPS": 0.1,
         "CREEP_RADPS": 0.3,
         "STANDING_MPS": 0.02,
         "TURNING_MPS": 1e-4,
     },
-    "modes.mode_logic": {"REVOKED_BLOCKED_S": 300.0, "REVOKED_S": 30.0},
+    "modes.mode_logic": {
+        "REVOKED_BLOCKED_S": 300.0,
+        "REVOKED_S": 30.0,
+        "DWELL_S": 0.2,
+        "SLOW_S": 0.15,
+    },
     "faults.detectors": {
         "BRAIN_LATE_S": 0.15,
         "BRAIN_LOST_S": 0.3,
@@ -149,8 +154,7 @@ NUMBERS: dict[str, dict[str, float]] = {
         "CAUSAL_S": 0.4,
         "RECEIPT_S": 0.25,
     },
-    "modes.stop_profile": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},
-    "modes.stop_monitor": {"DWELL_S": 0.2, "SLOW_S": 0.15},
+    "modes.transition": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},
     "reporting.report": {"EVERY_S": 0.05, "AT_LEAST_S": 0.025},
     "tick_context": {
         "STANDING_MPS": 0.02,
