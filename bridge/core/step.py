@@ -17,7 +17,7 @@ from bridge.core.decision import Decision
 from bridge.core.faults.fault_latch import clear_on_grant
 from bridge.core.modes import operator, selftest, teleop
 from bridge.core.modes.mode_logic import decide, detect
-from bridge.core.motion import brake_learning, motion_gates, wheel_command
+from bridge.core.motion import braking, motion_gates, wheel_command
 from bridge.core.motion.wheel_command import command
 from bridge.core.reporting.report import events_of, odometry_of, status_of
 from bridge.core.sensing import sensor_update, stop_inputs
@@ -71,7 +71,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     if s.gate.blocked:
         motion_gates.forget_block(tick)
     wheel_command.move(tick)
-    brake_learning.watch(tick, state)
+    braking.watch(tick, state)
     meter(tick, state)
     sends = not selftest.withholds(tick)
     return Decision(

@@ -107,7 +107,14 @@ NUMBERS: dict[str, dict[str, float]] = {
         "SEQ_AHEAD": 1_000,
     },
     "authority.external_velocity": {"TTL_S": 0.25},
-    "motion.fence_gate": {"FENCE_MARGIN_M": 0.15, "INWARD_MPS": 0.15},
+    "motion.motion_gates": {
+        "FENCE_MARGIN_M": 0.15,
+        "INWARD_MPS": 0.15,
+        "SHUT_S": 0.5,
+        "FREE_SCANS": 5,
+        "TELEOP_FENCE_MPS": 0.2,
+        "UNKNOWN_MPS": 0.2,
+    },
     "authority.message_limits": {
         "WINDOW_S": 0.25,
         "SLACK": 1.2,
@@ -115,12 +122,6 @@ NUMBERS: dict[str, dict[str, float]] = {
         "FULL_S": 1.0,
         "DRAIN_S": 0.5,
         "FULL": 10.0,
-    },
-    "motion.motion_gates": {
-        "SHUT_S": 0.5,
-        "FREE_SCANS": 5,
-        "TELEOP_FENCE_MPS": 0.2,
-        "UNKNOWN_MPS": 0.2,
     },
     "authority.ownership": {
         "OPERATOR_METRES": 500.0,

@@ -11,12 +11,12 @@ from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.motion.braking import reaction_s
-from bridge.core.motion.fence_gate import fence_scale
 from bridge.core.motion.motion_gates import (
     _inside_fence,
     _note,
     _shut,
     apply,
+    fence_scale,
     look,
     reconsider,
     scan_age_s,
