@@ -154,3 +154,42 @@ def test_an_operators_spent_cap_refuses_a_new_grant() -> None:
     codes = [answer.code for answer in shown(world).answers if answer.kind == "grant"]
     assert codes == ["operator_budget"]
     assert world.state.grants.mission is None
+
+
+def test_a_voided_hand_has_nothing_left_and_what_a_brain_may_drive_stays() -> None:
+    tick = at("active")
+    before = tick.s.grants
+    ownership.void_hand_budget(tick)
+    assert tick.s.grants == replace(before, hand_metres=0.0, hand_seconds=0.0)
+
+
+@table(
+    ("start", "outside", "metres", "seconds"),
+    [
+        ("teleop", False, 7.5, 9.9),
+        ("teleop", True, 0.0, 9.9),
+        ("stopping_to_disarm", False, 7.5, 10.0),
+    ],
+)
+def test_a_hand_pays_a_metre_for_a_metre_and_ten_outside(
+    start: str, outside: bool, metres: float, seconds: float
+) -> None:
+    before, tick = reached(start).state, at(start)
+    tick.dt_s = 0.1
+    tick.s.grants = replace(tick.s.grants, hand_metres=8.0, hand_seconds=10.0)
+    tick.s.watch.outside = outside
+    far = before.odometry.travelled_m + (0.5 if not outside else 0.9)
+    tick.s.odometry = replace(tick.s.odometry, travelled_m=far)
+    ownership._meter_hand(tick, before)
+    assert tick.s.grants.hand_metres == pytest.approx(metres)
+    assert tick.s.grants.hand_seconds == pytest.approx(seconds)
+
+
+def test_a_hands_budget_ends_at_nothing() -> None:
+    before, tick = reached("teleop").state, at("teleop")
+    tick.dt_s = 0.1
+    tick.s.grants = replace(tick.s.grants, hand_metres=0.25, hand_seconds=0.05)
+    far = before.odometry.travelled_m + 0.5
+    tick.s.odometry = replace(tick.s.odometry, travelled_m=far)
+    ownership._meter_hand(tick, before)
+    assert (tick.s.grants.hand_metres, tick.s.grants.hand_seconds) == (0.0, 0.0)

@@ -33,6 +33,7 @@ NUMBERS: dict[str, dict[str, float]] = {
         "SLOW_S": 0.15,
     },
     "faults.detectors": {
+        "HAND_SHOWN_S": 1.0,
         "BRAIN_LATE_S": 0.15,
         "BRAIN_LOST_S": 0.3,
         "BRAIN_GONE_S": 5.0,
