@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.modes import stop_monitor
+from bridge.core.modes import mode_logic
 from bridge.core.state_motion import LimiterState, Stopping, StopPlan
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
@@ -49,7 +49,7 @@ def standing(start: str = "stopping_by_row", /, **more: object) -> TickContext:
 )
 def test_a_stop_ends_as_its_action_says(more: dict[str, object], mode: Mode) -> None:
     tick = standing(**more)
-    stop_monitor.judge(tick)
+    mode_logic.judge(tick)
     assert (tick.s.mode, tick.s.stopping) == (mode, None)
     assert tick.events[-1] == ("mode", f"STOPPING {mode.value} row")
 
@@ -58,7 +58,7 @@ def test_a_stop_ends_as_its_action_says(more: dict[str, object], mode: Mode) -> 
 def test_where_the_mode_stays_only_the_ramp_is_over(start: str) -> None:
     tick = standing(start, reset_needed=True)
     before = tick.s.mode
-    stop_monitor.judge(tick)
+    mode_logic.judge(tick)
     assert (tick.s.mode, tick.s.stopping) == (before, None)
 
 
@@ -72,13 +72,13 @@ def test_a_stop_that_nobody_measures_ends_when_its_time_is_over(
         tick.s.odometry = replace(tick.s.odometry, measured=STILL)
         tick.s.drive.received_s = tick.now_s - silent_s
         tick.s.stopping = stop_of(tick.now_s - elapsed_s)
-        stop_monitor.judge(tick)
+        mode_logic.judge(tick)
         said = ("stop_unmeasured", "row") in tick.events
         assert said is (ends and over)
         if said:
             assert tick.s.mode is Mode.HOLD
         tick.s.drive.received_s = None
-        assert stop_monitor._is_unmeasured(tick)
+        assert mode_logic._is_unmeasured(tick)
 
 
 def rolling(speed_mps: float, elapsed_s: float, **more: object) -> TickContext:
@@ -104,7 +104,7 @@ def test_too_slow_counts_after_150_ms_and_is_not_forgotten_at_once(
 ) -> None:
     tick = rolling(speed_mps, 0.8, slow_s=before_s)
     assert tick.dt_s == 0.01
-    assert stop_monitor._failure(tick) == failure
+    assert mode_logic._failure(tick) == failure
     assert tick.s.stopping is not None
     assert tick.s.stopping.slow_s == pytest.approx(after_s, abs=EPS / 10)
 
@@ -115,7 +115,7 @@ def test_one_reading_in_two_that_is_slow_enough_hides_no_stop_that_is_not() -> N
     tick = rolling(0.5, 0.8)
     for index in range(41):
         tick.s.odometry = replace(tick.s.odometry, measured=Twist2(0.5 * (index % 2 == 0), 0.0))
-        failures.append(stop_monitor._failure(tick))
+        failures.append(mode_logic._failure(tick))
     assert [index for index, failure in enumerate(failures) if failure] == [38, 40]
 
 
@@ -126,7 +126,7 @@ def test_a_failure_cuts_the_torque(start: str, mode: Mode | None) -> None:
     tick.s.drive.still_since_s = None
     tick.s.stopping = stop_of(tick.now_s - 9.0)
     tick.s.odometry = replace(tick.s.odometry, measured=Twist2(0.05, 0.0))
-    stop_monitor.judge(tick)
+    mode_logic.judge(tick)
     assert tick.s.stopping is None
     assert tick.s.mode is (mode or before)
     if mode is None:
@@ -138,6 +138,6 @@ def test_a_failure_cuts_the_torque(start: str, mode: Mode | None) -> None:
 def test_what_stands_is_never_too_long() -> None:
     tick = rolling(0.0, 9.0)
     tick.s.drive.still_since_s = tick.now_s
-    assert stop_monitor._failure(tick) is None
+    assert mode_logic._failure(tick) is None
     tick.s.stopping = None
-    assert stop_monitor._failure(tick) is None
+    assert mode_logic._failure(tick) is None

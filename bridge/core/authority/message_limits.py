@@ -1,8 +1,12 @@
-"""Drop messages on a command key that come faster than their sender may speak. Row CMD_FLOOD.
+"""Bound how often and how badly a sender may speak: rows CMD_FLOOD and CMD_BAD.
 
-Counted are payloads as they arrive, parsed or not, in a sliding 250 ms made of two halves. A key
-over its limit is not heard in that tick: a flooded heartbeat is no heartbeat. Stops and operators'
-requests are never counted and never dropped here.
+Payloads on a command key are counted as they arrive, parsed or not, in a sliding 250 ms made of two
+halves. A key over its limit is not heard in that tick: a flooded heartbeat is no heartbeat. Stops
+and operators' requests are never counted and never dropped here.
+
+Bad messages fill a bucket that empties with time. Only messages of this epoch, of the owner and
+under a grant are scored, or of the hand that steers; bytes that are no message are charged to
+whoever may use that key now.
 """
 
 from __future__ import annotations
@@ -10,8 +14,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from bridge.core.geometry.debounce import fill
 from bridge.core.state_senses import Flood
+from bridge.core.tick_context import fill
 
 if TYPE_CHECKING:
     from bridge.core.inbox import Inbox
@@ -71,3 +75,38 @@ def _drop_keys(tick: TickContext, inbox: Inbox, over: list[int]) -> Inbox:
             tick.drop("flood")
     none: dict[str, Any] = {_FIELDS[index]: () for index in over}
     return replace(inbox, **none)
+
+
+DRAIN_S = 0.5
+"""The bucket loses one per good message, and one in this time."""
+FULL = 10.0
+"""It holds no more, so that a burst is forgiven within seconds."""
+
+_LETTERS = {"cmd/waypoints": "W", "cmd/external": "X", "cmd/teleop": "T"}
+
+
+def drain(tick: TickContext) -> None:
+    """Let the bucket empty with time."""
+    if tick.s.bad_bucket > 0.0:
+        tick.s.bad_bucket = max(0.0, tick.s.bad_bucket - tick.dt_s / DRAIN_S)
+
+
+def bad(tick: TickContext, code: str) -> None:
+    """Score one bad message and drop it."""
+    tick.drop(code)
+    tick.s.bad_bucket = min(FULL, tick.s.bad_bucket + 1.0)
+
+
+def good(tick: TickContext) -> None:
+    """Score one good message."""
+    tick.s.bad_bucket = max(0.0, tick.s.bad_bucket - 1.0)
+
+
+def hear_rejected(tick: TickContext) -> None:
+    """Count bytes that were no message; score them where their key's owner is in charge."""
+    letters = tick.s.sources() if tick.inbox.rejected else ""
+    for item in tick.inbox.rejected:
+        if _LETTERS.get(item.key, "-") in letters:
+            bad(tick, f"rejected_{item.why.code}")
+        else:
+            tick.drop(f"rejected_{item.why.code}")

@@ -1,4 +1,4 @@
-"""Hold how often each key may be heard, and what a flood leaves."""
+"""Hold what floods and what scores, and what neither does."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from dataclasses import replace
 import pytest
 
 from bridge.core import ArrivedAt, Inbox
-from bridge.core.authority import rate_limit
-from bridge.core.authority.rate_limit import rate_limited
+from bridge.core.authority import message_limits
+from bridge.core.authority.message_limits import rate_limited
+from bridge.core.inbox import RejectedAt
 from bridge.core.state_senses import Flood
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.table import table
-from wire import Heartbeat, Stop
+from wire import Heartbeat, Rejected, Stop
 
 EPS = 1e-6
 
@@ -42,7 +43,7 @@ def test_each_key_has_its_limit_in_two_halves(key: str, limit: int, before: bool
         tick.s.flood = Flood(tick.now_s - 0.1, (0,) * 6, counts)
         arrived = ArrivedAt(key, count - 2 * before)
         tick.inbox = replace(tick.inbox, arrived=(arrived,))
-        rate_limit.rate_limited(tick)
+        message_limits.rate_limited(tick)
         assert (tick.s.flood.level_s > 0.0) is over
         assert tick.s.flood.key == (key if over else "")
 
@@ -60,7 +61,7 @@ def test_halves_follow_each_other(
     passed_s: float, half_began: bool, counts: int, before: int
 ) -> None:
     had, older = (3, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0)
-    turned = rate_limit._half_windows(Flood(100.0, had, older), 100.0 + passed_s)
+    turned = message_limits._half_windows(Flood(100.0, had, older), 100.0 + passed_s)
     assert turned[0][0] == counts
     assert turned[1][0] == before
     assert turned[2] == (100.0 + passed_s if half_began else 100.0)
@@ -127,3 +128,49 @@ def test_of_a_flooded_key_nothing_is_heard_and_of_the_others_all() -> None:
     assert (tick.dropped, tick.reasons) == (2, ["flood", "flood"])
     assert tick.s.flood.key == "cmd/heartbeat"
     assert tick.s.flood.level_s == pytest.approx(0.01)
+
+
+@table(
+    ("start", "key", "scored"),
+    [
+        ("active", "cmd/waypoints", True), ("active", "cmd/external", False),
+        ("active", "cmd/teleop", False), ("active", "cmd/hello", False),
+        ("active_external", "cmd/external", True), ("active_external", "cmd/waypoints", False),
+        ("teleop", "cmd/teleop", True), ("disarmed", "cmd/waypoints", False),
+    ],
+)  # fmt: skip
+def test_bytes_that_are_nothing_are_charged_to_whoever_may_use_their_key(
+    start: str, key: str, scored: bool
+) -> None:
+    tick = tick_of(reached(start))
+    tick.s.bad_bucket = 1.0
+    message_limits.hear_rejected(tick)
+    assert tick.s.bad_bucket == 1.0
+    tick.inbox = Inbox(rejected=(RejectedAt(key, Rejected("malformed", "no JSON")),))
+    message_limits.hear_rejected(tick)
+    assert tick.reasons == ["rejected_malformed"]
+    assert tick.s.bad_bucket == 1.0 + scored
+
+
+def test_a_bucket_of_ten_loses_one_in_half_a_second_and_one_per_good_message() -> None:
+    tick = tick_of(reached("active"))
+    tick.s.bad_bucket, tick.dt_s = 0.0, 0.01
+    for _ in range(12):
+        message_limits.bad(tick, "bad")
+    assert tick.s.bad_bucket == 10.0
+    message_limits.drain(tick)
+    message_limits.good(tick)
+    assert tick.s.bad_bucket == 8.98
+    tick.s.bad_bucket = 0.01
+    message_limits.drain(tick)
+    assert tick.s.bad_bucket == 0.0
+    message_limits.drain(tick)
+    message_limits.good(tick)
+    assert tick.s.bad_bucket == 0.0
+
+
+def test_a_full_bucket_stays_full_and_an_empty_one_empty() -> None:
+    tick = tick_of(reached("active"))
+    tick.s.bad_bucket = 10.0
+    message_limits.bad(tick, "x")
+    assert tick.s.bad_bucket == 10.0

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
-from bridge.core.geometry.odometry import OdometryState, advance, along_arc, arc_end, roll
+from bridge.core.geometry.kinematics import OdometryState, advance, along_arc, arc_end, roll
 from tests.bridge.core.reached import reached
 from tests.bridge.core.table import table
 from wire import IDENTITY, STILL, DriveState, Pose2, RobotDescription

@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.authority.fence_request import hear_fence
-from bridge.core.authority.requests import nonce_text
+from bridge.core.authority.requests import hear_fence, nonce_text
 from bridge.core.inbox import FenceArrival, FenceDone
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.scripted import World

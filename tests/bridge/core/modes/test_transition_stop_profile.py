@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from bridge.core.geometry.kinematics import fastest_rim, saturate
-from bridge.core.modes import stop_profile
-from bridge.core.modes.stop_profile import (
+from bridge.core.modes import transition
+from bridge.core.modes.transition import (
     _braking,
     plan_stop,
     planned_rim_mps,
@@ -100,8 +100,8 @@ def plan(sent: Twist2, left: float = 0.0, right: float = 0.0) -> StopPlan:
 
 
 def test_a_wheel_that_stands_brakes_nothing() -> None:
-    assert stop_profile._against(0.0, 1.0) == stop_profile._against(0.0, -1.0) == 0.0
-    assert (stop_profile._against(0.5, -1.0), stop_profile._against(-0.5, -1.0)) == (1.0, -1.0)
+    assert transition._against(0.0, 1.0) == transition._against(0.0, -1.0) == 0.0
+    assert (transition._against(0.5, -1.0), transition._against(-0.5, -1.0)) == (1.0, -1.0)
 
 
 def test_the_hardest_stop_is_a_straight_line() -> None:

@@ -11,7 +11,7 @@ from bridge.core import Inbox, LoopFacts
 from bridge.core.faults.fault_table import STAGES
 from bridge.core.motion.limiter import stopping_m
 from bridge.core.motion.obstacle_gate import weak_m
-from bridge.core.reporting import status
+from bridge.core.reporting import report
 from bridge.core.state import RowUp
 from bridge.core.state_motion import Learnt, LimiterState
 from bridge.core.tick_context import TickContext
@@ -31,7 +31,7 @@ def at(start: str = "active") -> TickContext:
      (0.5, 7.0, 0.5), (-0.1, 7.0, 0.0), (-inf, 7.0, 0.0), (nan, 7.0, 0.0)],
 )  # fmt: skip
 def test_a_number_is_shown_within_what_can_be_said(value: float, most: float, shown: float) -> None:
-    assert status._between(value, most) == shown
+    assert report._between(value, most) == shown
 
 
 def test_a_leg_is_followed_while_its_horizon_moves_the_robot() -> None:
@@ -44,11 +44,11 @@ def test_a_leg_is_followed_while_its_horizon_moves_the_robot() -> None:
     ):  # fmt: skip
         tick = at(start)
         tick.s.leg = held
-        told = status.build(tick).leg
+        told = report.build(tick).leg
         assert told is not None
         assert told.following is follows
         tick.s.leg = replace(held, mission=None)
-        assert status.build(tick).leg is None
+        assert report.build(tick).leg is None
 
 
 @table("learnt", [Learnt(), Learnt(lag_more_s=0.2, decel_share=0.5)])
@@ -61,11 +61,11 @@ def test_the_margin_is_what_is_free_beyond_the_stop(learnt: Learnt, v_mps: float
     stop_m += weak_m(sent, ROBOT, learnt.decel_share) + 0.4 * (
         ROBOT.drive.lag_s + learnt.lag_more_s
     )
-    told = status.build(tick).limits
+    told = report.build(tick).limits
     assert told.margin_m == pytest.approx(1.5 - stop_m)
     assert (told.free_m, told.v_mps) == (1.5, ROBOT.limits.max_speed_mps * 0.5)
     tick.s.motion.free_m = None
-    assert status.build(tick).limits.margin_m is None
+    assert report.build(tick).limits.margin_m is None
 
 
 @table(
@@ -75,7 +75,7 @@ def test_the_margin_is_what_is_free_beyond_the_stop(learnt: Learnt, v_mps: float
 def test_what_counts_when_braking_is_shown(lag_more_s: float, share: float, learnt: bool) -> None:
     tick = at()
     tick.s.learnt = Learnt(lag_more_s=lag_more_s, decel_share=share)
-    told = status.build(tick).braking
+    told = report.build(tick).braking
     assert told.lag_s == ROBOT.drive.lag_s + lag_more_s
     assert told.decel_mps2 == pytest.approx(ROBOT.limits.max_decel_mps2 * share)
     assert told.learnt is learnt
@@ -99,7 +99,7 @@ def test_a_row_is_shown_once_by_its_worst_stage(
 ) -> None:
     tick = at(start)
     tick.s.rows = {name: RowUp(tick.now_s - 2.0 - int(name[-1]), 0.0, name) for name in names}
-    [told] = status.build(tick).rows
+    [told] = report.build(tick).rows
     assert (told.row, told.evidence, told.binding) == (shown[:-2], shown, binding)
     assert told.action is STAGES[shown].action
     assert told.for_s == pytest.approx(2.0 + int(shown[-1]))
@@ -110,7 +110,7 @@ def test_what_is_too_long_to_say_is_cut() -> None:
     tick.s.rows = {"BATTERY.0": RowUp(-1.0, 0.0, "e" * 500)}
     tick.now_s = 2e9
     tick.inbox = Inbox(loop=LoopFacts(late_p50_us=2e9, late_max_us=3.0, step_max_us=inf))
-    told = status.build(tick)
+    told = report.build(tick)
     assert (told.at_s, told.rows[0].for_s, told.rows[0].evidence) == (1e9, 1e9, "e" * 400)
     ticks = told.ticks
     assert (ticks.late_p50_us, ticks.late_max_us, ticks.step_max_us) == (1e9, 3.0, 1e9)
@@ -132,7 +132,7 @@ def test_what_is_waited_for(
     tick.s.fault, tick.s.rows = fault, {}
     tick.s.loop = replace(tick.s.loop, recorder_ok=recorded)
     tick.inbox = Inbox(recorder_ok=recorded)
-    assert status.build(tick).waiting_for == waits
+    assert report.build(tick).waiting_for == waits
 
 
 def test_eight_things_that_are_waited_for_are_told_and_no_more() -> None:
@@ -143,5 +143,5 @@ def test_eight_things_that_are_waited_for_are_told_and_no_more() -> None:
     tick.s.rows = dict.fromkeys((*everyones, *more), up)
     tick.s.drive.still_since_s, tick.s.lidar = None, replace(tick.s.lidar, received_s=None)
     assert tick.s.mode is Mode.DISARMED
-    assert len(set(status._waiting(tick))) > 8
-    assert status.build(tick).waiting_for == status._waiting(tick)[:8]
+    assert len(set(report._waiting(tick))) > 8
+    assert report.build(tick).waiting_for == report._waiting(tick)[:8]

@@ -7,7 +7,7 @@ from math import inf, nan
 
 import pytest
 
-from bridge.core.geometry.polygon import (
+from bridge.core.geometry.fence import (
     Edge,
     Polygon,
     bounds,

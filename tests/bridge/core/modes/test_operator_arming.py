@@ -7,7 +7,7 @@ from dataclasses import replace
 from bridge.core.authority.requests import bad_proof
 from bridge.core.faults.fault_table import STAGES
 from bridge.core.inbox import Inbox
-from bridge.core.modes.arming import arm_lacks, ready_lacks, reset_lacks
+from bridge.core.modes.operator import arm_lacks, ready_lacks, reset_lacks
 from bridge.core.state import RowUp
 from bridge.core.state_orders import PendingFence
 from bridge.core.tick_context import TickContext

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.motion import brake_learning as module
-from bridge.core.motion.brake_learning import after_cut, after_stop
+from bridge.core.motion import braking as module
+from bridge.core.motion.braking import after_cut, after_stop
 from bridge.core.state_motion import AS_CONFIGURED, UNLEARNT, Braking, Learnt, LimiterState, Ramp
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of

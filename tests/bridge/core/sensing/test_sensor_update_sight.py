@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from bridge.core.sensing.look_distance import look_m, sight_m
+from bridge.core.sensing.sensor_update import look_m, sight_m
 from bridge.core.state_motion import Braking
 from tests.bridge.core.table import table
 from wire import RobotDescription

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.motion.contact_gate import contact_gate, touched_input
+from bridge.core.motion.motion_gates import contact_gate, touched_input
 from bridge.core.state_motion import Gate
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import FakeDrive

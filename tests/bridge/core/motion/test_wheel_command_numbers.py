@@ -7,8 +7,8 @@ from math import inf, nan
 
 import pytest
 
-from bridge.core.motion import wheel_control
-from bridge.core.motion.wheel_control import control_wheel
+from bridge.core.motion import wheel_command
+from bridge.core.motion.wheel_command import control_wheel
 from bridge.core.state_motion import AT_REST, Wheel
 from tests.bridge.core import scripted
 from tests.bridge.core.table import table
@@ -109,7 +109,7 @@ def test_a_wheel_that_stood_begins_with_what_it_turns(
      (0.05, nan, 0.06), (0.2, 0.0, 0.2), (0.3, 9.0, 0.3), (0.199, 0.0, 0.0)],
 )  # fmt: skip
 def test_doubt_grows_and_in_the_end_stays(doubt_s: float, off: float, after: float) -> None:
-    assert wheel_control._doubt_s(doubt_s, off, 0.5, 0.01) == pytest.approx(after)
+    assert wheel_command._doubt_s(doubt_s, off, 0.5, 0.01) == pytest.approx(after)
 
 
 def test_what_is_too_far_off_for_too_long_is_not_corrected() -> None:
@@ -145,14 +145,14 @@ def test_a_robot_that_nothing_may_correct_is_fed_forward() -> None:
 def test_the_correction_learns_no_further_than_it_may(
     integral: float, off: float, spare: float, grown: float, whole: float
 ) -> None:
-    found = wheel_control._correct(integral, off, spare, 0.01, ROBOT.drive)
+    found = wheel_command._correct(integral, off, spare, 0.01, ROBOT.drive)
     assert found == pytest.approx((grown, whole))
 
 
 def test_without_a_share_of_what_is_off_it_is_learnt_up_to_the_bound() -> None:
     bare = ROBOT.drive.model_copy(update={"kp": 0.0})
     for sign in (1.0, -1.0):
-        found = wheel_control._correct(sign * 0.95, sign * 1.0, 9.0, 0.01, bare)
+        found = wheel_command._correct(sign * 0.95, sign * 1.0, 9.0, 0.01, bare)
         assert found == (sign, sign)
 
 
@@ -178,5 +178,5 @@ def test_a_correction_ends_at_its_bound_and_what_is_no_number_brakes(
     integral: float, off: float, spare: float, expected: tuple[float, float]
 ) -> None:
     drive = scripted.ROBOT.drive
-    found = wheel_control._correct(integral, off, spare, 0.01, drive)
+    found = wheel_command._correct(integral, off, spare, 0.01, drive)
     assert found == pytest.approx(expected)

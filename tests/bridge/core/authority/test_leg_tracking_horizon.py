@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.authority.horizon_checks import check_horizon
+from bridge.core.authority.leg_tracking import check_horizon
 from bridge.core.geometry.fence import build_fence
 from tests.bridge.core.table import table
 from wire import Pose2, Waypoint

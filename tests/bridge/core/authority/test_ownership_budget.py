@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core.authority import grants
+from bridge.core.authority import ownership
 from bridge.core.authority.requests import refuse_openly
 from bridge.core.state_orders import Grants, MissionLeft
 from bridge.core.tick_context import TickContext
@@ -53,7 +53,7 @@ def test_way_and_time_are_metered_where_a_brain_causes_them(
     tick.s.grants = Grants(mission, metres_had, seconds_had, BOOK, 50.0, 100.0, since_arm=True)
     far = before.odometry.travelled_m + 0.5
     tick.s.odometry = replace(tick.s.odometry, travelled_m=far)
-    grants.meter(tick, before)
+    ownership.meter(tick, before)
     metered = metres < 5.0
     left = tick.s.grants
     assert (left.mission, left.book, left.since_arm) == (mission, BOOK, True)
@@ -63,7 +63,7 @@ def test_way_and_time_are_metered_where_a_brain_causes_them(
     assert left.operator_seconds == pytest.approx(operator_seconds)
     tick.s.odometry = replace(tick.s.odometry, travelled_m=far + 1e3)
     tick.dt_s = 1e3
-    grants.meter(tick, before)
+    ownership.meter(tick, before)
     left = tick.s.grants
     if metered:
         assert (left.metres, left.operator_metres) == (0.0, 0.0), "and no less than nothing"
@@ -72,7 +72,7 @@ def test_way_and_time_are_metered_where_a_brain_causes_them(
     if before.stopping is not None:
         before.stopping = None
         had = tick.s.grants
-        grants.meter(tick, before)
+        ownership.meter(tick, before)
         assert tick.s.grants is had, "nobody's stop is nobody's way"
 
 
@@ -100,7 +100,7 @@ def test_a_grant_is_refused_for_one_reason_each(
     tick.s.held = held
     metres, seconds = operator_left
     tick.s.grants = replace(tick.s.grants, operator_metres=metres, operator_seconds=seconds)
-    refusal = grants._refusal(tick, *left)
+    refusal = ownership._refusal(tick, *left)
     assert (None if refusal is None else refusal[0]) == code
 
 
@@ -119,7 +119,7 @@ def test_a_grant_puts_the_last_one_in_the_book_and_takes_its_own_rest_out() -> N
     refuse_openly(tick, "grant", "new", "held", "for a test")
     tick.events.clear()
     had = tick.s.grants
-    assert grants.hear_grant(tick, grant(tick)) == "new 1.0 m 2 s"
+    assert ownership.hear_grant(tick, grant(tick)) == "new 1.0 m 2 s"
     assert tick.s.grants == Grants(
         "new", 1.0, 2.0, (MissionLeft("other", 7.0, 8.0), MissionLeft("m1", 3.0, 4.0)),
         had.operator_metres, had.operator_seconds, had.hand_metres, had.hand_seconds,
@@ -127,10 +127,10 @@ def test_a_grant_puts_the_last_one_in_the_book_and_takes_its_own_rest_out() -> N
     )  # fmt: skip
     assert tick.s.operator.refusals == ()
     again = tick.s.grants
-    grants.hear_grant(tick, grant(tick, metres=50.0))
+    ownership.hear_grant(tick, grant(tick, metres=50.0))
     assert tick.s.grants is again, "the same mission again changes nothing"
     other = grant(tick, "third").model_copy(update={"planner_id": "p2"})
-    grants.hear_grant(tick, other)
+    ownership.hear_grant(tick, other)
     assert tick.s.grants is again
 
 
@@ -139,7 +139,7 @@ def test_a_grant_knows_of_the_jump_or_is_dropped(after_s: float, granted: bool) 
     tick = at("hold")
     sent_s = tick.s.voice.ring[-1]
     tick.s.pose = replace(tick.s.pose, jumped_s=sent_s + after_s)
-    grants.hear_grant(tick, grant(tick))
+    ownership.hear_grant(tick, grant(tick))
     assert (tick.s.grants.mission == "new") is granted
     assert ("grant_before_jump" in tick.reasons) is not granted
     assert tick.s.grants.metres == (5.0 if granted else 0.0)
@@ -154,3 +154,42 @@ def test_an_operators_spent_cap_refuses_a_new_grant() -> None:
     codes = [answer.code for answer in shown(world).answers if answer.kind == "grant"]
     assert codes == ["operator_budget"]
     assert world.state.grants.mission is None
+
+
+def test_a_voided_hand_has_nothing_left_and_what_a_brain_may_drive_stays() -> None:
+    tick = at("active")
+    before = tick.s.grants
+    ownership.void_hand_budget(tick)
+    assert tick.s.grants == replace(before, hand_metres=0.0, hand_seconds=0.0)
+
+
+@table(
+    ("start", "outside", "metres", "seconds"),
+    [
+        ("teleop", False, 7.5, 9.9),
+        ("teleop", True, 0.0, 9.9),
+        ("stopping_to_disarm", False, 7.5, 10.0),
+    ],
+)
+def test_a_hand_pays_a_metre_for_a_metre_and_ten_outside(
+    start: str, outside: bool, metres: float, seconds: float
+) -> None:
+    before, tick = reached(start).state, at(start)
+    tick.dt_s = 0.1
+    tick.s.grants = replace(tick.s.grants, hand_metres=8.0, hand_seconds=10.0)
+    tick.s.watch.outside = outside
+    far = before.odometry.travelled_m + (0.5 if not outside else 0.9)
+    tick.s.odometry = replace(tick.s.odometry, travelled_m=far)
+    ownership._meter_hand(tick, before)
+    assert tick.s.grants.hand_metres == pytest.approx(metres)
+    assert tick.s.grants.hand_seconds == pytest.approx(seconds)
+
+
+def test_a_hands_budget_ends_at_nothing() -> None:
+    before, tick = reached("teleop").state, at("teleop")
+    tick.dt_s = 0.1
+    tick.s.grants = replace(tick.s.grants, hand_metres=0.25, hand_seconds=0.05)
+    far = before.odometry.travelled_m + 0.5
+    tick.s.odometry = replace(tick.s.odometry, travelled_m=far)
+    ownership._meter_hand(tick, before)
+    assert (tick.s.grants.hand_metres, tick.s.grants.hand_seconds) == (0.0, 0.0)

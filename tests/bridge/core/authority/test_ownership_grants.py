@@ -8,7 +8,7 @@ from math import inf, nan
 import pytest
 from pydantic import ValidationError
 
-from bridge.core.authority.grants import (
+from bridge.core.authority.ownership import (
     HAND_METRES,
     HAND_SECONDS,
     OPERATOR_METRES,
