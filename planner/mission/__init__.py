@@ -33,6 +33,7 @@ with ``rounds=False`` and calls ``missions.loop.hear()`` and ``tick()`` itself. 
 """
 
 from planner.mission.api_view import goal_of
+from planner.mission.clocks import Clocks
 from planner.mission.effects import (
     AskBrain,
     AskRoute,
@@ -73,7 +74,6 @@ from planner.mission.events import (
 )
 from planner.mission.journal import MissionJournal
 from planner.mission.journal_sync import Disk, JournalSync
-from planner.mission.loop import Clocks
 from planner.mission.reducer import advance, motion_request
 from planner.mission.service import Missions
 from planner.mission.state import Mission, MissionState, Rules

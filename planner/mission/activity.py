@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from planner.mission.recovery import LadderRung
 from planner.mission.skills.actions import Way
 from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.skill_state import SkillStateBase
@@ -23,6 +24,23 @@ class _StepActivity:
     """What odometry says was driven, by whomever."""
     amount: float = 0.0
     """What odometry says was done in this leg, as in ``Mission.done``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manoeuvre:
+    """Describe a short way of its own that a leg makes because it is blocked."""
+
+    rung: LadderRung
+    goal: Pose2
+    way: Way
+    until_s: float
+    """When it ends anyhow."""
+    begun_m: float
+    """Of ``metres``, when it began."""
+    part: int = 0
+    """Of the rung's turns."""
+    heading_rad: float = 0.0
+    """The robot's in ``map``, when the rung began."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,6 +87,12 @@ class Driving(_StepActivity):
     """Routes asked for in this step because one was lost or refused, not because of obstacles."""
     detours_failed: int = 0
     detours: int = 0
+    manoeuvre: Manoeuvre | None = None
+    """The leg's own way waits until this is done."""
+    rung_since_s: float | None = None
+    """Since when the rung of the recovery ladder that is next has been waited for."""
+    occupied_since_s: float | None = None
+    """Since when something stands where the leg is to end."""
     retry_s: float | None = None
     """When the next try is due after a failed route."""
     row_since_s: float | None = None

@@ -10,10 +10,8 @@ a clock, a disk and an event loop of its own, and turns the rounds itself.
 from __future__ import annotations
 
 import asyncio
-import time
-import uuid
-from collections.abc import Callable, Coroutine
-from dataclasses import dataclass, replace
+from collections.abc import Coroutine
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner.bridge_client import Link, LinkError
@@ -21,6 +19,7 @@ from planner.mission.accept import WaypointLatency
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import Progress, goal_of, progress_of
 from planner.mission.bridge_status import at_rest
+from planner.mission.clocks import Clocks
 from planner.mission.detector_words import Wording, warm_up
 from planner.mission.effects import (
     AskBrain,
@@ -44,6 +43,7 @@ from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.skills import Eyesight
 from planner.mission.state import GoalKey, MissionState, Rules
+from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
 from planner.navigation import RoutePoint
 from wire import OpRequest, Status, Waypoints
@@ -55,8 +55,6 @@ if TYPE_CHECKING:
     from planner.perception.snapshot import Sight
     from wire import CameraConfig
 
-POLL_S = 0.005
-"""Half a bridge tick: a status waits 2.5 ms on average; an empty drain costs 0.1 µs."""
 TICK_S = 0.1
 AHEAD_M = 3.0
 """Of the way, held against each scan: what closes it farther off may be gone until then."""
@@ -64,20 +62,12 @@ STATUS_NEWS_S = 0.2
 """Statuses are told to listeners at 5 Hz, and at once when mode, epoch or hold change."""
 
 
-@dataclass(frozen=True, slots=True)
-class Clocks:
-    """Tell time and mint ids; tests put their own here."""
-
-    monotonic: Callable[[], float] = time.monotonic
-    wall: Callable[[], float] = time.time
-    new_id: Callable[[], str] = lambda: uuid.uuid4().hex[:12]
-    poll_s: float = POLL_S
-
-
 class Loop:
     """Own what runs between ``start`` and ``close``."""
 
-    def __init__(self, engine: Engine, link: Link, disk: Disk, clocks: Clocks) -> None:
+    def __init__(
+        self, engine: Engine, link: Link, disk: Disk, clocks: Clocks, surveyor: Surveyor
+    ) -> None:
         self.hub = Hub()
         self.accepted = WaypointLatency()
         self._engine, self._link, self._disk, self._clocks = engine, link, disk, clocks
@@ -94,6 +84,7 @@ class Loop:
         self._door = EyeDoor(None)
         self._attends = False
         self._acts: dict[str, OpRequest] = {}
+        self._surveyor = surveyor
         self._obstacles: ScanSender | None = None
 
     @property
@@ -254,6 +245,9 @@ class Loop:
     def tick(self) -> None:
         """Let the missions look at the clock, and do what is to be done now and then."""
         self.event(Tick())
+        told = self._surveyor.survey(self.book, self.leg, self._clocks.monotonic())
+        if told is not None:
+            self.event(told)
         if self._obstacles is not None and (seen := self._obstacles.due()) is not None:
             self._spawn(self._obstacles.show(seen))
         for event in self._link.events():

@@ -146,7 +146,8 @@ def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> b
     if isinstance(activity, Observing):
         return activity.watch
     # Its way is being searched, or was lost: no new one before it stands.
-    if activity.ticket is not None or activity.route_when_standing:
+    busy = activity.manoeuvre is not None or activity.ticket is not None
+    if busy or activity.route_when_standing:
         return False
     if activity.watch or activity.wanted is None:
         return activity.watch

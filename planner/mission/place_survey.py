@@ -18,6 +18,7 @@ _CODES = {
     "no_route": "place_unreachable",
     "start_blocked": "place_unreachable",
     "goal_blocked": "place_in_obstacle",
+    "goal_occupied": "place_in_obstacle",
     "goal_outside_map": "place_outside_map",
 }
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pydantic import Field, model_validator
 
 from planner.mission.activity import Activity
+from planner.mission.recovery import FRESH, RecoveryRecord
 from planner.mission.skills.actions import UNSEEN
 from planner.mission.skills.perception import NO_EYES, Eyesight
 from planner.mission.skills.skill_state import SkillState
@@ -81,6 +82,8 @@ class Mission(Frozen):
     """What odometry says was done of the current step: radians of a turn, else metres ahead."""
     skill_state: SkillState | None = None
     """What the skill of the current step remembers; None: nothing yet, or it never does."""
+    recovery: RecoveryRecord = FRESH
+    """What the current step has tried where its way was shut, and what stood there."""
     step_s: float = 0.0
     """Time for which the current step was worked on."""
     step_m: float = 0.0

@@ -15,6 +15,7 @@ from planner.mission.effects import AskBrain
 from planner.mission.observations import exchanges_of, list_observations
 from planner.mission.outcomes import failure, spot_at
 from planner.mission.queue import end_running, note_step, settle_activity
+from planner.mission.recovery import FRESH
 from planner.mission.skills import Fail, SkillStateBase
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
@@ -22,11 +23,18 @@ from planner.mission.transitions import GoalFact
 from planner.plan import Bilingual, Code, Outcome, StepState
 
 MENDABLE = frozenset(
-    {Code.NO_ROUTE, Code.BLOCKED, Code.NO_ROOM, Code.NOT_REACHED, Code.UNKNOWN_PLACE}
+    {
+        Code.NO_ROUTE,
+        Code.BLOCKED,
+        Code.GOAL_OCCUPIED,
+        Code.NO_ROOM,
+        Code.NOT_REACHED,
+        Code.UNKNOWN_PLACE,
+    }
     | {Code.NOT_FOUND, Code.LOST_PERSON}
 )
 """Another plan may do better. A fault, a spent budget or a missing skill is told at once."""
-SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED})
+SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED, Code.GOAL_OCCUPIED})
 IN_VAIN = frozenset({Code.NOT_FOUND, Code.LOST_PERSON})
 """Nothing was wrong but that it was not there: the way back that the person ordered holds."""
 AGAIN_S = 1.0
@@ -126,6 +134,7 @@ def to_step(turn: Transaction, mission: Mission, index: int) -> Mission:
         began_at=None,
         done=0.0,
         skill_state=None,
+        recovery=FRESH,
         step_s=0.0,
         step_m=0.0,
     )

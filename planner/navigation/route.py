@@ -15,6 +15,7 @@ REASONS = pair_up(
         "no_route",
         "start_blocked",
         "goal_blocked",
+        "goal_occupied",
         "start_outside_map",
         "goal_outside_map",
         "route_timed_out",

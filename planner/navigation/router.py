@@ -35,7 +35,7 @@ from planner.site import Site
 MAX_FIELD_BYTES = 64_000_000
 """All exact costs kept: 130 places on a home of 10 x 12 m, none that matter on a huge map."""
 
-_CLOSED = frozenset({"no_route", "start_blocked", "goal_blocked"})
+_CLOSED = frozenset({"no_route", "start_blocked", "goal_blocked", "goal_occupied"})
 LANDMARKS = 8
 """Exact costs to so many cells bound the cost between any two: a search to a goal that nobody named
 then looks at little more than with exact costs to it (ADR 0040)."""
@@ -128,7 +128,7 @@ class Router:
     def _find(
         self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
     ) -> RouteResult:
-        ends = choose_ends(costmap, self._site, request)
+        ends = choose_ends(costmap, self._site, request, self._mapped)
         line = self._line(costmap, request, ends)
         return RouteResult(
             points=self._points(costmap, line),

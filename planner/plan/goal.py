@@ -101,6 +101,7 @@ class StepRecord(Frozen):
     said: Bilingual | None = None  # and in words, from figures
     read: Bilingual | None = None  # what a model said of the picture: tainted, for people alone
     answer: str | None = None  # what a person answered to this step's question
+    recoveries: tuple[str, ...] = ()  # what was tried where the way was shut, in order
     left_m: float | None = None  # way left while the step runs
     left_rad: float | None = None  # angle left while it runs
     left_s: float | None = None  # time left while it runs

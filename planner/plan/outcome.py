@@ -47,6 +47,7 @@ class Code(StrEnum):
     NOT_REACHED = "not_reached"
     NO_ROUTE = "no_route"
     BLOCKED = "blocked"
+    GOAL_OCCUPIED = "goal_occupied"
     BLIND = "blind"
     NOT_FOUND = "not_found"
     LOST_PERSON = "lost_person"

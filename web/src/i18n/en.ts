@@ -256,6 +256,7 @@ export const en = {
   "reason.not_found": "not found",
   "reason.moved": "not where it was seen",
   "reason.object_unknown": "the detector does not know it",
+  "reason.goal_occupied": "something stands at the goal",
   "reason.lost_person": "nobody in sight",
   "reason.no_camera": "no camera",
   "reason.no_detector": "no detector",

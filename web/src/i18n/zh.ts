@@ -253,6 +253,7 @@ export const zh: Record<Key, string> = {
   "reason.not_found": "没有找到",
   "reason.moved": "已不在原处",
   "reason.object_unknown": "检测模型不认识",
+  "reason.goal_occupied": "目的地被占着",
   "reason.lost_person": "没有看到人",
   "reason.no_camera": "没有摄像头",
   "reason.no_detector": "没有检测模型",
