@@ -136,10 +136,12 @@ class MissionTasks:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
         obstacles += tuple(point for way in ask.shut for point in points_of(way))
         try:
-            request = RouteRequest(ask.start, ask.goal, obstacles, straight=ask.way is Way.STRAIGHT)
+            straight = ask.way is Way.STRAIGHT
+            request = RouteRequest(ask.start, ask.goal, obstacles, straight, strict=ask.doubted)
             result = await self._router.route(request)
         except RouteFailure as failure:
-            log.warning("no route for goal %s: %s", ask.id, failure)
+            level = logging.DEBUG if ask.doubted else logging.WARNING
+            log.log(level, "no route for goal %s: %s", ask.id, failure)
             self._answers.routed(ask, None, failure.code)
             return
         self._answers.routed(ask, result.points, None)
