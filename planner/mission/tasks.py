@@ -136,7 +136,11 @@ class MissionTasks:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
         obstacles += tuple(point for way in ask.shut for point in points_of(way))
         try:
-            request = RouteRequest(ask.start, ask.goal, obstacles, straight=ask.way is Way.STRAIGHT)
+            request = RouteRequest(
+                *(ask.start, ask.goal, obstacles),
+                straight=ask.way is Way.STRAIGHT,
+                aside=ask.way is Way.ASIDE,
+            )
             result = await self._router.route(request)
         except RouteFailure as failure:
             log.warning("no route for goal %s: %s", ask.id, failure)

@@ -23,7 +23,7 @@ def read_request(frame: Frame) -> RouteRequest:
     head, _ = frame
     start, goal = Pose2(**head["start"]), Pose2(**head["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in head["obstacles"])
-    return RouteRequest(start, goal, obstacles, bool(head["straight"]))
+    return RouteRequest(start, goal, obstacles, bool(head["straight"]), bool(head["aside"]))
 
 
 def result_frame(result: RouteResult) -> Frame:

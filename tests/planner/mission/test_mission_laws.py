@@ -246,7 +246,9 @@ class World:
                     self.event(Routed(goal, ticket, failure))
             case ("surveyed", x_m, opened):
                 way = Obstruction((x_m, -0.2), (x_m, 0.2))
-                self.event(Surveyed(None if opened else way, (way,) if opened else ()))
+                self.event(
+                    Surveyed(None if opened else way, bool(x_m > 2.5), (way,) if opened else ())
+                )
             case ("safe", back):
                 self.event(Journalled(max(0, self.book.written - back)))
             case ("tick",):
