@@ -15,7 +15,7 @@ from datetime import UTC, datetime
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.polygon import permits
+from bridge.core.geometry.fence import permits
 from bridge.core.inbox import FenceDone
 from bridge.core.state_orders import PendingFence
 from bridge.fence_file import NAME, read_record

@@ -45,7 +45,13 @@ REASONS = MappingProxyType(
 class SiteError(ConfigError):
     """Report a site that must not be used. Ours or the owner's to mend: refuse to start."""
 
-    def __init__(self, code: str, message: str) -> None:
-        """Keep the code and the sentence: what came, what was expected, what exists."""
+    def __init__(self, code: str, message: str, zh: str | None = None) -> None:
+        """Keep the code and the sentence: what came, what was expected, what exists.
+
+        Args:
+            code: one of ``REASONS``.
+            message: the sentence in English.
+            zh: the same in Chinese; None: that of ``REASONS``, with the English one behind it.
+        """
         super().__init__(code, message)
-        self.message = {"en": message, "zh": f"{REASONS[code]}：{message}"}
+        self.message = {"en": message, "zh": zh or f"{REASONS[code]}：{message}"}

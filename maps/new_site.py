@@ -9,20 +9,19 @@ from __future__ import annotations
 import json
 import shutil
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
-from pydantic import Field
 
 from maps.cell_array import cell_array
 from maps.errors import SiteError
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from maps.map_file import SAVED_UNKNOWN
+from maps.room_proposals import ROOMS_JSON, RoomProposal, RoomProposals
 from maps.rooms import propose_rooms
 from maps.site_fence import draw_fence, floor_around
-from maps.yaml_records import SiteRecord, parse_json, read_bytes
-from wire.fence import Outline, fence_text
+from wire.fence import fence_text
 from wire.fingerprint import map_id
 from wire.geometry import Pose2
 
@@ -33,29 +32,11 @@ if TYPE_CHECKING:
     from maps.map_file import LoadedMap
     from maps.masks import MaskAreas
 
-ROOMS_JSON = "rooms.json"
 ASK_FROM_SHARE = 0.01
 """From so many pixels of grey 205 that free_thresh frees on, a person says what they are."""
 _GREYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: SAVED_UNKNOWN}
 _STAND_M = 0.15
 """Beside the robot's radius: room to turn where a run starts."""
-
-
-class RoomProposal(SiteRecord):
-    """Hold a room that nobody named yet."""
-
-    id: Annotated[str, Field(pattern=r"^room_[1-9][0-9]{0,3}$")]
-    polygon: Outline
-    pose: Pose2  # in ``map``
-    area_m2: float
-    clearance_m: float
-
-
-class RoomProposals(SiteRecord):
-    """Mirror rooms.json."""
-
-    version: Annotated[int, Field(ge=1, le=1)] = 1
-    rooms: tuple[RoomProposal, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,18 +108,6 @@ def new_site(
         ROOMS_JSON: RoomProposals(rooms=rooms).model_dump_json(indent=1).encode(),
     }
     return NewSite(files, home, rooms)
-
-
-def read_proposals(folder: Path) -> tuple[RoomProposal, ...]:
-    """Return the rooms that wait for a name; none where the site has no such file.
-
-    Raises:
-        SiteError: the file is not ours.
-    """
-    path = folder / ROOMS_JSON
-    if not path.exists():
-        return ()
-    return parse_json(read_bytes(path), RoomProposals, path).rooms
 
 
 def _home(grid: GridMap, radius_m: float, start: Pose2 | None) -> Pose2:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from bridge.core.faults.fault_table import ALL, ROWS, FaultStage
 from bridge.core.faults.hazards import HAZARDS, LAWS
 from bridge.core.modes.mode_table import TRANSITIONS
-from bridge.core.motion.brake_learning import ALIKE, BEGIN_MPS, BETTER_STOPS
+from bridge.core.motion.braking import ALIKE, BEGIN_MPS, BETTER_STOPS
 from bridge.core.state_motion import WEAK_SHARE
 from pons_assets import ROOT, checkout
 from wire import Action

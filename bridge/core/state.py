@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from bridge.core.geometry.odometry import OdometryState
+from bridge.core.geometry.kinematics import OdometryState
 from bridge.core.state_motion import (
     UNLEARNT,
     Gate,

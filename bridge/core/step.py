@@ -8,23 +8,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority import (
-    fence_request,
-    hello,
-    message_score,
-    ownership,
-    rate_limit,
-    requests,
-)
+from bridge.core.authority import epoch, message_limits, ownership, requests
 from bridge.core.authority.epoch import revoke
 from bridge.core.authority.external_velocity import hear_external
-from bridge.core.authority.grants import hear_grant, meter
 from bridge.core.authority.leg_tracking import hear_waypoints
+from bridge.core.authority.ownership import hear_grant, meter
 from bridge.core.decision import Decision
 from bridge.core.faults.fault_latch import clear_on_grant
 from bridge.core.modes import operator, selftest, teleop
 from bridge.core.modes.mode_logic import decide, detect
-from bridge.core.motion import brake_learning, motion_gates, wheel_command
+from bridge.core.motion import braking, motion_gates, wheel_command
 from bridge.core.motion.wheel_command import command
 from bridge.core.reporting.report import events_of, odometry_of, status_of
 from bridge.core.sensing import sensor_update, stop_inputs
@@ -78,7 +71,7 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
     if s.gate.blocked:
         motion_gates.forget_block(tick)
     wheel_command.move(tick)
-    brake_learning.watch(tick, state)
+    braking.watch(tick, state)
     meter(tick, state)
     sends = not selftest.withholds(tick)
     return Decision(
@@ -93,10 +86,10 @@ def step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> 
 
 def _listen(tick: TickContext) -> None:
     """Hear all parties in the order of rank; a stop voids the messages that came with it."""
-    inbox = tick.inbox = rate_limit.rate_limited(tick)
-    message_score.drain(tick)
+    inbox = tick.inbox = message_limits.rate_limited(tick)
+    message_limits.drain(tick)
     requests.renew_nonce(tick)
-    hello.free_lost_owner(tick)
+    epoch.free_lost_owner(tick)
     operator.hear_stops(tick)
     for op in inbox.ops:
         operator.hear_op(tick, op)
@@ -106,11 +99,11 @@ def _listen(tick: TickContext) -> None:
     else:
         _obey(tick)
     for fence in inbox.fences:
-        fence_request.hear_fence(tick, fence)
+        requests.hear_fence(tick, fence)
     if inbox.fence_done is not None:
-        fence_request.hear_done(tick, inbox.fence_done)
+        requests.hear_done(tick, inbox.fence_done)
     if inbox.rejected:
-        message_score.hear_rejected(tick)
+        message_limits.hear_rejected(tick)
     teleop.watch(tick)
 
 
@@ -121,7 +114,7 @@ def _obey(tick: TickContext) -> None:
     on the stick before the brains that it outranks.
     """
     for new in tick.inbox.hellos:
-        hello.hear_hello(tick, new)
+        epoch.hear_hello(tick, new)
     for grant in tick.inbox.grants:
         granted = hear_grant(tick, grant)
         if granted is not None:

@@ -1,7 +1,14 @@
-"""Carry one tick through the core: settings, the next state, arrivals, messages to send.
+"""Carry one tick through the core, and judge ages and windows on its clock.
 
-Lives for one ``step`` and is then dropped. Every part of the core takes it; each field of ``s`` is
-assigned to in one module alone, which tests/bridge/core/laws/test_wings.py lists and holds.
+``TickContext`` holds settings, the next state, arrivals and messages to send; it lives for one
+``step`` and is then dropped. Every part of the core takes it; each field of ``s`` is assigned to in
+one module alone, which tests/bridge/core/laws/test_wings.py lists and holds.
+
+Ages run on this clock alone: no sender can make anything younger. A command names the newest status
+its origin had seen; its age runs from when that status was sent. A sensor's age runs from receipt,
+or from its stamp where that is on this host's clock and older. A window fills while trouble is seen
+and drains four times as slowly, so that dither hides nothing: a detector that flickers between yes
+and no, one to one, still fills its window, in 8/3 of the time.
 """
 
 from __future__ import annotations
@@ -9,13 +16,45 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from wire import Mode
+from wire import STATUS_RING, Mode
 
 if TYPE_CHECKING:
     from bridge.core.config import CoreConfig
     from bridge.core.inbox import Inbox
     from bridge.core.state import BridgeState
     from wire import Pose2
+
+DRAIN = 0.25
+LONGEST_S = 0.05
+"""What one tick may add: a loop that slept has not watched."""
+
+
+def fill(level_s: float, dt_s: float, top_s: float, *, dirty: bool) -> float:
+    """Return the window's new level [s], from 0 to ``top_s``."""
+    step_s = min(max(dt_s, 0.0), LONGEST_S)
+    level_s = level_s + step_s if dirty else max(0.0, level_s - DRAIN * step_s)
+    return min(level_s, top_s)
+
+
+def append_sent(ring: tuple[float, ...], sent_s: float) -> tuple[float, ...]:
+    """Return the ring of sending times with one more, the oldest let go."""
+    return (*ring[-(STATUS_RING - 1) :], sent_s)
+
+
+def sent_at(ring: tuple[float, ...], newest_seq: int, seen: int) -> float | None:
+    """Return when the status ``seen`` was sent; None if never, or longer ago than the ring."""
+    back = newest_seq - seen
+    if 0 <= back < len(ring):
+        return ring[-1 - back]
+    return None
+
+
+def sensor_age_s(now_s: float, received_s: float, stamp_s: float, *, same_host: bool) -> float:
+    """Return the age of a reading [s]: the larger of the two, a stamp of the future ignored."""
+    if same_host and stamp_s < received_s:
+        return now_s - stamp_s
+    return now_s - received_s
+
 
 POWERED = frozenset({Mode.HOLD, Mode.ACTIVE, Mode.TELEOP, Mode.STOPPING})
 MOVING = frozenset({Mode.ACTIVE, Mode.TELEOP})

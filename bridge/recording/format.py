@@ -19,8 +19,7 @@ from typing import Any, ClassVar, Literal
 from pydantic import ConfigDict, TypeAdapter
 
 from bridge.core import BridgeState, CoreConfig, Inbox
-from bridge.core.geometry.fence import FenceGrid, Zone, build_fence
-from bridge.core.geometry.polygon import Polygon
+from bridge.core.geometry.fence import FenceGrid, Polygon, Zone, build_fence
 from wire import DriveCommand, Event, Mode, Odometry, Status, Twist2
 from wire.fingerprint import fingerprint
 from wire.value import value

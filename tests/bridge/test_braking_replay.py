@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bridge.core import initial
 from bridge.core.state_motion import Learnt
 from bridge.replay import replay
-from tests.bridge.core.motion.test_brake_learning import ROBOT, Metal, stop
+from tests.bridge.core.motion.test_braking_learning import ROBOT, Metal, stop
 from tests.bridge.core.scripted import World, config
 from tests.bridge.recorded import Taken, stream_of, written
 

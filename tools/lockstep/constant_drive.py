@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.odometry import along_arc
+from bridge.core.geometry.kinematics import along_arc
 from tools.lockstep.hostile import HostilePlanner
 from wire import Velocity, Waypoint
 

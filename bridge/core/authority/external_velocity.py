@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.message_score import bad, good
+from bridge.core.authority.message_limits import bad, good
 from bridge.core.authority.ownership import note_external, sent_at_if_owner
 from bridge.core.state_orders import External
 from wire import STILL, Twist2

@@ -5,9 +5,8 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.debounce import fill
-from bridge.core.geometry.message_age import sensor_age_s
 from bridge.core.state_senses import SentBounds
+from bridge.core.tick_context import fill, sensor_age_s
 from wire import STILL, Mode, wrap
 
 if TYPE_CHECKING:

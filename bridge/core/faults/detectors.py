@@ -10,11 +10,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority.rate_limit import FULL_S
+from bridge.core.authority.message_limits import FULL_S
 from bridge.core.faults import detect_motion
 from bridge.core.faults.detect_motion import ENC_S
-from bridge.core.geometry.debounce import LONGEST_S, fill
-from bridge.core.geometry.message_age import sensor_age_s
 from bridge.core.sensing.sensor_update import (
     GAP_S,
     GAPS,
@@ -25,7 +23,7 @@ from bridge.core.sensing.sensor_update import (
     pose_trouble,
 )
 from bridge.core.sensing.stop_inputs import pressed_input
-from bridge.core.tick_context import POWERED
+from bridge.core.tick_context import LONGEST_S, POWERED, fill, sensor_age_s
 from wire import Mode
 
 if TYPE_CHECKING:

@@ -64,7 +64,7 @@ def regulate(speed_mps: float, curve_per_m: float, radius_m: float, slowest_mps:
 
 
 def prepare(points: Sequence[Waypoint], limits: Limits) -> Path:
-    """Make the path of an accepted horizon (see :mod:`bridge.core.authority.horizon_checks`)."""
+    """Make the path of an accepted horizon (see :mod:`bridge.core.authority.leg_tracking`)."""
     xs = tuple([p.x_m for p in points])
     ys = tuple([p.y_m for p in points])
     dxs = [b - a for a, b in pairwise(xs)]

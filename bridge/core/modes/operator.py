@@ -2,7 +2,8 @@
 
 One id gets one verdict; repeats change nothing. Arm, reset and resume need a proof whose HMAC fits
 (judged where the bytes were read) under a nonce that still counts
-(:mod:`bridge.core.authority.requests`).
+(:mod:`bridge.core.authority.requests`). Objections to arming and to a reset are accepting
+conditions, all named.
 """
 
 from __future__ import annotations
@@ -10,15 +11,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import hold, new_epoch, release
-from bridge.core.authority.grants import forget_arming, renew_budgets, void_hand_budget
+from bridge.core.authority.ownership import forget_arming, renew_budgets, void_hand_budget
 from bridge.core.authority.requests import bad_proof, settle, use_nonce, verdict_on, void_nonces
 from bridge.core.faults.fault_latch import clear_on_arm, clear_on_reset
+from bridge.core.faults.fault_table import ALL, STAGES, Clears
 from bridge.core.modes import selftest
-from bridge.core.modes.arming import arm_lacks, reset_lacks
-from bridge.core.modes.mode_table import Fact, RequestCause
+from bridge.core.modes.mode_table import LATCHED, Fact, RequestCause
 from bridge.core.modes.transition import go
-from bridge.core.sensing.stop_inputs import latch_order
-from wire import HeldReason, Mode
+from bridge.core.sensing.sensor_update import recorder_lack
+from bridge.core.sensing.stop_inputs import latch_order, pressed_input
+from wire import SEVERITY, Action, HeldReason, Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -116,3 +118,74 @@ def _resume(tick: TickContext, request_id: str) -> None:
 
 
 _OBEY = {"arm": _arm, "disarm": _disarm, "estop": _estop, "reset": _reset, "resume": _resume}
+
+
+STANDING_S = 0.5
+CLEAN_S = 2.0
+STICK_S = 0.25
+_OF_THE_BRAIN = "BRAIN_GONE"
+
+
+def arm_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
+    """Yield code and detail of each thing that keeps the robot disarmed."""
+    if tick.s.mode is not Mode.DISARMED:
+        yield "not_disarmed", f"mode is {tick.s.mode.value}; arming starts from DISARMED"
+        return
+    yield from ready_lacks(tick)
+
+
+def ready_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
+    """Yield the conditions of arming that do not depend on the mode."""
+    s = tick.s
+    if s.fence_asked is not None:
+        yield (
+            "fence_changing",
+            "another fence is being put in force; the bridge starts anew with it",
+        )
+    for name, up in s.rows.items():
+        stage = STAGES[name]
+        everyones = stage.binds == ALL or stage.row.startswith("LIDAR_")
+        if stage.row == _OF_THE_BRAIN:
+            continue  # it ends with the arming that it asks for
+        stops = SEVERITY[stage.action] >= SEVERITY[Action.HOLD2]
+        clean_s = CLEAN_S if stage.clears is Clears.ON_RESET else tick.dt_s
+        if everyones and stops and not tick.now_s - up.dirty_s > clean_s:
+            yield stage.row.lower(), up.evidence
+    if s.lidar.received_s is None:
+        yield "lidar_stale", "no scan has come yet"
+    if not tick.still_for(STANDING_S):
+        yield "not_standing", f"the robot must have stood for {STANDING_S} s"
+    pressed_s = s.stick.pressed_s
+    if pressed_s is not None and not tick.now_s - pressed_s > STICK_S:
+        yield "stick_not_neutral", "somebody holds a dead-man"
+    if not s.loop.recorder_ok:
+        yield recorder_lack(tick.inbox)
+
+
+def is_outside_fence(tick: TickContext) -> bool:
+    """Tell whether the robot is known to stand where its fence allows nobody.
+
+    It is said, and keeps nobody from arming: a stick that is to bring it back needs torque.
+    """
+    fence, here = tick.config.fence, tick.robot_in_map
+    return fence is not None and here is not None and not fence.allows(here.x_m, here.y_m)
+
+
+def reset_lacks(tick: TickContext) -> Iterator[tuple[str, str]]:
+    """Yield code and detail of each thing that keeps a latched mode latched."""
+    s = tick.s
+    if s.mode not in LATCHED:
+        yield "not_latched", f"mode is {s.mode.value}; only ESTOPPED and FAULT are reset"
+        return
+    if pressed_input(tick) is not None:
+        yield "estop_pressed", pressed_input(tick) or ""
+    pressed_s = s.buttons.pressed_s
+    if pressed_s is not None and not tick.now_s - pressed_s >= CLEAN_S:
+        yield "estop_just_released", f"the input must have been free for {CLEAN_S} s"
+    if not tick.still_for(STANDING_S):
+        yield "not_standing", f"the robot must have stood for {STANDING_S} s"
+    for name, up in s.rows.items():
+        stage = STAGES[name]
+        latched = stage.clears is Clears.ON_RESET and stage.row != "ESTOP"
+        if latched and not tick.now_s - up.dirty_s >= CLEAN_S:
+            yield stage.row.lower(), f"its detector must be clean for {CLEAN_S} s"

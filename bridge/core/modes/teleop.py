@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority import stick
 from bridge.core.authority.epoch import hold, new_epoch
-from bridge.core.authority.grants import forget_arming
-from bridge.core.authority.message_score import bad, good
-from bridge.core.geometry.message_age import sent_at
+from bridge.core.authority.message_limits import bad, good
+from bridge.core.authority.ownership import forget_arming
 from bridge.core.modes.mode_table import Fact, RequestCause
 from bridge.core.modes.transition import go
+from bridge.core.tick_context import sent_at
 from wire import HeldReason, Mode, Twist2
 
 if TYPE_CHECKING:

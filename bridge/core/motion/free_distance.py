@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import ConfigDict
 
-from bridge.core.geometry.odometry import along_arc, arc_end
+from bridge.core.geometry.kinematics import along_arc, arc_end
 from bridge.core.motion.braking import TURNING_MPS
-from bridge.core.sensing.look_distance import MARGIN_M, REACH_M
+from bridge.core.sensing.sensor_update import MARGIN_M, REACH_M
 from wire.geometry import Pose2, between, wrap
 from wire.value import value
 

@@ -15,15 +15,15 @@ from pydantic import ConfigDict
 from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.motion.braking import (
     CREEP_RADPS,
-    STANDING_MPS,
     path_decel_mps2,
     reaction_s,
     speed_scale,
     speed_within,
 )
 from bridge.core.motion.free_distance import FreeLength, free_length
-from bridge.core.sensing.look_distance import REACH_M, ROUNDING_M, look_m
+from bridge.core.sensing.sensor_update import REACH_M, ROUNDING_M, look_m
 from bridge.core.state_motion import AS_CONFIGURED, Braking
+from bridge.core.tick_context import STANDING_MPS
 from wire.geometry import STILL, Pose2, Twist2
 from wire.value import value
 

@@ -1,6 +1,8 @@
 """Take in the messages of drive, lidar, localization, gyro and buttons, and their ages.
 
-First in a tick, so that orders are judged on the newest facts. Writes only what it remembers.
+First in a tick, so that orders are judged on the newest facts. Writes only what it remembers. A
+scan's points beyond what a tick can need are left out once, so that ten ticks after it need not
+look at them; the gates look as far by the same function.
 """
 
 from __future__ import annotations
@@ -9,21 +11,22 @@ from dataclasses import replace
 from math import hypot, radians
 from typing import TYPE_CHECKING
 
+from bridge.core.config import PERIOD_S
+from bridge.core.geometry.kinematics import advance
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.geometry.message_age import sensor_age_s
-from bridge.core.geometry.odometry import advance
-from bridge.core.sensing.look_distance import sight_m
 from bridge.core.sensing.stop_inputs import hear_link
+from bridge.core.state_motion import AS_CONFIGURED, Braking
 from bridge.core.state_senses import Drift, PoseMemory
-from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS
-from wire import compose, wrap
+from bridge.core.tick_context import STANDING_MPS, STANDING_RADPS, sensor_age_s
+from wire import compose, margins, wrap
 from wire.geometry import MAX_COORDINATE_M
 
 if TYPE_CHECKING:
-    from bridge.core.geometry.odometry import OdometryState
+    from bridge.core.geometry.kinematics import OdometryState
     from bridge.core.inbox import Inbox
     from bridge.core.tick_context import TickContext
     from wire import DriveState, Localization, Pose2, Scan
+    from wire.robot import RobotDescription
 
 POOR_QUALITY = 0.5
 POSE_OLD_S = 0.3
@@ -284,3 +287,40 @@ def recorder_lack(inbox: Inbox) -> tuple[str, str]:
     """Return code and sentence of why this run is not being recorded."""
     code, _, detail = inbox.recorder_says.partition(": ")
     return code or "recorder_down", detail or "the tick recorder takes no records"
+
+
+MARGIN_M = margins.OBSTACLE_MARGIN_M
+REACH_M = 2.0
+"""Nobody looks further: at the fastest and weakest that robot.toml may say, caps hold before."""
+FREE_M = 0.3
+"""So much free way ends a block."""
+
+
+_FRESH_S = 0.15
+"""No scan is older where each comes in time and is on its way for half a period."""
+
+
+ROUNDING_M = 1e-3
+
+
+def look_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
+    """Return how far along an arc one looks as a rule: all that a robot in its limits can need [m].
+
+    That is the path in which it stands still from its fastest, by the gate's law and by the
+    limiter's, which wants it besides what the drive's lag takes (see :func:`stopping_m`).
+    """
+    base, limits = robot.base, robot.limits
+    v, d, j = limits.max_speed_mps, limits.max_decel_mps2, limits.stop_jerk_mps3
+    lag_s = robot.drive.lag_s + braking.lag_more_s
+    turning = limits.max_turn_radps * base.wheel_separation_m / 2
+    rim = min(v + turning, limits.max_wheel_radps * base.wheel_radius_m)
+    gate_s = _FRESH_S + robot.lidar.scan_s + lag_s
+    limiter_m = 2 * v * (PERIOD_S + lag_s) + d * d * d / (24 * j * j)
+    stop = v * d / (2 * j) + v * rim / (2 * d * braking.decel_share) + max(v * gate_s, limiter_m)
+    return min(REACH_M, max(stop, FREE_M) + ROUNDING_M)
+
+
+def sight_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
+    """Return how far from the robot at the scan a point may be that a tick will need [m]."""
+    moved_m = robot.limits.max_speed_mps * _FRESH_S
+    return look_m(robot, braking) + robot.base.radius_m + MARGIN_M + moved_m + 2 * ROUNDING_M

@@ -12,9 +12,9 @@ settings.register_profile("coverage", deadline=None, derandomize=True, max_examp
 
 STORIES = frozenset(
     """
-    test_brake_learning test_detect_motion_windows test_detectors_edges test_detectors_windows
-    test_external_velocity_story test_fence_request test_grants test_motion_gates_walls test_pursuit
-    test_sensor_update_lies test_step_story
+    test_braking_learning test_detect_motion_windows test_detectors_edges test_detectors_windows
+    test_external_velocity_story test_motion_gates_walls test_ownership_grants test_pursuit
+    test_requests_fence test_sensor_update_lies test_step_story
     """.split()  # noqa: SIM905  # one name a word reads better
 )
 """Files whose tests drive for seconds of the world's time."""

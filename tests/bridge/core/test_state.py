@@ -11,9 +11,8 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from bridge.core import Inbox, initial
-from bridge.core.geometry.kinematics import STOPPED, WheelSpeeds
+from bridge.core.geometry.kinematics import STOPPED, OdometryState, WheelSpeeds
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.geometry.odometry import OdometryState
 from bridge.core.geometry.path_profile import Path
 from bridge.core.motion.free_distance import NOTHING_KNOWN, FreeLength
 from bridge.core.motion.obstacle_gate import ObstaclePass

@@ -112,3 +112,30 @@ def test_who_has_arrived_leaves_active_in_the_same_tick() -> None:
     world.until(Mode.HOLD, 3.0)
     assert world.state.source == ""
     assert world.here != IDENTITY
+
+
+@pytest.mark.parametrize("granted", [True, False])
+def test_a_blocked_way_is_forgotten_once_nothing_is_granted(*, granted: bool) -> None:
+    world = reached("hold_granted" if granted else "hold")
+    assert world.planner is not None
+    world.planner.goal_m = None
+    world.state.gate = Gate(blocked=True)
+    world.tick()
+    assert world.state.gate.blocked is granted
+    assert (world.state.grants.mission is not None) is granted
+
+
+def test_a_new_leg_is_followed_from_its_beginning() -> None:
+    world = reached("active")
+    assert world.planner is not None
+    learnt = world.state.motion.follow
+    state = world.state
+    state.leg = replace(state.leg, mission="m0")  # what was followed was another mission's
+    state.motion.follow = replace(learnt, turning=True, settled=True)
+    world.planner.next_horizon_s = 0.0
+    for _ in range(100):
+        world.tick()
+        if world.state.leg.mission == "m1":
+            break
+    assert world.state.leg.mission == "m1"
+    assert not world.state.motion.follow.settled

@@ -8,7 +8,7 @@ from math import atan2
 
 import pytest
 
-from bridge.core.authority.horizon_checks import check_horizon
+from bridge.core.authority.leg_tracking import check_horizon
 from bridge.core.geometry.fence import build_fence
 from planner.navigation import LegPath, RouteLimits, RouteRequest, cut
 from planner.navigation.router import Router

@@ -6,7 +6,7 @@ from math import cos, hypot, pi, sin
 
 import pytest
 
-from bridge.core.authority.horizon_checks import check_horizon
+from bridge.core.authority.leg_tracking import check_horizon
 from bridge.core.geometry.fence import build_fence
 from planner.navigation import LegPath, RouteFailure, RouteLimits, RouteRequest, RouteResult, cut
 from planner.navigation.router import Router

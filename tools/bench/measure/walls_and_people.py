@@ -13,7 +13,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.odometry import along_arc
+from bridge.core.geometry.kinematics import along_arc
 from tools.bench.report import ReportRow, row_of
 from tools.lockstep import LockstepWorld, TooLong
 from tools.lockstep.constant_drive import ConstantDrive

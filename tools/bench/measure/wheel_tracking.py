@@ -11,8 +11,7 @@ from dataclasses import asdict, dataclass
 from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
-from bridge.core.geometry.kinematics import rim_speeds
-from bridge.core.geometry.odometry import roll
+from bridge.core.geometry.kinematics import rim_speeds, roll
 from sim import Hardware
 from tools.bench.report import ReportRow, row_of
 from tools.lockstep import TICK_S, LockstepWorld

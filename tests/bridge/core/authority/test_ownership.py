@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bridge.core.authority import hello, ownership
+from bridge.core.authority import epoch, ownership
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.table import table
@@ -22,17 +22,17 @@ def test_an_owner_lives_for_300_ms(age_s: float, lives: bool) -> None:
     tick = at("active")
     tick.s.ownership = replace(tick.s.ownership, echo_s=tick.now_s - age_s)
     assert ownership.is_alive(tick) is lives
-    epoch = tick.s.epoch_no
-    hello.free_lost_owner(tick)
+    epoch_no = tick.s.epoch_no
+    epoch.free_lost_owner(tick)
     assert (tick.s.ownership.owner is not None) is lives
-    assert tick.s.epoch_no == epoch + (not lives)
+    assert tick.s.epoch_no == epoch_no + (not lives)
     assert (("owner_lost", "p1") in tick.events) is not lives
     for part in ({"owner": None}, {"echo_s": None}):
         tick.s.ownership = replace(at("active").s.ownership, **part)
         assert not ownership.is_alive(tick)
     tick.s.ownership = replace(tick.s.ownership, owner=None, echo_s=None)
     tick.events.clear()
-    hello.free_lost_owner(tick)
+    epoch.free_lost_owner(tick)
     assert tick.events == []
 
 

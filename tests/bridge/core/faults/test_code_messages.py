@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from bridge.core.authority import hello as hello_module
+from bridge.core.authority import epoch as epoch_module
 from bridge.core.authority import requests
 from bridge.core.faults.code_messages import FAULTS, GATES, ORDERS, REFUSALS, SENTENCES, WANTS
 from bridge.core.faults.fault_messages import WORDS
-from bridge.core.modes import arming, operator, selftest, stop_monitor
+from bridge.core.modes import mode_logic, operator, selftest
 from bridge.core.sensing import sensor_update
 from bridge.recording import writer
 from bridge.recording.health import DOWN
@@ -49,11 +49,11 @@ def test_what_a_self_test_waits_for_or_faults_has_words() -> None:
 
 
 def test_what_ends_a_stop_in_fault_has_words() -> None:
-    assert codes_in(stop_monitor, "_failure") == {"stop_too_slow", "stop_too_long"} <= set(FAULTS)
+    assert codes_in(mode_logic, "_failure") == {"stop_too_slow", "stop_too_long"} <= set(FAULTS)
 
 
 def test_what_keeps_a_robot_from_arming_or_a_reset_has_words() -> None:
-    lacks = codes_in(arming, "arm_lacks", "ready_lacks", "reset_lacks")
+    lacks = codes_in(operator, "arm_lacks", "ready_lacks", "reset_lacks")
     lacks |= codes_in(sensor_update, "recorder_lack")
     assert {"fence_changing", "recorder_down", "estop_just_released"} < lacks
     assert lacks <= set(WANTS) | set(REFUSALS)
@@ -62,7 +62,7 @@ def test_what_keeps_a_robot_from_arming_or_a_reset_has_words() -> None:
 
 
 def test_what_refuses_a_hello_or_an_order_has_words() -> None:
-    hello = codes_in(hello_module, "_against")
+    hello = codes_in(epoch_module, "_against")
     assert {"robot_mismatch", "fence_mismatch", "map_mismatch", "owner_alive"} < hello
     order = codes_in(operator, "_against") | codes_in(requests, "bad_proof")
     assert {"bad_proof", "stopped"} < order

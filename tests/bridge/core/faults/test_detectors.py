@@ -33,6 +33,7 @@ def at(start: str = "active") -> TickContext:
     [
         (LoopFacts(late_s=0.005), (-0.9, -0.8, -0.7, -0.6), 0.01, []),
         (LoopFacts(late_s=0.005 + EPS), (-0.9, -0.8, -0.7, -0.6), 0.01, ["LOOP_LATE.0"]),
+        (LoopFacts(late_s=0.005), (-0.95, -0.9, -0.8, -0.7, -0.6), 0.01, []),
         (LoopFacts(late_s=1.0), (-1.0 - EPS, -0.8, -0.7, -0.6), 0.01, []),
         (LoopFacts(late_s=1.0), (-1.0 + EPS, -0.8, -0.7, -0.6), 0.01, ["LOOP_LATE.0"]),
         (LoopFacts(late_s=1.0), (-9.0, -0.9, -0.8, -0.7, -0.6), 0.01, ["LOOP_LATE.0"]),
@@ -451,3 +452,35 @@ def test_missed_ticks_are_a_reason_once_where_lateness_is_one_too() -> None:
     world.extra = replace(world.extra, loop=LoopFacts(late_s=0.006, missed_ticks=3))
     world.tick()
     assert "late ticks" in world.state.rows["LOOP_LATE.0"].evidence
+
+
+@table(("ago_s", "told"), [(1.0, ["HAND_BUDGET.0"]), (1.0 + EPS, [])])
+def test_a_hand_without_budget_is_told_for_a_second_after_it_pressed(
+    ago_s: float, told: list[str]
+) -> None:
+    tick = at_10_s("hold")
+    tick.s.grants = replace(tick.s.grants, hand_metres=0.0)
+    tick.s.stick = replace(tick.s.stick, pressed_s=NOW_S - ago_s)
+    assert seen("hand", tick) == told
+
+
+@table(
+    ("first_ago_s", "rows"),
+    [(60.0, ["POSE_JUMP.0", "POSE_JUMP.1"]), (60.0 + EPS, ["POSE_JUMP.0"])],
+)
+def test_three_jumps_in_a_minute_are_worse_than_one(first_ago_s: float, rows: list[str]) -> None:
+    tick = at_10_s()
+    tick.robot_in_map = tick.s.odometry.base_in_odom
+    jumps_at_s = (NOW_S - first_ago_s, NOW_S - 5.0, NOW_S)
+    drift = replace(tick.s.pose.drift, jumps_at_s=jumps_at_s)
+    tick.s.pose = replace(tick.s.pose, jumped_s=NOW_S, drift=drift)
+    assert seen("pose", tick) == rows
+
+
+@table(("less_s", "rows"), [(0.0, ["LIDAR_BLIND.0"]), (EPS, [])])
+def test_a_lidar_is_blind_once_its_window_is_full(less_s: float, rows: list[str]) -> None:
+    tick = at_10_s()
+    tick.dt_s = 0.0
+    tick.s.lidar = replace(tick.s.lidar, baseline_returns=1e6)
+    tick.s.watch.blind_s = detectors.BLIND_S - less_s
+    assert seen("blind", tick) == rows

@@ -11,8 +11,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core.geometry import fence as fences
-from bridge.core.geometry.fence import SIGHT_M, FenceCell, Zone, build_fence
-from bridge.core.geometry.polygon import Edge, Polygon, nearest_m, permits
+from bridge.core.geometry.fence import (
+    SIGHT_M,
+    Edge,
+    FenceCell,
+    Polygon,
+    Zone,
+    build_fence,
+    nearest_m,
+    permits,
+)
 from bridge.fence_file import load_fence, parse_fence
 from wire.errors import ConfigError
 from wire.fingerprint import fingerprint

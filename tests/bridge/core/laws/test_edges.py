@@ -13,15 +13,15 @@ from bridge.core.authority import ownership, requests
 from bridge.core.faults import detectors, fault_latch
 from bridge.core.faults.detectors import brain, commands
 from bridge.core.inbox import LoopFacts
-from bridge.core.modes import mode_logic, stop_monitor, teleop
-from bridge.core.modes.arming import ready_lacks, reset_lacks
+from bridge.core.modes import mode_logic, teleop
+from bridge.core.modes.operator import ready_lacks, reset_lacks
 from bridge.core.motion import motion_gates
 from bridge.core.sensing import sensor_update
 from bridge.core.state import RowUp
 from bridge.core.state_motion import Gate
 from bridge.core.state_orders import External
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.modes.test_stop_monitor import stop_of
+from tests.bridge.core.modes.test_mode_logic_stops import stop_of
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.table import table
 from wire import Mode, Pose2
@@ -126,14 +126,14 @@ def reset(**state: object) -> Judge:
 
 def measured(tick: TickContext) -> object:
     tick.s.drive.received_s = 0.0
-    return not stop_monitor._is_unmeasured(tick)
+    return not mode_logic._is_unmeasured(tick)
 
 
 def slow(tick: TickContext) -> object:
     tick.s.drive.still_since_s = None
     tick.s.stopping = stop_of(-1.0, slow_s=0.14)
     tick.s.odometry = replace(tick.s.odometry, measured=reached("active").state.odometry.measured)
-    return stop_monitor._failure(tick)
+    return mode_logic._failure(tick)
 
 
 def shut(tick: TickContext) -> object:

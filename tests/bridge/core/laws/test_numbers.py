@@ -19,15 +19,21 @@ from tests.bridge.core.table import table
 from wire import SEVERITY, Action, Mode
 
 NUMBERS: dict[str, dict[str, float]] = {
-    "modes.arming": {"CLEAN_S": 2.0, "STANDING_S": 0.5, "STICK_S": 0.25},
+    "modes.operator": {"CLEAN_S": 2.0, "STANDING_S": 0.5, "STICK_S": 0.25},
     "motion.braking": {
         "CREEP_MPS": 0.1,
         "CREEP_RADPS": 0.3,
         "STANDING_MPS": 0.02,
         "TURNING_MPS": 1e-4,
     },
-    "modes.mode_logic": {"REVOKED_BLOCKED_S": 300.0, "REVOKED_S": 30.0},
+    "modes.mode_logic": {
+        "REVOKED_BLOCKED_S": 300.0,
+        "REVOKED_S": 30.0,
+        "DWELL_S": 0.2,
+        "SLOW_S": 0.15,
+    },
     "faults.detectors": {
+        "HAND_SHOWN_S": 1.0,
         "BRAIN_LATE_S": 0.15,
         "BRAIN_LOST_S": 0.3,
         "BRAIN_GONE_S": 5.0,
@@ -76,44 +82,10 @@ NUMBERS: dict[str, dict[str, float]] = {
         "ENC_S": 0.08,
     },
     "sensing.stop_inputs": {"LINK_SILENT_S": 0.5},
-    "sensing.look_distance": {"FREE_M": 0.3, "MARGIN_M": 0.05, "REACH_M": 2.0},
-    "authority.external_velocity": {"TTL_S": 0.25},
-    "motion.fence_gate": {"FENCE_MARGIN_M": 0.15, "INWARD_MPS": 0.15},
-    "authority.rate_limit": {"WINDOW_S": 0.25, "SLACK": 1.2, "ONE_MORE": 1, "FULL_S": 1.0},
-    "motion.motion_gates": {
-        "SHUT_S": 0.5,
-        "FREE_SCANS": 5,
-        "TELEOP_FENCE_MPS": 0.2,
-        "UNKNOWN_MPS": 0.2,
-    },
-    "authority.grants": {
-        "OPERATOR_METRES": 500.0,
-        "OPERATOR_SECONDS": 3600.0,
-        "HAND_METRES": 50.0,
-        "HAND_SECONDS": 600.0,
-        "OUTSIDE_COUNTS": 10.0,
-    },
-    "authority.horizon_checks": {
-        "FIRST_WITHIN_M": 0.5,
-        "MIN_GAP_M": 0.05,
-        "MAX_GAP_M": 0.25,
-        "MIN_END_GAP_M": 0.01,
-        "MIN_SPEED_MPS": 0.05,
-    },
-    "config": {"PERIOD_S": 0.01},
-    "authority.message_score": {"DRAIN_S": 0.5, "FULL": 10.0},
-    "authority.requests": {
-        "NONCE_S": 60.0,
-        "OLD_NONCE_S": 10.0,
-        "KEPT": 64,
-        "SHOWN": 16,
-        "SHOWN_S": 10.0,
-        "REFUSAL_S": 1.0,
-    },
-    "authority.ownership": {"LIVE_S": 0.3},
-    "motion.pursuit": {"REACHED_M": 0.1, "REACHED_RAD": 0.1},
-    "modes.selftest": {"FRESH_S": 0.25, "STILL_S": 0.5, "MOVING_S": 1.0, "PATIENCE_S": 0.3},
     "sensing.sensor_update": {
+        "FREE_M": 0.3,
+        "MARGIN_M": 0.05,
+        "REACH_M": 2.0,
         "POOR_QUALITY": 0.5,
         "POSE_OLD_S": 0.3,
         "JUMP_M": 0.1,
@@ -135,17 +107,63 @@ NUMBERS: dict[str, dict[str, float]] = {
         "SCAN_LOST_S": 0.25,
         "SEQ_AHEAD": 1_000,
     },
+    "authority.external_velocity": {"TTL_S": 0.25},
+    "motion.motion_gates": {
+        "FENCE_MARGIN_M": 0.15,
+        "INWARD_MPS": 0.15,
+        "SHUT_S": 0.5,
+        "FREE_SCANS": 5,
+        "TELEOP_FENCE_MPS": 0.2,
+        "UNKNOWN_MPS": 0.2,
+    },
+    "authority.message_limits": {
+        "WINDOW_S": 0.25,
+        "SLACK": 1.2,
+        "ONE_MORE": 1,
+        "FULL_S": 1.0,
+        "DRAIN_S": 0.5,
+        "FULL": 10.0,
+    },
+    "authority.ownership": {
+        "OPERATOR_METRES": 500.0,
+        "OPERATOR_SECONDS": 3600.0,
+        "HAND_METRES": 50.0,
+        "HAND_SECONDS": 600.0,
+        "OUTSIDE_COUNTS": 10.0,
+        "LIVE_S": 0.3,
+    },
+    "authority.leg_tracking": {
+        "FIRST_WITHIN_M": 0.5,
+        "MIN_GAP_M": 0.05,
+        "MAX_GAP_M": 0.25,
+        "MIN_END_GAP_M": 0.01,
+        "MIN_SPEED_MPS": 0.05,
+    },
+    "config": {"PERIOD_S": 0.01},
+    "authority.requests": {
+        "NONCE_S": 60.0,
+        "OLD_NONCE_S": 10.0,
+        "KEPT": 64,
+        "SHOWN": 16,
+        "SHOWN_S": 10.0,
+        "REFUSAL_S": 1.0,
+    },
+    "motion.pursuit": {"REACHED_M": 0.1, "REACHED_RAD": 0.1},
+    "modes.selftest": {"FRESH_S": 0.25, "STILL_S": 0.5, "MOVING_S": 1.0, "PATIENCE_S": 0.3},
     "state_orders": {"MAX_MISSIONS": 64},
     "authority.stick": {"NEUTRAL_MPS": 0.02, "NEUTRAL_RADPS": 0.05},
     "modes.teleop": {
         "CAUSAL_S": 0.4,
         "RECEIPT_S": 0.25,
     },
-    "modes.stop_profile": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},
-    "modes.stop_monitor": {"DWELL_S": 0.2, "SLOW_S": 0.15},
+    "modes.transition": {"GRACE_S": 0.2, "SLACK_MPS": 0.1},
     "reporting.report": {"EVERY_S": 0.05, "AT_LEAST_S": 0.025},
-    "tick_context": {"STANDING_MPS": 0.02, "STANDING_RADPS": 0.05},
-    "geometry.debounce": {"DRAIN": 0.25, "LONGEST_S": 0.05},
+    "tick_context": {
+        "STANDING_MPS": 0.02,
+        "STANDING_RADPS": 0.05,
+        "DRAIN": 0.25,
+        "LONGEST_S": 0.05,
+    },
 }
 
 
@@ -228,7 +246,7 @@ def test_robot_toml_hides_no_more_of_a_lidar_than_the_gate_keeps_clear() -> None
 
 
 def test_rates_are_the_wires() -> None:
-    flood = import_module("bridge.core.authority.rate_limit")
+    flood = import_module("bridge.core.authority.message_limits")
     assert flood.RATES_HZ == {
         "cmd/waypoints": 10.0, "cmd/teleop": 20.0, "cmd/external": 20.0, "cmd/grant": 40.0,
         "cmd/heartbeat": 40.0, "cmd/hello": 40.0,

@@ -15,7 +15,7 @@ from bridge.core.codec import DECISION, INBOX, STATE
 from bridge.core.geometry.kinematics import fastest_rim, rim_speeds
 from bridge.core.modes.mode_table import LATCHED
 from bridge.core.motion.limiter import tick_length
-from bridge.core.motion.wheel_control import CORRECTION_MPS, CREEP_RADPS
+from bridge.core.motion.wheel_command import CORRECTION_MPS, CREEP_RADPS
 from bridge.core.state_motion import LimiterState
 from bridge.core.state_orders import TimedAnswer
 from bridge.core.tick_context import MOVING, POWERED

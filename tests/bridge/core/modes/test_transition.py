@@ -6,8 +6,7 @@ from dataclasses import replace
 
 from bridge.core.modes import selftest
 from bridge.core.modes.mode_table import Cause, Fact, RequestCause
-from bridge.core.modes.stop_profile import plan_stop
-from bridge.core.modes.transition import escalate, go
+from bridge.core.modes.transition import escalate, go, plan_stop
 from bridge.core.motion.wheel_command import requested_twist
 from bridge.core.state_motion import NO_STOP, LimiterState, Profile, Stopping, profile_of
 from bridge.core.tick_context import TickContext

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
+from bridge.core.geometry.kinematics import along_arc
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import speed_scale, speed_within
 from bridge.core.motion.free_distance import FreeLength, free_length
-from bridge.core.sensing.look_distance import MARGIN_M, REACH_M
+from bridge.core.sensing.sensor_update import MARGIN_M, REACH_M
 from tests.laws import at_least
 from wire.geometry import IDENTITY, Pose2, Twist2
 from wire.robot import Base, LidarConfig, Limits

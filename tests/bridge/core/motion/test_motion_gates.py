@@ -11,17 +11,17 @@ from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.motion.braking import reaction_s
-from bridge.core.motion.fence_gate import fence_scale
 from bridge.core.motion.motion_gates import (
     _inside_fence,
     _note,
     _shut,
     apply,
+    fence_scale,
     look,
     reconsider,
     scan_age_s,
 )
-from bridge.core.sensing.look_distance import look_m
+from bridge.core.sensing.sensor_update import look_m
 from bridge.core.state_motion import Gate, Learnt
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import MAP_ID

@@ -11,14 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bridge.core.geometry.fence import build_fence
-from bridge.core.geometry.kinematics import saturate, scale_twist
+from bridge.core.geometry.kinematics import along_arc, saturate, scale_twist
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.geometry.odometry import along_arc
 from bridge.core.motion.braking import reaction_s
-from bridge.core.motion.fence_gate import FENCE_MARGIN_M, fence_scale
 from bridge.core.motion.limiter import shape, stopping_m
+from bridge.core.motion.motion_gates import FENCE_MARGIN_M, fence_scale
 from bridge.core.motion.obstacle_gate import ObstaclePass, obstacle_gate
-from bridge.core.sensing.look_distance import REACH_M, look_m, sight_m
+from bridge.core.sensing.sensor_update import REACH_M, look_m, sight_m
 from bridge.core.state_motion import AS_CONFIGURED, Braking, LimiterState
 from tests.laws import at_least
 from wire import IDENTITY, STILL, Pose2, Scan, Twist2
@@ -201,7 +200,7 @@ def test_looking_no_further_than_it_takes_changes_nothing_that_passes(
     asked = saturate(asked, robot.base, robot.limits)
     passed = obstacle_gate(near, here, asked, measured, age_s, robot)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("bridge.core.sensing.look_distance.look_m", lambda *_: REACH_M)
+        patch.setattr("bridge.core.sensing.sensor_update.look_m", lambda *_: REACH_M)
         expected = obstacle_gate(wide, here, asked, measured, age_s, robot)
     assert (passed.twist, passed.scale, passed.known) == (
         expected.twist, expected.scale, expected.known

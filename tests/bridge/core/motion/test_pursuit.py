@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
-from bridge.core.geometry.odometry import along_arc
+from bridge.core.geometry.kinematics import along_arc
 from bridge.core.geometry.path_profile import prepare
 from bridge.core.motion.limiter import shape
 from bridge.core.motion.pursuit import PursuitCommand, carry_over, follow

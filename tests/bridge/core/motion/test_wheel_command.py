@@ -8,9 +8,10 @@ import pytest
 
 from bridge.core.geometry.kinematics import wheels_of
 from bridge.core.motion import wheel_command
+from bridge.core.motion.pursuit import carry_over
 from bridge.core.motion.wheel_command import limit
 from bridge.core.state import RowUp
-from bridge.core.state_motion import AT_REST, LimiterState, Wheel
+from bridge.core.state_motion import AT_REST, NEW, LimiterState, Wheel
 from bridge.core.tick_context import MOVING, TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.scripted import World, config
@@ -213,3 +214,63 @@ def test_without_a_pose_or_a_path_nothing_is_followed() -> None:
     world.planner.next_horizon_s = 1e9
     world.tick()
     assert world.state.motion.asked == STILL
+
+
+def test_without_a_way_there_is_no_end_and_a_way_is_followed_on() -> None:
+    tick = at()
+    assert wheel_command.requested_twist(tick) == (STILL, False)  # no place in this tick yet
+    tick.robot_in_map = tick.s.odometry.base_in_odom
+    answer = wheel_command.follow_horizon(tick)
+    assert answer is not None
+    tick.s.motion.follow = replace(answer.state, turning=not answer.state.turning)
+    before = tick.s.motion.follow
+    expected = wheel_command.follow_horizon(tick)
+    assert expected is not None
+    assert wheel_command.requested_twist(tick) == (expected.target, expected.at_end)
+    assert tick.s.motion.follow == expected.state != before
+
+
+@table(
+    ("had", "mission", "leg", "goal", "follow"),
+    [
+        ("none", "m1", 0, True, "new"),
+        ("other", "m2", 0, True, "new"),
+        ("other", "m1", 1, True, "new"),
+        ("other", "m1", 0, True, "carried"),
+        ("other", "m1", 0, False, "turning"),
+        ("same", "m1", 0, True, "kept"),
+    ],
+)
+def test_what_was_learnt_on_a_leg_stays_while_it_is_the_same_leg(
+    had: str, mission: str, leg: int, goal: bool, follow: str
+) -> None:
+    tick = at()
+    now = tick.s.leg
+    assert now.horizon is not None
+    now = tick.s.leg = replace(now, mission="m1", leg=0, goal=now.horizon.points[-1])
+    assert now.horizon is not None
+    horizons = {"none": None, "other": now.horizon.model_copy(), "same": now.horizon}
+    before = replace(
+        now,
+        horizon=horizons[had],
+        mission=mission,
+        leg=leg,
+        goal=now.goal if goal else now.horizon.points[0],
+    )
+    learnt = tick.s.motion.follow = replace(NEW, turning=True)
+    wheel_command.take_horizon(tick, before)
+    kept = {"new": NEW, "carried": carry_over(learnt), "turning": learnt, "kept": learnt}
+    assert tick.s.motion.follow == kept[follow]
+
+
+@table(("more_s", "stands"), [(0.0, False), (1e-6, True)])
+def test_a_gap_as_long_as_the_drives_time_out_forgets_nothing(more_s: float, stands: bool) -> None:
+    tick = at()
+    motion = tick.s.motion
+    motion.limiter = LimiterState(Twist2(0.4, 0.0))
+    motion.left = motion.right = replace(AT_REST, told_radps=4.0)
+    tick.dt_s = tick.config.robot.drive.timeout_s + more_s
+    wheel_command.forget_after_gap(tick)
+    assert (motion.limiter == LimiterState()) is stands
+    assert (motion.left == AT_REST) is stands
+    assert (motion.right == AT_REST) is stands

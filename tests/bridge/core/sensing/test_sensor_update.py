@@ -6,12 +6,14 @@ from dataclasses import replace
 from math import radians
 from typing import Any
 
+import pytest
+
 from bridge.core.authority.epoch import revoke
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.inbox import Inbox
+from bridge.core.inbox import Inbox, LoopFacts
 from bridge.core.sensing import sensor_update
-from bridge.core.sensing.sensor_update import recorder_lack
-from bridge.core.state_senses import LidarMemory
+from bridge.core.sensing.sensor_update import DRIFT_M, DRIFT_RAD, recorder_lack
+from bridge.core.state_senses import Drift, LidarMemory
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT, MAP_ID
 from tests.bridge.core.reached import reached, tick_of
@@ -331,3 +333,59 @@ def test_a_jump_takes_the_grant_and_the_way_and_is_told(
 )
 def test_why_nothing_is_recorded(says: str, lack: tuple[str, str]) -> None:
     assert recorder_lack(Inbox(recorder_says=says)) == lack
+
+
+def test_a_place_that_is_not_ours_displaces_nobody() -> None:
+    tick = at()
+    assert sensor_update._hear_localization(tick, placed(odom_id="b9")) is False
+
+
+def test_a_drift_of_just_what_odometry_may_err_is_no_jump() -> None:
+    for drift in (Drift(x_m=DRIFT_M), Drift(y_m=-DRIFT_M), Drift(yaw_rad=DRIFT_RAD)):
+        for more, jumps in ((0.0, False), (EPS, True)):
+            tick = at()
+            odometry = tick.s.odometry
+            had = replace(
+                drift,
+                x_m=drift.x_m * (1 + more),
+                y_m=drift.y_m * (1 + more),
+                yaw_rad=drift.yaw_rad * (1 + more),
+                travelled_m=odometry.travelled_m,
+                turned_rad=odometry.turned_rad,
+            )
+            tick.s.pose = replace(tick.s.pose, good=placed(), drift=had)
+            assert sensor_update._hear_localization(tick, placed(seq=2)) is jumps
+
+
+def test_no_more_jumps_are_remembered_than_count() -> None:
+    tick = at()
+    tick.s.pose = replace(tick.s.pose, good=placed(), drift=Drift())
+    for times in range(1, 6):
+        tick.now_s = NOW_S + times
+        side = placed(odom_in_map=Pose2(times % 2, 0.0, 0.0))
+        assert sensor_update._hear_localization(tick, side)
+        newest = tuple(NOW_S + one for one in range(max(1, times - 2), times + 1))
+        assert tick.s.pose.drift.jumps_at_s == newest
+
+
+def test_corrections_add_up_in_each_axis_while_nothing_moves() -> None:
+    odometry = replace(at().s.odometry, travelled_m=3.0, turned_rad=2.0)
+    had = Drift(0.1, 0.05, 0.02, travelled_m=3.0, turned_rad=2.0, jumps_at_s=(1.0,))
+    after = sensor_update._add_drift(had, 0.01, -0.02, 0.03, odometry)
+    assert (after.x_m, after.y_m, after.yaw_rad) == pytest.approx((0.11, 0.03, 0.05))
+    assert (after.travelled_m, after.turned_rad, after.jumps_at_s) == (3.0, 2.0, (1.0,))
+
+
+@table(
+    ("late_s", "dt_s", "late", "gap"),
+    [(0.005, 0.1, 0, 0), (0.005 + EPS, 0.1, 1, 0), (0.005, 0.1 + EPS, 0, 1)],
+)
+def test_just_on_its_edge_a_tick_is_neither_late_nor_a_gap(
+    late_s: float, dt_s: float, late: int, gap: int
+) -> None:
+    tick = at(loop=LoopFacts(late_s=late_s))
+    tick.dt_s = dt_s
+    before = tick.s.loop
+    tick.s.loop = replace(before, late_at_s=(), gaps_at_s=())
+    sensor_update.note_lateness(tick)
+    assert (len(tick.s.loop.late_at_s), len(tick.s.loop.gaps_at_s)) == (late, gap)

@@ -13,7 +13,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from bridge.core import Inbox
-from bridge.core.geometry.odometry import along_arc
+from bridge.core.geometry.kinematics import along_arc
 from bridge.core.sensing import sensor_update
 from bridge.core.sensing.sensor_update import DRIFT_M, DRIFT_RAD, JUMP_M, SEQ_AHEAD
 from bridge.core.state_senses import Drift

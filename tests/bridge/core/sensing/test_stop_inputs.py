@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from bridge.core import Inbox
 from bridge.core.faults import detectors
-from bridge.core.modes.arming import reset_lacks
+from bridge.core.modes.operator import reset_lacks
 from bridge.core.sensing.stop_inputs import note_pressed, pressed_input
 from bridge.core.state_senses import ButtonMemory
 from bridge.core.tick_context import TickContext

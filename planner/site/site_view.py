@@ -1,0 +1,66 @@
+"""Show a site as missions and brains need it: its places as targets, and the names for them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planner.language.catalogue import place_name
+from planner.plan import Bilingual, Entry, Vocabulary
+from planner.site.places import Place
+from planner.site.site import Site
+from wire.geometry import Pose2
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Describe a room or place that can be driven to."""
+
+    id: str
+    room: bool
+    name: Bilingual
+    pose: Pose2
+    polygon: tuple[tuple[float, float], ...] | None = None
+    aliases: tuple[str, ...] = ()
+    """What else people call it, in both languages."""
+
+
+@dataclass(frozen=True, slots=True)
+class SiteView:
+    """Hold what missions know of a site. No map: routes are the navigation's."""
+
+    targets: dict[str, Target]
+    home: str
+    map_id: str = ""
+
+
+def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> SiteView:
+    """Return the rooms and places of a site, and the taught ones, as targets; and its home."""
+    places = (*site.places, *taught)
+    return SiteView({place.id: _target(place) for place in places}, site.home.id, site.map_id)
+
+
+def _target(place: Place) -> Target:
+    return Target(
+        id=place.id,
+        room=place.kind == "room",
+        name=place_name(place.name.en, place.name.zh),
+        pose=place.pose,
+        polygon=place.polygon,
+        aliases=(*place.aliases.en, *place.aliases.zh),
+    )
+
+
+def vocabulary_of(site: Site, taught: tuple[Place, ...] = ()) -> Vocabulary:
+    """Return the names that a plan for this site may use, the taught ones last."""
+    return Vocabulary(entries=tuple(_entry(site, place) for place in (*site.places, *taught)))
+
+
+def _entry(site: Site, place: Place) -> Entry:
+    room = site.room_at(place.pose.x_m, place.pose.y_m) if place.kind == "place" else None
+    return Entry(
+        id=place.id,
+        kind=place.kind,
+        name=place_name(place.name.en, place.name.zh),
+        aliases=(*place.aliases.en, *place.aliases.zh),
+        room=room.id if room is not None else None,
+    )
