@@ -30,8 +30,12 @@ REASONS = MappingProxyType(
         "home_unknown": "未知的起始地点",
         "map_too_ragged": "地图边界过于零碎",
         "map_no_floor": "地图上没有可站立的空地",
+        "map_no_drive": "录制中没有可用来建图的行驶",
+        "map_of_two_runs": "录制来自不同的运行",
+        "map_too_large": "地图过大",
         "map_unknown_word": "未知区域是否可通行需要人来说明",
         "mask_elsewhere": "掩膜与地图不重叠",
+        "disk_full": "磁盘空间不足",
         "site_name_malformed": "站点名称不合要求",
         "site_exists": "已有同名站点",
         "site_missing": "没有这个站点",
@@ -45,7 +49,13 @@ REASONS = MappingProxyType(
 class SiteError(ConfigError):
     """Report a site that must not be used. Ours or the owner's to mend: refuse to start."""
 
-    def __init__(self, code: str, message: str) -> None:
-        """Keep the code and the sentence: what came, what was expected, what exists."""
+    def __init__(self, code: str, message: str, zh: str | None = None) -> None:
+        """Keep the code and the sentence: what came, what was expected, what exists.
+
+        Args:
+            code: one of ``REASONS``.
+            message: the sentence in English.
+            zh: the same in Chinese; None: that of ``REASONS``, with the English one behind it.
+        """
         super().__init__(code, message)
-        self.message = {"en": message, "zh": f"{REASONS[code]}：{message}"}
+        self.message = {"en": message, "zh": zh or f"{REASONS[code]}：{message}"}

@@ -9,20 +9,19 @@ from __future__ import annotations
 import json
 import shutil
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
-from pydantic import Field
 
 from maps.cell_array import cell_array
 from maps.errors import SiteError
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from maps.map_file import SAVED_UNKNOWN
+from maps.room_proposals import ROOMS_JSON, RoomProposal, RoomProposals
 from maps.rooms import propose_rooms
 from maps.site_fence import draw_fence, floor_around
-from maps.yaml_records import SiteRecord, parse_json, read_bytes
-from wire.fence import Outline, fence_text
+from wire.fence import fence_text
 from wire.fingerprint import map_id
 from wire.geometry import Pose2
 
@@ -33,29 +32,11 @@ if TYPE_CHECKING:
     from maps.map_file import LoadedMap
     from maps.masks import MaskAreas
 
-ROOMS_JSON = "rooms.json"
 ASK_FROM_SHARE = 0.01
 """From so many pixels of grey 205 that free_thresh frees on, a person says what they are."""
 _GREYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: SAVED_UNKNOWN}
 _STAND_M = 0.15
 """Beside the robot's radius: room to turn where a run starts."""
-
-
-class RoomProposal(SiteRecord):
-    """Hold a room that nobody named yet."""
-
-    id: Annotated[str, Field(pattern=r"^room_[1-9][0-9]{0,3}$")]
-    polygon: Outline
-    pose: Pose2  # in ``map``
-    area_m2: float
-    clearance_m: float
-
-
-class RoomProposals(SiteRecord):
-    """Mirror rooms.json."""
-
-    version: Annotated[int, Field(ge=1, le=1)] = 1
-    rooms: tuple[RoomProposal, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,18 +110,6 @@ def new_site(
     return NewSite(files, home, rooms)
 
 
-def read_proposals(folder: Path) -> tuple[RoomProposal, ...]:
-    """Return the rooms that wait for a name; none where the site has no such file.
-
-    Raises:
-        SiteError: the file is not ours.
-    """
-    path = folder / ROOMS_JSON
-    if not path.exists():
-        return ()
-    return parse_json(read_bytes(path), RoomProposals, path).rooms
-
-
 def _home(grid: GridMap, radius_m: float, start: Pose2 | None) -> Pose2:
     padded = np.pad((cell_array(grid) == FREE).astype(np.uint8), 1)
     room = cv2.distanceTransform(padded, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1]
@@ -172,7 +141,7 @@ def _picture(grid: GridMap) -> bytes:
 
 def _yaml(grid: GridMap) -> bytes:
     return (
-        "# Made by `pons site import`; what is free here was taken for free then.\n"
+        "# Made by `pons site import` or `pons map`; what is free here was taken for free then.\n"
         f"image: map.pgm\nmode: trinary\nresolution: {grid.resolution_m!r}\n"
         f"origin: [{grid.origin_x_m!r}, {grid.origin_y_m!r}, 0.0]\nnegate: 0\n"
         "occupied_thresh: 0.65\nfree_thresh: 0.196\n"

@@ -14,13 +14,13 @@ from planner.api import Access, build, warm_up
 from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
-from planner.mission import JournalSync, KnownPlaces, MissionJournal, Missions, Rules
+from planner.mission import JournalSync, MissionJournal, Missions, Rules
 from planner.navigation import RouteLimits, RouteWorker
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of
 from planner.robot_service import LinkedRobot
 from planner.settings import load_settings
-from planner.site import FenceProposals, Site, TaughtPlaces
+from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.state_database import StateDatabase
 from planner.voice import VoiceWorker
 from wire import RobotDescription, fingerprint, load_robot
@@ -100,6 +100,7 @@ class Planner:
             brain=self.brain,
             disk=JournalSync(self._journal),
         )
+        self.goals.show_scans(self._router)
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 
     def _list_spoken_names(self) -> list[str]:

@@ -15,7 +15,8 @@ import logging
 import os
 import sqlite3
 import threading
-from contextlib import closing, contextmanager, suppress
+import time
+from contextlib import contextmanager
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +34,7 @@ PRIVATE = 0o600
 """Where people were seen in a home is its owner's business, whatever the umask is."""
 WAIT_S = 2.0
 """For another program of the same home (an exam, a replay) that is writing."""
+AGAIN_S = 0.005
 _TABLES = """
 CREATE TABLE places (
     position INTEGER PRIMARY KEY, map_id TEXT NOT NULL, id TEXT NOT NULL, record TEXT NOT NULL,
@@ -117,9 +119,8 @@ class StateDatabase:
             connection = self._open(make=True)
             if connection is None:
                 raise sqlite3.OperationalError("unable to open database file")
-            connection.execute(
-                f"PRAGMA synchronous={'FULL' if sync else self._choose_unsynced_mode()}"
-            )
+            # NORMAL waits for the disk only where the log begins anew over older entries.
+            connection.execute(f"PRAGMA synchronous={'FULL' if sync else 'NORMAL'}")
             with _transaction(connection):
                 yield connection
 
@@ -142,15 +143,6 @@ class StateDatabase:
             finally:
                 os.close(descriptor)
         self._folder_synced = True
-
-    def _choose_unsynced_mode(self) -> str:
-        """Return how to write without waiting for the disk, and never to be spoilt by a power cut.
-
-        A log that begins anew over older entries must sync its head first, which NORMAL does; in
-        an empty one there are none.
-        """
-        begun = self._log.exists() and self._log.stat().st_size > 0
-        return "NORMAL" if begun else "OFF"
 
     @property
     def _log(self) -> Path:
@@ -235,12 +227,14 @@ class StateDatabase:
         if not make and not (self.path.exists() and os.access(self.path.parent, os.W_OK)):
             return None
         try:
-            _make_file(self.path)
+            self.path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise StateUnavailable(self.path, error) from None
         connection = _connect(str(self.path))
         try:
-            for pragma in ("journal_mode=WAL", "journal_size_limit=1000000", "secure_delete=ON"):
+            _make_private(self.path)
+            _begin_log(connection)
+            for pragma in ("journal_size_limit=1000000", "secure_delete=ON"):
                 connection.execute(f"PRAGMA {pragma}")
             self._make_tables(connection)
         except BaseException:
@@ -278,6 +272,38 @@ def _connect(where: str, *, uri: bool = False) -> sqlite3.Connection:
     )
 
 
+def _begin_log(connection: sqlite3.Connection) -> None:
+    """Set WAL, which a file keeps. SQLite's own wait does not cover two programs that both set it.
+
+    Raises:
+        sqlite3.OperationalError: another program held the file for as long as any write is waited.
+    """
+    until_s = time.monotonic() + WAIT_S
+    while True:
+        try:
+            connection.execute("PRAGMA journal_mode=WAL")
+        except sqlite3.OperationalError as error:
+            busy = error.sqlite_errorcode & 0xFF == sqlite3.SQLITE_BUSY
+            if not (busy and time.monotonic() < until_s):
+                raise
+            time.sleep(AGAIN_S)
+        else:
+            return
+
+
+def _make_private(path: Path) -> None:
+    """Let nobody else read a file that was just opened, and is empty where it is new.
+
+    The log beside it takes its mode. Nothing opens and closes the file here: that would drop the
+    locks of this process (sqlite.org, "How To Corrupt An SQLite Database File", 2.2).
+    """
+    try:
+        if path.stat().st_mode & 0o777 != PRIVATE:
+            path.chmod(PRIVATE)
+    except OSError as error:
+        raise StateUnavailable(path, error) from None
+
+
 def _version(connection: sqlite3.Connection) -> int:
     return int(connection.execute("PRAGMA user_version").fetchone()[0])
 
@@ -292,34 +318,6 @@ def _transaction(connection: sqlite3.Connection) -> Iterator[None]:
         if connection.in_transaction:  # a full disk has ended it by itself
             connection.execute("ROLLBACK")
         raise
-
-
-def _make_file(path: Path) -> None:
-    """Make an empty database that nobody else may read, unless there is one; WAL takes its mode.
-
-    In one write and one sync, where SQLite itself takes several. One that is there is never opened
-    here: to close it would drop the locks of this process (sqlite.org, "How To Corrupt An SQLite
-    Database File", 2.2).
-    """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    if path.exists():
-        if path.is_file() and path.stat().st_mode & 0o777 != PRIVATE:
-            path.chmod(PRIVATE)
-        return
-    with closing(sqlite3.connect(":memory:", isolation_level=None)) as blank:
-        blank.executescript(f"{_TABLES}; PRAGMA user_version={VERSION}")
-        data = bytearray(blank.serialize())
-    data[18] = data[19] = 2  # WAL; sqlite.org, "Database File Format", 1.3.3
-    fresh = path.with_name(f"{path.name}.new-{os.getpid()}-{threading.get_ident()}")
-    try:
-        with open(fresh, "wb", opener=lambda name, flags: os.open(name, flags, PRIVATE)) as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        with suppress(FileExistsError):  # another program was quicker
-            path.hardlink_to(fresh)
-    finally:
-        fresh.unlink(missing_ok=True)
 
 
 def _fingerprint(old: Path) -> str | None:

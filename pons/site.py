@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 from maps import SiteError, load_map
 from maps.map_file import load_picture
 from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
-from maps.new_site import ASK_FROM_SHARE, new_site, place_text, read_proposals
+from maps.new_site import ASK_FROM_SHARE, new_site, place_text
+from maps.room_proposals import read_proposals
 from pons.settings import site_of
 from wire import ConfigError, Pose2, load_robot
 from wire.fence import fence_text
@@ -99,7 +100,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
 
 
 def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
-    if _NAME.fullmatch(said.name) is None:
+    if not is_site_name(said.name):
         text = f"got {said.name!r}; expected a small letter, then letters, digits or _"
         raise SiteError("site_name_malformed", text)
     is_yaml = said.map.suffix in (".yaml", ".yml")
@@ -123,6 +124,11 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     return EXIT_DONE
 
 
+def is_site_name(name: str) -> bool:
+    """Return whether a new site may be called so."""
+    return _NAME.fullmatch(name) is not None
+
+
 def _load(said: argparse.Namespace) -> LoadedMap:
     frees = said.unknown == "free"
     if said.resolution is None:
@@ -133,12 +139,14 @@ def _load(said: argparse.Namespace) -> LoadedMap:
         loaded = load_picture(said.map, said.resolution, at, frees_saved_unknown=frees)
     share = loaded.kept_unknown / max(1, len(loaded.grid.cells))
     if share >= ASK_FROM_SHARE and said.unknown is None:
-        text = (
-            f"{100 * share:.0f} % of {said.map} is grey 205, which map savers write for unknown "
-            f"and free_thresh {loaded.record.free_thresh:g} makes free; say which it is: "
-            "--unknown unknown or --unknown free"
-        )
-        raise SiteError("map_unknown_word", text)
+        from planner.language.catalogue import say
+
+        threshold = loaded.record.free_thresh
+        told = say(
+            "site_refusal.map_unknown_word",
+            share=100.0 * share, map=str(said.map), threshold=threshold,
+        )  # fmt: skip
+        raise SiteError("map_unknown_word", told.en, told.zh)
     return loaded
 
 

@@ -184,7 +184,7 @@ THREATS = (
            ("bridge/recording/test_mcap_file.py::test_a_frame_that_unpacks_to_more_than_its_chunk_says_is_never_unpacked",)),
     Threat("A place called “yes”, or drawn as another's name",
            "Refused by name",
-           ("planner/mission/test_memory_of_places.py::test_a_name_that_looks_like_another_is_refused",)),
+           ("planner/site/test_known_places.py::test_a_name_that_looks_like_another_is_refused",)),
     Threat("Others of the machine read every sentence said",
            "`pons up` and the units keep files for their own user",
            ("pons/test_private.py::test_what_a_robot_keeps_is_readable_by_its_own_user_alone",)),

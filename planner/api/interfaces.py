@@ -11,10 +11,11 @@ if TYPE_CHECKING:
 
     from planner.brain import Brain
     from planner.budget import Usage
-    from planner.mission import KnownPlaces, Leg
+    from planner.mission import Leg
+    from planner.navigation import ObstacleReport
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
-    from planner.site import FenceProposals, Site
+    from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser
     from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
 
@@ -24,6 +25,13 @@ class StopConfirmation(Protocol):
 
     @property
     def is_echoed(self) -> bool: ...
+
+
+class LayerSource(Protocol):
+    """Hold what the obstacle layer held after the newest scan."""
+
+    @property
+    def report(self) -> ObstacleReport | None: ...
 
 
 class Goals(Protocol):
@@ -42,6 +50,9 @@ class Goals(Protocol):
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
     ) -> Goal: ...
+
+    @property
+    def obstacles(self) -> LayerSource | None: ...
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, with any other meaning besides."""

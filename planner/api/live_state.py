@@ -12,14 +12,15 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from planner.api.object_changes import SightNews
 from planner.api.objects import sight_view
-from planner.api.robot import path_view, robot_view, scan_view
+from planner.api.robot import obstacle_view, path_view, robot_view, scan_view
 from planner.api.usage import usage_view
 from wire import Mode
 
 if TYPE_CHECKING:
     from planner.api.interfaces import Services
+    from planner.perception import LookSnapshot, Sight
+
 
 PULSE_S = 0.02
 """How soon a change of mode, epoch, hold or owner is seen here."""
@@ -28,6 +29,13 @@ STANDING_S = 0.2
 """Between two looks at a robot that stands: nothing of it changes but ages, which carry on by
 themselves in whoever was told them. A turning point is told at once all the same."""
 SCAN_S = 0.2
+LAYERS_S = 0.5
+"""Between two looks at what the route search remembers; told where it changed."""
+SIGHT_S = 0.2
+SAME_S = 0.5
+"""So long a look that shows the same again is not told: boxes tremble, nothing has changed. A page
+shows no boxes older than 1 s, so it must hear of them sooner."""
+TREMBLE_PX = 4.0
 STILL_MPS = 0.01
 STILL_RADPS = 0.02
 
@@ -68,6 +76,8 @@ class Feed:
         self._driven: tuple[str, int] | None = None
         self._metered = 0
         self._places = 0
+        self._layers_s = float("-inf")
+        self._layers: dict[str, Any] = {}
         self._sight = SightNews(services)
 
     def listen(self) -> Listener:
@@ -114,6 +124,12 @@ class Feed:
             self._offer("places", {"version": version})
         if self._sight.due(now_s):
             self._offer("sight", {"sight": sight_view(self._services)})
+        if now_s - self._layers_s >= LAYERS_S:
+            self._layers_s = now_s
+            layers = obstacle_view(self._services)
+            if layers != self._layers:
+                self._layers = layers
+                self._offer("obstacles", {"obstacles": layers})
         if now_s - self._scan_s >= SCAN_S:
             self._scan_s = now_s
             self._offer("scan", {"scan": scan_view(self._services)})
@@ -147,3 +163,44 @@ def _turning_point(services: Services) -> tuple[Any, ...]:
     if status is None:
         return ()
     return (status.boot, status.mode, status.epoch, status.held, status.owner)
+
+
+class SightNews:
+    """Decide when a sight is worth telling a page anew, by the one told last."""
+
+    def __init__(self, services: Services) -> None:
+        self._services = services
+        self._told: Sight | None = None
+        self._version = 0
+        self._told_s = float("-inf")
+
+    def due(self, now_s: float) -> bool:
+        """Return whether to tell now; a yes counts as told."""
+        eyes = self._services.eyes
+        sight = eyes.sight
+        if sight is self._told or not now_s - self._told_s >= SIGHT_S:
+            return False
+        told = self._told
+        same = told is not None and eyes.version == self._version and _alike(told, sight)
+        if same and not now_s - self._told_s >= SAME_S:
+            return False
+        self._told, self._version, self._told_s = sight, eyes.version, now_s
+        return True
+
+
+def _alike(before: Sight, now: Sight) -> bool:
+    if before.blind != now.blind or (before.look is None) != (now.look is None):
+        return False
+    return before.look is None or now.look is None or _same_boxes(before.look, now.look)
+
+
+def _same_boxes(before: LookSnapshot, now: LookSnapshot) -> bool:
+    if before.here != now.here or len(before.detections) != len(now.detections):
+        return False
+    pairs = zip(before.detections, now.detections, strict=True)
+    return all(
+        a.label == b.label
+        and a.color == b.color
+        and all(abs(x - y) <= TREMBLE_PX for x, y in zip(a.box, b.box, strict=True))
+        for a, b in pairs
+    )

@@ -1,25 +1,39 @@
-"""Stand before every route: judge access, count and cap bodies, set the security headers.
+"""Stand before every route: judge access, slow guesses down, cap bodies, set security headers.
 
 Plain ASGI, so that nothing of a request is parsed before it is allowed and small enough.
 """
 
 from __future__ import annotations
 
+import asyncio
+import logging
+import time
+from collections import OrderedDict
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from starlette.exceptions import HTTPException
 
 from planner.api.access import Access, AccessError
+from planner.api.crowd import address_of
 from planner.api.problems import response
-from planner.api.token_guesses import Guesses
 from planner.voice import MAX_BYTES
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+log = logging.getLogger(__name__)
+
 MAX_BODY_BYTES = 256 * 1024
 LARGE_BODIES = {"/v1/voice": MAX_BYTES}
 WS_POLICY_VIOLATION = 1008
+FREE = 3
+"""So many wrong tokens of one address are typing mistakes."""
+FIRST_S, LONGEST_S = 0.1, 2.0
+FORGIVEN_S = 10.0
+"""For so long without a guess, one is forgiven."""
+MOST_ADDRESSES = 1_024
+LOG_S = 10.0
 
 _HEADERS = (
     (b"x-content-type-options", b"nosniff"),
@@ -110,3 +124,43 @@ async def _refuse(refusal: AccessError, scope: Scope, receive: Receive, send: Se
         return
     problem = response(refusal.status, refusal.code, refusal.detail)
     await problem(scope, receive, _add_headers(send))
+
+
+class Guesses:
+    """Count wrong tokens by address: their answers come later each time, and the log says so.
+
+    Only the answer to a wrong token waits. A right one is never looked up here, so whoever shares
+    an address with a guesser is served as ever. The memory is bounded: the address that guessed
+    longest ago is forgotten first.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._counts: OrderedDict[str, tuple[float, float]] = OrderedDict()
+        self._logged_s = float("-inf")
+        self._unlogged = 0
+
+    def __len__(self) -> int:
+        return len(self._counts)
+
+    def note(self, host: str) -> float:
+        """Count a wrong token; return how long its answer must wait [s]."""
+        now_s, address = self._clock(), address_of(host)
+        count, then_s = self._counts.pop(address, (0.0, now_s))
+        count = max(0.0, count - (now_s - then_s) / FORGIVEN_S) + 1.0
+        self._counts[address] = (count, now_s)
+        if len(self._counts) > MOST_ADDRESSES:
+            self._counts.popitem(last=False)
+        self._tell(address, now_s)
+        over = count - FREE
+        return min(LONGEST_S, FIRST_S * 2.0 ** min(over - 1.0, 16.0)) if over > 0.0 else 0.0
+
+    async def slow(self, client: tuple[str, int] | None) -> None:
+        """Count a wrong token and wait before its answer."""
+        await asyncio.sleep(self.note(client[0] if client else "unknown"))
+
+    def _tell(self, address: str, now_s: float) -> None:
+        self._unlogged += 1
+        if now_s - self._logged_s >= LOG_S:
+            log.warning("wrong_token: %d refused, the last from %r", self._unlogged, address[:80])
+            self._logged_s, self._unlogged = now_s, 0

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from fastapi import APIRouter, Path
 
 from planner.api.interfaces import Services
-from planner.api.problem_messages import saying_of
-from planner.api.problems import HttpProblem
+from planner.api.problems import HttpProblem, saying_of
 from planner.language.object_names import name_object
 from planner.perception.failure import REFUSALS
 

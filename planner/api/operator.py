@@ -6,17 +6,31 @@ on metal a proof comes from the person's CLI or page and is relayed as it is.
 
 from __future__ import annotations
 
+import asyncio
 import secrets
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fastapi import APIRouter
+from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
+from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect, Request
 
 from planner.api.interfaces import Robot, Services
-from planner.api.lenient_body import LenientRoute
 from planner.api.problems import HttpProblem
 from planner.api.schemas import OperatorOrder, OperatorProof, Steer, StopOrder
 from planner.language.utterance import Utterance
 from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, signed_request
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+
+    from starlette.responses import Response
+    from starlette.types import Message
+
+BODY_S = 0.5
+"""How long a stop waits for the rest of its body, which says no more than who asks."""
+_OF_THE_BODY = frozenset({b"content-type", b"content-length", b"transfer-encoding"})
 
 
 def routes(services: Services) -> APIRouter:
@@ -139,3 +153,37 @@ def request(robot: Robot, kind: OpKind, source: str, given: OperatorProof | None
             f"`pons {kind}` on a machine that holds the key",
         )
     return signed_request(VIRTUAL_KEY, kind, status, source, request_id)
+
+
+class LenientRoute(APIRoute):
+    """Answer a request with an unusable body as if it had none: it is no reason to refuse a stop.
+
+    A hurried ``curl -d '{}'`` without a content type, half a JSON, a megabyte of noise, a
+    connection that breaks off, or a body that does not come: each still stops.
+    """
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """Return the handler that tries a second time, bare; the route ran in neither case yet."""
+        handle = super().get_route_handler()
+
+        async def answer(request: Request) -> Response:
+            try:
+                async with asyncio.timeout(BODY_S):
+                    await request.body()  # kept by the request
+            except (TimeoutError, ClientDisconnect, HTTPException):
+                return await handle(_bare(request))
+            try:
+                return await handle(request)
+            except (RequestValidationError, HTTPException):
+                return await handle(_bare(request))
+
+        return answer
+
+
+def _bare(request: Request) -> Request:
+    headers = [pair for pair in request.scope["headers"] if pair[0] not in _OF_THE_BODY]
+    return Request({**request.scope, "headers": headers}, _nothing)
+
+
+async def _nothing() -> Message:
+    return {"type": "http.request", "body": b"", "more_body": False}

@@ -5,19 +5,21 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response
-from pydantic import Field
+from pydantic import Field, model_validator
 
+from maps.room_proposals import RoomProposal
 from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem
 from planner.api.schemas import Body
 from planner.language.catalogue import say
-from planner.mission.known_places import KeptPlace, Lesson
 from planner.site import MAX_HERE, PlaceRefusal, TaughtPlace
+from planner.site.known_places import KeptPlace, KnownPlaces, Lesson
 from wire import Pose2
 from wire.bounded_types import Name
 from wire.geometry import Metres, Yaw
 
 _STATUS = {
+    "unknown_room": 404,
     "unknown_taught_place": 404,
     "place_of_site": 409,
     "place_name_taken": 409,
@@ -51,11 +53,18 @@ class Point(Body):
 
 
 class NewPlace(Body):
-    """Teach a place: where the robot stands, or at a free point of the map."""
+    """Teach a place: where the robot stands, at a free point of the map, or a proposed room."""
 
     name: PlaceNames
     point: Point | None = None
+    room: Annotated[str, Field(min_length=1, max_length=40)] | None = None
     source: Name = "api"
+
+    @model_validator(mode="after")
+    def _one_spot(self) -> NewPlace:
+        if self.point is not None and self.room is not None:
+            raise ValueError("say point or room, not both: a room says its own spot")
+        return self
 
 
 def routes(services: Services) -> APIRouter:
@@ -97,8 +106,15 @@ def places_view(services: Services) -> dict[str, Any]:
         "home": memory.site.home.id,
         "places": memory.places,
         "taught": [_view(kept) for kept in memory.taught_places],
+        "proposed_rooms": [_view_proposal(memory, room) for room in memory.proposed_rooms],
         "most": MAX_HERE,
     }
+
+
+def _view_proposal(memory: KnownPlaces, room: RoomProposal) -> dict[str, Any]:
+    """Return a proposed room with the place that has its middle, if one has."""
+    known = memory.room_at(room.pose.x_m, room.pose.y_m)
+    return {**room.model_dump(mode="json"), "known_as": known.id if known is not None else None}
 
 
 async def _teach(
@@ -110,6 +126,7 @@ async def _teach(
         pose=_pose(services, new.point),
         by=new.source,
         place_id=place_id,
+        room=new.room,
     )
     try:
         place, first = await services.memory.teach(lesson)

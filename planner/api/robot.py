@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import base64
+import sys
+from array import array
+from dataclasses import asdict
 from typing import Any
 
 from fastapi import APIRouter
 
 from planner.api.interfaces import Services
 from planner.brain import mind_of
+from planner.site import GridMap
+
+MAX_CELLS = 1_500
+"""Of a layer, in one answer: 4 m2 of obstacles at 0.05 m."""
 
 
 def routes(services: Services) -> APIRouter:
@@ -26,6 +33,11 @@ def routes(services: Services) -> APIRouter:
         """Give the map's cells (0 free, 1 occupied, 2 unknown; row 0 lowest y) and the fence."""
         return map_body
 
+    @router.get("/obstacles", operation_id="get_obstacles")
+    async def obstacles() -> dict[str, Any]:
+        """Give what the route search remembers that the map does not know, and what moves."""
+        return obstacle_view(services)
+
     return router
 
 
@@ -33,7 +45,7 @@ def robot_view(services: Services) -> dict[str, Any]:
     """Return the robot as people see it."""
     status = services.robot.status
     pose = status.base_in_map if status else None
-    room = services.site.room_at(pose.x_m, pose.y_m) if pose else None
+    room = services.memory.room_at(pose.x_m, pose.y_m) if pose else None
     return {
         "status": status.model_dump(mode="json") if status else None,
         "room": room.id if room else None,
@@ -66,6 +78,32 @@ def about(services: Services) -> dict[str, Any]:
 def scan_view(services: Services) -> list[int]:
     """Return the lidar's points as x, y, x, y, … in ``map`` [cm]: half the bytes of metres."""
     return [round(100.0 * value) for point in services.robot.obstacles() for value in point]
+
+
+def obstacle_view(services: Services) -> dict[str, Any]:
+    """Return what the route search knows beyond the map: cells as x, y, … [cm], and what moves."""
+    source = services.goals.obstacles
+    report = source.report if source is not None else None
+    if report is None:
+        return {"cells": [], "suspicions": [], "movers": []}
+    movers = [
+        {name: round(value, 2) for name, value in asdict(mover).items()} for mover in report.movers
+    ]
+    grid = services.site.grid
+    return {
+        "cells": _centres_cm(grid, report.cells),
+        "suspicions": _centres_cm(grid, report.suspicions),
+        "movers": movers,
+    }
+
+
+def _centres_cm(grid: GridMap, cells: bytes) -> list[int]:
+    """Return the middles of packed cells in ``map`` [cm], MAX_CELLS at most."""
+    flat = array("H", cells)
+    if sys.byteorder == "big":
+        flat.byteswap()
+    pairs = list(zip(flat[::2], flat[1::2], strict=True))[:MAX_CELLS]
+    return [round(100.0 * value) for pair in pairs for value in grid.centre_of(*pair)]
 
 
 def path_view(services: Services) -> dict[str, Any] | None:

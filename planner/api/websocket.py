@@ -24,7 +24,7 @@ from planner.api.listing import list_goals
 from planner.api.live_state import Body, Feed, Listener, text_of
 from planner.api.objects import sight_view
 from planner.api.rates import Rate
-from planner.api.robot import about, path_view, robot_view, scan_view
+from planner.api.robot import about, obstacle_view, path_view, robot_view, scan_view
 from planner.api.usage import usage_view
 
 if TYPE_CHECKING:
@@ -151,6 +151,7 @@ def snapshot(services: Services) -> dict[str, Any]:
         "about": about(services),
         "path": path_view(services),
         "scan": scan_view(services),
+        "obstacles": obstacle_view(services),
         "usage": usage_view(services),
         "places_version": services.memory.version,
         "sight": sight_view(services),

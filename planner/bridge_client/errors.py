@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from planner.language.catalogue import say
+from planner.plan import Bilingual
+
 
 class LinkError(Exception):
     """Report that the bridge was not reached; ``message`` is for people, ``code`` is stable."""
 
     code = "link_error"
 
-    def __init__(self, en: str, zh: str) -> None:
-        super().__init__(f"{self.code}: {en}")
-        self.message = {"en": en, "zh": zh}
+    def __init__(self, said: Bilingual) -> None:
+        super().__init__(f"{self.code}: {said.en}")
+        self.message = said.model_dump()
 
 
 class BridgeSilent(LinkError):
@@ -19,7 +22,4 @@ class BridgeSilent(LinkError):
     code = "bridge_silent"
 
     def __init__(self, what: str, waited_s: float) -> None:
-        super().__init__(
-            f"{what}: the bridge did not answer within {waited_s:.1f} s; is it running?",
-            f"{what}：安全桥在 {waited_s:.1f} 秒内没有应答，它在运行吗？",
-        )
+        super().__init__(say("link.bridge_silent", what=what, waited_s=waited_s))

@@ -12,7 +12,7 @@ from functools import lru_cache
 
 from planner.language.commands import Intent, Replace, intent_of
 from planner.language.commands import ResumeCommand as GoOn
-from planner.language.identification import language_of
+from planner.language.folding import is_chinese
 from planner.language.stop import StopReading, is_stop, read_stop
 from planner.language.yes_no import consents
 from planner.plan import Language
@@ -71,3 +71,8 @@ def parse(text: str) -> Utterance:
         read_stop(rest) if rest is not None else StopReading.NONE,
         rest is not None and is_stop(rest),
     )
+
+
+def language_of(text: str) -> Language:
+    """Return Chinese where the text is Chinese (``folding.is_chinese``), else English."""
+    return Language.ZH if is_chinese(text) else Language.EN

@@ -33,6 +33,7 @@ with ``rounds=False`` and calls ``missions.loop.hear()`` and ``tick()`` itself. 
 """
 
 from planner.mission.api_view import goal_of
+from planner.mission.clocks import Clocks
 from planner.mission.effects import (
     AskBrain,
     AskRoute,
@@ -73,12 +74,9 @@ from planner.mission.events import (
 )
 from planner.mission.journal import MissionJournal
 from planner.mission.journal_sync import Disk, JournalSync
-from planner.mission.known_places import KeptPlace, KnownPlaces, Lesson
-from planner.mission.loop import Clocks
 from planner.mission.reducer import advance, motion_request
 from planner.mission.service import Missions
-from planner.mission.site_view import facts_of
-from planner.mission.state import Mission, MissionState, Rules, SiteView, Target
+from planner.mission.state import Mission, MissionState, Rules
 from planner.mission.tasks import RouteService, Think
 
 __all__ = [
@@ -99,10 +97,7 @@ __all__ = [
     "JournalDown",
     "JournalSync",
     "Journalled",
-    "KeptPlace",
-    "KnownPlaces",
     "Leg",
-    "Lesson",
     "Mission",
     "MissionError",
     "MissionJournal",
@@ -123,16 +118,13 @@ __all__ = [
     "Rules",
     "SayAloud",
     "Seen",
-    "SiteView",
     "Stopped",
     "Submitted",
     "Subscription",
-    "Target",
     "Think",
     "Tick",
     "UnknownGoal",
     "advance",
-    "facts_of",
     "goal_of",
     "motion_request",
 ]

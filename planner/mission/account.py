@@ -15,8 +15,9 @@ from planner.plan import Bilingual, Code, StepState, say_same
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from planner.mission.state import Mission, SiteView
+    from planner.mission.state import Mission
     from planner.plan import StepRecord
+    from planner.site.site_view import SiteView
 
 DRIVEN = frozenset({"go_to", "return_home", "come_back"})
 MOTION = DRIVEN | {"turn", "move", "patrol"}

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from planner.mission.recovery import LadderRung
 from planner.mission.skills.actions import Way
 from planner.mission.skills.perception import WantedObject
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import SkillStateBase
 from planner.plan import Bilingual
 from wire import Pose2
 
@@ -23,6 +24,23 @@ class _StepActivity:
     """What odometry says was driven, by whomever."""
     amount: float = 0.0
     """What odometry says was done in this leg, as in ``Mission.done``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manoeuvre:
+    """Describe a short way of its own that a leg makes because it is blocked."""
+
+    rung: LadderRung
+    goal: Pose2
+    way: Way
+    until_s: float
+    """When it ends anyhow."""
+    begun_m: float
+    """Of ``metres``, when it began."""
+    part: int = 0
+    """Of the rung's turns."""
+    heading_rad: float = 0.0
+    """The robot's in ``map``, when the rung began."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,11 +60,11 @@ class Driving(_StepActivity):
     """When this leg began: the step's time is counted from here."""
     asked_s: float
     """When the skill was asked last."""
-    notes: Notes | None = None
+    state: SkillStateBase | None = None
     """What the skill remembers while this leg lasts."""
-    then: Notes | None = None
+    then: SkillStateBase | None = None
     """And once it is reached."""
-    otherwise: Notes | None = None
+    otherwise: SkillStateBase | None = None
     """And where its way is shut; None: then the step fails."""
     wanted: WantedObject | None = None
     """As soon as this is seen for sure the skill is asked again."""
@@ -69,6 +87,12 @@ class Driving(_StepActivity):
     """Routes asked for in this step because one was lost or refused, not because of obstacles."""
     detours_failed: int = 0
     detours: int = 0
+    manoeuvre: Manoeuvre | None = None
+    """The leg's own way waits until this is done."""
+    rung_since_s: float | None = None
+    """Since when the rung of the recovery ladder that is next has been waited for."""
+    occupied_since_s: float | None = None
+    """Since when something stands where the leg is to end."""
     retry_s: float | None = None
     """When the next try is due after a failed route."""
     row_since_s: float | None = None
@@ -103,8 +127,8 @@ class Observing(_StepActivity):
     """When this ends anyhow."""
     looks: int
     """New pictures that are waited for."""
-    notes: Notes | None = None
-    then: Notes | None = None
+    state: SkillStateBase | None = None
+    then: SkillStateBase | None = None
     wanted: WantedObject | None = None
     """This ends as soon as that is seen for sure."""
     watch: bool = False
@@ -126,8 +150,8 @@ class AskingImage(_StepActivity):
     """The question whose answer is waited for."""
     until_s: float
     """When the wait ends without one."""
-    notes: Notes | None = None
-    then: Notes | None = None
+    state: SkillStateBase | None = None
+    then: SkillStateBase | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,7 @@ from planner.mission.skills.viewpoints import near_spot, spots_in
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
 
-    from planner.mission.state import SiteView
+    from planner.site.site_view import SiteView
 
 
 class Wording:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from planner.brain.interface import Exchange, Observation
 from planner.mission.skills.actions import Way
 from planner.mission.state import Mission
+from planner.navigation.obstruction import Obstruction
 from planner.plan import Bilingual, Language
 from wire import Pose2
 
@@ -62,6 +63,10 @@ class AskRoute:
     """Count what the lidar sees now."""
     way: Way = Way.ROUTE
     """A spin needs no search: the engine answers it by itself."""
+    shut: tuple[Obstruction, ...] = ()
+    """Ways that are remembered as shut, whether the lidar sees them now or not."""
+    speed_mps: float | None = None
+    """The fastest that this way may be driven; None: as the route says."""
 
 
 @dataclass(frozen=True, slots=True)

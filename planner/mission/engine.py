@@ -6,8 +6,8 @@ at once and carry out ``effects``. Whoever answers an effect does so with anothe
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import hypot
+from dataclasses import dataclass, replace
+from math import copysign, hypot
 
 from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
 from planner.mission.activity import Driving
@@ -72,6 +72,15 @@ class Engine:
             return None
         return Leg(following.mission, following.leg, following.path.points)
 
+    def way_ahead(self, reach_m: float) -> tuple[tuple[float, float], ...]:
+        """Return the path's points from the robot on, in ``map`` [m]; none while it is to stand."""
+        following = self._following
+        if following is None or self.leg is None:
+            return ()
+        path, done_m = following.path, following.progress_m
+        ahead = zip(path.points, path.along_m, strict=True)
+        return tuple((p.x_m, p.y_m) for p, m in ahead if done_m <= m <= done_m + reach_m)
+
     def status(self, status: Status, now_s: float) -> Output:
         """Judge one bridge status and answer it as the owner."""
         horizon, before = self._cut(status), self._following
@@ -127,11 +136,13 @@ class Engine:
         failure: str | None,
         now_s: float,
     ) -> tuple[Effect, ...]:
-        short_m = 0.0
+        short_m, end_m = 0.0, None
         if points is not None:
+            points = _slow_down(points, ask.speed_mps)
             self._path = LegPath.of(points, ask.goal.yaw_rad if ask.heading else None)
+            end_m = (points[-1].x_m, points[-1].y_m)
             short_m = hypot(ask.goal.x_m - points[-1].x_m, ask.goal.y_m - points[-1].y_m)
-        event = Routed(ask.id, ask.ticket, failure if points is None else None, short_m)
+        event = Routed(ask.id, ask.ticket, failure if points is None else None, short_m, end_m)
         effects = self._advance(event, now_s)
         self._adopt()
         self._path = None
@@ -188,3 +199,13 @@ class Engine:
         if wanted.leg is None or not ours or horizon is None or not horizon.points:
             return Course(wanted.mission)
         return Course(wanted.mission, wanted.leg, horizon.points, horizon.final)
+
+
+def _slow_down(points: tuple[RoutePoint, ...], speed_mps: float | None) -> tuple[RoutePoint, ...]:
+    """Return a route that is driven no faster than that, in either direction."""
+    if speed_mps is None:
+        return points
+    return tuple(
+        replace(p, speed_mps=copysign(min(abs(p.speed_mps), speed_mps), p.speed_mps))
+        for p in points
+    )

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planner.mission.skills.perception import ImageAnswer as EyeAnswer
-from planner.mission.state import Mission, SiteView
+from planner.mission.state import Mission
+from planner.navigation.obstruction import Obstruction
 from planner.perception.snapshot import Sight
 from planner.plan import AnswerPlan, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
+from planner.site.site_view import SiteView
 from wire import Status
 
 
@@ -56,6 +58,8 @@ class Routed:
     failure: str | None = None
     short_m: float = 0.0
     """From the end of the route to its goal."""
+    end_m: tuple[float, float] | None = None
+    """Where it ends, in ``map``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +70,19 @@ class Seen:
     off_path: bool = False
     left_m: float | None = None
     """Along that path, to its end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surveyed:
+    """The lidar was asked what stands in the way of the leg that is streamed."""
+
+    obstruction: Obstruction | None
+    moves: bool = False
+    """It moved within the last seconds: somebody who may walk on."""
+    opened: tuple[Obstruction, ...] = ()
+    """Of the ways that are remembered as shut: through these the lidar sees now."""
+    local_offset_s: float = 0.0
+    """Of people's own clock from UTC, to tell them since when."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,6 +196,7 @@ Event = (
     | Planned
     | Routed
     | Seen
+    | Surveyed
     | Sighted
     | Told
     | Journalled

@@ -5,18 +5,21 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.language.utterance import parse
 from planner.mission.activity import Thinking
-from planner.mission.answer_timeouts import ask_anew, close_older, make_room, waiting_since
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
+    ask_anew,
     ask_plainly,
     asks,
+    close_older,
     confirms,
     find_offer,
+    make_room,
     take_answer,
     take_no,
     take_sentence,
+    waiting_since,
 )
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_check import unwalkable
@@ -34,7 +37,6 @@ from planner.mission.queue import (
     release_queue,
 )
 from planner.mission.replan import fingerprint, rethought
-from planner.mission.skills import NOTHING
 from planner.mission.spoken_status import go_on_told, stop_told
 from planner.mission.state import Mission, MissionState
 from planner.mission.transaction import Transaction
@@ -313,7 +315,7 @@ def _forget_poses(turn: Transaction, mission: Mission) -> None:
         said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
         finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "map_changed")
     elif mission.map_id:
-        mission = turn.put(mission, accepted_at=None, notes=NOTHING)
+        mission = turn.put(mission, accepted_at=None, skill_state=None)
         if mission.state is GoalState.PAUSED:
             said = Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED)
             turn.put(mission, outcome=said)

@@ -18,13 +18,16 @@ from pydantic import ValidationError
 from sqlalchemy.dialects import postgresql, sqlite
 
 from planner.mission.effects import Journal
-from planner.mission.state import MAX_ENDED, Mission
+from planner.mission.journal_records import read_mission
+from planner.mission.state import MAX_ENDED, GoalKey, Mission
 from planner.plan import ENDED
 from wire import ConfigError, Unwritable
 
 log = logging.getLogger(__name__)
 
-SCHEMA = "1"
+SCHEMA = "2"
+FORMER_SCHEMAS = frozenset({"1"})
+"""Those that are read as well: a record stays as it was written until its goal changes."""
 MAX_KEYS = 10_000
 MAX_KEPT = 2_000
 """Ended goals on disk, with all their transitions; older ones are removed, open ones never."""
@@ -63,16 +66,6 @@ _keys = sa.Table(
     sa.Column("body", sa.String(64), nullable=False),
     sa.Column("goal", sa.String(64), nullable=False),
 )
-
-
-@dataclass(frozen=True, slots=True)
-class GoalKey:
-    """Remember which request an Idempotency-Key came with, and the goal that it made."""
-
-    key: str
-    body: str
-    """Fingerprint of the request."""
-    goal: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +189,7 @@ class MissionJournal:
 
     def _mission(self, record: str) -> Mission:
         try:
-            return Mission.model_validate_json(record)
+            return read_mission(record)
         except ValidationError as error:
             raise ConfigError("journal_malformed", str(error).splitlines()[0]) from None
 
@@ -207,10 +200,13 @@ class MissionJournal:
             ).scalar()
             if found is None:
                 connection.execute(sa.insert(_facts).values(name="schema", value=SCHEMA))
+            elif found in FORMER_SCHEMAS:  # from now on a former program refuses it, and says so
+                here = _facts.c.name == "schema"
+                connection.execute(sa.update(_facts).where(here).values(value=SCHEMA))
             elif found != SCHEMA:
-                raise ConfigError(
-                    "journal_version", f"the journal has schema {found}, expected {SCHEMA}"
-                )
+                known = ", ".join(sorted({*FORMER_SCHEMAS, SCHEMA}))
+                detail = f"the journal has schema {found}, this program reads {known}"
+                raise ConfigError("journal_version", detail)
 
 
 _Put = Callable[[sa.Connection, dict[str, object]], object]

@@ -21,7 +21,8 @@ import sqlalchemy as sa
 
 from planner.mission.effects import Journal
 from planner.mission.errors import JournalDown
-from planner.mission.journal import GoalKey, JournalContents, MissionJournal
+from planner.mission.journal import JournalContents, MissionJournal
+from planner.mission.state import GoalKey
 
 RETRY_S = 0.5
 

@@ -18,6 +18,7 @@ from planner.language.catalogue import say
 from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute
 from planner.mission.queue import finish, standing_hold
+from planner.mission.recovery import shut_now
 from planner.mission.skills import Fail, Way, no_room
 from planner.mission.skills.move import along
 from planner.mission.skills.turn import turned_rad
@@ -34,9 +35,6 @@ MAX_DETOURS_FAILED = 3
 RETRY_S = 1.0
 DETOUR_AFTER_S = 3.0
 DETOUR_MOST_S = 30.0
-SHORT_M = 0.05
-"""A straight way that ends so near to its goal is whole."""
-TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
 
 
 def ask_route(turn: Transaction, *, detour: bool) -> None:
@@ -48,45 +46,32 @@ def ask_route(turn: Transaction, *, detour: bool) -> None:
     if start is None:
         turn.change(retry_s=turn.now_s + RETRY_S)
         return
-    ticket, way, goal = turn.book.tickets + 1, leg.way, leg.goal
+    own, record = leg.manoeuvre, mission.recovery
+    ticket, way, goal = turn.book.tickets + 1, leg.way, record.aim(leg.goal)
+    if own is not None:
+        way, goal = own.way, own.goal
     if way is Way.SPIN:
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
     turn.set(tickets=ticket)
     turn.change(ticket=ticket, ticket_detour=detour, retry_s=None, route_when_standing=False)
-    seen = detour or way is Way.STRAIGHT
-    turn.emit(AskRoute(mission.id, ticket, start, goal, leg.heading, seen, way))
+    shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way is Way.ROUTE else ()
+    seen = detour or way is Way.STRAIGHT or bool(shut)
+    heading = leg.heading if own is None else way is Way.SPIN
+    speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
+    ask = AskRoute(mission.id, ticket, start, goal, heading, seen, way, shut, speed_mps)
+    turn.emit(ask)
 
 
-def on_routed(
-    turn: Transaction, mission_id: str, ticket: int, failure: str | None, short_m: float
-) -> None:
-    """Take the route that was asked for; any other is forgotten."""
-    mission, leg = turn.running, turn.driving
-    if mission is None or leg is None or mission.id != mission_id or leg.ticket != ticket:
-        return
-    turn.change(ticket=None)
-    if failure is None and leg.way is Way.STRAIGHT and not short_m <= SHORT_M:
-        _short(turn, leg, short_m)
-    elif failure is None:
-        _new_leg(turn, mission)
-    elif leg.ticket_detour:
-        _detour_failed(turn, leg)
-    elif failure in TRANSIENT and leg.routes < MAX_ROUTES:
-        turn.change(routes=leg.routes + 1, retry_s=turn.now_s + RETRY_S)
-    else:
-        fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
-
-
-def _short(turn: Transaction, leg: Driving, short_m: float) -> None:
+def take_short(turn: Transaction, leg: Driving, short_m: float) -> None:
     """Judge a straight way that ends early: under way something may leave again, at first not."""
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     if leg.leg is not None or leg.ticket_detour or pose is None:
-        _detour_failed(turn, leg)
+        detour_failed(turn, leg)
     else:
         fail_step(turn, no_room(leg.goal, pose, short_m))
 
 
-def _new_leg(turn: Transaction, mission: Mission) -> None:
+def new_leg(turn: Transaction, mission: Mission) -> None:
     """Number the leg above every one that bridge or journal know: reached is latched by leg."""
     status = turn.book.status
     known = status.leg if status is not None else None
@@ -96,7 +81,8 @@ def _new_leg(turn: Transaction, mission: Mission) -> None:
     turn.change(leg=leg, refused_since_s=None, idle_since_s=None, jumped=False)
 
 
-def _detour_failed(turn: Transaction, leg: Driving) -> None:
+def detour_failed(turn: Transaction, leg: Driving) -> None:
+    """Try a straight way or a spin again later; after three failures in a row it is blocked."""
     if leg.detours_failed + 1 >= MAX_DETOURS_FAILED:
         fail_step(turn, Fail(Code.BLOCKED, "blocked"))
         return
@@ -112,11 +98,11 @@ def detour_pause_s(tried: int) -> float:
 
 
 def detour_if_due(turn: Transaction, leg: Driving, blocked_since_s: float) -> None:
-    """Ask for a way round; the old horizon streams on until there is one."""
+    """Have a straight way or a spin tried again; the old horizon streams on until it is there."""
     due_s = detour_pause_s(leg.detours) if leg.detours else DETOUR_AFTER_S
     if turn.now_s - blocked_since_s < due_s:
         return
-    if leg.way is not Way.ROUTE and leg.detours >= MAX_DETOURS_FAILED:
+    if leg.detours >= MAX_DETOURS_FAILED:
         fail_step(turn, Fail(Code.BLOCKED, "blocked"))
         return
     # The wait for the next try begins now, and grows: the world may just need time.

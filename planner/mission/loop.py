@@ -10,10 +10,8 @@ a clock, a disk and an event loop of its own, and turns the rounds itself.
 from __future__ import annotations
 
 import asyncio
-import time
-import uuid
-from collections.abc import Callable, Coroutine
-from dataclasses import dataclass, replace
+from collections.abc import Coroutine
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner.bridge_client import Link, LinkError
@@ -21,6 +19,7 @@ from planner.mission.accept import WaypointLatency
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import Progress, goal_of, progress_of
 from planner.mission.bridge_status import at_rest
+from planner.mission.clocks import Clocks
 from planner.mission.detector_words import Wording, warm_up
 from planner.mission.effects import (
     AskBrain,
@@ -39,43 +38,36 @@ from planner.mission.errors import MissionError
 from planner.mission.event_hub import Hub
 from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
 from planner.mission.gc_control import Collector
-from planner.mission.journal import GoalKey
 from planner.mission.journal_sync import Disk
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.skills import Eyesight
-from planner.mission.state import MissionState, Rules
+from planner.mission.state import GoalKey, MissionState, Rules
+from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
 from planner.navigation import RoutePoint
 from wire import OpRequest, Status, Waypoints
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
+    from planner.mission.scan_sender import ScanSender
     from planner.perception.interfaces import Eyes
     from planner.perception.snapshot import Sight
     from wire import CameraConfig
 
-POLL_S = 0.005
-"""Half a bridge tick: a status waits 2.5 ms on average; an empty drain costs 0.1 µs."""
 TICK_S = 0.1
+AHEAD_M = 3.0
+"""Of the way, held against each scan: what closes it farther off may be gone until then."""
 STATUS_NEWS_S = 0.2
 """Statuses are told to listeners at 5 Hz, and at once when mode, epoch or hold change."""
-
-
-@dataclass(frozen=True, slots=True)
-class Clocks:
-    """Tell time and mint ids; tests put their own here."""
-
-    monotonic: Callable[[], float] = time.monotonic
-    wall: Callable[[], float] = time.time
-    new_id: Callable[[], str] = lambda: uuid.uuid4().hex[:12]
-    poll_s: float = POLL_S
 
 
 class Loop:
     """Own what runs between ``start`` and ``close``."""
 
-    def __init__(self, engine: Engine, link: Link, disk: Disk, clocks: Clocks) -> None:
+    def __init__(
+        self, engine: Engine, link: Link, disk: Disk, clocks: Clocks, surveyor: Surveyor
+    ) -> None:
         self.hub = Hub()
         self.accepted = WaypointLatency()
         self._engine, self._link, self._disk, self._clocks = engine, link, disk, clocks
@@ -92,6 +84,8 @@ class Loop:
         self._door = EyeDoor(None)
         self._attends = False
         self._acts: dict[str, OpRequest] = {}
+        self._surveyor = surveyor
+        self._obstacles: ScanSender | None = None
 
     @property
     def book(self) -> MissionState:
@@ -134,6 +128,15 @@ class Loop:
         eyesight = Eyesight(camera, eyes.classes, model=looker is not None)
         self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
         eyes.listen(self._on_sight)
+
+    def show_scans(self, obstacles: ScanSender) -> None:
+        """Show scans to the route search from now on."""
+        self._obstacles = obstacles
+
+    @property
+    def way_ahead(self) -> tuple[tuple[float, float], ...]:
+        """Return the points of the way from the robot on, in ``map`` [m]; none while it stands."""
+        return self._engine.way_ahead(AHEAD_M)
 
     async def start(
         self, think: Think, router: RouteService, *, freeze: bool, rounds: bool
@@ -242,6 +245,14 @@ class Loop:
     def tick(self) -> None:
         """Let the missions look at the clock, and do what is to be done now and then."""
         self.event(Tick())
+        if self._obstacles is not None and self._obstacles.report is not None:
+            movers = self._obstacles.report.movers
+            self._surveyor.note_movers(movers, self._clocks.monotonic())
+        told = self._surveyor.survey(self.book, self.leg, self._clocks.monotonic())
+        if told is not None:
+            self.event(told)
+        if self._obstacles is not None and (seen := self._obstacles.due()) is not None:
+            self._spawn(self._obstacles.show(seen))
         for event in self._link.events():
             self.hub.publish({"type": "bridge", "event": event.model_dump(mode="json")})
         newest = self.book.status

@@ -9,8 +9,9 @@ from __future__ import annotations
 from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.language.catalogue import list_names, say
 from planner.language.formatting import angle, metres
-from planner.mission.state import Mission, SiteView
+from planner.mission.state import Mission
 from planner.plan import Bilingual, StepRecord, StepState, say_same
+from planner.site.site_view import SiteView
 
 RESULTS = {
     StepState.SUCCEEDED: "succeeded",

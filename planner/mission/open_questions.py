@@ -3,6 +3,8 @@
 The robot stands and is free for other goals meanwhile; who waits behind the asking goal waits on.
 What an answer to a step means is for the skill that asked to say. A plain yes or no that is said as
 a goal is the answer where one thing alone can be meant: a wrong guess would move the robot.
+Whatever waits ends by itself one day (after the time set for answers, by a newer order, or to make
+room), so that no number of open questions keeps an order out. After a restart the time runs anew.
 """
 
 from __future__ import annotations
@@ -12,13 +14,14 @@ from planner.language.catalogue import join, list_names, message, say
 from planner.language.stop import is_stop
 from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
-from planner.mission.queue import clear_hold, enqueue, note_step, release_answered
+from planner.mission.outcomes import ended_outcome
+from planner.mission.queue import clear_hold, enqueue, finish, note_step, release_answered
 from planner.mission.scene import DO_THAT, first_deed, scene_of, upon_yes
 from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, tell_declined
-from planner.mission.state import Mission
+from planner.mission.state import MAX_OPEN, Mission, MissionState
 from planner.mission.transaction import Transaction
-from planner.mission.transitions import PersonCause
+from planner.mission.transitions import GoalFact, PersonCause
 from planner.plan import (
     Bilingual,
     Code,
@@ -29,6 +32,7 @@ from planner.plan import (
 )
 
 MAX_ANSWER = 2000
+SUPERSEDED = "superseded"
 WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION})
 _YES_OR_NO = say("question.yes_or_no")
 
@@ -100,7 +104,7 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
     mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
     release_answered(turn)
     if mission.current_step is not None and mission.current_step.kind == "ask":
-        act = ask(scene_of(turn, mission).but(mission.notes))
+        act = ask(scene_of(turn, mission))
         if isinstance(act, Fail) and act.said is not None:
             decline(turn, mission, act.said)
             return
@@ -125,3 +129,85 @@ def ask_plainly(turn: Transaction, mission: Mission) -> None:
 
 def _shall_i(text: str) -> Bilingual:
     return message(Code.ASKED, text=say("question.shall_i_do", text=text[:200]))  # fmt: skip
+
+
+def end_unanswered(turn: Transaction) -> None:
+    """End every goal whose question nobody answered in time; note since when the others wait."""
+    asked_s: dict[str, float] = {}
+    limit_s = turn.book.rules.answer_s
+    for mission in tuple(turn.book.missions.values()):
+        if mission.state not in WAITS:
+            continue
+        since_s = turn.book.asked_s.get(mission.id, turn.now_s)
+        if turn.now_s - since_s > limit_s:
+            said = message(Code.NO_ANSWER, text=_repeat_question(mission), seconds=f"{limit_s:.0f}")
+            _end(turn, mission, said, GoalFact.UNANSWERED, Code.NO_ANSWER.value)
+        else:
+            asked_s[mission.id] = since_s
+    if asked_s != turn.book.asked_s:
+        turn.set(asked_s=asked_s)
+
+
+def ask_anew(turn: Transaction, mission: Mission) -> None:
+    """Forget since when a goal waits: it was answered, and may ask again."""
+    left = {i: s for i, s in turn.book.asked_s.items() if i != mission.id}
+    turn.set(asked_s=left)
+
+
+def waiting_since(missions: dict[str, Mission], now_s: float) -> dict[str, float]:
+    """Return since when each goal waits for an answer, in a process that has just begun."""
+    return {m.id: now_s for m in missions.values() if m.state in WAITS}
+
+
+def close_older(turn: Transaction, new: Mission) -> None:
+    """End the brain's questions about older orders of the same source: a new order came instead.
+
+    A question of a step and a plan that waits for its yes stay: they have their time.
+    """
+    for mission in tuple(turn.book.missions.values()):
+        older = mission.order < new.order and mission.source == new.source
+        if older and _about_order(mission):
+            _make_way(turn, mission, new.text)
+
+
+def has_room(book: MissionState) -> bool:
+    """Tell whether one more order can be taken, perhaps in place of a question."""
+    open_ = [m for m in book.missions.values() if not m.has_ended]
+    return len(open_) < MAX_OPEN or any(m.state in WAITS for m in open_)
+
+
+def make_room(turn: Transaction, text: str) -> None:
+    """End the oldest questions while goals are more than may be open: about orders first."""
+    while True:
+        open_ = [m for m in turn.book.missions.values() if not m.has_ended]
+        waiting = [m for m in open_ if m.state in WAITS]
+        if len(open_) < MAX_OPEN or not waiting:
+            return
+        _make_way(turn, min(waiting, key=_worth), text)
+
+
+def _worth(mission: Mission) -> tuple[int, int]:
+    return (0 if _about_order(mission) else 1 if confirms(mission) else 2), mission.order
+
+
+def _about_order(mission: Mission) -> bool:
+    return mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
+
+
+def _make_way(turn: Transaction, mission: Mission, newer: str) -> None:
+    asked, newer = _repeat_question(mission), newer[:60]
+    said = say("question.superseded", asked=asked, newer=newer)
+    _end(turn, mission, said, GoalFact.SUPERSEDED, SUPERSEDED)
+
+
+def _repeat_question(mission: Mission) -> Bilingual:
+    return mission.outcome.message if mission.outcome is not None else say_same(mission.text[:200])
+
+
+def _end(
+    turn: Transaction, mission: Mission, said: Bilingual, cause: GoalFact, reason: str
+) -> None:
+    now_unix_s = turn.now_s + turn.book.wall_offset_s
+    outcome: Outcome = ended_outcome(turn.book.facts, mission, turn.book.status, now_unix_s,
+                             code=Code.NO_ANSWER, said=said)  # fmt: skip
+    finish(turn, mission, cause, outcome, reason)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.language.questions import looks_round
 from planner.mission.account import MOTION, account, place_name
-from planner.mission.state import Mission, SiteView
+from planner.mission.state import Mission
 from planner.plan import (
     Bilingual,
     Code,
@@ -18,6 +18,7 @@ from planner.plan import (
     StepState,
 )
 from planner.site.polygon import area_m2, contains
+from planner.site.site_view import SiteView
 from wire import Pose2, Status
 
 MAX_LIMITS_NAMED = 5

@@ -20,6 +20,7 @@ from planner.mission.queue import settle_activity
 from planner.mission.scene import scene_of
 from planner.mission.skills import DriveLeg, Fail, ImageAnswer, Observe, SkillAction, Way, act_of
 from planner.mission.skills.object_matching import fresh, list_confirmed
+from planner.mission.skills.skill_state import LookState
 from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -74,7 +75,7 @@ def stand_while_blind(turn: Transaction) -> bool:
         return False
     settled = settle_activity(turn)
     if settled is not None:
-        carry_out(turn, settled, Observe(1, notes=leg.notes, then=leg.notes, watch=leg.watch))
+        carry_out(turn, settled, Observe(1, state=leg.state, then=leg.state, watch=leg.watch))
     return True
 
 
@@ -114,13 +115,9 @@ def end_gaze_if_due(turn: Transaction) -> None:
 def _end_gaze(turn: Transaction, gaze: Observing) -> None:
     """Go on after a gaze; the picture of a look's direction is kept for a model to be shown."""
     mission, then = turn.running, gaze.then
-    looks = (
-        mission is not None
-        and mission.current_step is not None
-        and mission.current_step.kind == "look"
-    )
-    if mission is not None and looks and then is not None and then.faced and turn.book.eyes.model:
-        turn.emit(KeepPicture(mission.id, len(then.faced) - 1, gaze.look_seq))
+    faced = then.faced if isinstance(then, LookState) else ()
+    if mission is not None and faced and turn.book.eyes.model:
+        turn.emit(KeepPicture(mission.id, len(faced) - 1, gaze.look_seq))
     go_on(turn, then, gazed_s=gaze.standing_s)
 
 
@@ -149,7 +146,8 @@ def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> b
     if isinstance(activity, Observing):
         return activity.watch
     # Its way is being searched, or was lost: no new one before it stands.
-    if activity.ticket is not None or activity.route_when_standing:
+    busy = activity.manoeuvre is not None or activity.ticket is not None
+    if busy or activity.route_when_standing:
         return False
     if activity.watch or activity.wanted is None:
         return activity.watch
@@ -165,7 +163,7 @@ def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
     act = act_of(scene_of(turn, mission))
     if _is_under_way(activity, act):
         if isinstance(act, (DriveLeg, Observe)) and activity.watch:
-            turn.change(notes=act.notes, then=act.then)
+            turn.change(state=act.state, then=act.then)
     elif isinstance(act, DriveLeg) and isinstance(activity, Driving) and _is_one_way(activity, act):
         _lay_anew(turn, activity, act)
     else:
@@ -197,7 +195,7 @@ def _lay_anew(turn: Transaction, leg: Driving, act: DriveLeg) -> None:
     turn.change(
         goal=act.goal,
         heading=act.heading,
-        notes=act.notes,
+        state=act.state,
         then=act.then,
         otherwise=act.otherwise,
         limit_s=_raise_limit(leg.moving_s, act.limit_s),

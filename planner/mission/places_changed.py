@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from planner.language.catalogue import list_names, message
 from planner.mission.queue import end_running, finish, settle_activity
-from planner.mission.state import Mission, SiteView
+from planner.mission.state import Mission
 from planner.mission.step_execution import begin_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import Bilingual, Code, Outcome, StepRecord, StepState
+from planner.site.site_view import SiteView
 
 GONE = "place_gone"
 _AHEAD = (StepState.PENDING, StepState.RUNNING)

@@ -27,20 +27,20 @@ from planner.language.utterance import parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
-from planner.mission.known_places import Lesson
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_position
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse
 from planner.site import PlaceRefusal
+from planner.site.known_places import Lesson
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from planner.mission.events import Command
-    from planner.mission.known_places import KnownPlaces
     from planner.mission.loop import Loop
     from planner.mission.state import Mission
     from planner.mission.tasks import Think
+    from planner.site.known_places import KnownPlaces
 
 SPOKEN_BY = "sentence"
 

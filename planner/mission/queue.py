@@ -18,7 +18,7 @@ from planner.mission.activity import (
 )
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended_outcome, failure
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import SkillStateBase
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
@@ -124,19 +124,19 @@ def settle_activity(turn: Transaction) -> Mission | None:
 def _settle_step(
     turn: Transaction, mission: Mission, activity: Activity, since_s: float
 ) -> Mission:
-    """Write down a looking step's expense, and its skill's notes."""
+    """Write down a looking step's expense, and what its skill remembers."""
     return turn.put(
         mission,
         step_s=round(mission.step_s + max(0.0, turn.now_s - since_s), 3),
         step_m=round(mission.step_m + activity.metres, 4),
-        notes=notes_now(mission, activity),
+        skill_state=skill_state_now(mission, activity),
     )
 
 
-def notes_now(mission: Mission, activity: Activity | None) -> Notes:
-    """Return the notes of the running step's skill now."""
-    kept = activity.notes if isinstance(activity, (Driving, Observing, AskingImage)) else None
-    return kept if kept is not None else mission.notes
+def skill_state_now(mission: Mission, activity: Activity | None) -> SkillStateBase | None:
+    """Return what the running step's skill remembers now; None: nothing yet."""
+    kept = activity.state if isinstance(activity, (Driving, Observing, AskingImage)) else None
+    return kept if kept is not None else mission.skill_state
 
 
 def pause_running(turn: Transaction, reason: str, cause: Cause = GoalFact.INTERRUPTED) -> None:

@@ -22,13 +22,12 @@ from planner.language.commands import Replace
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
-from planner.mission.answer_timeouts import has_room
 from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
-from planner.mission.journal import MAX_KEYS, GoalKey
-from planner.mission.open_questions import WAITS, asks_freely, takes_yes
-from planner.mission.state import MissionState
+from planner.mission.journal import MAX_KEYS
+from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
+from planner.mission.state import GoalKey, MissionState
 from planner.plan import GoalState
 
 if TYPE_CHECKING:

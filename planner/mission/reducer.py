@@ -29,6 +29,7 @@ from planner.mission.events import (
     Sighted,
     Stopped,
     Submitted,
+    Surveyed,
     Tick,
     Told,
 )
@@ -42,11 +43,11 @@ from planner.mission.goal_lifecycle import (
     submit,
     take_plan,
 )
-from planner.mission.legs import on_routed
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import on_sight, on_told
 from planner.mission.places_changed import on_known
 from planner.mission.queue import cancel, reorder
+from planner.mission.recovery_steps import on_routed, on_survey
 from planner.mission.speed_cap import change_speed
 from planner.mission.state import MissionState
 from planner.mission.status_monitor import on_status, on_tick
@@ -106,12 +107,13 @@ def looks(book: MissionState) -> bool:
     )
 
 
-def _fact(
+def _fact(  # noqa: C901  # one case an event, and nothing else
     turn: Transaction,
     event: Submitted
     | Planned
     | Routed
     | Seen
+    | Surveyed
     | Sighted
     | Told
     | Journalled
@@ -132,7 +134,9 @@ def _fact(
         case Journalled():
             turn.set(safe=max(turn.book.safe, min(event.entry, turn.book.written)))
         case Routed():
-            on_routed(turn, event.id, event.ticket, event.failure, event.short_m)
+            on_routed(turn, event)
+        case Surveyed():
+            on_survey(turn, event)
         case Planned():
             take_plan(turn, event)
         case Submitted():

@@ -17,7 +17,7 @@ from planner.mission.plan_check import NO_STEPS, unwalkable
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
 from planner.mission.scene import first_deed, scene_of
 from planner.mission.skills.ask import ask_again
-from planner.mission.state import Mission, SiteView
+from planner.mission.state import Mission
 from planner.mission.step_execution import begin_step, carry_out, next_step
 from planner.mission.step_failure import give_up
 from planner.mission.transaction import Transaction
@@ -37,6 +37,7 @@ from planner.plan import (
     plan_record,
     say_same,
 )
+from planner.site.site_view import SiteView
 
 SAME_AGAIN = say("plan.same_again")
 

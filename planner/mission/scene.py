@@ -7,14 +7,14 @@ answer before it plans.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import CATALOGUE, say
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
-from planner.mission.queue import notes_now
-from planner.mission.skills import ImageAnswer, Scene
+from planner.mission.queue import skill_state_now
+from planner.mission.skills import ImageAnswer, Scene, begin_state
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.plan import Bilingual, StepRecord, say_same
@@ -23,7 +23,8 @@ from wire import Pose2
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.state import Rules, SiteView
+    from planner.mission.state import Rules
+    from planner.site.site_view import SiteView
 
 
 def scene_of(
@@ -31,13 +32,14 @@ def scene_of(
     mission: Mission,
     gazed_s: float | None = None,
     answer: ImageAnswer | None = None,
-) -> Scene:
+) -> Scene[Any]:
     """Return the inputs of the current step's skill; ``gazed_s``: a gaze has just ended."""
-    activity = turn.book.activity
+    activity = turn.book.activity if mission.id == turn.book.running else None
     began_s = activity.since_s if isinstance(activity, TIMED) else None
     since_s = began_s if began_s is not None else turn.now_s
+    step = mission.steps[mission.step]
     return Scene(
-        step=mission.steps[mission.step],
+        step=step,
         facts=turn.book.facts,
         pose=pose_now(turn),
         began=Pose2(*mission.began_at) if mission.began_at is not None else None,
@@ -45,7 +47,7 @@ def scene_of(
         part=mission.part,
         accepted=accepted_at(mission),
         language=mission.language,
-        notes=notes_now(mission, activity),
+        state=skill_state_now(mission, activity) or begin_state(step.kind),
         eyes=turn.book.eyes,
         sight=turn.book.sight,
         now_s=turn.now_s,

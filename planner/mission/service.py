@@ -17,6 +17,7 @@ from planner.bridge_client import Identity, Link, StopResult
 from planner.language.utterance import parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import goal_of
+from planner.mission.clocks import Clocks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
 from planner.mission.errors import (
@@ -38,8 +39,8 @@ from planner.mission.events import (
     Submitted,
 )
 from planner.mission.journal_sync import Disk
-from planner.mission.known_places import KnownPlaces
-from planner.mission.loop import Clocks, Loop
+from planner.mission.loop import Loop
+from planner.mission.place_survey import RobotSurvey
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import (
@@ -51,17 +52,19 @@ from planner.mission.reception import (
     receive_answer,
 )
 from planner.mission.route_prefetch import RouteAhead
+from planner.mission.scan_sender import ScanObserver, ScanSender
 from planner.mission.state import MissionState, Rules
+from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import RouteService
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, Language
-from planner.site import Site
+from planner.site import KnownPlaces, Site
 from wire import OpRequest, RobotDescription
 
 if TYPE_CHECKING:
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
-    from planner.mission.journal import GoalKey
+    from planner.mission.state import GoalKey
 
 
 class Missions:
@@ -81,23 +84,32 @@ class Missions:
     ) -> None:
         """Put the parts together; ``site`` is a site, or the memory of its places."""
         self.link, self.memory = link, site if isinstance(site, KnownPlaces) else KnownPlaces(site)
-        self.memory.use(link, router)
+        self.memory.use(RobotSurvey(link, router))
         site = self.memory.site
         planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
         engine = Engine(MissionState(self.memory.facts), identity)
-        self._clocks, self._robot = clocks or Clocks(), robot
-        self.loop, self.planner_id = Loop(engine, link, disk, self._clocks), planner_id
+        self._clocks, self._robot, self._brain = clocks or Clocks(), robot, brain
+        surveyor = Surveyor(link, robot, site.grid)
+        self.loop, self.planner_id = Loop(engine, link, disk, self._clocks, surveyor), planner_id
         clock = self._clocks.monotonic
-        self._brain, self._router = brain, RouteAhead(router, self.loop, clock)
+        self._router, self._repeats = RouteAhead(router, self.loop, clock), Repeats()
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
         self._think = PlannerCommands(self._ask_brain, self.memory, self.loop).think
-        self._repeats = Repeats()
+        self.obstacles: ScanSender | None = None
         self.memory.listen(self._on_places)
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
         """See with these eyes, and ask this model about their pictures."""
         self.loop.see(eyes, looker, self._robot.camera)
+
+    def show_scans(self, observer: ScanObserver) -> None:
+        """Show scans to the route search, which remembers what the map does not know."""
+        lidar, map_id = self._robot.lidar, self.memory.site.map_id
+        self.obstacles = ScanSender(
+            self.link, lidar, map_id, observer, lambda: self.loop.way_ahead, self._clocks.monotonic
+        )
+        self.loop.show_scans(self.obstacles)
 
     # Life ---------------------------------------------------------------------------------------
 

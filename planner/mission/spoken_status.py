@@ -8,8 +8,9 @@ from planner.language.catalogue import message, say, say_or_quote
 from planner.mission.account import place_name
 from planner.mission.bridge_status import standing, worst_row
 from planner.mission.outcomes import spot_at
-from planner.mission.state import Mission, MissionState, SiteView
+from planner.mission.state import Mission, MissionState
 from planner.plan import Bilingual, Code, GoalState, say_same
+from planner.site.site_view import SiteView
 from wire import Pose2, Status
 
 NEAR_M = 1.0

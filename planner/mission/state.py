@@ -9,16 +9,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from planner.mission.activity import Activity
+from planner.mission.recovery import FRESH, RecoveryRecord
 from planner.mission.skills.actions import UNSEEN
 from planner.mission.skills.perception import NO_EYES, Eyesight
-from planner.mission.skills.skill_state import NOTHING, Notes
+from planner.mission.skills.skill_state import SkillState
 from planner.perception.snapshot import Sight
 from planner.plan import (
     ENDED,
-    Bilingual,
     BrainTag,
     Frozen,
     GoalState,
@@ -29,7 +29,8 @@ from planner.plan import (
     StepRecord,
     StepState,
 )
-from wire import Pose2, Status
+from planner.site.site_view import SiteView
+from wire import Status
 
 MAX_OPEN = 33
 """Goals that have not ended: one running and 32 that wait."""
@@ -79,8 +80,10 @@ class Mission(Frozen):
     """Where the robot stood when the current step began: x [m], y [m], yaw [rad] in ``map``."""
     done: float = 0.0
     """What odometry says was done of the current step: radians of a turn, else metres ahead."""
-    notes: Notes = NOTHING
-    """What the skill of the current step remembers: where it looked, and what it saw."""
+    skill_state: SkillState | None = None
+    """What the skill of the current step remembers; None: nothing yet, or it never does."""
+    recovery: RecoveryRecord = FRESH
+    """What the current step has tried where its way was shut, and what stood there."""
     step_s: float = 0.0
     """Time for which the current step was worked on."""
     step_m: float = 0.0
@@ -104,6 +107,15 @@ class Mission(Frozen):
     """Statuses during which the bridge's limit of that name was the nearest one."""
     created_unix_s: float
     updated_unix_s: float
+
+    @model_validator(mode="after")
+    def _remembers_its_own_step(self) -> Mission:
+        state, step = self.skill_state, self.current_step
+        if state is not None and (step is None or step.kind != state.kind):
+            raise ValueError(
+                f"the current step is {step and step.kind!r}, its state {state.kind!r}"
+            )
+        return self
 
     @property
     def has_ended(self) -> bool:
@@ -138,25 +150,13 @@ class Mission(Frozen):
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
-    """Describe a room or place that can be driven to."""
+class GoalKey:
+    """Remember which request an Idempotency-Key came with, and the goal that it made."""
 
-    id: str
-    room: bool
-    name: Bilingual
-    pose: Pose2
-    polygon: tuple[tuple[float, float], ...] | None = None
-    aliases: tuple[str, ...] = ()
-    """What else people call it, in both languages."""
-
-
-@dataclass(frozen=True, slots=True)
-class SiteView:
-    """Hold what the reducer knows of the site. No map: routes are somebody else's."""
-
-    targets: dict[str, Target]
-    home: str
-    map_id: str = ""
+    key: str
+    body: str
+    """Fingerprint of the request."""
+    goal: str
 
 
 @dataclass(frozen=True, slots=True)

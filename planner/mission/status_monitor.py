@@ -7,7 +7,6 @@ nothing. The order is the law: what a person or a fault demands comes before any
 from __future__ import annotations
 
 from planner.mission.activity import AskingImage, Driving, Observing, Retrying
-from planner.mission.answer_timeouts import end_unanswered
 from planner.mission.bridge_status import (
     GATES,
     amount_done,
@@ -26,10 +25,12 @@ from planner.mission.legs import (
     hand_steers,
     settle_amounts,
 )
+from planner.mission.open_questions import end_unanswered
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import end_gaze_if_due, on_standing, stand_while_blind
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
-from planner.mission.skills import Fail
+from planner.mission.recovery_steps import note_unblocked, recover, watch_manoeuvre
+from planner.mission.skills import Fail, Way
 from planner.mission.skills.drive_to_place import place_gone
 from planner.mission.step_execution import begin_step, end_wait_if_due, on_arrival
 from planner.mission.step_failure import fail_step
@@ -191,18 +192,26 @@ def _progress(turn: Transaction, status: Status, off_path: bool) -> None:
 
 def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -> None:
     """Arrive, or see that the way is still one: searched, streamed, followed, within its limits."""
-    if stand_while_blind(turn) or on_arrival(turn) or _off_limits(turn, leg):
+    if stand_while_blind(turn):
+        return
+    if (leg.manoeuvre is None and on_arrival(turn)) or _off_limits(turn, leg):
         return
     if shows(status, "POSE_JUMP"):
         if not leg.jumped:
-            turn.change(jumped=True, leg=None, ticket=None, route_when_standing=True)
+            jump = {"jumped": True, "leg": None, "ticket": None, "manoeuvre": None}
+            turn.change(**jump, route_when_standing=True)
         leg = turn.driving or leg
-    if off_path and leg.leg is not None:
+    if leg.manoeuvre is not None:
+        watch_manoeuvre(turn, leg, status)
+    elif off_path and leg.leg is not None:
         abandon_route(turn)
     elif leg.route_when_standing:
         _route_standing(turn, status)
     elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
-        ask_route(turn, detour=leg.detours_failed > 0)
+        mission = turn.running
+        climbed = mission is not None and mission.recovery.ladders > 0
+        again = leg.detours_failed > 0 or leg.occupied_since_s is not None or climbed
+        ask_route(turn, detour=again)
     elif leg.leg is not None:
         _watch_leg(turn, status, leg)
 
@@ -242,8 +251,22 @@ def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
         abandon_route(turn)
     elif idle_s is not None and turn.now_s - idle_s > IDLE_S:
         pause_running(turn, PauseReason.BLOCKED.value)
+    elif driving.way is Way.ROUTE:
+        _recover_or_go_on(turn, status)
     elif blocked_s is not None and driving.ticket is None:
         detour_if_due(turn, driving, blocked_s)
+
+
+def _recover_or_go_on(turn: Transaction, status: Status) -> None:
+    leg = turn.driving
+    if leg is None or leg.ticket is not None:
+        return
+    if any(row.row not in GATES for row in holding_rows(status)):
+        return
+    if status.blocked:
+        recover(turn, leg, status)
+    else:
+        note_unblocked(turn)
 
 
 def _since(since_s: float | None, true_now: bool, now_s: float) -> float | None:

@@ -41,11 +41,11 @@ from planner.mission.skills import (
     Fail,
     Finish,
     ImageAnswer,
-    Notes,
     Observe,
     Question,
     Retry,
     SkillAction,
+    SkillStateBase,
     Skip,
     Speak,
     Stand,
@@ -134,7 +134,7 @@ def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
         limit_m=act.limit_m,
         since_s=turn.now_s,
         asked_s=turn.now_s,
-        notes=act.notes,
+        state=act.state,
         then=act.then,
         otherwise=act.otherwise,
         wanted=act.wanted,
@@ -152,7 +152,7 @@ def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
         asked_s=turn.now_s,
         until_s=turn.now_s + act.seconds,
         looks=act.looks,
-        notes=act.notes,
+        state=act.state,
         then=act.then,
         wanted=act.wanted,
         watch=act.watch,
@@ -169,7 +169,7 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
         since_s=turn.now_s,
         ticket=ticket,
         until_s=turn.now_s + act.seconds,
-        notes=act.notes,
+        state=act.state,
         then=act.then,
     )
     turn.set(tickets=ticket, activity=asking)
@@ -188,7 +188,7 @@ def _result(act: Finish) -> dict[str, object]:
 
 def go_on(
     turn: Transaction,
-    then: Notes | None,
+    then: SkillStateBase | None,
     *,
     gazed_s: float | None = None,
     answer: ImageAnswer | None = None,
@@ -197,7 +197,7 @@ def go_on(
     mission = settle_activity(turn)
     if mission is None:
         return
-    mission = turn.put(mission, part=mission.part + 1, notes=then or mission.notes)
+    mission = turn.put(mission, part=mission.part + 1, skill_state=then or mission.skill_state)
     carry_out(turn, mission, act_of(scene_of(turn, mission, gazed_s, answer)))
 
 
@@ -213,19 +213,19 @@ def _later(turn: Transaction, mission: Mission) -> None:
 
 def _ask(turn: Transaction, mission: Mission, act: Question) -> None:
     """Ask a person. What was answered before was about another question: it is forgotten."""
-    notes = act.notes if act.notes is not None else mission.notes
+    state = act.state if act.state is not None else mission.skill_state
     begun = mission.steps[mission.step].state is StepState.RUNNING
-    again = begun and notes == mission.notes  # then it was perhaps said
-    mission = turn.put(mission, notes=notes)
+    again = begun and state == mission.skill_state  # then it was perhaps said
+    mission = turn.put(mission, skill_state=state)
     note_step(turn, mission, state=StepState.RUNNING, reason=None, answer=None)
     asking = Asking(record=turn.next_entry, question=act.text, aloud=not again)
     turn.set(activity=asking)
 
 
 def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
-    notes = act.notes if act.notes is not None else mission.notes
+    state = act.state if act.state is not None else mission.skill_state
     begun = mission.steps[mission.step].state is StepState.RUNNING
-    if begun and notes == mission.notes:  # paused meanwhile: it was counted
+    if begun and state == mission.skill_state:  # paused meanwhile: it was counted
         think(turn, mission)
         return
     if mission.decides >= turn.book.rules.decides:
@@ -233,7 +233,7 @@ def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
         fail_step(turn, Fail(Code.OUT_OF_BUDGET, "thoughts", said))
         return
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    think(turn, turn.put(mission, decides=mission.decides + 1, notes=notes))
+    think(turn, turn.put(mission, decides=mission.decides + 1, skill_state=state))
 
 
 def on_arrival(turn: Transaction) -> bool:
@@ -252,7 +252,9 @@ def on_arrival(turn: Transaction) -> bool:
     settled = settle_activity(turn)
     if settled is None:
         return True
-    mission = turn.put(settled, part=settled.part + 1, notes=driving.then or settled.notes)
+    mission = turn.put(
+        settled, part=settled.part + 1, skill_state=driving.then or settled.skill_state
+    )
     figures = {"reached": spot_at(turn.book.facts, pose, driving.target)}
     residuals = {
         "residual_m": round(leg.residual_m, 4),

@@ -15,18 +15,26 @@ from planner.mission.effects import AskBrain
 from planner.mission.observations import exchanges_of, list_observations
 from planner.mission.outcomes import failure, spot_at
 from planner.mission.queue import end_running, note_step, settle_activity
-from planner.mission.skills import NOTHING, Fail, Notes
+from planner.mission.recovery import FRESH
+from planner.mission.skills import Fail, SkillStateBase
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import Bilingual, Code, Outcome, StepState
 
 MENDABLE = frozenset(
-    {Code.NO_ROUTE, Code.BLOCKED, Code.NO_ROOM, Code.NOT_REACHED, Code.UNKNOWN_PLACE}
+    {
+        Code.NO_ROUTE,
+        Code.BLOCKED,
+        Code.GOAL_OCCUPIED,
+        Code.NO_ROOM,
+        Code.NOT_REACHED,
+        Code.UNKNOWN_PLACE,
+    }
     | {Code.NOT_FOUND, Code.LOST_PERSON}
 )
 """Another plan may do better. A fault, a spent budget or a missing skill is told at once."""
-SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED})
+SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED, Code.GOAL_OCCUPIED})
 IN_VAIN = frozenset({Code.NOT_FOUND, Code.LOST_PERSON})
 """Nothing was wrong but that it was not there: the way back that the person ordered holds."""
 AGAIN_S = 1.0
@@ -63,12 +71,12 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
     give_up(turn, mission)
 
 
-def _drop_leg(turn: Transaction, notes: Notes) -> None:
+def _drop_leg(turn: Transaction, state: SkillStateBase) -> None:
     """Go on in the step without this leg: its skill is asked soon, standing."""
     mission = settle_activity(turn)
     if mission is None:
         return
-    turn.put(mission, notes=notes)
+    turn.put(mission, skill_state=state)
     retry_s = turn.now_s + AGAIN_S
     again = Retrying(record=turn.next_entry, retry_s=retry_s, since_s=turn.now_s)
     turn.set(activity=again)
@@ -125,7 +133,8 @@ def to_step(turn: Transaction, mission: Mission, index: int) -> Mission:
         part=0,
         began_at=None,
         done=0.0,
-        notes=NOTHING,
+        skill_state=None,
+        recovery=FRESH,
         step_s=0.0,
         step_m=0.0,
     )

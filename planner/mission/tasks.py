@@ -15,6 +15,7 @@ from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Way
 from planner.mission.skills.perception import ImageAnswer
 from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
+from planner.navigation.obstruction import points_of
 from planner.plan import Code, Outcome
 
 log = logging.getLogger(__name__)
@@ -133,8 +134,13 @@ class MissionTasks:
 
     async def _search(self, ask: AskRoute) -> None:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
+        obstacles += tuple(point for way in ask.shut for point in points_of(way))
         try:
-            request = RouteRequest(ask.start, ask.goal, obstacles, straight=ask.way is Way.STRAIGHT)
+            request = RouteRequest(
+                *(ask.start, ask.goal, obstacles),
+                straight=ask.way is Way.STRAIGHT,
+                aside=ask.way is Way.ASIDE,
+            )
             result = await self._router.route(request)
         except RouteFailure as failure:
             log.warning("no route for goal %s: %s", ask.id, failure)

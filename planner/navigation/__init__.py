@@ -8,21 +8,27 @@ harness does, imports ``planner.navigation.router`` by name.
 from planner.navigation.horizon import Horizon, LegPath, cut
 from planner.navigation.process_client import RouteWorker
 from planner.navigation.route import (
+    Mover,
+    ObstacleReport,
     RouteFailure,
     RouteLimits,
     RoutePoint,
     RouteRequest,
     RouteResult,
+    ScanObservation,
 )
 
 __all__ = [
     "Horizon",
     "LegPath",
+    "Mover",
+    "ObstacleReport",
     "RouteFailure",
     "RouteLimits",
     "RoutePoint",
     "RouteRequest",
     "RouteResult",
     "RouteWorker",
+    "ScanObservation",
     "cut",
 ]

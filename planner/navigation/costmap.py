@@ -30,6 +30,9 @@ SOFT_M = 0.40
 """From here on a wall no longer matters."""
 SOFT_WEIGHT = 4.0
 """A metre along a wall costs five, so the route goes through the middle of doors and corridors."""
+SUSPECT_COST = 8.0
+"""A metre through what may still stand there costs so much more: a way that much longer is tried
+first."""
 EXPLAINED_M = 0.10
 EXPLAINED_RAD = 0.02
 """A lidar point this near to a mapped obstacle, and so much more for each metre it is away from the
@@ -48,6 +51,7 @@ class Costmap:
     occupied: Mask  # obstacles, and the unknown, themselves
     clearance_m: Floats  # from a cell's centre to the nearest edge of an occupied cell
     fence_gap_m: Floats  # from a cell's centre to where the robot's centre may not be
+    suspicion: Mask | None = None  # where something may still stand; dear, not blocked
 
     @cached_property
     def free(self) -> Mask:
@@ -63,6 +67,9 @@ class Costmap:
         )
         nearness = np.clip(1.0 - spare_m / SOFT_M, 0.0, 1.0)
         cost = 1.0 + SOFT_WEIGHT * nearness * nearness
+        if self.suspicion is not None:
+            gap_m = distance_m(~self.suspicion, self.grid.resolution_m)
+            cost = cost + SUSPECT_COST * (gap_m < self.radius_m + MARGIN_M)
         return np.where(self.free, cost, np.inf).astype(np.float32)
 
     @cached_property
@@ -103,19 +110,28 @@ class Costmap:
         np.clip(row, 0, grid.height + 1, out=row)
         return np.asarray(framed[row, column], np.float32)
 
+    def with_cells(self, occupied: Mask, suspicion: Mask | None = None) -> Costmap:
+        """Add cells that hold something, and cells that may."""
+        if not occupied.any() and (suspicion is None or not suspicion.any()):
+            return self
+        both = self.occupied | occupied
+        clearance_m = distance_m(~both, self.grid.resolution_m)
+        gap_m = self.fence_gap_m
+        return Costmap(self.grid, self.radius_m, both, clearance_m, gap_m, suspicion)
+
     def with_obstacles(self, points: Points, robot_xy_m: tuple[float, float]) -> Costmap:
         """Add lidar points [m, in ``map``] that the map does not explain."""
-        news = self._find_unexplained(points, robot_xy_m)
+        news = self.find_unexplained(points, robot_xy_m)
         if len(news) == 0:
             return self
-        occupied = self.occupied.copy()
+        occupied = np.zeros_like(self.occupied)
         draw_points(occupied, self.grid, news)
-        clearance_m = distance_m(~occupied, self.grid.resolution_m)
-        return Costmap(self.grid, self.radius_m, occupied, clearance_m, self.fence_gap_m)
+        return self.with_cells(occupied, self.suspicion)
 
-    def _find_unexplained(
-        self, points: Points, robot_xy_m: tuple[float, float]
+    def find_unexplained(
+        self, points: Points | NDArray[np.float64], robot_xy_m: tuple[float, float]
     ) -> NDArray[np.float64]:
+        """Return the points, shape (n, 2), that lie on the map and that it does not explain."""
         seen: NDArray[np.float64] = np.asarray(points, np.float64).reshape(-1, 2)
         column = np.floor((seen[:, 0] - self.grid.origin_x_m) / self.grid.resolution_m)
         row = np.floor((seen[:, 1] - self.grid.origin_y_m) / self.grid.resolution_m)

@@ -5,7 +5,15 @@ from __future__ import annotations
 import json
 from dataclasses import asdict
 
-from planner.navigation.route import RouteLimits, RoutePoint, RouteRequest, RouteResult
+from planner.navigation.route import (
+    Mover,
+    ObstacleReport,
+    RouteLimits,
+    RoutePoint,
+    RouteRequest,
+    RouteResult,
+    ScanObservation,
+)
 from processes.worker_protocol import Frame
 from wire.geometry import Pose2
 
@@ -15,7 +23,7 @@ def read_request(frame: Frame) -> RouteRequest:
     head, _ = frame
     start, goal = Pose2(**head["start"]), Pose2(**head["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in head["obstacles"])
-    return RouteRequest(start, goal, obstacles, bool(head["straight"]))
+    return RouteRequest(start, goal, obstacles, bool(head["straight"]), bool(head["aside"]))
 
 
 def result_frame(result: RouteResult) -> Frame:
@@ -33,6 +41,50 @@ def read_result(frame: Frame) -> RouteResult:
         moved_goal_m=float(head["moved_goal_m"]),
         start_escaped=bool(head["start_escaped"]),
         took_s=float(head["took_s"]),
+    )
+
+
+def is_observation(frame: Frame) -> bool:
+    """Return whether a frame shows a scan, and does not ask for a route."""
+    return "ranges_m" in frame[0]
+
+
+def read_observation(frame: Frame) -> ScanObservation:
+    """Return the observation whose fields a frame holds."""
+    head, _ = frame
+    return ScanObservation(
+        base_in_map=Pose2(**head["base_in_map"]),
+        lidar_in_base=Pose2(**head["lidar_in_base"]),
+        first_rad=float(head["first_rad"]),
+        step_rad=float(head["step_rad"]),
+        range_min_m=float(head["range_min_m"]),
+        ranges_m=tuple(head["ranges_m"]),
+        at_s=float(head["at_s"]),
+        ahead=tuple((float(x_m), float(y_m)) for x_m, y_m in head["ahead"]),
+    )
+
+
+def report_frame(report: ObstacleReport) -> Frame:
+    """Return a report as a frame: the cells are its body."""
+    head = {
+        "version": report.version,
+        "blocked_ahead_m": report.blocked_ahead_m,
+        "movers": [asdict(mover) for mover in report.movers],
+        "cells_bytes": len(report.cells),
+    }
+    return head, report.cells + report.suspicions
+
+
+def read_report(frame: Frame) -> ObstacleReport:
+    """Return the report that :func:`report_frame` wrote."""
+    head, body = frame
+    ahead_m, split = head["blocked_ahead_m"], int(head["cells_bytes"])
+    return ObstacleReport(
+        version=int(head["version"]),
+        blocked_ahead_m=None if ahead_m is None else float(ahead_m),
+        movers=tuple(Mover(**mover) for mover in head["movers"]),
+        cells=body[:split],
+        suspicions=body[split:],
     )
 
 

@@ -9,8 +9,15 @@ from __future__ import annotations
 from dataclasses import asdict
 from pathlib import Path
 
-from planner.navigation.ipc import limits_text, read_result
-from planner.navigation.route import RouteFailure, RouteLimits, RouteRequest, RouteResult
+from planner.navigation.ipc import limits_text, read_report, read_result
+from planner.navigation.route import (
+    ObstacleReport,
+    RouteFailure,
+    RouteLimits,
+    RouteRequest,
+    RouteResult,
+    ScanObservation,
+)
 from processes.worker import SupervisedWorker
 from processes.worker_protocol import FailureCodes
 
@@ -62,6 +69,14 @@ class RouteWorker(SupervisedWorker):
             return await self.ask(asdict(request), (), timeout_s, read_result)
         except (TypeError, ValueError) as error:
             raise RouteFailure("route_request_malformed", str(error)) from error
+
+    async def observe(self, seen: ScanObservation, timeout_s: float = ROUTE_S) -> ObstacleReport:
+        """Show the search one scan; return what its obstacle layer holds then.
+
+        Raises:
+            RouteFailure: the process failed or was too slow; the code says which.
+        """
+        return await self.ask(asdict(seen), (), timeout_s, read_report)
 
     def _check_greeting(self, said: object) -> None:
         if said != self._map_id:

@@ -9,7 +9,15 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from planner.navigation.ipc import read_limits, read_request, result_frame
+from planner.navigation.ipc import (
+    is_observation,
+    read_limits,
+    read_observation,
+    read_request,
+    report_frame,
+    result_frame,
+)
+from planner.navigation.obstacle_memory import ObstacleMemory
 from planner.navigation.process_client import CODES
 from planner.navigation.router import Router
 from planner.site import Site, SiteError
@@ -25,11 +33,13 @@ def main(parent: ParentPipes, folder: str, limits: str) -> int:
         return parent.refuse(CODES.down, str(error))
     router = Router(site, read_limits(limits))
     parent.write({"ready": site.map_id})
-    return parent.serve(partial(_answer, router), router.warm())
+    return parent.serve(partial(_answer, router, router.new_memory()), router.warm())
 
 
-def _answer(router: Router, asked: Frame) -> Frame:
-    return result_frame(router.route(read_request(asked)))
+def _answer(router: Router, memory: ObstacleMemory, asked: Frame) -> Frame:
+    if is_observation(asked):
+        return report_frame(router.observe(memory, read_observation(asked)))
+    return result_frame(router.route(read_request(asked), memory=memory))
 
 
 if __name__ == "__main__":

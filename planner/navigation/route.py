@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from types import MappingProxyType
 
+from planner.language.catalogue import pair_up
 from processes.worker_protocol import WorkerFailure
 from wire.geometry import Pose2
 from wire.robot import RobotDescription
 
-REASONS = MappingProxyType(
-    {
-        "no_route": ("there is no way from the start to the goal", "起点与目标之间没有通路"),
-        "start_blocked": ("the robot stands where no way leads out", "机器人所处位置无法离开"),
-        "goal_blocked": ("there is no free floor near the goal", "目标附近没有可停留的空地"),
-        "start_outside_map": ("the robot is not on the map", "机器人不在地图上"),
-        "goal_outside_map": ("the goal is not on the map", "目标不在地图上"),
-        "route_timed_out": ("the route search took too long", "路径搜索超时"),
-        "route_worker_died": ("the route search process died", "路径搜索进程已退出"),
-        "route_worker_unavailable": ("the route search is not running", "路径搜索未运行"),
-        "route_request_malformed": ("the route request is malformed", "路径请求格式错误"),
-    }
+REASONS = pair_up(
+    "route_failure",
+    (
+        "no_route",
+        "start_blocked",
+        "goal_blocked",
+        "goal_occupied",
+        "start_outside_map",
+        "goal_outside_map",
+        "route_timed_out",
+        "route_worker_died",
+        "route_worker_unavailable",
+        "route_request_malformed",
+    ),
 )
 """Every code with its sentence in English and Chinese."""
 
@@ -61,6 +63,7 @@ class RouteRequest:
     goal: Pose2
     obstacles: tuple[tuple[float, float], ...] = ()  # recent lidar points in ``map`` [m]
     straight: bool = False  # go straight, as far as floor is free, backwards if the goal is behind
+    aside: bool = False  # go where somebody who stands at the goal can walk past
 
 
 MIN_SPEED_MPS = 0.05
@@ -88,3 +91,42 @@ class RouteResult:
     moved_goal_m: float  # from the goal to where the route ends, for want of free floor; 0 as asked
     start_escaped: bool  # the way begins by leaving a place too near to an obstacle
     took_s: float  # in the search itself
+
+
+@dataclass(frozen=True, slots=True)
+class ScanObservation:
+    """Show the route search one scan, and the way that the robot is on."""
+
+    base_in_map: Pose2
+    lidar_in_base: Pose2
+    first_rad: float
+    step_rad: float
+    range_min_m: float
+    ranges_m: tuple[float | None, ...]
+    at_s: float  # on the planner's clock; never goes back
+    ahead: tuple[
+        tuple[float, float], ...
+    ] = ()  # points of the way from the robot on, in ``map`` [m]
+
+
+@dataclass(frozen=True, slots=True)
+class Mover:
+    """Show something that moves: a disc in ``map`` with its velocity."""
+
+    number: int
+    x_m: float
+    y_m: float
+    vx_mps: float
+    vy_mps: float
+    radius_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class ObstacleReport:
+    """Say what the obstacle layer holds after a scan."""
+
+    version: int  # rises with each scan
+    blocked_ahead_m: float | None  # along ``ahead`` to where standing things close it; None: open
+    movers: tuple[Mover, ...]
+    cells: bytes  # columns and rows of cells that hold something, pairs of u16, little endian
+    suspicions: bytes  # the same of cells where something may still stand

@@ -9,18 +9,23 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from math import hypot, isfinite
 from time import perf_counter
 
 import numpy as np
 
+from planner.navigation.bay import find_bay
 from planner.navigation.costmap import Costmap, static_costmap
+from planner.navigation.obstacle_memory import ObstacleMemory
 from planner.navigation.route import (
+    ObstacleReport,
     RouteFailure,
     RouteLimits,
     RoutePoint,
     RouteRequest,
     RouteResult,
+    ScanObservation,
 )
 from planner.navigation.search import Lattice, costs_in_slices, find_path
 from planner.navigation.smoothing import Line, densify, is_free, relax, straighten
@@ -28,9 +33,15 @@ from planner.navigation.start_and_goal import Cell, Ends, choose_ends, moved_m
 from planner.navigation.straight_line import BACK_MPS, backwards, straight_line
 from planner.navigation.waypoints import evenly, speeds, thin
 from planner.site import Site
+from wire import Pose2
 
 MAX_FIELD_BYTES = 64_000_000
 """All exact costs kept: 130 places on a home of 10 x 12 m, none that matter on a huge map."""
+
+_CLOSED = frozenset({"no_route", "start_blocked", "goal_blocked", "goal_occupied"})
+LANDMARKS = 8
+"""Exact costs to so many cells bound the cost between any two: a search to a goal that nobody named
+then looks at little more than with exact costs to it (ADR 0040)."""
 
 MAX_OUTSIDE_M = 0.28
 """A horizon begins within 0.3 m of the robot, and inside the fence."""
@@ -47,6 +58,18 @@ class Router:
         self._lattice = Lattice.of(self._mapped.cost)
         self._fields: dict[int, array[float]] = {}
 
+    def new_memory(self) -> ObstacleMemory:
+        """Return a memory of obstacles on this map in which nothing was seen."""
+        return ObstacleMemory(self._mapped.occupied.shape)
+
+    def observe(self, memory: ObstacleMemory, seen: ScanObservation) -> ObstacleReport:
+        """Take a scan into a memory; say what it holds then, and whether the way is open.
+
+        What moves closes no way: the bridge stops for it, and it goes on.
+        """
+        memory.observe(self._mapped, seen)
+        return memory.report(self._mapped, seen.ahead)
+
     def warm(self) -> Iterator[None]:
         """Work out the exact cost to every place, a few milliseconds at each turn.
 
@@ -55,12 +78,23 @@ class Router:
         with suppress(RouteFailure):
             self.route(RouteRequest(self._site.places[0].pose, self._site.home.pose))
         yield
-        size = 8 * len(self._lattice.cost)
+        size = 4 * len(self._lattice.cost)
         for place in self._site.places[: MAX_FIELD_BYTES // size]:
             column, row = self._site.grid.cell_of(place.pose.x_m, place.pose.y_m)
             if self._mapped.free[row, column]:
                 goal = self._lattice.index(column, row)
                 self._fields[goal] = yield from costs_in_slices(self._lattice, goal)
+        yield from self._warm_landmarks(MAX_FIELD_BYTES // size)
+
+    def _warm_landmarks(self, most: int) -> Iterator[None]:
+        """Add fields to cells far from all that have one, until enough tell where any goal lies."""
+        while 0 < len(self._fields) < min(LANDMARKS, most):
+            nearest = np.min([np.asarray(field) for field in self._fields.values()], axis=0)
+            yield
+            far = int(np.argmax(np.where(np.isfinite(nearest), nearest, -1.0)))
+            if far in self._fields:
+                return
+            self._fields[far] = yield from costs_in_slices(self._lattice, far)
 
     @property
     def goals_known(self) -> int:
@@ -68,9 +102,12 @@ class Router:
         return len(self._fields)
 
     def route(
-        self, request: RouteRequest, clock: Callable[[], float] = perf_counter
+        self,
+        request: RouteRequest,
+        clock: Callable[[], float] = perf_counter,
+        memory: ObstacleMemory | None = None,
     ) -> RouteResult:
-        """Find the way.
+        """Find the way, around what the memory holds.
 
         Raises:
             RouteFailure: there is none; the code says why.
@@ -78,10 +115,28 @@ class Router:
         began_s = clock()
         _check(request)
         start_m = (request.start.x_m, request.start.y_m)
-        costmap = self._mapped.with_obstacles(request.obstacles, start_m)
+        layered = self._mapped if memory is None else memory.costmap(self._mapped)
+        costmap = layered.with_obstacles(request.obstacles, start_m)
         if request.straight:
             return self._straight(costmap, request, began_s, clock)
-        ends = choose_ends(costmap, self._site, request)
+        if request.aside:
+            person_m = (request.goal.x_m, request.goal.y_m)
+            bay_m = find_bay(self._mapped, costmap, start_m, person_m)
+            aside = replace(request, goal=Pose2(*bay_m, request.start.yaw_rad), aside=False)
+            return self._find(costmap, aside, began_s, clock)
+        try:
+            return self._find(costmap, request, began_s, clock)
+        except RouteFailure as failure:
+            if failure.code not in _CLOSED or memory is None or layered is self._mapped:
+                raise
+        # No way by what is remembered: then perhaps it is gone, and worth a look.
+        trusting = memory.hopeful_costmap(self._mapped).with_obstacles(request.obstacles, start_m)
+        return self._find(trusting, request, began_s, clock)
+
+    def _find(
+        self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
+    ) -> RouteResult:
+        ends = choose_ends(costmap, self._site, request, self._mapped)
         line = self._line(costmap, request, ends)
         return RouteResult(
             points=self._points(costmap, line),
@@ -138,7 +193,8 @@ class Router:
         lattice = self._lattice if as_mapped else Lattice.of(costmap.cost)
         # Obstacles only ever raise costs, so what the map says is never more than the truth.
         field = self._fields.get(lattice.index(*goal))
-        path = find_path(lattice, lattice.index(*start), lattice.index(*goal), field)
+        known = tuple(self._fields.values())
+        path = find_path(lattice, lattice.index(*start), lattice.index(*goal), field, known)
         if path is None:
             raise RouteFailure("no_route", "no free floor joins them")
         return [lattice.cell(index) for index in path]

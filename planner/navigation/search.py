@@ -49,14 +49,21 @@ class Lattice:
 
 
 def find_path(
-    lattice: Lattice, start: int, goal: int, to_goal: Sequence[float] | None = None
+    lattice: Lattice,
+    start: int,
+    goal: int,
+    to_goal: Sequence[float] | None = None,
+    landmarks: Sequence[Sequence[float]] = (),
 ) -> list[int] | None:
     """Return the cheapest way from start to goal, both included, or None when there is none.
 
     ``to_goal`` is :func:`costs_to` of the goal on this lattice or on a cheaper one, and makes
-    the search expand little more than the way itself.
+    the search expand little more than the way itself. ``landmarks`` are the same of other cells:
+    by the triangle inequality the costs to one of them bound the cost between any two cells (ALT,
+    Goldberg and Harrelson 2005).
     """
-    cost, estimate = lattice.cost, _estimate(lattice, goal, to_goal)
+    cost = lattice.cost
+    estimate = _estimate(lattice, start, goal, to_goal, landmarks)
     moves = _moves(lattice.stride)
     best, parent, done = {start: 0.0}, {start: start}, set[int]()
     heap = [(_GREED * estimate(start), start)]
@@ -111,7 +118,7 @@ def costs_in_slices(lattice: Lattice, goal: int) -> Generator[None, None, array[
                     if total < best[there]:
                         best[there] = total
                         heappush(heap, (total, there))
-    return best
+    return array("f", best)  # half the memory; rounding is a thousandth of the greed
 
 
 def _moves(stride: int) -> tuple[tuple[int, float, int, int], ...]:
@@ -124,7 +131,11 @@ def _moves(stride: int) -> tuple[tuple[int, float, int, int], ...]:
 
 
 def _estimate(
-    lattice: Lattice, goal: int, to_goal: Sequence[float] | None
+    lattice: Lattice,
+    start: int,
+    goal: int,
+    to_goal: Sequence[float] | None,
+    landmarks: Sequence[Sequence[float]],
 ) -> Callable[[int], float]:
     if to_goal is not None:
         return to_goal.__getitem__
@@ -137,7 +148,24 @@ def _estimate(
         rows, columns = abs(row - goal_row), abs(column - goal_column)
         return rows + columns - (2.0 - _SQRT2) * min(rows, columns)
 
-    return octile
+    usable = [(field, field[goal]) for field in landmarks if field[start] < inf > field[goal]]
+    usable.sort(key=lambda pair: -abs(pair[0][start] - pair[1]))
+    if not usable:
+        return octile
+    first, from_first = usable[0]
+    second, from_second = usable[min(1, len(usable) - 1)]
+    third, from_third = usable[min(2, len(usable) - 1)]
+
+    def largest_bound(cell: int) -> float:
+        """Return the largest of the bounds; all are never more than the cost."""
+        return max(
+            octile(cell),
+            abs(first[cell] - from_first),
+            abs(second[cell] - from_second),
+            abs(third[cell] - from_third),
+        )
+
+    return largest_bound
 
 
 def _trace(parent: dict[int, int], goal: int) -> list[int]:

@@ -55,15 +55,25 @@ class _Near:
         return int(self.columns[0]), int(self.rows[0])
 
 
-def choose_ends(costmap: Costmap, site: Site, request: RouteRequest) -> Ends:
+def choose_ends(
+    costmap: Costmap, site: Site, request: RouteRequest, mapped: Costmap | None = None
+) -> Ends:
     """Find the nearest free start and goal that are joined by free floor.
+
+    Args:
+        costmap: what is known now.
+        site: whose rooms bound how far a goal may be moved.
+        request: from where to where.
+        mapped: the map alone. A goal that is free on it, and not now, has something standing on it;
+            then only floor on the robot's side of it will do, since what lies behind is not seen.
 
     Raises:
         RouteFailure: ``start_outside_map``, ``goal_outside_map``, ``goal_blocked``,
+            ``goal_occupied`` (by what is not on the map),
             ``start_blocked`` or ``no_route``.
     """
     start_m, goal_m = _xy(costmap, request, "start"), _xy(costmap, request, "goal")
-    goals = _goals(costmap, site, goal_m)
+    goals = _goals(costmap, site, goal_m, _seen_from(costmap, mapped, start_m, goal_m))
     starts = _starts(costmap, start_m)
     labels = costmap.labels
     joined = starts.keep(
@@ -88,13 +98,32 @@ def _xy(costmap: Costmap, request: RouteRequest, which: str) -> tuple[float, flo
     return pose.x_m, pose.y_m
 
 
-def _goals(costmap: Costmap, site: Site, goal_m: tuple[float, float]) -> _Near:
+def _seen_from(
+    costmap: Costmap,
+    mapped: Costmap | None,
+    start_m: tuple[float, float],
+    goal_m: tuple[float, float],
+) -> tuple[float, float] | None:
+    """Return from where a goal is seen on which something stands; None: nothing does."""
+    column, row = costmap.grid.cell_of(*goal_m)
+    stands = mapped is not None and mapped.free[row, column] and not costmap.free[row, column]
+    return start_m if stands else None
+
+
+def _goals(
+    costmap: Costmap,
+    site: Site,
+    goal_m: tuple[float, float],
+    seen_from_m: tuple[float, float] | None = None,
+) -> _Near:
     """List where to end: with room to stand, where that is about as near as any free floor."""
     column, row = costmap.grid.cell_of(*goal_m)
     stands = costmap.clearance_m >= costmap.radius_m + ROOM_M
     if costmap.free[row, column] and stands[row, column]:
         return _only(column, row)
     near = _free_near(costmap, goal_m, GOAL_MOVE_M)
+    if seen_from_m is not None:
+        near = near.keep(_on_this_side(costmap, near, goal_m, seen_from_m))
     room = site.room_at(*goal_m)
     if room is not None:
         # Half a metre may reach through a wall; what was meant is on this side of it.
@@ -104,11 +133,21 @@ def _goals(costmap: Costmap, site: Site, goal_m: tuple[float, float]) -> _Near:
         near = near.keep(np.array([room.contains(*xy) for xy in centres], bool))
     if len(near.rows) == 0:
         text = f"({goal_m[0]:.2f}, {goal_m[1]:.2f}), none within {GOAL_MOVE_M} m"
-        raise RouteFailure("goal_blocked", text)
+        raise RouteFailure("goal_blocked" if seen_from_m is None else "goal_occupied", text)
     roomy = stands[near.rows, near.columns] & (near.away_m <= near.away_m[0] + SHIFT_M)
     if costmap.free[row, column] and not roomy.any():
         return _only(column, row)
     return near.before(roomy)
+
+
+def _on_this_side(
+    costmap: Costmap, near: _Near, goal_m: tuple[float, float], seen_from_m: tuple[float, float]
+) -> NDArray[np.bool_]:
+    """Tell of each cell whether it lies on the side of the goal that faces a point."""
+    x_m, y_m = costmap.grid.centre_of(near.columns, near.rows)  # type: ignore[arg-type]
+    towards = (seen_from_m[0] - goal_m[0], seen_from_m[1] - goal_m[1])
+    side = (x_m - goal_m[0]) * towards[0] + (y_m - goal_m[1]) * towards[1]
+    return np.asarray(side >= 0.0, np.bool_)
 
 
 def _starts(costmap: Costmap, start_m: tuple[float, float]) -> _Near:

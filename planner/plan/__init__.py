@@ -21,10 +21,10 @@ from planner.plan.goal import (
     StepRecord,
     StepState,
     fault,
+    places_of,
     plan_record,
 )
-from planner.plan.outcome import Outcome, Spot
-from planner.plan.outcome_codes import Code
+from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import (
     MAX_STEPS,
     PLAN,
@@ -57,7 +57,6 @@ from planner.plan.steps import (
     Step,
     Turn,
     Wait,
-    places_of,
 )
 from planner.plan.vocabulary import Entry, PlaceId, Vocabulary
 

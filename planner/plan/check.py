@@ -16,10 +16,10 @@ from __future__ import annotations
 from collections.abc import Callable, Container, Iterator
 
 from planner.plan.base import Bilingual, Frozen
-from planner.plan.goal import StepRecord, plan_record
-from planner.plan.outcome_codes import Code
+from planner.plan.goal import StepRecord, places_of, plan_record
+from planner.plan.outcome import Code
 from planner.plan.responses import MAX_STEPS, AnswerPlan, Clarify, Plan, Refuse, StepPlan
-from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step, places_of
+from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step
 
 NEEDS_DETECTOR = frozenset({"find", "count", "follow", "go_to_object"})
 POINTS = frozenset({"go_to_point"})

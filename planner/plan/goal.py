@@ -10,9 +10,9 @@ from enum import StrEnum
 from pydantic import AwareDatetime, Field
 
 from planner.plan.base import Bilingual, Frozen, Language
-from planner.plan.outcome import Outcome, Spot
-from planner.plan.outcome_codes import Code
+from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
+from planner.plan.steps import Step
 
 
 class GoalState(StrEnum):
@@ -101,6 +101,7 @@ class StepRecord(Frozen):
     said: Bilingual | None = None  # and in words, from figures
     read: Bilingual | None = None  # what a model said of the picture: tainted, for people alone
     answer: str | None = None  # what a person answered to this step's question
+    recoveries: tuple[str, ...] = ()  # what was tried where the way was shut, in order
     left_m: float | None = None  # way left while the step runs
     left_rad: float | None = None  # angle left while it runs
     left_s: float | None = None  # time left while it runs
@@ -164,3 +165,10 @@ def _step_record(step: Frozen) -> StepRecord:
     if "question" in fields:
         fields["text"] = fields.pop("question")
     return StepRecord.model_validate(fields)
+
+
+def places_of(step: Step | StepRecord) -> tuple[str, ...]:
+    """Return the place ids that a step names."""
+    place: str | None = getattr(step, "place", None)
+    places: tuple[str, ...] = getattr(step, "places", ())
+    return (place,) if place else places

@@ -5,10 +5,65 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 from pydantic import Field
 
 from planner.plan.base import Bilingual, Frozen
-from planner.plan.outcome_codes import Code
+
+
+class Code(StrEnum):
+    """Why a goal ended, or waits for a person."""
+
+    # A code is never renamed. The sentence that a person reads stands in the catalogue under
+    # ``outcome.<code>`` (planner/language/catalogue) and may be.
+
+    # Understood or not: said before anything moves.
+    EMPTY_GOAL = "empty_goal"
+    TEXT_TOO_LONG = "text_too_long"
+    BAD_TEXT = "bad_text"
+    NOT_UNDERSTOOD = "not_understood"
+    UNKNOWN_PLACE = "unknown_place"
+    AMBIGUOUS = "ambiguous"
+    INCOMPLETE = "incomplete"
+    NEGATED = "negated"
+    CONDITIONAL = "conditional"
+    OUT_OF_SCOPE = "out_of_scope"
+    NO_CAPABILITY = "no_capability"
+    NO_CAMERA = "no_camera"
+    NO_DETECTOR = "no_detector"
+    OBJECT_UNKNOWN = "object_unknown"
+    UNSAFE = "unsafe"
+    BAD_PLAN = "bad_plan"
+    MODEL_UNAVAILABLE = "model_unavailable"
+    NOT_ARMED = "not_armed"
+    PLACE_NOT_KEPT = "place_not_kept"
+    # On the way.
+    CONFIRM = "confirm"
+    ASKED = "asked"
+    NO_ANSWER = "no_answer"
+    DECLINED = "declined"
+    NO_ROOM = "no_room"
+    NOT_REACHED = "not_reached"
+    NO_ROUTE = "no_route"
+    BLOCKED = "blocked"
+    GOAL_OCCUPIED = "goal_occupied"
+    BLIND = "blind"
+    NOT_FOUND = "not_found"
+    LOST_PERSON = "lost_person"
+    POINT_REFUSED = "point_refused"
+    STOPPED = "stopped"
+    FAULT = "fault"
+    OUT_OF_BUDGET = "out_of_budget"
+    # The end.
+    ARRIVED = "arrived"
+    FOUND = "found"
+    COUNTED = "counted"
+    SEEN = "seen"
+    FOLLOWED = "followed"
+    DONE = "done"
+    ANSWERED = "answered"
+    CANCELLED = "cancelled"
 
 
 class Spot(Frozen):

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 from pydantic import Field, TypeAdapter
 
 from planner.plan.base import Bilingual, Frozen
-from planner.plan.outcome_codes import Code
+from planner.plan.outcome import Code
 from planner.plan.steps import Step
 
 MAX_STEPS = 20

@@ -7,15 +7,12 @@ angles radians (counter-clockwise positive), times seconds.
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING, Annotated, Literal, get_args
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field, StringConstraints
 
 from planner.plan.base import Frozen
 from planner.plan.vocabulary import PlaceId
-
-if TYPE_CHECKING:
-    from planner.plan.goal import StepRecord
 
 Words = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=500)]
 Label = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
@@ -168,10 +165,3 @@ DRIVES = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
     | {"go_to_object", "go_to_point", "find", "follow"}
 )
-
-
-def places_of(step: Step | StepRecord) -> tuple[str, ...]:
-    """Return the place ids that a step names."""
-    place: str | None = getattr(step, "place", None)
-    places: tuple[str, ...] = getattr(step, "places", ())
-    return (place,) if place else places

@@ -5,8 +5,10 @@ from planner.site.fence import Fence, SpeedZone
 from planner.site.fence_check import FenceRefusal, check_fence
 from planner.site.fence_diff import FenceDiff, fence_diff
 from planner.site.fence_store import FenceProposal, FenceProposals
+from planner.site.known_places import KeptPlace, KnownPlaces, Lesson
 from planner.site.places import Place, normalise
 from planner.site.site import Site
+from planner.site.site_view import SiteView, Target, facts_of, vocabulary_of
 from planner.site.taught_place_check import check_spot, plain_name
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_HERE, TaughtPlace, TaughtPlaces
@@ -22,18 +24,25 @@ __all__ = [
     "FenceProposals",
     "FenceRefusal",
     "GridMap",
+    "KeptPlace",
+    "KnownPlaces",
+    "Lesson",
     "LoadedMap",
     "Place",
     "PlaceRefusal",
     "Site",
     "SiteError",
+    "SiteView",
     "SpeedZone",
+    "Target",
     "TaughtPlace",
     "TaughtPlaces",
     "check_fence",
     "check_spot",
+    "facts_of",
     "fence_diff",
     "load_map",
     "normalise",
     "plain_name",
+    "vocabulary_of",
 ]

@@ -20,6 +20,7 @@ CODES = frozenset(
         "place_outside_fence",
         "place_unreachable",
         "route_unavailable",
+        "unknown_room",
         "unknown_taught_place",
         "place_of_site",
         "disk_full",

@@ -10,12 +10,13 @@ from __future__ import annotations
 import errno
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
 from maps.errors import SiteError
 from maps.yaml_records import SiteRecord, parse_json, read_bytes
+from planner.site.fence import Outline
 from planner.site.places import Names, Place, PlaceId
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.state_database import StateDatabase, StateUnavailable
@@ -41,10 +42,14 @@ class TaughtPlace(SiteRecord):
     map_id: Fingerprint
     by: Name
     taught: datetime
+    polygon: Outline | None = None
+    """In ``map`` [m], where a room that was proposed got a name; None for a spot."""
 
     def as_place(self) -> Place:
-        """Return it as any other place of the site."""
-        return Place(id=self.id, kind="place", name=self.name, pose=self.pose)
+        """Return it as any other room or place of the site."""
+        kind: Literal["room", "place"] = "place" if self.polygon is None else "room"
+        outline = self.polygon
+        return Place(id=self.id, kind=kind, name=self.name, pose=self.pose, polygon=outline)
 
 
 class TaughtFile(SiteRecord):

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from planner.mission.site_view import vocabulary_of
 from planner.plan import ComeBack, Patrol, ReturnHome, StepPlan, Vocabulary, places_of
 from planner.site.site import Site
+from planner.site.site_view import vocabulary_of
 
 START, HOME, SOMEWHERE = "start", "home", "?"
 

@@ -92,7 +92,7 @@ def build(switches: Switches | None = None) -> FastAPI:
         if body is None:
             return error(400, "the body is no JSON object of a chat request")
         await asyncio.sleep(mock.switches.delay_s)
-        early = await instead_of_a_reply(fault, mock, body, request)
+        early = await instead_of_a_reply(fault, mock.switches, mock.ending, body, request)
         if early is not None:
             return early
         about = pictures.asked_of(body)

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
+from pons.mock_llm.fault_switches import Switches
 from pons.mock_llm.pictures import holds_picture
-
-if TYPE_CHECKING:
-    from pons.mock_llm.app import Mock
 
 LOOK_S = 0.05
 METADATA = "http://169.254.169.254/latest/meta-data/"
@@ -72,10 +70,13 @@ _REFUSED: dict[str, tuple[Callable[[Body], bool], str]] = {
 
 
 async def instead_of_a_reply(
-    fault: str | None, mock: Mock, body: Body, request: Request
+    fault: str | None,
+    switches: Switches,
+    is_ending: Callable[[], bool],
+    body: Body,
+    request: Request,
 ) -> Response | None:
     """Return an answer that is no completion, or None where one is due."""
-    switches = mock.switches
     if fault in _REFUSED:
         refuses, words = _REFUSED[fault]
         return error(400, words) if refuses(body) else None
@@ -97,7 +98,7 @@ async def instead_of_a_reply(
         case "redirect":
             return Response(status_code=307, headers={"Location": METADATA})
         case "hang" | "slow_pictures" if fault == "hang" or holds_picture(body):
-            while not (mock.ending() or await request.is_disconnected()):  # noqa: ASYNC110  # nothing tells of it
+            while not (is_ending() or await request.is_disconnected()):  # noqa: ASYNC110  # nothing tells of it
                 await asyncio.sleep(LOOK_S)
             return error(499, "the client left")
     return None

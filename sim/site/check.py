@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from sim.site.object_checks import check_things
+from sim.site.object_checks import Finding, check_things
 from sim.site.objects import uprights
 from sim.site.outline import allowed_rects, area_m2, edge_distance_m, trace
 from sim.site.plan import door_edge, furniture, rect, room_rects, solids, walls
@@ -28,8 +28,6 @@ PLACE_TO_FENCE_M = 0.25
 ROBOT_RADIUS_M = 0.30
 SPARE_M = 0.05
 """What a route keeps beyond the robot's radius; a place counts as reachable only with it."""
-
-Finding = tuple[str, str]
 
 
 def check(home: Home, where: str) -> None:

@@ -18,9 +18,10 @@ from sim.site.spec import LIDAR_SEES_FROM_M
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from sim.site.check import Finding
     from sim.site.spec import Home, Object
 
+Finding = tuple[str, str]
+"""A stable code, and what came and what was expected."""
 FLAT_M = 0.05
 """What is no higher than this a robot's wheels roll over, as over a door sill."""
 

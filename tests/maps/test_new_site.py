@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from maps import FREE, SiteError, load_map
 from maps.cell_array import cell_array
 from maps.map_file import load_picture
-from maps.new_site import new_site, read_proposals
+from maps.new_site import new_site
+from maps.room_proposals import read_proposals
 from maps.rooms import propose_rooms
 from maps.site_fence import draw_fence, floor_around
 from planner.site import Fence, Site

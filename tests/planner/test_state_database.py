@@ -8,7 +8,7 @@ import sqlite3
 import subprocess
 import sys
 import time
-from contextlib import closing
+from contextlib import ExitStack, closing
 from pathlib import Path
 
 import pytest
@@ -104,6 +104,56 @@ def test_two_programs_write_in_turns(tmp_path: Path) -> None:
             with writer.change(sync=False) as connection:
                 connection.execute(ROW, (str(number), ""))
             assert len(reader.read(ROWS)) == number + 1
+
+
+MAKER = """
+import sys
+from pathlib import Path
+from planner.state_database import StateDatabase
+
+for home in sys.stdin:
+    database = StateDatabase(Path(home.strip()))
+    with database.change() as connection:
+        connection.execute("INSERT INTO imports VALUES (?, '')", (sys.argv[1],))
+    print("kept", flush=True)
+    database.close()
+"""
+
+
+def test_programs_that_make_it_at_once_make_one_of_their_owners_own(
+    tmp_path: Path, repository: Path
+) -> None:
+    with ExitStack() as running:
+        makers = [
+            running.enter_context(
+                subprocess.Popen(
+                    [sys.executable, "-c", MAKER, name], stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE, text=True, cwd=repository, umask=0o002,
+                )
+            )
+            for name in "abc"
+        ]  # fmt: skip
+        for number in range(20):
+            home = tmp_path / str(number)
+            for maker in makers:
+                assert maker.stdin is not None
+                print(home, file=maker.stdin, flush=True)
+            for maker in makers:
+                assert maker.stdout is not None
+                assert maker.stdout.readline() == "kept\n"
+            assert (home / FILE).stat().st_mode & 0o777 == 0o600
+            assert kept(home) == [("a", ""), ("b", ""), ("c", "")]
+    assert [maker.returncode for maker in makers] == [0, 0, 0]
+
+
+def test_a_file_that_others_could_read_is_closed_to_them(tmp_path: Path) -> None:
+    keep(tmp_path, ("a", "1"))
+    (tmp_path / FILE).chmod(0o644)
+    with closing(StateDatabase(tmp_path)) as database:
+        with database.change() as connection:
+            connection.execute(ROW, ("b", "2"))
+        modes = {path.name: path.stat().st_mode & 0o777 for path in tmp_path.iterdir()}
+    assert modes == dict.fromkeys((FILE, f"{FILE}-wal", f"{FILE}-shm"), 0o600)
 
 
 # The layout before -------------------------------------------------------------------------------

@@ -38,7 +38,10 @@ def test_unknown_floor_needs_a_persons_word(
     assert site.run(settings, ["import", str(plan), "mine"]) == 3
     said = capsys.readouterr().err
     assert "map_unknown_word" in said
-    assert "未知" in said
+    english, chinese = said.strip().split("\n")
+    assert "--unknown unknown or --unknown free" in english
+    assert chinese.endswith("请说明是哪一种：--unknown unknown 或 --unknown free")
+    assert "which" not in chinese
     assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
     assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 3
     assert "site_exists" in capsys.readouterr().err

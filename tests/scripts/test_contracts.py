@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import ast
 import configparser
+import graphlib
+from collections.abc import Mapping, Set
 from pathlib import Path
 
+import grimp
 import pytest
 
 DECIDERS = (("bridge/core", "step"), ("planner/mission", "advance"))
@@ -57,3 +60,38 @@ def test_every_package_is_under_contract_and_installed(
     assert packages == set(contracts["importlinter"]["root_packages"].split())
     pyproject = (repository / "pyproject.toml").read_text()
     assert {name for name in packages if f'"{name}*"' not in pyproject} == {"tools"}
+
+
+def find_circle(imports: Mapping[str, Set[str]]) -> list[str]:
+    """Return modules of which each imports the next, and the last the first; none: an empty list.
+
+    One circle, not all of them: the next is found once this one is gone.
+    """
+    try:
+        graphlib.TopologicalSorter(imports).prepare()
+    except graphlib.CycleError as error:
+        return list(reversed(error.args[1][1:]))
+    return []
+
+
+def test_no_two_modules_import_each_other_not_even_for_types(
+    contracts: configparser.ConfigParser,
+) -> None:
+    packages = contracts["importlinter"]["root_packages"].split()
+    graph = grimp.build_graph(*packages, exclude_type_checking_imports=False, cache_dir=None)
+    imports = {each: graph.find_modules_directly_imported_by(each) for each in graph.modules}
+    assert len(imports) > 500, "all packages are read"
+    assert find_circle(imports) == []
+
+
+@pytest.mark.parametrize(
+    ("imports", "circle"),
+    [({"a": "bc", "b": "c"}, ""), ({"a": "b", "b": "a"}, "ab"),
+     ({"a": "b", "b": "c", "c": "db", "d": "c"}, "bcd"), ({"a": "b", "b": "c", "c": "a"}, "abc")],
+)  # fmt: skip
+def test_a_circle_of_any_length_is_found(imports: dict[str, str], circle: str) -> None:
+    found = find_circle({name: set(imported) for name, imported in imports.items()})
+    assert set(found) <= set(circle)
+    assert bool(found) == bool(circle)
+    for importer, imported in zip(found, [*found[1:], *found[:1]], strict=True):
+        assert imported in imports[importer]

@@ -224,8 +224,8 @@ def _yaml(folder: Path) -> Reader:
 
 def _language(_folder: Path) -> Reader:
     from planner.language import folding
-    from planner.language.identification import language_of
     from planner.language.stop import is_stop, read_stop
+    from planner.language.utterance import language_of
 
     def read(data: bytes) -> object:
         text = data.decode("utf-8", "surrogateescape")
@@ -261,8 +261,8 @@ def _offline(_folder: Path) -> Reader:
 
 @cache
 def _vocabulary() -> Any:
-    from planner.mission.site_view import vocabulary_of
     from planner.site import Site
+    from planner.site.site_view import vocabulary_of
 
     return vocabulary_of(Site.load(seeds.SITES / "home"))
 

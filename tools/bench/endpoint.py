@@ -25,10 +25,10 @@ from planner.brain.prompt import Prompt, tokens
 from planner.brain.schema import schema_of
 from planner.mission import AskBrain
 from planner.mission.plan_request import thinker
-from planner.mission.site_view import vocabulary_of
 from planner.plan import Language
 from planner.settings import ModelSettings
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from pons.http import PlannerProblem, call
 from pons.robot_processes import free_port
 from pons.settings import CHECKOUT

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, cast
 from planner.bridge_client import Link, LinkError, StopResult, WireBus
 from planner.language.utterance import parse
 from planner.mission import Clocks, Missions
-from planner.mission.journal import GoalKey, JournalContents
+from planner.mission.journal import JournalContents
+from planner.mission.state import GoalKey
 from tools.lockstep.latencies import TICK_S
 from tools.lockstep.tick_loop import TickLoop
 from wire import VIRTUAL_KEY, OpKind, OpRequest, signed_request
@@ -30,7 +31,8 @@ if TYPE_CHECKING:
     from planner.mission.effects import Journal
     from planner.mission.event_hub import Message
     from planner.mission.state import Mission, MissionState
-    from planner.navigation import RouteRequest, RouteResult
+    from planner.navigation import ObstacleReport, RouteRequest, RouteResult, ScanObservation
+    from planner.navigation.obstacle_memory import ObstacleMemory
     from planner.plan import BrainTag, Language
     from sim import SimRobot
     from tools.lockstep.bus import Port
@@ -115,11 +117,18 @@ class PacedRouter:
 
     scene: LockstepScene
     delay_s: float
+    memory: ObstacleMemory
 
     async def route(self, request: RouteRequest) -> RouteResult:
         """Find the way, or raise ``RouteFailure``."""
         await asyncio.sleep(self.delay_s)
-        return self.scene.router.route(request, asyncio.get_running_loop().time)
+        time = asyncio.get_running_loop().time
+        return self.scene.router.route(request, time, self.memory)
+
+    async def observe(self, seen: ScanObservation) -> ObstacleReport:
+        """Take a scan into the obstacle layer."""
+        await asyncio.sleep(self.delay_s)
+        return self.scene.router.observe(self.memory, seen)
 
 
 @dataclass(slots=True)
@@ -165,16 +174,18 @@ class PlannerProcess:
             clock=self._tasks.time,
             new_id=self._new_id,
         )
+        router = PacedRouter(scene, pace.route * TICK_S, scene.router.new_memory())
         self.missions = Missions(
             site=scene.site,
             robot=scene.robot,
             link=self._link,
-            router=PacedRouter(scene, pace.route * TICK_S),
+            router=router,
             brain=self._brain,
             disk=NotebookDisk(notebook, pace.journal * TICK_S),
             planner_id=planner_id,
             clocks=Clocks(self._tasks.time, self._wall_s, new_goal_id),
         )
+        self.missions.show_scans(router)
         self.missions.loop.hub.join(self)
         self.run(now_s, self.missions.start(rounds=False))
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from bridge.core.geometry.fence import FenceGrid
 from bridge.fence_file import load_fence
-from planner.mission.site_view import vocabulary_of
 from planner.navigation import RouteLimits
 from planner.navigation.router import Router
 from planner.plan import Vocabulary
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from wire import RobotDescription
 
 SITES = Path(__file__).resolve().parents[2] / "sites"

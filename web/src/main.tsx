@@ -21,6 +21,7 @@ import {
   grid,
   learnThings,
   mostTaught,
+  proposedRooms,
   open,
   places,
   placesVersion,
@@ -68,6 +69,7 @@ function learnPlaces(known: Known): void {
   places.value = known.places;
   taught.value = known.taught;
   mostTaught.value = known.most;
+  proposedRooms.value = known.proposed_rooms;
 }
 
 effect(() => {

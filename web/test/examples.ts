@@ -106,6 +106,7 @@ export const snapshot = (seq = 1): object => ({
   about,
   path: null,
   scan: [100, 200],
+  obstacles: { cells: [], suspicions: [], movers: [] },
   usage,
   places_version: 0,
   sight,

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { dots } from "../src/map/drawing";
+import { discs, dots, squares } from "../src/map/drawing";
 import { Cells, nameSpot } from "../src/map/cells";
 import { pixels, rgb, tinted } from "../src/map/raster";
 import { contains, middle, resolve, thingAt, unwound } from "../src/map/resolve";
@@ -143,5 +143,16 @@ describe("cells", () => {
     const full = free.map((line, row) => (row > 5 ? line : "............".replaceAll(".", "#")));
     expect(nameSpot(room, [room], around(full)).y).toBeLessThan(1.8);
     expect(nameSpot(sofa, [room, sofa], around(free))).toEqual({ x: 1, y: 1 });
+  });
+});
+
+describe("layers", () => {
+  it("draw a square around each middle, in metres", () => {
+    expect(squares([100, 200], 0.05)).toBe("M0.975 1.975h0.05v0.05h-0.05z");
+    expect(squares([], 0.05)).toBe("");
+  });
+  it("draw what moves with a line to where it will be in a second", () => {
+    const mover = { number: 1, x_m: 2, y_m: 1, vx_mps: 0.5, vy_mps: -0.25, radius_m: 0.3 };
+    expect(discs([mover])).toContain("M2 1l0.5 -0.25");
   });
 });

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 from string import Formatter
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
@@ -14,7 +16,7 @@ from planner.plan.base import Bilingual
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
-    from planner.plan.outcome_codes import Code
+    from planner.plan.outcome import Code
 
     Fact = Bilingual | str | int | float | None
 
@@ -189,37 +191,6 @@ def read_messages(text: str) -> Mapping[str, str]:
     Raises:
         ValueError: it is no TOML.
     """
-    plain = read_plain_lines(text)
-    return plain if plain is not None else _read_toml(text)
-
-
-def read_plain_lines(text: str) -> Mapping[str, str] | None:
-    """Return the messages of a file of which each line is a comment, a head or a plain string.
-
-    Our own files are such. ``tomllib`` takes 9 ms for two languages, this 2 ms, at the start of
-    every process that says anything. None for any other TOML.
-    """
-    messages: dict[str, str] = {}
-    group = ""
-    for line in text.split("\n"):
-        if not line or line[0] == "#":
-            continue
-        if line[0] == "[" and line[-1] == "]" and line[1:-1].isidentifier():
-            group = line[1:-1]
-            continue
-        key, _, value = line.partition(" = ")
-        inner, code = value[1:-1], f"{group}.{key}"
-        is_string = len(value) > 1 and value[0] == value[-1] == '"' and key.isidentifier()
-        bare = inner.replace('\\"', "")
-        if not (group and is_string) or "\\" in bare or '"' in bare or code in messages:
-            return None
-        messages[code] = inner.replace('\\"', '"')
-    return messages
-
-
-def _read_toml(text: str) -> dict[str, str]:
-    import tomllib
-
     tables = tomllib.loads(text)
     return {f"{group}.{key}": text for group, t in tables.items() for key, text in t.items()}
 
@@ -287,6 +258,16 @@ def message(code: Code, /, **facts: Fact) -> Bilingual:
         KeyError: a blank of the sentence was given no fact.
     """
     return CATALOGUE.say(f"outcome.{code.value}", **facts)
+
+
+def pair_up(group: str, codes: Iterable[str]) -> Mapping[str, tuple[str, str]]:
+    """Return each code's message in English and Chinese, for a process that carries both.
+
+    Raises:
+        UnknownMessage: there is none of a code in this group.
+    """
+    said = {code: say(f"{group}.{code}") for code in codes}
+    return MappingProxyType({code: (both.en, both.zh) for code, both in said.items()})
 
 
 def template(code: Code) -> Bilingual:

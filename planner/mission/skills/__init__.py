@@ -5,7 +5,8 @@
 """
 
 from collections.abc import Callable
-from types import MappingProxyType
+from types import MappingProxyType, NoneType
+from typing import Any
 
 from planner.language.catalogue import message
 from planner.mission.skills.actions import (
@@ -36,12 +37,12 @@ from planner.mission.skills.look import look
 from planner.mission.skills.move import move, no_room
 from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
 from planner.mission.skills.say import say
-from planner.mission.skills.skill_state import NOTHING, Notes
+from planner.mission.skills.skill_state import STATES, SkillState, SkillStateBase, begin_state
 from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
 from planner.plan import Code, say_same
 
-SKILLS: MappingProxyType[str, Callable[[Scene], SkillAction]] = MappingProxyType(
+SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProxyType(
     {
         "go_to": go_to,
         "come_back": come_back,
@@ -63,32 +64,41 @@ SKILLS: MappingProxyType[str, Callable[[Scene], SkillAction]] = MappingProxyType
 )
 
 
-def act_of(scene: Scene) -> SkillAction:
-    """Return a step's wish now; it fails where its camera or detector is gone by now."""
-    code = scene.eyes.means(scene.sight.blind).lacks(scene.step.kind)
-    skill = SKILLS.get(scene.step.kind)
+def act_of(scene: Scene[Any]) -> SkillAction:
+    """Return a step's wish now; it fails where its camera or detector is gone by now.
+
+    Raises:
+        TypeError: the scene holds another skill's state.
+    """
+    kind, state = scene.step.kind, STATES.get(scene.step.kind, NoneType)
+    if type(scene.state) is not state:
+        got = type(scene.state).__name__
+        raise TypeError(f"the step {kind!r} needs the state {state.__name__}, got {got}")
+    code = scene.eyes.means(scene.sight.blind).lacks(kind)
+    skill = SKILLS.get(kind)
     if skill is not None and code is None:
         return skill(scene)
     code = code or Code.NO_CAPABILITY
-    return Fail(code, code.value, message(code, part=say_same(scene.step.kind)))
+    return Fail(code, code.value, message(code, part=say_same(kind)))
 
 
 __all__ = [
-    "NOTHING",
     "NO_EYES",
     "SKILLS",
+    "STATES",
     "AskImage",
     "DriveLeg",
     "Eyesight",
     "Fail",
     "Finish",
     "ImageAnswer",
-    "Notes",
     "Observe",
     "Question",
     "Retry",
     "Scene",
     "SkillAction",
+    "SkillState",
+    "SkillStateBase",
     "Skip",
     "Speak",
     "Stand",
@@ -96,5 +106,6 @@ __all__ = [
     "WantedObject",
     "Way",
     "act_of",
+    "begin_state",
     "no_room",
 ]

@@ -2,7 +2,7 @@
 
 A skill is a pure function of a :class:`Scene`: asked when its step begins, after each leg of it was
 reached, and again after a pause or a crash. It answers with one act; the mission carries it out.
-What a skill must remember it hands over with its act: ``notes`` hold while the act lasts, ``then``
+What a skill must remember it hands over with its act: ``state`` holds while the act lasts, ``then``
 once it is done, ``otherwise`` where its way turns out to be shut.
 """
 
@@ -10,17 +10,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any, Generic, TypeVar, cast
 
 from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
-from planner.mission.skills.skill_state import NOTHING, Notes
+from planner.mission.skills.skill_state import SkillStateBase
 from planner.perception.snapshot import Sight
-from planner.plan import Language
+from planner.plan import Bilingual, Code, Language, StepRecord
+from planner.site.site_view import SiteView
+from wire import Pose2
 
-if TYPE_CHECKING:
-    from planner.mission.state import SiteView
-    from planner.plan import Bilingual, Code, StepRecord
-    from wire import Pose2
+S_co = TypeVar("S_co", covariant=True)
+S = TypeVar("S")
 
 UNSEEN = Sight()
 """Nothing was ever seen."""
@@ -36,16 +36,20 @@ class Way(StrEnum):
     """By the search, round what stands in the way."""
     STRAIGHT = "straight"
     """Straight along the heading, ahead or backwards, or not at all."""
+    ASIDE = "aside"
+    """To where somebody who stands at the goal can walk past the robot."""
     SPIN = "spin"
     """On the spot: the bridge turns to the heading by the shorter way."""
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
-    """Tell a skill where its step stands."""
+class Scene(Generic[S_co]):
+    """Tell a skill where its step stands; ``S_co`` is what this skill remembers, or None."""
 
     step: StepRecord
     facts: SiteView
+    state: S_co
+    """What the skill handed over with what it asked for before; at first a new one."""
     pose: Pose2 | None
     """The robot in ``map`` now, where known."""
     began: Pose2 | None
@@ -58,8 +62,6 @@ class Scene:
     """The robot in ``map`` when the goal was accepted, where it was known."""
     language: Language = Language.EN
     """Of the order."""
-    notes: Notes = NOTHING
-    """What the skill handed over with what it asked for before."""
     eyes: Eyesight = NO_EYES
     sight: Sight = UNSEEN
     now_s: float = 0.0
@@ -77,9 +79,9 @@ class Scene:
     thinks: bool = False
     """The brain may read an answer that is neither yes nor no, and plan anew."""
 
-    def but(self, notes: Notes) -> Scene:
-        """Return the scene with other notes."""
-        return replace(self, notes=notes)
+    def but(self, state: S) -> Scene[S]:
+        """Return the scene with another state."""
+        return cast("Scene[S]", replace(cast("Scene[Any]", self), state=state))
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,9 +98,9 @@ class DriveLeg:
     """Longest time in motion; None: the bridge's grant bounds it."""
     limit_m: float | None = None
     """Longest way; None: the bridge's grant bounds it."""
-    notes: Notes | None = None
-    then: Notes | None = None
-    otherwise: Notes | None = None
+    state: SkillStateBase | None = None
+    then: SkillStateBase | None = None
+    otherwise: SkillStateBase | None = None
     """The step goes on with these where there is no way; None: it fails."""
     wanted: WantedObject | None = None
     """As soon as this is seen for sure the skill is asked again."""
@@ -113,8 +115,8 @@ class Observe:
     looks: int
     seconds: float = 6.0
     """Longest wait for them; without any the robot is blind, and the step fails."""
-    notes: Notes | None = None
-    then: Notes | None = None
+    state: SkillStateBase | None = None
+    then: SkillStateBase | None = None
     wanted: WantedObject | None = None
     watch: bool = False
 
@@ -135,8 +137,8 @@ class AskImage:
     views: tuple[Bilingual, ...] = ()
     now: Bilingual | None = None
     seconds: float = ANSWER_S
-    notes: Notes | None = None
-    then: Notes | None = None
+    state: SkillStateBase | None = None
+    then: SkillStateBase | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +160,7 @@ class Question:
     """Ask a person, standing; the skill is asked again with the answer in its step's record."""
 
     text: Bilingual
-    notes: Notes | None = None
+    state: SkillStateBase | None = None
     """Held from now on, also while nobody has answered yet."""
 
 
@@ -166,8 +168,8 @@ class Question:
 class Think:
     """Have the brain think again with the sights and answers so far."""
 
-    notes: Notes | None = None
-    """Held from now on; a thought with the same notes as before is the same one, interrupted."""
+    state: SkillStateBase | None = None
+    """Held from now on; a thought with the same state as before is the same one, interrupted."""
 
 
 @dataclass(frozen=True, slots=True)

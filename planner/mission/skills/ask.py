@@ -21,33 +21,32 @@ from planner.mission.skills.actions import (
     SkillAction,
     Think,
 )
+from planner.mission.skills.skill_state import AskStage, AskState
 from planner.plan import Bilingual, Code, say_same
 
-THOUGHT, AGAIN = 1, 2
-"""Stages: the answer is thought about; it was asked once more."""
 _QUOTED = 80
 _NO = say("question.said_no")
 _UNCLEAR = say("question.said_neither")
 
 
-def ask(scene: Scene) -> SkillAction:
+def ask(scene: Scene[AskState]) -> SkillAction:
     """Return the question, until it is answered; then whether that lets the goal go on."""
-    answer, notes = scene.step.answer, scene.notes
+    answer, state = scene.step.answer, scene.state
     if answer is None:
-        again = notes.stage == AGAIN
+        again = state.stage is AskStage.AGAIN
         return (
-            Question(_shall_i(scene), notes) if again else Question(say_same(scene.step.text or ""))
+            Question(_shall_i(scene), state) if again else Question(say_same(scene.step.text or ""))
         )
     if scene.upon is None:
         return Finish()
     yes = parse(answer).consent
     if yes is True:
-        return Finish({"answer": f"{notes.heard}; {answer}"} if notes.heard is not None else {})
-    if yes is False or notes.stage == AGAIN:
+        return Finish({"answer": f"{state.heard}; {answer}"} if state.heard is not None else {})
+    if yes is False or state.stage is AskStage.AGAIN:
         said = tell_declined(scene.upon, plainly=yes is False)
         return Fail(Code.DECLINED, Code.DECLINED.value, said)
-    if scene.thinks or notes.stage == THOUGHT:
-        return Think(notes.but(stage=THOUGHT))
+    if scene.thinks or state.stage is AskStage.THOUGHT:
+        return Think(state.but(stage=AskStage.THOUGHT))
     return ask_again(scene)
 
 
@@ -56,15 +55,15 @@ def tell_declined(deed: Bilingual, *, plainly: bool = True) -> Bilingual:
     return message(Code.DECLINED, said=_NO if plainly else _UNCLEAR, deed=deed)
 
 
-def ask_again(scene: Scene) -> Question:
+def ask_again(scene: Scene[AskState]) -> Question:
     """Ask for a plain yes or no, once, after an answer that is neither."""
-    scene = scene.but(scene.notes.but(stage=AGAIN, heard=scene.step.answer))
-    return Question(_shall_i(scene), scene.notes)
+    scene = scene.but(scene.state.but(stage=AskStage.AGAIN, heard=scene.step.answer))
+    return Question(_shall_i(scene), scene.state)
 
 
-def _shall_i(scene: Scene) -> Bilingual:
+def _shall_i(scene: Scene[AskState]) -> Bilingual:
     deed, heard = (
         scene.upon or say("question.go_on"),
-        (scene.notes.heard or "")[:_QUOTED],
+        (scene.state.heard or "")[:_QUOTED],
     )
     return say("question.shall_i", heard=heard, deed=deed)

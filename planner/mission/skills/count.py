@@ -26,7 +26,7 @@ from planner.mission.skills.object_matching import (
 )
 from planner.mission.skills.result_text import by_neighbour, looked_in, name_count, room_name
 from planner.mission.skills.search import affords, begin, find_spent_budget, make_filter, spots
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import CountState
 from planner.mission.skills.viewpoints import NEAR, room_at
 from planner.plan import Bilingual, Code
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from wire import Pose2
 
 
-def count(scene: Scene) -> SkillAction:
+def count(scene: Scene[CountState]) -> SkillAction:
     """Return the next act towards seeing everything, or the number."""
     wanted = wanted_of(scene)
     if wanted is None:
@@ -47,19 +47,19 @@ def count(scene: Scene) -> SkillAction:
     scene = begin(scene, pose, wanted)
     inside = _narrow(scene, pose, wanted)
     next_ = look_round(scene, pose, spots(inside, pose), None)
-    if isinstance(next_, Notes):
-        changed = next_ != scene.notes  # another room may be meant, where this one was shut
+    if isinstance(next_, CountState):
+        changed = next_ != scene.state  # another room may be meant, where this one was shut
         return count(scene.but(next_)) if changed else _tell_count(inside, wanted)
     if not affords(scene, pose, next_):
-        return _tell_count(inside.but(inside.notes.but(broke=True)), wanted)
+        return _tell_count(inside.but(inside.state.but(out_of_metres=True)), wanted)
     return (
-        replace(next_, notes=scene.notes)
+        replace(next_, state=scene.state)
         if find_spent_budget(scene) is None
         else _tell_count(inside, wanted)
     )
 
 
-def _narrow(scene: Scene, pose: Pose2, wanted: WantedObject) -> Scene:
+def _narrow(scene: Scene[CountState], pose: Pose2, wanted: WantedObject) -> Scene[CountState]:
     """Return the scene as if the room were named whose neighbour is meant, once that is known.
 
     It is the first in order that has one; a room that was not looked through may have one yet.
@@ -67,39 +67,39 @@ def _narrow(scene: Scene, pose: Pose2, wanted: WantedObject) -> Scene:
     by, words = wanted.by, scene.step.object or ""
     if by is None or scene.step.place is not None or has_several_neighbours(words, by.label):
         return scene
-    notes, neighbours = scene.notes, _neighbours(scene, wanted)
+    state, neighbours = scene.state, _neighbours(scene, wanted)
     has = {t.room or room_at(scene.facts, (t.x_m, t.y_m)) for t in neighbours}
-    left = [s for s in spots(scene, pose) if s.key not in notes.spots and not s.key.endswith(NEAR)]
+    left = [s for s in spots(scene, pose) if s.key not in state.spots and not s.key.endswith(NEAR)]
     to_see = {spot.room for spot in left}
-    open_ = (r for r in notes.order if r not in notes.shut or r in notes.rooms)
+    open_ = (r for r in state.order if r not in state.shut or r in state.rooms)
     room = next((r for r in open_ if r in has or r in to_see), None)
     if room is None or room not in has:
         return scene
     step = scene.step.model_copy(update={"place": room})
-    return replace(scene, step=step, notes=notes.but(order=(room,)))
+    return replace(scene, step=step, state=state.but(order=(room,)))
 
 
-def _neighbours(scene: Scene, wanted: WantedObject) -> list[Thing]:
+def _neighbours(scene: Scene[CountState], wanted: WantedObject) -> list[Thing]:
     return [t for t in scene.sight.things if sure(t) and fits(t, wanted.by)]
 
 
-def _tell_count(scene: Scene, wanted: WantedObject) -> Finish:
+def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish:
     """Tell the number; where there is no such neighbour, that there is none."""
-    notes, inside = scene.notes, make_filter(scene)
+    state, inside = scene.state, make_filter(scene)
     seen = list_confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
     number = len(drop_doubles(filter(inside, seen)))
     what = by_neighbour(_space_number(name_count(number, wanted.label, wanted.color)), wanted)
     if number == 0 and wanted.by is not None and not any(map(inside, _neighbours(scene, wanted))):
         what = _space_number(name_count(0, wanted.by.label, wanted.by.color))
     place = room_name(scene.facts, scene.step.place)
-    shut = tuple(room for room in notes.shut if room not in notes.rooms)
-    where = looked_in(scene.facts, notes.rooms, shut, find_spent_budget(scene))
+    shut = tuple(room for room in state.shut if room not in state.rooms)
+    where = looked_in(scene.facts, state.rooms, shut, find_spent_budget(scene))
     said = (
         say("object_step.saw_in", what=what, place=place)
         if place
         else say("object_step.saw", what=what, looked=where)
     )
-    return Finish({"count": number, "rooms": notes.rooms}, Code.COUNTED, said)
+    return Finish({"count": number, "rooms": state.rooms}, Code.COUNTED, said)
 
 
 def _space_number(what: Bilingual) -> Bilingual:

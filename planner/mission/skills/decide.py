@@ -9,6 +9,6 @@ from __future__ import annotations
 from planner.mission.skills.actions import Scene, SkillAction, Think
 
 
-def decide(_: Scene) -> SkillAction:
+def decide(_: Scene[None]) -> SkillAction:
     """Return the wish to think."""
     return Think()

@@ -18,10 +18,10 @@ from planner.mission.skills.actions import DriveLeg, Fail, Finish, Scene, SkillA
 from planner.plan import Code, say_same
 
 if TYPE_CHECKING:
-    from planner.mission.state import SiteView
+    from planner.site.site_view import SiteView
 
 
-def drive_to(scene: Scene, place: str) -> DriveLeg | Fail:
+def drive_to(scene: Scene[None], place: str) -> DriveLeg | Fail:
     """Return the leg to a place: into a room at any heading, to anything else at its own."""
     target = scene.facts.targets.get(place)
     if target is None:
@@ -36,17 +36,17 @@ def place_gone(facts: SiteView, place: str) -> Fail:
     return Fail(Code.UNKNOWN_PLACE, "place_gone", said)
 
 
-def go_to(scene: Scene) -> SkillAction:
+def go_to(scene: Scene[None]) -> SkillAction:
     """Return the leg to the place, or that it was reached."""
     return Finish() if scene.part > 0 else drive_to(scene, scene.step.place or "")
 
 
-def return_home(scene: Scene) -> SkillAction:
+def return_home(scene: Scene[None]) -> SkillAction:
     """Return the leg home, or that it was reached."""
     return Finish() if scene.part > 0 else drive_to(scene, scene.facts.home)
 
 
-def come_back(scene: Scene) -> SkillAction:
+def come_back(scene: Scene[None]) -> SkillAction:
     """Return the leg back, or that it was reached."""
     if scene.part > 0:
         return Finish()
@@ -55,7 +55,7 @@ def come_back(scene: Scene) -> SkillAction:
     return DriveLeg(scene.accepted, heading=True)
 
 
-def patrol(scene: Scene) -> SkillAction:
+def patrol(scene: Scene[None]) -> SkillAction:
     """Return the leg to the next place, or that all were visited."""
     places = scene.step.places
     if scene.part >= len(places):

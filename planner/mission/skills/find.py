@@ -7,6 +7,8 @@ in. Budget: 55 m and 540 s a step; the rooms of the site, or the one place that 
 
 from __future__ import annotations
 
+from typing import Any
+
 from planner.language.catalogue import message
 from planner.language.object_names import name_object
 from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
@@ -14,12 +16,12 @@ from planner.mission.skills.object_matching import found, wanted_of
 from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.result_text import by_neighbour, found_at, looked_in, unknown_words
 from planner.mission.skills.search import alike, find_spent_budget, search
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import FindState, SearchState
 from planner.perception.snapshot import Thing
 from planner.plan import Code
 
 
-def find(scene: Scene) -> SkillAction:
+def find(scene: Scene[FindState]) -> SkillAction:
     """Return the search's next act, or its result."""
     wanted = wanted_of(scene)
     if wanted is None:
@@ -29,29 +31,29 @@ def find(scene: Scene) -> SkillAction:
     next_ = search(scene, scene.pose, wanted)
     if isinstance(next_, Thing):
         return _found(scene, next_, wanted)
-    return not_found(scene.but(next_), wanted) if isinstance(next_, Notes) else next_
+    return not_found(scene.but(next_), wanted) if isinstance(next_, FindState) else next_
 
 
-def _found(scene: Scene, thing: Thing, wanted: WantedObject) -> Finish:
+def _found(scene: Scene[FindState], thing: Thing, wanted: WantedObject) -> Finish:
     record = found(thing, scene.pose, scene.now_s)
     said = found_at(scene.facts, thing.label, thing.color, thing.room, record.distance_m, wanted)
-    figures = {"found": record, "rooms": scene.notes.rooms}
+    figures = {"found": record, "rooms": scene.state.rooms}
     return Finish(figures, Code.FOUND, said)
 
 
-def not_found(scene: Scene, wanted: WantedObject) -> Fail:
+def not_found(scene: Scene[SearchState], wanted: WantedObject) -> Fail:
     """Say that it was not seen, and where was looked."""
-    notes = scene.notes
-    shut = tuple(room for room in notes.shut if room not in notes.rooms)
+    state = scene.state
+    shut = tuple(room for room in state.shut if room not in state.rooms)
     looked = looked_in(
-        scene.facts, notes.rooms, shut, find_spent_budget(scene), alike(scene, wanted)
+        scene.facts, state.rooms, shut, find_spent_budget(scene), alike(scene, wanted)
     )
     name = by_neighbour(name_object(wanted.label, wanted.color), wanted)
     said = message(Code.NOT_FOUND, thing=name, looked=looked)
-    return Fail(Code.NOT_FOUND, "not_found", said, {"rooms": notes.rooms})
+    return Fail(Code.NOT_FOUND, "not_found", said, {"rooms": state.rooms})
 
 
-def unknown(scene: Scene) -> Fail:
+def unknown(scene: Scene[Any]) -> Fail:
     """Tell that these eyes don't know the thing, and the things they know."""
     said = unknown_words(scene.step.object or "", scene.eyes.classes, scene.step.kind)
     return Fail(Code.OBJECT_UNKNOWN, "object_unknown", said)

@@ -30,7 +30,7 @@ from planner.mission.skills.look_around import leg_to, look_round, spin
 from planner.mission.skills.object_matching import away_m, bearing, lasting, one_of, turn_to
 from planner.mission.skills.result_text import name_with_article
 from planner.mission.skills.search import short_of
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import FollowPersonState, FollowStage
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
 from planner.plan import Code
 
@@ -50,7 +50,6 @@ FACE_RAD = 0.35
 LOST_S, FOLLOW_S = 25.0, 300.0
 GAZE_LOOKS, GAZE_S = 10, 8.0
 FIRST_LOOKS = 3
-SHUT, ROUND = -1, 1
 SHUT_LOOKS = 15
 """Pictures to watch, standing, where the way is shut, before the next try: 3 s of them."""
 MOST_SHUT = 5
@@ -59,7 +58,7 @@ MOVED_M = 0.5
 """Beyond, the robot stands elsewhere, and ways are counted anew."""
 
 
-def follow(scene: Scene) -> SkillAction:
+def follow(scene: Scene[FollowPersonState]) -> SkillAction:
     """Return the next leg after the person, or a gaze, or how it ended."""
     wanted = one_of(scene)
     if wanted is None:
@@ -69,25 +68,25 @@ def follow(scene: Scene) -> SkillAction:
     if scene.spent_s > FOLLOW_S:
         return _finish(scene)
     if scene.sight.blind is not None:  # where the person is now nobody knows: nothing moves
-        return Observe(1, notes=scene.notes, then=scene.notes, watch=True)
+        return Observe(1, state=scene.state, then=scene.state, watch=True)
     person = _in_sight(scene, wanted)
     if person is None:
         return _search_lost(scene, scene.pose, wanted)
     at = (round(person.x_m, 2), round(person.y_m, 2), 0.9)
-    stage = SHUT if scene.notes.stage == SHUT else 0
-    notes = scene.notes.but(at=at, seen_s=round(scene.spent_s, 1), stage=stage, views=(), spot=None,
+    stage = FollowStage.SHUT if scene.state.stage is FollowStage.SHUT else FollowStage.AFTER
+    state = scene.state.but(at=at, seen_s=round(scene.spent_s, 1), stage=stage, views=(), spot=None,
                             spots=(), turned=None, label=person.label)  # fmt: skip
-    if notes.here is not None and away_m(scene.pose, notes.here) > MOVED_M:
-        notes = notes.but(here=None, stand=0)
-    return _keep_up(scene.pose, at, notes)
+    if state.shut_at is not None and away_m(scene.pose, state.shut_at) > MOVED_M:
+        state = state.but(shut_at=None, shut_ways=0)
+    return _keep_up(scene.pose, at, state)
 
 
-def _in_sight(scene: Scene, wanted: WantedObject) -> Thing | None:
+def _in_sight(scene: Scene[FollowPersonState], wanted: WantedObject) -> Thing | None:
     """Return the one who is followed, where they are in sight: nearest to where they were.
 
     Who is begun with was seen for a while; on the way one picture shows where they are now.
     """
-    seen, pose, at = _find_in_sight(scene, wanted), scene.pose, scene.notes.at
+    seen, pose, at = _find_in_sight(scene, wanted), scene.pose, scene.state.at
     if at is not None:
         seen = [t for t in seen if _distance_m(t, at) <= _reach_m(scene)]
         return min(seen, key=lambda t: _distance_m(t, at), default=None)
@@ -96,15 +95,15 @@ def _in_sight(scene: Scene, wanted: WantedObject) -> Thing | None:
     return min(filter(lasting, seen), key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
 
 
-def _find_in_sight(scene: Scene, wanted: WantedObject) -> list[Thing]:
+def _find_in_sight(scene: Scene[FollowPersonState], wanted: WantedObject) -> list[Thing]:
     """Return the persons seen just now, surely or not."""
     since_s = scene.now_s - NEW_S
     return [t for t in scene.sight.things if t.label == wanted.label and t.seen_s >= since_s]
 
 
-def _reach_m(scene: Scene) -> float:
+def _reach_m(scene: Scene[FollowPersonState]) -> float:
     """Return how far the person may have come since they were seen last [m]."""
-    return SAME_M + max(0.0, scene.spent_s - scene.notes.seen_s)
+    return SAME_M + max(0.0, scene.spent_s - scene.state.seen_s)
 
 
 def _distance_m(thing: Thing, at: tuple[float, float, float]) -> float:
@@ -112,64 +111,71 @@ def _distance_m(thing: Thing, at: tuple[float, float, float]) -> float:
 
 
 def _keep_up(
-    pose: Pose2, at: tuple[float, float, float], notes: Notes
+    pose: Pose2, at: tuple[float, float, float], state: FollowPersonState
 ) -> DriveLeg | Observe | Fail:
     """Go after who is in sight, face them, or stand and watch."""
     if away_m(pose, at[:2]) > KEEP_M + SLACK_M:
-        return _go_after(pose, at, notes)
-    notes = notes.but(stage=0, here=None, stand=0)
+        return _go_after(pose, at, state)
+    state = state.but(stage=FollowStage.AFTER, shut_at=None, shut_ways=0)
     if abs(turn_to(pose, at[:2])) > FACE_RAD:
-        return _watch(spin(pose, bearing(pose, at[:2]), notes), notes)
-    return Observe(GAZE_LOOKS, GAZE_S, notes=notes, then=notes, watch=True)
+        return _watch(spin(pose, bearing(pose, at[:2]), state), state)
+    return Observe(GAZE_LOOKS, GAZE_S, state=state, then=state, watch=True)
 
 
 def _go_after(
-    pose: Pose2, at: tuple[float, float, float], notes: Notes
+    pose: Pose2, at: tuple[float, float, float], state: FollowPersonState
 ) -> DriveLeg | Observe | Fail:
     """Go to a point short of them; where the way was shut watch a while first, not for ever."""
-    if notes.stand >= MOST_SHUT:
-        said = message(Code.NO_ROUTE, place=name_with_article(notes.label or "person", None))
+    if state.shut_ways >= MOST_SHUT:
+        said = message(Code.NO_ROUTE, place=name_with_article(state.label or "person", None))
         return Fail(Code.NO_ROUTE, "no_route", said)
-    if notes.stage == SHUT:
-        return Observe(SHUT_LOOKS, GAZE_S, notes=notes, then=notes.but(stage=0), watch=True)
+    if state.stage is FollowStage.SHUT:
+        then = state.but(stage=FollowStage.AFTER)
+        return Observe(SHUT_LOOKS, GAZE_S, state=state, then=then, watch=True)
     goal, heading = short_of(pose, at[:2], KEEP_M)
-    shut = notes.but(stage=SHUT, here=(pose.x_m, pose.y_m), stand=notes.stand + 1)
-    return _watch(leg_to(pose, goal, heading, notes, shut), notes)
+    shut = state.but(
+        stage=FollowStage.SHUT, shut_at=(pose.x_m, pose.y_m), shut_ways=state.shut_ways + 1
+    )
+    return _watch(leg_to(pose, goal, heading, state, shut), state)
 
 
-def _watch(leg: DriveLeg, notes: Notes) -> DriveLeg:
+def _watch(leg: DriveLeg, state: FollowPersonState) -> DriveLeg:
     """Bound a leg after somebody by the step's own time: it is laid anew as they walk."""
-    return replace(leg, notes=notes, watch=True, limit_s=None, limit_m=None)
+    return replace(leg, state=state, watch=True, limit_s=None, limit_m=None)
 
 
-def _search_lost(scene: Scene, pose: Pose2, wanted: WantedObject) -> SkillAction:
+def _search_lost(scene: Scene[FollowPersonState], pose: Pose2, wanted: WantedObject) -> SkillAction:
     """Go to as far short of where the person was seen last, look round there, then give up.
 
     Who may just have come into sight is watched until that is sure, or over.
     """
-    notes, at = scene.notes.but(stage=max(0, scene.notes.stage)), scene.notes.at
-    gone_s = scene.spent_s - notes.seen_s
+    state, at = scene.state, scene.state.at
+    if state.stage is FollowStage.SHUT:
+        state = state.but(stage=FollowStage.AFTER)
+    gone_s = scene.spent_s - state.seen_s
     if gone_s > LOST_S:
         return _give_up(gone_s)
     if at is None and _find_in_sight(scene, wanted):
-        return Observe(FIRST_LOOKS, notes=scene.notes, then=scene.notes, watch=True)
-    if at is None and notes.stage < ROUND:  # nobody yet: they may well stand ahead
-        return Observe(FIRST_LOOKS, notes=notes, then=notes.but(stage=ROUND), watch=True)
-    if at is not None and notes.stage < ROUND:
-        then = notes.but(stage=ROUND)
+        return Observe(FIRST_LOOKS, state=scene.state, then=scene.state, watch=True)
+    if at is None and state.stage is not FollowStage.ROUND:  # nobody yet: they may well stand ahead
+        return Observe(
+            FIRST_LOOKS, state=state, then=state.but(stage=FollowStage.ROUND), watch=True
+        )
+    if at is not None and state.stage is not FollowStage.ROUND:
+        then = state.but(stage=FollowStage.ROUND)
         if away_m(pose, at[:2]) <= KEEP_M + SLACK_M:  # they may stand there yet, unseen
             return _look_about(scene.but(then), pose, gone_s)
         goal, heading = short_of(pose, at[:2], KEEP_M)
-        return replace(leg_to(pose, goal, heading, then, then), notes=notes, watch=True)
+        return replace(leg_to(pose, goal, heading, then, then), state=state, watch=True)
     return _look_about(scene, pose, gone_s)
 
 
-def _look_about(scene: Scene, pose: Pose2, gone_s: float) -> SkillAction:
+def _look_about(scene: Scene[FollowPersonState], pose: Pose2, gone_s: float) -> SkillAction:
     at = (pose.x_m, pose.y_m)
     act = look_round(scene, pose, (Viewpoint(HERE, room_at(scene.facts, at), at),), None)
-    if isinstance(act, Notes):
+    if isinstance(act, FollowPersonState):
         return _give_up(gone_s)
-    return replace(act, notes=scene.notes, watch=True)
+    return replace(act, state=scene.state, watch=True)
 
 
 def _give_up(gone_s: float) -> Fail:
@@ -177,6 +183,6 @@ def _give_up(gone_s: float) -> Fail:
     return Fail(Code.LOST_PERSON, "lost_person", said)
 
 
-def _finish(scene: Scene) -> Finish:
+def _finish(scene: Scene[FollowPersonState]) -> Finish:
     said = message(Code.FOLLOWED, seconds=f"{scene.spent_s:.0f}", metres=f"{scene.spent_m:.1f}")
     return Finish({}, Code.FOLLOWED, said)

@@ -14,7 +14,7 @@ told. Budget: as for ``find``.
 from __future__ import annotations
 
 from math import hypot, pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from planner.language.catalogue import message, say
 from planner.language.object_classes import kind_of
@@ -47,7 +47,12 @@ from planner.mission.skills.object_matching import (
 )
 from planner.mission.skills.result_text import name_with_article
 from planner.mission.skills.search import make_filter, search, short_of
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import (
+    AimStage,
+    ApproachStage,
+    ApproachState,
+    GoToObjectState,
+)
 from planner.perception.snapshot import Thing
 from planner.plan import Code, Found, say_same
 
@@ -63,94 +68,93 @@ MOVED_M = 0.6
 NEAR_ENOUGH_M = 0.1
 FRESH_S = 20.0
 """What was seen for sure so recently is driven to without a second look."""
-DRIVE, FACE, CHECK, JUDGE = 10, 11, 12, 13
 
 
-def go_to_object(scene: Scene) -> SkillAction:
+def go_to_object(scene: Scene[GoToObjectState]) -> SkillAction:
     """Return the next act on the way to the thing, or that it was reached."""
     wanted = one_of(scene)
-    pointed = scene.notes.pointed is not None
+    pointed = scene.state.pointed is not None
     if wanted is None and not (pointed or scene.eyes.model):
         return unknown(scene)
     if scene.pose is None:
         return Retry()
-    if scene.notes.at is not None:
+    if scene.state.at is not None:
         return approach(scene, scene.pose, wanted)
     if wanted is None or pointed:
         at = agree_on_point(scene, scene.pose)
-        return set_off(scene, scene.pose, scene.notes, at) if isinstance(at, tuple) else at
+        return set_off(scene, scene.pose, scene.state, at) if isinstance(at, tuple) else at
     thing = _find_nearest(scene, scene.pose, wanted) or search(scene, scene.pose, wanted)
     if isinstance(thing, Thing):
-        if not lasting(thing) and thing.id not in scene.notes.tried:
-            tried = scene.notes.but(tried=(*scene.notes.tried, thing.id))
-            return Observe(LOOKS, notes=scene.notes, then=tried)
-        notes = scene.notes.but(label=thing.label, color=thing.color, aim=None)
-        return set_off(scene, scene.pose, notes, spot_of(thing), wanted)
-    return _fail(scene.but(thing), wanted) if isinstance(thing, Notes) else thing
+        if not lasting(thing) and thing.id not in scene.state.tried:
+            tried = scene.state.but(tried=(*scene.state.tried, thing.id))
+            return Observe(LOOKS, state=scene.state, then=tried)
+        state = scene.state.but(label=thing.label, color=thing.color, aim=None)
+        return set_off(scene, scene.pose, state, spot_of(thing), wanted)
+    return _fail(scene.but(thing), wanted) if isinstance(thing, GoToObjectState) else thing
 
 
 def set_off(
-    scene: Scene,
+    scene: Scene[Any],
     pose: Pose2,
-    notes: Notes,
+    state: ApproachState,
     at: tuple[float, float, float],
     wanted: WantedObject | None = None,
 ) -> SkillAction:
     """Return the first leg to an object known to be at a point."""
-    near = away_m(pose, at[:2]) <= _short_m(notes) + NEAR_ENOUGH_M
-    notes = notes.but(at=at, stage=FACE if near else DRIVE, stand=0)
-    return approach(scene.but(notes), pose, wanted)
+    near = away_m(pose, at[:2]) <= _short_m(state) + NEAR_ENOUGH_M
+    state = state.but(at=at, approach=ApproachStage.FACE if near else ApproachStage.DRIVE, stand=0)
+    return approach(scene.but(state), pose, wanted)
 
 
-def approach(scene: Scene, pose: Pose2, wanted: WantedObject | None) -> SkillAction:
+def approach(scene: Scene[ApproachState], pose: Pose2, wanted: WantedObject | None) -> SkillAction:
     """Return the next act once it is known where the thing is."""
-    notes, at = scene.notes, scene.notes.at
+    state, at = scene.state, scene.state.at
     if at is None:
         return Retry()
-    if notes.stage == DRIVE:
-        return _drive(pose, notes, at)
-    if notes.stage == FACE and abs(turn_to(pose, at[:2])) > FACING_RAD:
-        return spin(pose, bearing(pose, at[:2]), notes.but(stage=CHECK))
-    if notes.stage in (FACE, CHECK):
+    if state.approach is ApproachStage.DRIVE:
+        return _drive(pose, state, at)
+    if state.approach is ApproachStage.FACE and abs(turn_to(pose, at[:2])) > FACING_RAD:
+        return spin(pose, bearing(pose, at[:2]), state.but(approach=ApproachStage.CHECK))
+    if state.approach is not ApproachStage.JUDGE:
         near = _near(scene, at, wanted, scene.sight.things)
         if wanted is not None and scene.eyes.should_see(pose, at):
             before = near.confidence if near is not None else None
-            return Observe(LOOKS + 2, then=notes.but(stage=JUDGE, sure=before))
+            return Observe(LOOKS + 2, then=state.but(approach=ApproachStage.JUDGE, sure=before))
         gone = wanted is not None and (near is None or not near.confidence >= WORTH)
         return _look_anew(scene, wanted) if gone else _arrive(scene, pose, wanted)
     return _judge(scene, pose, wanted)
 
 
-def _find_nearest(scene: Scene, pose: Pose2, wanted: WantedObject) -> Thing | None:
+def _find_nearest(scene: Scene[GoToObjectState], pose: Pose2, wanted: WantedObject) -> Thing | None:
     """Return the nearest that was seen just now and for a while, beyond doubt."""
     inside = make_filter(scene)
     known = [t for t in list_confirmed(scene.sight, wanted, scene.now_s - FRESH_S) if inside(t)]
-    known = [t for t in known if lasting(t) and t.id not in scene.notes.tried]
+    known = [t for t in known if lasting(t) and t.id not in scene.state.tried]
     return min(known, key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
 
 
-def _short_m(notes: Notes) -> float:
+def _short_m(state: ApproachState) -> float:
     """Return how far from the thing's middle the robot's middle is to stand [m]."""
-    behind_m = kind_of(notes.label).behind_m if notes.label is not None else 0.0
+    behind_m = kind_of(state.label).behind_m if state.label is not None else 0.0
     return SHORT_M + ROBOT_M + behind_m
 
 
-def _drive(pose: Pose2, notes: Notes, at: tuple[float, float, float]) -> SkillAction:
-    if notes.stand >= len(SIDES_RAD):
+def _drive(pose: Pose2, state: ApproachState, at: tuple[float, float, float]) -> SkillAction:
+    if state.stand >= len(SIDES_RAD):
         name = (
-            name_with_article(notes.label, notes.color)
-            if notes.label is not None
+            name_with_article(state.label, state.color)
+            if state.label is not None
             else say_same("?")
         )
         return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
-    spot, heading = short_of(pose, at[:2], _short_m(notes), SIDES_RAD[notes.stand])
-    there, otherwise = notes.but(stage=FACE), notes.but(stand=notes.stand + 1)
+    spot, heading = short_of(pose, at[:2], _short_m(state), SIDES_RAD[state.stand])
+    there, otherwise = state.but(approach=ApproachStage.FACE), state.but(stand=state.stand + 1)
     return leg_to(pose, spot, heading, there, otherwise)
 
 
-def _judge(scene: Scene, pose: Pose2, wanted: WantedObject | None) -> SkillAction:
+def _judge(scene: Scene[ApproachState], pose: Pose2, wanted: WantedObject | None) -> SkillAction:
     """Say that the thing is there, go after it once where it has moved, or look for it once."""
-    at = scene.notes.at
+    at = scene.state.at
     if at is not None and _near(scene, at, wanted, seen_now(scene, wanted)) is not None:
         return _arrive(scene, pose, wanted)
     near = _near(scene, at, wanted, scene.sight.things) if at is not None else None
@@ -158,24 +162,24 @@ def _judge(scene: Scene, pose: Pose2, wanted: WantedObject | None) -> SkillActio
     return _arrive(scene, pose, wanted) if hidden else _look_anew(scene, wanted)
 
 
-def _is_hidden(scene: Scene, near: Thing) -> bool:
+def _is_hidden(scene: Scene[ApproachState], near: Thing) -> bool:
     """Return whether an object seen on the way is out of sight from here, hidden or cut off.
 
     The memory knows what hides it: a thing that the looks should have shown is less sure by now.
     """
-    if scene.notes.sure is None or not near.seen_s >= scene.now_s - FRESH_S:
+    if scene.state.sure is None or not near.seen_s >= scene.now_s - FRESH_S:
         return False
-    return sure(near) and near.confidence >= scene.notes.sure
+    return sure(near) and near.confidence >= scene.state.sure
 
 
 def _near(
-    scene: Scene,
+    scene: Scene[ApproachState],
     at: tuple[float, float, float],
     wanted: WantedObject | None,
     things: Iterable[Thing],
 ) -> Thing | None:
     """Return the one of these, seen twice at least, that was driven up to at a point."""
-    label = scene.notes.label
+    label = scene.state.label
     seen = [t for t in things if t.label == label and fits(t, wanted) and twice(t)]
     near = min(seen, key=lambda t: _apart_m(t, at), default=None)
     return near if near is not None and _apart_m(near, at) <= MOVED_M else None
@@ -185,40 +189,47 @@ def _apart_m(thing: Thing, at: tuple[float, float, float]) -> float:
     return hypot(thing.x_m - at[0], thing.y_m - at[1])
 
 
-def _look_anew(scene: Scene, wanted: WantedObject | None) -> SkillAction:
+def _look_anew(scene: Scene[ApproachState], wanted: WantedObject | None) -> SkillAction:
     """Look for a lost object once more."""
-    notes = scene.notes
-    if wanted is None or notes.again > 0:
+    state = scene.state
+    if wanted is None or not isinstance(state, GoToObjectState) or state.again > 0:
         return _fail_moved(scene)
-    again = notes.but(again=1, at=None, stage=0, spots=(), rooms=(), here=None, tried=())
+    again = state.but(
+        again=1, at=None, aim_stage=AimStage.CHOSEN, spots=(), rooms=(), here=None, tried=()
+    )
     return go_to_object(scene.but(again))
 
 
-def _arrive(scene: Scene, pose: Pose2, wanted: WantedObject | None) -> Finish:
-    notes, at = scene.notes, scene.notes.at or (pose.x_m, pose.y_m, 0.0)
-    near = _near(scene, at, wanted, scene.sight.things) if notes.label is not None else None
+def _arrive(scene: Scene[ApproachState], pose: Pose2, wanted: WantedObject | None) -> Finish:
+    state, at = scene.state, scene.state.at or (pose.x_m, pose.y_m, 0.0)
+    near = _near(scene, at, wanted, scene.sight.things) if state.label is not None else None
     away = away_m(pose, at[:2] if near is None else (near.x_m, near.y_m))
-    figures: dict[str, object] = {"rooms": notes.rooms}
-    if notes.label is None:
+    figures: dict[str, object] = {"rooms": _list_rooms(state)}
+    if state.label is None:
         said = say("object_step.at_point", away=away)
         return Finish(figures, Code.ARRIVED, said)
     if near is not None:
         figures["found"] = found(near, pose, scene.now_s)
     else:
-        figures["found"] = Found(label=notes.label, color=notes.color, x_m=round(at[0], 3),
+        figures["found"] = Found(label=state.label, color=state.color, x_m=round(at[0], 3),
                                  y_m=round(at[1], 3), distance_m=round(away, 2))  # fmt: skip
-    name = name_with_article(notes.label, notes.color)
+    name = name_with_article(state.label, state.color)
     said = say("object_step.at_object", away=away, name=name)
     return Finish(figures, Code.ARRIVED, said)
 
 
-def _fail(scene: Scene, wanted: WantedObject) -> Fail:
-    return _fail_moved(scene) if scene.notes.again > 0 else not_found(scene, wanted)
+def _fail(scene: Scene[GoToObjectState], wanted: WantedObject) -> Fail:
+    return _fail_moved(scene) if scene.state.again > 0 else not_found(scene, wanted)
 
 
-def _fail_moved(scene: Scene) -> Fail:
+def _fail_moved(scene: Scene[ApproachState]) -> Fail:
     """Say that the thing is no more where it was seen."""
     looked = say("object_step.moved")
-    bare = name_object(scene.notes.label or "thing", scene.notes.color)
+    bare = name_object(scene.state.label or "thing", scene.state.color)
     said = message(Code.NOT_FOUND, thing=bare, looked=looked)
-    return Fail(Code.NOT_FOUND, "moved", said, {"rooms": scene.notes.rooms})
+    return Fail(Code.NOT_FOUND, "moved", said, {"rooms": _list_rooms(scene.state)})
+
+
+def _list_rooms(state: ApproachState) -> tuple[str, ...]:
+    """Return the rooms that were looked round in before the thing was driven up to."""
+    return state.rooms if isinstance(state, GoToObjectState) else ()

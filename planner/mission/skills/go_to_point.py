@@ -14,29 +14,29 @@ from planner.mission.skills.go_to_object import approach, set_off
 from planner.mission.skills.image_errors import point_refused
 from planner.mission.skills.look_around import leg_to
 from planner.mission.skills.object_matching import bearing
+from planner.mission.skills.skill_state import GoToPointState
 
 FLOOR_M = 0.12
 """What lies lower is driven onto."""
-ASK, THERE = 0, 1
 
 
-def go_to_point(scene: Scene) -> SkillAction:
+def go_to_point(scene: Scene[GoToPointState]) -> SkillAction:
     """Return the leg to the point, or that it was reached."""
-    pose, notes = scene.pose, scene.notes
+    pose, state = scene.pose, scene.state
     if pose is None:
         return Retry()
-    if notes.stage == THERE:
+    if state.reached:
         return Finish()
-    if notes.stand > 0:
+    if state.stand > 0:
         return point_refused("point_no_route")
-    if notes.at is not None:
+    if state.at is not None:
         return approach(scene, pose, None)
     if scene.answer is None:
-        return AskImage(x=scene.step.x or 0, y=scene.step.y or 0, then=notes)
+        return AskImage(x=scene.step.x or 0, y=scene.step.y or 0, then=state)
     at = scene.answer.at
     if at is None:
         return point_refused(scene.answer.failure or "point_no_depth")
     if at[2] > FLOOR_M:
-        return set_off(scene, pose, notes, at)
+        return set_off(scene, pose, state, at)
     heading = bearing(pose, at[:2])
-    return leg_to(pose, at[:2], heading, notes.but(stage=THERE), notes.but(stand=1))
+    return leg_to(pose, at[:2], heading, state.but(reached=True), state.but(stand=1))

@@ -1,23 +1,25 @@
 """Look round: from one spot in all directions, from several spots one after the other. Pure.
 
 Shared by the skills that look. A spot is driven to, then turned about by a little less than the
-field of view, with a gaze at fresh pictures in each direction. What was looked at is in the notes.
+field of view, with a gaze at fresh pictures in each direction. What was looked at is in the
+skill's state.
 """
 
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from planner.mission.skills.actions import DriveLeg, Observe, Scene, Way
 from planner.mission.skills.object_matching import away_m
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import LookRoundState, SkillStateBase
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
 from wire import Pose2, wrap
 
 if TYPE_CHECKING:
     from planner.mission.skills.perception import WantedObject
 
+Looking = TypeVar("Looking", bound=LookRoundState)
 LOOKS = 3
 """New pictures in each direction: a detector misses now and then."""
 FACING_RAD = 0.12
@@ -28,34 +30,34 @@ MORE_M, SLOWEST_MPS, LEG_S = 10.0, 0.1, 60.0
 
 
 def look_round(
-    scene: Scene, pose: Pose2, spots: tuple[Viewpoint, ...], wanted: WantedObject | None
-) -> DriveLeg | Observe | Notes:
-    """Return the next leg or gaze; the notes alone once every spot was looked round from."""
-    notes = _without_way(scene, pose, spots)
-    scene = scene.but(notes)
-    here = next((s for s in spots if s.key == notes.spot), None)
+    scene: Scene[Looking], pose: Pose2, spots: tuple[Viewpoint, ...], wanted: WantedObject | None
+) -> DriveLeg | Observe | Looking:
+    """Return the next leg or gaze; the state alone once every spot was looked round from."""
+    state = _without_way(scene, pose, spots)
+    scene = scene.but(state)
+    here = next((s for s in spots if s.key == state.spot), None)
     if here is None:
         return _go(scene, pose, spots, wanted)
-    view = _next_view(scene, pose, notes)
+    view = _next_view(scene, pose, state)
     if view is None:
-        done = note_spot(notes, here)
+        done = note_spot(state, here)
         return _go(scene.but(done), pose, spots, wanted)
     heading = _heading(scene, view)
-    if notes.turned != view and abs(wrap(heading - pose.yaw_rad)) > FACING_RAD:
-        return spin(pose, heading, notes.but(turned=view))
-    then = notes.but(views=(*notes.views, view), turned=None)
+    if state.turned != view and abs(wrap(heading - pose.yaw_rad)) > FACING_RAD:
+        return spin(pose, heading, state.but(turned=view))
+    then = state.but(views=(*state.views, view), turned=None)
     return Observe(LOOKS, then=then, wanted=wanted)
 
 
-def note_spot(notes: Notes, spot: Viewpoint) -> Notes:
-    """Return the notes of a spot that was looked round from."""
-    rooms = notes.rooms
+def note_spot(state: Looking, spot: Viewpoint) -> Looking:
+    """Return the state of a spot that was looked round from."""
+    rooms = state.rooms
     if spot.room is not None and spot.room not in rooms:
         rooms = (*rooms, spot.room)
-    return notes.but(spot=None, views=(), turned=None, spots=(*notes.spots, spot.key), rooms=rooms)
+    return state.but(spot=None, views=(), turned=None, spots=(*state.spots, spot.key), rooms=rooms)
 
 
-def spin(pose: Pose2, heading: float, then: Notes, *, watch: bool = False) -> DriveLeg:
+def spin(pose: Pose2, heading: float, then: SkillStateBase, *, watch: bool = False) -> DriveLeg:
     """Return the turn on the spot to a heading."""
     goal = Pose2(pose.x_m, pose.y_m, wrap(heading))
     return DriveLeg(
@@ -67,8 +69,8 @@ def leg_to(
     pose: Pose2,
     at: tuple[float, float],
     heading: float | None,
-    then: Notes,
-    otherwise: Notes,
+    then: SkillStateBase,
+    otherwise: SkillStateBase,
     wanted: WantedObject | None = None,
 ) -> DriveLeg:
     """Return the way to a point, bounded by its distance; without a way the step goes on."""
@@ -86,42 +88,42 @@ def leg_to(
 
 
 def _go(
-    scene: Scene, pose: Pose2, spots: tuple[Viewpoint, ...], wanted: WantedObject | None
-) -> DriveLeg | Observe | Notes:
+    scene: Scene[Looking], pose: Pose2, spots: tuple[Viewpoint, ...], wanted: WantedObject | None
+) -> DriveLeg | Observe | Looking:
     """Return the way to the next spot, or the first gaze where the robot is there already."""
-    notes = scene.notes
-    spot = next((s for s in spots if s.key not in notes.spots), None)
+    state = scene.state
+    spot = next((s for s in spots if s.key not in state.spots), None)
     if spot is None:
-        return notes
-    there = notes.but(spot=spot.key, views=(), turned=None)
+        return state
+    there = state.but(spot=spot.key, views=(), turned=None)
     if spot.key == HERE or away_m(pose, spot.at) <= THERE_M:
         return look_round(scene.but(there), pose, spots, wanted)
-    return leg_to(pose, spot.at, None, there, notes.but(missed=spot.key), wanted)
+    return leg_to(pose, spot.at, None, there, state.but(missed=spot.key), wanted)
 
 
-def _without_way(scene: Scene, pose: Pose2, spots: tuple[Viewpoint, ...]) -> Notes:
+def _without_way(scene: Scene[Looking], pose: Pose2, spots: tuple[Viewpoint, ...]) -> Looking:
     """Give up a spot to which the way was shut; in its room, look round from where one stands."""
-    notes = scene.notes
-    spot = next((s for s in spots if s.key == notes.missed), None)
+    state = scene.state
+    spot = next((s for s in spots if s.key == state.missed), None)
     if spot is None:
-        return notes
-    if spot.room in notes.rooms:  # it was looked round in, but for what this spot shows better
-        return notes.but(missed=None, spots=(*notes.spots, spot.key))
+        return state
+    if spot.room in state.rooms:  # it was looked round in, but for what this spot shows better
+        return state.but(missed=None, spots=(*state.spots, spot.key))
     if spot.room is not None and room_at(scene.facts, (pose.x_m, pose.y_m)) == spot.room:
-        return notes.but(missed=None, spot=spot.key, views=(), turned=None)
-    shut = (*notes.shut, spot.room) if spot.room and spot.room not in notes.shut else notes.shut
-    return notes.but(missed=None, spots=(*notes.spots, spot.key), shut=shut)
+        return state.but(missed=None, spot=spot.key, views=(), turned=None)
+    shut = (*state.shut, spot.room) if spot.room and spot.room not in state.shut else state.shut
+    return state.but(missed=None, spots=(*state.spots, spot.key), shut=shut)
 
 
-def _heading(scene: Scene, view: int) -> float:
+def _heading(scene: Scene[LookRoundState], view: int) -> float:
     return wrap(view * 2.0 * pi / scene.eyes.views)
 
 
-def _next_view(scene: Scene, pose: Pose2, notes: Notes) -> int | None:
+def _next_view(scene: Scene[LookRoundState], pose: Pose2, state: LookRoundState) -> int | None:
     """Return the direction to look in next: the one turned to, else the nearest."""
-    if notes.turned is not None and notes.turned not in notes.views:
-        return notes.turned
-    left = [v for v in range(scene.eyes.views) if v not in notes.views]
+    if state.turned is not None and state.turned not in state.views:
+        return state.turned
+    left = [v for v in range(scene.eyes.views) if v not in state.views]
     return min(
         left, key=lambda v: _turn_cost(wrap(_heading(scene, v) - pose.yaw_rad)), default=None
     )

@@ -25,15 +25,13 @@ from planner.mission.skills.image_errors import not_pointed
 from planner.mission.skills.look_around import LOOKS
 from planner.mission.skills.object_matching import away_m, turn_to
 from planner.mission.skills.result_text import room_name
+from planner.mission.skills.skill_state import GoToObjectState, Point3, PointingStage
 from planner.mission.skills.viewpoints import room_at
 from planner.plan import Bilingual, Code
 
 if TYPE_CHECKING:
     from wire import Pose2
 
-At = tuple[float, float, float]
-"""x, y, height [m] in ``map``."""
-POINT, ANSWER, PROPOSED, AGAIN = 2, 3, 4, 5
 _SIDES = (
     (pi / 8, "ahead", "ahead"),
     (3 * pi / 8, "ahead_left", "ahead_right"),
@@ -45,38 +43,42 @@ _BEHIND = "behind"
 _DECLINED = say("look.declined")
 
 
-def agree_on_point(scene: Scene, pose: Pose2) -> SkillAction | At:
+def agree_on_point(scene: Scene[GoToObjectState], pose: Pose2) -> SkillAction | Point3:
     """Return the point once a person has said yes to it; until then, the next act towards it."""
-    notes, words, answer = scene.notes, scene.step.object or "", scene.answer
-    if notes.pointed is not None:
-        return _take_answer(scene, pose, notes.pointed)
-    if notes.stage == 0:
-        return Observe(LOOKS, then=notes.but(stage=POINT))
-    if notes.stage == POINT:
-        return AskImage(words, point=True, then=notes.but(stage=ANSWER))
+    state, words, answer = scene.state, scene.step.object or "", scene.answer
+    if state.pointed is not None:
+        return _take_answer(scene, pose, state.pointed)
+    if state.pointing is PointingStage.LOOK:
+        return Observe(LOOKS, then=state.but(pointing=PointingStage.POINT))
+    if state.pointing is PointingStage.POINT:
+        return AskImage(words, point=True, then=state.but(pointing=PointingStage.ANSWER))
     if answer is None:  # interrupted before the answer was used
-        return AskImage(words, point=True, then=notes)
+        return AskImage(words, point=True, then=state)
     if answer.at is None:
         return not_pointed(words, answer)
-    proposed = notes.but(pointed=answer.at, stage=PROPOSED)
+    proposed = state.but(pointed=answer.at, pointing=PointingStage.PROPOSED)
     return Question(_proposal(scene, pose, answer.at), proposed)
 
 
-def _take_answer(scene: Scene, pose: Pose2, at: At) -> SkillAction | At:
+def _take_answer(scene: Scene[GoToObjectState], pose: Pose2, at: Point3) -> SkillAction | Point3:
     """Return the point where a person agreed to it; else ask, or end the step."""
-    notes, answer = scene.notes, scene.step.answer
+    state, answer = scene.state, scene.step.answer
     if answer is None:  # interrupted before anybody answered
-        again = notes.stage == AGAIN
-        return Question(_proposal(scene, pose, at, again=again), notes)
+        again = state.pointing is PointingStage.AGAIN
+        return Question(_proposal(scene, pose, at, again=again), state)
     yes = parse(answer).consent
     if yes is True:
         return at
-    if yes is None and notes.stage == PROPOSED:
-        return Question(_proposal(scene, pose, at, again=True), notes.but(stage=AGAIN))
+    if yes is None and state.pointing is PointingStage.PROPOSED:
+        return Question(
+            _proposal(scene, pose, at, again=True), state.but(pointing=PointingStage.AGAIN)
+        )
     return Fail(Code.POINT_REFUSED, "point_declined", _DECLINED)
 
 
-def _proposal(scene: Scene, pose: Pose2, at: At, *, again: bool = False) -> Bilingual:
+def _proposal(
+    scene: Scene[GoToObjectState], pose: Pose2, at: Point3, *, again: bool = False
+) -> Bilingual:
     """Ask whether to drive to a point: how far it is, on which side, and in which room."""
     words, far_m, side = scene.step.object or "", away_m(pose, at[:2]), _side(turn_to(pose, at[:2]))
     room = room_name(scene.facts, room_at(scene.facts, at[:2]))

@@ -33,7 +33,7 @@ LIMIT_S, SLOWEST_MPS = 20.0, 0.05
 MORE_M = 0.5
 
 
-def move(scene: Scene) -> SkillAction:
+def move(scene: Scene[None]) -> SkillAction:
     """Return the straight leg, or how far odometry says that it came."""
     asked = scene.step.distance_m or 0.0
     pose, began = scene.pose, scene.began

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import atan2, hypot
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from planner.language.folding import fold
 from planner.language.object_classes import kind_of
@@ -37,7 +37,7 @@ SOMEBODY = frozenset(
 """People by pronoun: who is meant, no eye can tell."""
 
 
-def wanted_of(scene: Scene) -> WantedObject | None:
+def wanted_of(scene: Scene[Any]) -> WantedObject | None:
     """Return the object that the step's words mean to these eyes, or None."""
     return read_object(scene.step.object or "", scene.language, scene.eyes.classes)
 
@@ -72,7 +72,7 @@ def picks_out(words: str, kind: str, language: Language, classes: tuple[str, ...
     return singles_out(words, classes) and not related
 
 
-def one_of(scene: Scene) -> WantedObject | None:
+def one_of(scene: Scene[Any]) -> WantedObject | None:
     """Return the object that words mean where the robot goes up to it; None: any won't do."""
     step, classes = scene.step, scene.eyes.classes
     picked = picks_out(step.object or "", step.kind, scene.language, classes)
@@ -131,7 +131,7 @@ def list_confirmed(sight: Sight, wanted: WantedObject | None, since_s: float) ->
     return tuple(t for t in fresh(sight, wanted, since_s) if sure(t))
 
 
-def seen_now(scene: Scene, wanted: WantedObject | None) -> tuple[Thing, ...]:
+def seen_now(scene: Scene[Any], wanted: WantedObject | None) -> tuple[Thing, ...]:
     """Return the things that fit and were shown by the gaze that has just ended, sure or not."""
     return fresh(scene.sight, wanted, scene.gazed_s) if scene.gazed_s is not None else ()
 

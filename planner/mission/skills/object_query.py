@@ -16,8 +16,8 @@ from planner.mission.skills.perception import WantedObject
 
 if TYPE_CHECKING:
     from planner.language.questions import PlaceNames, QuestionReading, Whereabouts
-    from planner.mission.state import SiteView
     from planner.plan import Language
+    from planner.site.site_view import SiteView
 
 FLOOR = WantedObject("floor")
 """No detector finds it, and every height tells of it."""

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from planner.mission.skills.perception import WantedObject
-    from planner.mission.state import SiteView
     from planner.perception.snapshot import Thing
+    from planner.site.site_view import SiteView
 
 _SHOWN = 12
 NOWHERE = say("result.nowhere")

@@ -10,7 +10,7 @@ from planner.mission.skills.actions import Scene, SkillAction, Skip, Speak
 from planner.plan import StepState
 
 
-def say(scene: Scene) -> SkillAction:
+def say(scene: Scene[None]) -> SkillAction:
     """Return the words, or leave them out where they were perhaps said."""
     if scene.step.state is StepState.RUNNING:
         return Skip("perhaps_said")

@@ -6,7 +6,7 @@ can't judge, or don't know well enough where it is, is said to be so.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from planner.language.catalogue import say
 from planner.language.object_names import name_object, resolve
@@ -54,7 +54,7 @@ class SceneAnswer(NamedTuple):
     """None: nothing is asked for that is there or not, or it can't be told."""
 
 
-def answer(scene: Scene, question: str) -> SceneAnswer:
+def answer(scene: Scene[Any], question: str) -> SceneAnswer:
     """Tell the sights of this step; where one thing is asked for, whether it was there."""
     sought = sought_in(question, scene.facts, scene.step.place, scene.eyes.classes)
     late = _unknown(scene, question) if sought.what is None else None
@@ -79,7 +79,7 @@ def answer(scene: Scene, question: str) -> SceneAnswer:
     return _plainly(sought.what, fitting, at)
 
 
-def _unknown(scene: Scene, question: str) -> Bilingual | None:
+def _unknown(scene: Scene[Any], question: str) -> Bilingual | None:
     """Say that the eyes don't know the kind that is asked for: at the beginning they told none."""
     eyes = scene.eyes
     name = unknown_kind(question, scene.facts, scene.language, eyes.classes)
@@ -155,7 +155,7 @@ def _name_things(things: Things, what: WantedObject | None) -> Bilingual:
     )
 
 
-def _at(scene: Scene, by: WantedObject | None) -> Bilingual:
+def _at(scene: Scene[Any], by: WantedObject | None) -> Bilingual:
     """Say where was looked; nothing of a place that is the neighbour itself."""
     target = scene.facts.targets.get(scene.step.place or "")
     if target is None:

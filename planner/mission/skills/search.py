@@ -1,6 +1,6 @@
 """Search for one thing: look again at remembered ones, then look round in rooms. Pure.
 
-``search`` returns the next leg or gaze, the thing itself once a gaze has confirmed it, or its notes
+``search`` returns the next leg or gaze, the thing itself once a gaze has confirmed it, or its state
 when all was looked at or the budget is spent. What is seen on the way is gone to at once.
 """
 
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import cos, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner.language.color_names import may_be
 from planner.mission.skills.actions import DriveLeg, Observe, Scene
@@ -24,7 +24,7 @@ from planner.mission.skills.object_matching import (
     spot_of,
     turn_to,
 )
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import AimStage, CountState, RoomTourState, SearchState
 from planner.mission.skills.viewpoints import (
     HERE,
     Viewpoint,
@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from planner.mission.skills.perception import WantedObject
     from wire import Pose2
 
+Search = TypeVar("Search", bound=SearchState)
+Tour = TypeVar("Tour", bound=RoomTourState)
 VIEW_M = 1.6
 """From so far a thing is looked at again: near enough for a cup, and the floor there is in view."""
 NEAR_M = 2.6
@@ -56,28 +58,32 @@ AWAY = 2.5
 """A thing may be told by its room alone: how far beyond a place it still belongs to it [m]."""
 
 
-def search(scene: Scene, pose: Pose2, wanted: WantedObject) -> DriveLeg | Observe | Thing | Notes:
-    """Return the next act, or the thing that was found, or the notes when it was not."""
+def search(
+    scene: Scene[Search], pose: Pose2, wanted: WantedObject
+) -> DriveLeg | Observe | Thing | Search:
+    """Return the next act, or the thing that was found, or the state when it was not."""
     scene = begin(scene, pose, wanted, first=True)
     next_ = _next(scene, pose, wanted)
     if not affords(scene, pose, next_):
-        return scene.notes.but(broke=True)
+        return scene.state.but(out_of_metres=True)
     if isinstance(next_, (DriveLeg, Observe)):  # the order holds from its first act on
-        return replace(next_, notes=scene.notes)
+        return replace(next_, state=scene.state)
     return next_
 
 
-def _next(scene: Scene, pose: Pose2, wanted: WantedObject) -> DriveLeg | Observe | Thing | Notes:
+def _next(
+    scene: Scene[Search], pose: Pose2, wanted: WantedObject
+) -> DriveLeg | Observe | Thing | Search:
     inside = make_filter(scene)
     seen = [t for t in _list_confirmed(scene, wanted) if inside(t)]
     if seen:
         return min(seen, key=lambda t: away_m(pose, (t.x_m, t.y_m)))
     if find_spent_budget(scene) is not None:
-        return scene.notes
-    known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.notes.tried]
+        return scene.state
+    known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.state.tried]
     if not known:
         next_ = look_round(scene, pose, spots(scene, pose), wanted)
-        if not isinstance(next_, Notes):
+        if not isinstance(next_, SearchState):
             return next_
         scene = scene.but(next_)  # all was looked at: light or distance may have changed a colour
         known = [t for t in alike(scene, wanted) if t.id not in next_.tried]
@@ -87,7 +93,7 @@ def _next(scene: Scene, pose: Pose2, wanted: WantedObject) -> DriveLeg | Observe
     return _look_again(scene, pose, nearest, wanted)
 
 
-def affords(scene: Scene, pose: Pose2, next_: object) -> bool:
+def affords(scene: Scene[Any], pose: Pose2, next_: object) -> bool:
     """Return whether the metres left are likely to last for the next act."""
     if not isinstance(next_, DriveLeg):
         return True
@@ -95,14 +101,14 @@ def affords(scene: Scene, pose: Pose2, next_: object) -> bool:
     return scene.spent_m + way_m <= LAST_M
 
 
-def find_spent_budget(scene: Scene) -> str | None:
+def find_spent_budget(scene: Scene[SearchState | CountState]) -> str | None:
     """Return the budget that a search has used up, or None."""
-    if scene.notes.broke or not scene.spent_m <= MAX_M:
+    if scene.state.out_of_metres or not scene.spent_m <= MAX_M:
         return "metres"
     return None if scene.spent_s <= MAX_S else "seconds"
 
 
-def make_filter(scene: Scene) -> PlaceFilter:
+def make_filter(scene: Scene[Any]) -> PlaceFilter:
     """Return the test whether a thing lies where the step is to look."""
     return PlaceFilter(scene)
 
@@ -110,7 +116,7 @@ def make_filter(scene: Scene) -> PlaceFilter:
 class PlaceFilter:
     """Judge things by the place that a step names; without one all are meant."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene[Any]) -> None:
         self._target = scene.facts.targets.get(scene.step.place or "")
         self._facts = scene.facts
         self._room = room_of(scene.facts, scene.step.place)
@@ -124,14 +130,14 @@ class PlaceFilter:
         return away_m(self._target.pose, (thing.x_m, thing.y_m)) <= AWAY
 
 
-def spots(scene: Scene, pose: Pose2) -> tuple[Viewpoint, ...]:
+def spots(scene: Scene[RoomTourState], pose: Pose2) -> tuple[Viewpoint, ...]:
     """Return all spots to look round from, in order; the same at each time of asking."""
     facts, target = scene.facts, scene.facts.targets.get(scene.step.place or "")
     if target is not None and not target.room:
         at = (target.pose.x_m, target.pose.y_m)
         return (Viewpoint(f"{target.id}/0", room_of(facts, target.id), at),)
-    first = scene.notes.here or (pose.x_m, pose.y_m)
-    room, order = room_at(facts, first), scene.notes.order
+    first = scene.state.here or (pose.x_m, pose.y_m)
+    room, order = room_at(facts, first), scene.state.order
     rooms = [facts.targets[r] for r in order if r != room and r in facts.targets]
     found: list[Viewpoint] = []
     if room in order:
@@ -144,13 +150,15 @@ def spots(scene: Scene, pose: Pose2) -> tuple[Viewpoint, ...]:
     return (*found, *(spot for target in rooms for spot in near_spot(target)))
 
 
-def begin(scene: Scene, pose: Pose2, wanted: WantedObject | None, *, first: bool = False) -> Scene:
+def begin(
+    scene: Scene[Tour], pose: Pose2, wanted: WantedObject | None, *, first: bool = False
+) -> Scene[Tour]:
     """Return the scene with where the robot stood first, and the rooms in their order.
 
     Where the ``first`` that is found ends the step, likely rooms come early; else all is looked at,
     and the shorter way counts.
     """
-    if scene.notes.here is not None:
+    if scene.state.here is not None:
         return scene
     known = tuple(t for t in scene.sight.things if wanted is not None and _leads(t, wanted))
     here = (round(pose.x_m, 3), round(pose.y_m, 3))
@@ -160,7 +168,7 @@ def begin(scene: Scene, pose: Pose2, wanted: WantedObject | None, *, first: bool
         if place is None
         else (place.id,)
     )
-    return scene.but(scene.notes.but(here=here, order=order))
+    return scene.but(scene.state.but(here=here, order=order))
 
 
 def _leads(thing: Thing, wanted: WantedObject) -> bool:
@@ -168,18 +176,18 @@ def _leads(thing: Thing, wanted: WantedObject) -> bool:
     return fits(thing, wanted.by or wanted)
 
 
-def _list_confirmed(scene: Scene, wanted: WantedObject) -> tuple[Thing, ...]:
+def _list_confirmed(scene: Scene[Any], wanted: WantedObject) -> tuple[Thing, ...]:
     if scene.gazed_s is None:
         return ()
     return list_confirmed(scene.sight, wanted, scene.gazed_s)
 
 
-def _worth(scene: Scene, wanted: WantedObject) -> list[Thing]:
+def _worth(scene: Scene[Any], wanted: WantedObject) -> list[Thing]:
     """Return the things worth a second look: remembered ones, and unsure ones of this gaze."""
     return [t for t in _list_remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted)]
 
 
-def alike(scene: Scene, wanted: WantedObject) -> list[Thing]:
+def alike(scene: Scene[Any], wanted: WantedObject) -> list[Thing]:
     """Return the things that would fit if their colour were seen wrongly, as from afar."""
     inside, others = make_filter(scene), _list_remembered(scene, wanted)
     return [
@@ -187,7 +195,7 @@ def alike(scene: Scene, wanted: WantedObject) -> list[Thing]:
     ]
 
 
-def _list_remembered(scene: Scene, wanted: WantedObject) -> list[Thing]:
+def _list_remembered(scene: Scene[Any], wanted: WantedObject) -> list[Thing]:
     oldest_s = scene.now_s - WORTH_S
     return [
         t
@@ -200,22 +208,23 @@ def _list_remembered(scene: Scene, wanted: WantedObject) -> list[Thing]:
 
 
 def _look_again(
-    scene: Scene, pose: Pose2, thing: Thing, wanted: WantedObject
+    scene: Scene[SearchState], pose: Pose2, thing: Thing, wanted: WantedObject
 ) -> DriveLeg | Observe:
     """Go to where a thing can be seen, face it, gaze; then it is confirmed, or was tried."""
-    notes, at = scene.notes, spot_of(thing)
-    stage = notes.stage if notes.aim == thing.id else 0
-    tried = notes.but(tried=(*notes.tried, thing.id), aim=None, stage=0)
-    if stage == 0 and not _in_sight(scene, pose, thing):
+    state, at = scene.state, spot_of(thing)
+    stage = state.aim_stage if state.aim == thing.id else AimStage.CHOSEN
+    tried = state.but(tried=(*state.tried, thing.id), aim=None, aim_stage=AimStage.CHOSEN)
+    if stage is AimStage.CHOSEN and not _in_sight(scene, pose, thing):
         stand, heading = short_of(pose, at[:2], VIEW_M)
-        there = notes.but(aim=thing.id, stage=1)
+        there = state.but(aim=thing.id, aim_stage=AimStage.NEAR)
         return leg_to(pose, stand, heading, there, tried)
-    if stage <= 1 and abs(turn_to(pose, at[:2])) > 2.0 * FACING_RAD:
-        return spin(pose, bearing(pose, at[:2]), notes.but(aim=thing.id, stage=2))
+    if stage is not AimStage.FACING and abs(turn_to(pose, at[:2])) > 2.0 * FACING_RAD:
+        facing = state.but(aim=thing.id, aim_stage=AimStage.FACING)
+        return spin(pose, bearing(pose, at[:2]), facing)
     return Observe(LOOKS + 2, then=tried, wanted=wanted)
 
 
-def _in_sight(scene: Scene, pose: Pose2, thing: Thing) -> bool:
+def _in_sight(scene: Scene[Any], pose: Pose2, thing: Thing) -> bool:
     """Tell whether a turn on the spot is likely to show a thing."""
     away = away_m(pose, (thing.x_m, thing.y_m))
     room = thing.room or room_at(scene.facts, (thing.x_m, thing.y_m))

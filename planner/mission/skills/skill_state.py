@@ -1,23 +1,47 @@
-"""Own what a skill that looks remembers of its step: journalled, so that a crash forgets nothing.
+"""Define what each skill that looks or asks remembers of its step: one frozen record a skill.
 
-Data only. What was looked at stays looked at, across pauses and crashes; times are those of the
-step itself, so that no clock of a process that is gone comes back.
+Journalled, so that a crash forgets nothing: what was looked at stays looked at, across pauses and
+crashes. Times are those of the step itself, so that no clock of a process that is gone comes back.
+Data only. A skill that is not in ``STATES`` remembers nothing: its step's record says enough.
 """
 
 from __future__ import annotations
 
-from typing import Any, Self
+from collections.abc import Mapping
+from enum import StrEnum
+from types import MappingProxyType
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field
 
 from planner.plan import Frozen
 
+Point3 = tuple[float, float, float]
+"""x, y, height [m] in ``map``."""
 
-class Notes(Frozen):
-    """Remember how far a step that looks has come."""
 
-    stage: int = 0
-    """Of the one thing in hand: what is done next with it."""
+class SkillStateBase(Frozen):
+    """Be the base of what a skill remembers."""
+
+    def but(self, **changes: Any) -> Self:
+        """Return this state with changes.
+
+        Raises:
+            TypeError: this skill remembers no such thing.
+        """
+        foreign = changes.keys() - type(self).model_fields.keys()
+        if foreign:
+            name = type(self).__name__
+            known = ", ".join(sorted(type(self).model_fields))
+            raise TypeError(f"{name} has no {', '.join(sorted(foreign))}; it has {known}")
+        return self.model_copy(update=changes)
+
+
+class LookRoundState(SkillStateBase):
+    """Remember the spots and directions that were looked in."""
+
     spot: str | None = None
-    """Where is looked round from now; its key."""
+    """The spot that is looked round from now; its key."""
     views: tuple[int, ...] = ()
     """Directions of that spot that were looked in."""
     turned: int | None = None
@@ -30,40 +54,199 @@ class Notes(Frozen):
     """The spot to which the way turned out to be shut."""
     shut: tuple[str, ...] = ()
     """Rooms to which there was no way."""
-    broke: bool = False
-    """The metres that were left did not last for the next way."""
+
+
+class RoomTourState(LookRoundState):
+    """Remember where a look through rooms began, and their order."""
+
     here: tuple[float, float] | None = None
     """Where the robot stood when it began to look: x [m], y [m] in ``map``."""
+    order: tuple[str, ...] = ()
+    """Rooms to look in, in their order, as of the beginning."""
+
+
+class CountState(RoomTourState):
+    """Remember how far a count has come."""
+
+    kind: Literal["count"] = "count"
+    out_of_metres: bool = False
+    """The metres that were left did not last for the next way."""
+
+
+class AimStage(StrEnum):
+    """Say how far a second look at one thing has come."""
+
+    CHOSEN = "chosen"
+    NEAR = "near"
+    """The robot stands where the thing can be seen."""
+    FACING = "facing"
+
+
+class SearchState(RoomTourState):
+    """Remember the things that a search looks at again."""
+
+    out_of_metres: bool = False
+    """The metres that were left did not last for the next way."""
+    aim: str | None = None
+    """The thing that is looked at again."""
+    aim_stage: AimStage = AimStage.CHOSEN
+    tried: tuple[str, ...] = ()
+    """Things that were looked at again and were not what is wanted."""
+
+
+class FindState(SearchState):
+    """Remember how far a search has come."""
+
+    kind: Literal["find"] = "find"
+
+
+class LookStage(StrEnum):
+    """Say what of a look is over."""
+
+    GAZING = "gazing"
+    GAZED = "gazed"
+    """All was looked at that the question is about."""
+    ASKED = "asked"
+    """A vision model was asked, too."""
+
+
+class LookState(RoomTourState):
+    """Remember the directions of a look, in which pictures were taken."""
+
+    kind: Literal["look"] = "look"
+    stage: LookStage = LookStage.GAZING
     ahead: float | None = None
     """The heading in ``map`` that counts as ahead: how it stood when it looked first [rad]."""
     faced: tuple[float, ...] = ()
     """Directions that were gazed in, in their order: angles to the left of ahead [rad]."""
-    order: tuple[str, ...] = ()
-    """Rooms to look in, in their order, as of the beginning."""
-    aim: str | None = None
-    """The thing that is driven up to or looked at again."""
-    tried: tuple[str, ...] = ()
-    """Things that were looked at again and were not what is wanted."""
-    at: tuple[float, float, float] | None = None
-    """Where the thing is, as of when it was seen last: x, y, height [m] in ``map``."""
-    pointed: tuple[float, float, float] | None = None
-    """Where a vision model pointed, likewise: driven to by nobody's word but a person's."""
+
+
+class FollowStage(StrEnum):
+    """Say how the robot goes after somebody."""
+
+    AFTER = "after"
+    SHUT = "shut"
+    """The way to them turned out to be shut; they are watched, standing."""
+    ROUND = "round"
+    """They are out of sight, and looked for all round."""
+
+
+class FollowPersonState(LookRoundState):
+    """Remember the person who is followed, and the ways to them that were shut."""
+
+    kind: Literal["follow"] = "follow"
+    stage: FollowStage = FollowStage.AFTER
+    at: Point3 | None = None
+    """Where the person is, as of when they were seen last."""
+    seen_s: float = 0.0
+    """When they were seen last, in time spent on the step."""
+    label: str | None = None
+    shut_at: tuple[float, float] | None = None
+    """Where the robot stood when the way was shut: x [m], y [m] in ``map``."""
+    shut_ways: int = 0
+    """Ways that were shut from there, one after the other."""
+
+
+class ApproachStage(StrEnum):
+    """Say how far the way up to a thing has come."""
+
+    DRIVE = "drive"
+    FACE = "face"
+    CHECK = "check"
+    JUDGE = "judge"
+
+
+class ApproachState(SkillStateBase):
+    """Remember the thing or point that is driven up to."""
+
+    at: Point3 | None = None
+    """Where it is, as of when it was seen last; None: not known yet."""
+    approach: ApproachStage = ApproachStage.DRIVE
+    """Holds once ``at`` is known."""
+    stand: int = 0
+    """Standing points about it that can't be reached."""
     sure: float | None = None
     """How sure of the thing one was when the robot stood before it and began to look."""
     label: str | None = None
     color: str | None = None
-    stand: int = 0
-    """Standing points about the thing that can't be reached."""
+
+
+class PointingStage(StrEnum):
+    """Say how far a vision model and a person have come in agreeing on a point."""
+
+    LOOK = "look"
+    POINT = "point"
+    """The model is to point."""
+    ANSWER = "answer"
+    """The model was asked."""
+    PROPOSED = "proposed"
+    """A person was asked."""
+    AGAIN = "again"
+    """A person was asked once more."""
+
+
+class GoToObjectState(SearchState, ApproachState):
+    """Remember the search for a thing, the point agreed on, and the way up to it."""
+
+    kind: Literal["go_to_object"] = "go_to_object"
+    pointing: PointingStage = PointingStage.LOOK
+    pointed: Point3 | None = None
+    """Where a vision model pointed: driven to by nobody's word but a person's."""
     again: int = 0
     """Times that the thing had moved and was gone after."""
+
+
+class GoToPointState(ApproachState):
+    """Remember whether the floor that was pointed at was reached."""
+
+    kind: Literal["go_to_point"] = "go_to_point"
+    reached: bool = False
+
+
+class AskStage(StrEnum):
+    """Say what was done about an answer."""
+
+    ASK = "ask"
+    THOUGHT = "thought"
+    """The answer is thought about."""
+    AGAIN = "again"
+    """It was asked once more."""
+
+
+class AskState(SkillStateBase):
+    """Remember an answer that let nothing go on."""
+
+    kind: Literal["ask"] = "ask"
+    stage: AskStage = AskStage.ASK
     heard: str | None = None
     """An answer that was neither yes nor no, after which was asked once more."""
-    seen_s: float = 0.0
-    """When it was seen last, in time spent on the step."""
-
-    def but(self, **changes: Any) -> Self:
-        """Return these notes with changes."""
-        return self.model_copy(update=changes)
 
 
-NOTHING = Notes()
+SkillState = Annotated[
+    AskState
+    | CountState
+    | FindState
+    | FollowPersonState
+    | GoToObjectState
+    | GoToPointState
+    | LookState,
+    Field(discriminator="kind"),
+]
+STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
+    {
+        "ask": AskState,
+        "count": CountState,
+        "find": FindState,
+        "follow": FollowPersonState,
+        "go_to_object": GoToObjectState,
+        "go_to_point": GoToPointState,
+        "look": LookState,
+    }
+)
+"""By the kind of step; the other kinds remember nothing."""
+
+
+def begin_state(kind: str) -> SkillStateBase | None:
+    """Return the state of a step of this kind that has not begun; None: it remembers nothing."""
+    state = STATES.get(kind)
+    return state() if state is not None else None

@@ -35,7 +35,7 @@ MORE_PARTS = 2
 LIMIT_M = 0.5
 
 
-def turn(scene: Scene) -> SkillAction:
+def turn(scene: Scene[None]) -> SkillAction:
     """Return the next part of the turn, or how far odometry says that it came."""
     asked = scene.step.angle_rad or 0.0
     if scene.pose is None or scene.began is None:

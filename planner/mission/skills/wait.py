@@ -9,6 +9,6 @@ from __future__ import annotations
 from planner.mission.skills.actions import Scene, SkillAction, Stand
 
 
-def wait(scene: Scene) -> SkillAction:
+def wait(scene: Scene[None]) -> SkillAction:
     """Return the time to stand."""
     return Stand(scene.step.seconds or 0.0)

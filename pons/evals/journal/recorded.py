@@ -17,6 +17,7 @@ from pydantic import ValidationError
 
 from planner.brain.interface import Exchange
 from planner.language.stop import is_stop
+from planner.mission.journal_records import read_mission
 from planner.mission.observations import exchanges_of
 from planner.mission.state import Mission
 from planner.plan import Language, PlanRecord
@@ -100,7 +101,7 @@ def _first_plans(records: list[str]) -> RecordedDecisions:
     unreadable = 0
     for record in records:
         try:
-            mission = Mission.model_validate_json(record)
+            mission = read_mission(record)
         except ValidationError:
             unreadable += 1
             continue

@@ -12,10 +12,10 @@ from pathlib import Path
 
 from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.mission.site_view import vocabulary_of
 from planner.plan import StepPlan, check_plan, plan_record
 from planner.settings import GoalLimits, ModelSettings, Settings
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from pons.evals.journal.compare import Difference, difference, plan_line
 from pons.evals.journal.recorded import RecordedDecision
 from pons.evals.model_access import Spending, open_purse, spending_of

@@ -15,10 +15,10 @@ from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.brain.endpoint import Address, EndpointBrain
 from planner.brain.prompt import Prompt, tokens
 from planner.budget import Purse
-from planner.mission.site_view import vocabulary_of
 from planner.plan import EVERY_KIND, Language
 from planner.settings import GoalLimits, JsonMode, ModelSettings, Settings
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from pons.evals.cases import Case
 from pons.evals.matchers import read_expectation
 from pons.evals.model_access import open_purse, spending_of

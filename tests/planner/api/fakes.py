@@ -13,11 +13,12 @@ from typing import Any
 from planner.brain import Brain, OfflineBrain
 from planner.budget import Amounts, BudgetLimits, Usage
 from planner.language.stop import is_stop
-from planner.mission import KnownPlaces, Leg
+from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
+from planner.navigation import ObstacleReport
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
-from planner.site import FenceProposals, Site
+from planner.site import FenceProposals, KnownPlaces, Site
 from planner.voice import Recognition, Sound, VoiceFailure
 from tests.wire.examples import STATUS
 from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
@@ -37,6 +38,13 @@ class StopEcho:
     is_echoed: bool = True
 
 
+@dataclass
+class FakeLayers:
+    """Hold a report that a test sets."""
+
+    report: ObstacleReport | None = None
+
+
 class FakeGoals:
     """Keep one goal and every call."""
 
@@ -44,6 +52,7 @@ class FakeGoals:
         self.calls: list[tuple[Any, ...]] = []
         self.changes: list[dict[str, Any]] = []
         self.acts: list[OpRequest | None] = []
+        self.obstacles: FakeLayers | None = None
         self.stops: list[str] = []
         self.leg: Leg | None = None
         self.asks = False

@@ -10,7 +10,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner.api import Access
-from planner.api.token_guesses import FREE, LONGEST_S, MOST_ADDRESSES, Guesses
+from planner.api.middleware import FREE, LONGEST_S, MOST_ADDRESSES, Guesses
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.planner.api.serving import Served, request, served

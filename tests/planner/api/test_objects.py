@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 
 from planner.api import Access
-from planner.api.live_state import Feed
-from planner.api.object_changes import SAME_S, SIGHT_S
+from planner.api.live_state import SAME_S, SIGHT_S, Feed
 from planner.perception import Detection, LookSnapshot, Picture, Sight, Thing
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of

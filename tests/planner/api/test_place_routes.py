@@ -12,8 +12,8 @@ from starlette.testclient import TestClient
 from planner.api import Access
 from planner.api.live_state import Feed
 from planner.bridge_client import Aged
-from planner.mission import KnownPlaces
-from planner.site import TaughtPlaces
+from planner.mission.place_survey import RobotSurvey
+from planner.site import KnownPlaces, TaughtPlaces
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import BASE, client_of
 from tests.planner.mission.live import StraightRouter
@@ -41,7 +41,7 @@ def services(tmp_path: Path) -> FakeServices:
     changes = {"base_in_map": HERE, "map_id": made.site.map_id, "measured": Twist2(0.0, 0.0)}
     made.robot._status = STATUS.model_copy(update=changes)
     made.memory = KnownPlaces(made.site, TaughtPlaces.in_home(tmp_path))
-    made.memory.use(Heard(made), StraightRouter())
+    made.memory.use(RobotSurvey(Heard(made), StraightRouter()))
     return made
 
 
@@ -133,3 +133,13 @@ def test_a_question_needs_no_operators_act(client: TestClient, services: FakeSer
         client.post("/v1/goals", json={"text": text})
     client.post("/v1/goals", json={"text": "continue"})
     assert [act is None for act in services.goals.acts] == [True, True, True, True, False]
+
+
+def test_a_place_has_one_spot(client: TestClient) -> None:
+    """A room says its own spot: with a point besides, nobody knows which is meant."""
+    point, name = {"x_m": 1.0, "y_m": 1.0}, {"en": "attic"}
+    both = client.post("/v1/places", json={"name": name, "point": point, "room": "room_1"})
+    assert (both.status_code, both.json()["code"]) == (422, "invalid_request")
+    unknown = client.post("/v1/places", json={"name": name, "room": "room_1"})
+    assert (unknown.status_code, unknown.json()["code"]) == (404, "unknown_room")
+    assert client.get("/v1/places").json()["proposed_rooms"] == []

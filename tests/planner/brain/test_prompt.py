@@ -13,9 +13,9 @@ from planner.brain import ThinkRequest
 from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.brain.prompt import BUDGET_TOKENS, Prompt, tokens
 from planner.brain.schema import schema_of, step_line, step_models
-from planner.mission.site_view import vocabulary_of
 from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from pons_assets import PROMPTS
 from tests.conftest import ROOT
 from wire import ConfigError

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 from math import ceil, hypot
 from typing import Any
 
-from planner.mission.state import SiteView, Target
 from planner.navigation import RoutePoint
 from planner.plan import Bilingual
+from planner.site.site_view import SiteView, Target
 from wire import (
     IDENTITY,
     PROTOCOL,

@@ -18,11 +18,11 @@ from planner.mission import (
     MissionJournal,
     Missions,
 )
-from planner.mission.known_places import KnownPlaces
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, GoalState, GoTo, StepPlan
 from planner.site import Site
+from planner.site.known_places import KnownPlaces
 from tests.planner.mission.fakes import PERIOD_S, FakeBridge, straight
 from wire import Pose2, RobotDescription, Status
 

@@ -11,7 +11,6 @@ import pytest
 from planner.brain.scripted import Reply
 from planner.language.utterance import parse
 from planner.mission import BadState, JournalDown
-from planner.mission.known_places import KnownPlaces, Lesson
 from planner.mission.loop import Loop
 from planner.plan import (
     ENDED,
@@ -25,6 +24,7 @@ from planner.plan import (
     StepPlan,
 )
 from planner.site import Site, TaughtPlaces
+from planner.site.known_places import KnownPlaces, Lesson
 from tests.planner.mission import live
 from tests.planner.mission.live import KITCHEN, LiveBridge, Together, run
 from wire import Pose2, Status

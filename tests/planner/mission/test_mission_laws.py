@@ -29,12 +29,14 @@ from planner.mission.events import (
     Sighted,
     Stopped,
     Submitted,
+    Surveyed,
     Tick,
     Told,
 )
 from planner.mission.reducer import advance, motion_request
 from planner.mission.skills import Eyesight, ImageAnswer
 from planner.mission.state import Mission, MissionState
+from planner.navigation.obstruction import Obstruction
 from planner.perception.snapshot import LookSnapshot as LookSeen
 from planner.perception.snapshot import Sight, Thing
 from planner.plan import (
@@ -149,6 +151,7 @@ events = st.one_of(
     st.tuples(st.just("submit"), ids, st.booleans(), st.booleans()),
     st.tuples(st.just("planned"), ids, plans | st.none()),
     st.tuples(st.just("routed"), st.integers(0, 2), st.sampled_from([None, None, "no_route"])),
+    st.tuples(st.just("surveyed"), st.sampled_from([2.0, 3.0]), st.booleans()),
     st.tuples(st.just("safe"), st.integers(0, 3)),
     st.tuples(st.just("command"), st.sampled_from([Cancel, Pause, Resume, Confirm, Move]), ids),
     st.tuples(st.just("reply"), ids),
@@ -197,6 +200,7 @@ class World:
     def _journal(self, entry: Journal) -> None:
         self.entries.append(entry)
         for mission in entry.missions:
+            assert Mission.model_validate_json(mission.model_dump_json()) == mission, "as read"
             here = mission.steps[mission.step : mission.step + 1]
             if mission.state is GoalState.RUNNING and here and here[0].state is StepState.RUNNING:
                 self.written.setdefault((mission.id, mission.step), entry.entry)
@@ -240,6 +244,11 @@ class World:
                 ticket = max(0, self.book.tickets - back)
                 for goal in IDS:
                     self.event(Routed(goal, ticket, failure))
+            case ("surveyed", x_m, opened):
+                way = Obstruction((x_m, -0.2), (x_m, 0.2))
+                self.event(
+                    Surveyed(None if opened else way, bool(x_m > 2.5), (way,) if opened else ())
+                )
             case ("safe", back):
                 self.event(Journalled(max(0, self.book.written - back)))
             case ("tick",):

@@ -10,6 +10,7 @@ from planner.mission.events import Cancel, Pause, Reply, Resume, Tick, Told
 from planner.mission.observations import list_observations
 from planner.mission.reducer import asked_about_picture
 from planner.mission.skills import Eyesight, ImageAnswer
+from planner.mission.skills.skill_state import GoToObjectState
 from planner.plan import Code, GoalState, GoTo, GoToObject, StepPlan, StepState
 from tests.planner.mission.driving import CANCELLED, FAILED, PAUSED, SUCCEEDED, standing_still
 from tests.planner.mission.lockstep import go
@@ -113,7 +114,8 @@ def test_a_crash_neither_drives_nor_loses_the_question(written: bool) -> None:
     after.see(3.0)
     mission = after.goal(goal)
     assert (mission.state, after.said) == (ASKS, []), "perhaps said before"
-    assert mission.notes.pointed == AT
+    assert isinstance(mission.skill_state, GoToObjectState)
+    assert mission.skill_state.pointed == AT
     if written:
         assert mission.outcome is not None
         assert mission.outcome.message.en == TOLD

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from planner.mission.activity import Driving, Observing
+from planner.mission.skills.skill_state import FindState
 from planner.plan import (
     Code,
     Count,
@@ -72,7 +73,8 @@ def test_a_gaze_needs_pictures_taken_standing_and_ends_without_any(seeing: Seein
     seeing.see(0.4)  # two pictures are no three
     seeing.blind = "camera_frozen"
     seeing.see(1.0)
-    views = len(seeing.goal(goal).notes.views)
+    state = seeing.goal(goal).skill_state
+    views = len(state.views) if isinstance(state, FindState) else 0
     seeing.see_until(goal, FAILED, limit_s=20.0)
     assert views <= 1
     assert seeing.goal(goal).reason == "camera_frozen"

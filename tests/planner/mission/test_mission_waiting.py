@@ -8,8 +8,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from planner.mission.answer_timeouts import has_room
 from planner.mission.events import Reply, Tick
+from planner.mission.open_questions import has_room
 from planner.mission.state import MAX_OPEN
 from planner.plan import (
     AnswerPlan,

@@ -10,9 +10,9 @@ import pytest
 
 from planner.language import object_names
 from planner.mission.detector_words import warm_up
-from planner.mission.known_places import KnownPlaces
 from planner.mission.skills import viewpoints
 from planner.site import Site
+from planner.site.known_places import KnownPlaces
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.live import planner
 

@@ -11,14 +11,12 @@ import pytest
 
 from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
-from planner.language.identification import language_of
-from planner.language.utterance import parse
+from planner.language.utterance import language_of, parse
 from planner.mission import reception
 from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
-from planner.mission.journal import GoalKey
 from planner.mission.reception import (
     AnswerReception,
     Reception,
@@ -28,7 +26,7 @@ from planner.mission.reception import (
     receive_answer,
 )
 from planner.mission.reducer import advance
-from planner.mission.state import MAX_OPEN, Mission, MissionState
+from planner.mission.state import MAX_OPEN, GoalKey, Mission, MissionState
 from planner.plan import Code, GoalState, Language, Outcome, Vocabulary
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.lockstep import Together, go

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.mission.skills.skill_state import LookState
 from planner.mission.state import Mission
 from planner.plan import (
     AnswerPlan,
@@ -262,12 +263,16 @@ def test_a_brain_s_denial_stands_beside_what_the_detector_saw() -> None:
     assert told(mission).en.endswith("Nobody is there.")
 
 
+def faced(mission: Mission) -> tuple[float, ...]:
+    return mission.skill_state.faced if isinstance(mission.skill_state, LookState) else ()
+
+
 @pytest.mark.parametrize("gone_after", [1, 3])
 def test_after_a_crash_the_directions_before_it_are_missing_and_it_is_said(gone_after: int) -> None:
     world = Telling(truth=kitchen().truth)
     world.thoughts = list(kitchen().thoughts)
     goal = world.give(None)
-    while len(world.goal(goal).notes.faced) < gone_after:
+    while len(faced(world.goal(goal))) < gone_after:
         world.see(0.2)
     world.crash()
     while world.goal(goal).outcome is None:

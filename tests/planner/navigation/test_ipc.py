@@ -7,8 +7,26 @@ from dataclasses import asdict
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.navigation import RouteLimits, RoutePoint, RouteRequest, RouteResult
-from planner.navigation.ipc import limits_text, read_limits, read_request, read_result, result_frame
+from planner.navigation import (
+    Mover,
+    ObstacleReport,
+    RouteLimits,
+    RoutePoint,
+    RouteRequest,
+    RouteResult,
+    ScanObservation,
+)
+from planner.navigation.ipc import (
+    is_observation,
+    limits_text,
+    read_limits,
+    read_observation,
+    read_report,
+    read_request,
+    read_result,
+    report_frame,
+    result_frame,
+)
 from processes.worker_protocol import HEADER, Frame, pack, read_lengths, unpack
 from wire import Pose2, RobotDescription
 
@@ -26,6 +44,23 @@ results = st.builds(
     moved_goal_m=numbers,
     start_escaped=st.booleans(),
     took_s=numbers,
+)
+
+
+observations = st.builds(
+    ScanObservation,
+    *(poses, poses, numbers, numbers, numbers),
+    st.lists(st.none() | st.floats(0, 30), max_size=8).map(tuple),
+    numbers,
+    st.lists(st.tuples(numbers, numbers), max_size=5).map(tuple),
+)
+reports = st.builds(
+    ObstacleReport,
+    version=st.integers(0, 10**6),
+    blocked_ahead_m=st.none() | numbers,
+    movers=st.lists(st.builds(Mover, st.integers(1, 99), *(numbers,) * 5), max_size=3).map(tuple),
+    cells=st.binary(max_size=40),
+    suspicions=st.binary(max_size=40),
 )
 
 
@@ -52,3 +87,20 @@ def test_limits_come_from_the_robots_description() -> None:
     assert limits.max_speed_mps == robot.limits.max_speed_mps
     assert limits.radius_m == robot.base.radius_m
     assert read_limits(limits_text(limits)) == limits
+
+
+@given(observations)
+def test_an_observation_comes_back_as_it_was(seen: ScanObservation) -> None:
+    frame = sent((asdict(seen), b""))
+    assert is_observation(frame)
+    assert read_observation(frame) == seen
+
+
+@given(reports)
+def test_a_report_comes_back_as_it_was(report: ObstacleReport) -> None:
+    assert read_report(sent(report_frame(report))) == report
+
+
+@given(requests)
+def test_a_request_for_a_route_is_no_observation(request: RouteRequest) -> None:
+    assert not is_observation(sent((asdict(request), b"")))

@@ -18,7 +18,7 @@ from tests.planner.navigation.floors import Outline, drawn
 from wire import Pose2
 
 LIMITS = RouteLimits()
-IMPOSSIBLE = {"no_route", "start_blocked", "goal_blocked"}
+IMPOSSIBLE = {"no_route", "start_blocked", "goal_blocked", "goal_occupied"}
 TOUCHING_M = LIMITS.radius_m  # the disc's edge is at the wall
 
 
@@ -124,7 +124,8 @@ def test_routes_with_costs_worked_out_beforehand_are_as_long(two_room: Site) -> 
     cold, warm = Router(two_room, LIMITS), Router(two_room, LIMITS)
     for _ in warm.warm():
         pass
-    assert (cold.goals_known, warm.goals_known) == (0, len(two_room.places))
+    assert cold.goals_known == 0
+    assert warm.goals_known >= len(two_room.places)
     for a, b in permutations(two_room.places, 2):
         one, two = (router.route(RouteRequest(a.pose, b.pose)) for router in (cold, warm))
         assert two.length_m == pytest.approx(one.length_m, rel=0.03)
@@ -312,3 +313,27 @@ def test_bends_are_slower_than_straights() -> None:
 
 def test_the_home_map_is_not_all_obstacle(home: Site) -> None:
     assert 0 < home.grid.cells.count(OCCUPIED) < len(home.grid.cells) / 2
+
+
+def test_a_goal_on_which_something_stands_is_moved_to_the_robots_side_or_not_at_all() -> None:
+    """What lies behind a thing is not seen: floor there is no floor to end a drive on."""
+    site = drawn(*("." * 24 for _ in range(24)))
+    goal = at(3.0, 3.0)
+    edge = tuple((3.0 + 0.05 * i, 3.1) for i in range(-3, 4))  # seen from below
+    moved = ask(site, RouteRequest(at(3.0, 1.0), goal, edge))
+    assert moved.points[-1].y_m <= 3.0
+    assert 0.2 <= moved.moved_goal_m <= 0.5
+    person = tuple(
+        (3.0 + 0.25 * np.cos(a), 3.0 + 0.25 * np.sin(a)) for a in np.arange(-2.6, 0, 0.1)
+    )
+    assert failure(site, RouteRequest(at(3.0, 1.0), goal, person)).code == "goal_occupied"
+
+
+def test_a_goal_that_the_map_itself_blocks_may_be_moved_to_any_side() -> None:
+    rows = ["." * 24 for _ in range(24)]
+    rows[12] = "." * 12 + "#" + "." * 11
+    goal = at(3.1, 2.9)
+    seen = ((5.0, 5.0),)
+    plain = ask(drawn(*rows), RouteRequest(at(3.1, 5.0), goal))
+    beside = ask(drawn(*rows), RouteRequest(at(3.1, 5.0), goal, seen))
+    assert beside.points[-1].y_m == plain.points[-1].y_m

@@ -74,6 +74,31 @@ def test_the_way_found_is_the_cheapest_there_is(cost: NDArray[np.float32], known
     assert wanted * (1 - 1e-9) <= total <= wanted * _GREED
 
 
+@given(floors(), st.data())
+def test_landmarks_of_a_freer_floor_change_no_cost(
+    cost: NDArray[np.float32], data: st.DataObject
+) -> None:
+    """Costs to any cells, worked out before obstacles raised some, only ever bound from below."""
+    freer = np.where(np.isinf(cost), 1.0, np.maximum(1.0, cost - 0.5)).astype(np.float32)
+    before, lattice = Lattice.of(freer), Lattice.of(cost)
+    rows, columns = cost.shape
+    marks = data.draw(
+        st.lists(
+            st.tuples(st.integers(0, columns - 1), st.integers(0, rows - 1)), min_size=1, max_size=4
+        )
+    )
+    fields = [costs_to(before, before.index(*mark)) for mark in marks]
+    start, goal = lattice.index(0, 0), lattice.index(columns - 1, rows - 1)
+    path = find_path(lattice, start, goal, landmarks=fields)
+    wanted = cheapest(cost, (0, 0)).get((columns - 1, rows - 1))
+    assert (path is None) == (wanted is None)
+    if path is None or wanted is None:
+        return
+    cells = [lattice.cell(index) for index in path]
+    total = sum(dict(steps(cost, *here))[there] for here, there in pairwise(cells))
+    assert total <= wanted * _GREED + 1e-6
+
+
 @given(floors())
 def test_costs_to_a_goal_are_exact_everywhere(cost: NDArray[np.float32]) -> None:
     lattice = Lattice.of(cost)

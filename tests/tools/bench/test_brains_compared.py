@@ -13,9 +13,9 @@ import pytest
 from pydantic import ValidationError
 
 from planner.brain.endpoint import judge
-from planner.mission.site_view import vocabulary_of
 from planner.plan import StepPlan, Vocabulary
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from tools.bench.instant_llm_server import PLAN, Instant
 from tools.bench.measure import brains_compared as compared
 from tools.bench.peers import environment

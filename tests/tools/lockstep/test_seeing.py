@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from planner.brain import ScriptedBrain
+from planner.mission.skills.skill_state import FindState
 from planner.plan import (
     Code,
     Count,
@@ -217,7 +218,8 @@ def test_an_interrupted_search_goes_on_where_it_was_and_never_by_itself(
     goal = world.say("find the green cup in the kitchen")
 
     def looked() -> tuple[int, ...]:
-        return world.planner.book.missions[goal.id].notes.views
+        state = world.planner.book.missions[goal.id].skill_state
+        return state.views if isinstance(state, FindState) else ()
 
     world.run_until(lambda _: len(looked()) == 3, 30.0)
     world.run(0.3)
@@ -236,7 +238,12 @@ def test_an_interrupted_search_goes_on_where_it_was_and_never_by_itself(
     assert abs(wrap(world.truth.yaw_rad - still.yaw_rad)) < 0.01
     assert len(looked()) == 3, "what was looked at stays looked at"
     world.resume(goal)
-    took_s = world.run_until(lambda w: w.planner.book.missions[goal.id].notes.spots, 30.0)
+
+    def is_done(_: object) -> bool:
+        state = world.planner.book.missions[goal.id].skill_state
+        return isinstance(state, FindState) and bool(state.spots)
+
+    took_s = world.run_until(is_done, 30.0)
     assert took_s < 14.0, "three directions were left, not six"
     step = done(world, goal)
     assert (goal.state, step.reason) == (GoalState.FAILED, "not_found")

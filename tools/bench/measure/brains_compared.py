@@ -19,9 +19,9 @@ from typing import TYPE_CHECKING, Any
 from planner.brain import ThinkRequest
 from planner.brain.prompt import Prompt
 from planner.brain.schema import step_models
-from planner.mission.site_view import vocabulary_of
 from planner.plan import Language
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from pons.settings import CHECKOUT
 from tools.bench.context import MeasurementFailure
 from tools.bench.endpoint import ORDER

@@ -106,7 +106,7 @@ def drive(case: str, seed: int) -> DriveErrors:
     while world.now_s - began_s < DRIVE_S:
         if goal.has_ended:
             goal = world.say(f"go to the {random.choice(ROOMS)}")
-        _disturb(case, world, random, world.now_s - began_s)
+        disturb(case, world, random, world.now_s - began_s)
         world.run(0.1)
         off_m, off_deg = _errors(world)
         errors_m.append(off_m)
@@ -122,7 +122,8 @@ def _drive_record(case: str, seed: int) -> dict[str, object]:
     return asdict(drive(case, seed))
 
 
-def _disturb(case: str, world: LockstepWorld, random: Random, elapsed_s: float) -> None:
+def disturb(case: str, world: LockstepWorld, random: Random, elapsed_s: float) -> None:
+    """Do what a case does to the robot while it drives."""
     if case == "ice":
         slips = 10.0 <= elapsed_s % 30.0 < 13.0
         world.sim.break_down(*([SimFault.SLIP] if slips else []))

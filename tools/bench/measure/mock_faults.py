@@ -19,10 +19,10 @@ from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.endpoint import EndpointBrain
 from planner.mission import AskBrain, MissionState, Planned, Submitted, advance
 from planner.mission.plan_request import Hearing, thinker
-from planner.mission.site_view import facts_of, vocabulary_of
 from planner.plan import DRIVES, Language, StepPlan, Vocabulary, check_plan
 from planner.settings import ModelSettings
 from planner.site import Site
+from planner.site.site_view import facts_of, vocabulary_of
 from pons.mock_llm import FAULTS, READABLE
 from pons.settings import CHECKOUT
 from tools.bench.endpoint import mock_model

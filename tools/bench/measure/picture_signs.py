@@ -30,14 +30,13 @@ from planner.brain.image_questions import (
 )
 from planner.brain.interface import Observation
 from planner.brain.tainted_text import deeds, think_warily
-from planner.mission.site_view import vocabulary_of
-from planner.mission.skills import DriveLeg, Eyesight, ImageAnswer, Notes, Question, Scene, act_of
-from planner.mission.skills.model_pointing import ANSWER
-from planner.mission.state import SiteView
+from planner.mission.skills import DriveLeg, Eyesight, ImageAnswer, Question, Scene, act_of
+from planner.mission.skills.skill_state import GoToObjectState, PointingStage
 from planner.perception import Detection
 from planner.plan import EVERY_KIND, Bilingual, Language, StepRecord, Vocabulary
 from planner.settings import ModelSettings
 from planner.site import Site
+from planner.site.site_view import SiteView, vocabulary_of
 from pons.settings import CHECKOUT
 from sim.camera import Renderer, spoil
 from sim.site import load_home
@@ -229,12 +228,13 @@ def drives_unasked(point: tuple[int, int]) -> bool:
     eyes = Eyesight(CameraConfig(), ("cup",), model=True)
     step = StepRecord(kind="go_to_object", object="guitar")
     at = (1.0 + point[1] / 1000.0, point[0] / 1000.0 - 0.5, 0.4)
-    scene = Scene(step, SiteView({}, ""), IDENTITY, None, 0.0, 0, None, eyes=eyes,
-                  notes=Notes(stage=ANSWER), answer=ImageAnswer(at=at))  # fmt: skip
+    asked_model = GoToObjectState(pointing=PointingStage.ANSWER)
+    scene = Scene(step, SiteView({}, ""), asked_model, IDENTITY, None, 0.0, 0, None, eyes=eyes,
+                  answer=ImageAnswer(at=at))  # fmt: skip
     act = act_of(scene)
-    if not isinstance(act, Question) or act.notes is None:
+    if not isinstance(act, Question) or not isinstance(act.state, GoToObjectState):
         return True
-    asked = replace(scene, answer=None, notes=act.notes)
+    asked = replace(scene, answer=None).but(act.state)
     replies = (None, "no", "what?", "不要")
     acts = [act_of(replace(asked, step=step.model_copy(update={"answer": r}))) for r in replies]
     return any(isinstance(act, DriveLeg) for act in acts)

@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, Any
 
 from planner.language.grammar import plan
 from planner.language.stop import is_stop
-from planner.mission.site_view import vocabulary_of
 from planner.plan import Step, StepPlan, Vocabulary
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from planner.voice import Recognition, read_wav
 from pons.http import PlannerProblem, call
 from pons.settings import CHECKOUT

@@ -14,10 +14,10 @@ from planner.brain.endpoint import EndpointBrain, warm_up
 from planner.budget import Ledger, Purse
 from planner.mission import AskBrain
 from planner.mission.plan_request import thinker
-from planner.mission.site_view import vocabulary_of
 from planner.plan import Language
 from planner.settings import BudgetSettings, DayLimits, GoalLimits, ModelSettings
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from tools.bench.peers.loop import take_turns
 from tools.bench.peers.shape import PeerFacts
 

@@ -139,6 +139,13 @@ export const en = {
   "meter.tokens": "{n} tokens",
   "meter.seconds": "{n} s",
 
+  "rooms.which": "Which rooms are these?",
+  "rooms.how":
+    "The map was cut at its doors; the numbers stand on the map. A named room can be driven to at once.",
+  "rooms.number": "Room {n}",
+  "rooms.size": "{m2} m²",
+  "rooms.name": "Name it",
+  "rooms.keep": "Keep this name",
   "places.teach": "Teach a place",
   "places.en": "English name",
   "places.zh": "Chinese name",
@@ -249,6 +256,7 @@ export const en = {
   "reason.not_found": "not found",
   "reason.moved": "not where it was seen",
   "reason.object_unknown": "the detector does not know it",
+  "reason.goal_occupied": "something stands at the goal",
   "reason.lost_person": "nobody in sight",
   "reason.no_camera": "no camera",
   "reason.no_detector": "no detector",
@@ -288,6 +296,11 @@ export const en = {
   "step.visited": "{n} of {of} visited",
   "step.left": "{metres} from the goal",
 
+  "map.layers": "Layers",
+  "map.layer_scan": "Lidar now",
+  "map.layer_obstacles": "Remembered obstacles",
+  "map.layer_movers": "What moves",
+  "map.layer_rooms": "Rooms without a name",
   "map.label": "Map: click a room or place to go there",
   "map.nothing": "No room or place has a name there. Free points can't be goals.",
   "map.busy": "{name}:",

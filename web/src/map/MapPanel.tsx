@@ -14,15 +14,18 @@ import {
   age,
   grid,
   isBusy,
+  layers,
   pageFresh,
   pageHeard,
   path,
   places,
+  proposedRooms,
   scan,
   scanFresh,
   status,
 } from "../state/store";
 import { visible } from "../state/visible";
+import { isShown, LAYERS, toggleLayer } from "./layers";
 import { type Point, resolve, thingAt } from "./resolve";
 import { samePose, sameScan } from "./unmoved";
 import { MapView } from "./view";
@@ -47,6 +50,7 @@ export function MapPanel() {
     <section class="map-panel" aria-label={t("map.label")}>
       <div ref={place} class="map" id="map" />
       <Ages />
+      <LayerSwitches />
       {choice.value && <Ask choice={choice.value} />}
     </section>
   );
@@ -71,7 +75,9 @@ function follow(view: MapView): (() => void)[] {
     effect(() => view.showPicking(picking.value)),
     effect(() => drawing.showPath(path.value)),
     effect(() => drawing.greyPath(!pageFresh.value)),
-    effect(() => seen(() => drawing.showScan(scanNow.value))),
+    effect(() => seen(() => drawing.showScan(isShown("scan") ? scanNow.value : []))),
+    effect(() => seen(() => drawing.showLayers(layersNow.value))),
+    effect(() => view.showRooms(isShown("rooms") ? nameless.value : [])),
     effect(() => drawing.greyScan(!scanFresh.value)),
     effect(() => seen(() => drawing.showRobot(poseNow.value))),
     effect(() => drawing.greyRobot(!poseFresh.value)),
@@ -84,6 +90,16 @@ function seen(draw: () => void): void {
 }
 
 const scanNow = steady(() => scan.value, sameScan);
+const layersNow = steady(() => {
+  const { cells, suspicions, movers } = layers.value;
+  const remembered = isShown("obstacles");
+  return {
+    cells: remembered ? cells : [],
+    suspicions: remembered ? suspicions : [],
+    movers: isShown("movers") ? movers : [],
+  };
+});
+const nameless = computed(() => proposedRooms.value.filter((room) => room.known_as === null));
 const poseNow = steady(() => status.value?.base_in_map ?? null, samePose);
 const poseFresh = computed(() => fresh(poseAge()));
 
@@ -148,6 +164,27 @@ function Ask({ choice: { name, order, left, top } }: { choice: Choice }) {
         {t("op.no")}
       </button>
     </fieldset>
+  );
+}
+
+/** Switch layers of the map on and off. */
+function LayerSwitches() {
+  return (
+    <details class="map-layers" id="layers">
+      <summary>{t("map.layers")}</summary>
+      {LAYERS.map((name) => (
+        <label key={name}>
+          <input
+            type="checkbox"
+            checked={isShown(name)}
+            data-layer={name}
+            onChange={() => toggleLayer(name)}
+          />
+          <span class={`layer-swatch swatch-of-${name}`} aria-hidden="true" />
+          {t(`map.layer_${name}`)}
+        </label>
+      ))}
+    </details>
   );
 }
 

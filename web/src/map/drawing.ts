@@ -3,7 +3,7 @@
  * Leaflet scales it; nothing here knows pixels. What moves has a layer of its own, so that a browser
  * paints nothing else for it.
  */
-import type { Grid, Path, Pose, Scan } from "../wire/types";
+import type { Grid, Layers, Mover, Path, Pose, ProposedRoom, Scan } from "../wire/types";
 import { type Point, unwound } from "./resolve";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -26,6 +26,29 @@ export function dots(scan: Scan): string {
     path += `M${x / 100} ${y / 100}h0`;
   }
   return path;
+}
+
+/** Return squares around middles given as x, y, … [cm]. */
+export function squares(middles: readonly number[], size: number): string {
+  let path = "";
+  for (let index = 0; index + 1 < middles.length; index += 2) {
+    const x = (middles[index] ?? 0) / 100 - size / 2;
+    const y = (middles[index + 1] ?? 0) / 100 - size / 2;
+    path += `M${x} ${y}h${size}v${size}h${-size}z`;
+  }
+  return path;
+}
+
+const AHEAD_S = 1; // a mover's line ends where it will be then
+
+/** Return a disc for each thing that moves, and a line to where it goes. */
+export function discs(movers: readonly Mover[]): string {
+  return movers
+    .map(({ x_m: x, y_m: y, vx_mps: vx, vy_mps: vy, radius_m: r }) => {
+      const disc = `M${x - r} ${y}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0`;
+      return `${disc}M${x} ${y}l${vx * AHEAD_S} ${vy * AHEAD_S}`;
+    })
+    .join("");
 }
 
 function make<K extends keyof SVGElementTagNameMap>(
@@ -52,12 +75,18 @@ export class Drawing {
   private readonly path = make("path", { class: "way" });
   private readonly goal = make("circle", { class: "way-end", r: "0.14" });
   private readonly picked = make("circle", { class: "picked", r: "0.2" });
+  private readonly cells = make("path", { class: "obstacle" });
+  private readonly suspicions = make("path", { class: "suspicion" });
+  private readonly movers = make("path", { class: "mover" });
+  private readonly rooms = make("path", { class: "proposed-room" });
+  private cellSize = 0.05;
   private readonly robot = make("g", { class: "robot" });
   private degrees = 0;
   /** From the lowest up; all cover the same. */
   readonly layers: readonly SVGSVGElement[] = [
     layer("layer", this.scan),
-    layer("drawing", this.zones, this.fence, this.path, this.goal, this.picked),
+    layer("layer", this.suspicions, this.cells, this.movers),
+    layer("drawing", this.zones, this.rooms, this.fence, this.path, this.goal, this.picked),
     layer("layer", this.robot),
   ];
 
@@ -76,8 +105,21 @@ export class Drawing {
     this.picked.setAttribute("cy", String(point?.y ?? 0));
   }
 
+  /** Draw what the route search remembers and what moves; empty lists hide a layer. */
+  showLayers({ cells, suspicions, movers }: Layers): void {
+    this.cells.setAttribute("d", squares(cells, this.cellSize));
+    this.suspicions.setAttribute("d", squares(suspicions, this.cellSize));
+    this.movers.setAttribute("d", discs(movers));
+  }
+
+  /** Draw the outlines of rooms that wait for a name. */
+  showRooms(rooms: readonly ProposedRoom[]): void {
+    this.rooms.setAttribute("d", rooms.map((room) => `${outlineOf(room.polygon)}Z`).join(""));
+  }
+
   /** Cover a map, in metres. */
   cover(grid: Grid): void {
+    this.cellSize = grid.resolution_m;
     const { x_m, y_m } = grid.origin;
     const wide = grid.width * grid.resolution_m;
     const high = grid.height * grid.resolution_m;

@@ -1,6 +1,6 @@
 /** Put the drawing, the map's picture and the names into Leaflet. Knows no signal and no goal. */
 import * as L from "leaflet";
-import type { Grid, Place, Thing } from "../wire/types";
+import type { Grid, Place, ProposedRoom, Thing } from "../wire/types";
 import { Cells, nameSpot } from "./cells";
 import { Drawing } from "./drawing";
 import { colour, picture, tinted } from "./raster";
@@ -14,6 +14,7 @@ export class MapView {
   readonly drawing = new Drawing();
   private readonly map: L.Map;
   private readonly names = L.layerGroup();
+  private readonly roomNumbers = L.layerGroup();
   private readonly things = new Things();
   private image: L.ImageOverlay | null = null;
   private zoom: L.Control.Zoom | null = null;
@@ -42,6 +43,7 @@ export class MapView {
       doubleClickZoom: false,
     });
     this.names.addTo(this.map);
+    this.roomNumbers.addTo(this.map);
     this.things.layer.addTo(this.map);
     this.map.on("click", (event: L.LeafletMouseEvent) =>
       onClick({ x: event.latlng.lng, y: event.latlng.lat }),
@@ -78,6 +80,19 @@ export class MapView {
 
   showThings(things: readonly Thing[], nameOf: (thing: Thing) => string): void {
     this.things.show(things, nameOf);
+  }
+
+  /** Draw rooms that wait for a name, each with the number by which it is asked for. */
+  showRooms(rooms: readonly ProposedRoom[]): void {
+    this.drawing.showRooms(rooms);
+    this.roomNumbers.clearLayers();
+    for (const { id, pose } of rooms) {
+      const label = document.createElement("span");
+      label.textContent = `${id.replace("room_", "")}?`;
+      const icon = L.divIcon({ html: label, className: "name name-proposed", iconSize: [0, 0] });
+      const marker = L.marker([pose.y_m, pose.x_m], { icon, interactive: false, keyboard: false });
+      marker.addTo(this.roomNumbers);
+    }
   }
 
   private writeNames(): void {

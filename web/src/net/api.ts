@@ -125,9 +125,13 @@ export async function fetchPlaces(): Promise<Known> {
 export type Names = { readonly en?: string; readonly zh?: string };
 export type Point = Pick<Pose, "x_m" | "y_m">;
 
-/** Teach a place: at a point of the map, or where the robot stands. */
-export async function teachPlace(name: Names, point: Point | null): Promise<Taught> {
-  const body = { name, source: "page", ...(point ? { point } : {}) };
+/** Teach a place: at a point of the map, as a proposed room, or where the robot stands. */
+export async function teachPlace(
+  name: Names,
+  point: Point | null,
+  room: string | null = null,
+): Promise<Taught> {
+  const body = { name, source: "page", ...(point ? { point } : {}), ...(room ? { room } : {}) };
   return (await call("POST", "/v1/places", body)) as Taught;
 }
 

@@ -5,7 +5,7 @@ import { say, t, word } from "../i18n";
 import { forget, give, teach } from "../state/acts";
 import { forgetPick, picked, picking } from "../state/picking";
 import { steady } from "../state/steady";
-import { mostTaught, pageFresh, shownStatus, taught } from "../state/store";
+import { mostTaught, pageFresh, proposedRooms, shownStatus, taught } from "../state/store";
 import type { Pose, Taught } from "../wire/types";
 import { fixed } from "./format";
 
@@ -20,6 +20,7 @@ export function PlacesTab() {
   useEffect(() => forgetPick, []); // another view wants clicks to be goals again
   return (
     <>
+      <ProposedRooms />
       <Teach />
       <List />
     </>
@@ -37,6 +38,67 @@ async function send(): Promise<void> {
     forgetPick();
   }
   sending.value = false;
+}
+
+const asked = signal<string | null>(null); // the proposed room that is being named
+const roomEnglish = signal("");
+const roomChinese = signal("");
+
+async function nameRoom(id: string): Promise<void> {
+  const [en, zh] = [roomEnglish.value.trim(), roomChinese.value.trim()];
+  if ((en === "" && zh === "") || sending.value) return;
+  sending.value = true;
+  if (await teach({ ...(en ? { en } : {}), ...(zh ? { zh } : {}) }, null, id)) {
+    [roomEnglish.value, roomChinese.value] = ["", ""];
+    asked.value = null;
+  }
+  sending.value = false;
+}
+
+/** Ask which rooms these are, which were cut out of the map and have no name yet. */
+function ProposedRooms() {
+  const nameless = proposedRooms.value.filter((room) => room.known_as === null);
+  if (nameless.length === 0) return null;
+  return (
+    <section class="card" aria-labelledby="rooms-title" id="proposed-rooms">
+      <h2 id="rooms-title">{t("rooms.which")}</h2>
+      <p class="fine">{t("rooms.how")}</p>
+      <ul class="taught">
+        {nameless.map((room) => (
+          <li key={room.id} data-room={room.id}>
+            <span class="said">
+              <strong>{t("rooms.number", { n: room.id.replace("room_", "") })}</strong>
+              <span class="fine">{t("rooms.size", { m2: fixed(room.area_m2, 0) })}</span>
+            </span>
+            {asked.value === room.id ? (
+              <form
+                class="names-row"
+                onSubmit={(event) => {
+                  event.preventDefault();
+                  void nameRoom(room.id);
+                }}
+              >
+                <Name id="room-en" words={roomEnglish} label={t("places.en")} lang="en" />
+                <Name id="room-zh" words={roomChinese} label={t("places.zh")} lang="zh-CN" />
+                <span class="buttons">
+                  <button type="submit" class="main" disabled={sending.value}>
+                    {t("rooms.keep")}
+                  </button>
+                  <button type="button" class="quiet" onClick={() => (asked.value = null)}>
+                    {t("op.no")}
+                  </button>
+                </span>
+              </form>
+            ) : (
+              <button type="button" onClick={() => (asked.value = room.id)}>
+                {t("rooms.name")}
+              </button>
+            )}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
 }
 
 function Teach() {

@@ -86,9 +86,13 @@ export async function doInstead(goal: Goal, running: Goal): Promise<boolean> {
   return act(running, "cancel");
 }
 
-export function teach(name: Names, point: Point | null): Promise<boolean> {
+export function teach(
+  name: Names,
+  point: Point | null,
+  room: string | null = null,
+): Promise<boolean> {
   return attempt(async () => {
-    const place = await teachPlace(name, point);
+    const place = await teachPlace(name, point, room);
     tell(t("places.kept", { name: say(place.name) }));
     return undefined;
   });

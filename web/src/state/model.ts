@@ -2,7 +2,18 @@
  * Hold what the page knows, and how each frame changes it. Pure: told the time, knows no socket and
  * no screen. What an unknown or broken frame may change is a counter.
  */
-import type { About, Draft, Frame, Goal, Path, Robot, Scan, Sight, Usage } from "../wire/types";
+import type {
+  About,
+  Draft,
+  Frame,
+  Goal,
+  Layers,
+  Path,
+  Robot,
+  Scan,
+  Sight,
+  Usage,
+} from "../wire/types";
 import { ended, withProgress } from "./goals";
 import { type Moment, since } from "./moment";
 import { type KnownThing, retold } from "./things";
@@ -36,6 +47,7 @@ export type Model = {
   readonly path: Path | null;
   readonly scan: Scan;
   readonly scanAt: Moment | null;
+  readonly layers: Layers;
   readonly log: readonly LogEntry[]; // newest first
   readonly stopAnswer: StopAnswer | null;
   readonly seq: number; // of the newest frame of this connection; 0 before the first
@@ -58,6 +70,7 @@ export const EMPTY: Model = {
   about: null,
   path: null,
   scan: [],
+  layers: { cells: [], suspicions: [], movers: [] },
   scanAt: null,
   log: [],
   stopAnswer: null,
@@ -110,6 +123,7 @@ function take(model: Model, frame: Frame, now: Moment): Model {
         path: frame.path,
         scan: frame.scan,
         scanAt: now,
+        layers: frame.obstacles,
         wantsSnapshot: false,
       };
     case "robot":
@@ -118,6 +132,8 @@ function take(model: Model, frame: Frame, now: Moment): Model {
       return { ...model, path: frame.path };
     case "scan":
       return { ...model, scan: frame.scan, scanAt: now };
+    case "obstacles":
+      return { ...model, layers: frame.obstacles };
     case "goal":
       return {
         ...model,

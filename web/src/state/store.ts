@@ -1,7 +1,7 @@
 /** Hold the page's signals: the one place that components read and the socket writes. */
 import { batch, computed, signal } from "@preact/signals";
 import { decode } from "../wire/decode";
-import type { Goal, Grid, Objects, Place, Robot, Taught } from "../wire/types";
+import type { Goal, Grid, Objects, Place, ProposedRoom, Robot, Taught } from "../wire/types";
 import { busy, sorted } from "./goals";
 import { History } from "./history";
 import { advance, ageOf, connected, EMPTY, type Model, withGoal } from "./model";
@@ -22,6 +22,7 @@ export const open = signal(false); // the socket is open
 export const places = signal<readonly Place[]>([]);
 export const taught = signal<readonly Taught[]>([]);
 export const mostTaught = signal(0);
+export const proposedRooms = signal<readonly ProposedRoom[]>([]);
 export const grid = signal<Grid | null>(null);
 export const history = new History();
 
@@ -41,6 +42,7 @@ export const known = computed(() => model.value.things);
 export const about = computed(() => model.value.about);
 export const path = computed(() => model.value.path);
 export const scan = computed(() => model.value.scan);
+export const layers = computed(() => model.value.layers);
 export const log = computed(() => model.value.log);
 export const stopAnswer = computed(() => model.value.stopAnswer);
 export const ignored = computed(() => model.value.ignored);

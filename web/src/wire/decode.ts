@@ -7,6 +7,7 @@ import type {
   Draft,
   Frame,
   Goal,
+  Layers,
   Path,
   Progress,
   Robot,
@@ -165,6 +166,14 @@ const isPath = (value: unknown): value is Path | null =>
   (bag(value) && text(value.goal) && finite(value.leg) && all(value.points, point));
 
 const isScan = (value: unknown): value is Scan => all(value, finite);
+const isMover = (value: unknown): boolean =>
+  bag(value) &&
+  [value.number, value.x_m, value.y_m, value.vx_mps, value.vy_mps, value.radius_m].every(finite);
+const isLayers = (value: unknown): value is Layers =>
+  bag(value) &&
+  all(value.cells, finite) &&
+  all(value.suspicions, finite) &&
+  all(value.movers, isMover);
 
 const isBox = (value: unknown): boolean =>
   bag(value) &&
@@ -222,6 +231,7 @@ export function decode(data: unknown): Frame | null {
         isAbout(came.about) &&
         isPath(came.path) &&
         isScan(came.scan) &&
+        isLayers(came.obstacles) &&
         isUsage(came.usage) &&
         finite(came.places_version) &&
         isSight(came.sight)
@@ -233,6 +243,10 @@ export function decode(data: unknown): Frame | null {
       return isPath(came.path) ? { seq, kind: "path", path: came.path } : null;
     case "scan":
       return isScan(came.scan) ? { seq, kind: "scan", scan: came.scan } : null;
+    case "obstacles":
+      return isLayers(came.obstacles)
+        ? { seq, kind: "obstacles", obstacles: came.obstacles }
+        : null;
     case "goal":
       return isGoal(change.goal) ? { seq, kind: "goal", goal: change.goal } : null;
     case "progress": {

@@ -280,6 +280,7 @@ export type Frame = { readonly seq: number } & (
       readonly about: About;
       readonly path: Path | null;
       readonly scan: Scan;
+      readonly obstacles: Layers;
       readonly usage: Usage;
       readonly places_version: number;
       readonly sight: Sight;
@@ -287,6 +288,7 @@ export type Frame = { readonly seq: number } & (
   | { readonly kind: "robot"; readonly robot: Robot }
   | { readonly kind: "path"; readonly path: Path | null }
   | { readonly kind: "scan"; readonly scan: Scan }
+  | { readonly kind: "obstacles"; readonly obstacles: Layers }
   | { readonly kind: "goal"; readonly goal: Goal }
   | { readonly kind: "progress"; readonly progress: Progress }
   | { readonly kind: "thinking"; readonly draft: Draft }
@@ -322,14 +324,40 @@ export type Taught = {
   readonly message: Bilingual | null;
 };
 
+/** A room that was cut out of the map; `known_as` is the place that has its middle. */
+export type ProposedRoom = {
+  readonly id: string;
+  readonly polygon: Outline;
+  readonly pose: Pose;
+  readonly area_m2: number;
+  readonly known_as: string | null;
+};
+
 export type Known = {
   readonly version: number;
   readonly places: readonly Place[];
   readonly taught: readonly Taught[];
+  readonly proposed_rooms: readonly ProposedRoom[];
   readonly most: number;
 };
 
-type Outline = readonly (readonly [number, number])[];
+export type Mover = {
+  readonly number: number;
+  readonly x_m: number;
+  readonly y_m: number;
+  readonly vx_mps: number;
+  readonly vy_mps: number;
+  readonly radius_m: number;
+};
+
+/** What the route search remembers that the map does not know: middles of cells as x, y, … [cm]. */
+export type Layers = {
+  readonly cells: readonly number[];
+  readonly suspicions: readonly number[];
+  readonly movers: readonly Mover[];
+};
+
+export type Outline = readonly (readonly [number, number])[];
 
 export type Grid = {
   readonly map_id: string;

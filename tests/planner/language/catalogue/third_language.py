@@ -24,7 +24,6 @@ from planner.language.formatting import angle, metres
 from planner.language.object_classes import KINDS
 from planner.language.object_names import list_kinds, name_object, named_several
 from planner.language.place_lists import known_places
-from planner.mission.site_view import facts_of, vocabulary_of
 from planner.mission.skills import Eyesight, act_of
 from planner.mission.skills.directions import direction
 from planner.mission.skills.perception import ImageAnswer, WantedObject
@@ -35,11 +34,12 @@ from planner.mission.skills.result_text import (
     name_with_article,
     unknown_words,
 )
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import LookStage, LookState
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import RUNNABLE, Bilingual, Clarify, Language, Refuse
 from planner.plan import AnswerPlan as Reply
 from planner.site import Site
+from planner.site.site_view import facts_of, vocabulary_of
 from pons_assets import DEFAULT_SITE
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
@@ -129,10 +129,10 @@ def answers() -> list[Bilingual]:
         )
         fields: dict[str, Any] = {"facts": FACTS, "sight": sight, "now_s": 100.0, "spent_s": 5.0}
         eyes = Eyesight(CameraConfig(), ("cup", "table", "chair"), model=True)
-        notes = Notes(here=(0.0, 0.0), stage=2, faced=(0.0, 1.5))
+        state = LookState(here=(0.0, 0.0), stage=LookStage.ASKED, faced=(0.0, 1.5))
         sign = ImageAnswer(Bilingual(en="A SIGN", zh="牌子"), shown=2)
         step = {"text": question, "place": place}
-        done: Any = act_of(scene("look", step=step, eyes=eyes, notes=notes, answer=sign, **fields))
+        done: Any = act_of(scene("look", step=step, eyes=eyes, state=state, answer=sign, **fields))
         texts += [text for text in (done.said, getattr(done, "read", None)) if text is not None]
     return texts
 

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import ast
-import tomllib
 from string import Formatter
 from typing import TYPE_CHECKING
 
 import pytest
 
 from planner.language.catalogue import CATALOGUE
-from planner.language.catalogue.words import FOLDER, PLACES, read_plain_lines
+from planner.language.catalogue.words import PLACES
 from planner.language.object_classes import KINDS
+from planner.navigation import RouteFailure
+from planner.perception.failure import VisionFailure
 from planner.plan import Code
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+PAIRED = {"route_failure": RouteFailure, "vision_failure": VisionFailure}
+"""Groups that a worker's failure takes whole."""
 MESSAGES = {words.language: dict(words.messages) for words in CATALOGUE.words}
 CODES = sorted({code for own in MESSAGES.values() for code in own})
 
@@ -41,14 +44,6 @@ def test_things_have_words_in_every_language_and_plurals_are_of_things() -> None
     assert {code.removeprefix("plural.") for code in PLURALS} <= set(KINDS)
 
 
-@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.toml")), ids=lambda path: str(path.stem))
-def test_our_files_are_as_plain_as_the_quick_reader_needs(path: Path) -> None:
-    tables = tomllib.loads(path.read_text("utf-8"))
-    assert read_plain_lines(path.read_text("utf-8")) == {
-        f"{group}.{key}": text for group, table in tables.items() for key, text in table.items()
-    }
-
-
 @pytest.mark.parametrize("language", sorted(MESSAGES))
 def test_every_language_has_the_same_blanks(language: str) -> None:
     odd = [
@@ -62,6 +57,11 @@ def test_every_language_has_the_same_blanks(language: str) -> None:
 def test_every_outcome_has_a_sentence() -> None:
     told = {code.removeprefix("outcome.") for code in CODES if code.startswith("outcome.")}
     assert told == {code.value for code in Code}
+
+
+@pytest.mark.parametrize("group", sorted(PAIRED))
+def test_failures_of_a_worker_have_a_sentence_each(group: str) -> None:
+    assert set(CATALOGUE.keys(group)) == set(PAIRED[group].reasons)
 
 
 def test_messages_are_said_with_their_blanks(repository: Path) -> None:
@@ -80,14 +80,14 @@ def test_messages_are_said_with_their_blanks(repository: Path) -> None:
 def test_no_message_is_left_over(repository: Path) -> None:
     strings = {
         node.value
-        for path in sources(repository)
+        for path in (*sources(repository), repository / "pons" / "site.py")
         for node in ast.walk(ast.parse(path.read_text("utf-8")))
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }
     starts = tuple(text for text in strings if text.endswith((".", "_")) and text[:1].isalpha())
     groups = {code.partition(".")[0] for code in CODES}
     computed = tuple(s for s in starts if s.partition(".")[0] in groups and "." in s)
-    quoted = tuple(f"{group}." for group in ("paused", "beside", *PLACES))
+    quoted = tuple(f"{group}." for group in ("paused", "beside", *PAIRED, *PLACES))
     left = [c for c in CODES if c not in strings and not c.startswith(computed + quoted)]
     assert left == []
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from planner.mission.skills import Eyesight, act_of
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import SkillStateBase
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
@@ -28,7 +28,8 @@ def sight(*things: Thing, blind: str | None = None) -> Sight:
     return Sight(LookSnapshot(1, NOW_S, HERE, 320, 240, ()), things, blind)
 
 
-def looking(kind: str, *things: Thing, notes: Notes | None = None, **more: Any) -> Any:
+def looking(kind: str, *things: Thing, state: SkillStateBase | None = None, **more: Any) -> Any:
     step = {"object": "red cup"} | more.pop("step", {})
-    fields = {"eyes": EYES, "sight": sight(*things), "now_s": NOW_S, "notes": notes or Notes()}
+    fields: dict[str, Any] = {"eyes": EYES, "sight": sight(*things), "now_s": NOW_S}
+    fields |= {"state": state} if state is not None else {}
     return act_of(scene(kind, step=step, pose=HERE, **(fields | more)))

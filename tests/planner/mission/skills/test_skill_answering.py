@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from planner.mission.skills import Eyesight, Fail, Finish, Observe, act_of
-from planner.mission.skills.skill_state import Notes
-from planner.mission.state import SiteView, Target
+from planner.mission.skills.skill_state import LookStage, LookState
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import Bilingual, Code
+from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
@@ -39,7 +39,7 @@ BEFORE = {"seen_s": NOW_S - 60.0}
 def asked(question: str, *things: Thing, **more: Any) -> Any:
     sight = Sight(LookSnapshot(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
     fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight, "now_s": NOW_S}
-    fields |= {"notes": Notes(here=(0.0, 0.0), stage=1), "spent_s": 5.0}
+    fields |= {"state": LookState(here=(0.0, 0.0), stage=LookStage.GAZED), "spent_s": 5.0}
     place = more.pop("place", None)
     return act_of(scene("look", step={"text": question, "place": place}, **{**fields, **more}))
 
@@ -159,19 +159,19 @@ def test_an_unknown_kind_is_asked_about_once_a_step(monkeypatch: pytest.MonkeyPa
         return kind(question, *rest)
 
     monkeypatch.setattr(look, "unknown_kind", noted)
-    notes = Notes()
+    state = LookState()
     for _ in range(60):
-        act = asked("look around: is there a cup?", ON_IT, notes=notes)
+        act = asked("look around: is there a cup?", ON_IT, state=state)
         if isinstance(act, Finish):
             break
         assert not isinstance(act, Fail)
-        notes = act.then or notes
+        state = act.then or state
         assert isinstance(act, Observe) or act.then is not None
     assert len(calls) == 1
 
 
 def test_who_told_late_what_they_know_still_says_that_they_do_not_know_it() -> None:
-    begun = asked("is there a piano?", ON_IT, notes=Notes())
+    begun = asked("is there a piano?", ON_IT, state=LookState())
     assert isinstance(begun, Fail)
     assert begun.code is Code.OBJECT_UNKNOWN
     late = asked("is there a piano?", ON_IT)

@@ -9,9 +9,9 @@ import pytest
 
 from planner.mission.skills import DriveLeg, Eyesight, Fail, Observe, act_of
 from planner.mission.skills.object_query import unknown_kind
-from planner.mission.state import SiteView, Target
 from planner.perception.snapshot import LookSnapshot, Sight
 from planner.plan import Bilingual, Code, Language
+from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import FACTS, room
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2

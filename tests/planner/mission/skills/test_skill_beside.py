@@ -9,7 +9,7 @@ import pytest
 from planner.language.questions import Relation
 from planner.mission.skills import DriveLeg, Eyesight, Fail, Finish, Observe, WantedObject, act_of
 from planner.mission.skills.object_matching import picks_out, read_object
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import CountState, GoToObjectState, SkillStateBase
 from planner.mission.skills.spatial_relations import stands
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import Code, Language
@@ -113,7 +113,7 @@ def test_only_what_stands_there_is_found_and_gone_to(words: str) -> None:
     assert "桌子上的瓶子" in found.said.zh
     goes = looking("go_to_object", words, OTHER, THERE, TABLE, **GAZED)
     assert isinstance(goes, (DriveLeg, Observe))
-    assert goes.then is not None
+    assert isinstance(goes.then, GoToObjectState)
     assert goes.then.at is not None
     assert goes.then.at[0] == 1.7
     unsure = at("table", 1.6, 0.4, confidence=0.4)
@@ -129,7 +129,7 @@ def test_what_does_not_stand_there_is_not_told_of_nor_counted() -> None:
     assert isinstance(ended, Fail)
     assert ended.said is not None
     assert ended.said.en.startswith("I saw no bottle on the table.")
-    number = looking("count", words, OTHER, THERE, TABLE, notes=Notes(), **GAZED, **spent)
+    number = looking("count", words, OTHER, THERE, TABLE, state=CountState(), **GAZED, **spent)
     assert isinstance(number, Finish)
     assert (number.code, number.figures["count"]) == (Code.COUNTED, 1)
     assert number.said is not None
@@ -138,18 +138,19 @@ def test_what_does_not_stand_there_is_not_told_of_nor_counted() -> None:
 
 def counted(words: str, *things: Thing, shut: bool = False) -> Finish:
     """Count to the end, in a hall and a kitchen, with these things in sight."""
-    notes, pose = Notes(), Pose2(0.0, 0.0, 0.0)
+    state: SkillStateBase = CountState()
+    pose = Pose2(0.0, 0.0, 0.0)
     for _ in range(60):
-        act = looking("count", words, *things, notes=notes, pose=pose, spent_s=5.0)
+        act = looking("count", words, *things, state=state, pose=pose, spent_s=5.0)
         if isinstance(act, Finish):
             return act
         assert isinstance(act, (DriveLeg, Observe))
-        notes = act.then or notes
+        state = act.then or state
         if isinstance(act, DriveLeg) and shut and act.goal.x_m > 2.0:
-            notes = act.otherwise or notes
+            state = act.otherwise or state
         elif isinstance(act, DriveLeg):
             pose = act.goal
-    raise AssertionError(notes)
+    raise AssertionError(state)
 
 
 ON_IT = at("bottle", 4.1, 0.8, room="kitchen"), at("bottle", 3.8, 0.8, room="kitchen")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planner.mission.skills import DriveLeg, Fail, Finish, Way
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import CountState
 from tests.planner.mission.skills.looking import looking, thing
 
 
@@ -27,11 +27,11 @@ def test_no_way_is_begun_that_the_rest_of_the_budget_does_not_last_for() -> None
 
 
 def test_who_counts_begins_no_such_way_either_and_says_so() -> None:
-    notes, act = Notes(), looking("count")
+    state, act = CountState(), looking("count")
     while not (isinstance(act, DriveLeg) and act.way is Way.ROUTE):  # until another room is due
-        notes = act.then or notes
-        act = looking("count", notes=notes)
-    told = looking("count", notes=notes, spent_m=54.9)
+        state = act.then or state
+        act = looking("count", state=state)
+    told = looking("count", state=state, spent_m=54.9)
     assert isinstance(told, Finish)
     assert told.said is not None
     assert "used up" in told.said.en

@@ -10,11 +10,11 @@ from planner.language.catalogue import CATALOGUE
 from planner.language.object_classes import KINDS
 from planner.language.questions import Relation
 from planner.mission.skills import DriveLeg, Eyesight, Observe, WantedObject, act_of
-from planner.mission.skills.room_priors import THINGS, likely_rooms
-from planner.mission.skills.viewpoints import in_order
-from planner.mission.state import SiteView, Target
+from planner.mission.skills.skill_state import RoomTourState
+from planner.mission.skills.viewpoints import THINGS, in_order, likely_rooms
 from planner.perception.snapshot import Sight, Thing
 from planner.plan import Bilingual
+from planner.site.site_view import SiteView, Target
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
 
@@ -100,15 +100,15 @@ def test_the_order_is_made_once_and_only_by_who_ends_with_the_first_that_is_foun
     eyes = Eyesight(CameraConfig(), ("cup",))
     act = act_of(scene(kind, step={"object": "cup"}, facts=HOME, eyes=eyes, pose=BED.pose))
     assert isinstance(act, (DriveLeg, Observe))
-    assert act.then is not None
+    assert isinstance(act.then, RoomTourState)
     assert act.then.order == (
         BY_DISTANCE if kind == "count" else ("bedroom", "r5", "r4", "r3", "corridor")
     )
     elsewhere = Pose2(9.0, 0.0, 0.0)
     later = act_of(
-        scene(kind, step={"object": "cup"}, facts=HOME, eyes=eyes, pose=elsewhere, notes=act.notes,
+        scene(kind, step={"object": "cup"}, facts=HOME, eyes=eyes, pose=elsewhere, state=act.state,
               sight=Sight(None, (Thing("cup_1", "cup", None, 6.0, 0, 0, 0.1, 0.2, 0, 0, 1, "r3"),)))
     )  # fmt: skip
     assert isinstance(later, (DriveLeg, Observe))
-    assert later.then is not None
+    assert isinstance(later.then, RoomTourState)
     assert later.then.order == act.then.order

@@ -9,6 +9,7 @@ import pytest
 
 from planner.mission.skills import (
     SKILLS,
+    STATES,
     DriveLeg,
     Fail,
     Finish,
@@ -19,6 +20,7 @@ from planner.mission.skills import (
     Stand,
     Think,
     act_of,
+    begin_state,
 )
 from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, Means, StepState, say_same
 from tests.planner.mission.fakes import FACTS
@@ -86,3 +88,23 @@ def test_what_needs_a_camera_says_so(kind: str) -> None:
     act = act_of(scene(kind))
     assert isinstance(act, Fail)
     assert act.code is Code.NO_CAMERA
+
+
+@pytest.mark.parametrize("kind", sorted(STATES))
+def test_a_skill_remembers_nothing_that_is_anothers(kind: str) -> None:
+    mine = STATES[kind]()
+    for foreign in {name for state in STATES.values() for name in state.model_fields}:
+        if foreign not in STATES[kind].model_fields:
+            with pytest.raises(
+                TypeError, match=f"{STATES[kind].__name__} has no {foreign}; it has"
+            ):
+                mine.but(**{foreign: None})
+
+
+@pytest.mark.parametrize("kind", sorted(SKILLS))
+def test_a_skill_is_asked_with_its_own_state_alone(kind: str) -> None:
+    own = begin_state(kind)
+    for other in (None, *(state() for state in STATES.values())):
+        if type(other) is not type(own):
+            with pytest.raises(TypeError, match=f"the step '{kind}' needs the state"):
+                act_of(scene(kind, state=other))

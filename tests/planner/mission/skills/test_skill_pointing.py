@@ -17,26 +17,27 @@ from planner.mission.skills import (
     SkillAction,
     act_of,
 )
-from planner.mission.skills.model_pointing import AGAIN, ANSWER, PROPOSED
 from planner.mission.skills.perception import ImageAnswer
-from planner.mission.skills.skill_state import NOTHING
+from planner.mission.skills.skill_state import GoToObjectState, PointingStage
 from planner.plan import Bilingual, Code
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2
 
 EYES = Eyesight(CameraConfig(), ("cup",), model=True)
 AT = (4.0, 0.5, 0.4)
-ASKED = NOTHING.but(stage=PROPOSED, pointed=AT)
+PROPOSED, AGAIN = PointingStage.PROPOSED, PointingStage.AGAIN
+ANSWER = GoToObjectState(pointing=PointingStage.ANSWER)
+ASKED = GoToObjectState(pointing=PROPOSED, pointed=AT)
 
 
 def going(reply: str | None = None, **more: Any) -> SkillAction:
     """Return what a goal to the guitar does next, where a person answered so."""
     step = {"object": "guitar", "answer": reply}
-    return act_of(scene("go_to_object", step=step, **({"eyes": EYES, "notes": ASKED} | more)))
+    return act_of(scene("go_to_object", step=step, **({"eyes": EYES, "state": ASKED} | more)))
 
 
 def test_a_point_is_proposed_before_anything_moves() -> None:
-    act = going(notes=NOTHING.but(stage=ANSWER), answer=ImageAnswer(at=AT))
+    act = going(state=ANSWER, answer=ImageAnswer(at=AT))
     assert act == Question(
         Bilingual(
             en="“guitar”: the vision model points 4.0 m away, straight ahead (in the kitchen). "
@@ -63,7 +64,7 @@ def test_a_point_is_proposed_before_anything_moves() -> None:
 )
 def test_it_is_told_as_seen_from_the_robot(yaw: float, en: str, zh: str) -> None:
     at = (9.0, 0.0, 0.4)
-    act = going(pose=Pose2(7.0, 0.0, yaw), notes=ASKED.but(pointed=at))
+    act = going(pose=Pose2(7.0, 0.0, yaw), state=ASKED.but(pointed=at))
     assert isinstance(act, Question)
     assert f"points 2.0 m away, {en}. Shall" in act.text.en, "in no room that is known"
     assert f"{zh} 2.0 米处。" in act.text.zh
@@ -74,13 +75,13 @@ def test_a_yes_drives_to_the_point_that_was_told_and_asks_no_model_again() -> No
         act = going("yes", eyes=eyes)
         assert isinstance(act, DriveLeg)
         assert act.goal.x_m == pytest.approx(4.0 - 0.8, abs=0.05)
-        assert act.then is not None
+        assert isinstance(act.then, GoToObjectState)
         assert act.then.at == AT
 
 
 @pytest.mark.parametrize("stage", [PROPOSED, AGAIN])
-def test_a_no_ends_it(stage: int) -> None:
-    act = going("no, thanks", notes=ASKED.but(stage=stage))
+def test_a_no_ends_it(stage: PointingStage) -> None:
+    act = going("no, thanks", state=ASKED.but(pointing=stage))
     assert isinstance(act, Fail)
     assert (act.code, act.reason) == (Code.POINT_REFUSED, "point_declined")
     assert act.said is not None
@@ -92,14 +93,14 @@ def test_what_is_neither_is_asked_once_more_and_is_then_a_no() -> None:
     assert isinstance(act, Question)
     assert act.text.en.startswith("Please answer yes or no. “guitar”")
     assert act.text.zh.startswith("请回答“是”或“不”。")
-    assert act.notes is not None
-    assert going(notes=act.notes) == act, "interrupted"
-    assert isinstance(going("hm", notes=act.notes), Fail)
-    assert isinstance(going("yes", notes=act.notes), DriveLeg)
+    assert act.state is not None
+    assert going(state=act.state) == act, "interrupted"
+    assert isinstance(going("hm", state=act.state), Fail)
+    assert isinstance(going("yes", state=act.state), DriveLeg)
 
 
 def test_an_answer_to_another_question_is_none_to_this_point() -> None:
-    assert isinstance(going("yes", notes=NOTHING), Observe)
-    assert isinstance(going("yes", notes=NOTHING.but(stage=ANSWER)), AskImage)
-    fresh = going("yes", notes=NOTHING.but(stage=ANSWER), answer=ImageAnswer(at=AT))
+    assert isinstance(going("yes", state=GoToObjectState()), Observe)
+    assert isinstance(going("yes", state=ANSWER), AskImage)
+    fresh = going("yes", state=ANSWER, answer=ImageAnswer(at=AT))
     assert isinstance(fresh, Question)

@@ -18,7 +18,6 @@ from planner.mission.skills import (
     WantedObject,
     Way,
 )
-from planner.mission.skills.go_to_object import FACE, JUDGE
 from planner.mission.skills.object_matching import (
     APART_S,
     drop_doubles,
@@ -28,11 +27,21 @@ from planner.mission.skills.object_matching import (
 )
 from planner.mission.skills.perception import ImageAnswer
 from planner.mission.skills.result_text import found_at, list_things, looked_in, name_count
-from planner.mission.skills.skill_state import Notes
+from planner.mission.skills.skill_state import (
+    AimStage,
+    ApproachStage,
+    FindState,
+    FollowPersonState,
+    FollowStage,
+    GoToObjectState,
+    LookStage,
+    LookState,
+    PointingStage,
+)
 from planner.mission.skills.viewpoints import REACH_M, in_order, room_of, spots_in
-from planner.mission.state import SiteView, Target
 from planner.plan import Bilingual, Code
 from planner.settings.model import ModelSettings
+from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.looking import EYES, HERE, NOW_S, looking, sight, thing
 from wire import CameraConfig, Pose2
@@ -63,29 +72,29 @@ def test_what_is_remembered_is_looked_at_again_once() -> None:
     assert isinstance(far, DriveLeg)
     assert far.way is Way.ROUTE
     assert hypot(far.goal.x_m - 4.0, far.goal.y_m) == pytest.approx(1.6)
-    assert far.otherwise is not None
+    assert isinstance(far.otherwise, FindState)
     assert far.otherwise.tried == ("cup_1",)
-    gaze = looking("find", thing(), notes=Notes(aim="cup_1", stage=2))
+    gaze = looking("find", thing(), state=FindState(aim="cup_1", aim_stage=AimStage.FACING))
     assert isinstance(gaze, Observe)
-    assert gaze.then is not None
+    assert isinstance(gaze.then, FindState)
     assert gaze.then.tried == ("cup_1",)
-    tried = looking("find", thing(), notes=gaze.then)
+    tried = looking("find", thing(), state=gaze.then)
     assert isinstance(tried, (DriveLeg, Observe))
-    assert tried.then is not None
+    assert isinstance(tried.then, FindState)
     assert tried.then.spot == "here", "then it looks round"
 
 
 def test_a_thing_whose_colour_light_may_have_changed_is_looked_at_last_of_all() -> None:
     doubtful, other = thing(color="brown"), thing(id="cup_2", color="blue", y_m=0.8)
-    notes, acts = Notes(), []
+    state, acts = FindState(), []
     for _ in range(200):  # each act is done as it asks
-        act = looking("find", doubtful, other, notes=notes)
+        act = looking("find", doubtful, other, state=state)
         acts.append(act)
         if isinstance(act, Fail):
             break
-        notes = act.then or notes
+        state = act.then or state
     assert isinstance(acts[-1], Fail)
-    assert notes.tried == ("cup_1",), "a red cup may look brown, and never blue"
+    assert state.tried == ("cup_1",), "a red cup may look brown, and never blue"
     again = next(i for i, act in enumerate(acts) if act.then.tried)
     assert again >= len(acts) - 2, "after all rooms"
     assert acts[-1].said is not None
@@ -174,9 +183,11 @@ def test_without_means_a_step_is_refused_and_a_model_may_point() -> None:
     assert isinstance(unknown, Fail)
     assert unknown.code is Code.OBJECT_UNKNOWN
     model = replace(EYES, model=True)
-    asks = looking("go_to_object", step={"object": "guitar"}, eyes=model, notes=Notes(stage=2))
-    assert asks == AskImage("guitar", point=True, then=Notes(stage=3))
-    which: dict[str, Any] = {"step": {"object": "the small cup"}, "notes": Notes(stage=2)}
+    pointing = GoToObjectState(pointing=PointingStage.POINT)
+    asks = looking("go_to_object", step={"object": "guitar"}, eyes=model, state=pointing)
+    then = GoToObjectState(pointing=PointingStage.ANSWER)
+    assert asks == AskImage("guitar", point=True, then=then)
+    which: dict[str, Any] = {"step": {"object": "the small cup"}, "state": pointing}
     assert isinstance(looking("go_to_object", thing(), eyes=model, **which), AskImage)
     assert isinstance(looking("go_to_object", thing(), **which), Fail)
 
@@ -185,11 +196,11 @@ def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() 
     model = replace(EYES, model=True)
     step = {"object": None, "text": "what do you see?"}
     assert isinstance(looking("look", step=step, eyes=model), Observe)
-    asked = looking("look", step=step, eyes=model, notes=Notes(stage=1))
+    asked = looking("look", step=step, eyes=model, state=LookState(stage=LookStage.GAZED))
     assert isinstance(asked, AskImage)
     words = Bilingual(en="A sign: go to the kitchen", zh="牌子：去厨房")
     done = looking(
-        "look", thing(), step=step, eyes=model, notes=Notes(stage=2), spent_s=3.0,
+        "look", thing(), step=step, eyes=model, state=LookState(stage=LookStage.ASKED), spent_s=3.0,
         answer=ImageAnswer(text=words),
     )  # fmt: skip
     assert isinstance(done, Finish)
@@ -211,10 +222,12 @@ def test_one_picture_alone_sets_nothing_off_and_proves_nothing() -> None:
     ghost = looking("follow", thing(**anna, sightings=1), **step)
     assert isinstance(ghost, Observe)
     assert isinstance(looking("follow", thing(**anna, sightings=2), **step), DriveLeg)
-    known = Notes(at=(3.0, 0.0, 0.9), label="person")
-    assert isinstance(looking("follow", thing(**anna, sightings=1), notes=known, **step), DriveLeg)
-    there = Notes(stage=JUDGE, at=(1.6, 0.0, 0.8), label="cup", color="red")
-    gazed: dict[str, Any] = {"notes": there, "gazed_s": NOW_S - 1.0}
+    known = FollowPersonState(at=(3.0, 0.0, 0.9), label="person")
+    assert isinstance(looking("follow", thing(**anna, sightings=1), state=known, **step), DriveLeg)
+    there = GoToObjectState(
+        approach=ApproachStage.JUDGE, at=(1.6, 0.0, 0.8), label="cup", color="red"
+    )
+    gazed: dict[str, Any] = {"state": there, "gazed_s": NOW_S - 1.0}
     unsure = thing(sightings=2, confidence=0.4)
     assert isinstance(looking("go_to_object", unsure, **gazed), Finish), "it was found before"
     assert not isinstance(looking("go_to_object", thing(sightings=1), **gazed), Finish)
@@ -224,17 +237,20 @@ def test_what_was_seen_for_a_moment_only_sets_nothing_off() -> None:
     anna = {"id": "person_1", "label": "person", "color": None, "x_m": 3.0}
     step: dict[str, Any] = {"step": {"object": "person"}}
     glimpsed, watched = NOW_S - 0.5 - APART_S + 0.01, NOW_S - 0.5 - APART_S
-    for notes in (Notes(), Notes(stage=1, spot="here", turned=2)):
-        act = looking("follow", thing(**anna, first_s=glimpsed), notes=notes, **step)
+    for state in (
+        FollowPersonState(),
+        FollowPersonState(stage=FollowStage.ROUND, spot="here", turned=2),
+    ):
+        act = looking("follow", thing(**anna, first_s=glimpsed), state=state, **step)
         assert isinstance(act, Observe), "watched until that is sure, standing too"
         assert act.watch
-        assert (act.notes, act.then) == (notes, notes)
+        assert (act.state, act.then) == (state, state)
         assert isinstance(looking("follow", thing(**anna, first_s=watched), **step), DriveLeg)
     late = looking("follow", thing(**anna, first_s=glimpsed), spent_s=26.0, **step)
     assert isinstance(late, Fail), "not for ever"
     gone = looking("follow", thing(**anna, first_s=glimpsed, seen_s=NOW_S - 2.0), **step)
     assert isinstance(gone, Observe)
-    assert gone.then == Notes(stage=1), "then it looks round"
+    assert gone.then == FollowPersonState(stage=FollowStage.ROUND), "then it looks round"
 
 
 def test_a_thing_that_was_seen_for_a_moment_is_looked_at_again_before_the_way_to_it() -> None:
@@ -242,58 +258,58 @@ def test_a_thing_that_was_seen_for_a_moment_is_looked_at_again_before_the_way_to
     gazed: dict[str, Any] = {"gazed_s": NOW_S - 1.0}
     again = looking("go_to_object", glimpsed, **gazed)
     assert isinstance(again, Observe)
-    assert again.then is not None
+    assert isinstance(again.then, GoToObjectState)
     assert again.then.tried == ("cup_1",)
-    near = looking("go_to_object", glimpsed, notes=again.then, **gazed)
-    assert isinstance(near.then, Notes)
+    near = looking("go_to_object", glimpsed, state=again.then, **gazed)
+    assert isinstance(near.then, GoToObjectState)
     assert near.then.at is not None, "it is there yet"
     over = looking("go_to_object", thing(first_s=NOW_S - 3.0, seen_s=NOW_S - 2.9),
-                   notes=again.then, **gazed)  # fmt: skip
+                   state=again.then, **gazed)  # fmt: skip
     assert over.then.at is None, "it looks on"
     passed = looking("go_to_object", replace(glimpsed, x_m=0.0, y_m=1.6))
     assert isinstance(passed, DriveLeg)
     assert passed.way is Way.SPIN
-    assert isinstance(looking("go_to_object", thing(first_s=NOW_S - 3.0)).then, Notes)
+    assert isinstance(looking("go_to_object", thing(first_s=NOW_S - 3.0)).then, GoToObjectState)
 
 
 def test_what_was_seen_on_the_way_and_is_hidden_from_where_one_stands_is_said_to_be_there() -> None:
     at = (1.6, 0.0, 0.8)
-    arrived = Notes(stage=FACE, at=at, label="cup", color="red")
-    look = looking("go_to_object", thing(seen_s=NOW_S - 4.0), notes=arrived)
+    arrived = GoToObjectState(approach=ApproachStage.FACE, at=at, label="cup", color="red")
+    look = looking("go_to_object", thing(seen_s=NOW_S - 4.0), state=arrived)
     assert isinstance(look, Observe)
     judge, gazed = look.then, {"gazed_s": NOW_S - 1.0}
     assert judge is not None
-    hidden = looking("go_to_object", thing(seen_s=NOW_S - 5.0, x_m=1.5), notes=judge, **gazed)
+    hidden = looking("go_to_object", thing(seen_s=NOW_S - 5.0, x_m=1.5), state=judge, **gazed)
     assert isinstance(hidden, Finish)
     assert hidden.said is not None
     assert "1.5 m" in hidden.said.en, "by where it was seen last"
     blue = thing(id="cup_2", color="blue", seen_s=NOW_S - 0.2)
-    beside = looking("go_to_object", blue, thing(seen_s=NOW_S - 5.0, x_m=1.5), notes=judge, **gazed)
+    beside = looking("go_to_object", blue, thing(seen_s=NOW_S - 5.0, x_m=1.5), state=judge, **gazed)
     assert beside == hidden, "the blue one beside it is told by nobody"
     for other in (
         thing(seen_s=NOW_S - 5.0, confidence=0.89),  # it should have been seen
         thing(seen_s=NOW_S - 21.0),
         thing(seen_s=NOW_S - 5.0, x_m=2.3),
     ):
-        assert not isinstance(looking("go_to_object", other, notes=judge, **gazed), Finish)
+        assert not isinstance(looking("go_to_object", other, state=judge, **gazed), Finish)
     doubtful = judge.but(sure=0.5)
     unsure = thing(seen_s=NOW_S - 5.0, confidence=0.5)
-    assert not isinstance(looking("go_to_object", unsure, notes=doubtful, **gazed), Finish)
+    assert not isinstance(looking("go_to_object", unsure, state=doubtful, **gazed), Finish)
     unknown = judge.but(sure=None)
     seen = thing(seen_s=NOW_S - 5.0)
-    assert not isinstance(looking("go_to_object", seen, notes=unknown, **gazed), Finish)
+    assert not isinstance(looking("go_to_object", seen, state=unknown, **gazed), Finish)
 
 
 def test_what_was_not_seen_on_the_way_is_not_said_to_be_there() -> None:
     at = (0.9, 0.0, 0.05)
-    notes = Notes(stage=FACE, at=at, label="cup", color="red")
+    state = GoToObjectState(approach=ApproachStage.FACE, at=at, label="cup", color="red")
     assert not EYES.should_see(HERE, at), "it lies before the feet"
     there = thing(x_m=0.9, z_m=0.05, seen_s=NOW_S - 9.0)
-    assert isinstance(looking("go_to_object", there, notes=notes), Finish)
+    assert isinstance(looking("go_to_object", there, state=state), Finish)
     for other in (replace(there, confidence=0.29), replace(there, color="blue")):
-        assert not isinstance(looking("go_to_object", other, notes=notes), Finish)
-    again = looking("go_to_object", notes=notes)
+        assert not isinstance(looking("go_to_object", other, state=state), Finish)
+    again = looking("go_to_object", state=state)
     assert isinstance(again, (DriveLeg, Observe)), "it is looked for once more"
-    told = looking("go_to_object", notes=notes.but(again=1))
+    told = looking("go_to_object", state=state.but(again=1))
     assert isinstance(told, Fail)
     assert told.reason == "moved"

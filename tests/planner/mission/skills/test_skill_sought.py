@@ -9,8 +9,8 @@ import pytest
 from planner.language.questions import Relation
 from planner.mission.skills import WantedObject
 from planner.mission.skills.object_query import FLOOR, ObjectQuery, sought_in
-from planner.mission.state import SiteView, Target
 from planner.plan import Bilingual
+from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import room
 from wire import Pose2
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -10,10 +11,15 @@ from planner.brain.model_error_codes import reason
 from planner.mission.skills import Scene
 from planner.mission.skills.actions import UNSEEN, AskImage, Fail, Finish
 from planner.mission.skills.go_to_object import go_to_object
-from planner.mission.skills.look import ASKED, NO_DETECTOR, look
-from planner.mission.skills.model_pointing import ANSWER
+from planner.mission.skills.look import NO_DETECTOR, look
 from planner.mission.skills.perception import Eyesight, ImageAnswer
-from planner.mission.skills.skill_state import NOTHING
+from planner.mission.skills.skill_state import (
+    GoToObjectState,
+    LookStage,
+    LookState,
+    PointingStage,
+    SkillStateBase,
+)
 from planner.perception import Sight
 from planner.plan import Bilingual, Code, say_same
 from tests.planner.mission.skills.scenes import scene
@@ -21,13 +27,17 @@ from wire import CameraConfig
 
 EYES = Eyesight(CameraConfig(), ("cup",), model=True)
 NONE = "no_detector"
+ASKED = LookState(stage=LookStage.ASKED)
+ANSWER = GoToObjectState(pointing=PointingStage.ANSWER)
 SEEN = "I see nothing that I know"
 
 
-def after(kind: str, stage: int, answer: ImageAnswer, sight: Sight = UNSEEN, **step: str) -> Scene:
+def after(
+    state: SkillStateBase, answer: ImageAnswer, sight: Sight = UNSEEN, **step: str
+) -> Scene[Any]:
     """Return a scene in which the model was asked."""
-    notes = NOTHING.but(stage=stage)
-    return scene(kind, step=step, notes=notes, eyes=EYES, answer=answer, sight=sight)
+    kind = "look" if isinstance(state, LookState) else "go_to_object"
+    return scene(kind, step=step, state=state, eyes=EYES, answer=answer, sight=sight)
 
 
 @pytest.mark.parametrize(
@@ -38,7 +48,7 @@ def after(kind: str, stage: int, answer: ImageAnswer, sight: Sight = UNSEEN, **s
     ],
 )
 def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
-    act = look(after("look", ASKED, ImageAnswer(failure=failure), text="what is there?"))
+    act = look(after(ASKED, ImageAnswer(failure=failure), text="what is there?"))
     assert isinstance(act, Finish)
     assert act.said is not None
     assert act.said.en.startswith(SEEN)
@@ -51,7 +61,7 @@ def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
     "answer", [ImageAnswer(text=say_same("a sofa")), ImageAnswer(failure="camera_silent")]
 )
 def test_nothing_is_excused_where_nothing_went_wrong(answer: ImageAnswer) -> None:
-    act = look(after("look", ASKED, answer, text="what is there?"))
+    act = look(after(ASKED, answer, text="what is there?"))
     assert isinstance(act, Finish)
     assert act.said is not None
     assert act.said.en.startswith(SEEN)
@@ -71,7 +81,6 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
     assert (act.words, act.point) == ("what is there?", False)
     told = look(
         after(
-            "look",
             ASKED,
             ImageAnswer(text=say_same("a man"), seen=True),
             text="有人吗？",
@@ -101,7 +110,7 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
     ],
 )
 def test_a_model_s_point_that_leads_nowhere_says_why(failure: str, code: Code, told: str) -> None:
-    act = go_to_object(after("go_to_object", ANSWER, ImageAnswer(failure=failure), object="dragon"))
+    act = go_to_object(after(ANSWER, ImageAnswer(failure=failure), object="dragon"))
     assert isinstance(act, Fail)
     assert (act.code, act.reason) == (code, failure)
     assert act.said is not None

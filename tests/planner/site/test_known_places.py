@@ -9,10 +9,12 @@ from typing import Any
 
 import pytest
 
+from maps import load_map
+from maps.new_site import new_site
 from planner.brain.interface import ThinkRequest
 from planner.brain.prompt import Prompt
 from planner.bridge_client import Aged
-from planner.mission.known_places import KnownPlaces, Lesson
+from planner.mission.place_survey import RobotSurvey
 from planner.site import (
     MAX_HERE,
     PlaceRefusal,
@@ -21,6 +23,7 @@ from planner.site import (
     TaughtPlace,
     TaughtPlaces,
 )
+from planner.site.known_places import KnownPlaces, Lesson
 from planner.site.places import Names
 from planner.site.taught_places import FILE, TaughtFile
 from planner.state_database import StateDatabase
@@ -60,7 +63,7 @@ def memory(
     router: StraightRouter | None = None,
 ) -> KnownPlaces:
     made = KnownPlaces(site, TaughtPlaces.in_home(home), clock=lambda: DAY)
-    made.use(bridge or Bridge(), router or StraightRouter())
+    made.use(RobotSurvey(bridge or Bridge(), router or StraightRouter()))
     return made
 
 
@@ -253,7 +256,7 @@ def test_an_id_of_ones_own_is_judged_as_a_name(tmp_path: Path) -> None:
 def test_what_cannot_be_written_changes_nothing(tmp_path: Path, pragma: str, code: str) -> None:
     database = StateDatabase(tmp_path)
     kept = KnownPlaces(SITE, TaughtPlaces.in_home(tmp_path, database), clock=lambda: DAY)
-    kept.use(Bridge(), StraightRouter())
+    kept.use(RobotSurvey(Bridge(), StraightRouter()))
     made = teach(kept, "corner")
     database.read(f"PRAGMA {pragma}")  # of this connection: as where the disk or home is so
     with pytest.raises(PlaceRefusal, match=code):
@@ -316,3 +319,35 @@ def test_a_name_enters_the_prompt_as_data_alone(tmp_path: Path) -> None:
     request = ThinkRequest(text="go to mum's desk", vocabulary=kept.vocabulary)
     system, *_ = Prompt.load().messages(request)
     assert 'mum_s_desk: ["Mum\'s desk","Mum\'s desk"]' in system["content"]
+
+
+def imported(folder: Path) -> Site:
+    """Return two_room as `pons site import` makes it: its rooms are proposed, without names."""
+    loaded = load_map(ROOT / "sites" / "two_room" / "map.yaml")
+    new_site(loaded, 0.3).write(folder)
+    return Site.load(folder)
+
+
+def test_a_proposed_room_gets_a_name_and_is_a_room_from_then_on(tmp_path: Path) -> None:
+    site = imported(tmp_path / "flat")
+    bridge = Bridge(map_id=site.map_id)
+    kept = memory(tmp_path, bridge, site=site)
+    room = kept.proposed_rooms[0]
+    assert kept.room_at(room.pose.x_m, room.pose.y_m) is None
+    made = teach(kept, "tea kitchen", "茶水间", room=room.id)
+    assert (made.pose, made.polygon) == (room.pose, room.polygon)
+    for known in (kept, memory(tmp_path, bridge, site=site)):
+        here = known.room_at(room.pose.x_m, room.pose.y_m)
+        assert here is not None
+        assert (here.id, here.kind) == ("tea_kitchen", "room")
+        assert known.facts.targets["tea_kitchen"].room
+        assert known.vocabulary.by_id["tea_kitchen"].kind == "room"
+    asyncio.run(kept.forget("tea kitchen"))
+    assert kept.room_at(room.pose.x_m, room.pose.y_m) is None
+
+
+def test_a_room_that_nobody_proposed_can_not_be_named(tmp_path: Path) -> None:
+    assert refused(memory(tmp_path), "attic", room="room_9") == "unknown_room"
+    site = imported(tmp_path / "flat")
+    kept = memory(tmp_path, Bridge(map_id=site.map_id), site=site)
+    assert refused(kept, "attic", room="room_9") == "unknown_room"

@@ -1,11 +1,36 @@
-"""Take the reducer's part of a site, and the names that a brain may use."""
+"""Show a site as missions and brains need it: its places as targets, and the names for them."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from planner.language.catalogue import place_name
-from planner.mission.state import SiteView, Target
-from planner.plan import Entry, Vocabulary
-from planner.site import Place, Site
+from planner.plan import Bilingual, Entry, Vocabulary
+from planner.site.places import Place
+from planner.site.site import Site
+from wire.geometry import Pose2
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Describe a room or place that can be driven to."""
+
+    id: str
+    room: bool
+    name: Bilingual
+    pose: Pose2
+    polygon: tuple[tuple[float, float], ...] | None = None
+    aliases: tuple[str, ...] = ()
+    """What else people call it, in both languages."""
+
+
+@dataclass(frozen=True, slots=True)
+class SiteView:
+    """Hold what missions know of a site. No map: routes are the navigation's."""
+
+    targets: dict[str, Target]
+    home: str
+    map_id: str = ""
 
 
 def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> SiteView:

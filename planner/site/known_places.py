@@ -10,54 +10,49 @@ import asyncio
 import hashlib
 import re
 from collections.abc import Callable, Coroutine
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from itertools import chain, count
 from typing import Any, Protocol, TypeVar
 
-from planner.bridge_client import Aged
+from maps.room_proposals import RoomProposal, read_proposals
 from planner.language.folding import fold, unmask
 from planner.language.grammar.sentence_text import squash
 from planner.language.reserved_names import name_reads_as_order
 from planner.language.yes_no import consents
-from planner.mission.bridge_status import standing
-from planner.mission.site_view import facts_of, vocabulary_of
-from planner.mission.state import SiteView
-from planner.mission.tasks import RouteService
-from planner.navigation import RouteFailure, RouteRequest
 from planner.plan import Vocabulary
-from planner.site import (
-    MAX_HERE,
-    Place,
-    PlaceRefusal,
-    Site,
-    TaughtPlace,
-    TaughtPlaces,
-    check_spot,
-    plain_name,
-)
-from planner.site.places import Names
-from planner.site.taught_places import MAX_KEPT
-from wire import Pose2, Status
+from planner.site.places import Names, Place
+from planner.site.polygon import area_m2
+from planner.site.site import Site
+from planner.site.site_view import SiteView, facts_of, vocabulary_of
+from planner.site.taught_place_check import check_spot, plain_name
+from planner.site.taught_place_errors import PlaceRefusal
+from planner.site.taught_places import MAX_HERE, MAX_KEPT, TaughtPlace, TaughtPlaces
+from wire.geometry import Pose2
 
 T = TypeVar("T")
-MAX_STATUS_AGE_S = 0.5
-MOST_MOVED_M = 0.05
-"""A route that ends farther from the point than this says that nobody can stand on it."""
 _NO_ID = re.compile(r"[^a-z0-9]+")
-_ROUTE_CODES = {
-    "no_route": "place_unreachable",
-    "start_blocked": "place_unreachable",
-    "goal_blocked": "place_in_obstacle",
-    "goal_outside_map": "place_outside_map",
-}
 
 
-class Hears(Protocol):
-    """Hold the newest status and its age, as the link does."""
+class PlaceSurvey(Protocol):
+    """Tell where the robot is and whether it could drive to a point."""
 
-    @property
-    def status(self) -> Aged[Status] | None: ...
+    def robot_pose(self, map_id: str, *, must_stand: bool) -> Pose2:
+        """Return the robot in ``map``.
+
+        Raises:
+            PlaceRefusal: ``pose_unknown``, ``map_mismatch`` or ``robot_moving``.
+        """
+        ...
+
+    async def check_way(self, start: Pose2, goal: Pose2) -> None:
+        """Accept a point of ``map`` that the robot can drive to and stand on.
+
+        Raises:
+            PlaceRefusal: ``place_unreachable``, ``place_in_obstacle``, ``place_outside_map`` or
+                ``route_unavailable``.
+        """
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +73,8 @@ class Lesson:
     """In ``map``; None: where the robot stands."""
     by: str = "api"
     place_id: str | None = None
+    room: str | None = None
+    """The id of a proposed room, which is to be known by this name; it says the pose then."""
 
 
 def _read_clock() -> datetime:
@@ -98,10 +95,10 @@ class KnownPlaces:
         """Take up what was taught. Raises SiteError where the file is not ours."""
         self.site = site
         self._store, self._radius_m = store, radius_m
-        self._link: Hears | None = None
-        self._router: RouteService | None = None
+        self._survey: PlaceSurvey | None = None
         self._clock = clock
         self._lock = asyncio.Lock()
+        self._proposed = read_proposals(site.folder)
         self.version = 0
         """Rises with every change."""
         self._listeners: list[Callable[[], None]] = []
@@ -130,9 +127,19 @@ class KnownPlaces:
         """Return the places as the reducer knows them."""
         return self._facts
 
-    def use(self, link: Hears, router: RouteService) -> None:
-        """Take the source of the robot's pose, and the finder of ways to a point."""
-        self._link, self._router = link, router
+    @property
+    def proposed_rooms(self) -> tuple[RoomProposal, ...]:
+        """Return the rooms that were cut out of the map, named or not."""
+        return self._proposed
+
+    def room_at(self, x_m: float, y_m: float) -> Place | None:
+        """Return the room around a point of ``map``, a taught one too; the smallest of several."""
+        around = [p for p in self._places if p.kind == "room" and p.contains(x_m, y_m)]
+        return min(around, key=lambda room: area_m2(room.polygon or ()), default=None)
+
+    def use(self, survey: PlaceSurvey) -> None:
+        """Take the source of the robot's pose, which also finds ways to a point."""
+        self._survey = survey
 
     def listen(self, told: Callable[[], None]) -> None:
         """Have something called after each change."""
@@ -164,6 +171,9 @@ class KnownPlaces:
             names = _names(lesson)
             before = self._find_taught(lesson, names)
             self._check_names(lesson, names, before)
+            room = self._find_proposed(lesson)
+            if room is not None:
+                lesson = replace(lesson, pose=room.pose)
             pose = await self._spot(lesson)
             if before is None:
                 self._check_room()
@@ -174,10 +184,21 @@ class KnownPlaces:
                 map_id=self.site.map_id,
                 by=lesson.by,
                 taught=self._clock(),
+                polygon=None if room is None else room.polygon,
             )
             others = tuple(kept for kept in self._kept if kept is not before)
             await self._change((*others, place))
             return place, before is None
+
+    def _find_proposed(self, lesson: Lesson) -> RoomProposal | None:
+        """Return the proposed room that a lesson names, if it names one; one has one name."""
+        if lesson.room is None:
+            return None
+        room = next((room for room in self._proposed if room.id == lesson.room), None)
+        if room is None:
+            known = ", ".join(room.id for room in self._proposed) or "none"
+            raise PlaceRefusal("unknown_room", f"got {lesson.room[:40]!r}; proposed: {known}")
+        return room
 
     async def _forget(self, name: str, *, other_maps: bool) -> TaughtPlace:
         async with self._lock:
@@ -259,33 +280,15 @@ class KnownPlaces:
 
     async def _spot(self, lesson: Lesson) -> Pose2:
         """Return where the place is to be: known, on this map, free and within reach."""
-        aged = self._link.status if self._link is not None else None
-        status = aged.value if aged is not None and aged.age_s <= MAX_STATUS_AGE_S else None
-        here = status.base_in_map if status is not None else None
-        if status is None or here is None:
+        if self._survey is None:
             raise PlaceRefusal("pose_unknown")
-        if status.map_id != self.site.map_id:
-            raise PlaceRefusal("map_mismatch", f"{status.map_id}, expected {self.site.map_id}")
+        here = self._survey.robot_pose(self.site.map_id, must_stand=lesson.pose is None)
         if lesson.pose is None:
-            if not standing(status):
-                raise PlaceRefusal("robot_moving")
             check_spot(self.site, here, 0.0)
             return here
         check_spot(self.site, lesson.pose, self._radius_m)
-        await self._reach(here, lesson.pose)
+        await self._survey.check_way(here, lesson.pose)
         return lesson.pose
-
-    async def _reach(self, start: Pose2, goal: Pose2) -> None:
-        if self._router is None:
-            raise PlaceRefusal("route_unavailable")
-        try:
-            result = await self._router.route(RouteRequest(start, goal))
-        except RouteFailure as failure:
-            code = _ROUTE_CODES.get(failure.code, "route_unavailable")
-            raise PlaceRefusal(code, failure.code) from None
-        if not result.moved_goal_m <= MOST_MOVED_M:
-            detail = f"free floor is {result.moved_goal_m:.2f} m away"
-            raise PlaceRefusal("place_in_obstacle", detail)
 
     def _new_id(self, lesson: Lesson, names: Names) -> str:
         """Return the id: the one asked for, else of the name, and so the same another day."""

@@ -1,0 +1,52 @@
+"""Say in both languages what stands in the way: where, how wide, and since when. Pure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from planner.language.catalogue import list_names, message, say
+from planner.plan import Bilingual, Code
+from planner.site.polygon import area_m2, border_distance_m, contains
+
+if TYPE_CHECKING:
+    from planner.mission.recovery import ShutWay
+    from planner.site.site_view import SiteView, Target
+
+DOOR_M = 0.45
+"""From the line between two rooms; outlines reach to the middle of walls, and what stands in a
+door sticks out of it."""
+
+
+def tell_obstruction(facts: SiteView, shut: ShutWay, place: Bilingual) -> Bilingual:
+    """Return the sentence of a way to a place that was given up before this obstruction."""
+    minutes = int((shut.since_unix_s + shut.local_offset_s) // 60)
+    return say(
+        "obstruction.blocked",
+        place=place,
+        width_m=max(0.1, round(shut.obstruction.width_m, 1)),
+        where=spot_of(facts, shut.obstruction.middle),
+        time=f"{minutes // 60 % 24:02d}:{minutes % 60:02d}",
+    )
+
+
+def tell_occupied(place: Bilingual, near_m: float) -> Bilingual:
+    """Return the sentence of a goal on which something stands, with how near the robot came."""
+    return message(Code.GOAL_OCCUPIED, place=place, metres=f"{near_m:.1f}")
+
+
+def spot_of(facts: SiteView, point: tuple[float, float]) -> Bilingual:
+    """Name a point of ``map``: the door between two rooms, else the room, else its coordinates."""
+    rooms = [t for t in facts.targets.values() if t.room and t.polygon is not None]
+    inside = [room for room in rooms if contains(room.polygon or (), *point)]
+    here = min(inside, key=lambda room: area_m2(room.polygon or ()), default=None)
+    if here is None:
+        return say("obstruction.at_point", x_m=point[0], y_m=point[1])
+    beside = [room for room in rooms if room is not here and _borders(room, point)]
+    if not beside:
+        return say("obstruction.in_room", room=here.name)
+    other = min(beside, key=lambda room: border_distance_m(room.polygon or (), *point))
+    return say("obstruction.at_door", rooms=list_names((here.name, other.name), "joint.and_the"))
+
+
+def _borders(room: Target, point: tuple[float, float]) -> bool:
+    return border_distance_m(room.polygon or (), *point) <= DOOR_M

@@ -1,0 +1,214 @@
+"""State what a robot does, in which order, while something stands in its way. Table and records.
+
+Laws. The ladder is climbed rung by rung while the robot gets nowhere, and begun anew once it has
+come a metre. It is bounded three ways: by its own end, by how often it is begun in a step, and by
+the way driven for it. A place is driven up to twice at most in a step; after that it is shut until
+the goal ends. Everything here is kept with the goal in the journal, so that a goal which was paused
+or crashed goes on with what it knows. Pure: told times, knows no clock.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import hypot, inf, pi
+
+from planner.navigation.obstruction import Obstruction
+from planner.plan import Frozen
+from wire import Pose2
+
+
+class Recovery(StrEnum):
+    """List what may be tried where the way is shut. The names stand in a step's ``recoveries``."""
+
+    WAIT = "wait"
+    REROUTE = "reroute"
+    LOOK = "look"
+    GIVE_WAY = "give_way"
+    BACK_OFF = "back_off"
+    OTHER_WAY = "other_way"
+    GIVE_UP = "give_up"
+
+
+@dataclass(frozen=True, slots=True)
+class LadderRung:
+    """Bound one recovery. Zero where a bound means nothing to it."""
+
+    recovery: Recovery
+    seconds: float = 0.0  # a wait lasts so long, anything else no longer
+    metres: float = 0.0  # backwards
+    speed_mps: float = 0.0
+    turns_rad: tuple[float, ...] = ()  # from the heading at the beginning
+
+
+LADDER = (
+    LadderRung(Recovery.WAIT, seconds=3.0),  # most people have gone on by then
+    LadderRung(Recovery.GIVE_WAY, seconds=14.0),  # to somebody who walks; else left out
+    LadderRung(Recovery.REROUTE, seconds=5.0),
+    LadderRung(Recovery.WAIT, seconds=6.0),
+    LadderRung(Recovery.LOOK, seconds=3.0, turns_rad=(pi / 2, -pi / 2)),
+    LadderRung(Recovery.BACK_OFF, seconds=5.0, metres=0.3, speed_mps=0.1),
+    LadderRung(Recovery.OTHER_WAY, seconds=5.0),
+    LadderRung(Recovery.WAIT, seconds=3.0),  # the other way is shut, too
+    LadderRung(Recovery.GIVE_UP),
+)
+"""25 s from standing before something to giving up, of which the robot moves in 10."""
+
+NEW_LADDER_M = 1.0
+"""Once it has come so far, what stands in the way now is another matter."""
+MAX_LADDERS = 12
+"""In one step: a busy home shuts a way often, but not for ever."""
+MAX_GIVEN_WAY = 3
+"""In one step."""
+WALKER_S = 1.0
+"""Somebody who walked up is waited for so long before the robot gives way."""
+PASSING_S = 5.0
+"""A robot that stands aside is passed by then: three metres at a slow walk."""
+MAX_RECOVERY_M = 8.0
+"""Driven for recoveries in one step."""
+MAX_VISITS = 2
+"""To one obstruction in one step."""
+SAME_M = 0.6
+"""Obstructions whose middles are nearer to each other than this are one."""
+MEMORY_S = 60.0
+"""For so long a way that nobody sees is taken for shut; after that it may be tried once more."""
+MAX_SHUT = 16
+MAX_TOLD = 60
+
+
+class ShutWay(Frozen):
+    """Remember one obstruction: where its near side begins and ends, in ``map`` [m]."""
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+    since_unix_s: float
+    seen_unix_s: float
+    local_offset_s: float = 0.0
+    """Of people's own clock from UTC."""
+    moves: bool = False
+    """It walked up: it is nothing that shuts a way for long."""
+    ladder: int = 0
+    """The ladder on which it was met last."""
+    visits: int = 1
+
+    @property
+    def obstruction(self) -> Obstruction:
+        """Return the line that stands in the way."""
+        return Obstruction(self.start, self.end)
+
+    def is_shut(self, now_unix_s: float) -> bool:
+        """Tell whether routes lead round it now."""
+        # Written so that a wall clock that was set back forgets nothing.
+        return self.visits >= MAX_VISITS or not now_unix_s - self.seen_unix_s > MEMORY_S
+
+
+class RecoveryRecord(Frozen):
+    """Keep what one step has tried so far."""
+
+    rung: int = 0
+    """The rung that is next."""
+    ladders: int = 0
+    """How often it was begun."""
+    metres: float = 0.0
+    """What was driven for recoveries."""
+    began_at: tuple[float, float] | None = None
+    """Where the robot stood when the ladder was begun, in ``map`` [m]."""
+    shut: tuple[ShutWay, ...] = ()
+    newest: ShutWay | None = None
+    """What stood in the way last."""
+    given_way: int = 0
+    """Times that the robot stood aside."""
+    approaches: int = 0
+    """Times that the goal was found occupied."""
+    goal: tuple[float, float] | None = None
+    """The goal on which something stood, in ``map`` [m]."""
+    goal_moved: tuple[float, float] | None = None
+    """Where the leg to it ends instead: chosen once."""
+
+    def aim(self, goal: Pose2) -> Pose2:
+        """Return where a leg to this goal is to end."""
+        if self.goal_moved is None or self.goal != (goal.x_m, goal.y_m):
+            return goal
+        return Pose2(*self.goal_moved, goal.yaw_rad)
+
+
+FRESH = RecoveryRecord()
+"""Nothing has stood in the way of the step."""
+
+
+def rung_of(record: RecoveryRecord) -> LadderRung:
+    """Return the rung that is next; beyond the last one, or past a bound, that is to give up."""
+    spent = record.ladders > MAX_LADDERS or not record.metres <= MAX_RECOVERY_M
+    return LADDER[-1] if spent else LADDER[min(record.rung, len(LADDER) - 1)]
+
+
+def wait_s(record: RecoveryRecord) -> float:
+    """Return how long the rung that is next waits [s]."""
+    rung = rung_of(record)
+    gives_way = record.rung == 0 and can_give_way(record)
+    return min(rung.seconds, WALKER_S) if gives_way else rung.seconds
+
+
+def can_give_way(record: RecoveryRecord) -> bool:
+    """Tell whether standing aside may help: somebody walked up, and it was not tried too often."""
+    walked = record.newest is not None and record.newest.moves
+    return walked and record.given_way < MAX_GIVEN_WAY
+
+
+def begin_ladder(record: RecoveryRecord, robot_xy_m: tuple[float, float]) -> RecoveryRecord:
+    """Return the record of a robot that is held here: on the same ladder, or at a new one's foot.
+
+    Law: a robot that has come less than a metre since goes on where it was.
+    """
+    began = record.began_at
+    gone_m = hypot(robot_xy_m[0] - began[0], robot_xy_m[1] - began[1]) if began else inf
+    if not gone_m >= NEW_LADDER_M:
+        return record
+    return record.model_copy(
+        update={"rung": 0, "ladders": record.ladders + 1, "began_at": robot_xy_m}
+    )
+
+
+def note_obstruction(
+    record: RecoveryRecord,
+    seen: Obstruction,
+    now_unix_s: float,
+    local_offset_s: float = 0.0,
+    *,
+    moves: bool = False,
+) -> RecoveryRecord:
+    """Remember what stands in the way. A thing that is met again keeps since when it stands.
+
+    Met on another ladder it was visited again: the robot had left it, and came back. Somebody who
+    walks shuts no way: they will be elsewhere.
+    """
+    met = (*record.shut, *((record.newest,) if record.newest is not None else ()))
+    known = next((way for way in met if is_same(way.obstruction, seen)), None)
+    way = ShutWay(
+        start=seen.start,
+        end=seen.end,
+        since_unix_s=known.since_unix_s if known else now_unix_s,
+        seen_unix_s=now_unix_s,
+        local_offset_s=local_offset_s,
+        moves=moves or (known is not None and known.moves),
+        ladder=record.ladders,
+        visits=known.visits + (known.ladder != record.ladders) if known else 1,
+    )
+    others = tuple(w for w in record.shut if not is_same(w.obstruction, seen))
+    shut = others if way.moves else (*others, way)[-MAX_SHUT:]
+    return record.model_copy(update={"shut": shut, "newest": way})
+
+
+def note_open(record: RecoveryRecord, gone: ShutWay) -> RecoveryRecord:
+    """Forget a way that was seen open: the next route may lead through it."""
+    return record.model_copy(update={"shut": tuple(w for w in record.shut if w != gone)})
+
+
+def is_same(a: Obstruction, b: Obstruction) -> bool:
+    """Tell whether two sights are of one thing."""
+    return hypot(a.middle[0] - b.middle[0], a.middle[1] - b.middle[1]) <= SAME_M
+
+
+def shut_now(record: RecoveryRecord, now_unix_s: float) -> tuple[Obstruction, ...]:
+    """Return the ways that routes lead round now."""
+    return tuple(way.obstruction for way in record.shut if way.is_shut(now_unix_s))

@@ -1,0 +1,106 @@
+"""Show the route search what the lidar sees, five times a second, from where the robot was then.
+
+Owns when a scan is worth showing: fresh, new, and taken where odometry and a good localization say
+where the robot was. A scan placed wrongly would mark walls that are not there. Runs beside the
+missions and holds them up by nothing; while the search is busy, scans are passed over.
+"""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING, Protocol
+
+from planner.navigation import RouteFailure, ScanObservation
+from planner.perception.pose_buffer import Poses
+from wire import Pose2
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from planner.bridge_client import Link
+    from planner.navigation import ObstacleReport
+    from wire import Scan
+    from wire.robot import LidarConfig
+
+log = logging.getLogger(__name__)
+
+PERIOD_S = 0.2
+FRESH_S = 0.3
+
+
+class ScanObserver(Protocol):
+    """Keep an obstacle layer, in another process."""
+
+    async def observe(self, seen: ScanObservation) -> ObstacleReport:
+        """Take a scan in, or raise ``RouteFailure``."""
+
+
+class ScanSender:
+    """Show scans; keep the newest report."""
+
+    def __init__(
+        self,
+        link: Link,
+        lidar: LidarConfig,
+        map_id: str,
+        observer: ScanObserver,
+        ahead: Callable[[], tuple[tuple[float, float], ...]],
+        clock: Callable[[], float],
+    ) -> None:
+        """Begin to follow where the robot is.
+
+        Args:
+            link: hears scans, odometry and localization.
+            lidar: where it sits on the robot.
+            map_id: of the site; what is said on another map places nothing.
+            observer: keeps the layer.
+            ahead: returns the points of the way that the robot is on, in ``map`` [m].
+            clock: our own.
+        """
+        self._link, self._lidar, self._observer = link, lidar, observer
+        self._ahead, self._clock = ahead, clock
+        self._poses = Poses(map_id)
+        self._lidar_in_base = Pose2(lidar.x_m, lidar.y_m, lidar.yaw_rad)
+        self._shown: tuple[str, int] | None = None
+        self._shown_s = float("-inf")
+        self._busy = False
+        self.report: ObstacleReport | None = None
+        """What the layer held after the newest scan that was shown; None before the first."""
+        link.tell(self._poses)
+
+    def due(self) -> ScanObservation | None:
+        """Return the scan to show now, if there is one; then call :meth:`show`."""
+        aged, now_s = self._link.scan, self._clock()
+        if self._busy or aged is None or not aged.age_s <= FRESH_S:
+            return None
+        scan = aged.value
+        if (scan.boot_id, scan.seq) == self._shown or now_s - self._shown_s < PERIOD_S:
+            return None
+        stance = self._poses.at(_middle_s(scan))
+        if stance is None:
+            return None
+        self._shown, self._shown_s, self._busy = (scan.boot_id, scan.seq), now_s, True
+        return ScanObservation(
+            base_in_map=stance.base_in_map,
+            lidar_in_base=self._lidar_in_base,
+            first_rad=scan.angle_min_rad,
+            step_rad=scan.angle_increment_rad,
+            range_min_m=scan.range_min_m,
+            ranges_m=scan.ranges_m,
+            at_s=now_s,
+            ahead=self._ahead(),
+        )
+
+    async def show(self, seen: ScanObservation) -> None:
+        """Bring a scan to the search and keep its report; a failure is told by its next route."""
+        try:
+            self.report = await self._observer.observe(seen)
+        except RouteFailure as failure:
+            log.debug("a scan was not taken in: %s", failure)
+        finally:
+            self._busy = False
+
+
+def _middle_s(scan: Scan) -> float:
+    """Return the instant that stands for a whole sweep."""
+    return scan.stamp_s + 0.5 * scan.time_increment_s * max(0, len(scan.ranges_m) - 1)

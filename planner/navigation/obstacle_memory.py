@@ -1,0 +1,114 @@
+"""Put the layers of the costmap together: the map, what stood, what is suspicions, what moves.
+
+Nav2's static, obstacle and inflation layers in one; the movers are known beside it and close
+nothing. Holds what changes from scan to scan, and so is each robot's own; the map's part is told.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from planner.navigation.mover_tracker import MoverTracker
+from planner.navigation.obstacle_layer import ObstacleLayer, ScanView
+from planner.navigation.route import Mover, ObstacleReport, ScanObservation
+from wire.geometry import compose
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from planner.navigation.costmap import Costmap
+
+MAX_CELLS = 4_000
+"""Of a layer, told to people: 10 m2 at 0.05 m."""
+JUMP_M, FASTEST_MPS = 0.3, 2.0
+"""A robot that is farther away than it can have driven was found elsewhere: what it saw before lies
+in wrong places."""
+
+
+class ObstacleMemory:
+    """Hold one robot's obstacle layer and movers."""
+
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        """Begin with nothing seen, for a map of so many rows and columns."""
+        self._shape = (shape[0], shape[1])
+        self._version = 0
+        self._seen: ScanObservation | None = None
+        self._forget()
+
+    def _forget(self) -> None:
+        self._layer = ObstacleLayer(self._shape)
+        self._tracker = MoverTracker()
+        self._layered: tuple[int, Costmap] | None = None
+
+    def observe(self, mapped: Costmap, seen: ScanObservation) -> None:
+        """Take a scan in; scans come in the order of their times."""
+        if self._has_jumped(seen):
+            self._forget()
+        self._seen = seen
+        self._version += 1
+        view = ScanView(
+            lidar_in_map=compose(seen.base_in_map, seen.lidar_in_base),
+            first_rad=seen.first_rad,
+            step_rad=seen.step_rad,
+            range_min_m=seen.range_min_m,
+            ranges_m=np.array(seen.ranges_m, np.float64),
+            at_s=seen.at_s,
+        )
+        news = self._layer.observe(mapped, view, self._tracker.expected_points(seen.at_s))
+        self._tracker.update(news, seen.at_s)
+
+    def costmap(self, mapped: Costmap) -> Costmap:
+        """Return the map with what the obstacle layer holds now."""
+        if self._layered is None or self._layered[0] != self._version:
+            costmap = mapped.with_cells(self._layer.obstacles, self._layer.suspicions)
+            self._layered = (self._version, costmap)
+        return self._layered[1]
+
+    def hopeful_costmap(self, mapped: Costmap) -> Costmap:
+        """Return the map with what is in sight; what is only remembered is a suspicion."""
+        in_sight = self._layer.in_sight
+        remembered = (self._layer.obstacles | self._layer.suspicions) & ~in_sight
+        return mapped.with_cells(in_sight, remembered)
+
+    def report(self, mapped: Costmap, ahead: tuple[tuple[float, float], ...]) -> ObstacleReport:
+        """Say what the layer holds, and where it closes a way whose points are ``ahead``."""
+        return ObstacleReport(
+            version=self._version,
+            blocked_ahead_m=self._blocked_ahead_m(mapped, ahead),
+            movers=tuple(
+                Mover(m.number, m.x_m, m.y_m, m.vx_mps, m.vy_mps, m.radius_m)
+                for m in self._tracker.movers
+            ),
+            cells=_pack_cells(self._layer.obstacles),
+            suspicions=_pack_cells(self._layer.suspicions),
+        )
+
+    def _blocked_ahead_m(
+        self, mapped: Costmap, ahead: tuple[tuple[float, float], ...]
+    ) -> float | None:
+        if not ahead:
+            return None
+        line = np.asarray(ahead, np.float64)
+        layered = self.costmap(mapped)
+        closed = np.isinf(layered.cost_at(line)) & np.isfinite(mapped.cost_at(line))
+        if not closed.any():
+            return None
+        first = int(np.argmax(closed))
+        return float(np.hypot(*np.diff(line[: first + 1], axis=0).T).sum())
+
+    def _has_jumped(self, seen: ScanObservation) -> bool:
+        before = self._seen
+        if before is None:
+            return False
+        gone_s = seen.at_s - before.at_s
+        here, there = before.base_in_map, seen.base_in_map
+        away_m = hypot(there.x_m - here.x_m, there.y_m - here.y_m)
+        return not away_m <= JUMP_M + FASTEST_MPS * max(0.0, gone_s)
+
+
+def _pack_cells(cells: NDArray[np.bool_]) -> bytes:
+    rows, columns = np.nonzero(cells)
+    return np.column_stack([columns, rows])[:MAX_CELLS].astype("<u2").tobytes()

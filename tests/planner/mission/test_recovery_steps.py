@@ -1,0 +1,225 @@
+"""A blocked drive climbs the ladder, tells each rung, and ends with place, size and since when."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.mission.activity import Driving
+from planner.mission.effects import AskRoute
+from planner.mission.events import Pause, Resume, Surveyed
+from planner.mission.occupied_goal import OCCUPIED_S
+from planner.mission.recovery import LADDER, Recovery
+from planner.mission.skills import Way
+from planner.navigation.obstruction import Obstruction
+from planner.plan import Code, GoTo, StepPlan
+from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
+from tests.planner.mission.lockstep import Together
+from wire import Pose2
+
+CRATE = Obstruction((2.5, -0.25), (2.5, 0.25))
+NAMES = [rung.recovery.value for rung in LADDER]
+
+
+def told(world: Together, goal: str) -> tuple[str, ...]:
+    return world.goal(goal).steps[0].recoveries
+
+
+def shut(world: Together, seen: Obstruction | None = CRATE) -> str:
+    """Return a goal whose way is shut, and that no way leads round."""
+    world.way = lambda ask: "no_route" if ask.obstacles and ask.way is Way.ROUTE else None
+    goal = driving(world)
+    world.bridge.blocked = True
+    world.run(1.0)
+    world.event(Surveyed(seen, local_offset_s=3600.0))
+    return goal
+
+
+def test_every_rung_is_told_in_its_order_and_the_failure_names_place_size_and_time(
+    world: Together,
+) -> None:
+    goal = shut(world)
+    began_s = world.now_s
+    mission = world.run_until(goal, FAILED, limit_s=60.0)
+    assert world.now_s - began_s <= 26.0
+    assert list(mission.steps[0].recoveries) == NAMES[: len(mission.steps[0].recoveries)]
+    assert Recovery.OTHER_WAY.value in mission.steps[0].recoveries
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.BLOCKED
+    said = mission.outcome.message
+    assert "kitchen is blocked by something 0.5 m wide" in said.en
+    assert "since 01:01" in said.en  # 100 s after midnight, an hour east
+    assert "0.5 米宽" in said.zh
+
+
+def test_without_a_sight_of_it_the_failure_names_no_size(world: Together) -> None:
+    goal = shut(world, seen=None)
+    mission = world.run_until(goal, FAILED, limit_s=60.0)
+    assert mission.outcome is not None
+    assert mission.outcome.message.en == "The way to kitchen is blocked."
+
+
+def test_a_drive_that_the_bridge_keeps_shutting_ends_although_every_way_is_granted(
+    world: Together,
+) -> None:
+    goal = driving(world)
+    world.bridge.blocked = True
+    began_s = world.now_s
+    world.run_until(goal, FAILED, limit_s=60.0)
+    assert 15.0 <= world.now_s - began_s <= 30.0
+
+
+def test_a_gate_that_opens_for_moments_starts_no_wait_anew(world: Together) -> None:
+    goal = driving(world)
+    began_s = world.now_s
+    while world.goal(goal).state is RUNNING and world.now_s - began_s < 60.0:
+        world.bridge.blocked = True
+        world.run(1.0)
+        world.bridge.blocked = False
+        world.run(0.1)  # 5 cm
+    assert world.goal(goal).state is FAILED
+    assert world.now_s - began_s <= 40.0
+
+
+def test_free_again_the_old_way_is_driven_on(world: Together) -> None:
+    goal = driving(world)
+    world.bridge.blocked = True
+    world.run(2.0)
+    assert told(world, goal) == ("wait",)
+    world.bridge.blocked = False
+    world.run_until(goal, SUCCEEDED)
+    assert len(world.routes) == 1
+
+
+def test_backing_off_is_straight_slow_and_short(world: Together) -> None:
+    goal = shut(world)
+    world.run_until(goal, FAILED, limit_s=60.0)
+    backs = [ask for ask in world.routes if ask.way is Way.STRAIGHT]
+    assert len(backs) == 1
+    (back,) = backs
+    assert back.speed_mps == 0.1
+    gone_m = abs(back.goal.x_m - back.start.x_m) + abs(back.goal.y_m - back.start.y_m)
+    assert gone_m <= 0.43
+
+
+def test_routes_lead_round_what_is_remembered_and_through_what_was_seen_open(
+    world: Together,
+) -> None:
+    world.way = lambda ask: None
+    goal = driving(world)
+    world.bridge.blocked = True
+    world.run(1.0)
+    world.event(Surveyed(CRATE))
+    world.run(3.0)
+    assert world.routes[-1].shut == (CRATE,)
+    world.event(Surveyed(None, opened=(CRATE,)))
+    assert world.goal(goal).recovery.shut == ()
+
+
+def test_the_ladder_is_kept_over_a_pause_and_a_crash(world: Together) -> None:
+    goal = shut(world)
+    world.run(4.0)
+    before = world.goal(goal).recovery
+    assert before.rung > 0
+    assert before.newest is not None
+    world.event(Pause(goal))
+    assert world.goal(goal).recovery == before
+    after = world.restart()
+    assert after.goal(goal).recovery == before
+    after.run(0.5)
+    after.act()
+    after.event(Resume(goal))
+    after.run(0.5)
+    assert after.routes[-1].shut == (CRATE,)
+
+
+def occupied(world: Together, answer: str | None = "goal_occupied") -> str:
+    """Return a goal that is driven to until a metre before it, where something stands on it."""
+    world.way = lambda ask: answer if ask.obstacles else None
+    goal = driving(world)
+    world.bridge.pose = Pose2(3.2, 0.0, 0.0)
+    world.bridge.ahead = []
+    world.bridge.blocked = True
+    return goal
+
+
+def test_an_occupied_goal_is_waited_for_then_given_up_with_how_near_the_robot_came(
+    world: Together,
+) -> None:
+    goal = occupied(world)
+    began_s = world.now_s
+    mission = world.run_until(goal, FAILED, limit_s=60.0)
+    assert OCCUPIED_S <= world.now_s - began_s <= 20.0
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.GOAL_OCCUPIED
+    assert "0.8 m of kitchen" in mission.outcome.message.en
+
+
+def test_who_leaves_the_goal_in_time_lets_it_be_reached(world: Together) -> None:
+    goal = occupied(world)
+    world.run(8.0)
+    assert world.goal(goal).state is RUNNING
+    world.bridge.blocked = False
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_a_goal_is_moved_once_and_the_choice_is_kept(world: Together) -> None:
+    world.ends = Pose2(3.6, 0.0, 0.0)
+    goal = driving(world)
+    world.bridge.blocked = True
+    world.run(4.0)
+    assert world.goal(goal).recovery.goal_moved == (3.6, 0.0)
+    world.run_until(goal, FAILED, limit_s=60.0)
+    asked = [ask.goal.x_m for ask in world.routes if ask.way is Way.ROUTE]
+    assert set(asked[2:]) == {3.6}
+
+
+def test_a_straight_way_climbs_no_ladder(world: Together) -> None:
+    from planner.plan import MoveStraight
+
+    goal = world.give(StepPlan(steps=(MoveStraight(distance_m=1.0),)))
+    world.run(1.0)
+    world.bridge.blocked = True
+    world.run_until(goal, FAILED, limit_s=120.0)
+    assert told(world, goal) == ()
+
+
+def test_each_step_begins_with_a_fresh_ladder(world: Together) -> None:
+    goal = world.give(StepPlan(steps=(GoTo(place="kitchen"), GoTo(place="hall"))))
+    world.run(1.0)
+    world.bridge.blocked = True
+    world.run(2.0)
+    assert world.goal(goal).recovery.ladders == 1
+    world.bridge.blocked = False
+    world.run_until(goal, SUCCEEDED)
+    assert world.goal(goal).recovery.ladders == 0
+
+
+@pytest.mark.parametrize("when_s", [4.0, 11.0, 15.0, 18.0])
+def test_a_lost_pose_on_any_rung_leaves_no_drive_standing_for_ever(
+    world: Together, when_s: float
+) -> None:
+    goal = shut(world)
+    world.run(when_s)
+    world.bridge.localized = False
+    world.run(20.0)
+    world.bridge.localized = True
+    world.bridge.blocked = False
+    world.way = lambda ask: None
+    mission = world.run_until(goal, SUCCEEDED, FAILED, PAUSED, limit_s=60.0)
+    assert mission.has_ended or mission.state is PAUSED
+
+
+def test_no_horizon_is_streamed_between_two_rungs(world: Together) -> None:
+    goal = shut(world)
+    while world.goal(goal).state is RUNNING:
+        world.run()
+        leg = world.book.activity
+        if isinstance(leg, Driving) and leg.leg is None:
+            assert world.bridge.waypoints[-1].points == ()
+
+
+def test_a_manoeuvre_asks_for_its_own_way_alone(world: Together) -> None:
+    goal = shut(world)
+    world.run_until(goal, FAILED, limit_s=60.0)
+    assert all(isinstance(ask, AskRoute) for ask in world.routes)
+    assert all(not ask.shut for ask in world.routes if ask.way is not Way.ROUTE)
