@@ -113,7 +113,7 @@ def drive(case: str, seed: int) -> DriveErrors:
         errors_deg.append(off_deg)
         faults += any(row.row.startswith("POSE") for row in world.status.rows)
     process = world.localizer
-    work_s = process.work_cpu_s if process is not None else []
+    work_s = process.localizer.work_cpu_s if process is not None else []
     share = 100 * sum(work_s) / (world.now_s - began_s)
     return DriveErrors(errors_m, errors_deg, [1e3 * one for one in work_s], share, faults)
 
@@ -139,7 +139,7 @@ def _draw_beside(pose: Pose2, random: Random, near_m: float, far_m: float) -> Po
 
 def _errors(world: LockstepWorld) -> tuple[float, float]:
     """Return how far off the said pose is [m, degrees], where the bridge now thinks it is."""
-    said = world.localizer.said if world.localizer is not None else None
+    said = world.localizer.localizer.said if world.localizer is not None else None
     if said is None:
         return float("inf"), 180.0
     base, true = compose(said.odom_in_map, world.bridge.state.odometry.base_in_odom), world.truth
