@@ -55,7 +55,7 @@ class PonsUp:
         }
         return {**os.environ, **ours, **self._settings}
 
-    def said(self) -> str:
+    def read_log(self) -> str:
         """Return what ``pons up`` has printed."""
         return self.log.read_text("utf-8", "replace") if self.log.is_file() else ""
 
@@ -81,8 +81,8 @@ class PonsUp:
             ProcessGone: it does not run.
         """
         if self.up is None or self.up.poll() is not None:
-            raise ProcessGone(f"pons up ended: {self.said()[-1500:]}")
-        return f"{self.scheme}://127.0.0.1:{self.port}" in self.said()
+            raise ProcessGone(f"pons up ended: {self.read_log()[-1500:]}")
+        return f"{self.scheme}://127.0.0.1:{self.port}" in self.read_log()
 
     def command(self, *words: str) -> list[str]:
         """Return the command line of a ``pons`` command, as of a person in a shell."""

@@ -78,11 +78,11 @@ class System(PonsUp):
 
     def until_ready(self) -> None:
         """Wait for the line with the URL."""
-        until(self.has_greeted, START_LIMIT_S, "the URL line of pons up", self.said)
+        until(self.has_greeted, START_LIMIT_S, "the URL line of pons up", self.read_log)
 
     def child(self, name: str) -> psutil.Process:
         """Return one of the children of ``pons up``; waits until it is there."""
-        return until(lambda: self._child(name), START_LIMIT_S, f"{name} running", self.said)
+        return until(lambda: self._child(name), START_LIMIT_S, f"{name} running", self.read_log)
 
     def _child(self, name: str) -> psutil.Process | None:
         assert self.up is not None
@@ -227,4 +227,4 @@ class System(PonsUp):
                 return self.http("GET", "/healthz", timeout_s=2.0).status == 200
             return False
 
-        until(served, START_LIMIT_S, "/healthz 200", self.said)
+        until(served, START_LIMIT_S, "/healthz 200", self.read_log)

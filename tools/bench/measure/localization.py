@@ -106,14 +106,14 @@ def drive(case: str, seed: int) -> DriveErrors:
     while world.now_s - began_s < DRIVE_S:
         if goal.has_ended:
             goal = world.say(f"go to the {random.choice(ROOMS)}")
-        _disturb(case, world, random, world.now_s - began_s)
+        disturb(case, world, random, world.now_s - began_s)
         world.run(0.1)
         off_m, off_deg = _errors(world)
         errors_m.append(off_m)
         errors_deg.append(off_deg)
         faults += any(row.row.startswith("POSE") for row in world.status.rows)
     process = world.localizer
-    work_s = process.work_cpu_s if process is not None else []
+    work_s = process.localizer.work_cpu_s if process is not None else []
     share = 100 * sum(work_s) / (world.now_s - began_s)
     return DriveErrors(errors_m, errors_deg, [1e3 * one for one in work_s], share, faults)
 
@@ -122,7 +122,8 @@ def _drive_record(case: str, seed: int) -> dict[str, object]:
     return asdict(drive(case, seed))
 
 
-def _disturb(case: str, world: LockstepWorld, random: Random, elapsed_s: float) -> None:
+def disturb(case: str, world: LockstepWorld, random: Random, elapsed_s: float) -> None:
+    """Do what a case does to the robot while it drives."""
     if case == "ice":
         slips = 10.0 <= elapsed_s % 30.0 < 13.0
         world.sim.break_down(*([SimFault.SLIP] if slips else []))
@@ -138,7 +139,7 @@ def _draw_beside(pose: Pose2, random: Random, near_m: float, far_m: float) -> Po
 
 def _errors(world: LockstepWorld) -> tuple[float, float]:
     """Return how far off the said pose is [m, degrees], where the bridge now thinks it is."""
-    said = world.localizer.said if world.localizer is not None else None
+    said = world.localizer.localizer.said if world.localizer is not None else None
     if said is None:
         return float("inf"), 180.0
     base, true = compose(said.odom_in_map, world.bridge.state.odometry.base_in_odom), world.truth
