@@ -119,6 +119,8 @@ class Domain:
         return "".join(f"{name} = {value!r}\n" for name, value in told if value is not None)
 
 
+RANDOM = "random"
+"""The word that asks for a draw in the place of a file."""
 KNOWN = tuple(field.name for field in fields(Domain))
 DRAWN: dict[str, tuple[float, float]] = {
     "lidar_sweep_s": (0.0, 0.1),

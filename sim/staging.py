@@ -133,14 +133,14 @@ def _with_moved_furniture(home: Home, domain: Domain) -> Home:
         moves = random.random() < domain.furniture_moved_share
         for _ in range(MOVES_TRIED if moves else 0):
             by = (random.uniform(-MOVED_M, MOVED_M), random.uniform(-MOVED_M, MOVED_M))
-            moved = _shifted(home, item_id, by)
-            if _stands_free(moved, item_id) and _joined(moved):
+            moved = _shift(home, item_id, by)
+            if _has_room(moved, item_id) and _is_joined(moved):
                 home = moved
                 break
     return home
 
 
-def _shifted(home: Home, item_id: str, by: tuple[float, float]) -> Home:
+def _shift(home: Home, item_id: str, by: tuple[float, float]) -> Home:
     """Return the home with one piece, and what lies on it, shifted."""
     dx, dy = round(by[0], 2), round(by[1], 2)
     item = home.furniture[item_id]
@@ -162,7 +162,7 @@ def _shifted(home: Home, item_id: str, by: tuple[float, float]) -> Home:
     return home.model_copy(update={"furniture": furniture, "objects": objects})
 
 
-def _stands_free(home: Home, item_id: str) -> bool:
+def _has_room(home: Home, item_id: str) -> bool:
     """Return whether a piece stands in one room, beside all others, off doors, places, people."""
     shape = furniture_shape(home.furniture[item_id])
     box = shape.bounds.expand(BESIDE_M)
@@ -189,7 +189,7 @@ def _holds(room: Rect, box: Rect) -> bool:
     return room.x0 <= box.x0 and room.y0 <= box.y0 and box.x1 <= room.x1 and box.y1 <= room.y1
 
 
-def _joined(home: Home) -> bool:
+def _is_joined(home: Home) -> bool:
     """Return whether a robot still gets from the dock to every place and room."""
     grid = draw(home)
     near = mark_near(solids(home), grid, ROBOT_CLEAR_M)

@@ -95,7 +95,7 @@ class WalkingFloor:
             if cell is None or cell in cells[-2:] or cell not in field:
                 return []
             cells.append(cell)
-        return self._pulled(start, cells)
+        return self._pull_tight(start, cells)
 
     def way_round(
         self, start: Point, goal: Point, disc: tuple[float, float, float], longer_m: float
@@ -118,12 +118,16 @@ class WalkingFloor:
                 while cell in came:
                     cell = came[cell]
                     cells.append(cell)
-                return self._pulled(start, cells[::-1][1:], disc)
+                return self._pull_tight(start, cells[::-1][1:], disc)
             if gone_m > cost[cell]:
                 continue
             for r, c, step_m in _NEIGHBOURS:
                 further = (cell[0] + r, cell[1] + c)
-                if not self._may(cell, r, c) or further not in field or self._inside(further, disc):
+                if (
+                    not self._may(cell, r, c)
+                    or further not in field
+                    or self._is_inside(further, disc)
+                ):
                     continue
                 new_m = gone_m + step_m
                 if new_m < cost.get(further, inf) and new_m + field[further] <= most_m:
@@ -165,7 +169,7 @@ class WalkingFloor:
             return False
         return cells[r + row][c + column] and cells[r][c + column] and cells[r + row][c]
 
-    def _pulled(
+    def _pull_tight(
         self, start: Point, cells: Sequence[Cell], disc: tuple[float, float, float] | None = None
     ) -> list[Point]:
         """Return the corners that are left when a way is pulled tight."""
@@ -191,7 +195,7 @@ class WalkingFloor:
                 return False
         return True
 
-    def _inside(self, cell: Cell, disc: tuple[float, float, float]) -> bool:
+    def _is_inside(self, cell: Cell, disc: tuple[float, float, float]) -> bool:
         x_m, y_m = self._centre(cell)
         return hypot(x_m - disc[0], y_m - disc[1]) < disc[2]
 
