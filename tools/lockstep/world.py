@@ -13,7 +13,7 @@ from bridge.core import CoreConfig, step
 from localization.node import StandInNode
 from localization.standin import StandIn
 from planner.brain import OfflineBrain
-from sim import Hardware, SimRobot
+from sim import Domain, Hardware, SimRobot
 from tools.lockstep.bridge_process import BridgeProcess, Step
 from tools.lockstep.bus import LockstepBus
 from tools.lockstep.latencies import TICK_S, Pace, ticks
@@ -49,7 +49,7 @@ class TooLong(Exception):
 class World:
     """Hold the parts of one world and turn them."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913  # a world's parts, all by name
         self,
         *,
         site: Path | str = "two_room",
@@ -57,6 +57,7 @@ class World:
         brain: Brain | None = None,
         robot: RobotDescription | None = None,
         hardware: Hardware | None = None,
+        domain: Domain | None = None,
         start: Pose2 | None = None,
         pace: Pace | None = None,
         step: Step = step,
@@ -69,6 +70,7 @@ class World:
             brain: what turns sentences into plans; the offline brain if None. It answers at once.
             robot: its description; the default robot if None. It says what localizes.
             hardware: what the simulated robot is really like.
+            domain: the knobs of ``pons up --domain``; all neutral if None.
             start: where the robot stands at first; the site's dock if None.
             pace: how long messages, routes, plans and the disk take.
             step: the bridge's core, or a wrapper that measures it.
@@ -78,7 +80,12 @@ class World:
         latency = {frozenset({Party.PLANNER, Party.BRIDGE}): self.pace.planner_bridge}
         self.bus = LockstepBus(seed, latency)
         self.sim = SimRobot(
-            self.scene.folder, self.scene.robot, seed=seed, start=start, hardware=hardware
+            self.scene.folder,
+            self.scene.robot,
+            seed=seed,
+            start=start,
+            hardware=hardware,
+            domain=domain,
         )
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT))
         self._localization, self.localizer = self._localize(seed)
