@@ -67,14 +67,14 @@ def test_a_row_says_what_was_reached_and_what_was_touched() -> None:
         spl=[1.0, 0.0], time_ratios=[1.5], contacts={"robot into home": 2},
         pose_rows={"POSE_LOST": 1}, reasons={"failed blocked": 1},
     )  # fmt: skip
-    row = row_of_drives("neutral", [one, one], 600.0)
+    row = row_of_drives("neutral", [one, one], "seeds of 600 s")
     assert row.value == "p95 0.010 m, 0.500 deg"
     for words in (
         "goals 2/4", "SPL 0.500", "time x1.50", "4 robot into home", "2 POSE_LOST",
         "2 seeds of 600 s", "failed: 2 failed blocked",
     ):  # fmt: skip
         assert words in row.note
-    assert not row_of_drives("neutral", [], 600.0).valid
+    assert not row_of_drives("neutral", [], "seeds").valid
 
 
 def test_lockstep_shuts_doors_and_puts_people_onto_places() -> None:

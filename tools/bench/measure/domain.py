@@ -58,7 +58,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     drives: dict[str, list[DriveRecord]] = {case: [] for case in CASES}
     for taken in lab.side_by_side("drive", len(CASES) * seeds, take):
         drives[taken["case"]].append(DriveRecord(**taken["record"]))
-    return [row_of_drives(case, drives[case], seconds) for case in CASES]
+    return [row_of_drives(case, drives[case], f"seeds of {seconds} s") for case in CASES]
 
 
 def take_long(index: int) -> dict[str, Any]:
@@ -83,10 +83,10 @@ def _take(index: int, seconds: float) -> dict[str, Any]:
     return {"case": case, "record": asdict(RecordedDrive(world, f"{case} {seed}").run(seconds))}
 
 
-def row_of_drives(case: str, drives: list[DriveRecord], seconds: float) -> ReportRow:
+def row_of_drives(case: str, drives: list[DriveRecord], each: str, goal: str = GOAL) -> ReportRow:
     """Sum the drives of a case up in one row."""
     if not drives:
-        return ReportRow(case, "", GOAL, value="none", note="nothing was measured", valid=False)
+        return ReportRow(case, "", goal, value="none", note="nothing was measured", valid=False)
     errors_m = sorted(error for one in drives for error in one.errors_m)
     errors_deg = sorted(error for one in drives for error in one.errors_deg)
     spl = [share for one in drives for share in one.spl]
@@ -99,12 +99,12 @@ def row_of_drives(case: str, drives: list[DriveRecord], seconds: float) -> Repor
         f"time x{number(median(ratios)) if ratios else '-'}",
         f"contacts {_words([one.contacts for one in drives])}",
         f"rows {_words([one.pose_rows for one in drives])}",
-        f"{len(drives)} seeds of {seconds:.0f} s",
+        f"{len(drives)} {each}",
     ]
     failed = _words([one.reasons for one in drives])
     notes += [f"failed: {failed}"] if failed != "0" else []
     value = f"p95 {number(far_m)} m, {number(far_deg)} deg"
-    return ReportRow(case, "", GOAL, value=value, note="; ".join(notes))
+    return ReportRow(case, "", goal, value=value, note="; ".join(notes))
 
 
 def _words(counts: list[dict[str, int]]) -> str:
