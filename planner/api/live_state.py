@@ -73,7 +73,7 @@ class Feed:
         self._task: asyncio.Task[None] | None = None
         self._robot_s = self._scan_s = float("-inf")
         self._told: tuple[Any, ...] = ()
-        self._driven: tuple[str, int] | None = None
+        self._driven: tuple[str, int, str | None] | None = None
         self._metered = 0
         self._places = 0
         self._layers_s = float("-inf")
@@ -110,7 +110,8 @@ class Feed:
             self._told, self._robot_s = news, now_s
             self._offer("robot", {"robot": robot_view(self._services)})
         leg = self._services.goals.path()
-        driven = None if leg is None else (leg.mission, leg.leg)
+        doubt = None if leg is None or leg.doubt is None else leg.doubt.code
+        driven = None if leg is None else (leg.mission, leg.leg, doubt)
         if driven != self._driven:  # legs only rise, so a new path is a new number
             self._driven = driven
             self._offer("path", {"path": path_view(self._services)})

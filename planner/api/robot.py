@@ -12,6 +12,7 @@ from fastapi import APIRouter
 
 from planner.api.interfaces import Services
 from planner.brain import mind_of
+from planner.mission import Leg, tell_doubt
 from planner.site import GridMap
 
 MAX_CELLS = 1_500
@@ -113,7 +114,22 @@ def path_view(services: Services) -> dict[str, Any] | None:
     if leg is None:
         return None
     points = [[round(point.x_m, 3), round(point.y_m, 3)] for point in leg.points]
-    return {"goal": leg.mission, "leg": leg.leg, "points": points}
+    return {"goal": leg.mission, "leg": leg.leg, "points": points, "doubt": _doubt(services, leg)}
+
+
+def _doubt(services: Services, leg: Leg) -> dict[str, Any] | None:
+    """Return why the way bends, or goes on towards something; None: nothing stands in it."""
+    doubt = leg.doubt
+    if doubt is None:
+        return None
+    said = tell_doubt(services.memory.facts, doubt)
+    x_m, y_m = doubt.at_m
+    return {
+        "code": doubt.code,
+        "message": said.model_dump(mode="json"),
+        "x_m": round(x_m, 2),
+        "y_m": round(y_m, 2),
+    }
 
 
 def _map(services: Services) -> dict[str, Any]:

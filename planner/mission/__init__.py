@@ -74,6 +74,7 @@ from planner.mission.events import (
 )
 from planner.mission.journal import MissionJournal
 from planner.mission.journal_sync import Disk, JournalSync
+from planner.mission.obstruction_text import tell_doubt
 from planner.mission.reducer import advance, motion_request
 from planner.mission.service import Missions
 from planner.mission.state import Mission, MissionState, Rules
@@ -127,4 +128,5 @@ __all__ = [
     "advance",
     "goal_of",
     "motion_request",
+    "tell_doubt",
 ]

@@ -43,6 +43,20 @@ class Manoeuvre:
     """The robot's in ``map``, when the rung began."""
 
 
+@dataclass(frozen=True, slots=True)
+class RouteDoubt:
+    """Remember that the route search saw a leg's way closed, and what came of it."""
+
+    leg: int
+    """The leg whose way is doubted, or was bent."""
+    at_m: tuple[float, float]
+    """Where the way is closed, in ``map``."""
+    since_s: float
+    seen_s: float
+    code: str
+    """``route_doubted``, ``route_kept``, ``route_kept_shorter`` or ``route_bent``."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Driving(_StepActivity):
     """Drive one leg to a goal: its route is searched, streamed, lost and searched again."""
@@ -80,6 +94,13 @@ class Driving(_StepActivity):
     """The route that is being searched."""
     ticket_detour: bool = False
     """It is to lead round what the lidar sees."""
+    ticket_doubted: bool = False
+    """It is to lead round what the route search remembers; without one the leg goes on."""
+    doubt: RouteDoubt | None = None
+    doubt_asked_s: float = float("-inf")
+    """When a way round was searched last because of a doubt."""
+    bends: int = 0
+    """Ways taken because the one before was doubted."""
     leg: int | None = None
     """The leg that is streamed; None: stand."""
     route_when_standing: bool = False

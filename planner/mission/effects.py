@@ -67,6 +67,8 @@ class AskRoute:
     """Ways that are remembered as shut, whether the lidar sees them now or not."""
     speed_mps: float | None = None
     """The fastest that this way may be driven; None: as the route says."""
+    doubted: bool = False
+    """Only a way round everything that is remembered helps."""
 
 
 @dataclass(frozen=True, slots=True)

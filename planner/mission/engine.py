@@ -10,10 +10,11 @@ from dataclasses import dataclass, replace
 from math import copysign, hypot
 
 from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
-from planner.mission.activity import Driving
+from planner.mission.activity import Driving, RouteDoubt
 from planner.mission.effects import AskRoute, Effect, Journal, MotionRequest
 from planner.mission.events import Event, Journalled, Routed, Seen
 from planner.mission.reducer import advance, motion_request
+from planner.mission.route_doubts import standing_doubt
 from planner.mission.skills import Way
 from planner.mission.state import MissionState
 from planner.navigation import Horizon, LegPath, RoutePoint, cut
@@ -38,6 +39,17 @@ class Leg:
     mission: str
     leg: int
     points: tuple[RoutePoint, ...]
+    doubt: RouteDoubt | None = None
+    """What was seen to close its way, and why it bends or goes on."""
+
+
+@dataclass(frozen=True, slots=True)
+class WayAhead:
+    """Show the points of a leg's way from the robot on, in ``map`` [m]."""
+
+    mission: str
+    leg: int
+    points: tuple[tuple[float, float], ...]
 
 
 @dataclass(slots=True)
@@ -70,16 +82,18 @@ class Engine:
         following, wanted = self._following, motion_request(self.book)
         if following is None or (following.mission, following.leg) != (wanted.mission, wanted.leg):
             return None
-        return Leg(following.mission, following.leg, following.path.points)
+        doubt = standing_doubt(self.book)
+        return Leg(following.mission, following.leg, following.path.points, doubt)
 
-    def way_ahead(self, reach_m: float) -> tuple[tuple[float, float], ...]:
-        """Return the path's points from the robot on, in ``map`` [m]; none while it is to stand."""
+    def way_ahead(self, reach_m: float) -> WayAhead | None:
+        """Return the path from the robot on; None while it is to stand."""
         following = self._following
         if following is None or self.leg is None:
-            return ()
+            return None
         path, done_m = following.path, following.progress_m
         ahead = zip(path.points, path.along_m, strict=True)
-        return tuple((p.x_m, p.y_m) for p, m in ahead if done_m <= m <= done_m + reach_m)
+        points = tuple((p.x_m, p.y_m) for p, m in ahead if done_m <= m <= done_m + reach_m)
+        return WayAhead(following.mission, following.leg, points)
 
     def status(self, status: Status, now_s: float) -> Output:
         """Judge one bridge status and answer it as the owner."""
@@ -136,13 +150,14 @@ class Engine:
         failure: str | None,
         now_s: float,
     ) -> tuple[Effect, ...]:
-        short_m, end_m = 0.0, None
+        short_m, end_m, length_m = 0.0, None, 0.0
         if points is not None:
             points = _slow_down(points, ask.speed_mps)
             self._path = LegPath.of(points, ask.goal.yaw_rad if ask.heading else None)
-            end_m = (points[-1].x_m, points[-1].y_m)
+            end_m, length_m = (points[-1].x_m, points[-1].y_m), self._path.length_m
             short_m = hypot(ask.goal.x_m - points[-1].x_m, ask.goal.y_m - points[-1].y_m)
-        event = Routed(ask.id, ask.ticket, failure if points is None else None, short_m, end_m)
+        code = failure if points is None else None
+        event = Routed(ask.id, ask.ticket, code, short_m, end_m, length_m)
         effects = self._advance(event, now_s)
         self._adopt()
         self._path = None

@@ -60,6 +60,17 @@ class Routed:
     """From the end of the route to its goal."""
     end_m: tuple[float, float] | None = None
     """Where it ends, in ``map``."""
+    length_m: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class RouteDoubted:
+    """The route search remembers something that closes the way of the leg that is streamed."""
+
+    id: str
+    leg: int
+    at_m: tuple[float, float]
+    """Where it is closed, in ``map``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,6 +206,7 @@ Event = (
     Submitted
     | Planned
     | Routed
+    | RouteDoubted
     | Seen
     | Surveyed
     | Sighted

@@ -37,7 +37,7 @@ DETOUR_AFTER_S = 3.0
 DETOUR_MOST_S = 30.0
 
 
-def ask_route(turn: Transaction, *, detour: bool) -> None:
+def ask_route(turn: Transaction, *, detour: bool, doubted: bool = False) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
     mission, leg, status = turn.running, turn.driving, turn.book.status
     if mission is None or leg is None:
@@ -53,12 +53,13 @@ def ask_route(turn: Transaction, *, detour: bool) -> None:
     if way is Way.SPIN:
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
     turn.set(tickets=ticket)
-    turn.change(ticket=ticket, ticket_detour=detour, retry_s=None, route_when_standing=False)
+    turn.change(ticket=ticket, ticket_detour=detour, ticket_doubted=doubted)
+    turn.change(retry_s=None, route_when_standing=False)
     shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way is Way.ROUTE else ()
     seen = detour or way is Way.STRAIGHT or bool(shut)
     heading = leg.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
-    ask = AskRoute(mission.id, ticket, start, goal, heading, seen, way, shut, speed_mps)
+    ask = AskRoute(mission.id, ticket, start, goal, heading, seen, way, shut, speed_mps, doubted)
     turn.emit(ask)
 
 

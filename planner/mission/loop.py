@@ -33,7 +33,7 @@ from planner.mission.effects import (
     KeepPicture,
     SayAloud,
 )
-from planner.mission.engine import Engine, Leg, Output
+from planner.mission.engine import Engine, Leg, Output, WayAhead
 from planner.mission.errors import MissionError
 from planner.mission.event_hub import Hub
 from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
@@ -133,9 +133,8 @@ class Loop:
         """Show scans to the route search from now on."""
         self._obstacles = obstacles
 
-    @property
-    def way_ahead(self) -> tuple[tuple[float, float], ...]:
-        """Return the points of the way from the robot on, in ``map`` [m]; none while it stands."""
+    def way_ahead(self) -> WayAhead | None:
+        """Return the way from the robot on; None while it is to stand."""
         return self._engine.way_ahead(AHEAD_M)
 
     async def start(
@@ -252,7 +251,7 @@ class Loop:
         if told is not None:
             self.event(told)
         if self._obstacles is not None and (seen := self._obstacles.due()) is not None:
-            self._spawn(self._obstacles.show(seen))
+            self._spawn(self._obstacles.show(seen, self.event))
         for event in self._link.events():
             self.hub.publish({"type": "bridge", "event": event.model_dump(mode="json")})
         newest = self.book.status

@@ -9,6 +9,7 @@ from planner.plan import Bilingual, Code
 from planner.site.polygon import area_m2, border_distance_m, contains
 
 if TYPE_CHECKING:
+    from planner.mission.activity import RouteDoubt
     from planner.mission.recovery import ShutWay
     from planner.site.site_view import SiteView, Target
 
@@ -32,6 +33,11 @@ def tell_obstruction(facts: SiteView, shut: ShutWay, place: Bilingual) -> Biling
 def tell_occupied(place: Bilingual, near_m: float) -> Bilingual:
     """Return the sentence of a goal on which something stands, with how near the robot came."""
     return message(Code.GOAL_OCCUPIED, place=place, metres=f"{near_m:.1f}")
+
+
+def tell_doubt(facts: SiteView, doubt: RouteDoubt) -> Bilingual:
+    """Return the sentence of a way that is doubted: why it bends, or goes on all the same."""
+    return say(f"route_doubt.{doubt.code}", where=spot_of(facts, doubt.at_m))
 
 
 def spot_of(facts: SiteView, point: tuple[float, float]) -> Bilingual:

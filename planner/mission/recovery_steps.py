@@ -32,6 +32,7 @@ from planner.mission.recovery import (
     rung_of,
     wait_s,
 )
+from planner.mission.route_doubts import take_doubted
 from planner.mission.skills import Fail, Way
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
@@ -265,11 +266,12 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
     failure, short_m = routed.failure, routed.short_m
     turn.change(ticket=None)
     leg = turn.driving or leg
-    if leg.manoeuvre is not None:
-        if failure is not None:
-            _end_manoeuvre(turn, leg, leg.manoeuvre)
-        else:
-            new_leg(turn, mission)
+    if leg.ticket_doubted:
+        take_doubted(turn, mission, leg, routed)
+    elif leg.manoeuvre is not None and failure is not None:
+        _end_manoeuvre(turn, leg, leg.manoeuvre)
+    elif leg.manoeuvre is not None:
+        new_leg(turn, mission)
     elif failure is None and leg.way is Way.STRAIGHT and not short_m <= SHORT_M:
         take_short(turn, leg, short_m)
     elif failure is None:

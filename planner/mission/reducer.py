@@ -25,6 +25,7 @@ from planner.mission.events import (
     Restarted,
     Resume,
     Routed,
+    RouteDoubted,
     Seen,
     Sighted,
     Stopped,
@@ -48,6 +49,7 @@ from planner.mission.perception_events import on_sight, on_told
 from planner.mission.places_changed import on_known
 from planner.mission.queue import cancel, reorder
 from planner.mission.recovery_steps import on_routed, on_survey
+from planner.mission.route_doubts import on_doubted
 from planner.mission.speed_cap import change_speed
 from planner.mission.state import MissionState
 from planner.mission.status_monitor import on_status, on_tick
@@ -107,11 +109,12 @@ def looks(book: MissionState) -> bool:
     )
 
 
-def _fact(  # noqa: C901  # one case an event, and nothing else
+def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
     turn: Transaction,
     event: Submitted
     | Planned
     | Routed
+    | RouteDoubted
     | Seen
     | Surveyed
     | Sighted
@@ -135,6 +138,8 @@ def _fact(  # noqa: C901  # one case an event, and nothing else
             turn.set(safe=max(turn.book.safe, min(event.entry, turn.book.written)))
         case Routed():
             on_routed(turn, event)
+        case RouteDoubted():
+            on_doubted(turn, event)
         case Surveyed():
             on_survey(turn, event)
         case Planned():

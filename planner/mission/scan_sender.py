@@ -8,8 +8,11 @@ missions and holds them up by nothing; while the search is busy, scans are passe
 from __future__ import annotations
 
 import logging
+from itertools import pairwise
+from math import dist
 from typing import TYPE_CHECKING, Protocol
 
+from planner.mission.events import RouteDoubted
 from planner.navigation import RouteFailure, ScanObservation
 from planner.perception.pose_buffer import Poses
 from wire import Pose2
@@ -18,11 +21,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from planner.bridge_client import Link
+    from planner.mission.engine import WayAhead
     from planner.navigation import ObstacleReport
     from wire import Scan
     from wire.robot import LidarConfig
 
 log = logging.getLogger(__name__)
+
+Point = tuple[float, float]
+"""x, y in ``map`` [m]."""
 
 PERIOD_S = 0.2
 FRESH_S = 0.3
@@ -44,7 +51,7 @@ class ScanSender:
         lidar: LidarConfig,
         map_id: str,
         observer: ScanObserver,
-        ahead: Callable[[], tuple[tuple[float, float], ...]],
+        ahead: Callable[[], WayAhead | None],
         clock: Callable[[], float],
     ) -> None:
         """Begin to follow where the robot is.
@@ -54,7 +61,7 @@ class ScanSender:
             lidar: where it sits on the robot.
             map_id: of the site; what is said on another map places nothing.
             observer: keeps the layer.
-            ahead: returns the points of the way that the robot is on, in ``map`` [m].
+            ahead: returns the way that the robot is on; None: it is to stand.
             clock: our own.
         """
         self._link, self._lidar, self._observer = link, lidar, observer
@@ -64,6 +71,7 @@ class ScanSender:
         self._shown: tuple[str, int] | None = None
         self._shown_s = float("-inf")
         self._busy = False
+        self._way: WayAhead | None = None
         self.report: ObstacleReport | None = None
         """What the layer held after the newest scan that was shown; None before the first."""
         link.tell(self._poses)
@@ -80,6 +88,7 @@ class ScanSender:
         if stance is None:
             return None
         self._shown, self._shown_s, self._busy = (scan.boot_id, scan.seq), now_s, True
+        self._way = self._ahead()
         return ScanObservation(
             base_in_map=stance.base_in_map,
             lidar_in_base=self._lidar_in_base,
@@ -88,17 +97,37 @@ class ScanSender:
             range_min_m=scan.range_min_m,
             ranges_m=scan.ranges_m,
             at_s=now_s,
-            ahead=self._ahead(),
+            ahead=self._way.points if self._way is not None else (),
         )
 
-    async def show(self, seen: ScanObservation) -> None:
-        """Bring a scan to the search and keep its report; a failure is told by its next route."""
+    async def show(self, seen: ScanObservation, doubt: Callable[[RouteDoubted], None]) -> None:
+        """Bring a scan to the search and keep its report; a failure is told by its next route.
+
+        Args:
+            seen: as :meth:`due` returned it.
+            doubt: is told where the way that came with it is closed.
+        """
+        way = self._way
         try:
             self.report = await self._observer.observe(seen)
         except RouteFailure as failure:
             log.debug("a scan was not taken in: %s", failure)
+            return
         finally:
             self._busy = False
+        far_m = self.report.blocked_ahead_m
+        if way is not None and far_m is not None and way.points:
+            doubt(RouteDoubted(way.mission, way.leg, _point_along(way.points, far_m)))
+
+
+def _point_along(way: tuple[Point, ...], far_m: float) -> Point:
+    """Return the first point of a way that lies so far from its beginning, or the last one."""
+    gone_m = 0.0
+    for before, point in pairwise(way):
+        if gone_m >= far_m - 1e-6:
+            return before
+        gone_m += dist(before, point)
+    return way[-1]
 
 
 def _middle_s(scan: Scan) -> float:

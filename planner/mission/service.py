@@ -107,7 +107,7 @@ class Missions:
         """Show scans to the route search, which remembers what the map does not know."""
         lidar, map_id = self._robot.lidar, self.memory.site.map_id
         self.obstacles = ScanSender(
-            self.link, lidar, map_id, observer, lambda: self.loop.way_ahead, self._clocks.monotonic
+            self.link, lidar, map_id, observer, self.loop.way_ahead, self._clocks.monotonic
         )
         self.loop.show_scans(self.obstacles)
 

@@ -140,10 +140,12 @@ class MissionTasks:
                 *(ask.start, ask.goal, obstacles),
                 straight=ask.way is Way.STRAIGHT,
                 aside=ask.way is Way.ASIDE,
+                strict=ask.doubted,
             )
             result = await self._router.route(request)
         except RouteFailure as failure:
-            log.warning("no route for goal %s: %s", ask.id, failure)
+            level = logging.DEBUG if ask.doubted else logging.WARNING
+            log.log(level, "no route for goal %s: %s", ask.id, failure)
             self._answers.routed(ask, None, failure.code)
             return
         self._answers.routed(ask, result.points, None)

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 MAX_CELLS = 4_000
 """Of a layer, told to people: 10 m2 at 0.05 m."""
+MAX_ESCAPE_M = 0.5
+"""A way that begins too near to something is no closed way, where it is open after this."""
 JUMP_M, FASTEST_MPS = 0.3, 2.0
 """A robot that is farther away than it can have driven was found elsewhere: what it saw before lies
 in wrong places."""
@@ -94,10 +96,14 @@ class ObstacleMemory:
         line = np.asarray(ahead, np.float64)
         layered = self.costmap(mapped)
         closed = np.isinf(layered.cost_at(line)) & np.isfinite(mapped.cost_at(line))
+        along_m = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+        if closed[0]:  # the robot is in a tight spot, and this is its way out
+            out = int(np.argmin(closed)) if not closed.all() else len(closed)
+            if out < len(closed) and along_m[out] <= MAX_ESCAPE_M:
+                closed[:out] = False
         if not closed.any():
             return None
-        first = int(np.argmax(closed))
-        return float(np.hypot(*np.diff(line[: first + 1], axis=0).T).sum())
+        return float(along_m[int(np.argmax(closed))])
 
     def _has_jumped(self, seen: ScanObservation) -> bool:
         before = self._seen

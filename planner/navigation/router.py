@@ -127,7 +127,8 @@ class Router:
         try:
             return self._find(costmap, request, began_s, clock)
         except RouteFailure as failure:
-            if failure.code not in _CLOSED or memory is None or layered is self._mapped:
+            has_hope = memory is not None and layered is not self._mapped and not request.strict
+            if memory is None or not has_hope or failure.code not in _CLOSED:
                 raise
         # No way by what is remembered: then perhaps it is gone, and worth a look.
         trusting = memory.hopeful_costmap(self._mapped).with_obstacles(request.obstacles, start_m)

@@ -13,6 +13,7 @@ from starlette.websockets import WebSocketDisconnect
 from planner.api import Access
 from planner.api.live_state import ROBOT_S, SCAN_S, STANDING_S, Feed, Listener
 from planner.mission import Leg
+from planner.mission.activity import RouteDoubt
 from planner.navigation import RoutePoint
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
@@ -109,10 +110,36 @@ def test_a_new_leg_brings_its_path_once_and_its_end_takes_it_away() -> None:
         feed.look()
         feed.look()
         [frame] = await taken(listener)
-        assert frame["path"] == {"goal": "g1", "leg": 4, "points": [[1.0, 2.0], [1.5, 2.0]]}
+        way = {"goal": "g1", "leg": 4, "points": [[1.0, 2.0], [1.5, 2.0]]}
+        assert frame["path"] == {**way, "doubt": None}
         services.goals.leg = None
         feed.look()
         assert await taken(listener) == [{"kind": "path", "path": None}]
+        feed.leave(listener)
+
+    asyncio.run(story())
+
+
+def test_why_a_way_bends_or_goes_on_is_told_with_its_path() -> None:
+    async def story() -> None:
+        services, clock = FakeServices(), Clock()
+        feed, listener = await watched(services, clock)
+        points = (RoutePoint(1.0, 2.0, 0.3),)
+        services.goals.leg = Leg("g1", 4, points)
+        feed.look()
+        assert len(await taken(listener)) == 1
+        doubt = RouteDoubt(4, (1.006, 2.0), 1.0, 1.2, "route_kept")
+        services.goals.leg = Leg("g1", 4, points, doubt)
+        feed.look()
+        [frame] = await taken(listener)
+        news = frame["path"]["doubt"]
+        assert (news["code"], news["x_m"], news["y_m"]) == ("route_kept", 1.01, 2.0)
+        assert "no other way" in news["message"]["en"]
+        assert "没有别的路" in news["message"]["zh"]
+        services.goals.leg = Leg("g1", 4, points)
+        feed.look()
+        [over] = await taken(listener)
+        assert over["path"]["doubt"] is None
         feed.leave(listener)
 
     asyncio.run(story())

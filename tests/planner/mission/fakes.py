@@ -123,6 +123,7 @@ class FakeBridge:
     odom_m: float = 0.0
     rows: tuple[RowReport, ...] = ()
     blocked: bool = False
+    limited_by: str = "max_speed"
     localized: bool = True
     deaf: bool = False
     seq: int = 0
@@ -220,6 +221,7 @@ class FakeBridge:
             measured=Twist2(speed_mps, 0.0),
             rows=self.rows,
             blocked=self.blocked,
+            limits=LimitsInForce(v_mps=0.5, w_radps=1.0, by=self.limited_by, free_m=None),
             answers=self.answers[-16:],
         )
         return self.pending

@@ -20,6 +20,7 @@ from planner.mission.effects import (
 from planner.mission.engine import Engine, Output
 from planner.mission.events import Event, Planned, Restarted, Submitted
 from planner.mission.state import Mission, MissionState
+from planner.navigation import RoutePoint
 from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
 from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, straight
 from wire import Pose2
@@ -51,6 +52,8 @@ class Together:
     way: Way = lambda ask: None
     ends: Pose2 | None = None
     """Where every way ends, whatever its goal."""
+    aside_m: float = 0.0
+    """So far to the left leads every way that was asked for because another is doubted."""
     now_s: float = 100.0
     disk_entries: list[Journal] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
@@ -104,9 +107,7 @@ class Together:
             case AskRoute():
                 self.routes.append(effect)
                 failure = self.way(effect)
-                points = (
-                    straight(effect.start, self.ends or effect.goal) if failure is None else None
-                )
+                points = self.lay(effect) if failure is None else None
                 self.carry(self.engine.take_route(effect, points, failure, self.now_s))
             case SayAloud():
                 self.said.append(effect.text)
@@ -116,6 +117,15 @@ class Together:
                 self.dropped.append(effect.id)
             case GoalChange():
                 pass
+
+    def lay(self, ask: AskRoute) -> tuple[RoutePoint, ...]:
+        """Return a straight way, or one with a bend in its middle."""
+        goal = self.ends or ask.goal
+        if not (ask.doubted and self.aside_m):
+            return straight(ask.start, goal)
+        middle_m = ((ask.start.x_m + goal.x_m) / 2, (ask.start.y_m + goal.y_m) / 2)
+        bend = Pose2(middle_m[0], middle_m[1] + self.aside_m, 0.0)
+        return (*straight(ask.start, bend), *straight(bend, goal)[1:])
 
     def sync(self) -> None:
         """Let the disk catch up."""

@@ -25,6 +25,7 @@ from planner.mission.events import (
     Restarted,
     Resume,
     Routed,
+    RouteDoubted,
     Seen,
     Sighted,
     Stopped,
@@ -152,6 +153,7 @@ events = st.one_of(
     st.tuples(st.just("planned"), ids, plans | st.none()),
     st.tuples(st.just("routed"), st.integers(0, 2), st.sampled_from([None, None, "no_route"])),
     st.tuples(st.just("surveyed"), st.sampled_from([2.0, 3.0]), st.booleans()),
+    st.tuples(st.just("doubted"), ids, st.integers(0, 2)),
     st.tuples(st.just("safe"), st.integers(0, 3)),
     st.tuples(st.just("command"), st.sampled_from([Cancel, Pause, Resume, Confirm, Move]), ids),
     st.tuples(st.just("reply"), ids),
@@ -249,6 +251,11 @@ class World:
                 self.event(
                     Surveyed(None if opened else way, bool(x_m > 2.5), (way,) if opened else ())
                 )
+            case ("doubted", goal, back):
+                leg = (
+                    max(0, self.book.missions[goal].leg - back) if goal in self.book.missions else 1
+                )
+                self.event(RouteDoubted(goal, leg, (2.0, 0.0)))
             case ("safe", back):
                 self.event(Journalled(max(0, self.book.written - back)))
             case ("tick",):

@@ -35,7 +35,7 @@ poses = st.builds(Pose2, numbers, numbers, st.floats(-6, 6))
 requests = st.builds(
     RouteRequest,
     *(poses, poses, st.lists(st.tuples(numbers, numbers), max_size=5).map(tuple)),
-    st.booleans(),
+    *(st.booleans(), st.booleans()),
 )
 results = st.builds(
     RouteResult,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from array import array
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -124,6 +125,32 @@ def test_a_way_that_is_closed_ahead_is_told_and_one_behind_a_walker_is_not(hall:
     empty = hall.new_memory()
     watch(hall, empty, HERE, 0.0, 2.0)
     assert hall.observe(empty, seen_from(HALL.grid, HERE, 2.0, ahead=ahead)).blocked_ahead_m is None
+
+
+def test_a_way_out_of_a_tight_spot_is_not_closed_by_where_it_begins(hall: Router) -> None:
+    """Somebody put a box beside the robot: its way begins too near to it, and leads away."""
+    memory, box = hall.new_memory(), (1.0, 2.5, 0.2)
+    watch(hall, memory, HERE, 0.0, 2.0, box)
+    out = tuple((1.0 + 0.1 * k, 2.0) for k in range(31))
+    assert hall.observe(memory, seen_from(HALL.grid, HERE, 2.0, box, ahead=out[1:])).cells
+    kept = hall.observe(memory, seen_from(HALL.grid, HERE, 2.2, box, ahead=out))
+    assert kept.blocked_ahead_m is None
+    along = tuple((1.0, 2.0 + 0.1 * k) for k in range(11))
+    into = hall.observe(memory, seen_from(HALL.grid, HERE, 2.4, box, ahead=along))
+    assert into.blocked_ahead_m == pytest.approx(0.0, abs=0.11)
+
+
+def test_a_strict_request_goes_through_nothing_that_is_remembered(rooms: Router) -> None:
+    memory, robot = rooms.new_memory(), Pose2(1.0, 2.4, 0.0)
+    upper, lower = (3.1, 1.3, 0.45), (3.1, 4.1, 0.5)
+    doors = (upper, (3.1, 1.7, 0.3), lower, (3.1, 3.7, 0.3))
+    end_s = watch(rooms, memory, robot, 0.0, 4.0, *doors)
+    away = Pose2(0.7, 5.2, 0.0)
+    rooms.observe(memory, seen_from(ROOMS.grid, away, end_s + 5.0, upper, lower))
+    hoping = RouteRequest(away, Pose2(5.2, 2.4, 0.0))
+    assert rooms.route(hoping, memory=memory).length_m > 3.0
+    with pytest.raises(RouteFailure):
+        rooms.route(replace(hoping, strict=True), memory=memory)
 
 
 def test_a_remembered_door_that_is_the_only_way_is_tried_again(rooms: Router) -> None:

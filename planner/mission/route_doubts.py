@@ -1,0 +1,102 @@
+"""Doubt the way of the running leg where the route search remembers something in it.
+
+Laws. A doubt never stops a leg: where no better way is found, the old one goes on, the bridge
+judges it, and recovery begins where the bridge holds the robot. A way round is searched for once a
+second at most, and taken a bounded number of times in a leg, so that nothing is circled. A doubt
+has to last, since what moves is known to move only after half a second. Pure: told times, knows no
+clock.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from planner.mission.activity import Driving, RouteDoubt
+from planner.mission.legs import ask_route, new_leg
+from planner.mission.skills import Way
+
+if TYPE_CHECKING:
+    from planner.mission.events import Routed, RouteDoubted
+    from planner.mission.state import Mission, MissionState
+    from planner.mission.transaction import Transaction
+
+DOUBTED, KEPT, KEPT_SHORTER, BENT = (
+    "route_doubted",
+    "route_kept",
+    "route_kept_shorter",
+    "route_bent",
+)
+SETTLE_S = 0.5
+"""By then somebody who walks is known to walk, and closes no way."""
+PERIOD_S = 1.0
+LASTS_S = 1.0
+"""A doubt that nothing has renewed for so long is over: five scans saw the way open."""
+SLOWED = "obstacle"
+"""The bridge's name for its obstacle gate. What it slows for is near, and left to recovery: a lidar
+that sees things everywhere must end in standing, not in turning from one way to the next."""
+SMALL_BEND_M = 2.0
+"""A way that is at most so much longer is taken at once."""
+PATIENCE_S = 3.0
+"""Before a longer one is taken: most people have gone on by then, and the robot drives on."""
+SHORT_M = 0.2
+"""A way round that ends farther from its goal than this leads elsewhere."""
+MAX_BENDS = 12
+"""In one leg. After that the ladder of recovery alone finds other ways."""
+
+
+def on_doubted(turn: Transaction, event: RouteDoubted) -> None:
+    """Note that the leg's way is closed ahead; have another searched, where that is due."""
+    mission, leg = turn.running, turn.driving
+    if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
+        return
+    if leg.way is not Way.ROUTE or leg.manoeuvre is not None:
+        return
+    doubt, now_s = leg.doubt, turn.now_s
+    lasts = doubt is not None and doubt.leg == event.leg and doubt.code != BENT
+    if doubt is None or not lasts or not now_s - doubt.seen_s <= LASTS_S:
+        doubt = RouteDoubt(event.leg, event.at_m, now_s, now_s, DOUBTED)
+    turn.change(doubt=replace(doubt, at_m=event.at_m, seen_s=now_s))
+    if not _may_search(turn, leg):
+        return
+    if now_s - doubt.since_s >= SETTLE_S and now_s - leg.doubt_asked_s >= PERIOD_S:
+        turn.change(doubt_asked_s=now_s)
+        ask_route(turn, detour=False, doubted=True)
+
+
+def take_doubted(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
+    """Take the way that was searched because of a doubt, or keep the leg's own."""
+    doubt = leg.doubt
+    if doubt is None or leg.leg is None:
+        return
+    whole = routed.failure is None and routed.short_m <= SHORT_M
+    small = leg.left_m is not None and routed.length_m - leg.left_m <= SMALL_BEND_M
+    if whole and (small or turn.now_s - doubt.since_s >= PATIENCE_S):
+        new_leg(turn, mission)
+        taken = turn.driving or leg
+        bent = replace(doubt, leg=taken.leg or doubt.leg, code=BENT)
+        turn.change(doubt=bent, bends=leg.bends + 1)
+    else:
+        turn.change(doubt=replace(doubt, code=KEPT_SHORTER if whole else KEPT))
+
+
+def standing_doubt(book: MissionState) -> RouteDoubt | None:
+    """Return the doubt of the leg that is streamed: while it lasts, or as long as the bent way."""
+    leg = book.activity
+    if not isinstance(leg, Driving) or leg.doubt is None or leg.doubt.leg != leg.leg:
+        return None
+    lasts = leg.doubt.code == BENT or book.status_s - leg.doubt.seen_s <= LASTS_S
+    return leg.doubt if lasts else None
+
+
+def _may_search(turn: Transaction, leg: Driving) -> bool:
+    """Tell whether nothing else looks after the leg now."""
+    status = turn.book.status
+    return (
+        leg.ticket is None
+        and not leg.route_when_standing
+        and leg.bends < MAX_BENDS
+        and status is not None
+        and status.base_in_map is not None
+        and not (status.blocked or status.limits.by == SLOWED)
+    )

@@ -1,0 +1,201 @@
+"""A doubted way bends where a better one is known, is kept where none is, and never stops a leg."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner.mission.activity import RouteDoubt
+from planner.mission.effects import AskRoute
+from planner.mission.events import RouteDoubted
+from planner.mission.obstruction_text import tell_doubt
+from planner.mission.route_doubts import (
+    BENT,
+    DOUBTED,
+    KEPT,
+    KEPT_SHORTER,
+    LASTS_S,
+    MAX_BENDS,
+    PATIENCE_S,
+    PERIOD_S,
+    SETTLE_S,
+)
+from tests.laws import at_least
+from tests.planner.mission.driving import RUNNING, SUCCEEDED, driving
+from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.lockstep import Together
+from wire import Mode, Pose2
+
+AT = (2.5, 0.0)
+REPORT_S = 0.2
+
+
+@dataclass
+class Doubts:
+    """Show a world what the route search sees in its way, five times a second."""
+
+    world: Together
+    goal: str
+    seen: list[str | None] = field(default_factory=list)
+
+    def run(self, seconds: float, *, closed: bool = True) -> None:
+        for _ in range(round(seconds / REPORT_S)):
+            leg = self.world.engine.leg
+            if closed and leg is not None:
+                self.world.event(RouteDoubted(leg.mission, leg.leg, AT))
+            self.world.run(REPORT_S)
+            self.seen.append(self.code)
+
+    @property
+    def doubt(self) -> RouteDoubt | None:
+        leg = self.world.engine.leg
+        return leg.doubt if leg is not None else None
+
+    @property
+    def code(self) -> str | None:
+        return self.doubt.code if self.doubt is not None else None
+
+    @property
+    def asked(self) -> list[AskRoute]:
+        return [ask for ask in self.world.routes if ask.doubted]
+
+
+@pytest.fixture
+def doubts(world: Together) -> Doubts:
+    """Return a robot half a metre on its way, with three and a half to go."""
+    return Doubts(world, driving(world))
+
+
+def test_a_doubt_that_lasts_bends_the_way_without_a_stop(doubts: Doubts) -> None:
+    world = doubts.world
+    before = world.bridge.pose.x_m
+    doubts.run(SETTLE_S + 0.3)
+    assert world.goal(doubts.goal).leg == 2
+    assert doubts.doubt is not None
+    assert (doubts.doubt.leg, doubts.doubt.at_m, doubts.doubt.code) == (2, AT, BENT)
+    assert world.bridge.pose.x_m - before > 0.4, "it drove on meanwhile"
+    assert all(message.points for message in world.bridge.waypoints)
+    doubts.run(3.0, closed=False)
+    assert doubts.code == BENT, "why it bends is told as long as it is driven"
+    world.run_until(doubts.goal, SUCCEEDED)
+
+
+def test_who_walks_by_bends_nothing(doubts: Doubts) -> None:
+    """Somebody closes the way for 0.4 s, until they are known to move."""
+    doubts.run(0.4)
+    doubts.run(2.0, closed=False)
+    doubts.run(0.4)
+    doubts.run(2.0, closed=False)
+    assert not doubts.asked
+    assert doubts.code is None
+    assert DOUBTED in doubts.seen
+
+
+def test_without_another_way_the_leg_is_kept_and_says_so_until_the_way_is_open(
+    doubts: Doubts,
+) -> None:
+    world = doubts.world
+    world.way = lambda ask: "no_route" if ask.doubted else None
+    doubts.run(2.0)
+    assert doubts.code == KEPT
+    assert (world.goal(doubts.goal).leg, world.goal(doubts.goal).state) == (1, RUNNING)
+    assert world.bridge.mode is Mode.ACTIVE
+    assert not world.goal(doubts.goal).steps[0].recoveries
+    doubts.run(LASTS_S + 0.4, closed=False)
+    assert doubts.code is None
+    world.run_until(doubts.goal, SUCCEEDED)
+
+
+def test_a_search_that_breaks_keeps_the_leg(doubts: Doubts) -> None:
+    doubts.world.way = lambda ask: "route_worker_died" if ask.doubted else None
+    doubts.run(2.0)
+    assert (doubts.code, doubts.world.goal(doubts.goal).leg) == (KEPT, 1)
+    doubts.world.run_until(doubts.goal, SUCCEEDED)
+
+
+def test_a_way_that_ends_elsewhere_is_not_taken(doubts: Doubts) -> None:
+    doubts.world.ends = Pose2(3.5, 0.0, 0.0)
+    doubts.run(1.0)
+    assert (doubts.code, doubts.world.goal(doubts.goal).leg) == (KEPT, 1)
+
+
+def test_a_much_longer_way_is_taken_only_after_three_seconds(doubts: Doubts) -> None:
+    """Most people have gone on by then; and the robot drives up to it meanwhile."""
+    world = doubts.world
+    world.aside_m = 3.0
+    doubts.run(PATIENCE_S - 0.6)
+    assert (doubts.code, world.goal(doubts.goal).leg) == (KEPT_SHORTER, 1)
+    doubts.run(2 * PERIOD_S)
+    assert (doubts.code, world.goal(doubts.goal).leg) == (BENT, 2)
+    world.run_until(doubts.goal, SUCCEEDED)
+
+
+def test_a_leg_bends_a_bounded_number_of_times_and_then_arrives(doubts: Doubts) -> None:
+    world = doubts.world
+    world.aside_m = 0.8
+    for _ in range(400):
+        if world.goal(doubts.goal).has_ended:
+            break
+        doubts.run(REPORT_S)
+    assert world.goal(doubts.goal).state is SUCCEEDED
+    assert len(doubts.asked) == MAX_BENDS
+
+
+@at_least(30)
+@given(st.lists(st.tuples(st.booleans(), st.integers(1, 15)), max_size=8))
+def test_a_way_round_is_searched_once_a_second_at_most(spans: list[tuple[bool, int]]) -> None:
+    world = Together(way=lambda ask: "no_route" if ask.doubted else None)
+    world.run(0.2)
+    doubts = Doubts(world, driving(world))
+    asked_s: list[float] = []
+    for closed, reports in spans:
+        for _ in range(reports):
+            before = len(doubts.asked)
+            doubts.run(REPORT_S, closed=closed)
+            asked_s += [world.now_s] * (len(doubts.asked) - before)
+    assert all(later - earlier >= PERIOD_S - 0.01 for earlier, later in pairwise(asked_s))
+
+
+def test_a_doubt_of_another_leg_or_goal_means_nothing(doubts: Doubts) -> None:
+    world = doubts.world
+    for goal, leg in ((doubts.goal, 7), ("other", 1)):
+        for _ in range(10):
+            world.event(RouteDoubted(goal, leg, AT))
+            world.run(REPORT_S)
+    assert not doubts.asked
+    assert doubts.doubt is None
+
+
+def test_a_robot_that_the_bridge_holds_is_left_to_recovery(doubts: Doubts) -> None:
+    doubts.world.bridge.blocked = True
+    doubts.run(2.0)
+    assert not doubts.asked
+    assert doubts.world.goal(doubts.goal).steps[0].recoveries == ("wait",)
+
+
+def test_what_the_bridge_slows_for_is_left_to_recovery(doubts: Doubts) -> None:
+    """A lidar that sees things everywhere shall end in standing, not in turning to and fro."""
+    doubts.world.bridge.limited_by = "obstacle"
+    doubts.run(2.0)
+    assert not doubts.asked
+    assert doubts.code == DOUBTED
+    doubts.world.bridge.limited_by = "max_speed"
+    doubts.run(1.0)
+    assert BENT in doubts.seen
+
+
+def test_without_a_pose_nothing_is_searched(doubts: Doubts) -> None:
+    doubts.world.bridge.localized = False
+    doubts.run(2.0)
+    assert not doubts.asked
+
+
+@pytest.mark.parametrize("code", [DOUBTED, KEPT, KEPT_SHORTER, BENT])
+def test_each_code_is_told_with_its_spot_in_both_languages(code: str) -> None:
+    said = tell_doubt(FACTS, RouteDoubt(1, (0.2, 0.1), 0.0, 0.0, code))
+    assert "in the hall" in said.en
+    assert "hall里" in said.zh
