@@ -31,7 +31,7 @@ SHORTEST_M = 1.0
 
 
 @dataclass(slots=True)
-class DriveRecord:
+class TourRecord:
     """Hold what one drive came to; as JSON can hold it."""
 
     errors_m: list[float] = field(default_factory=list)
@@ -55,13 +55,13 @@ class RecordedDrive:
     def __init__(self, world: LockstepWorld, chance: str) -> None:
         """Take a world that is ready, and what its goals are drawn by."""
         self._world, self._random = world, Random(chance)
-        self.record = DriveRecord()
+        self.record = TourRecord()
         self._contacts: Counter[str] = Counter()
         self._rows: Counter[str] = Counter()
         self._up: set[str] = set()
         self._touched, self._path_m = world.contacts, 0.0
 
-    def run(self, seconds: float = float("inf"), goals: int = 1_000_000) -> DriveRecord:
+    def run(self, seconds: float = float("inf"), goals: int = 1_000_000) -> TourRecord:
         """Drive to rooms until the time is up or so many goals have ended.
 
         A goal that time cuts off counts nowhere.

@@ -8,7 +8,7 @@ import pytest
 
 from sim import Domain, draw_domain
 from sim.domain import KNOWN
-from tools.bench.drive_record import DriveRecord, RecordedDrive
+from tools.bench.drive_record import RecordedDrive, TourRecord
 from tools.bench.measure.domain import ALL_DRAWN, ALONE, CASES, domain_of, row_of_drives
 from tools.lockstep import LockstepWorld
 from wire import ConfigError, Pose2, RobotDescription
@@ -62,7 +62,7 @@ def test_a_contact_is_named_by_who_moved_into_what() -> None:
 
 
 def test_a_row_says_what_was_reached_and_what_was_touched() -> None:
-    one = DriveRecord(
+    one = TourRecord(
         errors_m=[0.01] * 99 + [9.0], errors_deg=[0.5] * 100, reached=1, tried=2,
         spl=[1.0, 0.0], time_ratios=[1.5], contacts={"robot into home": 2},
         pose_rows={"POSE_LOST": 1}, reasons={"failed blocked": 1},

@@ -11,7 +11,7 @@ from statistics import median
 from typing import TYPE_CHECKING, Any
 
 from sim import Domain, draw_domain
-from tools.bench.drive_record import DriveRecord, RecordedDrive
+from tools.bench.drive_record import RecordedDrive, TourRecord
 from tools.bench.figures import percentile
 from tools.bench.report import ReportRow, number
 from tools.lockstep import LockstepWorld
@@ -55,9 +55,9 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive each case with each seed; one processor a drive."""
     seeds, seconds = lab.count(QUICK_SEEDS, LONG_SEEDS), lab.count(int(QUICK_S), int(LONG_S))
     take = take_long if lab.long else take_quick
-    drives: dict[str, list[DriveRecord]] = {case: [] for case in CASES}
+    drives: dict[str, list[TourRecord]] = {case: [] for case in CASES}
     for taken in lab.side_by_side("drive", len(CASES) * seeds, take):
-        drives[taken["case"]].append(DriveRecord(**taken["record"]))
+        drives[taken["case"]].append(TourRecord(**taken["record"]))
     return [row_of_drives(case, drives[case], f"seeds of {seconds} s") for case in CASES]
 
 
@@ -83,7 +83,7 @@ def _take(index: int, seconds: float) -> dict[str, Any]:
     return {"case": case, "record": asdict(RecordedDrive(world, f"{case} {seed}").run(seconds))}
 
 
-def row_of_drives(case: str, drives: list[DriveRecord], each: str, goal: str = GOAL) -> ReportRow:
+def row_of_drives(case: str, drives: list[TourRecord], each: str, goal: str = GOAL) -> ReportRow:
     """Sum the drives of a case up in one row."""
     if not drives:
         return ReportRow(case, "", goal, value="none", note="nothing was measured", valid=False)

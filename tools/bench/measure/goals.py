@@ -9,7 +9,7 @@ from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any
 
 from sim import Domain
-from tools.bench.drive_record import DriveRecord, RecordedDrive
+from tools.bench.drive_record import RecordedDrive, TourRecord
 from tools.bench.measure.domain import row_of_drives
 from tools.lockstep import LockstepWorld
 from wire import RobotDescription
@@ -34,9 +34,9 @@ CASES: dict[str, tuple[Domain, str]] = {
 def measure(lab: BenchLab) -> list[ReportRow]:
     """Drive 200 goals of each case in a long run, 10 in a quick one; one processor a drive."""
     names, count = tuple(CASES), lab.count(1, 20)
-    drives: dict[str, list[DriveRecord]] = {name: [] for name in names}
+    drives: dict[str, list[TourRecord]] = {name: [] for name in names}
     for taken in lab.side_by_side("drive", count * len(names), take_drive):
-        drives[taken["case"]].append(DriveRecord(**taken["record"]))
+        drives[taken["case"]].append(TourRecord(**taken["record"]))
     each = f"seeds of {EACH} goals"
     return [row_of_drives(name, drives[name], each, CASES[name][1]) for name in names]
 
