@@ -11,12 +11,13 @@ import argparse
 import gc
 import logging
 import os
+import secrets
 import signal
 import sys
 import threading
 from pathlib import Path
 
-from localization.node import LocalizationNode, LocalizerNode, run_periodically
+from localization.node import LocalizerNode, StandInNode, run_periodically
 from localization.standin import StandIn
 from processes.priority import set_fifo
 from wire import ConfigError, RobotDescription, load_robot
@@ -61,7 +62,7 @@ def _serve_stand_in(
     stand_in = StandIn(read_map_id(options.site), seed=options.seed)
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.LOCALIZATION, robot_id, home) as session:
-        node = LocalizationNode(stand_in, session)
+        node = StandInNode(stand_in, session)
         gc.collect()
         gc.freeze()
         log.warning("STAND-IN: simulator truth plus noise, no localization; seed %d", options.seed)
@@ -82,7 +83,7 @@ def _serve_scans(site: Path, robot: RobotDescription, home: Path, stopped: threa
     try:
         set_fifo(PRIORITY)
         with open_session(Party.LOCALIZATION, robot.id, home) as session:
-            node = LocalizerNode(localizer, search, session)
+            node = LocalizerNode(localizer, search, session, f"loc-{secrets.token_hex(4)}")
             gc.collect()
             gc.freeze()
             log.info("scans against map %s, %s", loaded.map_id, site)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from localization.distance_field import DistanceField
 
     Floats = NDArray[np.float64]
+    Bools = NDArray[np.bool_]
 
 STEP_M, STEP_RAD = 0.2, radians(3.0)
 SIGMA_M = 0.15
@@ -60,6 +61,18 @@ def is_sure(candidates: tuple[Candidate, ...]) -> bool:
     return gap >= SURE_GAP or (candidates[0].score >= CLEAN_SCORE and gap >= CLEAN_GAP)
 
 
+@dataclass(frozen=True, slots=True)
+class SearchArea:
+    """Bound a search to where a person says the robot is."""
+
+    pose: tuple[float, float, float]
+    """x [m], y [m], yaw [rad] of ``base`` in ``map``."""
+    radius_m: float
+    any_heading: bool
+    outline: tuple[tuple[float, float], ...] = ()
+    """In ``map`` [m]; empty: all of the circle."""
+
+
 class GlobalSearch:
     """Search one map."""
 
@@ -72,6 +85,40 @@ class GlobalSearch:
         self._standable = np.flatnonzero(standable)
         x_m, y_m = field.cell_centre(row.ravel(), column.ravel())
         self._xy_m = np.column_stack((x_m, y_m))[self._standable]
+
+    def find(
+        self, points_m: Floats, lidar_m: tuple[float, float], near: SearchArea | None = None
+    ) -> tuple[Candidate, ...]:
+        """Return the places that fit a scan best, best first: on the whole map, or in an area.
+
+        Args:
+            points_m: returns in ``base``, shape (n, 2).
+            lidar_m: where the lidar is in ``base``.
+            near: where a person says the robot is; then one place at most is returned.
+        """
+        if near is None:
+            return self.everywhere(points_m, lidar_m)
+        if near.any_heading:
+            return self.find_within(points_m, lidar_m, near)
+        return self.around(points_m, lidar_m, np.array(near.pose), near.radius_m)
+
+    def find_within(
+        self, points_m: Floats, lidar_m: tuple[float, float], near: SearchArea
+    ) -> tuple[Candidate, ...]:
+        """Return the best place in an area whichever way the robot looks, or none."""
+        away_m = np.hypot(*(self._xy_m - np.array(near.pose[:2])).T)
+        inside = away_m <= near.radius_m
+        if near.outline:
+            inside &= is_inside(self._xy_m, near.outline)
+        if not len(points_m) or not inside.any():
+            return ()
+        starts = self._rated_starts(thin(points_m, BEAMS), inside)
+        found = self._judge(points_m, lidar_m, starts)
+        if near.outline:
+            found = tuple(
+                one for one in found if is_inside(np.array([one.pose[:2]]), near.outline)[0]
+            )
+        return self._near(found, near.pose, near.radius_m)
 
     def everywhere(self, points_m: Floats, lidar_m: tuple[float, float]) -> tuple[Candidate, ...]:
         """Return the places that fit a scan best, best first, at most five.
@@ -92,6 +139,12 @@ class GlobalSearch:
             return ()
         start = self._window.best(points_m, pose, radius_m, radians(30.0))
         found = self._judge(points_m, lidar_m, np.stack((start, pose)))
+        return self._near(found, (float(pose[0]), float(pose[1]), float(pose[2])), radius_m)
+
+    def _near(
+        self, found: tuple[Candidate, ...], pose: tuple[float, float, float], radius_m: float
+    ) -> tuple[Candidate, ...]:
+        """Return the best of the places within a radius, or none."""
         near = (
             one
             for one in found
@@ -99,18 +152,18 @@ class GlobalSearch:
         )
         return tuple(near)[:1]
 
-    def _rated_starts(self, beams: Floats) -> Floats:
+    def _rated_starts(self, beams: Floats, inside: Bools | None = None) -> Floats:
         """Return the lattice's best poses, none close to another that is better."""
+        places = slice(None) if inside is None else inside
+        standable, xy_m = self._standable[places], self._xy_m[places]
         yaws = np.arange(0.0, 2 * np.pi, STEP_RAD)
-        ratings = np.stack(
-            [self._lattice.rate(beams, yaw).ravel()[self._standable] for yaw in yaws]
-        )
+        ratings = np.stack([self._lattice.rate(beams, yaw).ravel()[standable] for yaw in yaws])
         flat = ratings.ravel()
         count = min(RATED, flat.size)
         top = np.argpartition(flat, -count)[-count:]
         top = top[np.argsort(flat[top], kind="stable")[::-1]]
         turn, place = np.divmod(top, ratings.shape[1])
-        poses = np.column_stack((self._xy_m[place], yaws[turn]))
+        poses = np.column_stack((xy_m[place], yaws[turn]))
         return keep_separate(poses, SEPARATE_M, SEPARATE_RAD, ALIGNED)
 
     def _judge(
@@ -129,6 +182,18 @@ class GlobalSearch:
             Candidate((float(x_m), float(y_m), float(yaw)), float(score))
             for (x_m, y_m, yaw), score in zip(best[order], rated[order], strict=True)
         )
+
+
+def is_inside(points_m: Floats, outline: tuple[tuple[float, float], ...]) -> Bools:
+    """Return which points, shape (n, 2), lie inside an outline, by how many edges are crossed."""
+    inside = np.zeros(len(points_m), np.bool_)
+    x_m, y_m = points_m[:, 0], points_m[:, 1]
+    for (ax, ay), (bx, by) in zip(outline, (*outline[1:], outline[0]), strict=True):
+        crosses = (ay > y_m) != (by > y_m)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            at_m = ax + (y_m - ay) * (bx - ax) / (by - ay)
+        inside ^= crosses & (x_m < at_m)
+    return inside
 
 
 def keep_separate(poses: Floats, apart_m: float, apart_rad: float, most: int) -> Floats:

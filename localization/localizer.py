@@ -24,17 +24,26 @@ from localization.correlative_search import WindowSearch
 from localization.deskew import PointCloud, deskew, sweep_s
 from localization.global_search import Candidate, is_sure
 from localization.jump_law import JumpLaw
+from localization.localizer_status import bounded_score
 from localization.odometry_integration import OdometryTrail
 from localization.quality import ENOUGH_SCORE, quality_of, scores
-from localization.relocation import HintAnswer, OpenSearch, PersonHint, PlacedBase, SearchRequest
+from localization.relocation import OpenSearch, PlacedBase, SearchRequest
 from localization.scan_matching import align
-from wire import Localization, Pose2, between, compose, inverse
+from wire import (
+    HintVerdict,
+    Localization,
+    Pose2,
+    PoseHint,
+    between,
+    compose,
+    inverse,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from localization.distance_field import DistanceField
-    from wire import Odometry, Scan
+    from wire import HintCode, Odometry, Scan
     from wire.robot import LidarConfig
 
     Floats = NDArray[np.float64]
@@ -91,7 +100,7 @@ class Localizer:
         self.candidates: tuple[Candidate, ...] = ()
         """What the newest search found, best first."""
         self._placed: PlacedBase | None = None
-        self._trial: tuple[PlacedBase, PersonHint | None] | None = None
+        self._trial: tuple[PlacedBase, PoseHint | None] | None = None
         self._accepted_score = 0.0
         self._accepted_at = (0.0, 0.0, 0.0)
         """Stamp [s], metres of wheels and slip [rad] at the last accepted scan."""
@@ -101,8 +110,8 @@ class Localizer:
         self._searched_s = -SEARCH_PAUSE_S
         self._request: SearchRequest | None = None
         self._requests = 0
-        self._hint: PersonHint | None = None
-        self.hint_answer: HintAnswer | None = None
+        self._hint: PoseHint | None = None
+        self.hint_answer: HintVerdict | None = None
         """To the newest hint, once there is one."""
         self._jump_law = JumpLaw()
         self._said_s: float | None = None
@@ -121,19 +130,20 @@ class Localizer:
         """Keep a scan until odometry covers it; a newer one takes its place."""
         self._scan = scan
 
-    def hear_hint(self, hint_id: str, pose: Pose2, radius_m: float) -> None:
-        """Take a person's word that the robot is at a pose, give or take a radius [m]."""
+    def hear_hint(self, hint: PoseHint) -> None:
+        """Take a person's word on where the robot is; the same id again is the same hint."""
         twist = None if self._odometry is None else self._odometry.twist
-        if self._hint is not None and self._hint.id == hint_id:
+        known = (self._hint, self.hint_answer)
+        if any(one is not None and one.id == hint.id for one in known):
             return
         if self._hint is not None:
-            self.hint_answer = HintAnswer(hint_id, "busy")
+            self.hint_answer = HintVerdict(id=hint.id, code="busy", score=None)
         elif twist is None or self._taken is None:
-            self.hint_answer = HintAnswer(hint_id, "no_scan")
+            self.hint_answer = HintVerdict(id=hint.id, code="no_scan", score=None)
         elif not (abs(twist.v_mps) < STANDING_MPS and abs(twist.w_radps) < STANDING_RADPS):
-            self.hint_answer = HintAnswer(hint_id, "moving")
+            self.hint_answer = HintVerdict(id=hint.id, code="moving", score=None)
         else:
-            self._hint, self._open = PersonHint(hint_id, pose, radius_m), None
+            self._hint, self._open = hint, None
 
     def hear_candidates(self, number: int, candidates: tuple[Candidate, ...]) -> None:
         """Take a search's answer; an answer to a question that is not open is ignored."""
@@ -143,7 +153,9 @@ class Localizer:
         self._open = None
         self.candidates = candidates
         if search.hint is not None:
-            fits = bool(candidates) and candidates[0].score >= ENOUGH_SCORE
+            # A pose that scans confirm yields only to one that they confirm as well.
+            least = self.score - BETTER if self.state is LocalizerState.TRACKING else ENOUGH_SCORE
+            fits = bool(candidates) and candidates[0].score >= max(ENOUGH_SCORE, least)
             if not fits:
                 self._answer_hint("does_not_fit", candidates[0].score if candidates else 0.0)
         else:
@@ -184,8 +196,7 @@ class Localizer:
         if self._trial is not None and self._try_answer(cloud, carried):
             return
         if self._hint is not None and self._open is None:
-            hint = self._hint
-            self._ask(cloud, carried, now_s, hint)
+            self._ask(cloud, carried, now_s, self._hint)
         if self._placed is None or self.state is LocalizerState.LOST:
             self._search(cloud, carried, now_s)
             return
@@ -245,13 +256,19 @@ class Localizer:
         if self._open is None and now_s - self._searched_s >= SEARCH_PAUSE_S:
             self._ask(cloud, carried, now_s, None)
 
-    def _ask(
-        self, cloud: PointCloud, carried: Pose2, now_s: float, hint: PersonHint | None
-    ) -> None:
+    def _ask(self, cloud: PointCloud, carried: Pose2, now_s: float, hint: PoseHint | None) -> None:
         self._requests += 1
         self._searched_s = now_s
-        around, radius_m = (None, 0.0) if hint is None else (hint.pose, hint.radius_m)
-        self._request = SearchRequest(self._requests, cloud.points_m, around, radius_m)
+        self._request = SearchRequest(self._requests, cloud.points_m)
+        if hint is not None:
+            self._request = SearchRequest(
+                self._requests,
+                cloud.points_m,
+                hint.pose,
+                hint.radius_m,
+                hint.any_heading,
+                hint.outline,
+            )
         self._open = OpenSearch(self._request, carried, now_s, hint)
 
     def _try_answer(self, cloud: PointCloud, carried: Pose2) -> bool:
@@ -268,9 +285,11 @@ class Localizer:
             self._answer_hint("accepted" if fits else "does_not_fit", score)
         return fits
 
-    def _answer_hint(self, code: str, score: float | None = None) -> None:
+    def _answer_hint(self, code: HintCode, score: float | None = None) -> None:
         if self._hint is not None:
-            self.hint_answer, self._hint = HintAnswer(self._hint.id, code, score), None
+            held = None if score is None else bounded_score(score)
+            self.hint_answer = HintVerdict(id=self._hint.id, code=code, score=held)
+            self._hint = None
 
     def _drop_dead_search(self, now_s: float) -> None:
         if self._open is not None and now_s - self._open.asked_s > ANSWER_S:

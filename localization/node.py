@@ -7,19 +7,23 @@ truth in place of scans. What is said, and when there is silence, is the core's 
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from wire import Odometry, SimTruth, keys
+from localization.localizer_status import make_status
+from wire import Odometry, PoseHint, SimTruth, keys
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from localization.global_search import Candidate
     from localization.localizer import Localizer
-    from localization.search_client import SearchClient
+    from localization.relocation import SearchRequest
     from localization.standin import StandIn
     from wire.session import Session
 
 PERIOD_S = 0.05
+STATE_S = 0.2
+"""Between two words on what the localizer does, where nothing changed."""
 
 
 def run_periodically(turn: Callable[[float], None], stopped: Callable[[], bool]) -> None:
@@ -32,11 +36,28 @@ def run_periodically(turn: Callable[[float], None], stopped: Callable[[], bool])
         turn(now_s)
 
 
-class LocalizerNode:
-    """Connect a localizer and its search process to the wire."""
+class SearchPort(Protocol):
+    """Search a map beside the loop: in a process of its own, or in a test's time."""
 
-    def __init__(self, localizer: Localizer, search: SearchClient, session: Session) -> None:
-        self._localizer, self._search = localizer, search
+    def ask(self, request: SearchRequest) -> None:
+        """Send a request; its answer comes by :meth:`answers`, or never."""
+
+    def answers(self) -> list[tuple[int, tuple[Candidate, ...]]]:
+        """Return what was answered since the last call: request number and candidates."""
+
+
+class LocalizerNode:
+    """Connect a localizer and its search to the wire."""
+
+    def __init__(
+        self, localizer: Localizer, search: SearchPort, session: Session, boot_id: str
+    ) -> None:
+        self._localizer, self._search, self._boot_id = localizer, search, boot_id
+        self._hint = session.subscriber(keys.LOC_HINT)
+        self._state = session.publisher(keys.LOC_STATE)
+        self._said: tuple[object, ...] = ()
+        self._said_s = float("-inf")
+        self._seq = 0
         self._scan = session.subscriber(keys.SCAN)
         self._odom = session.subscriber(keys.ODOM)
         self._out = session.publisher(keys.LOCALIZATION)
@@ -49,6 +70,9 @@ class LocalizerNode:
         scan = self._scan.newest()
         if scan is not None:
             self._localizer.hear_scan(scan)
+        for hint in self._hint.drain().items:
+            if isinstance(hint, PoseHint):
+                self._localizer.hear_hint(hint)
         for number, candidates in self._search.answers():
             self._localizer.hear_candidates(number, candidates)
         self._localizer.work(now_s)
@@ -58,9 +82,21 @@ class LocalizerNode:
         answer = self._localizer.answer(now_s)
         if answer is not None:
             self._out.put(answer)
+        self._say_state(now_s)
+
+    def _say_state(self, now_s: float) -> None:
+        news = (self._localizer.state, self._localizer.hint_answer)
+        if news != self._said or now_s - self._said_s >= STATE_S:
+            self._said, self._said_s = news, now_s
+            self._seq += 1
+            one = self._localizer
+            stamp = (self._boot_id, self._seq, now_s)
+            self._state.put(
+                make_status(one.state.value, one.score, one.candidates, one.hint_answer, stamp)
+            )
 
 
-class LocalizationNode:
+class StandInNode:
     """Connect one stand-in to the wire."""
 
     def __init__(self, stand_in: StandIn, session: Session) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from wire import Pose2, between, compose
+from wire import Pose2, PoseHint, between, compose
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,25 +26,8 @@ class SearchRequest:
     around: Pose2 | None = None
     """A pose that a person named; None searches the whole map."""
     radius_m: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class HintAnswer:
-    """Say what became of a person's "I am here"."""
-
-    id: str
-    code: str
-    """``accepted``, ``moving``, ``no_scan``, ``does_not_fit``, ``busy`` or ``no_answer``."""
-    score: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class PersonHint:
-    """Hold a person's word on where the robot is."""
-
-    id: str
-    pose: Pose2
-    radius_m: float
+    any_heading: bool = False
+    outline: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,4 +50,4 @@ class OpenSearch:
     carried: Pose2
     """``base`` in the trail's frame when the scan was taken."""
     asked_s: float
-    hint: PersonHint | None
+    hint: PoseHint | None

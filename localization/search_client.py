@@ -116,6 +116,8 @@ class SearchClient:
             "lidar_m": self._lidar_m,
             "around": None if near is None else [near.x_m, near.y_m, near.yaw_rad],
             "radius_m": request.radius_m,
+            "any_heading": request.any_heading,
+            "outline": request.outline,
         }
         try:
             found = await self._worker.ask(

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from localization.distance_field import DistanceField
-from localization.global_search import GlobalSearch
+from localization.global_search import GlobalSearch, SearchArea
 from maps import SiteError, load_map
 from processes.worker_main import ParentPipes, run_worker
 
@@ -37,10 +37,16 @@ def answer(search: GlobalSearch, asked: Frame) -> Frame:
     head, body = asked
     points_m = np.frombuffer(body, np.float64).reshape(-1, 2)
     lidar_m = (float(head["lidar_m"][0]), float(head["lidar_m"][1]))
-    if head["around"] is None:
-        found = search.everywhere(points_m, lidar_m)
-    else:
-        found = search.around(points_m, lidar_m, np.array(head["around"]), float(head["radius_m"]))
+    near = None
+    if head["around"] is not None:
+        x_m, y_m, yaw_rad = map(float, head["around"])
+        near = SearchArea(
+            (x_m, y_m, yaw_rad),
+            float(head["radius_m"]),
+            bool(head["any_heading"]),
+            tuple((float(x), float(y)) for x, y in head["outline"]),
+        )
+    found = search.find(points_m, lidar_m, near)
     return {"candidates": [[*one.pose, one.score] for one in found]}, b""
 
 

@@ -141,7 +141,7 @@ def _picture(grid: GridMap) -> bytes:
 
 def _yaml(grid: GridMap) -> bytes:
     return (
-        "# Made by `pons site import`; what is free here was taken for free then.\n"
+        "# Made by `pons site import` or `pons map`; what is free here was taken for free then.\n"
         f"image: map.pgm\nmode: trinary\nresolution: {grid.resolution_m!r}\n"
         f"origin: [{grid.origin_x_m!r}, {grid.origin_y_m!r}, 0.0]\nnegate: 0\n"
         "occupied_thresh: 0.65\nfree_thresh: 0.196\n"

@@ -6,12 +6,26 @@ import logging
 from typing import TYPE_CHECKING, Any
 
 from planner.bridge_client import BridgeSilent, Link
-from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status, Velocity
+from wire import (
+    Answer,
+    FenceRequest,
+    HintVerdict,
+    LocalizerStatus,
+    OpKind,
+    OpRequest,
+    PoseHint,
+    RobotDescription,
+    Status,
+    Velocity,
+)
 
 if TYPE_CHECKING:
     from planner.bridge_client import Aged
 
 log = logging.getLogger(__name__)
+
+LOCALIZER_S = 2.0
+"""It speaks five times a second; what is older says nothing of now."""
 
 
 class LinkedRobot:
@@ -30,6 +44,16 @@ class LinkedRobot:
     def obstacles(self) -> tuple[tuple[float, float], ...]:
         """Return the lidar's points now in ``map`` [m]."""
         return self._link.obstacles()
+
+    @property
+    def localizer(self) -> LocalizerStatus | None:
+        """Return what the localizer says that it does; None where none spoke lately."""
+        heard = self._link.localizer
+        return heard.value if heard is not None and heard.age_s <= LOCALIZER_S else None
+
+    async def hint(self, hint: PoseHint) -> HintVerdict | None:
+        """Return the localizer's verdict on a person's word, or None where it stayed silent."""
+        return await self._link.hint(hint)
 
     def ages_s(self) -> dict[str, float | None]:
         """Return how long ago each source was last heard, on our own clock."""

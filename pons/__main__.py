@@ -17,11 +17,13 @@ MOCK_LLM = "mock-llm"
 CONFORMANCE = "conformance"
 EVAL = "eval"
 SITE = "site"
+MAP = "map"
 _APART = {
     CONFORMANCE: "play broken brains at a simulated bridge",
     EVAL: "score what a brain plans, on sentences",
     MOCK_LLM: "serve a model that is none, with faults",
     SITE: "make a site of a map, name its rooms, check it",
+    MAP: "make a site of the recordings of a drive",
 }
 """They read their own words."""
 LONGEST_FAULT_S = 3600.0
@@ -37,6 +39,8 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--port", help="port of page and API (PONS_PORT)")
     started.add_argument("--tls", action="store_true", help="serve https (PONS_TLS=1); docs/tls.md")
     started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
+    started.add_argument("--domain", metavar="random|FILE", help="make the simulated home worse")
+    started.add_argument("--seed", type=int, help="of --domain, and of the simulator's noise")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
     words.add_parser("tls", help="make or renew the certificate; say what devices must trust")
     _saying(words)
@@ -201,6 +205,10 @@ def main(arguments: list[str] | None = None) -> int:
             from pons import site
 
             return site.run(settings, words[1:])
+        if words[:1] == [MAP]:  # likewise
+            from pons import mapping
+
+            return mapping.run(settings, words[1:])
         return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)
@@ -219,6 +227,7 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
         port = port_of(said.port) if said.port is not None else None
         site = None if said.site is None else site_of(str(said.site), settings.home)
         given = {"site": site, "robot": said.robot, "port": port, "metal": said.metal}
+        given |= {"domain": said.domain, "seed": said.seed}
         chosen = {name: value for name, value in given.items() if value is not None}
         chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before
         return up.run(replace(settings, **chosen), planner=not said.no_planner)

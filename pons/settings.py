@@ -31,6 +31,10 @@ class LaunchSettings:
     port: int
     metal: Path | None = None
     """What the simulated robot is really like, where robot.toml is to be wrong about it."""
+    domain: str | None = None
+    """How the simulated home is worse than described: ``random``, or a file (sim/domain.py)."""
+    seed: int | None = None
+    """Of that, and of the simulator's noise."""
     tls: bool = False
     """Whether the planner is asked, and by ``pons up`` started, over TLS."""
     authority: Path | None = None

@@ -100,7 +100,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
 
 
 def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
-    if _NAME.fullmatch(said.name) is None:
+    if not is_site_name(said.name):
         text = f"got {said.name!r}; expected a small letter, then letters, digits or _"
         raise SiteError("site_name_malformed", text)
     is_yaml = said.map.suffix in (".yaml", ".yml")
@@ -122,6 +122,11 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     _check(folder, robot.base.radius_m)
     print(f"drive there: pons up --site {said.name}")
     return EXIT_DONE
+
+
+def is_site_name(name: str) -> bool:
+    """Return whether a new site may be called so."""
+    return _NAME.fullmatch(name) is not None
 
 
 def _load(said: argparse.Namespace) -> LoadedMap:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import Any
 
 Json = dict[str, Any]
@@ -96,6 +97,21 @@ def braking_line(braking: Json) -> str:
     )
 
 
+WITHOUT_POSE = MappingProxyType(
+    {
+        "searching": (
+            "The robot is looking for where it is, and stands still meanwhile.",
+            "机器人正在寻找自己的位置，期间停着不动。",
+        ),
+        "lost": (
+            'The robot does not know where it is and stands still: say "you are in the kitchen".',
+            "机器人不知道自己在哪里，停着不动。可以对它说“你在厨房”。",
+        ),
+    }
+)
+"""The first lines about a robot whose localizer has no pose, by what the localizer does."""
+
+
 def robot_lines(robot: Json) -> list[str]:
     """Describe the robot's state, the rows that are up and its limits."""
     status = robot.get("status")
@@ -116,6 +132,7 @@ def robot_lines(robot: Json) -> list[str]:
         f"limit {limits['v_mps']:.2f} m/s by {limits['by']}",
         braking_line(status["braking"]),
     ]
+    lines = [*WITHOUT_POSE.get(robot.get("localizer") or "", ()), *lines]
     if limits["by"] == "weak_brakes":
         lines.append(WEAK_BRAKES)
     lines += _trouble(status)

@@ -195,13 +195,15 @@ def children(
     """Return the processes in the order of their start."""
     logs = settings.home / "logs"
     common = common_arguments(settings)
+    domain = ["--domain", settings.domain] if settings.domain else []
     wanted = [("bridge", common)]
     if planner:
         secured = issued.planner_arguments() if issued else []
         wanted.append(("planner", [*common, *address_arguments(settings), *secured]))
     if robot.drive.virtual:
         metal = ["--metal", str(settings.metal)] if settings.metal else []
-        wanted = [("sim", [*common, *metal]), ("localization", common), *wanted]
+        seed = [] if settings.seed is None else ["--seed", str(settings.seed)]
+        wanted = [("sim", [*common, *metal, *domain, *seed]), ("localization", common), *wanted]
     found = [
         Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
         for name, more in wanted
@@ -210,7 +212,7 @@ def children(
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())
     if robot.drive.virtual and robot.camera.kind == "sim":
-        arguments = ["sim.camera", *common]
+        arguments = ["sim.camera", *common, *domain]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
     return found
 
@@ -274,6 +276,11 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
         with HomeLock(settings.home):
             if planner:
                 _check_port(settings)
+            if settings.domain is not None:
+                from pons.domain import keep_domain
+
+                settings, words = keep_domain(settings, robot)
+                say(words)
             issued = _certify(settings) if planner and settings.tls else None
             return _supervise(settings, robot, planner=planner, issued=issued)
     except (CannotStart, HomeTaken, HomeUnwritable, ConfigError) as why:

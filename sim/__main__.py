@@ -1,6 +1,7 @@
 """Start the simulator: ``python -m sim --site sites/home [--robot robot.toml] [--home DIR]``.
 
-``--metal FILE`` makes motors and wheels differ from what robot.toml believes (docs/calibrate.md).
+``--metal FILE`` makes motors and wheels differ from what robot.toml believes (docs/calibrate.md);
+``--domain FILE`` turns the knobs of sim/domain.py (docs/sim2real.md).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import threading
 from pathlib import Path
 
 from processes.priority import set_fifo
+from sim.domain import load_domain
 from sim.node import SimNode
 from sim.robot import SimRobot
 from sim.site import check_fresh
@@ -37,6 +39,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
     parser.add_argument("--metal", type=Path, help="what the robot is really like (TOML)")
+    parser.add_argument("--domain", type=Path, help="how home and robot are worse (TOML)")
     parser.add_argument("--seed", type=int, default=0, help="seed of all noise (default 0)")
     parser.add_argument(
         "--start", type=float, nargs=3, metavar=("X_M", "Y_M", "YAW_RAD"), help="default: the dock"
@@ -54,12 +57,14 @@ def _serve(options: argparse.Namespace) -> None:
     boot_id = f"sim-{secrets.token_hex(4)}"
     start = Pose2(*options.start) if options.start else None
     hardware = load_metal(options.metal) if options.metal else None
+    domain = load_domain(options.domain) if options.domain else None
     robot = SimRobot(
         options.site,
         description,
         seed=options.seed,
         start=start,
         hardware=hardware,
+        domain=domain,
         boot_id=boot_id,
     )
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
@@ -71,6 +76,10 @@ def _serve(options: argparse.Namespace) -> None:
         logging.getLogger("sim").info(
             "%s drives in %s, seed %d", boot_id, options.site, options.seed
         )
+        if domain is not None:
+            logging.getLogger("sim").info(
+                "domain: %s", domain.as_toml().strip().replace("\n", ", ")
+            )
         shell.run(stopped.is_set)
 
 

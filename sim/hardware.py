@@ -50,6 +50,12 @@ class Hardware:
     """Share of beams that do not come back though something is there."""
     lidar_sweep_s: Annotated[float, Field(ge=0.0, le=0.2)] = 0.0
     """From a scan's first beam to its last; a real one turns for a whole period. 0: all at once."""
+    lidar_range_scale: Annotated[float, Field(ge=0.9, le=1.1)] = 1.0
+    """Range read over true range."""
+    lidar_x_error_m: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
+    """How much further forward the lidar sits than robot.toml says."""
+    lidar_yaw_error_rad: Annotated[float, Field(ge=-0.5, le=0.5)] = 0.0
+    """How far the lidar is turned to the left of what robot.toml says."""
     __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(
         extra="forbid", allow_inf_nan=False, strict=True
     )

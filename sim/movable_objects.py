@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from sim.site.classes import SPARE_OBSTACLES
-from sim.site.objects import pose_of
+from sim.site.objects import is_movable, pose_of
 from wire import ConfigError, Pose2, SimThing
 
 if TYPE_CHECKING:
@@ -25,10 +25,12 @@ class Things:
             **{
                 name: pose_of(item.at, item.yaw)
                 for name, item in home.objects.items()
-                if item.class_id != "door"
+                if is_movable(name, item)
             },
         }
         """Where each stands at first; None is nowhere."""
+        spare = (name for name in SPARE_OBSTACLES if name.startswith("person"))
+        self.people = (*spare, *home.people)
         self._now = dict(self.declared)
         self.elsewhere: tuple[SimThing, ...] = ()
         """Those that are not where the home declares them."""

@@ -15,8 +15,11 @@ import numpy as np
 from sim.battery import Battery
 from sim.command_watchdog import DeadMan
 from sim.contacts import Episodes
+from sim.domain import Domain
+from sim.domain_script import DomainScript
 from sim.faults import Faults
 from sim.hardware import PERIODS, Hardware
+from sim.message_delays import MessageDelays
 from sim.messages import Report, Speaker
 from sim.mjcf import OBSTACLES
 from sim.movable_objects import Things
@@ -24,6 +27,7 @@ from sim.sensor_channel import Channel
 from sim.sensors import Encoder, Garbage, ImuModel, LidarModel
 from sim.site import Home, load_home, pose2, solids
 from sim.site.objects import uprights
+from sim.staging import null_patches, staged_home
 from sim.true_parameters import true_base
 from sim.world import PhysicsWorld
 from wire import Pose2, RobotDescription, SimFault, Twist2, compose
@@ -32,6 +36,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from sim.command_watchdog import WheelTargets
+    from sim.domain_script import DomainActs
     from wire import DriveCommand, DriveState, Imu, Scan, SimControl, SimScene, SimTruth
 
 _STEPS = round(PERIODS.tick_s / PERIODS.step_s)
@@ -50,24 +55,30 @@ class SimRobot:
         seed: int = 0,
         start: Pose2 | None = None,
         hardware: Hardware | None = None,
+        domain: Domain | None = None,
         boot_id: str = "sim",
     ) -> None:
         """Build the home of ``site_dir`` and stand the robot at its dock, or at ``start``.
 
         Raises:
-            ConfigError: the site's home.yaml is refused.
+            ConfigError: the site's home.yaml is refused, or the domain can't be in that home.
         """
         self.robot = robot or RobotDescription()
-        self.home: Home = load_home(site_dir)
+        self.domain = domain or Domain()
+        self.home: Home = staged_home(load_home(site_dir), self.domain)
         self.boot_id = boot_id
         self.faults = Faults()
-        self._hardware = hardware or Hardware()
+        self._ice = (False, False)
+        self._hardware = self.domain.hardware(self.robot.base, hardware or Hardware())
         base = true_base(self.robot.base, self._hardware)
         self._world = PhysicsWorld(
             solids(self.home), base, self._hardware, PERIODS.step_s, uprights(self.home)
         )
         self.things = Things(self.home)
-        self._world.place_robot(start or pose2(self.home.places[self.home.dock].pose))
+        start = start or pose2(self.home.places[self.home.dock].pose)
+        self.script = self._script(start)
+        self._patches = null_patches(self.home, self.domain)
+        self._world.place_robot(start)
         self._dead_man = DeadMan(self.robot.drive.timeout_s, self._hardware.timeout_ramp_radps2)
         left_rad, right_rad = self._world.wheel_angles()
         counts = self._hardware.encoder_counts
@@ -85,11 +96,36 @@ class SimRobot:
         self._drive_out = Channel["DriveState"](garbage.WHEELS, garbage.wheels)
         self._imu_out = Channel["Imu"](garbage.TURN, garbage.turn)
         self._scan_out = Channel["Scan"](garbage.RANGES, garbage.ranges)
+        self._ways_out = MessageDelays(self.domain, PERIODS.tick_s)
         self._battery = Battery(self._hardware, PERIODS.tick_s)
         self._contacts = Episodes(PERIODS.tick_s)
         self._speaker = Speaker(boot_id)
         self._ticks = 0
         self._last_control: str | None = None
+
+    def _script(self, start: Pose2) -> DomainScript | None:
+        """Return what plays the domain; None where all knobs are neutral, which costs nothing."""
+        if self.domain.is_neutral:
+            return None
+        radius_m = self.robot.base.radius_m
+        script = DomainScript(self.domain, self.home, self.things, radius_m, PERIODS.tick_s)
+        self._act(script.start(start))
+        return script
+
+    def _act(self, acts: DomainActs) -> None:
+        """Let happen what the domain wants of this tick."""
+        for name, pose in acts.moved:
+            self.place_thing(name, pose)
+        if acts.carried_to is not None:
+            self._world.place_robot(acts.carried_to)
+        self._world.push(acts.force_n)
+        if acts.ice != self._ice:
+            self._ice = acts.ice
+            self._grip()
+
+    def _grip(self) -> None:
+        slips = SimFault.SLIP in self.faults
+        self._world.make_slippery(left=slips or self._ice[0], right=slips or self._ice[1])
 
     @property
     def time_s(self) -> float:
@@ -117,6 +153,8 @@ class SimRobot:
 
     def tick(self, now_s: float, *, real_time_factor: float = 1.0) -> Report:
         """Advance one period and report, stamped ``now_s`` on the caller's clock."""
+        if self.script is not None:
+            self._act(self.script.turn(self._ticks + 1, self._world.pose()))
         wheels = self._dead_man.wheels(now_s)
         left, right = self.faults.wheels_radps(
             wheels.left_radps, wheels.right_radps, torque=wheels.torque
@@ -134,9 +172,9 @@ class SimRobot:
         self._encoders[0].sample(left_rad)
         self._encoders[1].sample(right_rad)
         return Report(
-            drive=self._drive_due(now_s, wheels),
-            imu=self._imu_due(now_s),
-            scan=self._scan_due(now_s),
+            drive=self._ways_out.drive.carry(self._drive_due(now_s, wheels)),
+            imu=self._ways_out.imu.carry(self._imu_due(now_s)),
+            scan=self._ways_out.scan.carry(self._scan_due(now_s)),
             truth=self._truth_due(now_s, real_time_factor),
         )
 
@@ -211,7 +249,7 @@ class SimRobot:
         """Let exactly these faults stand from now on; none mends everything."""
         self.faults = Faults(faults)
         self._world.block_left_wheel(blocked=SimFault.WHEEL_STUCK in self.faults)
-        self._world.make_slippery(slippery=SimFault.SLIP in self.faults)
+        self._grip()
 
     def _past_dead_zone(self, wheel_radps: float, gain: float) -> float:
         """Return the speed that a motor follows: friction takes the first part of every target."""
@@ -242,11 +280,17 @@ class SimRobot:
     def _sweep(self, ticks_left: int) -> None:
         """Measure the beams of this tick from where the lidar is now."""
         config, beams = self.robot.lidar, self._lidar.beams_due(ticks_left, PERIODS.tick_s)
-        lidar_in_map = compose(self._world.pose(), Pose2(config.x_m, config.y_m, config.yaw_rad))
+        lidar_in_base = Pose2(
+            config.x_m + self._hardware.lidar_x_error_m,
+            config.y_m,
+            config.yaw_rad + self._hardware.lidar_yaw_error_rad,
+        )
+        lidar_in_map = compose(self._world.pose(), lidar_in_base)
         self._true_m[beams] = self._world.rays(
             (lidar_in_map.x_m, lidar_in_map.y_m),
             self._lidar.directions(lidar_in_map)[beams],
-            config.range_max_m + _BEYOND_RANGE_M,
+            (config.range_max_m + _BEYOND_RANGE_M) / self._hardware.lidar_range_scale,
+            self._patches,
         )
 
     def _scan(self, now_s: float) -> Scan:

@@ -125,7 +125,8 @@ class LidarModel:
     def measure(self, true_m: NDArray[np.float64]) -> Ranges:
         """Turn true distances (-1: nothing there) into ranges; millimetres, None for no return."""
         count = len(true_m)
-        noisy = true_m + self._random.normal(0.0, self._hardware.lidar_noise_m, count)
+        noise = self._random.normal(0.0, self._hardware.lidar_noise_m, count)
+        noisy = true_m * self._hardware.lidar_range_scale + noise
         lost = self._random.random(count) < self._hardware.lidar_dropout
         lost |= (true_m < 0.0) | (noisy > self.config.range_max_m)
         millimetres: list[float | None] = np.round(np.maximum(noisy, 0.0), 3).tolist()

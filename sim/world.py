@@ -55,6 +55,7 @@ class PhysicsWorld:
         self._model: Any = mujoco.MjModel.from_xml_string(xml)
         self._data: Any = mujoco.MjData(self._model)
         self._chassis: int = self._model.geom("chassis").id
+        self._base: int = int(self._model.geom_bodyid[self._chassis])
         self._wheels = [self._model.joint(f"wheel_{side}").id for side in ("left", "right")]
         self._angle_at = [int(self._model.jnt_qposadr[joint]) for joint in self._wheels]
         self._height_m = hardware.lidar_height_m
@@ -135,9 +136,14 @@ class PhysicsWorld:
         """Jam the left wheel, or let it go: friction in its bearing that no motor overcomes."""
         self._model.dof_frictionloss[self._left_dof] = _JAMMED_NM if blocked else 0.0
 
-    def make_slippery(self, *, slippery: bool) -> None:
-        """Put the wheels on ice, or back on the floor. Of two materials the rougher one counts."""
-        self._model.geom_friction[self._grips, 0] = _ICE if slippery else 1.0
+    def make_slippery(self, *, left: bool, right: bool) -> None:
+        """Put each wheel on ice, or back on the floor. Of two materials the rougher one counts."""
+        slips = (left or right, left, right)
+        self._model.geom_friction[self._grips, 0] = [_ICE if slip else 1.0 for slip in slips]
+
+    def push(self, force_n: tuple[float, float]) -> None:
+        """Lean on the robot from now on, x and y in ``map`` [N]; zero lets it be."""
+        self._data.xfrc_applied[self._base, :2] = force_n
 
     def place_obstacle(self, name: str, x_m: float, y_m: float, yaw_rad: float) -> None:
         """Stand a movable obstacle on the floor."""
@@ -157,7 +163,11 @@ class PhysicsWorld:
         mujoco.mj_kinematics(self._model, self._data)  # rays see it before the next step
 
     def rays(
-        self, origin: tuple[float, float], directions: NDArray[np.float64], cutoff_m: float
+        self,
+        origin: tuple[float, float],
+        directions: NDArray[np.float64],
+        cutoff_m: float,
+        patches: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]:
         """Cast horizontal rays at lidar height; -1 where nothing lies within the cutoff.
 
@@ -165,6 +175,7 @@ class PhysicsWorld:
             origin: x and y in ``map`` [m].
             directions: unit vectors in ``map``, shape (n, 3).
             cutoff_m: longest distance of interest [m].
+            patches: discs (x, y, radius) of walls and furniture that return nothing, shape (n, 3).
         """
         count = len(directions)
         found = np.empty(count)
@@ -174,4 +185,9 @@ class PhysicsWorld:
             self._model, self._data, start, directions.reshape(-1),
             _SEEN_BY_LIDAR, True, -1, hit, found, None, count, cutoff_m,
         )  # fmt: skip
+        if patches is not None:
+            points = start[:2] + directions[:, :2] * found[:, np.newaxis]
+            away_m = np.linalg.norm(points[:, np.newaxis] - patches[:, :2], axis=2)
+            still = self._model.geom_bodyid[hit] == 0  # people and leaves always return
+            found[still & (away_m < patches[:, 2]).any(axis=1)] = -1.0
         return found

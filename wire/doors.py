@@ -82,8 +82,14 @@ SIM_DOOR = Door(
 LOCALIZATION_DOOR = Door(
     "localization", Party.LOCALIZATION, (Party.PLANNER, Party.JUDGE),
     (),
-    _keys(keys.LOCALIZATION),
+    _keys(keys.LOCALIZATION, keys.LOC_STATE),
     "a copy of what localization says; it hears nothing",
+)  # fmt: skip
+HINT_DOOR = Door(
+    "hint", Party.LOCALIZATION, (Party.PLANNER,),
+    _keys(keys.LOC_HINT),
+    (),
+    "where a person says the robot is, which scans judge; it moves nothing by itself",
 )  # fmt: skip
 CAMERA_DOOR = Door(
     "camera", Party.CAMERA, (Party.PLANNER, Party.JUDGE),
@@ -93,7 +99,8 @@ CAMERA_DOOR = Door(
 )  # fmt: skip
 
 DOORS = (
-    DRIVE_DOOR, BRIDGE_DOOR, SENSES_DOOR, ROBOT_DOOR, SIM_DOOR, LOCALIZATION_DOOR, CAMERA_DOOR,
+    DRIVE_DOOR, BRIDGE_DOOR, SENSES_DOOR, ROBOT_DOOR, SIM_DOOR, LOCALIZATION_DOOR, HINT_DOOR,
+    CAMERA_DOOR,
 )  # fmt: skip
 """In the order in which a message that passes several is said: the wheels first."""
 

@@ -24,7 +24,9 @@ from wire.sensors import (
     ImageHeader,
     Imu,
     Localization,
+    LocalizerStatus,
     Odometry,
+    PoseHint,
     Scan,
 )
 from wire.simulation import SimControl, SimScene, SimTruth
@@ -139,6 +141,10 @@ EVENT = _from(_B, "bridge/event", Event, _WHO_ASKS, "on each event",
               "transitions and refusals, for people", ring=SEQUENCED)  # fmt: skip
 ODOM = _from(_B, "bridge/odom", Odometry, _WHO_ASKS | {_L}, "50 Hz", "base in odom",
              ring=SEQUENCED)  # fmt: skip
+LOC_STATE = _from(_L, "loc/state", LocalizerStatus, frozenset({_P, _J}), "5 Hz and on change",
+                  "what the localizer does, and its word on a hint")  # fmt: skip
+LOC_HINT = _from(_P, "loc/hint", PoseHint, frozenset({_L}), "20 Hz until answered or 6 s",
+                 "a person says where the robot is", ring=FEW)  # fmt: skip
 LOCALIZATION = _from(_L, "localization", Localization, frozenset({_B, _P, _J}), "10 Hz or more",
                      "odom in map")  # fmt: skip
 DRIVE_COMMAND = _from(_B, "drive/command", DriveCommand, frozenset({_R, _J}), "100 Hz",
@@ -163,6 +169,7 @@ SIM_CONTROL = Key("sim/control", SimControl, frozenset({_J}), frozenset({_R}), "
 OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
-    *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, DRIVE_COMMAND,
-    DRIVE_STATE, SCAN, IMU, CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
+    *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
+    LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, IMU, CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH,
+    SIM_SCENE, SIM_CONTROL,
 )  # fmt: skip

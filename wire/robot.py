@@ -194,9 +194,9 @@ class Inputs(Record):
 class LocalizationConfig(Record):
     """Choose what says where the robot is in ``map``."""
 
-    kind: Literal["stand_in", "scans"] = "stand_in"
-    """``stand_in``: the simulator's truth plus noise; ``scans``: the lidar's scans against the
-    site's map, which needs no simulator."""
+    kind: Literal["stand_in", "scans"] = "scans"
+    """``scans``: the lidar's scans against the site's map, which needs no simulator;
+    ``stand_in``: the simulator's truth plus noise, for tests."""
 
 
 class RobotDescription(Record):

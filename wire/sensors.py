@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -17,7 +17,7 @@ from wire.bounded_types import (
     WheelAngle,
     WheelSpeed,
 )
-from wire.geometry import Pose2, Radps, Twist2, Yaw
+from wire.geometry import Metres, Pose2, Radps, Twist2, Yaw
 
 Range = Annotated[float, Field(ge=0.0, le=1_000.0)]
 
@@ -113,6 +113,59 @@ class Localization(Record):
     odom_in_map: Pose2
     quality: Ratio
     map_id: Fingerprint
+
+
+Score = Annotated[float, Field(ge=-1.0, le=1.0)]
+
+
+class PoseHint(Record):
+    """Tell localization where a person says the robot is. Scans judge it before it counts."""
+
+    id: Name
+    pose: Pose2
+    """Of ``base`` in ``map``."""
+    radius_m: Annotated[float, Field(ge=0.1, le=15.0)]
+    """It is nearer to ``pose`` than this."""
+    any_heading: bool = False
+    """The person said where, not which way it looks."""
+    outline: Annotated[tuple[tuple[Metres, Metres], ...], Field(max_length=128)] = ()
+    """In ``map`` [m]: it is inside this room; empty: anywhere in the circle."""
+
+
+HintCode = Literal["accepted", "moving", "no_scan", "does_not_fit", "busy", "no_answer"]
+
+
+class HintVerdict(Record):
+    """Answer a hint."""
+
+    id: Name
+    code: HintCode
+    score: Score | None
+    """How well the newest scan fits where the hint led; None where none was held against it."""
+
+
+class PoseCandidate(Record):
+    """Hold a place where a search found that a scan fits."""
+
+    pose: Pose2
+    score: Score
+
+
+class LocalizerStatus(Record):
+    """Say what the localizer does, for people and for the planner; the bridge needs none of it."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    state: Literal["searching", "tracking", "coasting", "lost"]
+    """No pose since the start; a pose that scans confirm; newest scans do not fit; no pose now."""
+    score: Score
+    """Of the newest scan at the pose: the share of returns that the map explains, less the share of
+    beams that pass through its walls."""
+    candidates: Annotated[tuple[PoseCandidate, ...], Field(max_length=5)] = ()
+    """While it searches: what the newest search found, best first."""
+    hint: HintVerdict | None = None
+    """On the newest hint."""
 
 
 class ImageHeader(Record):

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
     from pydantic import TypeAdapter
 
+    from wire import Odometry, Scan
+
 __all__ = [
     "BadRecording",
     "Frame",
@@ -42,6 +44,7 @@ __all__ = [
     "TickFrame",
     "config_of",
     "frames_of",
+    "read_motion",
     "read_recording",
     "this_core",
 ]
@@ -62,6 +65,29 @@ def read_recording(path: Path) -> Iterator[Frame]:
     """
     with McapReader(path) as box:
         yield from frames_of(path, box.messages())
+
+
+def read_motion(path: Path) -> Iterator[Odometry | Scan]:
+    """Yield the odometry and scans of a recording, in the order in which the bridge had them.
+
+    Raises:
+        BadRecording: no such file, not MCAP, damaged, or not ours.
+    """
+    core = ""
+    ranges: Raw | None = None
+    with McapReader(path) as box:
+        for raw in box.messages():
+            match raw.topic:
+                case "/pons/boot":
+                    core = _core_said(raw)
+                case "/scan":
+                    ranges = raw
+                case "/pons/odometry":
+                    yield _parse(path, raw, form.ODOMETRY, core)
+                case "/pons/inbox" if ranges is not None and ranges.sequence == raw.sequence:
+                    given = _parse(path, _with_ranges(path, raw, ranges), form.GIVEN, core)
+                    if given.inbox.scan is not None:
+                        yield given.inbox.scan
 
 
 def frames_of(path: Path, messages: Iterable[Raw]) -> Iterator[Frame]:

@@ -17,7 +17,17 @@ if TYPE_CHECKING:
     from planner.plan import Goal, Language
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser
-    from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
+    from wire import (
+        Answer,
+        FenceRequest,
+        HintVerdict,
+        LocalizerStatus,
+        OpKind,
+        OpRequest,
+        PoseHint,
+        RobotDescription,
+        Status,
+    )
 
 
 class StopConfirmation(Protocol):
@@ -95,6 +105,11 @@ class Robot(Protocol):
     def description(self) -> RobotDescription: ...
 
     def obstacles(self) -> Sequence[tuple[float, float]]: ...
+
+    @property
+    def localizer(self) -> LocalizerStatus | None: ...
+
+    async def hint(self, hint: PoseHint) -> HintVerdict | None: ...
 
     def ages_s(self) -> dict[str, float | None]: ...
 

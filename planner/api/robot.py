@@ -54,6 +54,7 @@ def robot_view(services: Services) -> dict[str, Any]:
         "site": services.site.folder.name,
         "map_id": services.site.map_id,
         "localization": _localization_kind(services),
+        "localizer": services.robot.localizer.state if services.robot.localizer else None,
         "brain": mind_of(services.brain).model_dump(mode="json"),
     }
 

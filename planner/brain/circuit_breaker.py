@@ -41,7 +41,9 @@ class Breaker:
 
     def rests_s(self, now_s: float) -> float:
         """Return how much longer the model rests [s]; 0 where it may be asked."""
-        return 0.0 if self.open_until_s is None else max(0.0, self.open_until_s - now_s)
+        if self.open_until_s is None:
+            return 0.0
+        return min(max(0.0, self.open_until_s - now_s), LONGEST_REST_S)  # the sum is rounded
 
     def lets(self, now_s: float) -> bool:
         """Tell whether a call may go through now; on trial, that call is the trial."""

@@ -21,10 +21,13 @@ from wire import (
     Answer,
     Event,
     FenceRequest,
+    HintVerdict,
     Localization,
+    LocalizerStatus,
     Odometry,
     OpKind,
     OpRequest,
+    PoseHint,
     Record,
     RobotDescription,
     Scan,
@@ -36,6 +39,8 @@ from wire import (
 ECHO_S = 2.0
 REPEAT_S = 0.05
 SCAN_FRESH_S = 0.5
+HINT_S = 6.0
+"""A search takes a fraction of a second, and two scans more to be believed."""
 
 T = TypeVar("T")
 
@@ -84,6 +89,7 @@ class Link:
         self._localization: tuple[Localization, float] | None = None
         self._odometry: tuple[Odometry, float] | None = None
         self._scan: tuple[Scan, float] | None = None
+        self._localizer: tuple[LocalizerStatus, float] | None = None
         self._waiting: dict[str, asyncio.Future[Answer]] = {}
         self._followers: list[Follower] = []
 
@@ -100,6 +106,8 @@ class Link:
             self._odometry = (odometry, now_s)
             for follower in self._followers:
                 follower.odometry(odometry)
+        if (said := self._bus.localizer()) is not None:
+            self._localizer = (said, now_s)
         if (scan := self._bus.scan()) is not None:
             self._scan = (scan, now_s)
         status = self._bus.status()
@@ -125,6 +133,11 @@ class Link:
     def localization(self) -> Aged[Localization] | None:
         """Return the newest localization, however old."""
         return self._aged(self._localization)
+
+    @property
+    def localizer(self) -> Aged[LocalizerStatus] | None:
+        """Return what the localizer said last that it does, however old; None without one."""
+        return self._aged(self._localizer)
 
     @property
     def odometry(self) -> Aged[Odometry] | None:
@@ -186,6 +199,20 @@ class Link:
         if answer is None:
             raise BridgeSilent("fence", ECHO_S)
         return answer
+
+    async def hint(self, hint: PoseHint) -> HintVerdict | None:
+        """Tell localization where a person says the robot is; return its verdict.
+
+        None: it did not answer within HINT_S; it may be one that takes no hints.
+        """
+        deadline_s = self._clock() + HINT_S
+        while self._clock() < deadline_s:
+            self._bus.send(hint)
+            await asyncio.sleep(REPEAT_S)
+            said = self._localizer[0].hint if self._localizer is not None else None
+            if said is not None and said.id == hint.id:
+                return said
+        return None
 
     def _resolve(self, status: Status) -> None:
         if not self._waiting:

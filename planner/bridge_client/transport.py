@@ -15,9 +15,11 @@ from wire import (
     Heartbeat,
     Hello,
     Localization,
+    LocalizerStatus,
     Odometry,
     OpKind,
     OpRequest,
+    PoseHint,
     Record,
     Scan,
     Status,
@@ -39,6 +41,9 @@ class Bus(Protocol):
 
     def localization(self) -> Localization | None:
         """Take the newest localization that was not taken yet."""
+
+    def localizer(self) -> LocalizerStatus | None:
+        """Take the localizer's newest word on what it does that was not taken yet."""
 
     def odometry(self) -> Odometry | None:
         """Take the newest odometry that was not taken yet."""
@@ -65,6 +70,8 @@ class WireBus:
     def __init__(self, session: Session) -> None:
         self._status = session.subscriber(k.STATUS)
         self._localization = session.subscriber(k.LOCALIZATION)
+        self._localizer = session.subscriber(k.LOC_STATE)
+        self._hint = session.publisher(k.LOC_HINT)
         self._odometry = session.subscriber(k.ODOM)
         self._scan = session.subscriber(k.SCAN)
         self._events = session.subscriber(k.EVENT)
@@ -82,6 +89,9 @@ class WireBus:
 
     def localization(self) -> Localization | None:
         return self._localization.newest()
+
+    def localizer(self) -> LocalizerStatus | None:
+        return self._localizer.newest()
 
     def odometry(self) -> Odometry | None:
         return self._odometry.newest()
@@ -106,6 +116,8 @@ class WireBus:
                 self._stop.put(message)
             case FenceRequest():
                 self._fence.put(message)
+            case PoseHint():
+                self._hint.put(message)
             case _:
                 raise TypeError(f"{type(message).__name__} is no command of an owner")
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from planner.language.commands import Intent, Replace, intent_of
+from planner.language.commands import HereCommand, Intent, Replace, intent_of
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.folding import is_chinese
 from planner.language.stop import StopReading, is_stop, read_stop
@@ -52,8 +52,13 @@ class Utterance:
 
     @property
     def stays_put(self) -> bool:
-        """Return whether it can't lead to motion, so that it needs no operator's proof."""
-        memory_or_goals = not (self.intent is None or isinstance(self.intent, Replace | GoOn))
+        """Return whether it can't lead to motion, so that it needs no operator's proof.
+
+        "You are in the kitchen" is left to the brain where no place answers to the name.
+        """
+        memory_or_goals = not (
+            self.intent is None or isinstance(self.intent, Replace | GoOn | HereCommand)
+        )
         return self.orders_stop or memory_or_goals or self.consent is False
 
 

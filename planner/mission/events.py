@@ -88,6 +88,8 @@ class Surveyed:
     """The lidar was asked what stands in the way of the leg that is streamed."""
 
     obstruction: Obstruction | None
+    moves: bool = False
+    """It moved within the last seconds: somebody who may walk on."""
     opened: tuple[Obstruction, ...] = ()
     """Of the ways that are remembered as shut: through these the lidar sees now."""
     local_offset_s: float = 0.0

@@ -244,6 +244,9 @@ class Loop:
     def tick(self) -> None:
         """Let the missions look at the clock, and do what is to be done now and then."""
         self.event(Tick())
+        if self._obstacles is not None and self._obstacles.report is not None:
+            movers = self._obstacles.report.movers
+            self._surveyor.note_movers(movers, self._clocks.monotonic())
         told = self._surveyor.survey(self.book, self.leg, self._clocks.monotonic())
         if told is not None:
             self.event(told)

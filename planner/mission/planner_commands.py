@@ -7,7 +7,7 @@ Only a person's own words are looked at, never what a model wrote.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from planner.language.catalogue import message, say
 from planner.language.commands import (
@@ -15,6 +15,7 @@ from planner.language.commands import (
     Doing,
     Faster,
     Forget,
+    HereCommand,
     Intent,
     PauseCommand,
     Remember,
@@ -32,6 +33,8 @@ from planner.mission.spoken_status import doing, tell_position
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
+from planner.site.places import normalise
+from planner.site.pose_hint import hint_in
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -41,8 +44,20 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission
     from planner.mission.tasks import Think
     from planner.site.known_places import KnownPlaces
+    from planner.site.places import Place
+    from wire import HintVerdict, PoseHint
 
 SPOKEN_BY = "sentence"
+
+
+class HintLink(Protocol):
+    """Reach the localizer, as the link does."""
+
+    @property
+    def localizer(self) -> object | None: ...
+
+    async def hint(self, hint: PoseHint) -> HintVerdict | None:
+        """Bring a person's word; return the verdict, or None where none came in time."""
 
 
 class PlannerCommands:
@@ -53,6 +68,7 @@ class PlannerCommands:
         think: Think,
         memory: KnownPlaces,
         loop: Loop,
+        link: HintLink,
     ) -> None:
         """Take what it needs of the missions.
 
@@ -60,8 +76,9 @@ class PlannerCommands:
             think: how the brain thinks about all other sentences.
             memory: the places.
             loop: where everything stands now, and who obeys commands.
+            link: brings localization a person's word on where the robot is.
         """
-        self._brain, self._memory, self._loop = think, memory, loop
+        self._brain, self._memory, self._loop, self._link = think, memory, loop, link
 
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
@@ -71,6 +88,8 @@ class PlannerCommands:
         )
         if isinstance(intent, Replace):
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
+        if isinstance(intent, HereCommand) and self._place(intent.name) is None:
+            intent = None  # "you are in the way": nothing of ours
         if intent is None or mission is None or mission.steps:
             return await self._brain(ask)
         return Planned(ask.id, await self.carry_out(intent, mission))
@@ -83,6 +102,8 @@ class PlannerCommands:
                 return await self._remember(name)
             case Forget(name):
                 return await self._forget(name)
+            case HereCommand(name):
+                return await self._hint(name)
             case PauseCommand():
                 return self._command_goal("pause", events.Pause, goal_to_pause(book, mission.id))
             case CancelCommand():
@@ -122,6 +143,20 @@ class PlannerCommands:
         mission = self._loop.book.missions[running]
         share, text = f"{100.0 * mission.speed_share:.0f} %", mission.text[:60]
         return AnswerPlan(text=say("commands.speed_cap", share=share, text=text))
+
+    def _place(self, name: str) -> Place | None:
+        """Return the place that answers to a name, as people write it."""
+        wanted = normalise(name)
+        places = self._memory.places
+        return next((p for p in places if wanted in map(normalise, p.spoken_names)), None)
+
+    async def _hint(self, name: str) -> AnswerPlan:
+        """Tell localization where a person says the robot is, and say what scans make of it."""
+        place = self._place(name)
+        if place is None or self._link.localizer is None:
+            return AnswerPlan(text=say("hint.no_localizer"))
+        verdict = await self._link.hint(hint_in(place))
+        return AnswerPlan(text=say(f"hint.{'no_answer' if verdict is None else verdict.code}"))
 
     async def _remember(self, name: str) -> AnswerPlan | Refuse:
         try:

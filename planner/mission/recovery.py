@@ -24,6 +24,7 @@ class Recovery(StrEnum):
     WAIT = "wait"
     REROUTE = "reroute"
     LOOK = "look"
+    GIVE_WAY = "give_way"
     BACK_OFF = "back_off"
     OTHER_WAY = "other_way"
     GIVE_UP = "give_up"
@@ -42,6 +43,7 @@ class LadderRung:
 
 LADDER = (
     LadderRung(Recovery.WAIT, seconds=3.0),  # most people have gone on by then
+    LadderRung(Recovery.GIVE_WAY, seconds=14.0),  # to somebody who walks; else left out
     LadderRung(Recovery.REROUTE, seconds=5.0),
     LadderRung(Recovery.WAIT, seconds=6.0),
     LadderRung(Recovery.LOOK, seconds=3.0, turns_rad=(pi / 2, -pi / 2)),
@@ -56,6 +58,12 @@ NEW_LADDER_M = 1.0
 """Once it has come so far, what stands in the way now is another matter."""
 MAX_LADDERS = 12
 """In one step: a busy home shuts a way often, but not for ever."""
+MAX_GIVEN_WAY = 3
+"""In one step."""
+WALKER_S = 1.0
+"""Somebody who walked up is waited for so long before the robot gives way."""
+PASSING_S = 5.0
+"""A robot that stands aside is passed by then: three metres at a slow walk."""
 MAX_RECOVERY_M = 8.0
 """Driven for recoveries in one step."""
 MAX_VISITS = 2
@@ -77,6 +85,8 @@ class ShutWay(Frozen):
     seen_unix_s: float
     local_offset_s: float = 0.0
     """Of people's own clock from UTC."""
+    moves: bool = False
+    """It walked up: it is nothing that shuts a way for long."""
     ladder: int = 0
     """The ladder on which it was met last."""
     visits: int = 1
@@ -106,6 +116,8 @@ class RecoveryRecord(Frozen):
     shut: tuple[ShutWay, ...] = ()
     newest: ShutWay | None = None
     """What stood in the way last."""
+    given_way: int = 0
+    """Times that the robot stood aside."""
     approaches: int = 0
     """Times that the goal was found occupied."""
     goal: tuple[float, float] | None = None
@@ -130,6 +142,19 @@ def rung_of(record: RecoveryRecord) -> LadderRung:
     return LADDER[-1] if spent else LADDER[min(record.rung, len(LADDER) - 1)]
 
 
+def wait_s(record: RecoveryRecord) -> float:
+    """Return how long the rung that is next waits [s]."""
+    rung = rung_of(record)
+    gives_way = record.rung == 0 and can_give_way(record)
+    return min(rung.seconds, WALKER_S) if gives_way else rung.seconds
+
+
+def can_give_way(record: RecoveryRecord) -> bool:
+    """Tell whether standing aside may help: somebody walked up, and it was not tried too often."""
+    walked = record.newest is not None and record.newest.moves
+    return walked and record.given_way < MAX_GIVEN_WAY
+
+
 def begin_ladder(record: RecoveryRecord, robot_xy_m: tuple[float, float]) -> RecoveryRecord:
     """Return the record of a robot that is held here: on the same ladder, or at a new one's foot.
 
@@ -145,24 +170,33 @@ def begin_ladder(record: RecoveryRecord, robot_xy_m: tuple[float, float]) -> Rec
 
 
 def note_obstruction(
-    record: RecoveryRecord, seen: Obstruction, now_unix_s: float, local_offset_s: float = 0.0
+    record: RecoveryRecord,
+    seen: Obstruction,
+    now_unix_s: float,
+    local_offset_s: float = 0.0,
+    *,
+    moves: bool = False,
 ) -> RecoveryRecord:
     """Remember what stands in the way. A thing that is met again keeps since when it stands.
 
-    Met on another ladder it was visited again: the robot had left it, and came back.
+    Met on another ladder it was visited again: the robot had left it, and came back. Somebody who
+    walks shuts no way: they will be elsewhere.
     """
-    known = next((way for way in record.shut if is_same(way.obstruction, seen)), None)
+    met = (*record.shut, *((record.newest,) if record.newest is not None else ()))
+    known = next((way for way in met if is_same(way.obstruction, seen)), None)
     way = ShutWay(
         start=seen.start,
         end=seen.end,
         since_unix_s=known.since_unix_s if known else now_unix_s,
         seen_unix_s=now_unix_s,
         local_offset_s=local_offset_s,
+        moves=moves or (known is not None and known.moves),
         ladder=record.ladders,
         visits=known.visits + (known.ladder != record.ladders) if known else 1,
     )
-    others = tuple(other for other in record.shut if other is not known)
-    return record.model_copy(update={"shut": (*others, way)[-MAX_SHUT:], "newest": way})
+    others = tuple(w for w in record.shut if not is_same(w.obstruction, seen))
+    shut = others if way.moves else (*others, way)[-MAX_SHUT:]
+    return record.model_copy(update={"shut": shut, "newest": way})
 
 
 def note_open(record: RecoveryRecord, gone: ShutWay) -> RecoveryRecord:

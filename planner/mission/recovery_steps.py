@@ -7,25 +7,30 @@ person sees what is tried, and the journal holds it.
 
 from __future__ import annotations
 
-from math import cos, hypot, sin
+from dataclasses import replace
+from math import cos, sin
 
 from planner.mission.account import place_name
 from planner.mission.activity import Driving, Manoeuvre
 from planner.mission.bridge_status import standing
 from planner.mission.events import Routed, Surveyed
 from planner.mission.legs import ask_route, detour_failed, new_leg, take_short
-from planner.mission.obstruction_text import tell_obstruction, tell_occupied
+from planner.mission.obstruction_text import tell_obstruction
+from planner.mission.occupied_goal import give_up_goal, look_for_room, wait_beside
 from planner.mission.queue import note_step
 from planner.mission.recovery import (
     LADDER,
     MAX_TOLD,
+    PASSING_S,
     LadderRung,
     Recovery,
     begin_ladder,
+    can_give_way,
     is_same,
     note_obstruction,
     note_open,
     rung_of,
+    wait_s,
 )
 from planner.mission.route_doubts import take_doubted
 from planner.mission.skills import Fail, Way
@@ -42,9 +47,6 @@ MOVED_M = 0.2
 OCCUPIED = "goal_occupied"
 """The route search's code where something not on the map leaves no floor beside the goal."""
 MAX_APPROACHES = 2
-OCCUPIED_S = 10.0
-"""A goal on which something stands is waited for so long."""
-OCCUPIED_RETRY_S = 2.0
 TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
 MAX_ROUTES = 5
 RETRY_S = 1.0
@@ -68,7 +70,8 @@ def on_survey(turn: Transaction, survey: Surveyed) -> None:
         known = held is not None and is_same(held.obstruction, seen)
         # Once a second is enough: each of these is written to the journal.
         if held is None or not known or now_unix_s - held.seen_unix_s >= 1.0:
-            record = note_obstruction(record, seen, now_unix_s, survey.local_offset_s)
+            offset_s = survey.local_offset_s
+            record = note_obstruction(record, seen, now_unix_s, offset_s, moves=survey.moves)
     if record is not mission.recovery:
         turn.put(mission, recovery=record)
 
@@ -91,10 +94,10 @@ def recover(turn: Transaction, leg: Driving, status: Status) -> None:
     since_s = _begin_rung(turn)
     rung = rung_of(record)
     if leg.occupied_since_s is not None:
-        _wait_for_goal(turn, mission, leg)
+        look_for_room(turn, mission, leg)
     elif rung.recovery is not Recovery.WAIT:
         _do_rung(turn, rung, pose)
-    elif turn.now_s - since_s >= rung.seconds:
+    elif turn.now_s - since_s >= wait_s(record):
         next_rung(turn)
 
 
@@ -128,7 +131,7 @@ def _begin_rung(turn: Transaction) -> float:
 def _climb_on(turn: Transaction) -> None:
     """Begin the next rung at once, for a leg that streams nothing and so is never called blocked.
 
-    There is nothing to wait for without a path that might come free: a wait ends the ladder.
+    A wait ends with a new search; the last one, before giving up, would wait for nothing.
     """
     next_rung(turn)
     mission, status = turn.running, turn.book.status
@@ -140,7 +143,12 @@ def _climb_on(turn: Transaction) -> None:
         return
     rung = rung_of(mission.recovery)
     _begin_rung(turn)
-    _do_rung(turn, LADDER[-1] if rung.recovery is Recovery.WAIT else rung, pose)
+    if rung.recovery is not Recovery.WAIT:
+        _do_rung(turn, rung, pose)
+    elif rung is LADDER[-2]:
+        _do_rung(turn, LADDER[-1], pose)
+    else:
+        turn.change(retry_s=turn.now_s + rung.seconds)
 
 
 def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
@@ -150,6 +158,8 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
     match rung.recovery:
         case Recovery.REROUTE | Recovery.OTHER_WAY:
             ask_route(turn, detour=True)
+        case Recovery.GIVE_WAY:
+            _give_way(turn, mission, leg, rung)
         case Recovery.LOOK:
             _turn_to_look(turn, leg, rung, 0, pose.yaw_rad)
         case Recovery.BACK_OFF:
@@ -161,6 +171,17 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
             _manoeuvre(turn, leg, rung, back, Way.STRAIGHT)
         case _:
             fail_step(turn, _way_shut(turn, mission))
+
+
+def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRung) -> None:
+    """Stand aside for somebody who walked up; a thing that never moved is not given way to."""
+    record = mission.recovery
+    if not can_give_way(record) or record.newest is None:
+        next_rung(turn)
+        return
+    update = {"given_way": record.given_way + 1}
+    turn.put(mission, recovery=record.model_copy(update=update))
+    _manoeuvre(turn, leg, rung, Pose2(*record.newest.obstruction.middle, 0.0), Way.ASIDE)
 
 
 def _turn_to_look(
@@ -200,7 +221,12 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
         and standing(status)
         and leg.ticket is None
     )
-    if not (reached or turn.now_s >= own.until_s):
+    aside = own.rung.recovery is Recovery.GIVE_WAY
+    if reached and aside and not own.part:
+        until_s = min(own.until_s, turn.now_s + PASSING_S)
+        turn.change(manoeuvre=replace(own, part=1, until_s=until_s))
+        return
+    if not (turn.now_s >= own.until_s or (reached and not aside)):
         return
     if own.part + 1 < len(own.rung.turns_rad):
         _turn_to_look(turn, leg, own.rung, own.part + 1, own.heading_rad)
@@ -253,7 +279,7 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
     elif leg.way is not Way.ROUTE and leg.ticket_detour:
         detour_failed(turn, leg)
     elif failure == OCCUPIED and leg.way is Way.ROUTE:
-        _goal_occupied(turn, mission, leg)
+        wait_beside(turn, mission, leg)
     elif leg.ticket_detour:
         _no_way_round(turn, mission, leg, failure)
     elif failure in TRANSIENT and leg.routes < MAX_ROUTES:
@@ -277,7 +303,7 @@ def _take_route(
         return
     record = mission.recovery
     if record.approaches + 1 >= MAX_APPROACHES or end_m is None:
-        _give_up_goal(turn, mission, leg)
+        give_up_goal(turn, mission, leg)
         return
     update = {"approaches": record.approaches + 1, "goal": _xy(leg.goal), "goal_moved": end_m}
     mission = turn.put(mission, recovery=record.model_copy(update=update))
@@ -294,38 +320,6 @@ def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: st
         _climb_on(turn)
     else:
         next_rung(turn)
-
-
-def _goal_occupied(turn: Transaction, mission: Mission, leg: Driving) -> None:
-    """Wait for what stands on the goal to leave; after ten seconds give the goal up."""
-    since_s = leg.occupied_since_s if leg.occupied_since_s is not None else turn.now_s
-    if turn.now_s - since_s >= OCCUPIED_S:
-        _give_up_goal(turn, mission, leg)
-        return
-    turn.change(occupied_since_s=since_s, rung_since_s=turn.now_s)
-    turn.change(retry_s=turn.now_s + OCCUPIED_RETRY_S if leg.leg is None else None)
-
-
-def _wait_for_goal(turn: Transaction, mission: Mission, leg: Driving) -> None:
-    """Look again now and then for room beside the goal; give it up after ten seconds."""
-    since_s = leg.occupied_since_s
-    if since_s is not None and turn.now_s - since_s >= OCCUPIED_S:
-        _give_up_goal(turn, mission, leg)
-    elif leg.rung_since_s is not None and turn.now_s - leg.rung_since_s >= OCCUPIED_RETRY_S:
-        turn.change(rung_since_s=turn.now_s)
-        ask_route(turn, detour=True)
-
-
-def _give_up_goal(turn: Transaction, mission: Mission, leg: Driving) -> None:
-    pose = turn.book.status.base_in_map if turn.book.status is not None else None
-    near_m = _away_m(pose, leg.goal) if pose is not None else 0.0
-    name = place_name(turn.book.facts, mission, mission.current_step)
-    said = tell_occupied(name, near_m)
-    fail_step(turn, Fail(Code.GOAL_OCCUPIED, "goal_occupied", said))
-
-
-def _away_m(pose: Pose2, goal: Pose2) -> float:
-    return hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m)
 
 
 def _xy(pose: Pose2) -> tuple[float, float]:

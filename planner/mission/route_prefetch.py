@@ -111,7 +111,7 @@ class RouteAhead:
 
 
 def _is_same(ahead: RouteRequest, asked: RouteRequest) -> bool:
-    plain = not (asked.obstacles or asked.straight or asked.strict)
+    plain = not (asked.obstacles or asked.straight or asked.aside or asked.strict)
     return plain and ahead.goal == asked.goal and _near(ahead.start, asked.start)
 
 

@@ -95,7 +95,7 @@ class Missions:
         clock = self._clocks.monotonic
         self._router, self._repeats = RouteAhead(router, self.loop, clock), Repeats()
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
-        self._think = PlannerCommands(self._ask_brain, self.memory, self.loop).think
+        self._think = PlannerCommands(self._ask_brain, self.memory, self.loop, link).think
         self.obstacles: ScanSender | None = None
         self.memory.listen(self._on_places)
 

@@ -208,7 +208,9 @@ def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -
     elif leg.route_when_standing:
         _route_standing(turn, status)
     elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
-        again = leg.detours_failed > 0 or leg.occupied_since_s is not None
+        mission = turn.running
+        climbed = mission is not None and mission.recovery.ladders > 0
+        again = leg.detours_failed > 0 or leg.occupied_since_s is not None or climbed
         ask_route(turn, detour=again)
     elif leg.leg is not None:
         _watch_leg(turn, status, leg)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from math import hypot
 from typing import TYPE_CHECKING
 
 from planner.mission.activity import Driving
@@ -10,13 +11,20 @@ from planner.mission.events import Surveyed
 from planner.navigation.obstruction import find_obstruction, is_seen_open
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from maps.grid import GridMap
     from planner.bridge_client import Link
     from planner.mission.engine import Leg
     from planner.mission.state import MissionState
+    from planner.navigation import Mover
     from wire import RobotDescription
 
 EVERY_S = 0.5
+WALKED_S = 10.0
+BESIDE_M = 0.8
+"""What stands so near to where something moved is what moved."""
+MAX_WALKED = 200
 FRESH_S = 0.5
 """An older scan is no sight of now."""
 
@@ -27,6 +35,13 @@ class Surveyor:
     def __init__(self, link: Link, robot: RobotDescription, grid: GridMap) -> None:
         self._link, self._robot, self._grid = link, robot, grid
         self._next_s = float("-inf")
+        self._walked: tuple[tuple[float, float, float], ...] = ()
+        """Where something moved in the last seconds: x, y [m] in ``map``, and when."""
+
+    def note_movers(self, movers: Sequence[Mover], now_s: float) -> None:
+        """Remember for some seconds where something moves: who has stopped may walk on."""
+        kept = tuple(at for at in self._walked if now_s - at[2] <= WALKED_S)
+        self._walked = (*kept, *((m.x_m, m.y_m, now_s) for m in movers))[-MAX_WALKED:]
 
     def survey(self, book: MissionState, leg: Leg | None, now_s: float) -> Surveyed | None:
         """Return what stands in the way of a leg that is blocked, and which shut ways are open.
@@ -56,4 +71,9 @@ class Surveyor:
             )
         if seen is None and not opened:
             return None
-        return Surveyed(seen, opened, float(time.localtime().tm_gmtoff))
+        moves = seen is not None and any(
+            hypot(x_m - seen.middle[0], y_m - seen.middle[1]) <= BESIDE_M
+            for x_m, y_m, at_s in self._walked
+            if now_s - at_s <= WALKED_S
+        )
+        return Surveyed(seen, moves, opened, float(time.localtime().tm_gmtoff))

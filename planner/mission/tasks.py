@@ -136,8 +136,12 @@ class MissionTasks:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
         obstacles += tuple(point for way in ask.shut for point in points_of(way))
         try:
-            straight = ask.way is Way.STRAIGHT
-            request = RouteRequest(ask.start, ask.goal, obstacles, straight, strict=ask.doubted)
+            request = RouteRequest(
+                *(ask.start, ask.goal, obstacles),
+                straight=ask.way is Way.STRAIGHT,
+                aside=ask.way is Way.ASIDE,
+                strict=ask.doubted,
+            )
             result = await self._router.route(request)
         except RouteFailure as failure:
             level = logging.DEBUG if ask.doubted else logging.WARNING

@@ -23,8 +23,8 @@ def read_request(frame: Frame) -> RouteRequest:
     head, _ = frame
     start, goal = Pose2(**head["start"]), Pose2(**head["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in head["obstacles"])
-    straight, strict = bool(head["straight"]), bool(head["strict"])
-    return RouteRequest(start, goal, obstacles, straight, strict)
+    kinds = {name: bool(head[name]) for name in ("straight", "aside", "strict")}
+    return RouteRequest(start, goal, obstacles, **kinds)
 
 
 def result_frame(result: RouteResult) -> Frame:

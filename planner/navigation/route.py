@@ -63,6 +63,7 @@ class RouteRequest:
     goal: Pose2
     obstacles: tuple[tuple[float, float], ...] = ()  # recent lidar points in ``map`` [m]
     straight: bool = False  # go straight, as far as floor is free, backwards if the goal is behind
+    aside: bool = False  # go where somebody who stands at the goal can walk past
     strict: bool = False  # fail, where the only way leads through what is remembered
 
 

@@ -9,11 +9,13 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from math import hypot, isfinite
 from time import perf_counter
 
 import numpy as np
 
+from planner.navigation.bay import find_bay
 from planner.navigation.costmap import Costmap, static_costmap
 from planner.navigation.obstacle_memory import ObstacleMemory
 from planner.navigation.route import (
@@ -31,6 +33,7 @@ from planner.navigation.start_and_goal import Cell, Ends, choose_ends, moved_m
 from planner.navigation.straight_line import BACK_MPS, backwards, straight_line
 from planner.navigation.waypoints import evenly, speeds, thin
 from planner.site import Site
+from wire import Pose2
 
 MAX_FIELD_BYTES = 64_000_000
 """All exact costs kept: 130 places on a home of 10 x 12 m, none that matter on a huge map."""
@@ -116,6 +119,11 @@ class Router:
         costmap = layered.with_obstacles(request.obstacles, start_m)
         if request.straight:
             return self._straight(costmap, request, began_s, clock)
+        if request.aside:
+            person_m = (request.goal.x_m, request.goal.y_m)
+            bay_m = find_bay(self._mapped, costmap, start_m, person_m)
+            aside = replace(request, goal=Pose2(*bay_m, request.start.yaw_rad), aside=False)
+            return self._find(costmap, aside, began_s, clock)
         try:
             return self._find(costmap, request, began_s, clock)
         except RouteFailure as failure:

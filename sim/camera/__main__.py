@@ -18,7 +18,9 @@ from pathlib import Path
 
 from sim.camera.camera import SimCamera
 from sim.camera.node import CameraNode
+from sim.domain import load_domain
 from sim.site import load_home
+from sim.staging import staged_home
 from wire import ConfigError, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -32,6 +34,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--site", type=Path, required=True, help="folder with a home.yaml")
     parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
+    parser.add_argument("--domain", type=Path, help="how the home is worse (TOML)")
     parser.add_argument("--seed", type=int, default=0, help="seed of the noise (default 0)")
     return parser.parse_args(arguments)
 
@@ -48,7 +51,10 @@ def _serve(options: argparse.Namespace) -> None:
         raise ConfigError(
             "camera_not_simulated", f"camera.kind is {robot.camera.kind!r}; this one draws 'sim'"
         )
-    camera = SimCamera(load_home(options.site), robot.camera, seed=options.seed)
+    drawn = load_home(options.site)
+    if options.domain:
+        drawn = staged_home(drawn, load_domain(options.domain))
+    camera = SimCamera(drawn, robot.camera, seed=options.seed)
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     boot_id = f"cam-{secrets.token_hex(4)}"
     with open_session(Party.CAMERA, robot.id, home) as session:

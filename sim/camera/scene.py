@@ -23,7 +23,7 @@ from sim.site.classes import (
     PERSON_RADIUS_M,
     SPARE_OBSTACLES,
 )
-from sim.site.objects import furniture_class, ground_m, on_floor, pose_of, rest_m
+from sim.site.objects import furniture_class, ground_m, is_movable, on_floor, pose_of, rest_m
 from sim.site.plan import furniture_shape
 from sim.site.shapes import Disc
 from wire import Pose2
@@ -124,7 +124,8 @@ def _object(home: Home, look: Appearance, object_id: str, item: Object) -> Insta
     size, pose = item.size_m, pose_of(item.at, item.yaw)
     if item.class_id == "door":
         size = (home.wall.thickness_m + 0.04, size[1], size[2])
-        pose = Pose2(pose.x_m, pose.y_m, front_rad(home, object_id))
+        if not is_movable(object_id, item):
+            pose = Pose2(pose.x_m, pose.y_m, front_rad(home, object_id))
     draw = screen if item.class_id == "tv" else _DRAW[item.class_id]
     return Instance(
         object_id,
@@ -132,8 +133,8 @@ def _object(home: Home, look: Appearance, object_id: str, item: Object) -> Insta
         tuple(draw(size, coat(look, object_id, item.class_id, item.color))),
         pose,
         0.0 if item.class_id == "door" else rest_m(home, item),
-        movable=item.class_id != "door",
-        stays_on_floor=on_floor(item) and size[2] >= 0.3,
+        movable=is_movable(object_id, item),
+        stays_on_floor=(on_floor(item) or item.class_id == "door") and size[2] >= 0.3,
     )
 
 

@@ -18,7 +18,7 @@ from maps.cell_array import cell_array
 from maps.yaml_records import SiteRecord, parse_yaml, read_bytes
 from sim.site.spec import Furniture, Home, HomePlace, HomeWall, Name, Room
 from wire import ConfigError
-from wire.geometry import Pose2
+from wire.geometry import Pose2, wrap
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -72,7 +72,7 @@ def mapped_home(site_dir: Path) -> Home:
         text = f"{site_dir}: it reaches to {max(map(abs, around)):.0f} m; at most {_BOUNDS_M:g}"
         raise ConfigError("map_far", text)
     wall = HomeWall()
-    at = (dock.x_m, dock.y_m, degrees(dock.yaw_rad))
+    at = (dock.x_m, dock.y_m, degrees(wrap(dock.yaw_rad)))
     return Home(
         version=1,
         site="mapped",

@@ -19,6 +19,9 @@ from wire.geometry import Pose2, wrap
 if TYPE_CHECKING:
     from sim.site.spec import Furniture, Home, Object
 
+LEAF = "leaf_"
+"""A door of such an id opens and closes: lidar and physics meet it, and it may be taken away."""
+
 
 @dataclass(frozen=True, slots=True)
 class Upright:
@@ -87,6 +90,11 @@ def on_floor(item: Object) -> bool:
     return item.on == 0.0 and item.class_id != "door"
 
 
+def is_movable(object_id: str, item: Object) -> bool:
+    """Return whether an object may be carried: all but doors, and of these the leaves that move."""
+    return item.class_id != "door" or object_id.startswith(LEAF)
+
+
 def uprights(home: Home) -> list[Upright]:
     """Return the movable things that physics and lidar meet, at their declared places."""
     people = [
@@ -104,6 +112,6 @@ def uprights(home: Home) -> list[Upright]:
             item.class_id in ROUND,
         )
         for object_id, item in home.objects.items()
-        if on_floor(item) and item.size_m[2] >= LIDAR_SEES_FROM_M
+        if (on_floor(item) or object_id.startswith(LEAF)) and item.size_m[2] >= LIDAR_SEES_FROM_M
     ]
     return people + standing

@@ -1,6 +1,6 @@
 """Run the whole robot as a person does: ``pons up`` in a home of its own, the CLI, plain HTTP.
 
-Owns processes and requests; judges nothing about driving.
+Owns requests and waits; ``tools.pons_up`` owns the processes. Judges nothing about driving.
 """
 
 from __future__ import annotations
@@ -8,10 +8,8 @@ from __future__ import annotations
 import contextlib
 import http.client
 import json
-import os
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -21,9 +19,9 @@ from typing import Any
 
 import psutil
 
-from pons.robot_processes import free_port
-from processes.parent_death import child_command, module_in
+from processes.parent_death import module_in
 from tests.e2e.polling import until
+from tools.pons_up import PonsUp
 
 ROOT = Path(__file__).resolve().parents[2]
 TWO_ROOM = ROOT / "sites" / "two_room"
@@ -55,53 +53,13 @@ class Reply:
         return str(self.body.get("code", "")) if isinstance(self.body, dict) else ""
 
 
-class System:
+class System(PonsUp):
     """Be one person's running robot."""
 
     def __init__(self, home: Path, site: Path = TWO_ROOM, **settings: str) -> None:
-        self.home, self.site, self.port = home, site, free_port()
-        self._settings = settings
-        self.scheme = "https" if settings.get("PONS_TLS") == "1" else "http"
-        self.arguments: tuple[str, ...] = ()
-        self.python, self.folder = sys.executable, ROOT
-        self.up: subprocess.Popen[bytes] | None = None
-
-    @property
-    def environment(self) -> dict[str, str]:
-        """Return what every process of this robot is started with."""
-        ours = {
-            "PONS_HOME": str(self.home),
-            "PONS_PORT": str(self.port),
-            "PONS_SITE": str(self.site),
-            "PYTHONUNBUFFERED": "1",
-        }
-        return {**os.environ, **ours, **self._settings}
+        super().__init__(home, site, home / "up.log", **settings)
 
     # Life ---------------------------------------------------------------------------------------
-
-    @property
-    def log(self) -> Path:
-        """Return where ``pons up`` writes."""
-        return self.home / "up.log"
-
-    def said(self) -> str:
-        """Return what ``pons up`` has printed."""
-        return self.log.read_text(errors="replace") if self.log.is_file() else ""
-
-    def launch(self) -> None:
-        """Start ``pons up`` and come back at once."""
-        self.home.mkdir(parents=True, exist_ok=True)
-        self.log.unlink(missing_ok=True)
-        with self.log.open("ab") as log:
-            self.up = subprocess.Popen(
-                (self.python, *child_command("pons", "up", *self.arguments)[1:]),  # dies with us
-                cwd=self.folder,
-                stdin=subprocess.DEVNULL,
-                stdout=log,
-                stderr=log,
-                env=self.environment,
-                start_new_session=True,
-            )
 
     def start(self) -> None:
         """Start ``pons up`` and wait for the line with its URL."""
@@ -120,26 +78,11 @@ class System:
 
     def until_ready(self) -> None:
         """Wait for the line with the URL."""
-        until(self._greeted, START_LIMIT_S, "the URL line of pons up", self.said)
-
-    def _greeted(self) -> bool:
-        assert self.up is not None
-        assert self.up.poll() is None, f"pons up ended: {self.said()}"
-        return f"{self.scheme}://127.0.0.1:{self.port}" in self.said()
-
-    def processes(self) -> list[psutil.Process]:
-        """Return every living process that was started for this home, however deep."""
-        found = []
-        for process in psutil.process_iter():
-            with contextlib.suppress(psutil.NoSuchProcess, psutil.AccessDenied):
-                ours = process.environ().get("PONS_HOME") == str(self.home)
-                if ours and process.pid != os.getpid() and process.status() != "zombie":
-                    found.append(process)
-        return found
+        until(self.has_greeted, START_LIMIT_S, "the URL line of pons up", self.read_log)
 
     def child(self, name: str) -> psutil.Process:
         """Return one of the children of ``pons up``; waits until it is there."""
-        return until(lambda: self._child(name), START_LIMIT_S, f"{name} running", self.said)
+        return until(lambda: self._child(name), START_LIMIT_S, f"{name} running", self.read_log)
 
     def _child(self, name: str) -> psutil.Process | None:
         assert self.up is not None
@@ -184,31 +127,18 @@ class System:
     def _alive(self) -> list[str]:
         return [" ".join(process.cmdline())[:200] for process in self.processes()]
 
-    def destroy(self) -> None:
-        """Leave nothing behind, whatever happened: for the end of a test."""
-        if self.up is not None:
-            self.up.kill()
-            self.up.wait()
-            self.up = None
-        for process in self.processes():
-            with contextlib.suppress(psutil.NoSuchProcess):
-                process.kill()
-
     def logs(self, lines: int = 25) -> str:
         """Return the ends of all logs, for a failed test."""
-        parts = []
-        for path in (self.log, *sorted((self.home / "logs").glob("*.log"))):
-            with contextlib.suppress(OSError):
-                tail = path.read_text(errors="replace").splitlines()[-lines:]
-                parts.append("\n".join([f"-- {path.name}", *tail]))
-        return "\n".join(parts)
+        return "\n".join(
+            "\n".join([f"-- {name}", *tail]) for name, tail in self.tails(lines).items()
+        )
 
     # Requests -----------------------------------------------------------------------------------
 
     def pons(self, *words: str, timeout_s: float = 40.0) -> subprocess.CompletedProcess[str]:
         """Run a ``pons`` command as a person in a shell."""
         return subprocess.run(
-            [self.python, "-m", "pons", *words],
+            self.command(*words),
             cwd=self.folder,
             env=self.environment,
             capture_output=True,
@@ -297,4 +227,4 @@ class System:
                 return self.http("GET", "/healthz", timeout_s=2.0).status == 200
             return False
 
-        until(served, START_LIMIT_S, "/healthz 200", self.said)
+        until(served, START_LIMIT_S, "/healthz 200", self.read_log)

@@ -111,7 +111,7 @@ def without_a_planner(home: Path) -> Iterator[System]:
     system.arguments = ("--no-planner",)
     try:
         system.launch()
-        until(lambda: "without a planner" in system.said(), 40.0, "ready", system.said)
+        until(lambda: "without a planner" in system.read_log(), 40.0, "ready", system.read_log)
         yield system
         system.end()
     finally:

@@ -39,10 +39,10 @@ def test_a_frozen_or_silent_camera_is_said_and_the_robot_sees_again(robot: Robot
         robot.system.http("GET", "/v1/camera.jpg")  # only who looks is told
         return blind(robot) == code
 
-    until(sees, 20.0, "a picture", robot.system.said)
+    until(sees, 20.0, "a picture", robot.system.read_log)
     for fault, code in (("camera_stuck", "camera_frozen"), ("camera_off", "camera_silent")):
         with broken(robot, fault):
-            until(partial(is_blind, code), 10.0, code, robot.system.said)
-        until(sees, 10.0, f"a picture after {fault}", robot.system.said)
+            until(partial(is_blind, code), 10.0, code, robot.system.read_log)
+        until(sees, 10.0, f"a picture after {fault}", robot.system.read_log)
     figures: bytes = robot.system.http("GET", "/metrics").body
     assert b'pons_eyes_skipped{reason="frozen"}' in figures

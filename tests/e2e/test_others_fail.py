@@ -25,7 +25,7 @@ def test_a_killed_bridge_is_stopped_by_the_drives_own_time_out(robot: Robot) -> 
     killed_s = robot.system.kill("bridge")
     until(lambda: robot.judge.drives.last.timed_out, 2.0, "the drive's time-out")
     stood_s = robot.assert_stops(killed_s, DEAD_MAN_PATH_M)
-    until(lambda: robot.judge.status.boot != boot, 15.0, "a new bridge", robot.system.said)
+    until(lambda: robot.judge.status.boot != boot, 15.0, "a new bridge", robot.system.read_log)
     robot.judge.until_mode(Mode.DISARMED)
     back_s = min(at_s for at_s, each in robot.judge.statuses.since(killed_s) if each.boot != boot)
     paused = robot.system.until_goal(goal["id"], "paused")
@@ -46,7 +46,7 @@ def test_a_killed_simulator_comes_back_and_waits_for_a_person(robot: Robot) -> N
     _, goal = robot.drive_off()
     boot = robot.judge.truth.boot_id
     robot.system.kill("sim")
-    until(lambda: robot.judge.truth.boot_id != boot, 20.0, "a new simulator", robot.system.said)
+    until(lambda: robot.judge.truth.boot_id != boot, 20.0, "a new simulator", robot.system.read_log)
     back_s = time.monotonic()
     robot.judge.until_mode(Mode.DISARMED, Mode.FAULT)
     paused = robot.system.until_goal(goal["id"], "paused", "failed")
@@ -67,7 +67,7 @@ def test_a_killed_localization_stops_the_robot_until_it_is_back(robot: Robot) ->
         lambda: robot.system.child("localization").pid != pid,
         15.0,
         "another localization",
-        robot.system.said,
+        robot.system.read_log,
     )
     # The same planner, no stop, no disarm, under 5 s: going on needs no person.
     robot.arrive(place, goal)
@@ -77,7 +77,7 @@ def test_a_killed_camera_stops_nobody_and_comes_back(robot: Robot) -> None:
     pid = robot.system.child("sim.camera").pid
     with open_session(Party.JUDGE, "r1", robot.system.home) as session:
         pictures = session.image_subscriber(keys.CAMERA_COLOR)
-        before = until(pictures.newest, 20.0, "a picture", robot.system.said)
+        before = until(pictures.newest, 20.0, "a picture", robot.system.read_log)
         place, goal = robot.drive_off()
         robot.system.kill("sim.camera")
         robot.arrive(place, goal)
@@ -85,7 +85,7 @@ def test_a_killed_camera_stops_nobody_and_comes_back(robot: Robot) -> None:
             lambda: robot.system.child("sim.camera").pid != pid,
             20.0,
             "another camera",
-            robot.system.said,
+            robot.system.read_log,
         )
         assert isinstance(before, Image)
         boot = before.header.boot_id
@@ -94,4 +94,4 @@ def test_a_killed_camera_stops_nobody_and_comes_back(robot: Robot) -> None:
             picture = pictures.newest()
             return isinstance(picture, Image) and picture.header.boot_id != boot
 
-        until(another, 20.0, "its picture", robot.system.said)
+        until(another, 20.0, "its picture", robot.system.read_log)

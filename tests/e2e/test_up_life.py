@@ -48,7 +48,7 @@ def test_an_end_in_the_middle_of_the_start_leaves_nothing(home: Path) -> None:
     system = System(home)
     try:
         system.launch()
-        until(lambda: len(system.processes()) > 1, 10.0, "a first child", system.said)
+        until(lambda: len(system.processes()) > 1, 10.0, "a first child", system.read_log)
         system.end(signal.SIGINT)
     finally:
         system.destroy()
@@ -63,9 +63,9 @@ def test_a_home_that_cannot_be_written_for_a_while_ends_nobody(robot: Robot) -> 
     lock.mkdir()  # nor a lock
     robot.system.kill("localization")
     refused = "localization ended (exit status 1)"
-    until(lambda: refused in robot.system.said(), 20.0, refused, robot.system.said)
+    until(lambda: refused in robot.system.read_log(), 20.0, refused, robot.system.read_log)
     assert robot.system.up is not None
-    assert robot.system.up.poll() is None, robot.system.said()
+    assert robot.system.up.poll() is None, robot.system.read_log()
     lock.rmdir()
     logs.unlink()
     aside.rename(logs)

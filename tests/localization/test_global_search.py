@@ -6,8 +6,18 @@ from math import hypot
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from localization.global_search import Candidate, GlobalSearch, is_sure, keep_separate
+from localization.global_search import (
+    Candidate,
+    GlobalSearch,
+    SearchArea,
+    is_inside,
+    is_sure,
+    keep_separate,
+)
+from planner.site.polygon import contains
 from tests.localization.rooms import ROOM, TWINS, cast, field_of, points_of
 from wire import Pose2, wrap
 
@@ -67,3 +77,22 @@ def test_poses_of_one_place_count_once() -> None:
     poses = np.array([(0.0, 0.0, 3.1), (0.1, 0.0, -3.1), (0.1, 0.0, 1.0), (2.0, 0.0, 3.1)])
     assert keep_separate(poses, 0.5, 0.3, 9)[:, 0].tolist() == [0.0, 0.1, 2.0]
     assert len(keep_separate(poses, 0.5, 0.3, 2)) == 2
+
+
+def test_a_search_in_a_room_finds_nothing_beside_it() -> None:
+    """Two rooms the same to the centimetre: the outline decides which of them is meant."""
+    search = GlobalSearch(field_of(TWINS, 8.0, 3.0))
+    points = points_of(cast(TWINS, Pose2(1.8, 1.6, 0.3)))
+    left = ((0.1, 0.1), (3.9, 0.1), (3.9, 2.9), (0.1, 2.9))
+    right = ((4.1, 0.1), (7.9, 0.1), (7.9, 2.9), (4.1, 2.9))
+    for outline, x_m in ((left, 1.8), (right, 5.8)):
+        (found,) = search.find(points, LIDAR, SearchArea((4.0, 1.5, 0.0), 5.0, True, outline))
+        assert found.pose[:2] == pytest.approx((x_m, 1.6), abs=0.05)
+    assert search.find(points, LIDAR, SearchArea((4.0, 1.5, 0.0), 0.2, True, left)) == ()
+
+
+@given(st.lists(st.tuples(st.floats(-3, 3), st.floats(-3, 3)), min_size=1, max_size=20))
+def test_inside_means_the_same_as_elsewhere(points: list[tuple[float, float]]) -> None:
+    outline = ((-2.0, -2.0), (2.0, -2.0), (2.0, 0.0), (0.0, 0.0), (0.0, 2.0), (-2.0, 2.0))
+    told = is_inside(np.array(points), outline)
+    assert told.tolist() == [contains(outline, x, y) for x, y in points]

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import hypot, pi
 
-import numpy as np
 import pytest
 
-from localization.global_search import Candidate, GlobalSearch
+from localization.global_search import Candidate, GlobalSearch, SearchArea
 from localization.localizer import (
     ANSWER_S,
     OLDEST_S,
@@ -17,7 +16,7 @@ from localization.localizer import (
 )
 from localization.quality import POOR_QUALITY
 from tests.localization.rooms import MAP_ID, ROOM, Boxes, cast, field_of, odometry_of, scan_of
-from wire import IDENTITY, STILL, Localization, Pose2, Twist2, between, compose, wrap
+from wire import IDENTITY, STILL, Localization, Pose2, PoseHint, Twist2, between, compose, wrap
 from wire.robot import LidarConfig
 
 FIELD = field_of(ROOM, 6.0, 4.0)
@@ -25,6 +24,10 @@ SEARCH = GlobalSearch(FIELD)
 START = Pose2(2.6, 1.7, 0.4)
 ELSEWHERE = Pose2(5.0, 3.1, -2.0)
 Way = Callable[[float], Pose2]
+
+
+def hint(hint_id: str, pose: Pose2, radius_m: float, *, any_heading: bool = False) -> PoseHint:
+    return PoseHint(id=hint_id, pose=pose, radius_m=radius_m, any_heading=any_heading)
 
 
 class Drive:
@@ -64,16 +67,11 @@ class Drive:
         request = localizer.search_request()
         if request is not None and self.searching:
             near = request.around
-            found = (
-                SEARCH.everywhere(request.points_m, (0.0, 0.0))
-                if near is None
-                else SEARCH.around(
-                    request.points_m,
-                    (0.0, 0.0),
-                    np.array((near.x_m, near.y_m, near.yaw_rad)),
-                    request.radius_m,
-                )
-            )
+            area = None
+            if near is not None:
+                at = (near.x_m, near.y_m, near.yaw_rad)
+                area = SearchArea(at, request.radius_m, request.any_heading, request.outline)
+            found = SEARCH.find(request.points_m, (0.0, 0.0), area)
             localizer.hear_candidates(request.number, found)
         answer = localizer.answer(self.now_s)
         if answer is not None:
@@ -209,27 +207,60 @@ def test_a_persons_word_counts_where_scans_agree(drive: Drive) -> None:
     drive.run(1.0)
     assert drive.localizer.state is LocalizerState.LOST
     drive.searching = True
-    drive.localizer.hear_hint("here-1", Pose2(4.6, 3.3, -1.7), 1.0)
+    drive.localizer.hear_hint(hint("here-1", Pose2(4.6, 3.3, -1.7), 1.0))
     drive.run(0.5)
     answer = drive.localizer.hint_answer
     assert answer is not None
     assert (answer.id, answer.code) == ("here-1", "accepted")
     assert drive.error_m() < 0.03
-    drive.localizer.hear_hint("here-2", Pose2(1.0, 1.0, 0.0), 0.3)
+    drive.localizer.hear_hint(hint("here-2", Pose2(1.0, 1.0, 0.0), 0.3))
     drive.run(0.5)
     assert drive.localizer.hint_answer is not None
     assert drive.localizer.hint_answer.code == "does_not_fit"
     assert drive.error_m() < 0.03, "the pose stays"
 
 
+def test_who_says_where_need_not_say_which_way_it_looks(drive: Drive) -> None:
+    drive.searching = False
+    drive.true = ELSEWHERE
+    drive.run(1.0)
+    drive.searching = True
+    drive.localizer.hear_hint(hint("here-1", Pose2(4.4, 3.0, 0.0), 1.2, any_heading=True))
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is not None
+    assert drive.localizer.hint_answer.code == "accepted"
+    assert drive.error_m() < 0.03
+
+
+def test_a_pose_that_scans_confirm_yields_to_none_that_they_confirm_less(drive: Drive) -> None:
+    """The person says the other end of a room that looks much alike: the scan decides."""
+    drive.localizer.hear_hint(hint("here-1", Pose2(4.4, 2.0, 0.0), 1.5, any_heading=True))
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is not None
+    assert drive.localizer.hint_answer.code == "does_not_fit"
+    assert drive.error_m() < 0.03
+    assert min(one.quality for one in drive.said) >= 0.0
+
+
+def test_the_same_hint_said_again_is_answered_once(drive: Drive) -> None:
+    word = hint("here-1", START, 1.0)
+    for _ in range(5):
+        drive.localizer.hear_hint(word)
+        drive.run(0.1)
+    answered = drive.localizer.hint_answer
+    drive.localizer.hear_hint(word)
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is answered
+
+
 def test_a_persons_word_is_refused_in_motion_and_before_a_scan(drive: Drive) -> None:
-    Drive().localizer.hear_hint("a", START, 1.0)
+    Drive().localizer.hear_hint(hint("a", START, 1.0))
     early = Drive().localizer
-    early.hear_hint("here-1", START, 1.0)
+    early.hear_hint(hint("here-1", START, 1.0))
     assert early.hint_answer is not None
     assert early.hint_answer.code == "no_scan"
     drive.turn(Pose2(0.02, 0.0, 0.0))
-    drive.localizer.hear_hint("here-2", START, 1.0)
+    drive.localizer.hear_hint(hint("here-2", START, 1.0))
     assert drive.localizer.hint_answer is not None
     assert drive.localizer.hint_answer.code == "moving"
 

@@ -26,10 +26,13 @@ LIMIT_S = 20.0
 def test_it_places_odom_in_map_and_says_that_it_is_a_stand_in(
     repository: Path, tmp_path: Path
 ) -> None:
+    robot = tmp_path / "robot.toml"
+    robot.write_text('[localization]\nkind = "stand_in"\n', "utf-8")
     command = [sys.executable, "-m", "localization", "--site", "sites/two_room"]
     process = subprocess.Popen(
-        [*command, "--home", str(tmp_path)], cwd=repository, stderr=subprocess.PIPE, text=True
-    )
+        [*command, "--home", str(tmp_path), "--robot", str(robot)],
+        cwd=repository, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
     try:
         answer = converse(tmp_path)
         assert answer.map_id == read_map_id(repository / "sites" / "two_room")

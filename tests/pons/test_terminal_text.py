@@ -109,3 +109,13 @@ def test_a_refused_planner_is_told_in_both_languages_with_what_to_do(code: str) 
 def test_a_turn_asks_for_no_place() -> None:
     turned = {"asked": {"place": None, "room": None, "x_m": None, "y_m": None}, "seconds": 2.0}
     assert figures(turned) == "seconds 2.00 s"
+
+
+@pytest.mark.parametrize("state", ["lost", "searching"])
+def test_a_robot_without_a_pose_says_so_first_in_both_languages(state: str) -> None:
+    said = STATUS.model_dump(mode="json")
+    lines = robot_lines({"status": said, "room": None, "localizer": state})
+    assert lines[0].startswith("The robot")
+    assert lines[1].startswith("机器人")
+    well = robot_lines({"status": said, "room": None, "localizer": "tracking"})
+    assert well == robot_lines({"status": said, "room": None})

@@ -34,7 +34,8 @@ USERS = {
     STRANGER: 61_009,
 }
 GROUPS = {
-    "pons": 62_000, "pons-senses": 62_001, "pons-drive": 62_002, MEMBER: 62_008, STRANGER: 62_009,
+    "pons": 62_000, "pons-senses": 62_001, "pons-drive": 62_002, "pons-hint": 62_003,
+    MEMBER: 62_008, STRANGER: 62_009,
 }  # fmt: skip
 OF_PROCESSES = {
     "bridge": BRIDGE, "planner": PLANNER, "sim": SIM, "localization": LOCALIZATION,

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from typing import Self
 
 PATIENCE_S = 5.0
+CLOSE_S = 0.5
+"""A socket with frames that nobody reads any more can't see the answer to its closing."""
 
 
 class Watchers:
@@ -60,7 +62,7 @@ class Watchers:
 
 async def watch(url: str, count: int) -> None:
     """Open so many sockets and read until standard input ends."""
-    sockets = [await connect(url) for _ in range(count)]
+    sockets = [await connect(url, close_timeout=CLOSE_S) for _ in range(count)]
     for socket in sockets:
         await socket.recv()
     print("ready", flush=True)

@@ -1,13 +1,12 @@
-"""Be the robot's process and the localization stand-in's, one turn per tick. Knows no planner."""
+"""Be the robot's process, one turn per tick. Knows no planner."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wire import Odometry, SimTruth, keys
+from wire import keys
 
 if TYPE_CHECKING:
-    from localization.standin import StandIn
     from sim import Report, SimRobot
     from tools.lockstep.bus import Port
 
@@ -39,25 +38,3 @@ class RobotProcess:
             self._scan.put(report.scan)
         if report.truth is not None:
             self._truth.put(report.truth)
-
-
-class LocalizationProcess:
-    """Connect the localization stand-in to the bus."""
-
-    def __init__(self, stand_in: StandIn, port: Port) -> None:
-        self._stand_in = stand_in
-        self._truth = port.subscriber(keys.SIM_TRUTH)
-        self._odometry = port.subscriber(keys.ODOM)
-        self._out = port.publisher(keys.LOCALIZATION)
-
-    def turn(self, now_s: float) -> None:
-        """Hear both sources and answer where ``odom`` is."""
-        for truth in self._truth.drain().items:
-            if isinstance(truth, SimTruth):
-                self._stand_in.hear_truth(truth)
-        for odometry in self._odometry.drain().items:
-            if isinstance(odometry, Odometry):
-                self._stand_in.hear_odometry(odometry)
-        answer = self._stand_in.answer(now_s)
-        if answer is not None:
-            self._out.put(answer)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from sim.site import pose2
+from sim.site.objects import LEAF
 from tools.lockstep.eyes import PerceptionProcess
 from tools.lockstep.goal_handle import GoalHandle
 from tools.lockstep.truth_detector import TruthFinder
@@ -30,7 +32,7 @@ class LockstepWorld(World):
 
         Args:
             ready: run on until the robot is armed and owned, as ``pons up`` leaves it.
-            parts: site, seed, brain, robot, hardware, start, pace, step.
+            parts: site, seed, brain, robot, hardware, domain, start, pace, step.
 
         Raises:
             TooLong: it did not become ready.
@@ -164,6 +166,26 @@ class LockstepWorld(World):
     def put(self, name: str, pose: Pose2 | None) -> None:
         """Put a person or an object of the home somewhere, or take it away."""
         self.sim.place_thing(name, pose)
+
+    def shut_door(self, one: str, other: str, *, shut: bool = True) -> None:
+        """Shut the leaf of the door between two rooms, or open it; its own script may go on.
+
+        Raises:
+            ConfigError: ``obstacle_unknown``: that door has no leaf; ``Domain(doors=16)`` hangs
+                one in each door of the home, and ``door_open_s=0.0`` leaves them to the test.
+        """
+        between = {one, other}
+        doors = enumerate(self.sim.home.doors)
+        number = next((at for at, door in doors if set(door.between) == between), -1)
+        name = f"{LEAF}{number}"
+        declared = self.sim.things.declared.get(name)
+        self.sim.place_thing(name, declared if shut else None)
+
+    def stand_on(self, place_id: str, name: str = "person_0") -> None:
+        """Put a person, or another thing of the home, onto a place or into a room's middle."""
+        home = self.sim.home
+        pose = home.rooms[place_id].pose if place_id in home.rooms else home.places[place_id].pose
+        self.sim.place_thing(name, pose2(pose))
 
     def teleport(self, base_in_map: Pose2) -> None:
         """Carry the robot somewhere; its wheels notice nothing."""

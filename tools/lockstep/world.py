@@ -7,21 +7,23 @@ Deterministic: same site, seed, calls give the same commands. Nothing here sleep
 from __future__ import annotations
 
 from heapq import heappop, heappush
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, cast
 
 from bridge.core import CoreConfig, step
+from localization.node import StandInNode
 from localization.standin import StandIn
 from planner.brain import OfflineBrain
-from sim import Hardware, SimRobot
+from sim import Domain, Hardware, SimRobot
 from tools.lockstep.bridge_process import BridgeProcess, Step
 from tools.lockstep.bus import LockstepBus
 from tools.lockstep.latencies import TICK_S, Pace, ticks
 from tools.lockstep.localizer_process import LocalizerProcess
 from tools.lockstep.planner_process import Notebook, PlannerProcess
-from tools.lockstep.robot_process import LocalizationProcess, RobotProcess
+from tools.lockstep.robot_process import RobotProcess
 from tools.lockstep.scene import folder_of, scene
 from wire import RobotDescription
 from wire.keys import Party
+from wire.robot import LocalizationConfig
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -31,8 +33,12 @@ if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
     from tools.lockstep.eyes import PerceptionProcess
     from wire import DriveCommand, Pose2, Status, Twist2
+    from wire.session import Session
 
 START_S = 1_000.0
+STAND_IN_ROBOT = RobotDescription(localization=LocalizationConfig(kind="stand_in"))
+"""The default robot, told where it is: halls without a feature tell a localizer nothing, and most
+that is tried here is not about the pose."""
 """Where every part's monotonic clock begins: not at zero, which would hide a missing time."""
 
 
@@ -43,7 +49,7 @@ class TooLong(Exception):
 class World:
     """Hold the parts of one world and turn them."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913  # a world's parts, all by name
         self,
         *,
         site: Path | str = "two_room",
@@ -51,6 +57,7 @@ class World:
         brain: Brain | None = None,
         robot: RobotDescription | None = None,
         hardware: Hardware | None = None,
+        domain: Domain | None = None,
         start: Pose2 | None = None,
         pace: Pace | None = None,
         step: Step = step,
@@ -63,16 +70,22 @@ class World:
             brain: what turns sentences into plans; the offline brain if None. It answers at once.
             robot: its description; the default robot if None. It says what localizes.
             hardware: what the simulated robot is really like.
+            domain: the knobs of ``pons up --domain``; all neutral if None.
             start: where the robot stands at first; the site's dock if None.
             pace: how long messages, routes, plans and the disk take.
             step: the bridge's core, or a wrapper that measures it.
         """
         self.pace, self.seed = pace or Pace(), seed
-        self.scene = scene(folder_of(site), robot or RobotDescription())
+        self.scene = scene(folder_of(site), robot or STAND_IN_ROBOT)
         latency = {frozenset({Party.PLANNER, Party.BRIDGE}): self.pace.planner_bridge}
         self.bus = LockstepBus(seed, latency)
         self.sim = SimRobot(
-            self.scene.folder, self.scene.robot, seed=seed, start=start, hardware=hardware
+            self.scene.folder,
+            self.scene.robot,
+            seed=seed,
+            start=start,
+            hardware=hardware,
+            domain=domain,
         )
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT))
         self._localization, self.localizer = self._localize(seed)
@@ -245,13 +258,14 @@ class World:
 
     def _localize(
         self, seed: int
-    ) -> tuple[LocalizerProcess | LocalizationProcess, LocalizerProcess | None]:
+    ) -> tuple[LocalizerProcess | StandInNode, LocalizerProcess | None]:
         """Return what says where the robot is, and the localizer where that is one."""
         port = self.bus.port(Party.LOCALIZATION)
         if self.scene.robot.localization.kind == "scans":
             localizer = LocalizerProcess(self.scene, port)
             return localizer, localizer
-        return LocalizationProcess(StandIn(self.scene.site.map_id, seed=seed), port), None
+        stand_in = StandIn(self.scene.site.map_id, seed=seed)
+        return StandInNode(stand_in, cast("Session", port)), None
 
     def _config(self, seed: int) -> CoreConfig:
         return CoreConfig(

@@ -33,6 +33,7 @@ export const robot: Robot = {
   ages_s: { status: 0.02, localization: 0.05, odometry: 0.01, scan: null },
   site: "two_room",
   map_id: "0123456789abcdef",
+  localizer: "tracking",
   brain: { name: "offline", breaker: null, rests_s: 0, last_error: null },
 };
 

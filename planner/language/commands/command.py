@@ -20,6 +20,13 @@ class Forget:
 
 
 @dataclass(frozen=True, slots=True)
+class HereCommand:
+    """Tell the robot in which room or at which place it is."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
 class PauseCommand:
     """Stand, and keep the current goal's place."""
 
@@ -67,6 +74,7 @@ class Faster:
 Intent = (
     Remember
     | Forget
+    | HereCommand
     | PauseCommand
     | ResumeCommand
     | CancelCommand

@@ -111,6 +111,10 @@ FORGET = re.compile(
     r"|(?:forget|delete|remove) the (?:taught|learnt|remembered) place (?P<b>.+)"
     r"|forget where (?P<c>.+) (?:is|was)"
 )
+HERE = re.compile(
+    r"you(?:'re| are)(?: now| right now)? (?:in|at|near|next to|beside|by) (?P<a>.+?)"
+    r"(?: now| right now)?"
+)
 
 DETERMINER = re.compile(r"(?:the|my|our) ")
 NO_NAME = re.compile(

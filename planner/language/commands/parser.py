@@ -19,6 +19,7 @@ from planner.language.commands.command import (
     Doing,
     Faster,
     Forget,
+    HereCommand,
     Intent,
     PauseCommand,
     Remember,
@@ -129,10 +130,11 @@ def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
 
 
 def _read_lesson(said: _FoldedText, grammar: ModuleType) -> Intent | None:
-    """Read the name to be remembered or forgotten, as it was written."""
-    kinds: tuple[tuple[str, type[Remember] | type[Forget]], ...] = (
+    """Read the name that is to be remembered or forgotten, or where the robot is said to be."""
+    kinds: tuple[tuple[str, type[Remember] | type[Forget] | type[HereCommand]], ...] = (
         ("REMEMBER", Remember),
         ("FORGET", Forget),
+        ("HERE", HereCommand),
     )
     for pattern, kind in kinds:
         found = getattr(grammar, pattern).fullmatch(said.folded)

@@ -36,6 +36,8 @@ class Way(StrEnum):
     """By the search, round what stands in the way."""
     STRAIGHT = "straight"
     """Straight along the heading, ahead or backwards, or not at all."""
+    ASIDE = "aside"
+    """To where somebody who stands at the goal can walk past the robot."""
     SPIN = "spin"
     """On the spot: the bridge turns to the heading by the shorter way."""
 

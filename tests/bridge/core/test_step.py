@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from bridge.core import Inbox, initial
+from bridge.core import Inbox, RejectedAt, initial
 from bridge.core.state_motion import Gate
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
-from wire import IDENTITY, Mode
+from wire import IDENTITY, Mode, Rejected
 
 
 def test_a_run_begins_in_its_first_epoch_without_a_nonce() -> None:
@@ -131,11 +131,23 @@ def test_a_new_leg_is_followed_from_its_beginning() -> None:
     learnt = world.state.motion.follow
     state = world.state
     state.leg = replace(state.leg, mission="m0")  # what was followed was another mission's
-    state.motion.follow = replace(learnt, turning=True, settled=True)
+    state.motion.follow = replace(learnt, tries=9)
     world.planner.next_horizon_s = 0.0
     for _ in range(100):
         world.tick()
         if world.state.leg.mission == "m1":
             break
     assert world.state.leg.mission == "m1"
-    assert not world.state.motion.follow.settled
+    assert world.state.motion.follow.tries == 0
+
+
+def test_bytes_that_are_no_message_are_counted_and_charged_to_whoever_drives() -> None:
+    world = reached("active")
+    before = world.state.voice.dropped
+    why = Rejected(code="not_json", detail="")
+    world.extra = replace(Inbox(), rejected=(RejectedAt(key="cmd/waypoints", why=why),))
+    decision = world.tick()
+    assert "rejected_not_json" in decision.reasons
+    assert world.state.bad_bucket == 1.0
+    world.run(0.1)
+    assert world.state.voice.dropped > before

@@ -21,7 +21,18 @@ from planner.plan import Goal, GoalState, Language
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.voice import Recognition, Sound, VoiceFailure
 from tests.wire.examples import STATUS
-from wire import Answer, FenceRequest, OpKind, OpRequest, RobotDescription, Status
+from wire import (
+    Answer,
+    FenceRequest,
+    HintCode,
+    HintVerdict,
+    LocalizerStatus,
+    OpKind,
+    OpRequest,
+    PoseHint,
+    RobotDescription,
+    Status,
+)
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -131,6 +142,9 @@ class FakeRobot:
         self._status = status
         self.asked: list[tuple[OpKind, OpRequest]] = []
         self.offered: list[FenceRequest] = []
+        self.hints: list[PoseHint] = []
+        self.hint_code: HintCode | None = "accepted"
+        self.localizer: LocalizerStatus | None = None
         self.steers: list[tuple[str, float, float, bool]] = []
         self.points: list[tuple[float, float]] = []
         self.verdict: Answer | None = Answer(
@@ -147,6 +161,11 @@ class FakeRobot:
 
     def obstacles(self) -> Sequence[tuple[float, float]]:
         return self.points
+
+    async def hint(self, hint: PoseHint) -> HintVerdict | None:
+        self.hints.append(hint)
+        code = self.hint_code
+        return None if code is None else HintVerdict(id=hint.id, code=code, score=0.4)
 
     def ages_s(self) -> dict[str, float | None]:
         return {"status": 0.02, "localization": 0.1, "scan": None}

@@ -14,6 +14,7 @@ from planner.bridge_client.scan_to_map import points_in_map
 from tests.planner.mission.fakes import FakeBridge
 from wire import (
     Localization,
+    LocalizerStatus,
     Odometry,
     OpRequest,
     Pose2,
@@ -124,6 +125,9 @@ class Moving(FakeBridge):
         self.odom_m += 1.0
         return Odometry(odom_id="o", seq=int(self.odom_m), stamp_s=1.0, base_in_odom=ORIGIN,
                         twist=Twist2(0.0, 0.0), yaw_rate_radps=None)  # fmt: skip
+
+    def localizer(self) -> LocalizerStatus | None:
+        return None
 
     def localization(self) -> Localization | None:
         if self.odom_m != 1.0:

@@ -30,6 +30,7 @@ from wire import (
     LegReport,
     LimitsInForce,
     Localization,
+    LocalizerStatus,
     Mode,
     Odometry,
     OpKind,
@@ -286,6 +287,9 @@ class FakeBridge:
     def status(self) -> Status | None:
         pending, self.pending = self.pending, None
         return pending
+
+    def localizer(self) -> LocalizerStatus | None:
+        return None
 
     def localization(self) -> Localization | None:
         return None

@@ -248,7 +248,9 @@ class World:
                     self.event(Routed(goal, ticket, failure))
             case ("surveyed", x_m, opened):
                 way = Obstruction((x_m, -0.2), (x_m, 0.2))
-                self.event(Surveyed(None if opened else way, (way,) if opened else ()))
+                self.event(
+                    Surveyed(None if opened else way, bool(x_m > 2.5), (way,) if opened else ())
+                )
             case ("doubted", goal, back):
                 leg = (
                     max(0, self.book.missions[goal].leg - back) if goal in self.book.missions else 1

@@ -7,8 +7,8 @@ import pytest
 from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute
 from planner.mission.events import Pause, Resume, Surveyed
+from planner.mission.occupied_goal import OCCUPIED_S
 from planner.mission.recovery import LADDER, Recovery
-from planner.mission.recovery_steps import OCCUPIED_S
 from planner.mission.skills import Way
 from planner.navigation.obstruction import Obstruction
 from planner.plan import Code, GoTo, StepPlan
@@ -111,7 +111,7 @@ def test_routes_lead_round_what_is_remembered_and_through_what_was_seen_open(
     world.event(Surveyed(CRATE))
     world.run(3.0)
     assert world.routes[-1].shut == (CRATE,)
-    world.event(Surveyed(None, (CRATE,)))
+    world.event(Surveyed(None, opened=(CRATE,)))
     assert world.goal(goal).recovery.shut == ()
 
 

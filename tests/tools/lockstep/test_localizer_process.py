@@ -12,7 +12,7 @@ from wire.robot import LocalizationConfig
 
 def error_m(world: LockstepWorld) -> float:
     assert world.localizer is not None
-    said = world.localizer.said
+    said = world.localizer.localizer.said
     assert said is not None
     base = compose(said.odom_in_map, world.status.base_in_odom)
     return hypot(base.x_m - world.truth.x_m, base.y_m - world.truth.y_m)

@@ -9,18 +9,20 @@ from random import Random
 from typing import Any
 
 from pons.kept_sockets import LISTENING
-from wire.doors import DOORS, SIM_DOOR
+from wire.doors import DOORS, HINT_DOOR, SIM_DOOR
 
 PROCESSES = (
     "bridge", "planner", "sim", "localization", "camera", "recorder", "vision", "route", "voice",
 )  # fmt: skip
+_LATER = (HINT_DOOR,)
 OWNER_OF = {
     door.name: child
     for child, party in LISTENING.items()
     for door in DOORS
-    if door.listener is party and door is not SIM_DOOR
-}
-"""Which process listens at each door, but for the tests' own. Their order is part of a draw."""
+    if door.listener is party and door not in (SIM_DOOR, *_LATER)
+} | {door.name: door.listener.value for door in _LATER}
+"""Which process listens at each door, but for the tests' own. Their order is part of a draw, so
+doors that came later stand last; numbers of before they came mean other draws."""
 LIDAR = ("lidar_off", "lidar_stuck", "lidar_blind", "lidar_intermittent")
 FREEZE_S, STALL_S, OTHER_S = (0.15, 5.0), (0.2, 3.0), (0.5, 7.0)
 TWO_AT_ONCE, STOPPED, GOES_ON = 0.25, 1 / 3, 0.15

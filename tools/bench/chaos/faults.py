@@ -48,7 +48,7 @@ def break_house(house: House, fault: Breakage) -> AbstractContextManager[str]:
         case FaultKind.SLOW_DISK:
             return _slow(house)
         case FaultKind.STALL:
-            return _frozen(house.processes())
+            return _frozen(house.tree())
         case FaultKind.SOCKET:
             return _unlink(house.home, fault.target)
 

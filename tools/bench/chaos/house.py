@@ -11,7 +11,6 @@ import io
 import os
 import signal
 import subprocess
-import sys
 import time
 import wave
 from contextlib import contextmanager, suppress
@@ -20,11 +19,12 @@ from typing import TYPE_CHECKING, Any
 import psutil
 
 from pons.http import PlannerDown, PlannerProblem, call
-from pons.robot_processes import free_port
+from pons.robot_processes import ProcessGone
 from pons.settings import CHECKOUT, LaunchSettings
-from processes.parent_death import child_command, module_in
+from processes.parent_death import module_in
 from tools.bench.chaos.draw import PROCESSES
 from tools.bench.context import MeasurementFailure, line, until
+from tools.pons_up import PonsUp
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -39,7 +39,7 @@ CLONE_NEWNS, MS_RDONLY, MS_REMOUNT, MS_BIND, MS_REC = 0x20000, 1, 32, 4096, 1638
 MS_PRIVATE, MNT_DETACH = 1 << 18, 2
 
 
-class House:
+class House(PonsUp):
     """Be one running robot, its disk and its processes."""
 
     def __init__(self, home: Path, log: Path, *, mounts: bool) -> None:
@@ -50,24 +50,17 @@ class House:
             log: what ``pons up`` prints; beside the home, whose disk is going to be full.
             mounts: put a disk of its own below the home.
         """
-        self.settings = LaunchSettings(
-            home, CHECKOUT / "robot.toml", CHECKOUT / "sites" / "home", "127.0.0.1", free_port()
-        )
-        self.mounts, self._log = mounts, log
-        self.up: subprocess.Popen[bytes] | None = None
-        self._last = 0.0
-
-    @property
-    def home(self) -> Path:
-        """Return the folder of its state."""
-        return self.settings.home
+        site = CHECKOUT / "sites" / "home"
+        super().__init__(home, site, log)
+        self.settings = LaunchSettings(home, CHECKOUT / "robot.toml", site, "127.0.0.1", self.port)
+        self.mounts = mounts
 
     def __enter__(self) -> Self:
         if self.mounts:
             mount("tmpfs", self.home, "tmpfs", 0, f"size={DISK_MB}m,mode=755")
         try:
-            self._launch()
-            until(self._has_greeted, START_S, "the line of pons up with its URL", 0.1)
+            self.launch()
+            until(self._is_up, START_S, "the line of pons up with its URL", 0.1)
             until(lambda: not self.missing(), START_S, "all processes", 0.2)
         except BaseException:
             self.close()
@@ -84,17 +77,13 @@ class House:
 
     def close(self) -> None:
         """End every process of it, then its disk."""
-        left = self.processes()
+        left = self.tree()
         for process in left:
             with suppress(psutil.NoSuchProcess):
                 process.resume()
-        if self.up is not None:
-            self.up.send_signal(signal.SIGINT)
-            with suppress(subprocess.TimeoutExpired):
-                self.up.wait(GONE_S)
-            self.up.kill()
-            self.up.wait()
-            self.up = None
+        with suppress(subprocess.TimeoutExpired):
+            self.end_by(signal.SIGINT, GONE_S)
+        self.destroy()
         for process in left:
             with suppress(psutil.NoSuchProcess):
                 process.kill()
@@ -102,53 +91,17 @@ class House:
         if self.mounts:
             unmount(self.home)
 
-    def _launch(self) -> None:
-        with self._log.open("ab") as log:
-            self.up = subprocess.Popen(
-                child_command("pons", "up"),
-                cwd=CHECKOUT,
-                stdin=subprocess.DEVNULL,
-                stdout=log,
-                stderr=log,
-                env=self.environment,
-                start_new_session=True,
-            )
-
-    @property
-    def environment(self) -> dict[str, str]:
-        """Return what every process of this robot is started with."""
-        ours = {
-            "PONS_HOME": str(self.home),
-            "PONS_PORT": str(self.settings.port),
-            "PONS_SITE": str(self.settings.site),
-            "PYTHONUNBUFFERED": "1",
-        }
-        return {**os.environ, **ours}
-
-    def _has_greeted(self) -> bool:
-        if self.up is None or self.up.poll() is not None:
-            raise MeasurementFailure(f"pons up ended: {self.log_end()}")
-        return self.settings.url in self.log_end()
-
-    def log_end(self) -> str:
-        """Return the end of what ``pons up`` printed."""
-        return self._log.read_text("utf-8", "replace")[-1500:] if self._log.is_file() else ""
+    def _is_up(self) -> bool:
+        try:
+            return self.has_greeted()
+        except ProcessGone as gone:
+            raise MeasurementFailure(str(gone)) from None
 
     # Processes ----------------------------------------------------------------------------------
 
-    def processes(self) -> list[psutil.Process]:
-        """Return ``pons up`` and all below it."""
-        if self.up is None:
-            return []
-        try:
-            top = psutil.Process(self.up.pid)
-            return [top, *top.children(recursive=True)]
-        except psutil.NoSuchProcess:
-            return []
-
     def find(self, name: str) -> psutil.Process | None:
         """Return one of them by its name in ``draw.PROCESSES``, where it lives."""
-        for process in self.processes()[1:]:
+        for process in self.tree()[1:]:
             with suppress(psutil.Error):
                 alive = process.status() != psutil.STATUS_ZOMBIE
                 if alive and role(process.cmdline()) == name:
@@ -158,7 +111,7 @@ class House:
     def missing(self) -> list[str]:
         """Name those that do not live now."""
         found = set()
-        for process in self.processes()[1:]:
+        for process in self.tree()[1:]:
             with suppress(psutil.Error):
                 if process.status() != psutil.STATUS_ZOMBIE:
                     found.add(role(process.cmdline()))
@@ -191,8 +144,8 @@ class House:
     def pons(self, *words: str) -> subprocess.Popen[str]:
         """Begin a ``pons`` command as a person in a shell."""
         return subprocess.Popen(
-            [sys.executable, "-m", "pons", *words],
-            cwd=CHECKOUT,
+            self.command(*words),
+            cwd=self.folder,
             env=self.environment,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
@@ -213,14 +166,9 @@ class House:
 
     def logs(self, since_s: float, lines: int = 12) -> dict[str, list[str]]:
         """Return the ends of those logs that were written to lately, for a look afterwards."""
-        told = {"up": self.log_end().splitlines()[-lines:]}
         newer_s = time.time() - (time.monotonic() - since_s)
-        for path in sorted((self.home / "logs").glob("*.log")):
-            with suppress(OSError):
-                if path.stat().st_mtime >= newer_s:
-                    text = path.read_text("utf-8", "replace")[-4000:]
-                    told[path.stem] = [line(one) for one in text.splitlines()[-lines:]]
-        return told
+        tails = self.tails(lines, newer_s)
+        return {name: [line(one) for one in tail] for name, tail in tails.items()}
 
 
 WORKERS = {

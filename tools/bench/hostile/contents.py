@@ -22,9 +22,11 @@ from wire import (
     Grant,
     Heartbeat,
     Hello,
+    LocalizerStatus,
     Mode,
     OpRequest,
     Pose2,
+    PoseHint,
     Proof,
     Record,
     SimControl,
@@ -226,10 +228,15 @@ def senses(liar: Liar) -> Said:
 
 
 def leap(liar: Liar) -> Said:
-    """Say a pose somewhere else."""
+    """Say a pose somewhere else, that a person says so, and that all is well with it."""
     x_m, y_m = liar.chance.uniform(-1.0, 12.0), liar.chance.uniform(-1.0, 10.0)
     pose = Pose2(x_m, y_m, liar.chance.uniform(-pi, pi))
-    return _forge(liar, keys.LOCALIZATION, {"odom_in_map": lambda _: pose})
+    hint = PoseHint(id=_id(liar), pose=pose, radius_m=15.0, any_heading=True)
+    well = LocalizerStatus(
+        boot_id=liar.name, seq=liar.number(keys.LOC_STATE), stamp_s=0.0, state="tracking", score=1.0
+    )
+    said = _forge(liar, keys.LOCALIZATION, {"odom_in_map": lambda _: pose})
+    return said + of(keys.LOC_HINT, hint) + of(keys.LOC_STATE, well)
 
 
 def creep(liar: Liar) -> Said:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from dataclasses import asdict, dataclass
 from functools import partial
-from math import degrees, hypot, pi
+from math import hypot, pi
 from random import Random
 from typing import TYPE_CHECKING
 
@@ -23,9 +23,10 @@ from localization.odometry_integration import OdometryTrail
 from maps import load_map
 from pons.settings import CHECKOUT
 from sim import Hardware, SimRobot
+from tools.bench.drive_record import pose_error
 from tools.bench.report import ReportRow, row_of
 from tools.lockstep import LockstepWorld
-from wire import Pose2, RobotDescription, SimFault, compose, wrap
+from wire import Pose2, RobotDescription, SimFault, wrap
 from wire.robot import LocalizationConfig
 
 if TYPE_CHECKING:
@@ -106,14 +107,14 @@ def drive(case: str, seed: int) -> DriveErrors:
     while world.now_s - began_s < DRIVE_S:
         if goal.has_ended:
             goal = world.say(f"go to the {random.choice(ROOMS)}")
-        _disturb(case, world, random, world.now_s - began_s)
+        disturb(case, world, random, world.now_s - began_s)
         world.run(0.1)
-        off_m, off_deg = _errors(world)
+        off_m, off_deg = pose_error(world)
         errors_m.append(off_m)
         errors_deg.append(off_deg)
         faults += any(row.row.startswith("POSE") for row in world.status.rows)
     process = world.localizer
-    work_s = process.work_cpu_s if process is not None else []
+    work_s = process.localizer.work_cpu_s if process is not None else []
     share = 100 * sum(work_s) / (world.now_s - began_s)
     return DriveErrors(errors_m, errors_deg, [1e3 * one for one in work_s], share, faults)
 
@@ -122,7 +123,8 @@ def _drive_record(case: str, seed: int) -> dict[str, object]:
     return asdict(drive(case, seed))
 
 
-def _disturb(case: str, world: LockstepWorld, random: Random, elapsed_s: float) -> None:
+def disturb(case: str, world: LockstepWorld, random: Random, elapsed_s: float) -> None:
+    """Do what a case does to the robot while it drives."""
     if case == "ice":
         slips = 10.0 <= elapsed_s % 30.0 < 13.0
         world.sim.break_down(*([SimFault.SLIP] if slips else []))
@@ -134,18 +136,6 @@ def _disturb(case: str, world: LockstepWorld, random: Random, elapsed_s: float) 
 def _draw_beside(pose: Pose2, random: Random, near_m: float, far_m: float) -> Pose2:
     angle, far = random.uniform(-pi, pi), random.uniform(near_m, far_m)
     return Pose2(pose.x_m + far * float(np.cos(angle)), pose.y_m + far * float(np.sin(angle)), 0.0)
-
-
-def _errors(world: LockstepWorld) -> tuple[float, float]:
-    """Return how far off the said pose is [m, degrees], where the bridge now thinks it is."""
-    said = world.localizer.said if world.localizer is not None else None
-    if said is None:
-        return float("inf"), 180.0
-    base, true = compose(said.odom_in_map, world.bridge.state.odometry.base_in_odom), world.truth
-    return (
-        hypot(base.x_m - true.x_m, base.y_m - true.y_m),
-        abs(degrees(wrap(base.yaw_rad - true.yaw_rad))),
-    )
 
 
 def kidnappings(seed: int) -> list[tuple[float, float]]:
@@ -171,7 +161,7 @@ def _is_lost(core: Localizer, _: LockstepWorld) -> bool:
 
 
 def _is_right(core: Localizer, world: LockstepWorld) -> bool:
-    return core.state is LocalizerState.TRACKING and _errors(world)[0] < RIGHT_M
+    return core.state is LocalizerState.TRACKING and pose_error(world)[0] < RIGHT_M
 
 
 def _spots(random: Random, count: int) -> list[Pose2]:

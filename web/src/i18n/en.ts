@@ -139,6 +139,18 @@ export const en = {
   "meter.tokens": "{n} tokens",
   "meter.seconds": "{n} s",
 
+  "here.searching": "The robot is looking for where it is. It stands still meanwhile.",
+  "here.lost": "The robot does not know where it is and stands still.",
+  "here.point": "The robot is here …",
+  "here.click": "Click where it is",
+  "here.room": "It is in …",
+  "here.tell": "Tell it",
+  "here.accepted": "The scan agrees: it knows where it is.",
+  "here.title": "Where it is",
+  "here.now_searching": "It is looking for its place on the map.",
+  "here.now_tracking": "Lidar and map agree.",
+  "here.now_coasting": "The newest scans do not fit the map; it goes by its wheels.",
+  "here.now_lost": "It does not know where it is.",
   "rooms.which": "Which rooms are these?",
   "rooms.how":
     "The map was cut at its doors; the numbers stand on the map. A named room can be driven to at once.",

@@ -7,7 +7,7 @@ import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
-import { picked, picking } from "../state/picking";
+import { picked, picking, pointAsked } from "../state/picking";
 import { steady } from "../state/steady";
 import {
   about,
@@ -72,7 +72,7 @@ function follow(view: MapView): (() => void)[] {
       if (about.value) drawing.showBody(about.value.base.radius_m);
     }),
     effect(() => drawing.showPicked(picked.value)),
-    effect(() => view.showPicking(picking.value)),
+    effect(() => view.showPicking(picking.value || pointAsked.value !== null)),
     effect(() => drawing.showPath(path.value)),
     effect(() => drawing.greyPath(!pageFresh.value)),
     effect(() => seen(() => drawing.showScan(isShown("scan") ? scanNow.value : []))),
@@ -111,6 +111,12 @@ function poseAge(): number | null {
 
 function clicked(point: Point, view: MapView): void {
   choice.value = null;
+  const asked = pointAsked.value;
+  if (asked !== null) {
+    pointAsked.value = null;
+    asked(point);
+    return;
+  }
   if (picking.value) {
     picked.value = point;
     picking.value = false;

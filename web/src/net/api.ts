@@ -135,6 +135,11 @@ export async function teachPlace(
   return (await call("POST", "/v1/places", body)) as Taught;
 }
 
+/** Tell localization where the robot is: at a point of the map, or in a place. */
+export async function hintPose(where: { point: Point } | { place: string }): Promise<void> {
+  await call("POST", "/v1/localization/hint", { source: "page", ...where });
+}
+
 export async function forgetPlace(id: string): Promise<void> {
   await call("DELETE", `/v1/places/${encodeURIComponent(id)}`);
 }

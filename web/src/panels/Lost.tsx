@@ -1,13 +1,33 @@
 /** Say in a whole sentence, over everything, that what is shown is not now. */
 import { t } from "../i18n";
-import { age, bridgeFresh, bridgeHeard, open, pageFresh, pageHeard } from "../state/store";
+import {
+  age,
+  bridgeFresh,
+  bridgeHeard,
+  open,
+  pageFresh,
+  pageHeard,
+  poseLost,
+} from "../state/store";
 import { seconds } from "./format";
+import { Here } from "./Here";
 
 export function Lost() {
   if (!pageHeard.value) return null; // nothing has been shown yet
   if (!open.value || !pageFresh.value) return <Strip why="planner" />;
   if (!bridgeHeard.value) return <p class="lost">{t("lost.never")}</p>;
-  return bridgeFresh.value ? null : <Strip why="bridge" />;
+  if (!bridgeFresh.value) return <Strip why="bridge" />;
+  return poseLost.value && <Whereabouts state={poseLost.value} />;
+}
+
+/** Say that the robot does not know where it is, and let a person tell it. */
+function Whereabouts({ state }: { state: "searching" | "lost" }) {
+  return (
+    <div class="lost" id="pose-lost" data-state={state} role="status">
+      <span>{t(`here.${state}`)}</span>
+      <Here />
+    </div>
+  );
 }
 
 function Strip({ why }: { why: "planner" | "bridge" }) {

@@ -16,6 +16,7 @@ import {
 import type { Status } from "../wire/types";
 import { Deliberate, KeyBox } from "./Deliberate";
 import { fixed, seconds } from "./format";
+import { Here } from "./Here";
 import { mindWords } from "./MindLine";
 import { limitWords, nameOf } from "./steps";
 
@@ -55,6 +56,13 @@ export function RobotTab() {
           </button>
         )}
       </section>
+      {shown.value?.localizer && (
+        <section class="card" aria-labelledby="here-title" id="here">
+          <h2 id="here-title">{t("here.title")}</h2>
+          <p class="fine">{t(`here.now_${shown.value.localizer}`)}</p>
+          <Here />
+        </section>
+      )}
       {said && (
         <div class={stale}>
           <State said={said} />

@@ -10,6 +10,7 @@ import {
   forgetPlace,
   type GoalVerb,
   giveGoal,
+  hintPose,
   moveGoal,
   type Names,
   operate,
@@ -94,6 +95,14 @@ export function teach(
   return attempt(async () => {
     const place = await teachPlace(name, point, room);
     tell(t("places.kept", { name: say(place.name) }));
+    return undefined;
+  });
+}
+
+export function hint(where: { point: Point } | { place: string }): Promise<boolean> {
+  return attempt(async () => {
+    await hintPose(where);
+    tell(t("here.accepted"));
     return undefined;
   });
 }

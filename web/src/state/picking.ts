@@ -6,6 +6,9 @@ export const picking = signal(false);
 /** The point that was clicked last for a place that is to be taught. */
 export const picked = signal<Point | null>(null);
 
+/** Takes the next click on the map, where somebody asked for one; null: clicks are goals. */
+export const pointAsked = signal<((point: Point) => void) | null>(null);
+
 export function forgetPick(): void {
   picking.value = false;
   picked.value = null;

@@ -29,6 +29,11 @@ export const history = new History();
 /** The bridge's newest word, as it comes: to act upon and to draw. Panels read `shown`. */
 export const status = computed(() => model.value.robot?.status ?? null);
 export const shownStatus = computed(() => shown.value?.status ?? null);
+/** The localizer is without a pose: since the start, or since it was carried. */
+export const poseLost = computed(() => {
+  const state = shown.value?.localizer;
+  return state === "searching" || state === "lost" ? state : null;
+});
 export const mind = steady(() => shown.value?.brain ?? null);
 export const goals = computed(() => model.value.goals);
 export const drafts = computed(() => model.value.drafts);

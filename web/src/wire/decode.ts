@@ -97,6 +97,7 @@ function isRobot(value: unknown): value is Robot {
     text(value.site) &&
     text(value.map_id) &&
     isMind(value.brain) &&
+    textOrNull(value.localizer) &&
     bag(value.ages_s) &&
     Object.values(value.ages_s).every(finiteOrNull)
   );

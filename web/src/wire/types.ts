@@ -85,6 +85,8 @@ export type Robot = {
   readonly ages_s: Ages;
   readonly site: string;
   readonly map_id: string;
+  /** What the localizer does; null where none speaks. */
+  readonly localizer: "searching" | "tracking" | "coasting" | "lost" | null;
   readonly brain: Mind;
 };
 

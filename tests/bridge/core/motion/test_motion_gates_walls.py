@@ -200,7 +200,7 @@ def test_looking_no_further_than_it_takes_changes_nothing_that_passes(
     asked = saturate(asked, robot.base, robot.limits)
     passed = obstacle_gate(near, here, asked, measured, age_s, robot)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("bridge.core.sensing.sensor_update.look_m", lambda *_: REACH_M)
+        patch.setattr("bridge.core.motion.obstacle_gate.look_m", lambda *_: REACH_M)
         expected = obstacle_gate(wide, here, asked, measured, age_s, robot)
     assert (passed.twist, passed.scale, passed.known) == (
         expected.twist, expected.scale, expected.known

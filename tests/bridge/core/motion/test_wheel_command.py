@@ -11,7 +11,7 @@ from bridge.core.motion import wheel_command
 from bridge.core.motion.pursuit import carry_over
 from bridge.core.motion.wheel_command import limit
 from bridge.core.state import RowUp
-from bridge.core.state_motion import AT_REST, NEW, LimiterState, Wheel
+from bridge.core.state_motion import AT_REST, NEW, FollowState, LimiterState, Wheel
 from bridge.core.tick_context import MOVING, TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.scripted import World, config
@@ -257,9 +257,17 @@ def test_what_was_learnt_on_a_leg_stays_while_it_is_the_same_leg(
         leg=leg,
         goal=now.goal if goal else now.horizon.points[0],
     )
-    learnt = tick.s.motion.follow = replace(NEW, turning=True)
+    learnt = tick.s.motion.follow = FollowState(
+        along_m=1.0, turning=True, settled=True, heading_done=True, tries=2
+    )
+    assert carry_over(learnt) not in (NEW, learnt, replace(NEW, turning=True))
     wheel_command.take_horizon(tick, before)
-    kept = {"new": NEW, "carried": carry_over(learnt), "turning": learnt, "kept": learnt}
+    kept = {
+        "new": NEW,
+        "carried": carry_over(learnt),
+        "turning": replace(NEW, turning=True),
+        "kept": learnt,
+    }
     assert tick.s.motion.follow == kept[follow]
 
 

@@ -10,6 +10,7 @@ from planner.language.commands import (
     CancelCommand,
     Doing,
     Forget,
+    HereCommand,
     Intent,
     PauseCommand,
     Remember,
@@ -28,6 +29,10 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("remember this as 奶奶的椅子", Remember("奶奶的椅子")),
     ("remember this as dangerous goods store", Remember("dangerous goods store")),
     ("forget the place charging dock", Forget("charging dock")),
+    ("you are in the kitchen", HereCommand("kitchen")),
+    ("You're now at the charging dock.", HereCommand("charging dock")),
+    ("你在厨房", HereCommand("厨房")),
+    ("你现在在客厅里", HereCommand("客厅")),
     ("delete the place called printer", Forget("printer")),
     ("forget where the printer is", Forget("printer")),
     ("continue", ResumeCommand()),
@@ -234,3 +239,10 @@ def test_a_word_more_before_a_sentence_makes_it_another(
 @given(st.text("conti uremb,.?!'…İßﬁ继续忘了去这里叫，。？「\u200b\u202e\ue000\n", max_size=60))
 def test_any_text_is_read_the_same_twice(text: str) -> None:
     assert intent_of(text) == intent_of(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["you are in the kitchen?", "you are in the kitchen, go to the study", "我在客厅"]
+)
+def test_what_asks_or_goes_on_or_is_of_another_tells_no_place(text: str) -> None:
+    assert not isinstance(intent_of(text), HereCommand)

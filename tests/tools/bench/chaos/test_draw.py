@@ -31,6 +31,7 @@ def test_sockets_keep_their_order_so_that_old_numbers_mean_what_they_meant() -> 
         ("robot", "sim"),
         ("localization", "localization"),
         ("camera", "camera"),
+        ("hint", "localization"),
     ]
 
 

@@ -69,7 +69,8 @@ def test_no_proof_is_right_though_the_key_of_a_simulated_drive_is_published() ->
 def test_a_forged_pose_comes_after_the_newest_and_is_elsewhere(mood: Mood) -> None:
     one = liar()
     newest = one.heard[keys.LOCALIZATION.path]
-    [(_, payload)] = [said for _ in range(5) for said in one.say((mood,))][-1:]
+    said = [said for _ in range(5) for said in one.say((mood,))]
+    payload = [payload for path, payload in said if path == keys.LOCALIZATION.path][-1]
     forged = decode(keys.LOCALIZATION, payload)
     assert not isinstance(forged, Rejected)
     assert forged.seq > newest.seq

@@ -1,0 +1,4 @@
+"""Make maps from scans: a chain of keyframes, loops that close it, and cells drawn from it.
+
+Pure arrays and time, told by a process or a log. Knows scan matching; no sockets, no robot.
+"""

@@ -1,0 +1,88 @@
+"""Build a map from what a robot heard on a drive: its odometry and scans, in the order they came.
+
+Odometry may come after the scan that it places; a scan waits until odometry covers its sweep.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from localization.deskew import deskew, sweep_s
+from localization.mapping.map_builder import MapBuilder
+from localization.mapping.scan_tracker import ScanTracker
+from localization.odometry_integration import OdometryTrail
+from wire import Odometry
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from wire import Scan
+    from wire.robot import LidarConfig
+
+    Floats = NDArray[np.float64]
+
+MOST_WAITING = 20
+"""Scans whose odometry never comes are dropped, the oldest first."""
+
+
+class MapReplay:
+    """Feed a drive to a tracker and a map builder."""
+
+    def __init__(self, lidar: LidarConfig) -> None:
+        self.builder = MapBuilder((lidar.x_m, lidar.y_m))
+        self.scans = 0
+        """How many were placed."""
+        self._lidar = lidar
+        self._tracker = ScanTracker()
+        self._trail = OdometryTrail()
+        self._odom_id: str | None = None
+        self._waiting: deque[Scan] = deque(maxlen=MOST_WAITING)
+        self._placed_s = -np.inf
+
+    @property
+    def pose(self) -> Floats:
+        """Return x, y, yaw of ``base`` in ``map`` at the newest scan."""
+        return self._tracker.pose
+
+    def hear(self, messages: Iterable[Odometry | Scan]) -> None:
+        """Take messages in the order of their arrival.
+
+        Raises:
+            ValueError: ``odom_id`` changed: nobody knows how the robot moved between two frames.
+        """
+        for message in messages:
+            if isinstance(message, Odometry):
+                if self._odom_id not in {None, message.odom_id}:
+                    text = f"odometry {message.odom_id} after {self._odom_id}"
+                    raise ValueError(f"{text}; give the recordings of one run of the bridge")
+                self._odom_id = message.odom_id
+                self._trail.add(message)
+            else:
+                self._waiting.append(message)
+            self._use_waiting()
+
+    def _use_waiting(self) -> None:
+        newest = self._trail.newest
+        while newest is not None and self._waiting:
+            scan = self._waiting[0]
+            end_s = scan.stamp_s + sweep_s(scan)
+            if newest.stamp_s < end_s:
+                return
+            self._waiting.popleft()
+            if scan.stamp_s > self._placed_s and self._trail.covers(scan.stamp_s, end_s):
+                self._placed_s = scan.stamp_s
+                self._use(scan)
+
+    def _use(self, scan: Scan) -> None:
+        cloud = deskew(scan, self._lidar, self._trail)
+        at = self._trail.at(cloud.stamp_s)
+        carried = np.array((at.x_m, at.y_m, at.yaw_rad))
+        link = self._tracker.use_scan(cloud.points_m, carried, cloud.stamp_s)
+        self.scans += 1
+        if link is not None and self.builder.add(link):
+            self._tracker.correct(self.builder.poses)

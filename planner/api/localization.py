@@ -1,0 +1,92 @@
+"""Take a person's word on where the robot is. Localization judges it by scans before it counts.
+
+An operator's act: a pose decides where the fence lies. Nothing moves by it.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter
+from pydantic import Field, model_validator
+
+from planner.api.interfaces import Services
+from planner.api.places import Point
+from planner.api.problems import HttpProblem
+from planner.api.schemas import Body
+from planner.language.catalogue import say
+from planner.site import Place
+from planner.site.places import normalise
+from planner.site.pose_hint import hint_at, hint_in
+from wire.bounded_types import Name
+
+_STATUS = {"moving": 409, "busy": 409, "no_scan": 503, "no_answer": 503, "does_not_fit": 422}
+
+
+class HereHint(Body):
+    """Say where the robot is: at a point of the map, or in a room."""
+
+    point: Point | None = None
+    place: Annotated[str, Field(min_length=1, max_length=200)] | None = None
+    source: Name = "api"
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> HereHint:
+        if (self.point is None) == (self.place is None):
+            raise ValueError("say point or place, one of both")
+        return self
+
+
+def routes(services: Services) -> APIRouter:
+    """Return the routes of localization."""
+    router = APIRouter(prefix="/v1/localization", tags=["localization"])
+
+    @router.get("", operation_id="get_localization")
+    async def localization() -> dict[str, Any]:
+        """Say what the localizer does: its state, its score, and candidates while it searches."""
+        return {"localizer": localizer_view(services)}
+
+    @router.post("/hint", operation_id="hint_localization")
+    async def hint(word: HereHint) -> dict[str, Any]:
+        """Say where the robot is. It must stand, and a scan must agree; then its pose is set."""
+        return await give_hint(services, word)
+
+    return router
+
+
+def localizer_view(services: Services) -> dict[str, Any] | None:
+    """Return what the localizer says that it does; None where none speaks."""
+    said = services.robot.localizer
+    return None if said is None else said.model_dump(mode="json")
+
+
+async def give_hint(services: Services, word: HereHint) -> dict[str, Any]:
+    """Bring a hint to localization and return what it made of it."""
+    if services.robot.localizer is None:
+        raise _problem("no_localizer", 503)
+    point = word.point
+    if point is not None:
+        hint = hint_at(point.x_m, point.y_m, point.yaw_rad)
+    else:
+        hint = hint_in(_place(services, word))
+    verdict = await services.robot.hint(hint)
+    code = "no_answer" if verdict is None else verdict.code
+    score = None if verdict is None else verdict.score
+    if code != "accepted":
+        raise _problem(code, _STATUS.get(code, 503), score)
+    return {"code": code, "score": score, "message": say("hint.accepted").model_dump()}
+
+
+def _place(services: Services, word: HereHint) -> Place:
+    wanted = word.place or ""
+    for place in services.memory.places:
+        if normalise(wanted) in map(normalise, place.spoken_names):
+            return place
+    known = ", ".join(place.id for place in services.memory.places[:20])
+    raise HttpProblem(404, "unknown_place", f"got {wanted[:40]!r}; known: {known}")
+
+
+def _problem(code: str, status: int, score: float | None = None) -> HttpProblem:
+    said = say(f"hint.{code}")
+    detail = said.en if score is None else f"{said.en} (score {score:.2f}, needs 0.60)"
+    return HttpProblem(status, f"hint_{code}", detail, message=said.model_dump())

@@ -1,0 +1,96 @@
+"""A person says where the robot is over HTTP; localization judges, and its verdict has a code."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from starlette.testclient import TestClient
+
+from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
+from tests.wire.examples import EXAMPLES
+from wire import HintCode, LocalizerStatus
+
+
+@pytest.fixture
+def services() -> FakeServices:
+    made = FakeServices()
+    said = EXAMPLES[LocalizerStatus]
+    assert isinstance(said, LocalizerStatus)
+    made.robot.localizer = said
+    return made
+
+
+@pytest.fixture
+def client(services: FakeServices) -> Iterator[TestClient]:
+    with client_of(services) as made:
+        yield made
+
+
+HINT = "/v1/localization/hint"
+
+
+def test_a_point_without_a_heading_is_sought_with_every_one(
+    client: TestClient, services: FakeServices
+) -> None:
+    answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
+    assert answer.status_code == 200
+    assert answer.json()["code"] == "accepted"
+    (hint,) = services.robot.hints
+    assert (hint.pose.x_m, hint.pose.y_m, hint.any_heading) == (1.0, 4.2, True)
+    client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2, "yaw_rad": 0.5}})
+    assert not services.robot.hints[-1].any_heading
+
+
+def test_a_room_is_sought_within_its_outline(client: TestClient, services: FakeServices) -> None:
+    room = services.site.rooms[0]
+    assert client.post(HINT, json={"place": room.name.zh}).status_code == 200
+    (hint,) = services.robot.hints
+    assert hint.outline == room.polygon
+    assert hint.any_heading
+
+
+@pytest.mark.parametrize(
+    ("code", "status"),
+    [("moving", 409), ("busy", 409), ("no_scan", 503), ("does_not_fit", 422), (None, 503)],
+)
+def test_a_verdict_is_a_problem_with_its_code(
+    client: TestClient, services: FakeServices, code: HintCode | None, status: int
+) -> None:
+    services.robot.hint_code = code
+    answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
+    assert (answer.status_code, answer.json()["code"]) == (status, f"hint_{code or 'no_answer'}")
+    assert answer.json()["message"]["zh"]
+
+
+@pytest.mark.parametrize(
+    ("body", "status", "code"),
+    [
+        ({}, 422, "invalid_request"),
+        ({"place": "kitchen", "point": {"x_m": 1.0, "y_m": 1.0}}, 422, "invalid_request"),
+        ({"place": "attic"}, 404, "unknown_place"),
+        ({"point": {"x_m": "here", "y_m": 1.0}}, 422, "invalid_request"),
+        ({"point": {"x_m": 1e9, "y_m": 1.0}}, 422, "invalid_request"),
+    ],
+)
+def test_what_is_no_place_is_refused(
+    client: TestClient, services: FakeServices, body: object, status: int, code: str
+) -> None:
+    answer = client.post(HINT, json=body)
+    assert (answer.status_code, answer.json()["code"]) == (status, code)
+    assert not services.robot.hints
+
+
+def test_a_robot_without_a_localizer_says_so(client: TestClient, services: FakeServices) -> None:
+    services.robot.localizer = None
+    answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
+    assert (answer.status_code, answer.json()["code"]) == (503, "hint_no_localizer")
+    assert client.get("/v1/localization").json() == {"localizer": None}
+    assert client.get("/v1/robot").json()["localizer"] is None
+
+
+def test_what_it_does_is_shown(client: TestClient) -> None:
+    shown = client.get("/v1/localization").json()["localizer"]
+    assert (shown["state"], len(shown["candidates"])) == ("lost", 1)
+    assert client.get("/v1/robot").json()["localizer"] == "lost"

@@ -1,0 +1,164 @@
+"""``pons map`` makes a site of a drive's recordings that the robot can then be sent about in."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot
+from pathlib import Path
+
+import pytest
+
+from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
+from bridge.recording.recording_reader import read_motion
+from localization.mapping.keyframes import read_keyframes
+from maps import FREE, load_map
+from planner.site import Site
+from pons import mapping
+from pons.settings import CHECKOUT, LaunchSettings
+from pons_assets import ROBOT_FILE
+from tests.bridge.recorded import Taken, stream_of, written
+from tools.lockstep import LockstepWorld
+from tools.lockstep.bridge_process import Step
+from wire import Odometry, Pose2, Scan, compose
+
+Drive = tuple[Path, Pose2, Pose2, list[Taken]]
+TWO_ROOM = CHECKOUT / "sites" / "two_room"
+OFF_M = (-0.05, 0.0, 0.05)
+
+
+def _keeping(ticks: list[Taken]) -> Step:
+    """Return the bridge's step, and keep what a recorder would have been given."""
+
+    def kept(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> Decision:
+        decision = step(config, state, inbox, now_s)
+        ticks.append((state, inbox, now_s, decision))
+        return decision
+
+    return kept
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> LaunchSettings:
+    return LaunchSettings(
+        home=tmp_path / "home", robot=ROBOT_FILE, site=tmp_path, host="127.0.0.1", port=1
+    )
+
+
+@pytest.fixture(scope="module")
+def drive(tmp_path_factory: pytest.TempPathFactory) -> Drive:
+    """Drive through both rooms; return the recording, the first and the last true pose."""
+    ticks: list[Taken] = []
+
+    world = LockstepWorld(seed=4, step=_keeping(ticks))
+    start = world.truth
+    for room in ("kitchen", "living room"):
+        goal = world.say(f"go to the {room}")
+        while not goal.has_ended:
+            world.run(0.5)
+    (path,) = written(tmp_path_factory.mktemp("drive"), stream_of(world.bridge.config, ticks))
+    return path, start, world.truth, ticks
+
+
+def test_a_recording_gives_its_odometry_and_scans_back(drive: Drive) -> None:
+    path, _, _, ticks = drive
+    heard = list(read_motion(path))
+    scans = [one for one in heard if isinstance(one, Scan)]
+    assert scans == [inbox.scan for _, inbox, _, _ in ticks if inbox.scan is not None]
+    told = [decision.odometry for *_, decision in ticks if decision.odometry is not None]
+    assert [one for one in heard if isinstance(one, Odometry)] == told
+
+
+def test_a_drive_becomes_a_site_that_the_planner_loads(
+    drive: Drive, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, start, _, _ = drive
+    assert mapping.run(settings, ["attic", str(path)]) == 0, capsys.readouterr().err
+    folder = settings.home / "sites" / "attic"
+    site = Site.load(folder)
+    home = site.home.pose
+    assert hypot(home.x_m, home.y_m) < 0.01, "where the drive began"
+    keyframes, _ = read_keyframes((folder / "keyframes.npz").read_bytes())
+    assert len(keyframes) > 8
+    made, true = load_map(folder / "map.yaml").grid, load_map(TWO_ROOM / "map.yaml").grid
+    wrong = seen = 0
+    for index, cell in enumerate(made.cells):
+        if cell == FREE:
+            row, column = divmod(index, made.width)
+            at = compose(start, Pose2(*made.centre_of(column, row), 0.0))
+            near = {true.at(at.x_m + dx, at.y_m + dy) for dx in OFF_M for dy in OFF_M}
+            seen, wrong = seen + 1, wrong + (FREE not in near)
+    assert seen > 5000
+    assert wrong < 0.01 * seen, "what is free on it is free"
+    assert "pons site check attic" in capsys.readouterr().out
+
+
+def test_the_same_name_twice_is_refused_and_the_first_stays(
+    drive: Drive, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["attic", str(drive[0])]
+    assert mapping.run(settings, words) == 0
+    folder = settings.home / "sites" / "attic"
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert mapping.run(settings, words) == 3
+    assert "site_exists" in capsys.readouterr().err
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize("name", ["", "Attic", "../up", "a" * 40, "1st", "阁楼", "a b"])
+def test_odd_names_are_refused_before_anything_is_read(
+    name: str, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert mapping.run(settings, [name, "/nothing"]) == 3
+    assert "site_name_malformed" in capsys.readouterr().err
+
+
+def test_a_robot_that_stood_makes_no_map(
+    drive: Drive, settings: LaunchSettings, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    world = LockstepWorld(seed=4)
+    (path,) = written(tmp_path, stream_of(world.bridge.config, drive[3][:100]), boot="stood")
+    assert mapping.run(settings, ["attic", str(path)]) == 3
+    assert "map_no_drive" in capsys.readouterr().err
+    assert not (settings.home / "sites").exists()
+
+
+def test_recordings_of_two_runs_do_not_join(
+    drive: Drive, settings: LaunchSettings, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ticks: list[Taken] = []
+    world = LockstepWorld(seed=5, step=_keeping(ticks))
+    world.run(3.0)
+    renamed = [
+        (state, inbox, now_s, replace(decision, odometry=_of_another_run(decision.odometry)))
+        for state, inbox, now_s, decision in ticks
+    ]
+    (path,) = written(tmp_path, stream_of(world.bridge.config, renamed), boot="other")
+    assert mapping.run(settings, ["attic", str(drive[0]), str(path)]) == 3
+    assert "map_of_two_runs" in capsys.readouterr().err
+
+
+def _of_another_run(odometry: Odometry | None) -> Odometry | None:
+    return odometry and odometry.model_copy(update={"odom_id": "bridge-other"})
+
+
+@pytest.mark.parametrize("data", [None, b"", b"no recording at all"])
+def test_what_is_no_recording_is_refused(
+    data: bytes | None, settings: LaunchSettings, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "a.mcap"
+    if data is not None:
+        path.write_bytes(data)
+    assert mapping.run(settings, ["attic", str(path)]) == 3
+    code = {None: "recording_missing", b"": "map_no_drive"}.get(data, "recording_not_mcap")
+    assert code in capsys.readouterr().err
+
+
+def test_a_disk_without_room_is_refused(
+    drive: Drive,
+    settings: LaunchSettings,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(mapping, "MIN_FREE_BYTES", 1 << 62)
+    assert mapping.run(settings, ["attic", str(drive[0])]) == 3
+    assert "disk_full" in capsys.readouterr().err
