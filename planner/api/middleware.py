@@ -27,6 +27,9 @@ log = logging.getLogger(__name__)
 MAX_BODY_BYTES = 256 * 1024
 LARGE_BODIES = {"/v1/voice": MAX_BYTES}
 WS_POLICY_VIOLATION = 1008
+UNREAD_BYTES = 65_536
+UNREAD_S = 0.5
+"""Of a body whose request is refused: so much is read of it and thrown away, for so long."""
 FREE = 3
 """So many wrong tokens of one address are typing mistakes."""
 FIRST_S, LONGEST_S = 0.1, 2.0
@@ -123,7 +126,26 @@ async def _refuse(refusal: AccessError, scope: Scope, receive: Receive, send: Se
                     "reason": refusal.code})  # fmt: skip
         return
     problem = response(refusal.status, refusal.code, refusal.detail)
+    await _take_small_body(receive)
     await problem(scope, receive, _add_headers(send))
+
+
+async def _take_small_body(receive: Receive) -> None:
+    """Read what was sent, up to a bound of bytes and time, before a refusal closes the connection.
+
+    A server that closes while bytes lie unread resets the connection (RFC 9112, 9.6), and a proxy
+    in between may then lose the answer, as Caddy did once on a busy machine.
+    """
+    taken = 0
+    try:
+        async with asyncio.timeout(UNREAD_S):
+            while taken <= UNREAD_BYTES:
+                message = await receive()
+                taken += len(message.get("body", b""))
+                if not message.get("more_body", False):
+                    return
+    except TimeoutError:
+        return
 
 
 class Guesses:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import threading
 import time
 
 import pytest
 from starlette.testclient import TestClient
+from starlette.types import Message, Receive, Scope, Send
 
 from planner.api import Access
-from planner.api.middleware import FREE, LONGEST_S, MOST_ADDRESSES, Guesses
+from planner.api.middleware import FREE, LONGEST_S, MOST_ADDRESSES, Guard, Guesses
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.planner.api.serving import Served, request, served
@@ -152,3 +154,47 @@ def test_methods_that_nothing_takes_are_told_what_is_taken(client: TestClient) -
         answer = client.request(method, "/v1/goals")
         assert (answer.status_code, answer.json()["code"]) == (405, "method_not_allowed")
         assert answer.headers["allow"] == "GET, POST"
+
+
+async def refused_after(*messages: Message) -> tuple[int, int]:
+    """Return the status that a foreign host's request got, and how many messages were taken."""
+    taken = iter(messages)
+    count = 0
+    sent: list[Message] = []
+
+    async def receive() -> Message:
+        nonlocal count
+        message = next(taken, None)
+        if message is None:
+            await asyncio.Event().wait()
+        assert message is not None
+        count += 1
+        return message
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    async def never(scope: Scope, receive: Receive, send: Send) -> None:
+        raise AssertionError("a refused request came through")
+
+    scope: Scope = {
+        "type": "http", "method": "POST", "path": "/v1/goals", "client": ("127.0.0.1", 1),
+        "headers": [(b"host", b"evil.example")],
+    }  # fmt: skip
+    await Guard(never, Access("127.0.0.1"))(scope, receive, send)
+    return sent[0]["status"], count
+
+
+def part(size: int, *, more: bool) -> Message:
+    return {"type": "http.request", "body": b"x" * size, "more_body": more}
+
+
+def test_a_refusal_comes_after_the_body_so_that_no_proxy_loses_it() -> None:
+    assert asyncio.run(refused_after(part(10, more=True), part(5, more=False))) == (403, 2)
+
+
+def test_a_refusal_waits_for_no_endless_and_no_silent_body() -> None:
+    many = [part(60_000, more=True)] * 9
+    status, taken = asyncio.run(refused_after(*many))
+    assert (status, taken) == (403, 2)
+    assert asyncio.run(refused_after(part(10, more=True))) == (403, 1)
