@@ -123,6 +123,10 @@ class DomainScript:
             carried_to=self._spot() if self._carry.begins(tick) else None,
         )
 
+    def shut_leaves(self) -> list[Rect]:
+        """Return the outlines of the leaves that stand shut now."""
+        return [leaf for name, leaf in self.leaves.items() if self._is_shut(name)]
+
     def _recur(self, part: str, every_s: float, for_s: float) -> Recurrence:
         return Recurrence(self._chance[part], every_s, for_s, self._tick_s)
 
@@ -146,7 +150,7 @@ class DomainScript:
     def _walk(self, tick: int, robot: Pose2) -> list[tuple[str, Pose2]]:
         if tick % WALK_TICKS != 0:
             return []
-        shut = [leaf for name, leaf in self.leaves.items() if self._is_shut(name)]
+        shut = self.shut_leaves()
         moved = []
         for walker in self.walkers:
             stands = self._things.pose_of(walker.name)
