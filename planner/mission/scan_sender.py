@@ -68,7 +68,8 @@ class ScanSender:
         self._ahead, self._clock = ahead, clock
         self._poses = Poses(map_id)
         self._lidar_in_base = Pose2(lidar.x_m, lidar.y_m, lidar.yaw_rad)
-        self._shown: tuple[str, int] | None = None
+        self.shown: Scan | None = None
+        """The newest scan that was shown."""
         self._shown_s = float("-inf")
         self._busy = False
         self._way: WayAhead | None = None
@@ -82,12 +83,12 @@ class ScanSender:
         if self._busy or aged is None or not aged.age_s <= FRESH_S:
             return None
         scan = aged.value
-        if (scan.boot_id, scan.seq) == self._shown or now_s - self._shown_s < PERIOD_S:
+        if self._was_shown(scan) or now_s - self._shown_s < PERIOD_S:
             return None
         stance = self._poses.at(_middle_s(scan))
         if stance is None:
             return None
-        self._shown, self._shown_s, self._busy = (scan.boot_id, scan.seq), now_s, True
+        self.shown, self._shown_s, self._busy = scan, now_s, True
         self._way = self._ahead()
         return ScanObservation(
             base_in_map=stance.base_in_map,
@@ -99,6 +100,10 @@ class ScanSender:
             at_s=now_s,
             ahead=self._way.points if self._way is not None else (),
         )
+
+    def _was_shown(self, scan: Scan) -> bool:
+        newest = self.shown
+        return newest is not None and (scan.boot_id, scan.seq) == (newest.boot_id, newest.seq)
 
     async def show(self, seen: ScanObservation, doubt: Callable[[RouteDoubted], None]) -> None:
         """Bring a scan to the search and keep its report; a failure is told by its next route.
