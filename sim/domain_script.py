@@ -116,10 +116,13 @@ class DomainScript:
         if self._push.begins(tick):
             angle_rad = self._chance["push"].uniform(-pi, pi)
             self._force_n = (self._push_n * cos(angle_rad), self._push_n * sin(angle_rad))
+        ice = self._slips if self._ice.holds(tick) else (False, False)
+        # On ice 120 N would fling 20 kg away at 1.8 m/s, and a wall it hits is not the robot's doing.
+        leans = self._push.holds(tick) and not any(ice)
         return DomainActs(
             moved=(*self._walk(tick, robot), *self._swing(tick, robot)),
-            ice=self._slips if self._ice.holds(tick) else (False, False),
-            force_n=self._force_n if self._push.holds(tick) else (0.0, 0.0),
+            ice=ice,
+            force_n=self._force_n if leans else (0.0, 0.0),
             carried_to=self._spot() if self._carry.begins(tick) else None,
         )
 
