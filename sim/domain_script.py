@@ -117,7 +117,7 @@ class DomainScript:
             angle_rad = self._chance["push"].uniform(-pi, pi)
             self._force_n = (self._push_n * cos(angle_rad), self._push_n * sin(angle_rad))
         ice = self._slips if self._ice.holds(tick) else (False, False)
-        # On ice 120 N would fling 20 kg away at 1.8 m/s, and a wall it hits is not the robot's doing.
+        # On ice 120 N fling 20 kg away at 1.8 m/s: a wall it hits then is not the robot's doing.
         leans = self._push.holds(tick) and not any(ice)
         return DomainActs(
             moved=(*self._walk(tick, robot), *self._swing(tick, robot)),
