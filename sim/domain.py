@@ -59,7 +59,7 @@ class Domain:
     """On average; then a wheel or both lose their grip: water, a rug that slides."""
     ice_for_s: Annotated[float, Field(ge=0.0, le=10.0)] = 2.0
     push_every_s: _Every = 0.0
-    """On average; then somebody leans on the robot for 0.3 s, from any side."""
+    """On average; then somebody leans on the robot for 0.3 s, from any side; never on ice."""
     push_n: Annotated[float, Field(ge=0.0, le=400.0)] = 100.0
     """The tyres of the default robot hold about 200 N."""
     carry_every_s: _Every = 0.0

@@ -116,12 +116,19 @@ class DomainScript:
         if self._push.begins(tick):
             angle_rad = self._chance["push"].uniform(-pi, pi)
             self._force_n = (self._push_n * cos(angle_rad), self._push_n * sin(angle_rad))
+        ice = self._slips if self._ice.holds(tick) else (False, False)
+        # On ice 120 N fling 20 kg away at 1.8 m/s: a wall it hits then is not the robot's doing.
+        leans = self._push.holds(tick) and not any(ice)
         return DomainActs(
             moved=(*self._walk(tick, robot), *self._swing(tick, robot)),
-            ice=self._slips if self._ice.holds(tick) else (False, False),
-            force_n=self._force_n if self._push.holds(tick) else (0.0, 0.0),
+            ice=ice,
+            force_n=self._force_n if leans else (0.0, 0.0),
             carried_to=self._spot() if self._carry.begins(tick) else None,
         )
+
+    def shut_leaves(self) -> list[Rect]:
+        """Return the outlines of the leaves that stand shut now."""
+        return [leaf for name, leaf in self.leaves.items() if self._is_shut(name)]
 
     def _recur(self, part: str, every_s: float, for_s: float) -> Recurrence:
         return Recurrence(self._chance[part], every_s, for_s, self._tick_s)
@@ -146,7 +153,7 @@ class DomainScript:
     def _walk(self, tick: int, robot: Pose2) -> list[tuple[str, Pose2]]:
         if tick % WALK_TICKS != 0:
             return []
-        shut = [leaf for name, leaf in self.leaves.items() if self._is_shut(name)]
+        shut = self.shut_leaves()
         moved = []
         for walker in self.walkers:
             stands = self._things.pose_of(walker.name)

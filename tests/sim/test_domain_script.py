@@ -209,6 +209,16 @@ def test_a_push_moves_a_robot_that_stands() -> None:
     assert hypot(at.x_m - HALLWAY.x_m, at.y_m - HALLWAY.y_m) > 0.01
 
 
+def test_nobody_leans_on_a_robot_on_ice() -> None:
+    domain = Domain(ice_every_s=1.0, ice_for_s=3.0, push_every_s=1.0, push_n=400.0)
+    script = robot_in(domain, HALLWAY).script
+    assert script is not None
+    acts = [script.turn(tick, HALLWAY) for tick in range(1, 3000)]
+    assert any(any(one.ice) for one in acts)
+    assert any(any(one.force_n) for one in acts)
+    assert not any(any(one.ice) and any(one.force_n) for one in acts)
+
+
 def test_a_robot_is_carried_and_its_wheels_notice_nothing() -> None:
     robot = robot_in(Domain(carry_every_s=1.0), HALLWAY)
     reports = drive(robot, 2.0, 0.0)
