@@ -37,6 +37,7 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--port", help="port of page and API (PONS_PORT)")
     started.add_argument("--tls", action="store_true", help="serve https (PONS_TLS=1); docs/tls.md")
     started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
+    started.add_argument("--twin", action="store_true", help="play the base of robot.toml's drive")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
     words.add_parser("tls", help="make or renew the certificate; say what devices must trust")
     _saying(words)
@@ -218,7 +219,8 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
         port = port_of(said.port) if said.port is not None else None
         site = None if said.site is None else site_of(str(said.site), settings.home)
-        given = {"site": site, "robot": said.robot, "port": port, "metal": said.metal}
+        given = {"site": site, "robot": said.robot, "port": port, "metal": said.metal,
+                 "twin": said.twin}  # fmt: skip
         chosen = {name: value for name, value in given.items() if value is not None}
         chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before
         return up.run(replace(settings, **chosen), planner=not said.no_planner)

@@ -31,6 +31,8 @@ class LaunchSettings:
     port: int
     metal: Path | None = None
     """What the simulated robot is really like, where robot.toml is to be wrong about it."""
+    twin: bool = False
+    """Whether a base of metal is to be played by its twin (docs/drives.md)."""
     tls: bool = False
     """Whether the planner is asked, and by ``pons up`` started, over TLS."""
     authority: Path | None = None
