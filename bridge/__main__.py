@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
-from bridge.drive import SimDrive, require_brakes
+from bridge.drive import SimDrive, open_serial_drive, require_brakes
 from bridge.fence_file import load_fence
 from bridge.fence_update import FenceDesk, Ground
 from bridge.link import BridgeLink
@@ -73,6 +73,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         "--robot", type=Path, help="robot.toml (default: the built-in robot, said in the log)"
     )
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
+    parser.add_argument(
+        "--drive-port", type=Path, help="in place of robot.toml's drive.port: a twin's line"
+    )
     return parser.parse_args(arguments)
 
 
@@ -87,7 +90,7 @@ def _serve(options: argparse.Namespace) -> int:
     with transport_fifo(robot.realtime.priority) as carried:
         opened = open_session(Party.BRIDGE, robot.id, home)
     with opened as session:
-        drive = _drive(session, robot, config.boot)
+        drive = _drive(session, robot, config.boot, options.drive_port)
         link = BridgeLink(session, robot.id, key)
         recorder = Recorder(home.absolute() / "recordings", config)
         keeper = BrakingKeeper(path_of(home, robot), robot, config.learnt)
@@ -124,8 +127,10 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
     )
 
 
-def _drive(session: Session, robot: RobotDescription, boot: str) -> Drive:
-    return require_brakes({"sim": SimDrive}[robot.drive.kind](session, boot))
+def _drive(session: Session, robot: RobotDescription, boot: str, line: Path | None = None) -> Drive:
+    if robot.drive.virtual:
+        return require_brakes(SimDrive(session, boot))
+    return require_brakes(open_serial_drive(robot.drive, boot, line))
 
 
 def _loop(config: CoreConfig, parts: Parts, asked: _LeaveRequest, carried: Right) -> int:

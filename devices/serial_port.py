@@ -47,8 +47,9 @@ class PortTrouble(OSError):
     """Say why a port can't be used, with a code that stays and what cures it."""
 
     def __init__(self, code: str, path: Path, detail: str) -> None:
-        super().__init__(f"{code}: {path}: {detail}; {_CURES[code]}")
         self.code = code
+        self.detail = f"{path}: {detail}; {_CURES[code]}"
+        super().__init__(f"{code}: {self.detail}")
 
 
 class SerialPort:

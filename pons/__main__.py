@@ -41,6 +41,7 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
     started.add_argument("--domain", metavar="random|FILE", help="make the simulated home worse")
     started.add_argument("--seed", type=int, help="of --domain, and of the simulator's noise")
+    started.add_argument("--twin", action="store_true", help="play the base of robot.toml's drive")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
     words.add_parser("tls", help="make or renew the certificate; say what devices must trust")
     _saying(words)
@@ -227,7 +228,7 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
         port = port_of(said.port) if said.port is not None else None
         site = None if said.site is None else site_of(str(said.site), settings.home)
         given = {"site": site, "robot": said.robot, "port": port, "metal": said.metal}
-        given |= {"domain": said.domain, "seed": said.seed}
+        given |= {"domain": said.domain, "seed": said.seed, "twin": said.twin}
         chosen = {name: value for name, value in given.items() if value is not None}
         chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before
         return up.run(replace(settings, **chosen), planner=not said.no_planner)

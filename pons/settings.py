@@ -35,6 +35,8 @@ class LaunchSettings:
     """How the simulated home is worse than described: ``random``, or a file (sim/domain.py)."""
     seed: int | None = None
     """Of that, and of the simulator's noise."""
+    twin: bool = False
+    """Whether a base of metal is to be played by its twin (docs/drives.md)."""
     tls: bool = False
     """Whether the planner is asked, and by ``pons up`` started, over TLS."""
     authority: Path | None = None

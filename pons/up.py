@@ -196,14 +196,19 @@ def children(
     logs = settings.home / "logs"
     common = common_arguments(settings)
     domain = ["--domain", settings.domain] if settings.domain else []
-    wanted = [("bridge", common)]
+    line = settings.home / "twin" / "drive"
+    at_line = ["--drive-port", str(line)] if settings.twin else []
+    wanted = [("bridge", [*common, *at_line])]
     if planner:
         secured = issued.planner_arguments() if issued else []
         wanted.append(("planner", [*common, *address_arguments(settings), *secured]))
-    if robot.drive.virtual:
-        metal = ["--metal", str(settings.metal)] if settings.metal else []
-        seed = [] if settings.seed is None else ["--seed", str(settings.seed)]
-        wanted = [("sim", [*common, *metal, *domain, *seed]), ("localization", common), *wanted]
+    simulated = robot.drive.virtual or settings.twin
+    if simulated:
+        more = ["--metal", str(settings.metal)] if settings.metal else []
+        more += domain
+        more += [] if settings.seed is None else ["--seed", str(settings.seed)]
+        more += ["--twin", str(line)] if settings.twin else []
+        wanted = [("sim", [*common, *more]), ("localization", common), *wanted]
     found = [
         Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
         for name, more in wanted
@@ -211,7 +216,7 @@ def children(
     for child in found:
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())
-    if robot.drive.virtual and robot.camera.kind == "sim":
+    if simulated and robot.camera.kind == "sim":
         arguments = ["sim.camera", *common, *domain]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
     return found
@@ -242,6 +247,10 @@ def check(settings: LaunchSettings) -> RobotDescription:
         raise CannotStart(
             f"site_missing: {settings.site} has no map.yaml; sites beside it: "
             f"{', '.join(known) or 'none'}"
+        )
+    if settings.twin and robot.drive.virtual:
+        raise CannotStart(
+            "twin_needless: drive.kind 'sim' is simulated as it is; --twin plays a base of metal"
         )
     try:
         (settings.home / "logs").mkdir(parents=True, exist_ok=True)

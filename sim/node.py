@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from sim.messages import Report
     from sim.robot import SimRobot
+    from sim.twin import DriveTwin
     from wire import SimControl
     from wire.session import Session
 
@@ -32,8 +33,10 @@ through on a busy machine. The dead-man has fired by then, so nothing is lost bu
 class SimNode:
     """Connect one SimRobot to the wire."""
 
-    def __init__(self, robot: SimRobot, session: Session) -> None:
+    def __init__(self, robot: SimRobot, session: Session, twin: DriveTwin | None = None) -> None:
+        """Take commands from the wire, or from a twin's serial line, which then has the answers."""
         self._robot = robot
+        self._twin = twin
         self._commands = session.subscriber(keys.DRIVE_COMMAND)
         self._controls = session.subscriber(keys.SIM_CONTROL)
         self._drive = session.publisher(keys.DRIVE_STATE)
@@ -56,13 +59,20 @@ class SimNode:
             missed = pacer.woke(now_s)
             if missed >= frozen:
                 log.warning("frozen for %.2f s; skipped, not caught up", missed * PERIODS.tick_s)
-                self._distrust = STALE_TICKS
+                self._distrust_arrivals()
             self._receive(now_s)
-            self._say(self._robot.tick(now_s, real_time_factor=factor.note_tick(now_s)))
+            self._say(self._robot.tick(now_s, real_time_factor=factor.note_tick(now_s)), now_s)
             self._show(now_s)
 
+    def _distrust_arrivals(self) -> None:
+        """Let nothing count that came while this process was frozen."""
+        if self._twin is not None:
+            self._twin.discard()  # a serial line holds all of it already, a socket does not
+        else:
+            self._distrust = STALE_TICKS
+
     def _receive(self, now_s: float) -> None:
-        command = self._commands.newest()
+        command = self._commands.newest() if self._twin is None else self._twin.command(now_s)
         if self._distrust > 0:
             self._distrust -= 1
         elif command is not None:
@@ -79,8 +89,10 @@ class SimNode:
         except ConfigError as refusal:  # a test's mistake must not end the robot
             log.warning("sim/control refused: %s", refusal)
 
-    def _say(self, report: Report) -> None:
-        if report.drive is not None:
+    def _say(self, report: Report, now_s: float) -> None:
+        if report.drive is not None and self._twin is not None:
+            self._twin.report(report.drive, now_s)
+        elif report.drive is not None:
             self._drive.put(report.drive)
         if report.imu is not None:
             self._imu.put(report.imu)

@@ -30,6 +30,14 @@ HIDDEN_BEYOND_M = OBSTACLE_MARGIN_M
 PEAK_TIMES = 10.0
 """Motors stall at most at about ten times what they bear for ever: a peak beyond bounds nothing."""
 
+_BATTERY_KEYS = ("battery_empty_v", "battery_full_v")
+_LINE_KEYS = ("port", "baud", "ticks_per_turn", *_BATTERY_KEYS)
+_KEYS_OF_KINDS = {
+    "sim": ((), ()),
+    "pons_mcu": (("port", "ticks_per_turn"), ("baud", *_BATTERY_KEYS)),
+}
+"""The keys about its line that each kind of drive must have, and those that it may have."""
+
 RobotId = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,31}$")]
 
 
@@ -69,7 +77,17 @@ class Limits(Record):
 class DriveConfig(Record):
     """Choose the drive and state its known dynamics."""
 
-    kind: Literal["sim"] = "sim"
+    kind: Literal["sim", "pons_mcu"] = "sim"
+    """``sim``: the simulated drive; the others are bases of metal (docs/drives.md)."""
+    port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
+    """Serial port of the base; one below /dev/serial/by-id keeps its name."""
+    baud: int | None = Field(default=None, ge=9_600, le=4_000_000)
+    """None: as its firmware comes."""
+    ticks_per_turn: int | None = Field(default=None, ge=8, le=4_000_000)
+    """Of a wheel, not of its motor; all edges counted."""
+    battery_empty_v: float | None = Field(default=None, ge=1.0, le=60.0)
+    """With ``battery_full_v``: what the charge is reckoned from, straight between the two."""
+    battery_full_v: float | None = Field(default=None, ge=1.0, le=60.0)
     lag_s: float = Field(default=0.06, ge=0.005, le=0.5)
     """Command to wheel response, never assumed better than this."""
     timeout_s: float = Field(default=0.2, ge=0.05, le=0.5)
@@ -91,6 +109,13 @@ class DriveConfig(Record):
     """What may flow for ever; more heats the motors, to OVERCURRENT after 2 s at the peak."""
 
     @model_validator(mode="after")
+    def _has_the_keys_of_its_kind(self) -> DriveConfig:
+        wrong = "; ".join(_wrong_keys(self))
+        if wrong:
+            raise ValueError(wrong)
+        return self
+
+    @model_validator(mode="after")
     def _peak_is_more(self) -> DriveConfig:
         lasting_a, peak_a = self.continuous_current_a, self.peak_current_a
         if not lasting_a < peak_a:
@@ -108,6 +133,23 @@ class DriveConfig(Record):
     def virtual(self) -> bool:
         """Return whether the drive moves no metal; its kind says so, no setting can claim it."""
         return self.kind == "sim"
+
+
+def _wrong_keys(drive: DriveConfig) -> Iterator[str]:
+    """Yield what a kind of drive lacks, and what it was given though it can't use it."""
+    needed, useful = _KEYS_OF_KINDS[drive.kind]
+    for key in needed:
+        if getattr(drive, key) is None:
+            yield f"drive.{key} is missing: kind {drive.kind!r} needs {', '.join(needed)}"
+    for key in _LINE_KEYS:
+        if key not in needed + useful and getattr(drive, key) is not None:
+            users = [kind for kind, (a, b) in _KEYS_OF_KINDS.items() if key in a + b]
+            yield f"drive.{key} is for {', '.join(users)}, not for kind {drive.kind!r}"
+    empty_v, full_v = drive.battery_empty_v, drive.battery_full_v
+    if (empty_v is None) != (full_v is None):
+        yield "drive.battery_empty_v and battery_full_v come together or not at all"
+    elif empty_v is not None and full_v is not None and not empty_v < full_v:
+        yield f"drive.battery_empty_v {empty_v} must be less than battery_full_v {full_v}"
 
 
 class LidarConfig(Record):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import struct
 
-from sensors.lidar.clock import SensorClock, WrappedCounter
+from devices.clock import SensorClock, WrappedCounter
 from sensors.lidar.turn import MAX_GAP_DEG, Beams
 
 BAUD = 230_400

@@ -17,7 +17,7 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 
-from sensors.lidar.clock import SensorClock
+from devices.clock import SensorClock
 from sensors.lidar.turn import MAX_GAP_DEG, MAX_SHIFTED_GAP_DEG, Beams
 
 STOP, RESET, SCAN, EXPRESS = b"\xa5\x25", b"\xa5\x40", b"\xa5\x20", b"\xa5\x82"

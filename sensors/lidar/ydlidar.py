@@ -14,7 +14,7 @@ import struct
 from dataclasses import dataclass
 from math import atan, degrees
 
-from sensors.lidar.clock import SensorClock
+from devices.clock import SensorClock
 from sensors.lidar.turn import MAX_GAP_DEG, Beams
 
 HEAD = b"\xaa\x55"

@@ -27,6 +27,9 @@ def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
     assert robot.hash == load_robot(tmp_path / "robot.toml").hash
 
 
+MCU = "[drive]\nkind = 'pons_mcu'\nticks_per_turn = 4096\n"
+
+
 @pytest.mark.parametrize(
     ("text", "code", "named"),
     [
@@ -45,6 +48,16 @@ def test_values_are_taken_and_change_the_hash(tmp_path: Path) -> None:
         ("[drive]\ntimeout_s = 0.0", "robot_toml_invalid", "drive.timeout_s"),
         ("[drive]\ntimeout_s = 10.0", "robot_toml_invalid", "drive.timeout_s"),
         ("[drive]\nkind = 'warp'", "robot_toml_invalid", "drive.kind"),
+        ("[drive]\nport = '/dev/ttyACM0'", "robot_toml_invalid",
+         "drive.port is for pons_mcu, not for kind 'sim'"),
+        ("[drive]\nkind = 'pons_mcu'", "robot_toml_invalid",
+         ("drive.port is missing: kind 'pons_mcu' needs port, ticks_per_turn; "
+         "drive.ticks_per_turn is missing")),
+        (f"{MCU}port = 'ttyACM0'", "robot_toml_invalid", "drive.port: got 'ttyACM0'"),
+        (f"{MCU}port = '/dev/x'\nbattery_full_v = 12.0", "robot_toml_invalid",
+         "come together or not at all"),
+        (f"{MCU}port = '/dev/x'\nbattery_full_v = 9.0\nbattery_empty_v = 9.0",
+         "robot_toml_invalid", "drive.battery_empty_v 9.0 must be less than battery_full_v 9.0"),
         ("[drive]\nvirtual = true", "robot_toml_invalid", "unknown key 'drive.virtual'"),
         ("[camera]\ndepth_min_m = 1.0\ndepth_max_m = 1.0", "robot_toml_invalid",
          "camera.depth_min_m 1.0 must be less than"),

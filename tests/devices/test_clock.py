@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sensors.lidar.clock import WINDOW_S, SensorClock, WrappedCounter
+from devices.clock import WINDOW_S, SensorClock, WrappedCounter
 
 
 @given(

@@ -43,7 +43,8 @@ class SensorClock:
             self._least.append((arrival_s, offset))
         while self._least[0][0] < arrival_s - WINDOW_S:
             self._least.popleft()
-        return sensor_s + min(least for _, least in self._least)
+        # What was just read was not measured later, whatever the last digit of a float says.
+        return min(sensor_s + min(least for _, least in self._least), arrival_s)
 
 
 class WrappedCounter:

@@ -1,0 +1,134 @@
+"""Drive a base on a serial line; what the base's bytes mean is its protocol's affair.
+
+A protocol is pure: it turns a command into bytes and bytes into states, and knows neither port nor
+clock. Adding a base is one file with such a class and a line in ``SERIAL_PROTOCOLS``
+(docs/drives.md shows one).
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+from bridge.drive.pons_mcu import PonsMcuProtocol
+from devices import LastingPort, PortTrouble
+from wire import ConfigError, DriveCommand
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from bridge.drive.base import Braking
+    from wire import DriveState, Rejected
+    from wire.robot import DriveConfig
+
+_KEPT = 4
+"""More than four readings at once are a stall's; the newest say all that counts."""
+_MOST_READS = 4
+"""At 4096 bytes a read, more than a line brings in a tick: a babbling one can't hold the tick."""
+_HALT_SENDS = 5
+_HALT_GAP_S = 0.01
+
+
+class SerialProtocol(Protocol):
+    """Translate between the wire's messages and one base's bytes."""
+
+    kind: str
+    baud: int
+    """What the base speaks unless robot.toml says otherwise."""
+    braking: Braking
+
+    def begin(self) -> bytes:
+        """Forget the unfinished; return what the base must be told whenever its port opens."""
+
+    def encode(self, command: DriveCommand) -> bytes:
+        """Return the bytes of one command."""
+
+    def decode(self, data: bytes, now_s: float) -> list[DriveState]:
+        """Return the states that bytes read at ``now_s`` complete, oldest first."""
+
+
+SERIAL_PROTOCOLS: Mapping[str, Callable[[DriveConfig, str], SerialProtocol]] = {
+    "pons_mcu": PonsMcuProtocol,
+}
+"""By ``kind`` of robot.toml. Each is given ``[drive]`` and this run's name."""
+
+
+class SerialDrive:
+    """Move a base through one serial port. Nothing here waits for the port."""
+
+    virtual = False
+
+    def __init__(self, protocol: SerialProtocol, port: LastingPort, boot: str) -> None:
+        self.kind = protocol.kind
+        self.braking = protocol.braking
+        self._protocol = protocol
+        self._port = port
+        self._opened = 0
+        self._boot = boot
+        self._seq = 0
+
+    def read(self) -> tuple[DriveState | Rejected, ...]:
+        """Return the states since the last call, oldest first, at most the 4 newest."""
+        self._begin_if_opened()
+        found: list[DriveState] = []
+        for _ in range(_MOST_READS):
+            data = self._port.read()
+            if not data:
+                break
+            found += self._protocol.decode(data, time.monotonic())
+        return tuple(found[-_KEPT:])
+
+    def write(self, command: DriveCommand | None) -> None:
+        """Send one command; None sends nothing."""
+        if command is None:
+            return
+        self._seq = command.seq
+        self._begin_if_opened()
+        self._port.write(self._protocol.encode(command))
+
+    def halt(self) -> None:
+        """Zero both wheels and take the torque away. Never raises."""
+        for _ in range(_HALT_SENDS):
+            self._seq += 1
+            try:
+                self.write(
+                    DriveCommand(
+                        boot=self._boot,
+                        seq=self._seq,
+                        left_radps=0.0,
+                        right_radps=0.0,
+                        enable=False,
+                    )
+                )
+            except Exception as error:  # noqa: BLE001  # the last resort must not fail upwards
+                print(f"halt_not_sent: {error!r}", file=sys.stderr, flush=True)  # noqa: T201
+            time.sleep(_HALT_GAP_S)
+
+    def close(self) -> None:
+        """Give the port back."""
+        self._port.close()
+
+    def _begin_if_opened(self) -> None:
+        """Greet the base after each opening: it may be another, or have begun anew."""
+        opened = self._port.opened
+        if self._opened != opened:
+            greeting = self._protocol.begin()
+            if not greeting or self._port.write(greeting):
+                self._opened = opened
+
+
+def open_serial_drive(config: DriveConfig, boot: str, line: Path | None = None) -> SerialDrive:
+    """Open the port that robot.toml names, or ``line`` in its place, and speak its protocol.
+
+    Raises:
+        ConfigError: the port can't be used and waiting would not mend it; its code is the port's.
+    """
+    protocol = SERIAL_PROTOCOLS[config.kind](config, boot)
+    path = line or Path(config.port or "")
+    try:
+        port = LastingPort(path, config.baud or protocol.baud)
+    except PortTrouble as trouble:
+        raise ConfigError(trouble.code, f"drive.port {trouble.detail}") from None
+    return SerialDrive(protocol, port, boot)

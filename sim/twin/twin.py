@@ -1,0 +1,98 @@
+"""Stand between a serial line and the simulated body, as a base's controller does.
+
+The firmware is pure: told bytes and the time, it says what the motors are to do and what goes back.
+Its dead-man is the one that counts here; the body behind it is given a command every tick.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from sim.twin.line import TwinLine
+from sim.twin.pons_mcu import PonsMcuFirmware
+from wire import ConfigError, DriveCommand
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+    from wire import DriveState
+    from wire.robot import DriveConfig
+
+_FASTEST_RADPS = 1000.0
+
+
+class Firmware(Protocol):
+    """Act as one kind of base."""
+
+    def hear(self, data: bytes, now_s: float) -> None:
+        """Take the bytes that arrived."""
+
+    def motors(self, now_s: float) -> tuple[float, float, bool]:
+        """Return left and right [rad/s] and whether there is torque; the dead-man acts here."""
+
+    def say(self, body: DriveState, now_s: float) -> bytes:
+        """Return what is due to the host now, given what the body's sensors read."""
+
+
+FIRMWARES: Mapping[str, Callable[[DriveConfig], Firmware]] = {"pons_mcu": PonsMcuFirmware}
+"""By ``kind`` of robot.toml."""
+
+
+class DriveTwin:
+    """Hold one firmware and its line."""
+
+    def __init__(self, config: DriveConfig, link: Path) -> None:
+        """Boot the firmware of robot.toml's drive at a line that ``link`` leads to.
+
+        Raises:
+            ConfigError: ``twin_unknown`` or ``twin_line``.
+        """
+        if config.kind not in FIRMWARES:
+            known = ", ".join(sorted(FIRMWARES))
+            raise ConfigError(
+                "twin_unknown", f"drive.kind {config.kind!r} has no twin; these have: {known}"
+            )
+        self._config = config
+        self.firmware = FIRMWARES[config.kind](config)
+        try:
+            self.line = TwinLine(link)
+        except OSError as error:
+            raise ConfigError("twin_line", f"{link}: {error.strerror}") from None
+        self._seq = 0
+
+    def command(self, now_s: float) -> DriveCommand:
+        """Return what the firmware has the motors do in this tick."""
+        self.firmware.hear(self.line.read(), now_s)
+        left_radps, right_radps, torque = self.firmware.motors(now_s)
+        self._seq += 1
+        return DriveCommand(
+            boot="twin",
+            seq=self._seq,
+            left_radps=_possible(left_radps),
+            right_radps=_possible(right_radps),
+            enable=torque,
+        )
+
+    def report(self, body: DriveState, now_s: float) -> None:
+        """Tell the host what the body's sensors read."""
+        data = self.firmware.say(body, now_s)
+        if data:
+            self.line.write(data)
+
+    def reset(self) -> None:
+        """Boot the firmware anew, as a controller does whose supply dipped."""
+        self.firmware = FIRMWARES[self._config.kind](self._config)
+
+    def discard(self) -> None:
+        """Throw away what came while this process was frozen; a controller would not have been."""
+        while self.line.read():
+            pass
+
+    def close(self) -> None:
+        """Take the line away."""
+        self.line.close()
+
+
+def _possible(radps: float) -> float:
+    return min(max(radps, -_FASTEST_RADPS), _FASTEST_RADPS)

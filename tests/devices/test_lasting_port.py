@@ -1,0 +1,102 @@
+"""A port that went is opened anew, and whoever reads and writes meanwhile never waits."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from devices import LastingPort, PortTrouble
+from sim.twin.line import TwinLine
+
+
+@pytest.fixture
+def line(tmp_path: Path) -> Iterator[TwinLine]:
+    made = TwinLine(tmp_path / "line")
+    yield made
+    made.close()
+
+
+def until(done: Callable[[], bool]) -> bool:
+    end_s = time.monotonic() + 20.0
+    while time.monotonic() < end_s:
+        if done():
+            return True
+        time.sleep(0.002)
+    return False
+
+
+def test_bytes_go_both_ways(line: TwinLine, tmp_path: Path) -> None:
+    port = LastingPort(tmp_path / "line", 115_200)
+    try:
+        assert port.opened == 1
+        assert port.write(b"\x00\xff\r\n")
+        assert line.read() == b"\x00\xff\r\n"
+        line.write(b"\x03\x04")
+        assert port.read() == b"\x03\x04"
+    finally:
+        port.close()
+
+
+def test_a_port_that_was_pulled_comes_back(line: TwinLine, tmp_path: Path) -> None:
+    port = LastingPort(tmp_path / "line", 115_200)
+    try:
+        line.hang_up()
+        assert port.read() == b""
+        assert until(lambda: port.opened == 2)
+        assert until(lambda: port.write(b"x"))
+        assert line.read() == b"x"
+    finally:
+        port.close()
+
+
+def test_a_write_notices_the_pulled_plug_too(line: TwinLine, tmp_path: Path) -> None:
+    port = LastingPort(tmp_path / "line", 115_200)
+    try:
+        line.hang_up()
+        assert not port.write(b"x")
+        assert until(lambda: port.opened == 2)
+    finally:
+        port.close()
+
+
+def test_a_port_that_is_not_there_yet_is_waited_for(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    port = LastingPort(tmp_path / "line", 115_200)
+    try:
+        assert port.read() == b""
+        assert not port.write(b"x")
+        assert "port_missing" in caplog.text
+        assert "/dev/serial/by-id" in caplog.text
+        line = TwinLine(tmp_path / "line")
+        assert until(lambda: port.opened == 1)
+        assert until(lambda: "port_back" in caplog.text)
+        line.close()
+    finally:
+        port.close()
+
+
+def test_what_waiting_does_not_mend_is_refused_at_once(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(PortTrouble, match="port_not_serial"):
+        LastingPort(tmp_path / "file", 115_200)
+
+
+def test_closing_ends_its_thread_while_the_port_is_away(tmp_path: Path) -> None:
+    port = LastingPort(tmp_path / "never", 115_200)
+    port.close()
+    assert not port._thread.is_alive()
+
+
+def test_the_user_of_a_line_may_leave_and_come_again(line: TwinLine, tmp_path: Path) -> None:
+    for number in range(3):
+        port = LastingPort(tmp_path / "line", 115_200)
+        assert port.write(b"%d" % number)
+        assert line.read() == b"%d" % number
+        port.close()
+        assert line.read() == b""  # notices, and makes the line anew
+    assert os.readlink(tmp_path / "line").startswith("/dev/pts/")  # noqa: PTH115
