@@ -75,6 +75,11 @@ class ObstacleMemory:
         remembered = (self._layer.obstacles | self._layer.suspicions) & ~in_sight
         return mapped.with_cells(in_sight, remembered)
 
+    def patient_costmap(self, mapped: Costmap) -> Costmap:
+        """Return the map with all that was seen as a suspicion: dear, and closing nothing."""
+        nothing = np.zeros(self._shape, np.bool_)
+        return mapped.with_cells(nothing, self._layer.obstacles | self._layer.suspicions)
+
     def report(self, mapped: Costmap, ahead: tuple[tuple[float, float], ...]) -> ObstacleReport:
         """Say what the layer holds, and where it closes a way whose points are ``ahead``."""
         return ObstacleReport(

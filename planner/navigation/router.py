@@ -131,8 +131,15 @@ class Router:
             if memory is None or not has_hope or failure.code not in _CLOSED:
                 raise
         # No way by what is remembered: then perhaps it is gone, and worth a look.
-        trusting = memory.hopeful_costmap(self._mapped).with_obstacles(request.obstacles, start_m)
-        return self._find(trusting, request, began_s, clock)
+        hopeful = memory.hopeful_costmap(self._mapped).with_obstacles(request.obstacles, start_m)
+        try:
+            return self._find(hopeful, request, began_s, clock)
+        except RouteFailure as failure:
+            if request.obstacles or failure.code not in _CLOSED:
+                raise
+        # A first way, and somebody stands in the only door: the robot drives up to it and waits
+        # there (docs/adr/0041), instead of failing before it has tried.
+        return self._find(memory.patient_costmap(self._mapped), request, began_s, clock)
 
     def _find(
         self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
