@@ -16,6 +16,7 @@ from time import perf_counter
 import numpy as np
 
 from planner.navigation.bay import find_bay
+from planner.navigation.coarse_search import Floor, floor_of
 from planner.navigation.costmap import Costmap, static_costmap
 from planner.navigation.obstacle_memory import ObstacleMemory
 from planner.navigation.route import (
@@ -27,7 +28,7 @@ from planner.navigation.route import (
     RouteResult,
     ScanObservation,
 )
-from planner.navigation.search import Lattice, costs_in_slices, find_path
+from planner.navigation.search import costs_in_slices
 from planner.navigation.smoothing import Line, densify, is_free, relax, straighten
 from planner.navigation.start_and_goal import Cell, Ends, choose_ends, moved_m
 from planner.navigation.straight_line import BACK_MPS, backwards, straight_line
@@ -55,7 +56,7 @@ class Router:
         self._site = site
         self._limits = limits
         self._mapped = static_costmap(site, limits.radius_m)
-        self._lattice = Lattice.of(self._mapped.cost)
+        self._floor = self._floor_of(self._mapped)
         self._fields: dict[int, array[float]] = {}
 
     def new_memory(self) -> ObstacleMemory:
@@ -78,12 +79,13 @@ class Router:
         with suppress(RouteFailure):
             self.route(RouteRequest(self._site.places[0].pose, self._site.home.pose))
         yield
-        size = 4 * len(self._lattice.cost)
+        lattice = self._floor.lattice
+        size = 4 * len(lattice.cost)
         for place in self._site.places[: MAX_FIELD_BYTES // size]:
             column, row = self._site.grid.cell_of(place.pose.x_m, place.pose.y_m)
             if self._mapped.free[row, column]:
-                goal = self._lattice.index(column, row)
-                self._fields[goal] = yield from costs_in_slices(self._lattice, goal)
+                goal = self._floor.index((column, row))
+                self._fields[goal] = yield from costs_in_slices(lattice, goal)
         yield from self._warm_landmarks(MAX_FIELD_BYTES // size)
 
     def _warm_landmarks(self, most: int) -> Iterator[None]:
@@ -94,7 +96,7 @@ class Router:
             far = int(np.argmax(np.where(np.isfinite(nearest), nearest, -1.0)))
             if far in self._fields:
                 return
-            self._fields[far] = yield from costs_in_slices(self._lattice, far)
+            self._fields[far] = yield from costs_in_slices(self._floor.lattice, far)
 
     @property
     def goals_known(self) -> int:
@@ -197,15 +199,15 @@ class Router:
         return out
 
     def _search(self, costmap: Costmap, start: Cell, goal: Cell) -> list[Cell]:
-        as_mapped = costmap is self._mapped
-        lattice = self._lattice if as_mapped else Lattice.of(costmap.cost)
+        floor = self._floor if costmap is self._mapped else self._floor_of(costmap)
         # Obstacles only ever raise costs, so what the map says is never more than the truth.
-        field = self._fields.get(lattice.index(*goal))
-        known = tuple(self._fields.values())
-        path = find_path(lattice, lattice.index(*start), lattice.index(*goal), field, known)
+        path = floor.find_path(start, goal, self._fields)
         if path is None:
             raise RouteFailure("no_route", "no free floor joins them")
-        return [lattice.cell(index) for index in path]
+        return path
+
+    def _floor_of(self, costmap: Costmap) -> Floor:
+        return floor_of(costmap.cost, costmap.grid.resolution_m, self._limits.radius_m)
 
     def _points(self, costmap: Costmap, line: Line) -> tuple[RoutePoint, ...]:
         fence = self._site.fence

@@ -30,7 +30,7 @@ then finishes one instead of widening all. What it finds costs at most this much
 class Lattice:
     """Hold a costmap as one flat list with a blocked border, the form the search is quickest on."""
 
-    cost: list[float]  # per cell; infinite where blocked
+    cost: Sequence[float]  # per cell; infinite where blocked
     stride: int  # cells in a row, the border included
 
     @classmethod
