@@ -19,7 +19,9 @@ BUCKETS = 20
 class SensorClock:
     """Turn the sensor's seconds into ours."""
 
-    def __init__(self) -> None:
+    def __init__(self, window_s: float = WINDOW_S) -> None:
+        """Learn from the arrivals of the last ``window_s``."""
+        self._window_s = window_s
         self._least: deque[tuple[float, float]] = deque()
         """(when the bucket began on our clock, least offset in it)."""
 
@@ -35,13 +37,13 @@ class SensorClock:
             arrival_s: when the bytes that tell of it were read, on our clock.
         """
         offset = arrival_s - sensor_s
-        bucket_s = WINDOW_S / BUCKETS
+        bucket_s = self._window_s / BUCKETS
         if self._least and arrival_s - self._least[-1][0] < bucket_s:
             began_s, least = self._least[-1]
             self._least[-1] = (began_s, min(least, offset))
         else:
             self._least.append((arrival_s, offset))
-        while self._least[0][0] < arrival_s - WINDOW_S:
+        while self._least[0][0] < arrival_s - self._window_s:
             self._least.popleft()
         # What was just read was not measured later, whatever the last digit of a float says.
         return min(sensor_s + min(least for _, least in self._least), arrival_s)

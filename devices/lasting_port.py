@@ -25,16 +25,19 @@ PASSING = frozenset({"port_missing", "port_busy", "port_gone"})
 class LastingPort:
     """Read and write a port that is opened anew whenever it went."""
 
-    def __init__(self, path: Path, baud: int) -> None:
+    def __init__(self, path: Path, baud: int, *, dtr: bool | None = None) -> None:
         """Try to open the port once, and from then on in the background.
+
+        ``dtr`` is set at each opening, as SerialPort says.
 
         Raises:
             PortTrouble: it can't be used, and waiting would not mend it.
         """
-        self._path, self._baud = path, baud
+        self._path, self._baud, self._dtr = path, baud, dtr
         self._port: SerialPort | None = None
         self._gone: SerialPort | None = None
-        self._said: str | None = None
+        self.trouble: PortTrouble | None = None
+        """Why the port is away; None while it is open."""
         self._ending = threading.Event()
         self._wanted = threading.Event()
         self.opened = 0
@@ -102,15 +105,15 @@ class LastingPort:
                 self._ending.wait(RETRY_S)
 
     def _open(self) -> None:
-        port = SerialPort(self._path, self._baud)
-        if self._said is not None:
+        port = SerialPort(self._path, self._baud, dtr=self._dtr)
+        if self.trouble is not None:
             log.warning("port_back: %s", self._path)
-            self._said = None
+            self.trouble = None
         self._port = port
         self.opened += 1  # last: whoever greets the device for it finds the port there
 
     def _say(self, trouble: PortTrouble) -> None:
         """Log a trouble once, not four times a second."""
-        if trouble.code != self._said:
-            self._said = trouble.code
+        if self.trouble is None or trouble.code != self.trouble.code:
             log.warning("%s", trouble)
+        self.trouble = trouble

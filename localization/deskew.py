@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from localization.odometry_integration import OdometryTrail
     from wire import Scan
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
 
     Floats = NDArray[np.float64]
 

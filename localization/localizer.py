@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
     from localization.distance_field import DistanceField
     from wire import HintCode, Odometry, Scan
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
 
     Floats = NDArray[np.float64]
 

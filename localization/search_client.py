@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from localization.relocation import SearchRequest
     from processes.worker_protocol import Frame
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
 
 log = logging.getLogger(__name__)
 

@@ -20,6 +20,7 @@ LISTENING = {
     "sim": Party.ROBOT,
     "localization": Party.LOCALIZATION,
     "camera": Party.CAMERA,
+    "lidar": Party.LIDAR,
 }
 """Which party each child of ``pons up`` is."""
 

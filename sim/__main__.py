@@ -1,6 +1,7 @@
 """Start the simulator: ``python -m sim --site sites/home [--robot robot.toml] [--home DIR]``.
 
-``--twin LINK`` has it answer as a base on a serial line, not on the wire (docs/drives.md);
+``--twin LINK`` has it answer as a base on a serial line, not on the wire (docs/drives.md),
+``--lidar-twin LINK`` as a lidar (docs/lidars.md);
 ``--metal FILE`` makes motors and wheels differ from what robot.toml believes (docs/calibrate.md);
 ``--domain FILE`` turns the knobs of sim/domain.py (docs/sim2real.md).
 """
@@ -23,7 +24,7 @@ from sim.node import SimNode
 from sim.robot import SimRobot
 from sim.site import check_fresh
 from sim.true_parameters import load_metal
-from sim.twin import DriveTwin
+from sim.twin import DriveTwin, LidarTwin
 from wire import ConfigError, Pose2, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -44,6 +45,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--domain", type=Path, help="how home and robot are worse (TOML)")
     parser.add_argument(
         "--twin", type=Path, help="be the firmware of robot.toml's drive at a line of this name"
+    )
+    parser.add_argument(
+        "--lidar-twin", type=Path, help="be robot.toml's lidar at a line of this name"
     )
     parser.add_argument("--seed", type=int, default=0, help="seed of all noise (default 0)")
     parser.add_argument(
@@ -74,9 +78,10 @@ def _serve(options: argparse.Namespace) -> None:
     )
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     twin = DriveTwin(description.drive, options.twin) if options.twin else None
+    lidar = LidarTwin(description.lidar, options.lidar_twin) if options.lidar_twin else None
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:
-        shell = SimNode(robot, session, twin)
+        shell = SimNode(robot, session, twin, lidar)
         gc.collect()
         gc.freeze()
         logging.getLogger("sim").info(

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from sim.messages import Report
     from sim.robot import SimRobot
-    from sim.twin import DriveTwin
+    from sim.twin import DriveTwin, LidarTwin
     from wire import SimControl
     from wire.session import Session
 
@@ -33,10 +33,20 @@ through on a busy machine. The dead-man has fired by then, so nothing is lost bu
 class SimNode:
     """Connect one SimRobot to the wire."""
 
-    def __init__(self, robot: SimRobot, session: Session, twin: DriveTwin | None = None) -> None:
-        """Take commands from the wire, or from a twin's serial line, which then has the answers."""
+    def __init__(
+        self,
+        robot: SimRobot,
+        session: Session,
+        twin: DriveTwin | None = None,
+        lidar: LidarTwin | None = None,
+    ) -> None:
+        """Take commands from the wire, or from a twin's serial line, which then has the answers.
+
+        A lidar's twin says on its line what the scans would have said.
+        """
         self._robot = robot
         self._twin = twin
+        self._lidar = lidar
         self._commands = session.subscriber(keys.DRIVE_COMMAND)
         self._controls = session.subscriber(keys.SIM_CONTROL)
         self._drive = session.publisher(keys.DRIVE_STATE)
@@ -62,6 +72,9 @@ class SimNode:
                 self._distrust_arrivals()
             self._receive(now_s)
             self._say(self._robot.tick(now_s, real_time_factor=factor.note_tick(now_s)), now_s)
+            if self._lidar is not None:
+                troubles = self._robot.faults.of_sensor("lidar")
+                self._lidar.tick(now_s, self._robot.look, troubles)
             self._show(now_s)
 
     def _distrust_arrivals(self) -> None:

@@ -35,8 +35,11 @@ from wire import Pose2, RobotDescription, SimFault, Twist2, compose
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from numpy.typing import NDArray
+
     from sim.command_watchdog import WheelTargets
     from sim.domain_script import DomainActs
+    from sim.sensors import Ranges
     from wire import DriveCommand, DriveState, Imu, Scan, SimControl, SimScene, SimTruth
 
 _STEPS = round(PERIODS.tick_s / PERIODS.step_s)
@@ -92,7 +95,7 @@ class SimRobot:
         self._lidar = LidarModel(self.robot.lidar, self._hardware, streams[1])
         self._scan_ticks = max(1, round(self.robot.lidar.scan_s / PERIODS.tick_s))
         self._true_m = np.full(self._hardware.lidar_beams, -1.0)
-        garbage = Garbage(streams[2])
+        self._garbage = garbage = Garbage(streams[2])
         self._drive_out = Channel["DriveState"](garbage.WHEELS, garbage.wheels)
         self._imu_out = Channel["Imu"](garbage.TURN, garbage.turn)
         self._scan_out = Channel["Scan"](garbage.RANGES, garbage.ranges)
@@ -270,7 +273,26 @@ class SimRobot:
         message = self._speaker.imu(now_s, self._imu.sample(self._world.twist()))
         return self._imu_out.through(message, self.faults.of_sensor("gyro"))
 
+    def look(self, directions_rad: NDArray[np.float64]) -> Ranges:
+        """Cast a lidar twin's beams from where the robot is now.
+
+        Args:
+            directions_rad: in the lidar's frame, counter-clockwise, shape (n,).
+
+        Returns ranges [m] with the hardware's noise; None where nothing came back.
+        """
+        angles = directions_rad + self._lidar_in_map().yaw_rad
+        directions = np.stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)), axis=1)
+        ranges_m = self._lidar.measure(self._cast(directions))
+        if SimFault.LIDAR_BLIND in self.faults:
+            return (None,) * len(ranges_m)
+        if SimFault.LIDAR_GARBAGE in self.faults:
+            return self._garbage.beams(len(ranges_m), self.robot.lidar.range_max_m)
+        return ranges_m
+
     def _scan_due(self, now_s: float) -> Scan | None:
+        if not self.robot.lidar.simulated:
+            return None  # its twin casts its own rays
         ticks_left = -self._ticks % self._scan_ticks
         if ticks_left < self._lidar.sweep_ticks(PERIODS.tick_s):
             self._sweep(ticks_left)
@@ -279,17 +301,25 @@ class SimRobot:
 
     def _sweep(self, ticks_left: int) -> None:
         """Measure the beams of this tick from where the lidar is now."""
-        config, beams = self.robot.lidar, self._lidar.beams_due(ticks_left, PERIODS.tick_s)
+        beams = self._lidar.beams_due(ticks_left, PERIODS.tick_s)
+        self._true_m[beams] = self._cast(self._lidar.directions(self._lidar_in_map())[beams])
+
+    def _lidar_in_map(self) -> Pose2:
+        config = self.robot.lidar
         lidar_in_base = Pose2(
             config.x_m + self._hardware.lidar_x_error_m,
             config.y_m,
             config.yaw_rad + self._hardware.lidar_yaw_error_rad,
         )
-        lidar_in_map = compose(self._world.pose(), lidar_in_base)
-        self._true_m[beams] = self._world.rays(
+        return compose(self._world.pose(), lidar_in_base)
+
+    def _cast(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return true distances along unit vectors in ``map``; -1 where nothing is."""
+        lidar_in_map = self._lidar_in_map()
+        return self._world.rays(
             (lidar_in_map.x_m, lidar_in_map.y_m),
-            self._lidar.directions(lidar_in_map)[beams],
-            (config.range_max_m + _BEYOND_RANGE_M) / self._hardware.lidar_range_scale,
+            directions,
+            (self.robot.lidar.range_max_m + _BEYOND_RANGE_M) / self._hardware.lidar_range_scale,
             self._patches,
         )
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from sim.hardware import Hardware
     from wire import DriveState, Imu, Pose2, Scan, Twist2
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
 
 Ranges = tuple[float | None, ...]
 
@@ -154,6 +154,10 @@ class Garbage:
     def turn(self, _reading: Imu) -> dict[str, float]:
         """Turn at any rate."""
         return dict(zip(self.TURN, self._random.uniform(-20.0, 20.0, 3).tolist(), strict=True))
+
+    def beams(self, count: int, most_m: float) -> Ranges:
+        """Return ranges that a broken lidar might measure."""
+        return tuple(self._random.uniform(0.0, most_m, count).tolist())
 
     def ranges(self, scan: Scan) -> dict[str, Ranges]:
         """Return ranges of a broken lidar: random values."""

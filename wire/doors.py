@@ -73,6 +73,18 @@ ROBOT_DOOR = Door(
     _keys(keys.DRIVE_STATE, keys.SCAN, keys.IMU, keys.SIM_TRUTH, keys.SIM_SCENE),
     "a copy of what the robot says; it hears nothing",
 )  # fmt: skip
+LIDAR_DOOR = Door(
+    "lidar", Party.LIDAR, (Party.BRIDGE,),
+    (),
+    _keys(keys.SCAN, keys.STOP),
+    "a real lidar's scans, for the bridge alone",
+)  # fmt: skip
+SCANS_DOOR = Door(
+    "scans", Party.LIDAR, (Party.PLANNER, Party.LOCALIZATION, Party.JUDGE),
+    (),
+    _keys(keys.SCAN, keys.LIDAR_STATE),
+    "a copy of what a real lidar says; it hears nothing",
+)  # fmt: skip
 SIM_DOOR = Door(
     "sim", Party.ROBOT, (Party.JUDGE,),
     _keys(keys.SIM_CONTROL),
@@ -99,8 +111,8 @@ CAMERA_DOOR = Door(
 )  # fmt: skip
 
 DOORS = (
-    DRIVE_DOOR, BRIDGE_DOOR, SENSES_DOOR, ROBOT_DOOR, SIM_DOOR, LOCALIZATION_DOOR, HINT_DOOR,
-    CAMERA_DOOR,
+    DRIVE_DOOR, BRIDGE_DOOR, SENSES_DOOR, LIDAR_DOOR, ROBOT_DOOR, SCANS_DOOR, SIM_DOOR,
+    LOCALIZATION_DOOR, HINT_DOOR, CAMERA_DOOR,
 )  # fmt: skip
 """In the order in which a message that passes several is said: the wheels first."""
 

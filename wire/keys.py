@@ -23,6 +23,7 @@ from wire.sensors import (
     DriveState,
     ImageHeader,
     Imu,
+    LidarStatus,
     Localization,
     LocalizerStatus,
     Odometry,
@@ -55,6 +56,7 @@ class Party(StrEnum):
     BUTTON = "button"
     OPERATOR = "operator"
     JUDGE = "judge"
+    LIDAR = "lidar"
 
 
 M = TypeVar("M", bound=Record)
@@ -81,7 +83,7 @@ class Key(Generic[M]):
         return f"pons/{robot_id}/{self.path}"
 
 
-_P, _B, _L, _R, _C, _S, _O, _J = Party  # one letter each, for the table below
+_P, _B, _L, _R, _C, _S, _O, _J, _LI = Party  # short, for the table below
 _WHO_ASKS = frozenset({_P, _O, _J})
 """Receivers of the bridge's status and events."""
 
@@ -152,7 +154,10 @@ DRIVE_COMMAND = _from(_B, "drive/command", DriveCommand, frozenset({_R, _J}), "1
 DRIVE_STATE = _from(_R, "drive/state", DriveState, frozenset({_B, _J}), "100 Hz",
                     "what the drive does", ring=SEQUENCED)  # fmt: skip
 _HEARERS = frozenset({_B, _P, _L, _J})
-SCAN = _from(_R, "scan", Scan, _HEARERS, "10 Hz", "planar lidar", max_bytes=MEDIUM)
+SCAN = Key("scan", Scan, frozenset({_R, _LI}), _HEARERS, "10 Hz; more of a lidar that turns slowly",
+           LATEST, MEDIUM, "planar lidar, of the simulator or of a real one's process")  # fmt: skip
+LIDAR_STATE = _from(_LI, "lidar/state", LidarStatus, frozenset({_P, _J}), "2 Hz and on change",
+                    "how well a real lidar is read")  # fmt: skip
 IMU = _from(_R, "imu", Imu, _HEARERS, "100 Hz", "rate of turn, acceleration")
 CAMERA_COLOR = _from(_C, "camera/color", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "JPEG, header attached", max_bytes=IMAGE)  # fmt: skip
@@ -170,6 +175,6 @@ OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
     *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
-    LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, IMU, CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH,
-    SIM_SCENE, SIM_CONTROL,
+    LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, CAMERA_COLOR, CAMERA_DEPTH,
+    SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
 )  # fmt: skip

@@ -16,6 +16,7 @@ from pydantic import BaseModel, Field, ValidationError, model_validator
 from wire.base import Record
 from wire.errors import ConfigError
 from wire.fingerprint import fingerprint
+from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
 
@@ -150,19 +151,6 @@ def _wrong_keys(drive: DriveConfig) -> Iterator[str]:
         yield "drive.battery_empty_v and battery_full_v come together or not at all"
     elif empty_v is not None and full_v is not None and not empty_v < full_v:
         yield f"drive.battery_empty_v {empty_v} must be less than battery_full_v {full_v}"
-
-
-class LidarConfig(Record):
-    """Place the planar lidar on the robot and state its range."""
-
-    x_m: float = Field(default=0.0, ge=-2.0, le=2.0)
-    y_m: float = Field(default=0.0, ge=-2.0, le=2.0)
-    yaw_rad: float = Field(default=0.0, ge=-pi, le=pi)
-    range_min_m: float = Field(default=0.12, ge=0.0, le=1.0)
-    """What is nearer counts as being so far, which must still stop the robot: see ``_misfits``."""
-    range_max_m: float = Field(default=8.0, ge=1.0, le=100.0)
-    scan_s: float = Field(default=0.1, ge=0.01, le=0.2)
-    """Period of a scan; LIDAR_STALE allows 0.25 s, so a slower lidar could never be fresh."""
 
 
 class CameraConfig(Record):

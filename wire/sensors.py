@@ -9,11 +9,13 @@ from pydantic import Field
 from wire.base import Record
 from wire.bounded_types import (
     MAX_BEAMS,
+    Code,
     Count,
     Fingerprint,
     Name,
     Ratio,
     Seconds,
+    Text,
     WheelAngle,
     WheelSpeed,
 )
@@ -79,6 +81,33 @@ class Scan(Record):
     clockwise: bool = False
     """The lidar turns clockwise: it took the last beam listed first, at ``stamp_s``, and the first
     listed last."""
+
+
+class LidarStatus(Record):
+    """Say what a lidar's own process reads at its port, for people; the bridge needs none of it."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    model: Name
+    """Kind and model of robot.toml."""
+    code: Code | None
+    """What is wrong, None where nothing is: of the port (``port_gone``) or of the lidar
+    (``lidar_silent``); docs/lidars.md lists them."""
+    detail: Text = ""
+    """What came, what was expected and what cures it; empty where nothing is wrong."""
+    rate_hz: Annotated[float, Field(ge=0.0, le=1_000.0)]
+    """Whole turns a second, of the last seconds."""
+    frames: Count
+    """Good ones since the process began, as the next four are."""
+    spoilt: Count
+    """Frames that failed their check."""
+    lost_bytes: Count
+    """Bytes that belonged to no good frame."""
+    broken_turns: Count
+    """Turns with a gap or too slow, of which no scan was made."""
+    opened: Count
+    """How often the port was opened."""
 
 
 class Imu(Record):

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from wire import Scan
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
 
     Floats = NDArray[np.float64]
 

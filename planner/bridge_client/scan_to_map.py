@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, sin
 
 from wire import Pose2, Scan, compose
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 FAR_M = 4.0
 """Farther away a pose error of 0.5° already moves a point by a cell."""

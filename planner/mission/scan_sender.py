@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from planner.mission.engine import WayAhead
     from planner.navigation import ObstacleReport
     from wire import Scan
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
 
 log = logging.getLogger(__name__)
 

@@ -14,8 +14,8 @@ from typing import TypeAlias
 
 from maps.grid import FREE, GridMap
 from wire import Pose2, Scan, compose
+from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
-from wire.robot import LidarConfig
 
 Point: TypeAlias = tuple[float, float]
 

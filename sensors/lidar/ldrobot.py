@@ -51,6 +51,7 @@ class LdRobotDecoder:
     max_gap_deg = MAX_GAP_DEG
     opening: tuple[bytes, ...] = ()
     closing: tuple[bytes, ...] = ()
+    rescue = b""
 
     def __init__(self) -> None:
         self._kept = bytearray()
@@ -59,6 +60,12 @@ class LdRobotDecoder:
         self.frames = 0
         self.spoilt = 0
         """Heads that no good frame followed."""
+        self.lost_bytes = 0
+        """Bytes of no good frame."""
+
+    def forget(self) -> None:
+        """Drop the unfinished frame: what comes next is of another time."""
+        self._kept.clear()
 
     def feed(self, data: bytes, arrival_s: float) -> list[Beams]:
         """Take bytes as they came, read at ``arrival_s`` on our clock; return the beams in them."""
@@ -70,14 +77,16 @@ class LdRobotDecoder:
             if crc8(frame[:-1]) == frame[-1]:
                 found.append(self._beams(frame, arrival_s))
                 self.frames += 1
+                self.lost_bytes += start
                 del kept[: start + FRAME_BYTES]
             else:
                 self.spoilt += 1
+                self.lost_bytes += start + 1
                 del kept[: start + 1]  # the head may have been a distance
         if start < 0:
-            del kept[:-1]  # the last byte may be half a head
-        else:
-            del kept[:start]
+            start = max(0, len(kept) - 1)  # the last byte may be half a head
+        self.lost_bytes += start
+        del kept[:start]
         return found
 
     def _beams(self, frame: bytes, arrival_s: float) -> Beams:

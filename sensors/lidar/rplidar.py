@@ -18,12 +18,14 @@ import struct
 from dataclasses import dataclass
 
 from devices.clock import SensorClock
-from sensors.lidar.turn import MAX_GAP_DEG, MAX_SHIFTED_GAP_DEG, Beams
+from sensors.lidar.turn import COUNTED_WINDOW_S, MAX_GAP_DEG, MAX_SHIFTED_GAP_DEG, Beams
 
 STOP, RESET, SCAN, EXPRESS = b"\xa5\x25", b"\xa5\x40", b"\xa5\x20", b"\xa5\x82"
 INFO, HEALTH = b"\xa5\x50", b"\xa5\x52"
 _DESCRIPTOR = b"\xa5\x5a"
 _STANDARD, _EXPRESS, _DENSE = 0x81, 0x82, 0x85
+STANDARD_HEAD, EXPRESS_HEAD = bytes.fromhex("a55a0500004081"), bytes.fromhex("a55a5400004082")
+"""With which these answers begin."""
 _LONGEST_FRAME_DEG = 40.0
 """Between the start angles of two frames: 40 beams at 10 turns and 4 000 beams a second are 36;
 more means that frames were lost between."""
@@ -59,10 +61,12 @@ class RplidarModel:
     beams_per_s: float
     sets_speed: bool
     """The motor takes a speed by request; an A1's and A2's is on DTR or an own board."""
+    dtr: bool | None = None
+    """The motor turns while this line is so; None: it has no say."""
 
 
 MODELS = {
-    "a1": RplidarModel(115_200, express=False, beams_per_s=2_000.0, sets_speed=False),
+    "a1": RplidarModel(115_200, express=False, beams_per_s=2_000.0, sets_speed=False, dtr=False),
     "a2": RplidarModel(115_200, express=True, beams_per_s=4_000.0, sets_speed=False),
     "a2m12": RplidarModel(256_000, express=True, beams_per_s=4_000.0, sets_speed=False),
     "a3": RplidarModel(256_000, express=True, beams_per_s=4_000.0, sets_speed=True),
@@ -78,6 +82,8 @@ class RplidarDecoder:
     """Turn a stream that begins with an answer's head into beams."""
 
     closing: tuple[bytes, ...] = (STOP,)
+    rescue = RESET
+    """Begins the sensor anew, which it needs once it has shut its laser off by itself."""
 
     def __init__(self, model: RplidarModel, rpm: int = 600) -> None:
         self.baud = model.baud
@@ -86,7 +92,7 @@ class RplidarDecoder:
         scan = request(0x82, bytes(5)) if model.express else SCAN
         self.opening: tuple[bytes, ...] = (STOP, *speed, scan)
         self._period_s = 1.0 / model.beams_per_s
-        self._clock = SensorClock()
+        self._clock = SensorClock(COUNTED_WINDOW_S)
         self._kept = bytearray()
         self._type = 0
         self._trusted = 0
@@ -95,6 +101,12 @@ class RplidarDecoder:
         self._counted = 0
         self.frames = 0
         self.spoilt = 0
+        self.lost_bytes = 0
+
+    def forget(self) -> None:
+        """Drop the unfinished: what comes next is of another time, though of the same answer."""
+        self._kept.clear()
+        self._lose()
 
     def feed(self, data: bytes, arrival_s: float) -> list[Beams]:
         """Take bytes as they came, read at ``arrival_s`` on our clock; return the beams in them."""
@@ -114,10 +126,11 @@ class RplidarDecoder:
     def _find_answer(self) -> None:
         kept = self._kept
         start = kept.find(_DESCRIPTOR)
+        skipped = start if start >= 0 else max(0, len(kept) - 1)
+        self.lost_bytes += skipped
+        del kept[:skipped]
         if start < 0:
-            del kept[:-1]
             return
-        del kept[:start]
         if len(kept) < 7:
             return
         length = int.from_bytes(kept[2:6], "little") & 0x3FFF_FFFF
@@ -129,6 +142,7 @@ class RplidarDecoder:
             self._clock.reset()
             self._counted = 0
         else:
+            self.lost_bytes += 2
             del kept[:2]  # the answer to another question, or noise
 
     def _read_standard(self, arrival_s: float) -> list[Beams]:
@@ -139,12 +153,14 @@ class RplidarDecoder:
             if not _reads_as_beam(kept, at):
                 self.spoilt += self._trusted > 0
                 self._lose()
+                self.lost_bytes += 1
                 at += 1
                 need = 5 * RESYNC
                 continue
             if self._trusted < RESYNC and not all(
                 _reads_as_beam(kept, at + 5 * ahead) for ahead in range(1, RESYNC)
             ):
+                self.lost_bytes += 1
                 at += 1
                 continue
             self._trusted, need = RESYNC, 5
@@ -163,6 +179,7 @@ class RplidarDecoder:
         ):
             self.spoilt += self._before is not None
             self._lose()
+            self.lost_bytes += 1
             del kept[0]
             return []
         frame = bytes(kept[:84])

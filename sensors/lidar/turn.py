@@ -6,9 +6,10 @@ looked at. A turn with a gap, as a lost frame leaves one, makes no scan. Knows n
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import deque
+from dataclasses import dataclass, field
 from itertools import pairwise
-from math import tau
+from math import ceil, tau
 from typing import TYPE_CHECKING
 
 from wire import Scan
@@ -16,7 +17,7 @@ from wire import Scan
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
 
 MAX_GAP_DEG = 3.0
 """Between two beams that follow each other. The coarsest sensor here, an RPLidar A1 at 10 Hz with
@@ -30,6 +31,12 @@ triangulation."""
 MAX_TURN_S = 0.25
 """A turn that took longer (a slow motor, or two of which the seam was lost) is as old as
 LIDAR_STALE."""
+COUNTED_WINDOW_S = 0.5
+"""SensorClock's window where a sensor sends no time and its beams are counted: a rate that is 2 %
+off then dates a beam 10 ms too old, not 40."""
+FRESH_S = 0.22
+"""How old a scan's first beam may be when the next comes: LIDAR_STALE's 0.25 s less the way."""
+MOST_CUTS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,54 +63,127 @@ class LidarTurn:
     distances_m: tuple[float, ...]
     first_s: float
     last_s: float
+    cut: int = 0
+    """At which of the shape's cuts it begins; the first is the sensor's zero."""
+
+
+@dataclass(slots=True)
+class _Part:
+    """Collect the beams between two cuts."""
+
+    angles: list[float] = field(default_factory=list)
+    swept: list[float] = field(default_factory=list)
+    distances: list[float] = field(default_factory=list)
+    first_s: float = 0.0
+    last_s: float = 0.0
+
+
+def cuts_for(turn_s: float) -> int:
+    """Return at how many places a turn may end, so that scans of slow turns stay fresh.
+
+    A scan's first beam is one turn old when the scan is whole, and older by the wait for the next
+    when that comes. One scan a turn keeps within FRESH_S up to turns of 0.11 s; a slower lidar
+    gives a scan of its last 360 degrees several times a turn.
+    """
+    spare_s = FRESH_S - turn_s
+    return min(MOST_CUTS, ceil(turn_s / spare_s)) if spare_s > 0.0 else MOST_CUTS
 
 
 class TurnCollector:
-    """Cut a stream of beams where a turn begins; count the turns that were not whole."""
+    """Cut a stream of beams into whole turns; count the turns that were not whole.
 
-    def __init__(self, max_gap_deg: float = MAX_GAP_DEG) -> None:
+    Turns end at ``cuts`` places evenly around the sensor; with more than one they overlap.
+    """
+
+    def __init__(self, max_gap_deg: float = MAX_GAP_DEG, cuts: int = 1) -> None:
         self._max_gap_deg = max_gap_deg
-        self._angles: list[float] = []
-        self._swept: list[float] = []
-        self._distances: list[float] = []
-        self._first_s = self._last_s = 0.0
+        self._cuts = cuts
+        self._width_deg = 360.0 / cuts
+        self._cut = 0
+        """Where the part that is being collected began; the next is one further."""
+        self._into_deg = 0.0
+        """How far the newest beam lies beyond that place."""
+        self._last_deg: float | None = None
+        self._part = _Part()
+        self._parts: deque[_Part] = deque(maxlen=cuts)
         self._begun = False
         self.turns = 0
         self.broken = 0
         """Turns with a gap or too long; the first, which was joined half-way, does not count."""
 
+    def forget(self) -> None:
+        """Drop the unfinished turn: what comes next is of another time."""
+        self._last_deg, self._part, self._begun = None, _Part(), False
+        self._parts.clear()
+
     def add(self, beams: Beams) -> list[LidarTurn]:
         """Take beams in the order of their times; return the turns that they complete."""
         whole: list[LidarTurn] = []
-        for index, (angle, swept, distance) in enumerate(
-            zip(beams.angles_deg, beams.swept_deg, beams.distances_m, strict=True)
+        taken_s = beams.first_s
+        for angle, swept, distance in zip(
+            beams.angles_deg, beams.swept_deg, beams.distances_m, strict=True
         ):
-            taken_s = beams.first_s + index * beams.period_s
-            if self._swept and self._swept[-1] - swept > BACK_DEG:
-                turn = self._close()
-                if turn is not None:
-                    whole.append(turn)
-            if not self._angles:
-                self._first_s = taken_s
-            self._angles.append(angle)
-            self._swept.append(swept)
-            self._distances.append(distance)
-            self._last_s = taken_s
+            if self._moves_on(swept):
+                whole += self._cut_off()
+            part = self._part
+            if not part.angles:
+                part.first_s = taken_s
+            part.angles.append(angle)
+            part.swept.append(swept)
+            part.distances.append(distance)
+            part.last_s = taken_s
+            taken_s += beams.period_s
         return whole
 
-    def _close(self) -> LidarTurn | None:
-        turn = LidarTurn(tuple(self._angles), tuple(self._distances), self._first_s, self._last_s)
-        swept = self._swept
-        self._angles, self._swept, self._distances = [], [], []
-        begun, self._begun = self._begun, True
-        if not begun:
-            return None  # it was joined half-way
-        in_time = 0.0 <= turn.last_s - turn.first_s <= MAX_TURN_S
+    def _moves_on(self, swept_deg: float) -> bool:
+        """Note where the head stands now; tell whether it passed a cut."""
+        last_deg, self._last_deg = self._last_deg, swept_deg
+        if last_deg is None:
+            self._cut = int(swept_deg / self._width_deg) % self._cuts
+            self._into_deg = swept_deg - self._cut * self._width_deg
+            return False
+        step_deg = (swept_deg - last_deg) % 360.0
+        if step_deg > 360.0 - BACK_DEG:
+            step_deg -= 360.0
+        reckoned_deg = self._into_deg + step_deg
+        # From the angle itself, so that the steps' rounding errors do not add up.
+        seen_deg = (swept_deg - self._cut * self._width_deg) % 360.0
+        self._into_deg = seen_deg + 360.0 * round((reckoned_deg - seen_deg) / 360.0)
+        return self._into_deg >= self._width_deg
+
+    def _cut_off(self) -> list[LidarTurn]:
+        """End the part, and as many empty ones as were passed unseen; return the whole turns."""
+        whole = []
+        while self._into_deg >= self._width_deg:
+            self._into_deg -= self._width_deg
+            self._cut = (self._cut + 1) % self._cuts
+            part, self._part = self._part, _Part()
+            if not self._begun:
+                self._begun = True  # it was joined half-way
+                continue
+            self._parts.append(part)
+            if len(self._parts) == self._cuts:
+                turn = self._join()
+                if turn is not None:
+                    whole.append(turn)
+        return whole
+
+    def _join(self) -> LidarTurn | None:
+        parts = self._parts
+        first_s, last_s = parts[0].first_s, parts[-1].last_s
+        swept = [angle for part in parts for angle in part.swept]
+        in_time = all(part.swept for part in parts) and 0.0 <= last_s - first_s <= MAX_TURN_S
         if not (in_time and has_no_gap(swept, self._max_gap_deg)):
             self.broken += 1
             return None
         self.turns += 1
-        return turn
+        return LidarTurn(
+            tuple(angle for part in parts for angle in part.angles),
+            tuple(distance for part in parts for distance in part.distances),
+            first_s,
+            last_s,
+            self._cut,
+        )
 
 
 def has_no_gap(angles_deg: Sequence[float], max_gap_deg: float) -> bool:
@@ -125,24 +205,27 @@ class ScanShape:
     lidar: LidarConfig
     clockwise: bool = True
     """The sensor counts its angles clockwise, seen from above; False where it hangs upside down."""
+    cuts: int = 1
+    """At how many places turns begin; ``beams`` is a multiple of it."""
 
     def scan(self, turn: LidarTurn, boot_id: str, seq: int) -> Scan:
         """Return a turn as a scan: each direction holds the nearest return that fell into it.
 
-        The frame's x is the sensor's own zero; how that is mounted is ``[lidar] yaw_rad``. A turn
-        begins there, so that a clockwise one ends with the first direction that is listed.
+        The frame's x is the sensor's own zero; how that is mounted is ``[lidar] yaw_rad``. The
+        list begins where the turn began, or ends there if that was clockwise.
 
         A direction in which no beam fell (there are more of them than beams, or the motor is not
         even) takes the nearer of its neighbours: never less than what was seen beside it.
         """
         step_rad = tau / self.beams
+        begun_rad = tau * turn.cut / self.cuts
         return Scan(
             boot_id=boot_id,
             seq=seq,
             stamp_s=turn.first_s,
             time_increment_s=max(0.0, turn.last_s - turn.first_s) / max(1, self.beams - 1),
             clockwise=self.clockwise,
-            angle_min_rad=0.5 * step_rad,
+            angle_min_rad=0.5 * step_rad + (-begun_rad if self.clockwise else begun_rad),
             angle_increment_rad=step_rad,
             range_min_m=self.lidar.range_min_m,
             range_max_m=self.lidar.range_max_m,
@@ -153,9 +236,10 @@ class ScanShape:
         nearest: list[float | None] = [None] * self.beams
         looked = [False] * self.beams
         share = self.beams / 360.0
+        first = turn.cut * self.beams // self.cuts
         high = self.lidar.range_max_m
         for angle, distance in zip(turn.angles_deg, turn.distances_m, strict=True):
-            swept = int(angle * share) % self.beams
+            swept = (int(angle * share) - first) % self.beams
             index = self.beams - 1 - swept if self.clockwise else swept
             looked[index] = True
             known = nearest[index]

@@ -15,12 +15,11 @@ from dataclasses import dataclass
 from math import atan, degrees
 
 from devices.clock import SensorClock
-from sensors.lidar.turn import MAX_GAP_DEG, Beams
+from sensors.lidar.turn import COUNTED_WINDOW_S, MAX_GAP_DEG, Beams
 
 HEAD = b"\xaa\x55"
 SCAN, STOP, INFO, HEALTH = b"\xa5\x60", b"\xa5\x65", b"\xa5\x90", b"\xa5\x92"
 HEAD_BYTES = 10
-MOST_BEAMS = 255
 _WORD = struct.Struct("<H")
 
 
@@ -35,11 +34,13 @@ class YdlidarModel:
     unit_m: float
     triangulates: bool
     beams_per_s: float
+    dtr: bool | None = None
+    """The motor turns while this line is so; None: it turns by itself or by request."""
 
 
 MODELS = {
-    "x2": YdlidarModel(115_200, True, 2, 0.000_25, True, 3_000.0),
-    "x4": YdlidarModel(128_000, False, 2, 0.000_25, True, 5_000.0),
+    "x2": YdlidarModel(115_200, True, 2, 0.000_25, True, 3_000.0, dtr=True),
+    "x4": YdlidarModel(128_000, False, 2, 0.000_25, True, 5_000.0, dtr=True),
     "g2": YdlidarModel(230_400, False, 3, 0.000_25, True, 5_000.0),
     "g4": YdlidarModel(230_400, False, 2, 0.000_25, True, 9_000.0),
     "tg15": YdlidarModel(512_000, False, 2, 0.001, False, 20_000.0),
@@ -51,17 +52,25 @@ class YdlidarDecoder:
     """Turn the sensor's bytes into beams; what does not check is dropped and counted."""
 
     max_gap_deg = MAX_GAP_DEG
+    rescue = b""
 
     def __init__(self, model: YdlidarModel) -> None:
         self.baud = model.baud
         self.opening: tuple[bytes, ...] = () if model.talks else (STOP, SCAN)
         self.closing: tuple[bytes, ...] = () if model.talks else (STOP,)
         self._model = model
-        self._clock = SensorClock()
+        self._clock = SensorClock(COUNTED_WINDOW_S)
         self._kept = bytearray()
         self._counted = 0
         self.frames = 0
         self.spoilt = 0
+        self.lost_bytes = 0
+
+    def forget(self) -> None:
+        """Drop the unfinished packet: what comes next is of another time."""
+        self._kept.clear()
+        self._counted = 0
+        self._clock.reset()
 
     def feed(self, data: bytes, arrival_s: float) -> list[Beams]:
         """Take bytes as they came, read at ``arrival_s`` on our clock; return the beams in them."""
@@ -76,13 +85,17 @@ class YdlidarDecoder:
             if packet[3] and packet_check(packet, self._model.sample_bytes) == 0:
                 found.append(self._beams(packet, arrival_s))
                 self.frames += 1
+                self.lost_bytes += start
                 del kept[: start + size]
             else:
                 self.spoilt += 1
+                self.lost_bytes += start + 1
                 self._counted = 0
                 self._clock.reset()  # how many beams were lost is not known
                 del kept[: start + 1]
-        del kept[: start if start >= 0 else max(0, len(kept) - 1)]
+        skipped = start if start >= 0 else max(0, len(kept) - 1)
+        self.lost_bytes += skipped
+        del kept[:skipped]
         return found
 
     def _beams(self, packet: bytes, arrival_s: float) -> Beams:

@@ -1,5 +1,9 @@
-"""Play a base's firmware at the far end of a serial line, with the simulated robot as its body."""
+"""Play the firmware of a base, and of its lidar, each at the far end of a serial line.
 
+The simulated robot is their body.
+"""
+
+from sim.twin.lidar import LidarTwin
 from sim.twin.twin import FIRMWARES, DriveTwin
 
-__all__ = ["FIRMWARES", "DriveTwin"]
+__all__ = ["FIRMWARES", "DriveTwin", "LidarTwin"]

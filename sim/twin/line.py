@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 READ_BYTES = 4096
 _TIOCSPTLCK, _TIOCGPTN = 0x40045431, 0x80045430
+_TCGETS2 = 0x802C542A
+_TERMIOS2 = struct.Struct("<IIIIB19sII")
 
 
 class TwinLine:
@@ -51,6 +53,12 @@ class TwinLine:
         """Send bytes; what finds no room is lost, as on a wire."""
         with contextlib.suppress(BlockingIOError):
             os.write(self._far, data)
+
+    def baud(self) -> int:
+        """Return the speed that the near end was set to; a terminal keeps one for both ends."""
+        raw = bytearray(_TERMIOS2.size)
+        fcntl.ioctl(self._far, _TCGETS2, raw)
+        return int(_TERMIOS2.unpack(raw)[-1])
 
     def hang_up(self) -> None:
         """Pull the plug and put it in again: whoever has the line open finds it gone."""

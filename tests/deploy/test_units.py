@@ -88,6 +88,18 @@ def test_every_service_is_hardened_and_does_not_repeat_a_refusal(name: str) -> N
         assert service[setting] == [value], setting
 
 
+def test_the_lidars_service_is_as_hardened_and_opens_serial_ports_alone() -> None:
+    lidar, other = (unit(UNITS / f"pons-{name}.service") for name in ("lidar", "localization"))
+    own = {"ExecStart", "User", "SupplementaryGroups", "MemoryMax", "DevicePolicy", "DeviceAllow"}
+    kept = {name: value for name, value in other["Service"].items() if name not in own}
+    kept.pop("PrivateDevices")
+    assert {n: v for n, v in lidar["Service"].items() if n not in own} == kept
+    assert lidar["Service"]["DevicePolicy"] == ["closed"]
+    assert all(one.startswith("char-tty") for one in lidar["Service"]["DeviceAllow"])
+    assert "python -m sensors.lidar --home /var/lib/pons" in lidar["Service"]["ExecStart"][0]
+    assert lidar["Install"]["WantedBy"] == ["pons.target"]
+
+
 def test_neither_user_can_replace_what_the_other_made() -> None:
     made = folders()
     assert made["/var/lib/pons"] == ("3770", "root", "pons")
@@ -105,6 +117,7 @@ def test_every_door_has_a_folder_that_its_listener_alone_writes_and_who_dials_it
         Party.ROBOT: users["sim"],
         Party.LOCALIZATION: users["localization"],
         Party.CAMERA: users["camera"],
+        Party.LIDAR: unit(UNITS / "pons-lidar.service")["Service"]["User"][0],
     }
     for door in DOORS:
         mode, owner, group = made[f"/var/lib/pons/run/{door.name}"]

@@ -34,6 +34,7 @@ PARTIES = {
     Party.ROBOT: "pons-sim",
     Party.LOCALIZATION: "pons-localization",
     Party.CAMERA: "pons-camera",
+    Party.LIDAR: "pons-lidar",
     Party.PLANNER: "pons-planner",
     Party.OPERATOR: "pons-planner",
 }

@@ -9,7 +9,7 @@ from localization.deskew import deskew, sweep_s
 from localization.odometry_integration import OdometryTrail
 from tests.localization.rooms import ROOM, cast, odometry_of, points_of, scan_of
 from wire import Pose2, between
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 SWEEP_S, BEAMS = 0.1, 180
 BEGAN = Pose2(2.6, 1.7, 0.4)

@@ -17,7 +17,7 @@ from localization.localizer import (
 from localization.quality import POOR_QUALITY
 from tests.localization.rooms import MAP_ID, ROOM, Boxes, cast, field_of, odometry_of, scan_of
 from wire import IDENTITY, STILL, Localization, Pose2, PoseHint, Twist2, between, compose, wrap
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 FIELD = field_of(ROOM, 6.0, 4.0)
 SEARCH = GlobalSearch(FIELD)

@@ -21,7 +21,7 @@ PERIOD_S = 0.02
 def said_by(party: Party, key: Key[Record]) -> Record:
     """Return the key's example, naming its sender where more than one may say it."""
     message = EXAMPLES[key.message]
-    for name in ("source", "source_id"):
+    for name in ("source", "source_id", *(("boot_id",) if len(key.senders) > 1 else ())):
         if name in key.message.model_fields:
             return message.model_copy(update={name: party.value})
     return message
@@ -30,8 +30,8 @@ def said_by(party: Party, key: Key[Record]) -> Record:
 def sender_of(key: Key[Record], message: Record) -> str:
     if len(key.senders) == 1:
         return next(iter(key.senders)).value
-    named = getattr(message, "source", None) or getattr(message, "source_id", None)
-    return str(named)
+    named = (getattr(message, name, None) for name in ("source", "source_id", "boot_id"))
+    return str(next(name for name in named if name))
 
 
 def hear(key: Key[Record], subscriber: Subscriber[Record], heard: set[tuple[str, str]]) -> None:

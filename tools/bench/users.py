@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 UNITS = CHECKOUT / "deploy" / "systemd"
 INSTALLED = "/var/lib"
 BRIDGE, PLANNER, SIM = "pons-bridge", "pons-planner", "pons-sim"
-LOCALIZATION, CAMERA = "pons-localization", "pons-camera"
+LOCALIZATION, CAMERA, LIDAR = "pons-localization", "pons-camera", "pons-lidar"
 MEMBER, STRANGER = "member", "stranger"
 """A person or program in the group pons, and one in none of the groups."""
 USERS = {
@@ -30,16 +30,17 @@ USERS = {
     SIM: 61_003,
     LOCALIZATION: 61_004,
     CAMERA: 61_005,
+    LIDAR: 61_006,
     MEMBER: 61_008,
     STRANGER: 61_009,
 }
 GROUPS = {
     "pons": 62_000, "pons-senses": 62_001, "pons-drive": 62_002, "pons-hint": 62_003,
-    MEMBER: 62_008, STRANGER: 62_009,
+    "pons-scan": 62_004,    MEMBER: 62_008, STRANGER: 62_009,
 }  # fmt: skip
 OF_PROCESSES = {
     "bridge": BRIDGE, "planner": PLANNER, "sim": SIM, "localization": LOCALIZATION,
-    "sim.camera": CAMERA,
+    "sim.camera": CAMERA, "sensors.lidar": LIDAR,
 }  # fmt: skip
 
 

@@ -19,7 +19,7 @@ from wire.geometry import Pose2
 from wire.value import value
 
 if TYPE_CHECKING:
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
     from wire.sensors import Scan
 
 

@@ -6,7 +6,7 @@ from math import radians
 
 from bridge.core.geometry.lidar_scan import ScanPicture
 from wire import IDENTITY, Scan
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 
 def picture(

@@ -23,7 +23,7 @@ from wire import (
     Stop,
     Twist2,
 )
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 ROBOT, ORIGIN = RobotDescription(), Pose2(0.0, 0.0, 0.0)
 T = TypeVar("T")

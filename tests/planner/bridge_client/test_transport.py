@@ -79,8 +79,14 @@ def senders(home: Path, ends: tuple[Session, WireBus]) -> Iterator[dict[Party, S
     with (
         open_session(Party.ROBOT, "r1", home) as robot,
         open_session(Party.LOCALIZATION, "r1", home) as localization,
+        open_session(Party.LIDAR, "r1", home) as lidar,
     ):
-        yield {Party.BRIDGE: ends[0], Party.ROBOT: robot, Party.LOCALIZATION: localization}
+        yield {
+            Party.BRIDGE: ends[0],
+            Party.ROBOT: robot,
+            Party.LOCALIZATION: localization,
+            Party.LIDAR: lidar,
+        }
 
 
 def until(say: Callable[[], None], heard: Callable[[], bool]) -> None:
@@ -131,8 +137,7 @@ def test_each_word_reaches_the_planner(
     message: Record,
 ) -> None:
     bus = ends[1]
-    (sender,) = key.senders
-    publisher = senders[sender].publisher(key)
+    publishers = [senders[sender].publisher(key) for sender in key.senders]
     reads: dict[str, Callable[[], object]] = {
         "bridge/status": bus.status,
         "bridge/odom": bus.odometry,
@@ -141,4 +146,8 @@ def test_each_word_reaches_the_planner(
         "localization": bus.localization,
     }
     read = reads[key.path]
-    until(lambda: publisher.put(message), lambda: read() in (message, (message,)))
+    for publisher in publishers:
+        until(
+            lambda publisher=publisher: publisher.put(message),  # type: ignore[misc]  # bound per sender
+            lambda: read() in (message, (message,)),
+        )

@@ -19,7 +19,7 @@ from planner.navigation.obstruction import (
 )
 from tests.planner.navigation.floors import drawn
 from wire import Pose2, Scan
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 RADIUS_M = 0.3
 HALL = drawn(*("." * 24 for _ in range(8)), "#" * 24)

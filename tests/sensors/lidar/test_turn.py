@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from sensors.lidar import Beams, LidarTurn, ScanShape, TurnCollector
 from sensors.lidar.turn import MAX_GAP_DEG
 from wire import Scan
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 LIDAR = LidarConfig(range_max_m=8.0)
 STEP_DEG = 0.8

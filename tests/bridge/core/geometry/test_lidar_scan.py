@@ -13,7 +13,7 @@ from bridge.core.geometry.lidar_scan import ScanPicture, Sector
 from tests.bridge.core.beams import picture
 from tests.bridge.core.table import table
 from wire import IDENTITY, Scan
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 LIDAR = LidarConfig()
 EPS = 1e-6

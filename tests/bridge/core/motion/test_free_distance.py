@@ -15,7 +15,8 @@ from bridge.core.motion.free_distance import FreeLength, free_length
 from bridge.core.sensing.sensor_update import MARGIN_M, REACH_M
 from tests.laws import at_least
 from wire.geometry import IDENTITY, Pose2, Twist2
-from wire.robot import Base, LidarConfig, Limits
+from wire.lidar_config import LidarConfig
+from wire.robot import Base, Limits
 from wire.sensors import Scan
 
 BASE, LIMITS, LIDAR = Base(), Limits(), LidarConfig()

@@ -14,7 +14,7 @@ from bridge.core.motion.free_distance import NOTHING_KNOWN, FreeLength, free_len
 from tests.bridge.core.beams import picture
 from tests.bridge.core.table import table
 from wire import IDENTITY, Pose2, Twist2
-from wire.robot import LidarConfig
+from wire.lidar_config import LidarConfig
 
 RADIUS_M, DISC_M, REACH_M = 0.3, 0.35, 2.0
 
