@@ -217,7 +217,7 @@ class Localizer:
     ) -> tuple[Pose2, float, Floats]:
         """Return the pose that fits a scan best near a prediction, its score and free axis."""
         start = _array(predicted)
-        pose, score, axis = self._align(cloud, start)
+        pose, score, axis = self._align(cloud, start, redescending=True)
         turned = self._placed is not None and (
             abs(between(self._placed.carried, carried).yaw_rad) > TURNED_RAD
         )
@@ -230,8 +230,10 @@ class Localizer:
                 return other, rated, other_axis
         return pose, score, axis
 
-    def _align(self, cloud: PointCloud, start: Floats) -> tuple[Pose2, float, Floats]:
-        result = align(self._field, cloud.points_m, start[None])
+    def _align(
+        self, cloud: PointCloud, start: Floats, *, redescending: bool = False
+    ) -> tuple[Pose2, float, Floats]:
+        result = align(self._field, cloud.points_m, start[None], redescending=redescending)
         score = float(scores(self._field, cloud.points_m, self._lidar_m, result.poses)[0])
         x_m, y_m, yaw = result.poses[0].tolist()
         return Pose2(x_m, y_m, yaw), score, result.free_axis[0]
