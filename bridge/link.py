@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeVar
 
 from bridge.core.inbox import ArrivedAt, FenceArrival, Inbox, LoopFacts, OperatorArrival, RejectedAt
-from wire import DriveState, OpRequest, Rejected, Stop, authentic, authentic_fence, decode
+from wire import DecodeFailure, DriveState, OpRequest, Stop, authentic, authentic_fence, decode
 from wire.base import Record
 from wire.keys import (
     ARM,
@@ -86,7 +86,7 @@ class BridgeLink:
 
     def drain(
         self,
-        drive: tuple[DriveState | Rejected, ...],
+        drive: tuple[DriveState | DecodeFailure, ...],
         loop: LoopFacts,
         *,
         real_time: bool,
@@ -139,10 +139,10 @@ class BridgeLink:
             return ()
         took.arrived.append(ArrivedAt(STOP.path, len(payloads)))
         found: list[Stop] = []
-        refused: Rejected | None = None
+        refused: DecodeFailure | None = None
         for payload in reversed(payloads):
             item = decode(STOP, payload)
-            if isinstance(item, Rejected):
+            if isinstance(item, DecodeFailure):
                 refused = item
             elif all(item.id != other.id for other in found):
                 found.append(item)
@@ -200,11 +200,11 @@ class _TickDrain:
         good = self._parse(key, payloads[-1:]) if payloads else ()
         return good[-1] if good else None
 
-    def sort_out(self, key: Key[M], items: Iterable[M | Rejected]) -> tuple[M, ...]:
+    def sort_out(self, key: Key[M], items: Iterable[M | DecodeFailure]) -> tuple[M, ...]:
         """Return the messages and note the refusals."""
         good: list[M] = []
         for item in items:
-            if isinstance(item, Rejected):
+            if isinstance(item, DecodeFailure):
                 self.rejected.append(RejectedAt(key.path, item))
             else:
                 good.append(item)

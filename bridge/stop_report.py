@@ -25,7 +25,7 @@ from bridge.recording.recording_reader import (
     config_of,
     frames_of,
 )
-from wire import Held, Mode, Pose2
+from wire import Mode, Pose2, StandingHold
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -73,7 +73,7 @@ class StopReport:
     way_m: float
     """How far it went until then."""
     ended: Mode
-    held: Held | None
+    held: StandingHold | None
     fault: str | None
     """Why it ended in FAULT, where it did: not always what stopped it."""
     events: tuple[tuple[float, str, str], ...]

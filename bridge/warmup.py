@@ -23,6 +23,7 @@ from bridge.recording.encode import warm_frames
 from wire import (
     IDENTITY,
     VIRTUAL_KEY,
+    DecodeFailure,
     DriveState,
     EstopLink,
     FenceRequest,
@@ -32,7 +33,6 @@ from wire import (
     Imu,
     Localization,
     OpRequest,
-    Rejected,
     Scan,
     Stop,
     Velocity,
@@ -142,7 +142,7 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
             ),
         ),
         estop_link=_through_codec(ESTOP_LINK, EstopLink(seq=count, pressed=False)),
-        rejected=(RejectedAt(WAYPOINTS.path, bad),) if isinstance(bad, Rejected) else (),
+        rejected=(RejectedAt(WAYPOINTS.path, bad),) if isinstance(bad, DecodeFailure) else (),
         arrived=(ArrivedAt(WAYPOINTS.path, 1),),
         fences=(_fence(config),),
         fence_done=FenceDone(_NAME, _NAME, ""),
@@ -191,6 +191,6 @@ def _orders(config: CoreConfig, count: int) -> Inbox:
 def _through_codec(key: Key[M], message: M) -> M:
     """Send a message through the codec, as if it came over the wire."""
     back = decode(key, encode(message))
-    if isinstance(back, Rejected):
+    if isinstance(back, DecodeFailure):
         raise TypeError(f"the warm-up's own {key.path} is refused: {back.detail}")
     return back

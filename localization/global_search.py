@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from localization.correlative_search import LatticeSearch, WindowSearch
-from localization.quality import ENOUGH_SCORE, scores
+from localization.quality import scores
 from localization.scan_matching import align, thin
 
 if TYPE_CHECKING:
@@ -35,11 +35,10 @@ APART_M, APART_RAD = 0.5, radians(15.0)
 """Poses closer than both are one place."""
 SEPARATE_M, SEPARATE_RAD = 0.35, radians(10.0)
 """Starts closer than both would end in one place."""
-SURE_GAP = 0.30
-"""Between the best place and the next: 0 wrong and sure in all homes tried, at 0.10 some."""
-CLEAN_SCORE, CLEAN_GAP = 0.9, 0.12
-"""Where next to nothing is unexplained, a smaller lead is enough: what could make the true place
-look worse than a wrong one, things that the map does not know, would be seen here too."""
+SURE_LEADS = ((0.9, 0.06), (0.8, 0.12), (0.6, 0.20))
+"""What a best score must lead the next place's by. The less is unexplained, the smaller a lead is
+enough: what could make the true place look worse than a wrong one, things that the map does not
+know, would be seen here too. 0 wrong and sure of 4 600 searches (ADR 0039)."""
 CLEAR_M = 0.15
 """A robot's centre is never nearer to an obstacle of the map."""
 
@@ -55,10 +54,11 @@ class Candidate:
 
 def is_sure(candidates: tuple[Candidate, ...]) -> bool:
     """Return whether the first candidate is good and leads the second far enough."""
-    if not candidates or not candidates[0].score >= ENOUGH_SCORE:
+    if not candidates:
         return False
-    gap = candidates[0].score - (candidates[1].score if len(candidates) > 1 else 0.0)
-    return gap >= SURE_GAP or (candidates[0].score >= CLEAN_SCORE and gap >= CLEAN_GAP)
+    best = candidates[0].score
+    lead = best - (candidates[1].score if len(candidates) > 1 else 0.0)
+    return any(best >= score and lead >= least for score, least in SURE_LEADS)
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,15 +29,7 @@ from localization.odometry_integration import OdometryTrail
 from localization.quality import ENOUGH_SCORE, quality_of, scores
 from localization.relocation import OpenSearch, PlacedBase, SearchRequest
 from localization.scan_matching import align
-from wire import (
-    HintVerdict,
-    Localization,
-    Pose2,
-    PoseHint,
-    between,
-    compose,
-    inverse,
-)
+from wire import HintVerdict, Localization, Pose2, PoseHint, between, compose, inverse
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -216,22 +208,23 @@ class Localizer:
         self, cloud: PointCloud, predicted: Pose2, carried: Pose2
     ) -> tuple[Pose2, float, Floats]:
         """Return the pose that fits a scan best near a prediction, its score and free axis."""
-        start = _array(predicted)
-        pose, score, axis = self._align(cloud, start)
+        pose, score, axis = self._align(cloud, _array(predicted), redescending=True)
         turned = self._placed is not None and (
             abs(between(self._placed.carried, carried).yaw_rad) > TURNED_RAD
         )
         doubted = score < DOUBTED_SCORE and cloud.stamp_s - self._window_s >= DOUBT_PAUSE_S
         if turned or doubted or score < ENOUGH_SCORE:
             self._window_s = cloud.stamp_s
-            start = self._window.best(cloud.points_m, start)
+            start = self._window.best(cloud.points_m, _array(predicted))
             other, rated, other_axis = self._align(cloud, start)
             if rated > score + BETTER:
                 return other, rated, other_axis
         return pose, score, axis
 
-    def _align(self, cloud: PointCloud, start: Floats) -> tuple[Pose2, float, Floats]:
-        result = align(self._field, cloud.points_m, start[None])
+    def _align(
+        self, cloud: PointCloud, start: Floats, *, redescending: bool = False
+    ) -> tuple[Pose2, float, Floats]:
+        result = align(self._field, cloud.points_m, start[None], redescending=redescending)
         score = float(scores(self._field, cloud.points_m, self._lidar_m, result.poses)[0])
         x_m, y_m, yaw = result.poses[0].tolist()
         return Pose2(x_m, y_m, yaw), score, result.free_axis[0]

@@ -22,7 +22,7 @@ from wire.commands import (
     Waypoint,
     Waypoints,
 )
-from wire.errors import ConfigError, Rejected, Unwritable
+from wire.errors import ConfigError, DecodeFailure, Unwritable
 from wire.fence import FenceFile
 from wire.fingerprint import fingerprint, map_id
 from wire.geometry import (
@@ -71,13 +71,13 @@ from wire.status import (
     DriveReport,
     Event,
     GrantLeft,
-    Held,
     HeldReason,
     LegReport,
     LimitsInForce,
     Mode,
     Owner,
     RowReport,
+    StandingHold,
     Status,
     TickStats,
 )
@@ -96,6 +96,7 @@ __all__ = [
     "BrakingReport",
     "CameraConfig",
     "ConfigError",
+    "DecodeFailure",
     "DriveCommand",
     "DriveReport",
     "DriveState",
@@ -106,7 +107,6 @@ __all__ = [
     "Grant",
     "GrantLeft",
     "Heartbeat",
-    "Held",
     "HeldReason",
     "Hello",
     "HintCode",
@@ -130,7 +130,6 @@ __all__ = [
     "PoseHint",
     "Proof",
     "Record",
-    "Rejected",
     "RobotDescription",
     "RowReport",
     "Scan",
@@ -139,6 +138,7 @@ __all__ = [
     "SimScene",
     "SimThing",
     "SimTruth",
+    "StandingHold",
     "Status",
     "Stop",
     "TickStats",

@@ -13,7 +13,7 @@ from typing import TypeVar
 from pydantic import ValidationError
 
 from wire.base import Record
-from wire.errors import Rejected
+from wire.errors import DecodeFailure
 from wire.keys import SMALL, Key
 from wire.sensors import ImageHeader
 
@@ -25,17 +25,17 @@ def encode(message: Record) -> bytes:
     return message.__pydantic_serializer__.to_json(message)
 
 
-def decode(key: Key[M], payload: bytes) -> M | Rejected:
-    """Return the message, or a Rejected that says why the bytes are not one."""
+def decode(key: Key[M], payload: bytes) -> M | DecodeFailure:
+    """Return the message, or a DecodeFailure that says why the bytes are not one."""
     size = len(payload)
     if not size <= key.max_bytes:
-        return Rejected("too_large", f"{key.path}: {size} bytes, at most {key.max_bytes}")
+        return DecodeFailure("too_large", f"{key.path}: {size} bytes, at most {key.max_bytes}")
     try:
         return key.message.__pydantic_validator__.validate_json(payload, strict=True)  # type: ignore[no-any-return]  # pydantic types this Any; the validator is the message's own
     except ValidationError as error:
-        return Rejected("invalid", f"{key.path}: {_first(error)}")
+        return DecodeFailure("invalid", f"{key.path}: {_first(error)}")
     except RecursionError:
-        return Rejected("invalid", f"{key.path}: nested too deeply")
+        return DecodeFailure("invalid", f"{key.path}: nested too deeply")
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,17 +46,19 @@ class Image:
     data: bytes
 
 
-def image(key: Key[ImageHeader], attached: bytes, payload: bytes) -> Image | Rejected:
-    """Return the picture with its header, or a Rejected. Its pixels are judged elsewhere."""
+def image(key: Key[ImageHeader], attached: bytes, payload: bytes) -> Image | DecodeFailure:
+    """Return the picture with its header, or a DecodeFailure. Its pixels are judged elsewhere."""
     if not len(payload) <= key.max_bytes or not len(attached) <= SMALL:
         size = f"{len(payload)} bytes, at most {key.max_bytes}"
-        return Rejected("too_large", f"{key.path}: {size}; header {len(attached)}, at most {SMALL}")
+        return DecodeFailure(
+            "too_large", f"{key.path}: {size}; header {len(attached)}, at most {SMALL}"
+        )
     if not payload:
-        return Rejected("invalid", f"{key.path}: a header without a picture")
+        return DecodeFailure("invalid", f"{key.path}: a header without a picture")
     try:
         header = ImageHeader.model_validate_json(attached, strict=True)
     except ValidationError as error:
-        return Rejected("invalid", f"{key.path}: {_first(error)}")
+        return DecodeFailure("invalid", f"{key.path}: {_first(error)}")
     return Image(header, payload)
 
 

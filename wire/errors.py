@@ -25,7 +25,7 @@ class Unwritable(ConfigError):
 
 
 @dataclass(frozen=True, slots=True)
-class Rejected:
+class DecodeFailure:
     """Hold why bytes did not become a message. A value, so that no traceback outlives a tick."""
 
     code: str

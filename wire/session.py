@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from wire.doors import Door
-    from wire.errors import Rejected
+    from wire.errors import DecodeFailure
     from wire.sensors import ImageHeader
 
 M = TypeVar("M", bound=Record)
@@ -100,7 +100,7 @@ class ImageSubscriber:
             key.expression(robot_id), zenoh.handlers.RingChannel(key.ring)
         )
 
-    def newest(self) -> Image | Rejected | None:
+    def newest(self) -> Image | DecodeFailure | None:
         """Return the newest picture or its refusal; None where none came."""
         try:
             sample = self._subscriber.try_recv()
@@ -176,7 +176,7 @@ class Arrivals(Generic[M]):
 
     __slots__ = ("arrived", "items")
 
-    def __init__(self, items: tuple[M | Rejected, ...], arrived: int) -> None:
+    def __init__(self, items: tuple[M | DecodeFailure, ...], arrived: int) -> None:
         self.items = items
         self.arrived = arrived
 

@@ -61,7 +61,7 @@ class HeldReason(StrEnum):
     FAULT = "fault"
 
 
-class Held(Record):
+class StandingHold(Record):
     """Stand until arm or resume."""
 
     reason: HeldReason
@@ -183,7 +183,7 @@ class Status(Record):
     epoch: Epoch
     nonce: Name
     owner: Owner | None
-    held: Held | None
+    held: StandingHold | None
     grant: GrantLeft | None
     leg: LegReport | None
     base_in_odom: Pose2

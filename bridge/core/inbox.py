@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from wire import (
+    DecodeFailure,
     DriveState,
     EstopLink,
     Grant,
@@ -19,7 +20,6 @@ from wire import (
     Localization,
     OpKind,
     OpRequest,
-    Rejected,
     Scan,
     Stop,
     Velocity,
@@ -42,7 +42,7 @@ class RejectedAt:
     """Tell that bytes on a key did not become a message, by the key's path (``cmd/waypoints``)."""
 
     key: str
-    why: Rejected
+    why: DecodeFailure
 
 
 @value

@@ -37,7 +37,7 @@ from bridge.core.state_senses import (
     LoopMemory,
     PoseMemory,
 )
-from wire import Held, Mode, Pose2
+from wire import Mode, Pose2, StandingHold
 from wire.value import value
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ class BridgeState:
     mode: Mode = Mode.BOOT
     mode_since_s: float = 0.0
     epoch_no: int = 1
-    held: Held | None = None
+    held: StandingHold | None = None
     source: str = ""
     """Who moves the robot: W waypoints, X external, T teleop, or nobody."""
     waits_since_s: float | None = None

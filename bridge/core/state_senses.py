@@ -57,6 +57,7 @@ class Drift:
     travelled_m: float = 0.0
     """Odometer readings at the newest correction."""
     turned_rad: float = 0.0
+    slipped_rad: float = 0.0
     jumps_at_s: tuple[float, ...] = ()
     """When a jump took a grant away, the last three times."""
 
@@ -74,6 +75,8 @@ class PoseMemory:
     good: Localization | None = None
     """The newest that was good: what a jump is measured from."""
     drift: Drift = Drift()
+    slipped_rad: float = 0.0
+    """Turns that the wheels told and the gyro did not, or the other way round, added up."""
 
 
 @dataclass(frozen=True, slots=True)

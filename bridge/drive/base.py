@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, Protocol
 
-from wire import ConfigError, DriveCommand, DriveState, Rejected
+from wire import ConfigError, DecodeFailure, DriveCommand, DriveState
 
 Braking = Literal["brake", "coast"]
 """What the wheels do without torque: short or brake, or roll on. Decides what CUT0 is worth; who
@@ -19,7 +19,7 @@ class Drive(Protocol):
     """No metal moves: refused real-time rights are a banner, and the published key counts."""
     braking: Braking
 
-    def read(self) -> tuple[DriveState | Rejected, ...]:
+    def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         """Return the states since the last call, oldest first, at most the 4 newest."""
 
     def write(self, command: DriveCommand | None) -> None:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from bridge.drive.base import Braking
-    from wire import DriveState, Rejected
+    from wire import DecodeFailure, DriveState
     from wire.robot import DriveConfig
 
 _KEPT = 4
@@ -69,7 +69,7 @@ class SerialDrive:
         self._boot = boot
         self._seq = 0
 
-    def read(self) -> tuple[DriveState | Rejected, ...]:
+    def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         """Return the states since the last call, oldest first, at most the 4 newest."""
         self._begin_if_opened()
         found: list[DriveState] = []

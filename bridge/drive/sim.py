@@ -9,7 +9,7 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from wire import DriveCommand, DriveState, Rejected, decode
+from wire import DecodeFailure, DriveCommand, DriveState, decode
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class SimDrive:
         self._boot = boot
         self._seq = 0
 
-    def read(self) -> tuple[DriveState | Rejected, ...]:
+    def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         payloads = self._states.drain_bytes()
         return tuple([decode(DRIVE_STATE, payload) for payload in payloads[-_PARSED:]])
 

@@ -31,7 +31,7 @@ holds no way. 3 is what a way round a crate takes; wider found nothing cheaper (
 _FAR = np.float32(1e9)
 
 
-class Floor(Protocol):
+class SearchFloor(Protocol):
     """Find ways between cells of one costmap; fields of costs to a goal are on its lattice."""
 
     lattice: Lattice
@@ -47,7 +47,7 @@ class Floor(Protocol):
         ...
 
 
-def floor_of(cost: Floats, resolution_m: float, radius_m: float) -> Floor:
+def floor_of(cost: Floats, resolution_m: float, radius_m: float) -> SearchFloor:
     """Return what finds ways on a costmap (rows, columns), coarse to fine where it is large."""
     if cost.size >= LARGE_CELLS and BLOCK * resolution_m <= radius_m:
         return CoarseFloor(cost)

@@ -16,7 +16,7 @@ from time import perf_counter
 import numpy as np
 
 from planner.navigation.bay import find_bay
-from planner.navigation.coarse_search import Floor, floor_of
+from planner.navigation.coarse_search import SearchFloor, floor_of
 from planner.navigation.costmap import Costmap, static_costmap
 from planner.navigation.obstacle_memory import ObstacleMemory
 from planner.navigation.route import (
@@ -206,7 +206,7 @@ class Router:
             raise RouteFailure("no_route", "no free floor joins them")
         return path
 
-    def _floor_of(self, costmap: Costmap) -> Floor:
+    def _floor_of(self, costmap: Costmap) -> SearchFloor:
         return floor_of(costmap.cost, costmap.grid.resolution_m, self._limits.radius_m)
 
     def _points(self, costmap: Costmap, line: Line) -> tuple[RoutePoint, ...]:

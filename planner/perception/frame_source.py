@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
 from planner.perception.interfaces import Picture
-from wire import Image, Rejected
+from wire import DecodeFailure, Image
 from wire import keys as k
 
 if TYPE_CHECKING:
@@ -44,9 +44,9 @@ class Camera(Protocol):
     def listen(self, wanted: bool) -> None:
         """Say whether pictures are wanted; a camera may rest while nobody wants any."""
 
-    def color(self) -> Image | Rejected | None: ...
+    def color(self) -> Image | DecodeFailure | None: ...
 
-    def depth(self) -> Image | Rejected | None: ...
+    def depth(self) -> Image | DecodeFailure | None: ...
 
 
 class WireCamera:
@@ -68,10 +68,10 @@ class WireCamera:
                 self._ears = hear(k.CAMERA_COLOR), depth
                 stack.pop_all()
 
-    def color(self) -> Image | Rejected | None:
+    def color(self) -> Image | DecodeFailure | None:
         return None if self._ears is None else self._ears[0].newest()
 
-    def depth(self) -> Image | Rejected | None:
+    def depth(self) -> Image | DecodeFailure | None:
         return None if self._ears is None else self._ears[1].newest()
 
 

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Self, TypeVar
 
 from pons.conformance.record import Command, DriveRecord, Truth, WheelSample, Word
 from wire import (
+    DecodeFailure,
     DriveCommand,
     DriveState,
     Mode,
-    Rejected,
     SimTruth,
     Status,
     decode,
@@ -37,7 +37,7 @@ RING = 1024
 MOVES = frozenset({Mode.ACTIVE, Mode.TELEOP})
 
 
-def _parse_all(payloads: list[bytes], key: Key[M]) -> list[M | Rejected]:
+def _parse_all(payloads: list[bytes], key: Key[M]) -> list[M | DecodeFailure]:
     """Parse everything: a judge may not skip what the bridge would."""
     return [decode(key, payload) for payload in payloads]
 

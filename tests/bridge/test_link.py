@@ -21,13 +21,13 @@ from tests.bridge.ground import core_config, until
 from tests.wire.examples import EXAMPLES, STATUS
 from wire import (
     VIRTUAL_KEY,
+    DecodeFailure,
     Event,
     FenceRequest,
     Odometry,
     OpKind,
     OpRequest,
     Record,
-    Rejected,
     Stop,
     Waypoints,
     decode,
@@ -172,7 +172,7 @@ def test_hostile_bytes_become_a_rejection_and_nothing_else(ends: Ends, key: Key[
     mouth = ends.mouth(key)
     gather(ends, key)
     for payload in HOSTILE:
-        assert isinstance(decode(key, payload), Rejected)
+        assert isinstance(decode(key, payload), DecodeFailure)
         mouth.put_bytes(payload)
         assert until(partial(refused, ends, key))
 

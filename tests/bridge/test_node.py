@@ -14,7 +14,7 @@ from bridge.core.state_motion import Learnt
 from bridge.node import EXIT_BROKEN, EXIT_LEFT, BridgeNode, Parts
 from bridge.realtime import Pacer, PacerTick
 from tests.bridge.ground import FakeClock, core_config
-from wire import DriveCommand, DriveState, Rejected
+from wire import DecodeFailure, DriveCommand, DriveState
 
 CONFIG = core_config()
 
@@ -32,7 +32,7 @@ class Diary:
         self.gaps = 3
         self.trouble = ""
 
-    def read(self) -> tuple[DriveState | Rejected, ...]:
+    def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         self.words.append("read")
         return ()
 
@@ -45,7 +45,7 @@ class Diary:
 
     def drain(
         self,
-        drive: tuple[DriveState | Rejected, ...],
+        drive: tuple[DriveState | DecodeFailure, ...],
         loop: LoopFacts,
         *,
         fence_done: None,

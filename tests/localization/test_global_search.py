@@ -67,10 +67,9 @@ def test_sure_is_a_lead_and_a_good_score() -> None:
     assert not is_sure(())
     assert not is_sure(made(0.59))
     assert is_sure(made(0.65))
-    assert is_sure(made(0.75, 0.44))
-    assert not is_sure(made(0.75, 0.5))
-    assert is_sure(made(0.95, 0.82))
-    assert not is_sure(made(0.95, 0.85))
+    for best, lead in ((0.65, 0.20), (0.79, 0.20), (0.85, 0.12), (0.95, 0.06), (1.0, 0.06)):
+        assert is_sure(made(best, best - lead - 0.001))
+        assert not is_sure(made(best, best - lead + 0.001))
 
 
 def test_poses_of_one_place_count_once() -> None:

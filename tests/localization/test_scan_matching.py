@@ -62,3 +62,13 @@ def test_thinning_keeps_both_ends_and_transforming_is_the_poses() -> None:
     assert thin(points, 20) is points
     x_m, y_m = to_map(np.array([[1.0, 2.0, np.pi / 2]]), points[1:2])
     assert (x_m[0, 0], y_m[0, 0]) == pytest.approx((1.0, 3.0))
+
+
+def test_redescending_a_row_of_cartons_before_a_wall_pulls_nothing() -> None:
+    points = 0.987 * points_of(cast(ROOM, TRUE))  # a lidar whose ranges are short, as some are
+    row = points[: len(points) * 3 // 10]
+    row *= 1.0 - 0.2 / np.hypot(row[:, 0], row[:, 1])[:, None]
+    pulled = align(FIELD, points, start(0.0, 0.0, 0.0)).poses[0]
+    held = align(FIELD, points, start(0.02, -0.02, 1.0), redescending=True).poses[0]
+    assert np.hypot(pulled[0] - TRUE.x_m, pulled[1] - TRUE.y_m) > 0.08, "by Cauchy's loss"
+    assert np.hypot(held[0] - TRUE.x_m, held[1] - TRUE.y_m) < 0.03

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from tests.wire.examples import EXAMPLES
-from wire import Record, Rejected
+from wire import DecodeFailure, Record
 from wire.keys import KEYS, Key, Party
 from wire.session import Subscriber, open_session
 
@@ -36,7 +36,7 @@ def sender_of(key: Key[Record], message: Record) -> str:
 
 def hear(key: Key[Record], subscriber: Subscriber[Record], heard: set[tuple[str, str]]) -> None:
     for item in subscriber.drain().items:
-        if isinstance(item, Rejected):
+        if isinstance(item, DecodeFailure):
             print("rejected", key.path, item.code, flush=True)
             continue
         pair = (key.path, sender_of(key, item))

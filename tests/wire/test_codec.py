@@ -11,7 +11,7 @@ import psutil
 import pytest
 
 from tests.wire.examples import EXAMPLES
-from wire import Image, ImageHeader, Record, Rejected, Stop, Waypoints, decode, encode
+from wire import DecodeFailure, Image, ImageHeader, Record, Stop, Waypoints, decode, encode
 from wire.codec import image
 from wire.keys import CAMERA_COLOR, IMAGE, KEYS, LOCALIZATION, SMALL, STOP, WAYPOINTS, Key
 
@@ -38,7 +38,7 @@ def test_every_message_fits_its_key(key: Key[Record]) -> None:
 def test_unknown_fields_are_refused(key: Key[Record]) -> None:
     body = json.loads(encode(EXAMPLES[key.message])) | {"unasked": 1}
     answer = decode(key, json.dumps(body).encode())
-    assert isinstance(answer, Rejected)
+    assert isinstance(answer, DecodeFailure)
     assert "unasked" in answer.detail
 
 
@@ -47,13 +47,13 @@ def test_a_missing_field_without_a_default_is_refused(key: Key[Record]) -> None:
     for name, field in key.message.model_fields.items():
         if field.is_required():
             short = {k: v for k, v in body.items() if k != name}
-            assert isinstance(decode(key, json.dumps(short).encode()), Rejected), name
+            assert isinstance(decode(key, json.dumps(short).encode()), DecodeFailure), name
 
 
 @pytest.mark.parametrize("literal", [b"NaN", b"Infinity", b"-Infinity", b"1e999", b"-1e999"])
 def test_numbers_that_are_none_are_refused(literal: bytes) -> None:
     good = encode(EXAMPLES[LOCALIZATION.message])
-    assert isinstance(decode(LOCALIZATION, good.replace(b"0.9", literal)), Rejected)
+    assert isinstance(decode(LOCALIZATION, good.replace(b"0.9", literal)), DecodeFailure)
 
 
 @pytest.mark.parametrize(
@@ -62,25 +62,25 @@ def test_numbers_that_are_none_are_refused(literal: bytes) -> None:
 )
 def test_what_is_no_message_is_refused(payload: bytes) -> None:
     answer = decode(STOP, payload)
-    assert isinstance(answer, Rejected)
+    assert isinstance(answer, DecodeFailure)
     assert answer.code == "invalid"
 
 
 def test_size_is_judged_before_parsing() -> None:
     answer = decode(STOP, b" " * (STOP.max_bytes + 1))
-    assert answer == Rejected("too_large", "cmd/stop: 4097 bytes, at most 4096")
+    assert answer == DecodeFailure("too_large", "cmd/stop: 4097 bytes, at most 4096")
 
 
 def test_a_string_is_no_number_and_a_number_no_flag() -> None:
     good = encode(EXAMPLES[Waypoints])
-    assert isinstance(decode(WAYPOINTS, good.replace(b'"seq":5', b'"seq":"5"')), Rejected)
-    assert isinstance(decode(WAYPOINTS, good.replace(b'"final":true', b'"final":1')), Rejected)
+    assert isinstance(decode(WAYPOINTS, good.replace(b'"seq":5', b'"seq":"5"')), DecodeFailure)
+    assert isinstance(decode(WAYPOINTS, good.replace(b'"final":true', b'"final":1')), DecodeFailure)
 
 
 def test_too_many_points_are_refused() -> None:
     body = json.loads(encode(EXAMPLES[Waypoints]))
     body["points"] = [{"x_m": 0.1 * n, "y_m": 0.0, "speed_mps": 0.3} for n in range(51)]
-    assert isinstance(decode(WAYPOINTS, json.dumps(body).encode()), Rejected)
+    assert isinstance(decode(WAYPOINTS, json.dumps(body).encode()), DecodeFailure)
     body["points"].pop()
     assert isinstance(decode(WAYPOINTS, json.dumps(body).encode()), Waypoints)
 
@@ -93,7 +93,7 @@ def test_damaged_bytes_are_refused_or_still_a_message(key: Key[Record]) -> None:
         for _ in range(chance.randint(1, 4)):
             damaged[chance.randrange(len(damaged))] ^= 1 << chance.randrange(8)
         answer = decode(key, bytes(damaged[: chance.randint(0, len(good))]) or bytes(damaged))
-        assert isinstance(answer, Rejected | key.message)
+        assert isinstance(answer, DecodeFailure | key.message)
         if isinstance(answer, key.message):
             assert decode(key, encode(answer)) == answer
 
@@ -139,7 +139,7 @@ def test_what_is_no_picture_is_refused_as_a_value(
     attached: bytes, payload: bytes, code: str
 ) -> None:
     answer = image(CAMERA_COLOR, attached, payload)
-    assert isinstance(answer, Rejected)
+    assert isinstance(answer, DecodeFailure)
     assert answer.code == code
 
 
@@ -150,5 +150,5 @@ def test_nesting_too_deep_for_the_parser_is_refused(monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(Stop, "__pydantic_validator__", Deep())
     answer = decode(STOP, b"{}")
-    assert isinstance(answer, Rejected)
+    assert isinstance(answer, DecodeFailure)
     assert "nested" in answer.detail

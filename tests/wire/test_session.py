@@ -15,7 +15,7 @@ import pytest
 import zenoh
 
 from tests.wire.examples import EXAMPLES
-from wire import ConfigError, Image, ImageHeader, Rejected, Scan, Status, Stop, encode
+from wire import ConfigError, DecodeFailure, Image, ImageHeader, Scan, Status, Stop, encode
 from wire.doors import BRIDGE_DOOR
 from wire.keys import ANY_ROBOT, CAMERA_COLOR, HEARTBEAT, KEYS, SCAN, STATUS, STOP, Key, Party
 from wire.session import Publisher, Subscriber, open_session
@@ -207,7 +207,7 @@ def test_the_newest_picture_comes_whole_with_its_header(tmp_path: Path) -> None:
         open_session(Party.PLANNER, "r1", tmp_path) as planner,
     ):
         mouth, ears = camera.image_publisher(CAMERA_COLOR), planner.image_subscriber(CAMERA_COLOR)
-        seen: list[Image | Rejected | None] = []
+        seen: list[Image | DecodeFailure | None] = []
 
         def heard() -> bool:
             mouth.put(header, b"picture" * 1000)

@@ -58,7 +58,7 @@ class Unsound(Exception):
 
 def _codec(_folder: Path) -> Reader:
     """Read a message of any key; what is taken must be in its size and say the same again."""
-    from wire import Rejected, decode, encode
+    from wire import DecodeFailure, decode, encode
     from wire.codec import image
     from wire.keys import CAMERA_COLOR, KEYS
 
@@ -67,7 +67,7 @@ def _codec(_folder: Path) -> Reader:
         payload = data[1:]
         image(CAMERA_COLOR, payload, payload[:100])
         message = decode(key, payload)
-        if isinstance(message, Rejected):
+        if isinstance(message, DecodeFailure):
             return None
         again = encode(message)
         if type(message) is not key.message or decode(key, again) != message:

@@ -13,7 +13,7 @@ from random import Random
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from tools.lockstep.disturbance import QUIET, Disturbance
-from wire import Record, Rejected, decode, encode
+from wire import DecodeFailure, Record, decode, encode
 from wire.session import Arrivals
 
 if TYPE_CHECKING:
@@ -204,7 +204,7 @@ class PortSubscriber(Generic[M]):
         if not payloads:
             return None
         item = decode(self._key, payloads[-1])
-        if isinstance(item, Rejected):
+        if isinstance(item, DecodeFailure):
             raise TypeError(f"{self._key.path} cannot be sent: {item.code}: {item.detail}")
         return item
 

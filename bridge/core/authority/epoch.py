@@ -22,7 +22,7 @@ from bridge.core.authority.ownership import (
     sent_when,
 )
 from bridge.core.authority.requests import refuse_openly, settle_openly
-from wire import PROTOCOL, Held, HeldReason, Owner
+from wire import PROTOCOL, HeldReason, Owner, StandingHold
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,7 +50,7 @@ def new_epoch(tick: TickContext, why: str, *, keep_stick: bool = False) -> None:
 
 def hold(tick: TickContext, reason: HeldReason, held_id: str) -> None:
     """Refuse every grant from now on, until arm or resume."""
-    tick.s.held = Held(reason=reason, id=held_id)
+    tick.s.held = StandingHold(reason=reason, id=held_id)
     tick.say("held", f"{reason.value} {held_id}")
 
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from bridge.core.geometry.kinematics import OdometryState
     from bridge.core.inbox import Inbox
     from bridge.core.tick_context import TickContext
-    from wire import DriveState, Localization, Pose2, Scan
+    from wire import DriveState, Imu, Localization, Pose2, Scan
     from wire.robot import RobotDescription
 
 POOR_QUALITY = 0.5
@@ -39,6 +39,10 @@ FORGIVEN_M_PER_M = 0.1
 """Wheels on carpet, before calibration, measure a way wrong by a twentieth."""
 FORGIVEN_RAD_PER_M = 0.05
 FORGIVEN_RAD_PER_RAD = 0.1
+SLIP_RADPS = 0.1
+"""Wheels and gyro that differ by more have slipped: what odometry then has wrong is forgiven."""
+SLIP_GAP_S = 0.05
+"""Between two readings of the gyro; for a longer silence no slip is counted."""
 JUMPS = 3
 JUMPS_WITHIN_S = 60.0
 DRIVE_LOST_S, SCAN_LOST_S = 0.25, 0.25
@@ -72,6 +76,7 @@ def sense(tick: TickContext) -> None:
             tick.now_s,
             pose.good,
             pose.drift,
+            pose.slipped_rad + _slip_rad(tick, inbox.imu),
         )
     if inbox.estop_link is not None:
         hear_link(tick, inbox.estop_link)
@@ -84,6 +89,15 @@ def sense(tick: TickContext) -> None:
     facts = inbox.loop
     if facts.missed_ticks or facts.late_s > LATE_S or not tick.dt_s <= GAP_S:
         note_lateness(tick)
+
+
+def _slip_rad(tick: TickContext, imu: Imu) -> float:
+    """Return by how much wheels and gyro turned differently since the gyro's last reading [rad]."""
+    heard_s = tick.s.pose.imu_received_s
+    if heard_s is None or not 0.0 <= tick.now_s - heard_s <= SLIP_GAP_S:
+        return 0.0
+    off_radps = abs(tick.s.odometry.measured.w_radps - imu.yaw_rate_radps)
+    return off_radps * (tick.now_s - heard_s) if off_radps > SLIP_RADPS else 0.0
 
 
 def note_lateness(tick: TickContext) -> None:
@@ -244,7 +258,7 @@ def _is_jump(tick: TickContext, last: Localization, new: Localization) -> bool:
     before, after = compose(last.odom_in_map, here), compose(new.odom_in_map, here)
     x_m, y_m = after.x_m - before.x_m, after.y_m - before.y_m
     yaw_rad = wrap(after.yaw_rad - before.yaw_rad)
-    drift = _add_drift(s.pose.drift, x_m, y_m, yaw_rad, s.odometry)
+    drift = _add_drift(s.pose, x_m, y_m, yaw_rad, s.odometry)
     jump_m, drift_m = hypot(x_m, y_m), hypot(drift.x_m, drift.y_m)
     small = jump_m <= JUMP_M and abs(yaw_rad) <= JUMP_RAD
     if small and drift_m <= DRIFT_M and abs(drift.yaw_rad) <= DRIFT_RAD:
@@ -263,14 +277,16 @@ def _is_jump(tick: TickContext, last: Localization, new: Localization) -> bool:
 
 
 def _add_drift(
-    had: Drift, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState
+    pose: PoseMemory, x_m: float, y_m: float, yaw_rad: float, odometry: OdometryState
 ) -> Drift:
     """Add one correction, and forgive the odometry's possible error since the last."""
+    had = pose.drift
     moved_m = odometry.travelled_m - had.travelled_m
     turned_rad = odometry.turned_rad - had.turned_rad
     x_m, y_m, yaw_rad = had.x_m + x_m, had.y_m + y_m, had.yaw_rad + yaw_rad
     off_m, off_rad = hypot(x_m, y_m), abs(yaw_rad)
     forgiven_rad = FORGIVEN_RAD_PER_M * moved_m + FORGIVEN_RAD_PER_RAD * turned_rad
+    forgiven_rad += pose.slipped_rad - had.slipped_rad
     kept = max(0.0, 1.0 - FORGIVEN_M_PER_M * moved_m / off_m) if off_m > 0.0 else 0.0
     kept_yaw = max(0.0, 1.0 - forgiven_rad / off_rad) if off_rad > 0.0 else 0.0
     return Drift(
@@ -279,6 +295,7 @@ def _add_drift(
         kept_yaw * yaw_rad,
         odometry.travelled_m,
         odometry.turned_rad,
+        pose.slipped_rad,
         had.jumps_at_s,
     )
 

@@ -23,6 +23,7 @@ from bridge.core import (
 from tests.bridge.core.fake_planner import MAP_ID
 from wire import (
     PROTOCOL,
+    DecodeFailure,
     DriveState,
     EstopLink,
     Grant,
@@ -33,7 +34,6 @@ from wire import (
     OpRequest,
     Pose2,
     Proof,
-    Rejected,
     Scan,
     Stop,
     Velocity,
@@ -272,7 +272,7 @@ class Hostile:
         )
 
     def _rejected(self) -> RejectedAt:
-        why = Rejected("invalid", "x_m: input should be a finite number")
+        why = DecodeFailure("invalid", "x_m: input should be a finite number")
         return RejectedAt(self.random.choice(KEYS), why)
 
 

@@ -11,7 +11,7 @@ from bridge.core.state_motion import Gate
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
-from wire import IDENTITY, Mode, Rejected
+from wire import IDENTITY, DecodeFailure, Mode
 
 
 def test_a_run_begins_in_its_first_epoch_without_a_nonce() -> None:
@@ -144,7 +144,7 @@ def test_a_new_leg_is_followed_from_its_beginning() -> None:
 def test_bytes_that_are_no_message_are_counted_and_charged_to_whoever_drives() -> None:
     world = reached("active")
     before = world.state.voice.dropped
-    why = Rejected(code="not_json", detail="")
+    why = DecodeFailure(code="not_json", detail="")
     world.extra = replace(Inbox(), rejected=(RejectedAt(key="cmd/waypoints", why=why),))
     decision = world.tick()
     assert "rejected_not_json" in decision.reasons

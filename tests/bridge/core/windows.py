@@ -7,7 +7,7 @@ from dataclasses import replace
 from bridge.core import RejectedAt
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.scripted import World
-from wire import Rejected, Status
+from wire import DecodeFailure, Status
 
 
 def silent_for(world: World, ticks: int) -> None:
@@ -32,7 +32,7 @@ def raised(world: World, stage: str) -> bool:
 
 
 def bad_bytes(world: World, count: int, key: str = "cmd/waypoints") -> None:
-    rejected = (RejectedAt(key, Rejected("invalid", "points.0.x_m: input is not finite")),)
+    rejected = (RejectedAt(key, DecodeFailure("invalid", "points.0.x_m: input is not finite")),)
     world.extra = replace(world.extra, rejected=rejected * count)
 
 

@@ -19,13 +19,13 @@ from wire import (
     Grant,
     GrantLeft,
     Heartbeat,
-    Held,
     HeldReason,
     Hello,
     LegReport,
     Mode,
     Owner,
     Record,
+    StandingHold,
     Status,
     Waypoint,
     Waypoints,
@@ -77,7 +77,7 @@ def test_heartbeat_shows_what_was_seen_and_what_was_used() -> None:
 
 def test_grant_on_each_status_until_it_shows_and_never_while_held() -> None:
     state = OwnerState()
-    held = Held(reason=HeldReason.STOP, id="h1")
+    held = StandingHold(reason=HeldReason.STOP, id="h1")
     state, messages = say(state, status(seq=1, owner=OURS, held=held), DRIVE)
     assert kinds(messages) == [Heartbeat]
     for seq in (2, 3):
@@ -97,7 +97,7 @@ def test_one_status_is_asked_for_one_grant() -> None:
 
 
 def test_no_waypoint_before_its_grant_is_asked_for() -> None:
-    held = Held(reason=HeldReason.STOP, id="h1")
+    held = StandingHold(reason=HeldReason.STOP, id="h1")
     _, messages = say(OwnerState(), status(owner=OURS, held=held), DRIVE)
     assert Waypoints not in kinds(messages)
 
@@ -192,7 +192,7 @@ def test_no_history_makes_it_say_what_the_wire_forbids(
             epoch=f"b1-{number}",
             owner=Owner(planner_id=owner, kind="planner") if owner else None,
             grant=left(granted) if granted else None,
-            held=Held(reason=HeldReason.STOP, id="h") if held else None,
+            held=StandingHold(reason=HeldReason.STOP, id="h") if held else None,
         )
         if shown.epoch != epoch:
             epoch, newest = shown.epoch, 0

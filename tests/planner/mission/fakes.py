@@ -24,7 +24,6 @@ from wire import (
     Grant,
     GrantLeft,
     Heartbeat,
-    Held,
     HeldReason,
     Hello,
     LegReport,
@@ -40,6 +39,7 @@ from wire import (
     Record,
     RowReport,
     Scan,
+    StandingHold,
     Status,
     Stop,
     TickStats,
@@ -116,7 +116,7 @@ class FakeBridge:
     epoch: int = 1
     boot: str = "b1"
     owner: str | None = None
-    held: Held | None = None
+    held: StandingHold | None = None
     granted: str | None = None
     leg: LegReport | None = None
     pose: Pose2 = IDENTITY
@@ -156,7 +156,7 @@ class FakeBridge:
 
     def hold(self, reason: HeldReason, held_id: str = "h1") -> None:
         self.turn()
-        self.held = Held(reason=reason, id=held_id)
+        self.held = StandingHold(reason=reason, id=held_id)
         self.mode = Mode.HOLD
 
     def reboot(self) -> None:

@@ -64,7 +64,7 @@ from planner.plan import (
 from planner.plan import MoveStraight as MoveStep
 from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, row, status
-from wire import Action, CameraConfig, Held, HeldReason, LegReport, Mode, Pose2, Twist2
+from wire import Action, CameraConfig, HeldReason, LegReport, Mode, Pose2, StandingHold, Twist2
 
 IDS = ("g1", "g2", "g3")
 ids = st.sampled_from(IDS)
@@ -114,7 +114,7 @@ def statuses(draw: st.DrawFn) -> dict[str, Any]:
     held = draw(st.sampled_from([None, None, None, "h1", "h2"]))
     return {
         "mode": draw(st.sampled_from([Mode.HOLD, Mode.ACTIVE, Mode.HOLD, *Mode])),
-        "held": Held(reason=draw(st.sampled_from(HeldReason)), id=held) if held else None,
+        "held": StandingHold(reason=draw(st.sampled_from(HeldReason)), id=held) if held else None,
         "leg": leg,
         "base_in_map": draw(st.sampled_from([Pose2(0, 0, 0), Pose2(4, 0, 0), None])),
         "measured": Twist2(draw(st.sampled_from([0.0, 0.3])), 0.0),

@@ -18,7 +18,7 @@ from planner.perception.pending_poses import KEPT
 from planner.perception.perception_loop import Sightseer
 from tests.planner.perception.scenes import box_of, image, view
 from tests.planner.perception.watching import MAP_ID, World
-from wire import Localization, Pose2, Rejected
+from wire import DecodeFailure, Localization, Pose2
 
 
 def play(story: Coroutine[Any, Any, None]) -> None:
@@ -104,7 +104,7 @@ def test_a_camera_that_vanishes_or_was_never_there_is_said() -> None:
             await world.turn()
         assert world.eyes.sight.blind == "camera_silent"
         assert len(world.eyes.sight.things) == 1  # what was seen is still known
-        world.camera.colors.append(Rejected("invalid", "camera/color: x"))
+        world.camera.colors.append(DecodeFailure("invalid", "camera/color: x"))
         await world.turn()
         assert world.eyes.skip_counts["malformed"] == 1
         none = World(kind="none")

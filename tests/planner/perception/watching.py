@@ -16,7 +16,7 @@ from planner.perception.perception_loop import Sightseer
 from planner.perception.pose_buffer import Poses
 from planner.state_database import StateDatabase
 from tests.planner.perception.scenes import CAMERA, box_of, image, two_room, view
-from wire import Image, Localization, Odometry, Pose2, Rejected, Twist2
+from wire import DecodeFailure, Image, Localization, Odometry, Pose2, Twist2
 
 MAP_ID = two_room().map_id
 BOX, DEPTH_M = box_of(view(1.0, 1.5), 2.5, 1.5, 0.3, 0.1)
@@ -27,18 +27,18 @@ CUP = Detection("Cup", 0.9, BOX, "red", DEPTH_M, 0.01)
 class FakeCamera:
     """Hand out what a test put in."""
 
-    colors: list[Image | Rejected] = field(default_factory=list)
-    depths: list[Image | Rejected] = field(default_factory=list)
+    colors: list[Image | DecodeFailure] = field(default_factory=list)
+    depths: list[Image | DecodeFailure] = field(default_factory=list)
     heard: bool = False
 
     def listen(self, wanted: bool) -> None:
         self.heard, self.colors, self.depths = wanted, [], []
 
-    def color(self) -> Image | Rejected | None:
+    def color(self) -> Image | DecodeFailure | None:
         newest, self.colors = self.colors[-1:], []
         return newest[0] if newest else None
 
-    def depth(self) -> Image | Rejected | None:
+    def depth(self) -> Image | DecodeFailure | None:
         newest, self.depths = self.depths[-1:], []
         return newest[0] if newest else None
 

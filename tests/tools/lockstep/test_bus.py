@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tools.lockstep import Disturbance, LockstepBus
-from wire import Heartbeat, Rejected, Stop, keys
+from wire import DecodeFailure, Heartbeat, Stop, keys
 from wire.keys import Party
 
 PAIR = frozenset({Party.PLANNER, Party.BRIDGE})
@@ -104,7 +104,7 @@ def test_what_is_no_message_is_refused_where_it_is_read() -> None:
     ears = bus.port(Party.BRIDGE).subscriber(keys.HEARTBEAT)
     beat = Heartbeat.model_construct(planner_id="p", epoch="a-1", seen=-1, used=0)
     bus.port(Party.PLANNER).publisher(keys.HEARTBEAT).put(beat)
-    assert isinstance(ears.drain().items[0], Rejected)
+    assert isinstance(ears.drain().items[0], DecodeFailure)
     bus.port(Party.PLANNER).publisher(keys.HEARTBEAT).put(beat)
     with pytest.raises(TypeError, match="cannot be sent"):
         ears.newest()

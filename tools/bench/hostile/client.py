@@ -23,7 +23,7 @@ from tools.bench.hostile.contents import Liar
 from tools.bench.hostile.draw import Mood
 from wire.codec import decode
 from wire.doors import DOORS, Door
-from wire.errors import Rejected
+from wire.errors import DecodeFailure
 from wire.keys import IMAGE, KEYS
 from wire.sockets import Endpoints
 
@@ -53,7 +53,7 @@ class HostileClient:
             sample = ear.try_recv()
             if sample is not None:
                 message = decode(key, sample.payload.to_bytes())
-                if not isinstance(message, Rejected):
+                if not isinstance(message, DecodeFailure):
                     liar.heard[key.path] = message
 
     def attack(self, run: dict[str, Any]) -> dict[str, Any]:

@@ -29,7 +29,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from tools.bench.report import ReportRow
-from wire import Record, Rejected, decode, encode
+from wire import DecodeFailure, Record, decode, encode
 from wire.keys import KEYS
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def fuzz(seed: int, count: int, examples: Mapping[type[Record], Record]) -> dict
             key, data = whole[index % len(whole)]
             answer = decode(key, spoilt(data, random))
             told["tried"] += 1
-            if not isinstance(answer, Rejected):
+            if not isinstance(answer, DecodeFailure):
                 told["accepted"] += 1
                 told["bad"] += not sound(key, answer)
         told["grown_kib"] = (process.memory_info().rss - base) // 1024

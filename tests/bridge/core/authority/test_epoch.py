@@ -14,7 +14,7 @@ from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.scripted import World
 from tests.bridge.core.table import table
-from wire import PROTOCOL, Held, HeldReason, Hello, Owner
+from wire import PROTOCOL, HeldReason, Hello, Owner, StandingHold
 
 
 @table(("start", "keep_stick"), [("active", False), ("active_external", True), ("teleop", True)])
@@ -62,7 +62,7 @@ def test_an_owner_is_taken_and_another_one_holds(last: str | None) -> None:
     assert tick.s.ownership == Ownership(owner, "p2", sent_s, sent_s, None, None)
     other = last == "p1"
     assert tick.s.epoch_no == epoch + other
-    assert tick.s.held == (Held(reason=HeldReason.NEW_PLANNER, id="p2") if other else None)
+    assert tick.s.held == (StandingHold(reason=HeldReason.NEW_PLANNER, id="p2") if other else None)
     assert tick.events[-1] == ("owner", "planner p2")
 
 

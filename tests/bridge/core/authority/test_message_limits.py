@@ -14,7 +14,7 @@ from bridge.core.state_senses import Flood
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.table import table
-from wire import Heartbeat, Rejected, Stop
+from wire import DecodeFailure, Heartbeat, Stop
 
 EPS = 1e-6
 
@@ -146,7 +146,7 @@ def test_bytes_that_are_nothing_are_charged_to_whoever_may_use_their_key(
     tick.s.bad_bucket = 1.0
     message_limits.hear_rejected(tick)
     assert tick.s.bad_bucket == 1.0
-    tick.inbox = Inbox(rejected=(RejectedAt(key, Rejected("malformed", "no JSON")),))
+    tick.inbox = Inbox(rejected=(RejectedAt(key, DecodeFailure("malformed", "no JSON")),))
     message_limits.hear_rejected(tick)
     assert tick.reasons == ["rejected_malformed"]
     assert tick.s.bad_bucket == 1.0 + scored

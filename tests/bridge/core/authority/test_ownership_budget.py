@@ -13,9 +13,9 @@ from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.table import table
 from tests.bridge.core.windows import shown
-from wire import Grant, Held, HeldReason
+from wire import Grant, HeldReason, StandingHold
 
-HELD = Held(reason=HeldReason.STOP, id="s1")
+HELD = StandingHold(reason=HeldReason.STOP, id="s1")
 
 
 def at(start: str) -> TickContext:
@@ -91,7 +91,7 @@ def test_way_and_time_are_metered_where_a_brain_causes_them(
 )
 def test_a_grant_is_refused_for_one_reason_each(
     start: str,
-    held: Held | None,
+    held: StandingHold | None,
     left: tuple[float, float],
     operator_left: tuple[float, float],
     code: str | None,

@@ -19,7 +19,7 @@ from tests.bridge.core.hostile import KEYS, OPS, Hostile
 from tests.bridge.core.laws.test_step_laws import check
 from tests.bridge.core.reached import STARTS, reached
 from tests.bridge.core.scripted import World
-from wire import Mode, OpKind, Rejected, Waypoint
+from wire import DecodeFailure, Mode, OpKind, Waypoint
 
 COMING = ("hellos", "grants", "heartbeats", "waypoints", "teleop", "external", "stops", "ops")
 STOP_S = 0.15 + 0.75 + 0.2
@@ -100,7 +100,7 @@ class Bridge(RuleBasedStateMachine):
 
     @rule(key=st.sampled_from(KEYS), count=st.integers(1, 8))
     def bytes_are_no_message(self, key: str, count: int) -> None:
-        why = Rejected("invalid", "x_m: input should be a finite number")
+        why = DecodeFailure("invalid", "x_m: input should be a finite number")
         self.world.extra = replace(self.world.extra, rejected=(RejectedAt(key, why),) * count)
         self.tick()
 

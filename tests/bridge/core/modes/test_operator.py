@@ -15,7 +15,7 @@ from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.scripted import World
 from tests.bridge.core.table import table
-from wire import Held, HeldReason, Mode, OpKind, OpRequest, Proof, Stop
+from wire import HeldReason, Mode, OpKind, OpRequest, Proof, StandingHold, Stop
 
 
 def _armed_teleop() -> World:
@@ -250,7 +250,7 @@ def test_a_row_that_disarms_sets_held_and_arming_clears_it() -> None:
     assert world.state.held is None
 
 
-HELD = Held(reason=HeldReason.STOP, id="s1")
+HELD = StandingHold(reason=HeldReason.STOP, id="s1")
 
 
 def at(start: str) -> TickContext:
@@ -304,7 +304,7 @@ def test_many_stops_at_once_are_one_change_of_epoch_and_a_verdict_each() -> None
     assert (tick.s.epoch_no, tick.s.mode, tick.stopped) == (epoch + 1, Mode.STOPPING, True)
     told = [(one.answer.id, one.answer.code) for one in tick.s.operator.answers[-3:]]
     assert told == [("s0", "ok"), ("s1", "ok"), ("s2", "ok")]
-    assert tick.s.held == Held(reason=HeldReason.STOP, id="s2")
+    assert tick.s.held == StandingHold(reason=HeldReason.STOP, id="s2")
     assert (tick.s.operator.nonce_no, tick.s.operator.old_nonce_no) == (nonce + 1, None)
     tick.stopped = False
     before = tick.s.operator

@@ -12,7 +12,7 @@ from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.table import table
 from tests.bridge.core.windows import dropped
-from wire import Held, HeldReason, Mode, Velocity
+from wire import HeldReason, Mode, StandingHold, Velocity
 
 EPS = 1e-6
 
@@ -45,7 +45,7 @@ def test_a_stick_is_ready_once_seen_released_and_neutral(
     if ready:
         assert (tick.s.stick.v_mps, tick.s.stick.received_s) == (0.3, tick.now_s)
         assert (tick.s.source, tick.s.grants.since_arm) == ("T", False)
-        assert tick.s.held == Held(reason=HeldReason.TELEOP, id="s")
+        assert tick.s.held == StandingHold(reason=HeldReason.TELEOP, id="s")
     else:
         assert tick.reasons == ["stick_not_ready"]
 
@@ -76,7 +76,7 @@ def test_a_stick_steers_while_it_is_fresh(
     if not fresh:
         assert (tick.s.mode, tick.s.stick.source_id) == (Mode.HOLD, None)
         assert tick.s.stick.pressed_s is not None
-        assert tick.s.held == Held(reason=HeldReason.TELEOP, id="stick")
+        assert tick.s.held == StandingHold(reason=HeldReason.TELEOP, id="stick")
 
 
 @table(
@@ -121,7 +121,7 @@ def test_letting_go_holds_and_the_hand_must_begin_anew() -> None:
     tick.s.stick = replace(tick.s.stick, pressed_s=1.0)
     teleop.hear_teleop(tick, velocity(tick, 0.3, source_id=source, dead_man=False))
     assert tick.s.mode is Mode.HOLD
-    assert tick.s.held == Held(reason=HeldReason.TELEOP, id=str(source))
+    assert tick.s.held == StandingHold(reason=HeldReason.TELEOP, id=str(source))
     assert (tick.s.stick.source_id, tick.s.stick.ready, tick.s.stick.pressed_s) == (None, (), 1.0)
     assert tick.s.stick.released == (source,)
     teleop.hear_teleop(tick, velocity(tick, 0.0, source_id=source))

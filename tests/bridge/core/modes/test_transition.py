@@ -13,7 +13,7 @@ from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.scripted import ROBOT
 from tests.bridge.core.table import table
-from wire import STILL, Action, Held, HeldReason, Mode, Twist2
+from wire import STILL, Action, HeldReason, Mode, StandingHold, Twist2
 
 LATER_S = 0.5
 
@@ -123,12 +123,14 @@ def test_a_person_who_stops_a_stop_ends_its_going_on() -> None:
     assert ("mode", "STOPPING STOPPING disarm") not in tick.events
 
 
-HELD = Held(reason=HeldReason.STOP, id="s1")
+HELD = StandingHold(reason=HeldReason.STOP, id="s1")
 
 
 @table("held", [None, HELD])
 @table("start", ["active", "disarmed", "stopping_by_row", "selftest"])
-def test_a_protective_stop_ramps_where_there_is_torque(start: str, held: Held | None) -> None:
+def test_a_protective_stop_ramps_where_there_is_torque(
+    start: str, held: StandingHold | None
+) -> None:
     tick = later(start)
     tick.s.held = held
     powered = tick.is_powered
@@ -147,7 +149,7 @@ def test_a_protective_stop_ramps_where_there_is_torque(start: str, held: Held | 
         assert tick.s.stopping is None
         assert tick.s.motion.limiter == LimiterState()
     assert tick.s.source == ""
-    assert tick.s.held == (held or Held(reason=HeldReason.FAULT, id="estop"))
+    assert tick.s.held == (held or StandingHold(reason=HeldReason.FAULT, id="estop"))
 
 
 def test_after_a_hand_on_the_stick_the_ramp_is_judged_like_a_stop() -> None:
@@ -180,7 +182,7 @@ def test_without_torque_nothing_of_the_motion_is_left(
     mode: Mode,
     fault: str | None,
     holds: str | None,
-    held: Held | None,
+    held: StandingHold | None,
 ) -> None:
     tick = later(start)
     tick.s.held = held
@@ -193,7 +195,7 @@ def test_without_torque_nothing_of_the_motion_is_left(
     else:
         assert go(tick, cause, "why")
     assert (tick.s.mode, tick.s.fault) == (mode, fault)
-    expected = None if holds is None else Held(reason=HeldReason.FAULT, id=holds)
+    expected = None if holds is None else StandingHold(reason=HeldReason.FAULT, id=holds)
     assert tick.s.held == (held or expected)
     assert (tick.s.stopping, tick.s.source) == (None, "")
     assert requested_twist(tick) == (STILL, False)

@@ -12,7 +12,7 @@ from bridge.core.state_motion import Gate
 from tests.bridge.core.fake_planner import BOOT
 from tests.bridge.core.reached import reached, tick_of
 from tests.bridge.core.table import table
-from wire import Held, HeldReason, Imu, Mode
+from wire import HeldReason, Imu, Mode, StandingHold
 
 EPS = 1e-9
 
@@ -57,7 +57,7 @@ def test_a_status_is_due_20_times_a_second_or_at_once_but_never_over_40(
         ({}, False),
         ({"mode": Mode.HOLD}, True),
         ({"epoch_no": 77}, True),
-        ({"held": Held(reason=HeldReason.STOP, id="s1")}, True),
+        ({"held": StandingHold(reason=HeldReason.STOP, id="s1")}, True),
         ({"gate": Gate(blocked=True)}, True),
         ({"gate": Gate(free_scans=3)}, False),
         ({"operator": {"nonce_no": 99}}, True),

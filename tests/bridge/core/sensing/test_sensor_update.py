@@ -12,8 +12,14 @@ from bridge.core.authority.epoch import revoke
 from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.inbox import Inbox, LoopFacts
 from bridge.core.sensing import sensor_update
-from bridge.core.sensing.sensor_update import DRIFT_M, DRIFT_RAD, recorder_lack
-from bridge.core.state_senses import Drift, LidarMemory
+from bridge.core.sensing.sensor_update import (
+    DRIFT_M,
+    DRIFT_RAD,
+    SLIP_GAP_S,
+    SLIP_RADPS,
+    recorder_lack,
+)
+from bridge.core.state_senses import Drift, LidarMemory, PoseMemory
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT, MAP_ID
 from tests.bridge.core.reached import reached, tick_of
@@ -371,9 +377,55 @@ def test_no_more_jumps_are_remembered_than_count() -> None:
 def test_corrections_add_up_in_each_axis_while_nothing_moves() -> None:
     odometry = replace(at().s.odometry, travelled_m=3.0, turned_rad=2.0)
     had = Drift(0.1, 0.05, 0.02, travelled_m=3.0, turned_rad=2.0, jumps_at_s=(1.0,))
-    after = sensor_update._add_drift(had, 0.01, -0.02, 0.03, odometry)
+    pose = PoseMemory(drift=had)
+    after = sensor_update._add_drift(pose, 0.01, -0.02, 0.03, odometry)
     assert (after.x_m, after.y_m, after.yaw_rad) == pytest.approx((0.11, 0.03, 0.05))
     assert (after.travelled_m, after.turned_rad, after.jumps_at_s) == (3.0, 2.0, (1.0,))
+
+
+@table(
+    ("off_radps", "since_s", "slipped_rad"),
+    [
+        (0.4, 0.01, 0.004),
+        (SLIP_RADPS - EPS, 0.01, 0.0),
+        (SLIP_RADPS + EPS, 0.01, 0.01 * SLIP_RADPS),
+        (-SLIP_RADPS - EPS, 0.01, 0.01 * SLIP_RADPS),
+        (2.0, SLIP_GAP_S - EPS, 2.0 * SLIP_GAP_S),
+        (2.0, SLIP_GAP_S + EPS, 0.0),
+        (2.0, -0.01, 0.0),
+        (2.0, None, 0.0),
+    ],
+)
+def test_turns_that_wheels_and_gyro_tell_differently_add_up(
+    off_radps: float, since_s: float | None, slipped_rad: float
+) -> None:
+    tick = at()
+    heard_s = None if since_s is None else tick.now_s - since_s
+    tick.s.pose = replace(tick.s.pose, imu_received_s=heard_s, slipped_rad=1.0)
+    measured = replace(tick.s.odometry.measured, w_radps=0.4)
+    tick.s.odometry = replace(tick.s.odometry, measured=measured)
+    imu = Imu(
+        boot_id="d0",
+        seq=1,
+        stamp_s=NOW_S,
+        yaw_rate_radps=0.4 + off_radps,
+        accel_x_mps2=0.0,
+        accel_y_mps2=0.0,
+    )
+    tick.inbox = replace(tick.inbox, imu=imu)
+    sensor_update.sense(tick)
+    assert tick.s.pose.slipped_rad - 1.0 == pytest.approx(slipped_rad, abs=3e-6)
+    assert tick.s.pose.imu_received_s == tick.now_s
+
+
+def test_a_slip_forgives_the_heading_alone_and_once() -> None:
+    odometry = at().s.odometry
+    had = Drift(0.1, 0.0, 0.15, odometry.travelled_m, odometry.turned_rad, slipped_rad=2.0)
+    pose = PoseMemory(drift=had, slipped_rad=2.05)
+    after = sensor_update._add_drift(pose, 0.0, 0.0, 0.0, odometry)
+    assert (after.x_m, after.yaw_rad) == pytest.approx((0.1, 0.10))
+    again = sensor_update._add_drift(replace(pose, drift=after), 0.0, 0.0, 0.0, odometry)
+    assert (again.x_m, again.yaw_rad) == pytest.approx((0.1, 0.10))
 
 
 @table(

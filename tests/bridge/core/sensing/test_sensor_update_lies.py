@@ -152,6 +152,16 @@ def test_turning_forgives_the_heading_that_wheels_measure_wrong() -> None:
         assert told(tick)[:1] == codes
 
 
+def test_a_slip_that_the_gyro_saw_forgives_the_heading() -> None:
+    for slip_rad, codes in ((0.05, []), (0.02, ["pose_drift"])):
+        tick = standing()
+        for number in range(1, 11):
+            slipped_rad = tick.s.pose.slipped_rad + slip_rad
+            tick.s.pose = replace(tick.s.pose, slipped_rad=slipped_rad)
+            hear(tick, Pose2(0.0, 0.0, 0.05 * number))
+        assert told(tick)[:1] == codes
+
+
 def test_what_was_driven_forgives_ever_less_than_is_there() -> None:
     tick = standing()
     hear(tick, Pose2(0.1, 0.0, 0.08))

@@ -12,7 +12,7 @@ from tools.bench.hostile.contents import MOODS, Liar
 from tools.bench.hostile.draw import Mood
 from wire import VIRTUAL_KEY, OpKind, OpRequest, keys
 from wire.codec import decode
-from wire.errors import Rejected
+from wire.errors import DecodeFailure
 from wire.keys import IMAGE, KEYS
 from wire.operator_hmac import authentic
 
@@ -29,7 +29,7 @@ def test_all_that_is_said_on_purpose_is_in_schema() -> None:
         one = liar()
         for _ in range(100):
             for path, payload in one.say((mood,)):
-                assert not isinstance(decode(BY_PATH[path], payload), Rejected), (mood, path)
+                assert not isinstance(decode(BY_PATH[path], payload), DecodeFailure), (mood, path)
 
 
 def test_every_key_is_said_but_the_pictures() -> None:
@@ -72,6 +72,6 @@ def test_a_forged_pose_comes_after_the_newest_and_is_elsewhere(mood: Mood) -> No
     said = [said for _ in range(5) for said in one.say((mood,))]
     payload = [payload for path, payload in said if path == keys.LOCALIZATION.path][-1]
     forged = decode(keys.LOCALIZATION, payload)
-    assert not isinstance(forged, Rejected)
+    assert not isinstance(forged, DecodeFailure)
     assert forged.seq > newest.seq
     assert forged.odom_in_map != newest.odom_in_map
