@@ -41,7 +41,7 @@ def parser() -> argparse.ArgumentParser:
     started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
     started.add_argument("--domain", metavar="random|FILE", help="make the simulated home worse")
     started.add_argument("--seed", type=int, help="of --domain, and of the simulator's noise")
-    started.add_argument("--twin", action="store_true", help="play the base of robot.toml's drive")
+    started.add_argument("--twin", action="store_true", help="play base and lidar of robot.toml")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
     words.add_parser("tls", help="make or renew the certificate; say what devices must trust")
     _saying(words)

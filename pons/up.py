@@ -196,8 +196,9 @@ def children(
     logs = settings.home / "logs"
     common = common_arguments(settings)
     domain = ["--domain", settings.domain] if settings.domain else []
-    line = settings.home / "twin" / "drive"
-    at_line = ["--drive-port", str(line)] if settings.twin else []
+    line, lidar_line = settings.home / "twin" / "drive", settings.home / "twin" / "lidar"
+    has_lidar, plays_drive = not robot.lidar.is_simulated, not robot.drive.virtual and settings.twin
+    at_line = ["--drive-port", str(line)] if plays_drive else []
     wanted = [("bridge", [*common, *at_line])]
     if planner:
         secured = issued.planner_arguments() if issued else []
@@ -207,12 +208,19 @@ def children(
         more = ["--metal", str(settings.metal)] if settings.metal else []
         more += domain
         more += [] if settings.seed is None else ["--seed", str(settings.seed)]
-        more += ["--twin", str(line)] if settings.twin else []
+        more += ["--twin", str(line)] if plays_drive else []
+        more += ["--lidar-twin", str(lidar_line)] if has_lidar else []
         wanted = [("sim", [*common, *more]), ("localization", common), *wanted]
+    elif has_lidar:
+        wanted = [("localization", common), *wanted]
     found = [
         Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
         for name, more in wanted
     ]
+    if has_lidar:
+        arguments = ["sensors.lidar", *common]
+        arguments += ["--port", str(lidar_line)] if settings.twin else []
+        found.insert(int(simulated), Child("lidar", arguments, logs / "lidar.log"))
     for child in found:
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())
@@ -248,9 +256,15 @@ def check(settings: LaunchSettings) -> RobotDescription:
             f"site_missing: {settings.site} has no map.yaml; sites beside it: "
             f"{', '.join(known) or 'none'}"
         )
-    if settings.twin and robot.drive.virtual:
+    if settings.twin and robot.drive.virtual and robot.lidar.is_simulated:
         raise CannotStart(
-            "twin_needless: drive.kind 'sim' is simulated as it is; --twin plays a base of metal"
+            "twin_needless: drive.kind and lidar.kind 'sim' are simulated as they are; --twin "
+            "plays a base or a lidar of metal"
+        )
+    if robot.drive.virtual and not robot.lidar.is_simulated and not settings.twin:
+        raise CannotStart(
+            f"lidar_of_another_world: lidar.kind {robot.lidar.kind!r} sees real walls, drive.kind "
+            "'sim' drives among simulated ones; add --twin, or make both real"
         )
     try:
         (settings.home / "logs").mkdir(parents=True, exist_ok=True)

@@ -53,7 +53,7 @@ class LidarConfig(Record):
         return self
 
     @property
-    def simulated(self) -> bool:
+    def is_simulated(self) -> bool:
         """Return whether the simulator's own messages stand for it."""
         return self.kind == SIMULATED
 
@@ -61,7 +61,7 @@ class LidarConfig(Record):
 def _wrong_lidar_keys(lidar: LidarConfig) -> Iterator[str]:
     """Yield what a kind of lidar lacks, and what it was given though it can't use it."""
     models = LIDAR_MODELS[lidar.kind]
-    if lidar.simulated:
+    if lidar.is_simulated:
         for key in ("port", "baud"):
             if getattr(lidar, key) is not None:
                 yield f"lidar.{key} is for a lidar on a serial line, not for kind 'sim'"

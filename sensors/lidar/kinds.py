@@ -59,7 +59,7 @@ def kind_of(config: LidarConfig) -> LidarKind:
     Raises:
         ConfigError: ``lidar_simulated``: the simulator's needs no process.
     """
-    if config.simulated:
+    if config.is_simulated:
         raise ConfigError(
             "lidar_simulated",
             "lidar.kind is 'sim': the simulator speaks for it; name the kind of a real one",

@@ -51,6 +51,15 @@ def motor_speed(rpm: int) -> bytes:
     return request(0xA8, struct.pack("<H", rpm))
 
 
+def motor_pwm(duty: int) -> bytes:
+    """Return the request that sets the duty of the motor on an A2's adapter, 0 to 1023."""
+    return request(0xF0, struct.pack("<H", duty))
+
+
+USUAL_DUTY = 660
+"""With which Slamtec's SDK starts it: ten turns a second."""
+
+
 @dataclass(frozen=True, slots=True)
 class RplidarModel:
     """Hold what differs between the models."""
@@ -60,15 +69,21 @@ class RplidarModel:
     """Ask for the express answer; which of the types comes then is the model's choice."""
     beams_per_s: float
     sets_speed: bool
-    """The motor takes a speed by request; an A1's and A2's is on DTR or an own board."""
+    """The motor takes a speed by request."""
     dtr: bool | None = None
     """The motor turns while this line is so; None: it has no say."""
+    has_pwm: bool = False
+    """The adapter's board makes the motor's PWM, by request."""
 
 
 MODELS = {
     "a1": RplidarModel(115_200, express=False, beams_per_s=2_000.0, sets_speed=False, dtr=False),
-    "a2": RplidarModel(115_200, express=True, beams_per_s=4_000.0, sets_speed=False),
-    "a2m12": RplidarModel(256_000, express=True, beams_per_s=4_000.0, sets_speed=False),
+    "a2": RplidarModel(
+        115_200, express=True, beams_per_s=4_000.0, sets_speed=False, dtr=False, has_pwm=True
+    ),
+    "a2m12": RplidarModel(
+        256_000, express=True, beams_per_s=4_000.0, sets_speed=False, dtr=False, has_pwm=True
+    ),
     "a3": RplidarModel(256_000, express=True, beams_per_s=4_000.0, sets_speed=True),
     "c1": RplidarModel(460_800, express=False, beams_per_s=5_000.0, sets_speed=True),
     "s1": RplidarModel(460_800, express=True, beams_per_s=9_200.0, sets_speed=True),
@@ -81,16 +96,21 @@ measured."""
 class RplidarDecoder:
     """Turn a stream that begins with an answer's head into beams."""
 
-    closing: tuple[bytes, ...] = (STOP,)
     rescue = RESET
     """Begins the sensor anew, which it needs once it has shut its laser off by itself."""
 
     def __init__(self, model: RplidarModel, rpm: int = 600) -> None:
         self.baud = model.baud
         self.max_gap_deg = MAX_GAP_DEG if model.express else MAX_SHIFTED_GAP_DEG
-        speed = (motor_speed(rpm),) if model.sets_speed else ()
+        speed: tuple[bytes, ...] = ()
+        rest: tuple[bytes, ...] = ()
+        if model.sets_speed:
+            speed, rest = (motor_speed(rpm),), (motor_speed(0),)
+        elif model.has_pwm:
+            speed, rest = (motor_pwm(USUAL_DUTY),), (motor_pwm(0),)
         scan = request(0x82, bytes(5)) if model.express else SCAN
         self.opening: tuple[bytes, ...] = (STOP, *speed, scan)
+        self.closing: tuple[bytes, ...] = (STOP, *rest)
         self._period_s = 1.0 / model.beams_per_s
         self._clock = SensorClock(COUNTED_WINDOW_S)
         self._kept = bytearray()

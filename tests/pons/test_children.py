@@ -10,7 +10,7 @@ import pytest
 
 from pons.settings import CHECKOUT, LaunchSettings
 from pons.supervisor import REFUSED_TO_START
-from pons.up import brain_example, children
+from pons.up import CannotStart, brain_example, check, children
 from wire import RobotDescription
 
 ROBOT = ["sim", "localization", "bridge", "planner"]
@@ -30,6 +30,60 @@ def test_the_simulated_camera_waits_until_the_rest_is_ready(
     assert [child.name for child in found if child.waits_for_ready] == expected[4:]
     assert [child.name for child in found if child.knows_tokens] == ["planner"]
     assert all(child.arguments[0] in (child.name, f"sim.{child.name}") for child in found)
+
+
+MCU = {"kind": "pons_mcu", "port": "/dev/x", "ticks_per_turn": 4096}
+LD19 = {"kind": "ld19", "port": "/dev/y"}
+
+
+@pytest.mark.parametrize(
+    ("drive", "lidar", "twin", "expected"),
+    [
+        (MCU, {}, False, ["bridge", "planner"]),
+        (MCU, LD19, False, ["lidar", "localization", "bridge", "planner"]),
+        (MCU, {}, True, [*ROBOT, "camera"]),
+        (MCU, LD19, True, ["sim", "lidar", *ROBOT[1:], "camera"]),
+        ({}, LD19, True, ["sim", "lidar", *ROBOT[1:], "camera"]),
+    ],
+)
+def test_a_robot_of_metal_has_what_its_file_names_and_a_twin_what_it_plays(
+    tmp_path: Path,
+    drive: dict[str, object],
+    lidar: dict[str, object],
+    twin: bool,
+    expected: list[str],
+) -> None:
+    robot = RobotDescription.model_validate({"drive": drive, "lidar": lidar})
+    settings = LaunchSettings(
+        tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
+    )
+    found = {child.name: child.arguments for child in children(settings, robot)}
+    assert list(found) == expected
+    assert ("--drive-port" in found["bridge"]) == (twin and bool(drive))
+    if "lidar" in found:
+        assert found["lidar"][0] == "sensors.lidar"
+        assert ("--port" in found["lidar"]) == twin
+    if "sim" in found:
+        assert ("--twin" in found["sim"]) == bool(drive)
+        assert ("--lidar-twin" in found["sim"]) == bool(lidar)
+
+
+@pytest.mark.parametrize(
+    ("text", "twin", "code"),
+    [
+        ("", True, "twin_needless"),
+        ('[lidar]\nkind = "ld19"\nport = "/dev/y"\n', False, "lidar_of_another_world"),
+    ],
+)
+def test_up_refuses_what_would_see_another_world_than_it_drives_in(
+    tmp_path: Path, text: str, twin: bool, code: str
+) -> None:
+    path = tmp_path / "robot.toml"
+    path.write_text(text)
+    site = CHECKOUT / "sites" / "two_room"
+    settings = LaunchSettings(tmp_path, path, site, "127.0.0.1", 8420, twin=twin)
+    with pytest.raises(CannotStart, match=code):
+        check(settings)
 
 
 @pytest.mark.parametrize("name", [*ROBOT, "camera"])

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sensors.lidar.rplidar import MODELS, RplidarDecoder, motor_speed, request
+from sensors.lidar.rplidar import MODELS, RplidarDecoder, motor_pwm, motor_speed, request
 from tests.sensors.lidar.frames import (
     RP_DENSE_HEAD,
     RP_EXPRESS_HEAD,
@@ -21,6 +21,7 @@ def test_requests_are_those_of_the_protocol() -> None:
     assert request(0x82, bytes(5)) == bytes.fromhex("a58205000000000022")
     assert request(0x25) == bytes.fromhex("a525")
     assert motor_speed(600) == bytes.fromhex("a5a802580255")
+    assert motor_pwm(660) == bytes.fromhex("a5f0029402c1")
 
 
 ANGLES = st.floats(0, 359.9).map(lambda angle: round(angle * 64) / 64)

@@ -1,0 +1,125 @@
+"""Check the lidar of robot.toml: what its process says, or what its port brings where none runs."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from devices import LastingPort, PortTrouble
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
+from sensors.lidar.health import CODES, STARTING, LidarVerdict
+from sensors.lidar.kinds import kind_of
+from sensors.lidar.reader import LidarReader
+from wire import keys
+from wire.doors import SCANS_DOOR
+from wire.keys import Party
+from wire.session import open_session
+from wire.sockets import Endpoints, is_listening
+
+if TYPE_CHECKING:
+    from wire import LidarStatus, RobotDescription
+
+HEAR_S = 2.0
+READ_S = 5.0
+PERIOD_S = 0.005
+_PORT_FIXES = {
+    "port_missing": (
+        "plug it in; `ls /dev/serial/by-id` lists what is there, lidar.port names it",
+        "请插好；`ls /dev/serial/by-id` 列出现有端口，lidar.port 应写其中之一",
+    ),
+    "port_forbidden": (
+        "add your user to the group that owns it (often dialout), and log in anew",
+        "请将用户加入拥有该端口的组（通常是 dialout），然后重新登录",
+    ),
+    "port_busy": (
+        "end the program that holds it (ModemManager probes new ports)",
+        "请结束占用它的程序（ModemManager 会探测新端口）",
+    ),
+    "port_not_serial": (
+        "name a serial port, such as one below /dev/serial/by-id",
+        "请写一个串口，例如 /dev/serial/by-id 下的",
+    ),
+    "port_gone": ("look at its plug and its supply", "请检查插头和供电"),
+    "baud_unknown": ("leave lidar.baud out", "请删去 lidar.baud"),
+}
+
+
+def lidar(home: Path, robot: RobotDescription) -> HealthFinding:
+    """Look how well the lidar is read; sends it nothing but the requests that start its scans."""
+    config = robot.lidar
+    if config.is_simulated and robot.drive.virtual:
+        return ok("lidar", "simulated", "模拟")
+    if config.is_simulated:
+        return warn(
+            "lidar",
+            BilingualWords(
+                f"lidar.kind is 'sim' beside drive.kind {robot.drive.kind!r}: nothing reads one",
+                f"drive.kind 为 {robot.drive.kind!r}，而 lidar.kind 为 'sim'：没有读取激光雷达",
+            ),
+            BilingualWords(
+                "name its kind and port (docs/lidars.md); the robot stands until scans come",
+                "请填写型号和端口（docs/lidars.md）；没有扫描数据机器人不会动",
+            ),
+        )
+    if is_listening(Endpoints(home).socket(SCANS_DOOR)):
+        return _told(home, robot)
+    return _tried(robot)
+
+
+def _told(home: Path, robot: RobotDescription) -> HealthFinding:
+    """Report what the running process says."""
+    status: LidarStatus | None = None
+    with open_session(Party.JUDGE, robot.id, home) as session:
+        heard = session.subscriber(keys.LIDAR_STATE)
+        end_s = time.monotonic() + HEAR_S
+        while status is None and time.monotonic() < end_s:
+            time.sleep(0.02)
+            status = heard.newest()
+    if status is None:
+        return fail(
+            "lidar",
+            BilingualWords("its process runs and says nothing", "其进程在运行，但没有任何消息"),
+            BilingualWords("see logs/lidar.log, and start it anew", "请查看 logs/lidar.log 并重启"),
+        )
+    if status.code is None:
+        lost = f"{status.spoilt} of {status.frames + status.spoilt} frames spoilt"
+        said = f"{status.model}, {status.rate_hz:.1f} turns/s, {lost}"
+        chinese = f"{status.model}，每秒 {status.rate_hz:.1f} 圈，坏帧 {status.spoilt}"
+        return ok("lidar", said, chinese)
+    return _wrong(LidarVerdict(status.code, f"{status.code}: {status.detail}"))
+
+
+def _tried(robot: RobotDescription) -> HealthFinding:
+    """Read the port for some seconds, as the process would."""
+    kind, path = kind_of(robot.lidar), robot.lidar.port or ""
+    try:
+        port = LastingPort(Path(path), kind.baud, dtr=kind.dtr)
+    except PortTrouble as trouble:
+        return _wrong(LidarVerdict(trouble.code, str(trouble)))
+    reader = LidarReader(kind, port, path, "doctor")
+    end_s = time.monotonic() + READ_S
+    verdict: LidarVerdict | None = LidarVerdict(STARTING, "not read yet")
+    try:
+        while verdict is not None and time.monotonic() < end_s and port.trouble is None:
+            now_s = time.monotonic()
+            reader.turn(now_s)
+            verdict = reader.judge(now_s)
+            time.sleep(PERIOD_S)
+        if port.trouble is not None:
+            verdict = LidarVerdict(port.trouble.code, str(port.trouble))
+        reader.close()
+    finally:
+        port.close()
+    if verdict is None:
+        said = f"{kind.name} at {path}"
+        return ok("lidar", f"{said} turns and is read", f"{said}：旋转正常，读取正常")
+    return _wrong(verdict)
+
+
+def _wrong(verdict: LidarVerdict) -> HealthFinding:
+    english, chinese = (
+        CODES.get(verdict.code) or _PORT_FIXES.get(verdict.code) or ("see docs/lidars.md",) * 2
+    )
+    found = verdict.found if verdict.code in verdict.found else f"{verdict.code}: {verdict.found}"
+    return fail("lidar", BilingualWords(found, found), BilingualWords(english, chinese))
