@@ -16,6 +16,7 @@ import socket
 import sys
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -133,7 +134,7 @@ class Supervisor:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
             for line in self._trust:
                 say(line)
-            say('try: pons say "go to the living room"   pons say 去厨房   pons stop')
+            say(_what_to_try(self._settings))
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
@@ -167,6 +168,13 @@ class Supervisor:
             child.stop(PATIENCE_S)
 
 
+def _what_to_try(settings: LaunchSettings) -> str:
+    """Return a line for a person who has just started a robot."""
+    if settings.mapping is not None:
+        return f"drive through the home by hand on the page, then: pons map {settings.mapping}"
+    return 'try: pons say "go to the living room"   pons say 去厨房   pons stop'
+
+
 def brain_example(home: Path, root: Path = ROOT) -> str:
     """Return a command to try on a robot that has no planner; a wheel brings no examples."""
     example = root / "examples" / "external_brain.py"
@@ -194,7 +202,10 @@ def children(
 ) -> list[Child]:
     """Return the processes in the order of their start."""
     logs = settings.home / "logs"
-    common = common_arguments(settings)
+    world = common_arguments(settings)
+    canvas = settings.canvas
+    common = world if canvas is None else common_arguments(replace(settings, site=canvas))
+    maps = [] if canvas is None else ["--mapping"]
     domain = ["--domain", settings.domain] if settings.domain else []
     line = settings.home / "twin" / "drive"
     at_line = ["--drive-port", str(line)] if settings.twin else []
@@ -208,7 +219,7 @@ def children(
         more += domain
         more += [] if settings.seed is None else ["--seed", str(settings.seed)]
         more += ["--twin", str(line)] if settings.twin else []
-        wanted = [("sim", [*common, *more]), ("localization", common), *wanted]
+        wanted = [("sim", [*world, *more]), ("localization", [*common, *maps]), *wanted]
     found = [
         Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
         for name, more in wanted
@@ -217,7 +228,7 @@ def children(
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())
     if simulated and robot.camera.kind == "sim":
-        arguments = ["sim.camera", *common, *domain]
+        arguments = ["sim.camera", *world, *domain]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
     return found
 
@@ -248,6 +259,10 @@ def check(settings: LaunchSettings) -> RobotDescription:
             f"site_missing: {settings.site} has no map.yaml; sites beside it: "
             f"{', '.join(known) or 'none'}"
         )
+    if settings.mapping is not None:
+        from pons.mapping import prepare_canvas
+
+        prepare_canvas(settings, settings.mapping, robot)
     if settings.twin and robot.drive.virtual:
         raise CannotStart(
             "twin_needless: drive.kind 'sim' is simulated as it is; --twin plays a base of metal"
@@ -314,7 +329,8 @@ def _supervise(
     supervisor = Supervisor(settings, robot, planner=planner, issued=issued)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _handler(supervisor))
-    say(f"starting {robot.id} in {settings.site.name} (state in {settings.home})")
+    where = settings.site.name if settings.canvas is None else f"a home to map: {settings.mapping}"
+    say(f"starting {robot.id} in {where} (state in {settings.home})")
     return supervisor.run()
 
 
