@@ -49,12 +49,12 @@ def canvas_site(radius_m: float, side_m: float = SIDE_M) -> NewSite:
         "map.pgm": picture,
         "places.yaml": places_of_home(home),
         "fence.json": fence_text(fence).encode(),
-        GROWING_MAP: _begun(grid, radius_m + FLOOR_M).to_bytes(),
+        GROWING_MAP: _initial_floor(grid, radius_m + FLOOR_M).to_bytes(),
     }
     return NewSite(files, home, ())
 
 
-def _begun(canvas: GridMap, reach_m: float) -> GrowingMap:
+def _initial_floor(canvas: GridMap, reach_m: float) -> GrowingMap:
     """Return the floor in the middle of a canvas as a map that has just begun to grow."""
     half = ceil(reach_m / RESOLUTION_M) + 1
     first = canvas.width // 2 - half
