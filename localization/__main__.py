@@ -2,7 +2,8 @@
 
 ``[localization] kind`` of robot.toml says which: ``scans`` matches the lidar's scans with the
 site's map (localization.localizer); ``stand_in`` passes the simulator's truth on with noise and
-localizes nothing (localization.standin).
+localizes nothing (localization.standin). With ``--mapping`` the site is a canvas, and the map is
+made while the robot drives (localization.mapping.live_mapper).
 """
 
 from __future__ import annotations
@@ -40,6 +41,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--robot", type=Path, help="robot.toml (default: the default robot)")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
     parser.add_argument("--seed", type=int, default=0, help="seed of the noise (default 0)")
+    parser.add_argument("--mapping", action="store_true", help="make the map, in the site's folder")
     return parser.parse_args(arguments)
 
 
@@ -50,7 +52,9 @@ def _serve(options: argparse.Namespace) -> None:
         signal.signal(number, lambda *_: stopped.set())
     robot = load_robot(options.robot) if options.robot else RobotDescription()
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    if robot.localization.kind == "scans":
+    if options.mapping:
+        _serve_mapping(options.site, robot, home, stopped)
+    elif robot.localization.kind == "scans":
         _serve_scans(options.site, robot, home, stopped)
     else:
         _serve_stand_in(options, robot.id, home, stopped)
@@ -90,6 +94,33 @@ def _serve_scans(site: Path, robot: RobotDescription, home: Path, stopped: threa
             run_periodically(node.turn, stopped.is_set)
     finally:
         search.close()
+
+
+def _serve_mapping(
+    canvas: Path, robot: RobotDescription, home: Path, stopped: threading.Event
+) -> None:
+    from localization.mapping.builder_client import BuilderClient
+    from localization.mapping.builder_process import load_builder
+    from localization.mapping.mapping_node import MappingNode
+    from maps import SiteError
+
+    map_id, boot_id = read_map_id(canvas), f"map-{secrets.token_hex(4)}"
+    try:
+        known = load_builder(canvas, (robot.lidar.x_m, robot.lidar.y_m)).keyframes
+    except ValueError as error:
+        raise SiteError("keyframes_malformed", f"{canvas}: {error}") from error
+    builder = BuilderClient(canvas, robot.lidar, len(known))
+    builder.start()  # before the rank, which the builder must not inherit
+    try:
+        set_fifo(PRIORITY)
+        with open_session(Party.LOCALIZATION, robot.id, home) as session:
+            node = MappingNode(robot.lidar, map_id, builder, session, boot_id, known)
+            gc.collect()
+            gc.freeze()
+            log.info("mapping in %s, from %d keyframes", canvas, len(known))
+            run_periodically(node.turn, stopped.is_set)
+    finally:
+        builder.close()
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -1,23 +1,16 @@
-"""Ask the search process from the tracker's loop without ever waiting for it.
-
-The worker's supervision is asyncio's, in a thread of its own, which must be started before the
-tracker takes real-time priority: what it starts inherits its rank.
-"""
+"""Ask the search process from the tracker's loop without ever waiting for it."""
 
 from __future__ import annotations
 
-import asyncio
 import logging
-import threading
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from localization.global_search import Candidate
-from processes.worker import SupervisedWorker
+from localization.worker_thread import WorkerThread
 from processes.worker_protocol import FailureCodes, WorkerFailure
 
 if TYPE_CHECKING:
-    from collections.abc import Coroutine
     from pathlib import Path
 
     from localization.relocation import SearchRequest
@@ -26,13 +19,10 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-READY_S = 60.0
-"""To start Python, numpy and OpenCV on a busy board and load a map."""
 SEARCH_S = 18.0
 """A search takes 0.1 s; the rest is for a process that is still starting, or starved of its
 processor: killed for its slowness it would never answer. What it found is carried on by odometry
 and judged by another scan, so that a late answer harms nobody."""
-LONGEST_PAUSE_S = 5.0
 
 
 class SearchFailure(WorkerFailure):
@@ -58,25 +48,17 @@ class SearchClient:
 
     def __init__(self, site: Path, lidar: LidarConfig) -> None:
         self._lidar_m = [lidar.x_m, lidar.y_m]
-        self._worker = SupervisedWorker(
-            *("localization.search_process", (str(site.absolute()),), CODES),
-            one_at_a_time=True,
-            first_word_s=READY_S,
-            longest_pause_s=LONGEST_PAUSE_S,
-        )
+        arguments = (str(site.absolute()),)
+        self._thread = WorkerThread("search", "localization.search_process", arguments, CODES)
         self._answers: deque[tuple[int, tuple[Candidate, ...]]] = deque(maxlen=8)
-        self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(target=self._serve, name="search", daemon=True)
-        self._tasks: set[asyncio.Task[None]] = set()
 
     def start(self) -> None:
-        """Start the thread and, in it, the process."""
+        """Start the search process."""
         self._thread.start()
-        self._schedule(self._start())
 
     def ask(self, request: SearchRequest) -> None:
         """Send a request; its answer comes by :meth:`answers`, or never."""
-        self._schedule(self._ask(request))
+        self._thread.schedule(self._ask(request))
 
     def answers(self) -> list[tuple[int, tuple[Candidate, ...]]]:
         """Return what was answered since the last call: request number and candidates."""
@@ -86,29 +68,8 @@ class SearchClient:
         return found
 
     def close(self) -> None:
-        """End the process and the thread."""
-        asyncio.run_coroutine_threadsafe(self._worker.close(), self._loop).result()
-        self._loop.call_soon_threadsafe(self._loop.stop)
-        self._thread.join()
-        self._loop.close()
-
-    def _serve(self) -> None:
-        asyncio.set_event_loop(self._loop)
-        self._loop.run_forever()
-
-    def _schedule(self, work: Coroutine[Any, Any, None]) -> None:
-        self._loop.call_soon_threadsafe(self._begin, work)
-
-    def _begin(self, work: Coroutine[Any, Any, None]) -> None:
-        task = self._loop.create_task(work)
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
-
-    async def _start(self) -> None:
-        try:
-            await self._worker.start(READY_S)
-        except WorkerFailure as failure:
-            log.error("%s", failure)
+        """End the search process."""
+        self._thread.close()
 
     async def _ask(self, request: SearchRequest) -> None:
         near = request.around
@@ -120,7 +81,7 @@ class SearchClient:
             "outline": request.outline,
         }
         try:
-            found = await self._worker.ask(
+            found = await self._thread.worker.ask(
                 head, (request.points_m.tobytes(),), SEARCH_S, _read_candidates
             )
         except WorkerFailure as failure:

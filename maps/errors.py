@@ -31,6 +31,8 @@ REASONS = MappingProxyType(
         "map_too_ragged": "地图边界过于零碎",
         "map_no_floor": "地图上没有可站立的空地",
         "map_no_drive": "录制中没有可用来建图的行驶",
+        "map_not_begun": "还没有为这个名称建图",
+        "keyframes_malformed": "保存的关键帧已损坏",
         "map_of_two_runs": "录制来自不同的运行",
         "map_too_large": "地图过大",
         "map_unknown_word": "未知区域是否可通行需要人来说明",

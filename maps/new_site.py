@@ -87,8 +87,8 @@ def new_site(
     grid = loaded.grid
     home = _home(grid, radius_m, start)
     floor = floor_around(grid, home.x_m, home.y_m)
-    picture = _picture(grid)
-    text = _yaml(grid)
+    picture = map_picture(grid)
+    text = map_yaml(grid)
     fence = draw_fence(grid, map_id(text, picture), floor, radius_m, masks)
     rooms = tuple(
         RoomProposal(
@@ -103,7 +103,7 @@ def new_site(
     files = {
         "map.yaml": text,
         "map.pgm": picture,
-        "places.yaml": _places(home),
+        "places.yaml": places_of_home(home),
         "fence.json": fence_text(fence).encode(),
         ROOMS_JSON: RoomProposals(rooms=rooms).model_dump_json(indent=1).encode(),
     }
@@ -131,7 +131,8 @@ def _home(grid: GridMap, radius_m: float, start: Pose2 | None) -> Pose2:
     return Pose2(round(x_m, 3), round(y_m, 3), 0.0)
 
 
-def _picture(grid: GridMap) -> bytes:
+def map_picture(grid: GridMap) -> bytes:
+    """Return a map's cells as the PGM that its yaml names."""
     table = np.zeros(256, np.uint8)
     for kind, grey in _GREYS.items():
         table[kind] = grey
@@ -139,7 +140,8 @@ def _picture(grid: GridMap) -> bytes:
     return f"P5\n{grid.width} {grid.height}\n255\n".encode() + greys[::-1].tobytes()
 
 
-def _yaml(grid: GridMap) -> bytes:
+def map_yaml(grid: GridMap) -> bytes:
+    """Return the yaml of a map whose cells :func:`map_picture` gives."""
     return (
         "# Made by `pons site import` or `pons map`; what is free here was taken for free then.\n"
         f"image: map.pgm\nmode: trinary\nresolution: {grid.resolution_m!r}\n"
@@ -148,7 +150,8 @@ def _yaml(grid: GridMap) -> bytes:
     ).encode()
 
 
-def _places(home: Pose2) -> bytes:
+def places_of_home(home: Pose2) -> bytes:
+    """Return a places.yaml that knows nothing but where home is."""
     return (
         "# Rooms join when they are named: pons site name SITE room_1 NAME.\n"
         "version: 1\nhome: home\nplaces:\n" + place_text("home", "place", ("home", "家"), home)

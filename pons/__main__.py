@@ -33,16 +33,7 @@ def parser() -> argparse.ArgumentParser:
     """Return the whole grammar of the command."""
     top = argparse.ArgumentParser(prog="pons", description="A sentence moves the robot.")
     words = top.add_subparsers(dest="word", required=True, metavar="COMMAND")
-    started = words.add_parser("up", help="start simulator, localization, bridge and planner")
-    started.add_argument("--site", type=Path, help="folder or name of a site (PONS_SITE)")
-    started.add_argument("--robot", type=Path, help="robot.toml (PONS_ROBOT)")
-    started.add_argument("--port", help="port of page and API (PONS_PORT)")
-    started.add_argument("--tls", action="store_true", help="serve https (PONS_TLS=1); docs/tls.md")
-    started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
-    started.add_argument("--domain", metavar="random|FILE", help="make the simulated home worse")
-    started.add_argument("--seed", type=int, help="of --domain, and of the simulator's noise")
-    started.add_argument("--twin", action="store_true", help="play base and lidar of robot.toml")
-    started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
+    _launch(words)
     words.add_parser("tls", help="make or renew the certificate; say what devices must trust")
     _saying(words)
     words.add_parser("stop", help="stop now and hold, with or without a planner")
@@ -74,6 +65,20 @@ def parser() -> argparse.ArgumentParser:
     for name, what in _APART.items():
         words.add_parser(name, help=f"{what}: {name} --help")
     return top
+
+
+def _launch(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    started = words.add_parser("up", help="start simulator, localization, bridge and planner")
+    started.add_argument("--site", type=Path, help="folder or name of a site (PONS_SITE)")
+    started.add_argument("--robot", type=Path, help="robot.toml (PONS_ROBOT)")
+    started.add_argument("--port", help="port of page and API (PONS_PORT)")
+    started.add_argument("--tls", action="store_true", help="serve https (PONS_TLS=1); docs/tls.md")
+    started.add_argument("--metal", type=Path, help="what the simulated robot is really like")
+    started.add_argument("--domain", metavar="random|FILE", help="make the simulated home worse")
+    started.add_argument("--seed", type=int, help="of --domain, and of the simulator's noise")
+    started.add_argument("--twin", action="store_true", help="play base and lidar of robot.toml")
+    started.add_argument("--map", dest="mapping", metavar="NAME", help="map a home by driving")
+    started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
 
 
 def _saying(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -229,6 +234,7 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
         site = None if said.site is None else site_of(str(said.site), settings.home)
         given = {"site": site, "robot": said.robot, "port": port, "metal": said.metal}
         given |= {"domain": said.domain, "seed": said.seed, "twin": said.twin}
+        given |= {"mapping": said.mapping}
         chosen = {name: value for name, value in given.items() if value is not None}
         chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before
         return up.run(replace(settings, **chosen), planner=not said.no_planner)

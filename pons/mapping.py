@@ -1,7 +1,8 @@
-"""Make a site of a drive: ``pons map NAME RECORDING...``.
+"""Make a site of a drive: ``pons map NAME [RECORDING...]``.
 
-Reads the bridge's recordings of one run, builds a map from their odometry and scans, and writes a
-site with a fence around what was seen and rooms as a proposal. Needs no running robot.
+Without recordings the map is what ``pons up --map NAME`` has kept; with them it is built from the
+odometry and scans of one run of the bridge. Writes a site with a fence around what was seen and
+rooms as a proposal. Needs no running robot.
 """
 
 from __future__ import annotations
@@ -13,19 +14,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bridge.recording.recording_reader import BadRecording, read_motion
+from localization.mapping.builder_process import load_builder
+from localization.mapping.keyframes import KEYFRAMES_FILE
 from localization.mapping.map_replay import MapReplay
 from localization.mapping.occupancy import MapTooLarge
 from maps import LoadedMap, MapRecord, SiteError
+from maps.canvas import canvas_site
 from maps.new_site import new_site
 from pons.site import is_site_name
 from wire import ConfigError, load_robot
 
 if TYPE_CHECKING:
+    from localization.mapping.map_builder import MapBuilder
     from maps.new_site import NewSite
     from pons.settings import LaunchSettings
+    from wire import RobotDescription
 
 EXIT_DONE, EXIT_REFUSED = 0, 3
-KEYFRAMES = "keyframes.npz"
+
 FEWEST_KEYFRAMES = 3
 """Fewer are a robot that stood: a map of one spot is no site."""
 MIN_FREE_BYTES = 50 * 1024 * 1024
@@ -36,7 +42,7 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(prog="pons map", description=__doc__)
     top.add_argument("name", help="of the new site: small letters, digits, _")
     top.add_argument(
-        "recordings", type=Path, nargs="+", metavar="FILE", help="of one run, in order"
+        "recordings", type=Path, nargs="*", metavar="FILE", help="of one run, in order"
     )
     return top
 
@@ -47,8 +53,13 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
     try:
         folder = _new_folder(settings.home / "sites", said.name)
         robot = load_robot(settings.robot)
-        replay = _replay(said.recordings, MapReplay(robot.lidar))
-        made = _site(replay, robot.base.radius_m)
+        if said.recordings:
+            replay = _replay(said.recordings, MapReplay(robot.lidar))
+            builder, source = replay.builder, f"{replay.scans} scans"
+        else:
+            builder = _read_canvas(settings.home / "mapping" / said.name, robot)
+            source = "the drive"
+        made = _site(builder, robot.base.radius_m)
         made.write(folder)
     except BadRecording as refused:
         print(f"refused: {refused}", file=sys.stderr)
@@ -57,8 +68,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
         print(f"refused: {refused}{zh}", file=sys.stderr)
         return EXIT_REFUSED
-    keyframes, loops = len(replay.builder.keyframes), replay.builder.loops
-    print(f"{folder}: of {replay.scans} scans, {keyframes} keyframes and {loops} loops")
+    print(f"{folder}: of {source}, {len(builder.keyframes)} keyframes and {builder.loops} loops")
     print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}), {len(made.rooms)} rooms proposed")
     print(f"look at it: pons site rooms {said.name}; pons site check {said.name}")
     return EXIT_DONE
@@ -84,17 +94,60 @@ def _replay(recordings: list[Path], replay: MapReplay) -> MapReplay:
             replay.hear(read_motion(path))
         except ValueError as error:
             raise SiteError("map_of_two_runs", f"{path}: {error}") from error
-    keyframes = len(replay.builder.keyframes)
-    if not keyframes >= FEWEST_KEYFRAMES:
-        text = f"{replay.scans} scans gave {keyframes} keyframes, expected {FEWEST_KEYFRAMES}"
-        raise SiteError("map_no_drive", f"{text}: drive at least a metre while it scans")
+    _check_driven(replay.builder, f"{replay.scans} scans")
     return replay
 
 
-def _site(replay: MapReplay, radius_m: float) -> NewSite:
-    replay.builder.settle()
+def _read_canvas(canvas: Path, robot: RobotDescription) -> MapBuilder:
+    """Return what ``pons up --map`` has kept in a canvas' folder.
+
+    Raises:
+        SiteError: ``map_not_begun``, ``keyframes_malformed`` or ``map_no_drive``.
+    """
+    if not (canvas / KEYFRAMES_FILE).is_file():
+        begun = sorted(path.parent.name for path in canvas.parent.glob(f"*/{KEYFRAMES_FILE}"))
+        text = f"{canvas} holds no drive; begun are: {', '.join(begun) or 'none'}"
+        raise SiteError("map_not_begun", f"{text}. pons up --map {canvas.name}, or give recordings")
     try:
-        grid = replay.builder.draw()
+        builder = load_builder(canvas, (robot.lidar.x_m, robot.lidar.y_m))
+    except ValueError as error:
+        raise SiteError("keyframes_malformed", f"{canvas}: {error}") from error
+    _check_driven(builder, "the drive")
+    return builder
+
+
+def _check_driven(builder: MapBuilder, source: str) -> None:
+    count = len(builder.keyframes)
+    if not count >= FEWEST_KEYFRAMES:
+        text = f"{source} gave {count} keyframes, expected {FEWEST_KEYFRAMES}"
+        raise SiteError("map_no_drive", f"{text}: drive at least a metre while it scans")
+
+
+def prepare_canvas(settings: LaunchSettings, name: str, robot: RobotDescription) -> None:
+    """Make the folder in which a map grows, unless it is there: then the map goes on.
+
+    A site that was mapped before goes on from its keyframes.
+
+    Raises:
+        SiteError: the name is none, or the folder can't be made.
+    """
+    if not is_site_name(name):
+        text = f"got {name!r}; expected a small letter, then letters, digits or _"
+        raise SiteError("site_name_malformed", text)
+    canvas = settings.home / "mapping" / name
+    if (canvas / "map.yaml").is_file():
+        return
+    made = canvas_site(robot.base.radius_m)
+    known = settings.home / "sites" / name / KEYFRAMES_FILE
+    if known.is_file():
+        made.files[KEYFRAMES_FILE] = known.read_bytes()
+    made.write(canvas)
+
+
+def _site(builder: MapBuilder, radius_m: float) -> NewSite:
+    builder.settle()
+    try:
+        grid = builder.draw()
     except MapTooLarge as error:
         raise SiteError("map_too_large", str(error)) from error
     record = MapRecord(
@@ -105,5 +158,5 @@ def _site(replay: MapReplay, radius_m: float) -> NewSite:
         free_thresh=0.196,
     )
     made = new_site(LoadedMap(grid, 0, "", record), radius_m)
-    made.files[KEYFRAMES] = replay.builder.to_bytes()
+    made.files[KEYFRAMES_FILE] = builder.to_bytes()
     return made

@@ -37,10 +37,18 @@ class LaunchSettings:
     """Of that, and of the simulator's noise."""
     twin: bool = False
     """Whether a base of metal is to be played by its twin (docs/drives.md)."""
+    mapping: str | None = None
+    """Of the site that is being mapped; its canvas takes the site's place for all but the simulator
+    (docs/mapping.md)."""
     tls: bool = False
     """Whether the planner is asked, and by ``pons up`` started, over TLS."""
     authority: Path | None = None
     """The certificate to judge the planner's by, in place of ``$PONS_HOME/tls/ca.crt``."""
+
+    @property
+    def canvas(self) -> Path | None:
+        """Return the folder in which a map grows; None where none does."""
+        return None if self.mapping is None else self.home / "mapping" / self.mapping
 
     @property
     def host_to_dial(self) -> str:

@@ -19,12 +19,12 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pons.children import children
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
-from pons.robot_processes import PATIENCE_S, address_arguments, common_arguments
-from pons.settings import allowed_hosts
-from pons.supervisor import REFUSED_TO_START, Child
+from pons.robot_processes import PATIENCE_S
+from pons.supervisor import REFUSED_TO_START
 from pons_assets import ROOT
 from wire import ConfigError, RobotDescription, load_robot
 from wire.doors import BRIDGE_DOOR
@@ -133,7 +133,7 @@ class Supervisor:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
             for line in self._trust:
                 say(line)
-            say('try: pons say "go to the living room"   pons say 去厨房   pons stop')
+            say(_what_to_try(self._settings))
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
@@ -167,6 +167,13 @@ class Supervisor:
             child.stop(PATIENCE_S)
 
 
+def _what_to_try(settings: LaunchSettings) -> str:
+    """Return a line for a person who has just started a robot."""
+    if settings.mapping is not None:
+        return f"drive through the home by hand on the page, then: pons map {settings.mapping}"
+    return 'try: pons say "go to the living room"   pons say 去厨房   pons stop'
+
+
 def brain_example(home: Path, root: Path = ROOT) -> str:
     """Return a command to try on a robot that has no planner; a wheel brings no examples."""
     example = root / "examples" / "external_brain.py"
@@ -183,51 +190,6 @@ def arm_direct(settings: LaunchSettings) -> bool:
         return ask_direct(settings, "arm").accepted
     except NoBridge:
         return False
-
-
-def children(
-    settings: LaunchSettings,
-    robot: RobotDescription,
-    *,
-    planner: bool = True,
-    issued: IssuedCertificate | None = None,
-) -> list[Child]:
-    """Return the processes in the order of their start."""
-    logs = settings.home / "logs"
-    common = common_arguments(settings)
-    domain = ["--domain", settings.domain] if settings.domain else []
-    line, lidar_line = settings.home / "twin" / "drive", settings.home / "twin" / "lidar"
-    has_lidar, plays_drive = not robot.lidar.is_simulated, not robot.drive.virtual and settings.twin
-    at_line = ["--drive-port", str(line)] if plays_drive else []
-    wanted = [("bridge", [*common, *at_line])]
-    if planner:
-        secured = issued.planner_arguments() if issued else []
-        wanted.append(("planner", [*common, *address_arguments(settings), *secured]))
-    simulated = robot.drive.virtual or settings.twin
-    if simulated:
-        more = ["--metal", str(settings.metal)] if settings.metal else []
-        more += domain
-        more += [] if settings.seed is None else ["--seed", str(settings.seed)]
-        more += ["--twin", str(line)] if plays_drive else []
-        more += ["--lidar-twin", str(lidar_line)] if has_lidar else []
-        wanted = [("sim", [*common, *more]), ("localization", common), *wanted]
-    elif has_lidar:
-        wanted = [("localization", common), *wanted]
-    found = [
-        Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
-        for name, more in wanted
-    ]
-    if has_lidar:
-        arguments = ["sensors.lidar", *common]
-        arguments += ["--port", str(lidar_line)] if settings.twin else []
-        found.insert(int(simulated), Child("lidar", arguments, logs / "lidar.log"))
-    for child in found:
-        if child.name == "planner" and issued:
-            child.environment |= issued.planner_environment(allowed_hosts())
-    if simulated and robot.camera.kind == "sim":
-        arguments = ["sim.camera", *common, *domain]
-        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
-    return found
 
 
 def describe(status: int) -> str:
@@ -256,6 +218,10 @@ def check(settings: LaunchSettings) -> RobotDescription:
             f"site_missing: {settings.site} has no map.yaml; sites beside it: "
             f"{', '.join(known) or 'none'}"
         )
+    if settings.mapping is not None:
+        from pons.mapping import prepare_canvas
+
+        prepare_canvas(settings, settings.mapping, robot)
     if settings.twin and robot.drive.virtual and robot.lidar.is_simulated:
         raise CannotStart(
             "twin_needless: drive.kind and lidar.kind 'sim' are simulated as they are; --twin "
@@ -328,7 +294,8 @@ def _supervise(
     supervisor = Supervisor(settings, robot, planner=planner, issued=issued)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _handler(supervisor))
-    say(f"starting {robot.id} in {settings.site.name} (state in {settings.home})")
+    where = settings.site.name if settings.canvas is None else f"a home to map: {settings.mapping}"
+    say(f"starting {robot.id} in {where} (state in {settings.home})")
     return supervisor.run()
 
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 POINTS = 360
 """Kept of a scan: a point each degree shows every wall of a home."""
 FORMAT = 1
+KEYFRAMES_FILE = "keyframes.npz"
 _MOST_KEYFRAMES, _MOST_POINTS = 20_000, 4_000
 """Of a file: beyond them it is not one of ours."""
 

@@ -111,6 +111,10 @@ class ScanTracker:
                 self._coast(predicted, step)
         return self._keyframe(points_m, stamp_s)
 
+    def forget_odometry(self) -> None:
+        """Join the next scan on where the robot stands: odometry has begun another frame."""
+        self._carried = None
+
     def correct(self, poses: Floats) -> None:
         """Take the poses that keyframes have once a loop is closed; the robot moves along.
 

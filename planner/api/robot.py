@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import logging
 import sys
 from array import array
 from dataclasses import asdict
@@ -10,10 +11,13 @@ from typing import Any
 
 from fastapi import APIRouter
 
+from maps.growing_map import GROWING_MAP, GrowingMap, GrowingMapError, read_growing_map
 from planner.api.interfaces import Services
 from planner.brain import mind_of
 from planner.mission import Leg, tell_doubt
 from planner.site import GridMap
+
+log = logging.getLogger(__name__)
 
 MAX_CELLS = 1_500
 """Of a layer, in one answer: 4 m2 of obstacles at 0.05 m."""
@@ -22,7 +26,7 @@ MAX_CELLS = 1_500
 def routes(services: Services) -> APIRouter:
     """Return the reading routes."""
     router = APIRouter(prefix="/v1", tags=["robot"])
-    map_body = _map(services)
+    maps = MapSource(services)
 
     @router.get("/robot", operation_id="get_robot")
     async def robot() -> dict[str, Any]:
@@ -30,9 +34,12 @@ def routes(services: Services) -> APIRouter:
         return robot_view(services)
 
     @router.get("/map", operation_id="get_map")
-    async def grid() -> dict[str, Any]:
-        """Give the map's cells (0 free, 1 occupied, 2 unknown; row 0 lowest y) and the fence."""
-        return map_body
+    def grid() -> dict[str, Any]:
+        """Give the map's cells (0 free, 1 occupied, 2 unknown; row 0 lowest y) and the fence.
+
+        While a home is mapped they are what is known so far, cropped, and ``growing`` counts.
+        """
+        return maps.body()
 
     @router.get("/obstacles", operation_id="get_obstacles")
     async def obstacles() -> dict[str, Any]:
@@ -132,8 +139,34 @@ def _doubt(services: Services, leg: Leg) -> dict[str, Any] | None:
     }
 
 
-def _map(services: Services) -> dict[str, Any]:
-    grid, fence = services.site.grid, services.site.fence
+class MapSource:
+    """Give the site's map, or what is known so far where one grows in its folder."""
+
+    def __init__(self, services: Services) -> None:
+        self._services = services
+        self._fixed = _map_body(services, services.site.grid, None)
+        self._newest = self._fixed
+        self._read_ns = 0
+
+    def body(self) -> dict[str, Any]:
+        """Return the map as JSON values. Reads a file: not for the event loop."""
+        folder = self._services.site.folder
+        try:
+            written_ns = (folder / GROWING_MAP).stat().st_mtime_ns
+            if written_ns != self._read_ns and (grown := read_growing_map(folder)) is not None:
+                self._newest = _map_body(self._services, grown.grid, grown)
+                self._read_ns = written_ns
+        except FileNotFoundError:
+            return self._fixed
+        except (OSError, GrowingMapError) as unreadable:
+            log.warning("%s", unreadable)
+        return self._newest
+
+
+def _map_body(services: Services, grid: GridMap, grown: GrowingMap | None) -> dict[str, Any]:
+    counts = None
+    if grown is not None:
+        counts = {name: getattr(grown, name) for name in ("revision", "keyframes", "loops")}
     return {
         "map_id": services.site.map_id,
         "width": grid.width,
@@ -141,5 +174,6 @@ def _map(services: Services) -> dict[str, Any]:
         "resolution_m": grid.resolution_m,
         "origin": {"x_m": grid.origin_x_m, "y_m": grid.origin_y_m},
         "cells": base64.b64encode(grid.cells).decode("ascii"),
-        "fence": fence.record.model_dump(mode="json"),
+        "fence": services.site.fence.record.model_dump(mode="json"),
+        "growing": counts,
     }

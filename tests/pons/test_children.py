@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from pons.children import children
 from pons.settings import CHECKOUT, LaunchSettings
 from pons.supervisor import REFUSED_TO_START
-from pons.up import CannotStart, brain_example, check, children
+from pons.up import CannotStart, brain_example, check
 from wire import RobotDescription
 
 ROBOT = ["sim", "localization", "bridge", "planner"]
@@ -109,3 +110,21 @@ def test_what_may_be_tried_without_a_planner_is_there_to_be_tried(tmp_path: Path
     assert (python, rest) == ("python", ["--home", str(tmp_path)])
     assert Path(file).is_file()
     assert brain_example(tmp_path, root=tmp_path).startswith("pons conformance --connect ")
+
+
+def test_while_a_home_is_mapped_only_the_simulator_knows_it(tmp_path: Path) -> None:
+    world = CHECKOUT / "sites" / "two_room"
+    settings = LaunchSettings(
+        tmp_path, CHECKOUT / "robot.toml", world, "127.0.0.1", 8420, mapping="attic"
+    )
+    found = {child.name: child.arguments for child in children(settings, RobotDescription())}
+    canvas = str(tmp_path / "mapping" / "attic")
+    sites = {name: words[words.index("--site") + 1] for name, words in found.items()}
+    assert sites == {
+        "sim": str(world),
+        "camera": str(world),
+        "localization": canvas,
+        "bridge": canvas,
+        "planner": canvas,
+    }
+    assert [name for name, words in found.items() if "--mapping" in words] == ["localization"]

@@ -11,7 +11,7 @@ import pytest
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
 from bridge.recording.recording_reader import read_motion
 from localization.mapping.keyframes import read_keyframes
-from maps import FREE, load_map
+from maps import FREE, SiteError, load_map
 from planner.site import Site
 from pons import mapping
 from pons.settings import CHECKOUT, LaunchSettings
@@ -19,7 +19,7 @@ from pons_assets import ROBOT_FILE
 from tests.bridge.recorded import Taken, stream_of, written
 from tools.lockstep import LockstepWorld
 from tools.lockstep.bridge_process import Step
-from wire import Odometry, Pose2, Scan, compose
+from wire import Odometry, Pose2, Scan, compose, load_robot
 
 Drive = tuple[Path, Pose2, Pose2, list[Taken]]
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
@@ -162,3 +162,43 @@ def test_a_disk_without_room_is_refused(
     monkeypatch.setattr(mapping, "MIN_FREE_BYTES", 1 << 62)
     assert mapping.run(settings, ["attic", str(drive[0])]) == 3
     assert "disk_full" in capsys.readouterr().err
+
+
+def test_what_a_drive_has_kept_becomes_a_site_and_goes_on_another_day(
+    drive: Drive, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+) -> None:
+    robot = load_robot(settings.robot)
+    mapping.prepare_canvas(settings, "attic", robot)
+    canvas = settings.home / "mapping" / "attic"
+    assert mapping.run(settings, ["attic"]) == 3
+    assert "map_not_begun" in capsys.readouterr().err
+    assert mapping.run(settings, ["other", str(drive[0])]) == 0
+    kept = settings.home / "sites" / "other" / "keyframes.npz"
+    (canvas / "keyframes.npz").write_bytes(kept.read_bytes())
+    assert mapping.run(settings, ["attic"]) == 0
+    made = settings.home / "sites" / "attic"
+    cells = [load_map(one / "map.yaml").grid.cells for one in (made, kept.parent)]
+    changed = sum(a != b for a, b in zip(*cells, strict=True))
+    assert changed < 0.01 * len(cells[0]), "points are kept to the millimetre"
+    mapping.prepare_canvas(settings, "other", robot)
+    again = settings.home / "mapping" / "other" / "keyframes.npz"
+    assert again.read_bytes() == kept.read_bytes(), "another day goes on from the site's own"
+    before = (canvas / "map.yaml").read_bytes()
+    mapping.prepare_canvas(settings, "attic", robot)
+    assert (canvas / "map.yaml").read_bytes() == before
+
+
+def test_a_canvas_with_spoilt_keyframes_is_refused(
+    settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mapping.prepare_canvas(settings, "attic", load_robot(settings.robot))
+    (settings.home / "mapping" / "attic" / "keyframes.npz").write_bytes(b"spoilt")
+    assert mapping.run(settings, ["attic"]) == 3
+    assert "keyframes_malformed" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["", "Attic", "../up", "a b"])
+def test_a_canvas_of_an_odd_name_is_refused(name: str, settings: LaunchSettings) -> None:
+    with pytest.raises(SiteError, match="site_name_malformed"):
+        mapping.prepare_canvas(settings, name, load_robot(settings.robot))
+    assert not settings.home.exists()

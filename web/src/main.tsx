@@ -37,6 +37,7 @@ import { startStopper, stop } from "./stop/stopper";
 import type { Known } from "./wire/types";
 
 const RETRY_MS = 2000;
+const GROWN_MS = 2000;
 
 const socket = new EventSocket({
   opened: () => {
@@ -105,11 +106,20 @@ async function load(): Promise<void> {
     const [site, cells] = await Promise.all([fetchPlaces(), fetchGrid()]);
     learnPlaces(site);
     grid.value = cells;
+    if (cells.growing) setTimeout(() => void regrow(), GROWN_MS);
   } catch {
     if (open.value || tokenNeeded.value) setTimeout(() => void load(), RETRY_MS);
   } finally {
     loading = false;
   }
+}
+
+/** Load the map anew where a home is mapped and more of it is known. */
+async function regrow(): Promise<void> {
+  const cells = await fetchGrid().catch(() => null);
+  if (cells !== null && cells.growing?.revision !== grid.peek()?.growing?.revision)
+    grid.value = cells;
+  setTimeout(() => void regrow(), GROWN_MS);
 }
 
 const page = document.getElementById("page");

@@ -6,18 +6,29 @@ import asyncio
 import base64
 import json
 from collections.abc import Iterator
-from typing import Any
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 from starlette.testclient import TestClient
 
+from maps import GridMap
+from maps.growing_map import GROWING_MAP, GrowingMap, write_growing_map
 from planner import openapi
+from planner.api import build
 from planner.brain import BrainDown, FallbackBrain, OfflineBrain, ScriptedBrain, ThinkRequest
 from planner.plan import Vocabulary
 from tests.planner.api.fakes import FakeServices
-from tests.planner.api.served import client_of
+from tests.planner.api.served import BASE, LOCAL, client_of
 from tests.wire.examples import STATUS
 from wire import VIRTUAL_KEY, Answer, authentic
+
+if TYPE_CHECKING:
+    pass
+
+if TYPE_CHECKING:
+    from planner.api.interfaces import Services
 
 METAL = STATUS.model_copy(
     update={"drive": STATUS.drive.model_copy(update={"virtual": False, "kind": "serial"})}
@@ -284,6 +295,27 @@ def test_the_map_is_whole(client: TestClient) -> None:
     body = client.get("/v1/map").json()
     assert len(base64.b64decode(body["cells"])) == body["width"] * body["height"]
     assert body["fence"]["map_id"] == body["map_id"]
+
+
+def test_a_map_that_grows_in_the_sites_folder_is_shown_as_far_as_it_is_known(
+    services: FakeServices, tmp_path: Path
+) -> None:
+    services.site = replace(services.site, folder=tmp_path)
+    client = TestClient(build(cast("Services", services), LOCAL), base_url=BASE)
+    fixed = client.get("/v1/map").json()
+    assert fixed["growing"] is None
+    for revision, cells in ((3, bytes([0, 1, 2, 0])), (4, bytes([0, 1, 0, 0]))):
+        grown = GrowingMap(revision, 2, 1, GridMap(2, 2, 0.05, -0.1, 0.2, cells))
+        write_growing_map(tmp_path, grown)
+        body = client.get("/v1/map").json()
+        assert base64.b64decode(body["cells"]) == cells
+        assert body["origin"] == {"x_m": -0.1, "y_m": 0.2}
+        assert body["growing"] == {"revision": revision, "keyframes": 2, "loops": 1}
+        assert (body["map_id"], body["fence"]) == (fixed["map_id"], fixed["fence"])
+    (tmp_path / GROWING_MAP).write_bytes(b"spoilt")
+    assert base64.b64decode(client.get("/v1/map").json()["cells"]) == cells, (
+        "the last that was whole"
+    )
 
 
 def test_places_have_names_in_both_languages(client: TestClient) -> None:

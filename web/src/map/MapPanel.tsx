@@ -25,6 +25,7 @@ import {
   status,
 } from "../state/store";
 import { visible } from "../state/visible";
+import { Cells } from "./cells";
 import { isShown, LAYERS, toggleLayer } from "./layers";
 import { type Point, resolve, thingAt } from "./resolve";
 import { samePose, sameScan } from "./unmoved";
@@ -51,8 +52,25 @@ export function MapPanel() {
       <div ref={place} class="map" id="map" />
       <Ages />
       <LayerSwitches />
+      <Growing />
       {choice.value && <Ask choice={choice.value} />}
     </section>
+  );
+}
+
+/** Say how much of the home is known while it is mapped. */
+function Growing() {
+  const shown = grid.value;
+  if (!shown?.growing) return null;
+  const known = new Cells(shown).floor;
+  return (
+    <p class="growing">
+      {t("map.growing", {
+        area: known.toFixed(0),
+        keyframes: String(shown.growing.keyframes),
+        loops: String(shown.growing.loops),
+      })}
+    </p>
   );
 }
 

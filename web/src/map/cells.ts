@@ -30,6 +30,12 @@ export class Cells {
     return this.bytes[row * this.grid.width + column];
   }
 
+  /** Return how much floor is known [m²]. */
+  get floor(): number {
+    const size = this.grid.resolution_m;
+    return this.bytes.reduce((sum, cell) => sum + (cell === FREE ? size * size : 0), 0);
+  }
+
   /** Return the middle of a cell [m]. */
   point(column: number, row: number): Point {
     const { origin, resolution_m: size } = this.grid;

@@ -17,6 +17,7 @@ export class MapView {
   private readonly roomNumbers = L.layerGroup();
   private readonly things = new Things();
   private image: L.ImageOverlay | null = null;
+  private overlays: readonly L.SVGOverlay[] = [];
   private zoom: L.Control.Zoom | null = null;
   private cells: Cells | null = null;
   private shown: L.LatLngBounds | null = null;
@@ -55,19 +56,23 @@ export class MapView {
 
   showGrid(grid: Grid): void {
     const first = this.cells === null;
+    const before = this.shown;
     this.cells = new Cells(grid);
     const { left, bottom, right, top } = this.cells.known();
     this.shown = L.latLngBounds([bottom, left], [top, right]);
     this.drawing.cover(grid);
+    const bounds = boundsOf(grid);
     if (first) {
-      for (const layer of this.drawing.layers)
-        L.svgOverlay(layer, boundsOf(grid), { pane: "overlayPane" }).addTo(this.map);
+      this.overlays = this.drawing.layers.map((layer) =>
+        L.svgOverlay(layer, bounds, { pane: "overlayPane" }).addTo(this.map),
+      );
       this.map.fitBounds(this.shown, { animate: false });
     }
+    for (const overlay of this.overlays) overlay.setBounds(bounds);
     this.map.setMaxBounds(this.shown.pad(0.5));
     this.paint();
     this.writeNames();
-    this.fit();
+    if (!before?.equals(this.shown)) this.fit(); // a map that grew inside keeps a person's zoom
   }
 
   showNames(places: readonly Place[], nameOf: (place: Place) => string): void {
@@ -147,6 +152,7 @@ export class MapView {
     if (url === null) return;
     const bounds = boundsOf(this.cells.grid);
     this.image ??= L.imageOverlay(url, bounds, { className: "cells" }).addTo(this.map);
+    this.image.setBounds(bounds);
     this.image.setUrl(url);
     this.image.bringToBack();
   }

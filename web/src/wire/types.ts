@@ -368,6 +368,12 @@ export type Grid = {
   readonly resolution_m: number;
   readonly origin: { readonly x_m: number; readonly y_m: number };
   readonly cells: string;
+  /** While a home is mapped: what is known so far, counted; else null. */
+  readonly growing: {
+    readonly revision: number;
+    readonly keyframes: number;
+    readonly loops: number;
+  } | null;
   readonly fence: {
     readonly allowed: readonly Outline[];
     readonly keep_outs: readonly Outline[];
