@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from localization.mapping.scan_tracker import KeyframeLink
     from processes.worker_protocol import Frame
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
 
     Floats = NDArray[np.float64]
 

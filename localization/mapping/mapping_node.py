@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from localization.mapping.keyframes import Keyframe
     from localization.mapping.scan_tracker import KeyframeLink
     from wire import Scan
-    from wire.robot import LidarConfig
+    from wire.lidar_config import LidarConfig
     from wire.session import Session
 
     Floats = NDArray[np.float64]

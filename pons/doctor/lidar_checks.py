@@ -63,11 +63,11 @@ def lidar(home: Path, robot: RobotDescription) -> HealthFinding:
             ),
         )
     if is_listening(Endpoints(home).socket(SCANS_DOOR)):
-        return _told(home, robot)
-    return _tried(robot)
+        return _hear_process(home, robot)
+    return _read_port(robot)
 
 
-def _told(home: Path, robot: RobotDescription) -> HealthFinding:
+def _hear_process(home: Path, robot: RobotDescription) -> HealthFinding:
     """Report what the running process says."""
     status: LidarStatus | None = None
     with open_session(Party.JUDGE, robot.id, home) as session:
@@ -90,7 +90,7 @@ def _told(home: Path, robot: RobotDescription) -> HealthFinding:
     return _wrong(LidarVerdict(status.code, f"{status.code}: {status.detail}"))
 
 
-def _tried(robot: RobotDescription) -> HealthFinding:
+def _read_port(robot: RobotDescription) -> HealthFinding:
     """Read the port for some seconds, as the process would."""
     kind, path = kind_of(robot.lidar), robot.lidar.port or ""
     try:

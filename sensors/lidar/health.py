@@ -24,8 +24,15 @@ START_S = 3.0
 """A motor comes up to speed meanwhile; an RPLidar that was reset answers again."""
 READABLE_S = 1.0
 """From the first bytes after an opening to the first good frame, at most."""
-LOST_SHARE = 0.05
-"""Of the bytes: a line in order loses none but those before the first frame."""
+TURN_S = 1.0
+"""Without a whole turn, though frames come."""
+LOST_SHARE = 0.01
+"""Of the bytes: a line in order loses none but those before the first frame, and a frame of 38 that
+is lost in a turn of an LD19 costs the turn."""
+GAP_SHARE = 0.25
+"""Of the turns: bytes that never came are lost to no decoder, and show in gaps alone."""
+NOISE_SHARE = 0.5
+"""Of the bytes: an RPLidar's standard answer finds a beam in noise now and then."""
 SLOW_SHARE = 0.8
 SAMPLE_BYTES = 2_000
 
@@ -84,6 +91,8 @@ class LidarCounts:
     lost_bytes: int = 0
     turns: int = 0
     broken_turns: int = 0
+    gaps: int = 0
+    """Broken turns in which beams are missing."""
 
 
 class LidarHealth:
@@ -136,9 +145,21 @@ class LidarHealth:
         if self.silent_s(now_s) > SILENT_S:
             code = STARTING if young_s < START_S else "lidar_silent"
             return LidarVerdict(code, f"{self._what}: no byte for {self.silent_s(now_s):.1f} s")
-        if now_s - self._frame_s > READABLE_S:
+        then_s, then = self._seen[0] if self._seen else (now_s, self._last)
+        came = self._last.received_bytes - then.received_bytes
+        lost = self._last.lost_bytes - then.lost_bytes
+        if now_s - self._frame_s > READABLE_S or (
+            young_s > READABLE_S and lost > NOISE_SHARE * came
+        ):
             return self._name_unreadable()
-        return self._judge_frames(young_s, now_s)
+        if young_s < START_S:
+            fine = self._last.turns > then.turns
+            return None if fine else LidarVerdict(STARTING, f"{self._what}: no whole turn yet")
+        if lost > LOST_SHARE * came:
+            return LidarVerdict(
+                "lidar_spoilt", f"{self._what}: {100 * lost / came:.0f} % of the bytes are spoilt"
+            )
+        return self._judge_turns(now_s, then_s, then)
 
     def _name_unreadable(self) -> LidarVerdict:
         other = recognize(self._sample)
@@ -147,23 +168,19 @@ class LidarHealth:
             return LidarVerdict("lidar_other_kind", f"{came}, frames of kind {other!r}")
         return LidarVerdict("lidar_unreadable", f"{came}, no good frame among them")
 
-    def _judge_frames(self, young_s: float, now_s: float) -> LidarVerdict | None:
-        then_s, then = self._seen[0] if self._seen else (now_s, self._last)
-        came = self._last.received_bytes - then.received_bytes
-        lost = self._last.lost_bytes - then.lost_bytes
-        if young_s < START_S:
-            fine = self._last.turns > then.turns
-            return None if fine else LidarVerdict(STARTING, f"{self._what}: no whole turn yet")
-        if came and lost > LOST_SHARE * came:
+    def _judge_turns(self, now_s: float, then_s: float, then: LidarCounts) -> LidarVerdict | None:
+        turns, gaps = self._last.turns - then.turns, self._last.gaps - then.gaps
+        if gaps > GAP_SHARE * (turns + gaps):
             return LidarVerdict(
-                "lidar_spoilt", f"{self._what}: {100 * lost / came:.0f} % of the bytes are spoilt"
+                "lidar_spoilt", f"{self._what}: beams are missing in {gaps} of {turns + gaps} turns"
             )
-        if now_s - self._turn_s > SILENT_S:
+        if now_s - self._turn_s > TURN_S:
             return LidarVerdict(
                 "lidar_no_turn", f"{self._what}: no whole turn for {now_s - self._turn_s:.1f} s"
             )
         wanted_hz = 1.0 / self._kind.config.scan_s
-        if now_s - then_s > 0.5 * WINDOW_S and not self.rate_hz >= SLOW_SHARE * wanted_hz:
+        long_enough = now_s - then_s > 0.5 * WINDOW_S and self.silent_s(now_s) < STEP_S
+        if long_enough and not self.rate_hz >= SLOW_SHARE * wanted_hz:
             return LidarVerdict(
                 "lidar_slow",
                 f"{self._what}: {self.rate_hz:.1f} turns a second, lidar.scan_s says {wanted_hz:g}",

@@ -17,6 +17,7 @@ from wire import LidarStatus
 if TYPE_CHECKING:
     from devices import PortTrouble
     from sensors.lidar.kinds import LidarKind
+    from sensors.lidar.turn import ScanShape
     from wire import Scan
 
 log = logging.getLogger("lidar")
@@ -65,6 +66,11 @@ class LidarReader:
         self.health = LidarHealth(kind, path)
 
     @property
+    def shape(self) -> ScanShape:
+        """Return what its scans look like."""
+        return self._kind.shape
+
+    @property
     def counts(self) -> LidarCounts:
         """Return all that was read since the start."""
         decoder, collector, before = self._decoder, self._collector, self._before
@@ -75,6 +81,7 @@ class LidarReader:
             lost_bytes=before.lost_bytes + decoder.lost_bytes,
             turns=before.turns + collector.turns,
             broken_turns=before.broken_turns + collector.broken,
+            gaps=before.gaps + collector.gaps,
         )
 
     def turn(self, now_s: float) -> list[Scan]:

@@ -110,6 +110,8 @@ class TurnCollector:
         self.turns = 0
         self.broken = 0
         """Turns with a gap or too long; the first, which was joined half-way, does not count."""
+        self.gaps = 0
+        """Of those, the ones with a gap: bytes were lost."""
 
     def forget(self) -> None:
         """Drop the unfinished turn: what comes next is of another time."""
@@ -172,9 +174,10 @@ class TurnCollector:
         parts = self._parts
         first_s, last_s = parts[0].first_s, parts[-1].last_s
         swept = [angle for part in parts for angle in part.swept]
-        in_time = all(part.swept for part in parts) and 0.0 <= last_s - first_s <= MAX_TURN_S
-        if not (in_time and has_no_gap(swept, self._max_gap_deg)):
+        is_whole = all(part.swept for part in parts) and has_no_gap(swept, self._max_gap_deg)
+        if not (is_whole and 0.0 <= last_s - first_s <= MAX_TURN_S):
             self.broken += 1
+            self.gaps += not is_whole
             return None
         self.turns += 1
         return LidarTurn(

@@ -91,7 +91,7 @@ class LidarFirmware:
                 "twin_unknown", f"lidar.kind {config.kind!r} has no twin; these have: {known}"
             )
         self.model = model
-        self._family = config.kind
+        self.family = config.kind
         self._turn_hz = 1.0 / config.scan_s
         self._sign = 1.0 if config.upside_down else -1.0
         self._format = self._form()
@@ -157,7 +157,7 @@ class LidarFirmware:
         while (at := self._heard.find(_START)) >= 0 and len(self._heard) - at >= 2:
             kind = self._heard[at + 1]
             size = 2
-            if kind & 0x80 and self._family == "rplidar":
+            if kind & 0x80 and self.family == "rplidar":
                 if len(self._heard) - at < 3:
                     break
                 size = 4 + self._heard[at + 2]
@@ -170,14 +170,14 @@ class LidarFirmware:
         return said
 
     def _obey(self, kind: int, body: bytes, now_s: float) -> bytes:
-        if now_s < self._quiet_until_s or self._family == "ld19" or self._is_one_way():
+        if now_s < self._quiet_until_s or self.family == "ld19" or self._is_one_way():
             return b""
-        stop, scans = (0x25, (0x20, 0x82)) if self._family == "rplidar" else (0x65, (0x60,))
+        stop, scans = (0x25, (0x20, 0x82)) if self.family == "rplidar" else (0x65, (0x60,))
         if kind == stop:
             self._scanning = False
         elif kind in scans:
             self._scanning, self._began_s, self._format = True, None, self._form()
-        elif kind == 0x40 and self._family == "rplidar":
+        elif kind == 0x40 and self.family == "rplidar":
             self._scanning, self._quiet_until_s = False, now_s + BOOT_S
             return b"RP LIDAR System.\r\n"
         elif kind == 0xA8 and self.model.sets_speed and len(body) == 2:
@@ -189,7 +189,7 @@ class LidarFirmware:
         return b""
 
     def _is_one_way(self) -> bool:
-        return self._family == "ydlidar" and self.model.talks
+        return self.family == "ydlidar" and self.model.talks
 
     def _form(self) -> BeamFormat:
         form = self.model.form

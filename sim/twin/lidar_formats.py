@@ -52,14 +52,14 @@ class LdFormat:
         for _, distance in beams:
             frame += struct.pack("<HB", _units(distance, 0.001), 200 if distance else 0)
         frame += struct.pack("<HH", _hundredths(beams[-1][0]), int(taken_s * 1000.0) % 30_000)
-        return bytes(frame) + bytes((_crc_4d(frame),))
+        return bytes(frame) + bytes((crc_4d(frame),))
 
 
 def _hundredths(angle_deg: float) -> int:
     return round(angle_deg * 100.0) % 36_000
 
 
-def _crc_4d(data: bytes | bytearray) -> int:
+def crc_4d(data: bytes | bytearray) -> int:
     """Return the CRC of polynomial 4D bit by bit, as the manual defines it."""
     rest = 0
     for byte in data:

@@ -17,6 +17,7 @@ from sim import Domain, Hardware, SimRobot
 from tools.lockstep.bridge_process import BridgeProcess, Step
 from tools.lockstep.bus import LockstepBus
 from tools.lockstep.latencies import TICK_S, Pace, ticks
+from tools.lockstep.lidar_process import LidarProcess
 from tools.lockstep.localizer_process import LocalizerProcess
 from tools.lockstep.planner_process import Notebook, PlannerProcess
 from tools.lockstep.robot_process import RobotProcess
@@ -88,6 +89,10 @@ class World:
             domain=domain,
         )
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT))
+        self.lidar: LidarProcess | None = None
+        """A lidar of metal's twin, where the robot's description names one."""
+        if not self.scene.robot.lidar.is_simulated:
+            self.lidar = LidarProcess(self.sim, self.bus.port(Party.LIDAR), seed)
         self._localization, self.localizer = self._localize(seed)
         self.bridge = BridgeProcess(
             self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s
@@ -161,6 +166,8 @@ class World:
         while self._hooks and self._hooks[0][0] <= self.bus.tick:
             heappop(self._hooks)[2](self)
         self._robot.turn(now_s)
+        if self.lidar is not None:
+            self.lidar.turn(now_s)
         if self._localizing and self.bus.tick % self.pace.localization_period == 0:
             self._localization.turn(now_s)
         self.bridge.turn(now_s)

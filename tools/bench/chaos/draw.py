@@ -19,9 +19,10 @@ OWNER_OF = {
     door.name: child
     for child, party in LISTENING.items()
     for door in DOORS
-    if door.listener is party and door not in (SIM_DOOR, *_LATER)
+    if child in PROCESSES and door.listener is party and door not in (SIM_DOOR, *_LATER)
 } | {door.name: door.listener.value for door in _LATER}
-"""Which process listens at each door, but for the tests' own. Their order is part of a draw, so
+"""Which process listens at each door, but for the tests' own; the simulated
+robot has no lidar of metal. Their order is part of a draw, so
 doors that came later stand last; numbers of before they came mean other draws."""
 LIDAR = ("lidar_off", "lidar_stuck", "lidar_blind", "lidar_intermittent")
 FREEZE_S, STALL_S, OTHER_S = (0.15, 5.0), (0.2, 3.0), (0.5, 7.0)

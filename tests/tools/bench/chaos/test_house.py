@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from pons.children import children
 from pons.settings import CHECKOUT, LaunchSettings
-from pons.up import children
 from processes.parent_death import child_command, worker_command
 from tools.bench.chaos.draw import OWNER_OF, PROCESSES
 from tools.bench.chaos.faults import sockets
