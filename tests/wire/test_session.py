@@ -162,6 +162,24 @@ def test_a_drain_parses_the_four_newest_and_counts_all(tmp_path: Path) -> None:
         assert drained.items == tuple(stop(number) for number in range(196, 200))
 
 
+def test_who_says_much_at_one_door_hides_nothing_of_another(tmp_path: Path) -> None:
+    with (
+        open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
+        open_session(Party.PLANNER, "r1", tmp_path) as planner,
+        open_session(Party.ROBOT, "r1", tmp_path) as robot,
+    ):
+        ears = bridge.subscriber(STOP)
+        much, one = planner.publisher(STOP), robot.publisher(STOP)
+        assert until(lambda: say_and_hear(much, ears, stop(0)))
+        assert until(lambda: say_and_hear(one, ears, stop(1)))
+        one.put(stop(2))
+        for number in range(3, 20):
+            much.put(stop(number))
+            time.sleep(0.001)  # a burst would be thinned by the sender, which never waits
+        time.sleep(0.2)
+        assert stop(2) in ears.drain().items
+
+
 def test_all_that_one_tick_says_arrives(tmp_path: Path) -> None:
     """Several puts in a row must not crowd each other out, though the sender never waits."""
     said = [key for key in KEYS if Party.ROBOT in key.senders and Party.JUDGE in key.receivers]
