@@ -18,9 +18,10 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import zenoh
 
 from wire.base import Record
-from wire.codec import Image, decode, encode, image
+from wire.codec import decode, encode
 from wire.doors import access_control, doors_of
 from wire.errors import ConfigError, Unwritable
+from wire.image_transport import ImagePublisher, ImageSubscriber
 from wire.keys import ANY_ROBOT, IMAGE, Key, Party
 from wire.sockets import Claim, Endpoints, admit
 
@@ -69,51 +70,6 @@ class Publisher(Generic[M]):
         """Send bytes as they are, unchecked."""
         for publisher in self._publishers:
             publisher.put(payload)
-
-
-class ImagePublisher:
-    """Send pictures: their bytes, with the header attached. Never blocks."""
-
-    def __init__(self, session: zenoh.Session, key: Key[ImageHeader], robot_id: str) -> None:
-        self._publisher = session.declare_publisher(
-            key.expression(robot_id),
-            congestion_control=zenoh.CongestionControl.DROP,
-        )
-
-    @property
-    def has_listener(self) -> bool:
-        """Return whether a subscriber matches."""
-        status: Any = self._publisher.matching_status  # its stub says bool; it is a record
-        return bool(status.matching)
-
-    def put(self, header: ImageHeader, data: bytes) -> None:
-        """Send and forget."""
-        self._publisher.put(data, attachment=encode(header))
-
-
-class ImageSubscriber:
-    """Hold the newest picture of one key until it is taken."""
-
-    def __init__(self, session: zenoh.Session, key: Key[ImageHeader], robot_id: str) -> None:
-        self._key = key
-        self._subscriber = session.declare_subscriber(
-            key.expression(robot_id), zenoh.handlers.RingChannel(key.ring)
-        )
-
-    def newest(self) -> Image | DecodeFailure | None:
-        """Return the newest picture or its refusal; None where none came."""
-        try:
-            sample = self._subscriber.try_recv()
-        except zenoh.ZError:
-            return None  # the session is closed
-        if sample is None:
-            return None
-        attached = sample.attachment.to_bytes() if sample.attachment is not None else b""
-        return image(self._key, attached, sample.payload.to_bytes())
-
-    def close(self) -> None:
-        """Undeclare the subscriber, so that the publisher stops sending."""
-        self._subscriber.undeclare()  # type: ignore[no-untyped-call]  # its stub has no annotation
 
 
 class Subscriber(Generic[M]):

@@ -16,7 +16,8 @@ from wire import DecodeFailure, Image
 from wire import keys as k
 
 if TYPE_CHECKING:
-    from wire.session import ImageSubscriber, Session
+    from wire.image_transport import ImageSubscriber
+    from wire.session import Session
 
 OLDEST_S = 0.5
 """An older picture is not thought upon."""

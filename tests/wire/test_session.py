@@ -15,7 +15,7 @@ import pytest
 import zenoh
 
 from tests.wire.examples import EXAMPLES
-from wire import ConfigError, DecodeFailure, Image, ImageHeader, Scan, Status, Stop, encode
+from wire import ConfigError, Scan, Status, Stop, encode
 from wire.doors import BRIDGE_DOOR
 from wire.keys import ANY_ROBOT, CAMERA_COLOR, HEARTBEAT, KEYS, SCAN, STATUS, STOP, Key, Party
 from wire.session import Publisher, Subscriber, open_session
@@ -215,41 +215,6 @@ def test_a_closed_session_gives_nothing(tmp_path: Path) -> None:
     session.close()
     assert ears.newest() is None
     assert eyes.newest() is None
-
-
-def test_the_newest_picture_comes_whole_with_its_header(tmp_path: Path) -> None:
-    header = EXAMPLES[ImageHeader]
-    assert isinstance(header, ImageHeader)
-    with (
-        open_session(Party.CAMERA, "r1", tmp_path) as camera,
-        open_session(Party.PLANNER, "r1", tmp_path) as planner,
-    ):
-        mouth, ears = camera.image_publisher(CAMERA_COLOR), planner.image_subscriber(CAMERA_COLOR)
-        seen: list[Image | DecodeFailure | None] = []
-
-        def heard() -> bool:
-            mouth.put(header, b"picture" * 1000)
-            seen.append(ears.newest())
-            return seen[-1] is not None
-
-        assert until(heard)
-        assert seen[-1] == Image(header, b"picture" * 1000)
-
-
-def test_a_picture_is_wanted_while_somebody_listens(tmp_path: Path) -> None:
-    with open_session(Party.CAMERA, "r1", tmp_path) as camera:
-        mouth = camera.image_publisher(CAMERA_COLOR)
-        assert not mouth.has_listener
-        with open_session(Party.PLANNER, "r1", tmp_path) as planner:
-            ears = planner.image_subscriber(CAMERA_COLOR)
-            assert until(lambda: mouth.has_listener)
-            assert ears.newest() is None
-            ears.close()
-            assert until(lambda: not mouth.has_listener)
-            again = planner.image_subscriber(CAMERA_COLOR)
-            assert until(lambda: mouth.has_listener)
-            assert again.newest() is None
-        assert until(lambda: not mouth.has_listener)
 
 
 def test_the_status_of_whichever_robot_is_there_is_heard(tmp_path: Path) -> None:
