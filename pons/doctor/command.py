@@ -8,7 +8,7 @@ from dataclasses import asdict
 from subprocess import SubprocessError
 from typing import TYPE_CHECKING
 
-from pons.doctor import host_checks, lidar_checks, model_checks, path_checks
+from pons.doctor import board_checks, host_checks, lidar_checks, model_checks, path_checks
 from pons.doctor import jitter as late
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail
 
@@ -55,6 +55,12 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         run_check("real_time", lambda: host_checks.real_time(priority, virtual=virtual)),
         run_check("locked_memory", host_checks.locked_memory),
         host_checks.node(),
+        run_check("power", board_checks.power),
+        run_check("usb_power", board_checks.usb_power),
+        run_check("heat", board_checks.heat),
+        run_check("processor", board_checks.processor_clock),
+        run_check("time_of_day", board_checks.time_of_day),
+        run_check("modem_manager", board_checks.modem_manager),
         run_check("home", lambda: path_checks.home(settings.home)),
         run_check("secrets", lambda: path_checks.secrets(settings.home, virtual=virtual)),
         run_check("disk", lambda: path_checks.disk(settings.home)),
