@@ -21,6 +21,8 @@ from dataclasses import dataclass
 from struct import Struct
 from typing import Final
 
+from devices.port_probe import PortAnswer, PortProbe
+
 HEAD: Final = b"\xa5\x5a"
 TYPE_COMMAND: Final = 0x01
 TYPE_STATE: Final = 0x81
@@ -187,3 +189,25 @@ def _decode(frame: bytes) -> McuCommand | McuState:
     if kind == TYPE_COMMAND:
         return McuCommand(seq, *_COMMAND.unpack_from(frame, _FRAME.size))
     return McuState(seq, *_STATE.unpack_from(frame, _FRAME.size))
+
+
+_ENOUGH_STATES: Final = 3
+"""Three that check by chance in noise: odds of 2^-48 for each place."""
+
+
+def recognise(data: bytes) -> PortAnswer | None:
+    """Return what a controller says of itself; it speaks 100 times a second, unasked."""
+    states = [frame for frame in McuReader().read(data) if isinstance(frame, McuState)]
+    if len(states) < _ENOUGH_STATES:
+        return None
+    last = states[-1]
+    words = f"motor controller with the pons_mcu firmware, boot {last.boot:08x}"
+    if last.battery_mv != NOT_MEASURED:
+        words += f", battery {last.battery_mv / 1000:.1f} V"
+    if last.bits & STOP_PRESSED:
+        words += ", its stop input is pressed"
+    where = "of a wheel: edges a turn of the motor times its gear; `pons robot try` counts them"
+    return PortAnswer(words, missing={"ticks_per_turn": where})
+
+
+PROBES: Final = (PortProbe("drive", "pons_mcu", 115_200, recognise),)

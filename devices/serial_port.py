@@ -130,6 +130,19 @@ class SerialPort:
         self.dropped_bytes += len(data) - taken
         return taken == len(data)
 
+    def set_baud(self, baud: int) -> None:
+        """Speak at another speed; what came and was not read is thrown away.
+
+        Raises:
+            PortTrouble: ``baud_unknown`` or ``port_gone``.
+        """
+        try:
+            self._set_up(baud)
+        except PortTrouble:
+            raise
+        except (OSError, termios.error) as error:
+            raise PortTrouble("port_gone", self._path, str(error)) from None
+
     def discard_input(self) -> None:
         """Throw away what came and was not read: it is of the time before."""
         with contextlib.suppress(termios.error):

@@ -18,12 +18,14 @@ CONFORMANCE = "conformance"
 EVAL = "eval"
 SITE = "site"
 MAP = "map"
+ROBOT = "robot"
 _APART = {
     CONFORMANCE: "play broken brains at a simulated bridge",
     EVAL: "score what a brain plans, on sentences",
     MOCK_LLM: "serve a model that is none, with faults",
     SITE: "make a site of a map, name its rooms, check it",
     MAP: "make a site of the recordings of a drive",
+    ROBOT: "find out what is plugged in, for robot.toml",
 }
 """They read their own words."""
 LONGEST_FAULT_S = 3600.0
@@ -215,6 +217,10 @@ def main(arguments: list[str] | None = None) -> int:
             from pons import mapping
 
             return mapping.run(settings, words[1:])
+        if words[:1] == [ROBOT]:  # likewise
+            from pons import robot
+
+            return robot.run(settings, words[1:])
         return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)

@@ -12,6 +12,7 @@ from __future__ import annotations
 import struct
 
 from devices.clock import SensorClock, WrappedCounter
+from devices.port_probe import PortAnswer, PortProbe
 from sensors.lidar.turn import MAX_GAP_DEG, Beams
 
 BAUD = 230_400
@@ -105,3 +106,23 @@ class LdRobotDecoder:
             first_s=last_s - (BEAMS - 1) * period_s,
             period_s=period_s,
         )
+
+
+_ENOUGH_FRAMES = 5
+"""Whose check of 8 bits all pass by chance: odds of 2^-40."""
+
+
+def recognise(data: bytes) -> PortAnswer | None:
+    """Return what a sensor of this family says of itself; it speaks unasked."""
+    decoder = LdRobotDecoder()
+    decoder.feed(data, 0.0)
+    if decoder.frames < _ENOUGH_FRAMES:
+        return None
+    start = data.rfind(HEAD, 0, len(data) - FRAME_BYTES)
+    speed_degps = struct.unpack_from("<H", data, start + len(HEAD))[0]
+    turns = f", {speed_degps / 360:.1f} turns/s" if speed_degps < _FASTEST_DEGPS else ""
+    return PortAnswer(f"lidar LD06, LD19 or STL-19P{turns}")
+
+
+_FASTEST_DEGPS = 10_000
+PROBES = (PortProbe("lidar", "ld19", BAUD, recognise),)

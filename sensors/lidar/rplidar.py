@@ -18,6 +18,7 @@ import struct
 from dataclasses import dataclass
 
 from devices.clock import SensorClock
+from devices.port_probe import PortAnswer, PortProbe
 from sensors.lidar.turn import COUNTED_WINDOW_S, MAX_GAP_DEG, MAX_SHIFTED_GAP_DEG, Beams
 
 STOP, RESET, SCAN, EXPRESS = b"\xa5\x25", b"\xa5\x40", b"\xa5\x20", b"\xa5\x82"
@@ -278,3 +279,33 @@ def _raw(frame: bytes, kind: int) -> tuple[float, ...]:
             ((second & 3) << 4 | fine >> 4) / 8.0,
         )
     return tuple(found)
+
+
+INFO_HEAD = b"\xa5\x5a\x14\x00\x00\x00\x04"
+"""Of the answer to INFO: model, firmware minor and major, hardware, serial number of 16 bytes."""
+_INFO_BYTES = 20
+_FAMILIES = {1: "a1", 2: "a2", 3: "a3", 4: "c1", 6: "s1", 7: "s2"}
+"""By the high nibble of the model; Slamtec's SDK names them so."""
+_A2M12 = 0x2C
+
+
+def recognise(data: bytes) -> PortAnswer | None:
+    """Return which RPLidar answered INFO; it neither turns nor stops for that."""
+    start = data.find(INFO_HEAD)
+    body = data[start + len(INFO_HEAD) :][:_INFO_BYTES] if start >= 0 else b""
+    if len(body) < _INFO_BYTES:
+        return None
+    number, minor, major = body[0], body[1], body[2]
+    name = "a2m12" if number == _A2M12 else _FAMILIES.get(number >> 4)
+    serial = body[4:].hex()
+    if name is None:
+        words = f"an RPLidar of model {number:#04x}, which Pons does not read"
+        return PortAnswer(words, missing={"model": f"one of {', '.join(MODELS)}"})
+    words = f"RPLidar {name.upper()}, firmware {major}.{minor:02}, serial {serial}"
+    return PortAnswer(words, keys={"model": name})
+
+
+PROBES = tuple(
+    PortProbe("lidar", "rplidar", baud, recognise, INFO)
+    for baud in sorted({model.baud for model in MODELS.values()})
+)

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from math import atan, degrees
 
 from devices.clock import SensorClock
+from devices.port_probe import PortAnswer, PortProbe
 from sensors.lidar.turn import COUNTED_WINDOW_S, MAX_GAP_DEG, Beams
 
 HEAD = b"\xaa\x55"
@@ -145,3 +146,44 @@ def _triangulation_deg(distance_mm: float) -> float:
     if not distance_mm > 0.0:
         return 0.0
     return degrees(atan(21.8 * (155.3 - distance_mm) / (155.3 * distance_mm)))
+
+
+_INFO_HEAD = b"\xa5\x5a\x14\x00\x00\x00\x04"
+"""Of the answer to INFO: model, firmware minor and major, hardware, serial number of 16 bytes."""
+_INFO_BYTES = 20
+_NUMBERS = {5: "g4", 6: "x4", 15: "g2", 100: "tg15"}
+"""As YDLidar-SDK numbers its models; 15 is its G2B."""
+_ENOUGH_PACKETS = 5
+"""Whose check of 16 bits all pass by chance: odds of 2^-80."""
+
+
+def recognise_talker(data: bytes) -> PortAnswer | None:
+    """Return the X2 that sends its packets unasked."""
+    decoder = YdlidarDecoder(MODELS["x2"])
+    decoder.feed(data, 0.0)
+    if decoder.frames < _ENOUGH_PACKETS:
+        return None
+    return PortAnswer("YDLidar X2 (or another that speaks unasked)", keys={"model": "x2"})
+
+
+def recognise(data: bytes) -> PortAnswer | None:
+    """Return which YDLidar answered INFO; it neither turns nor stops for that."""
+    start = data.find(_INFO_HEAD)
+    body = data[start + len(_INFO_HEAD) :][:_INFO_BYTES] if start >= 0 else b""
+    if len(body) < _INFO_BYTES:
+        return None
+    name = _NUMBERS.get(body[0])
+    if name is None:
+        words = f"a YDLidar of model {body[0]}, which Pons does not read"
+        return PortAnswer(words, missing={"model": f"one of {', '.join(MODELS)}"})
+    words = f"YDLidar {name.upper()}, firmware {body[2]}.{body[1]}, serial {body[4:].hex()}"
+    return PortAnswer(words, keys={"model": name})
+
+
+PROBES = (
+    PortProbe("lidar", "ydlidar", MODELS["x2"].baud, recognise_talker),
+    *(
+        PortProbe("lidar", "ydlidar", baud, recognise, INFO)
+        for baud in sorted({model.baud for model in MODELS.values() if not model.talks})
+    ),
+)

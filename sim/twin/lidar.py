@@ -55,22 +55,24 @@ class TwinLidarModel:
     talks: bool = False
     """It sends by itself from power on."""
     sets_speed: bool = False
+    number: int = 0
+    """By which it names its model when asked."""
 
 
 LIDAR_TWINS: Mapping[tuple[str, str | None], TwinLidarModel] = {
     ("ld19", None): TwinLidarModel(230_400, 4_500.0, "ld", talks=True),
-    ("rplidar", "a1"): TwinLidarModel(115_200, 2_000.0, "rp81"),
-    ("rplidar", "a2"): TwinLidarModel(115_200, 4_000.0, "rp82"),
-    ("rplidar", "a2m12"): TwinLidarModel(256_000, 4_000.0, "rp82"),
-    ("rplidar", "a3"): TwinLidarModel(256_000, 4_000.0, "rp82", sets_speed=True),
-    ("rplidar", "c1"): TwinLidarModel(460_800, 5_000.0, "rp81", sets_speed=True),
-    ("rplidar", "s1"): TwinLidarModel(460_800, 9_200.0, "rp82", sets_speed=True),
-    ("rplidar", "s2"): TwinLidarModel(1_000_000, 32_000.0, "rp85", sets_speed=True),
+    ("rplidar", "a1"): TwinLidarModel(115_200, 2_000.0, "rp81", number=0x18),
+    ("rplidar", "a2"): TwinLidarModel(115_200, 4_000.0, "rp82", number=0x28),
+    ("rplidar", "a2m12"): TwinLidarModel(256_000, 4_000.0, "rp82", number=0x2C),
+    ("rplidar", "a3"): TwinLidarModel(256_000, 4_000.0, "rp82", sets_speed=True, number=0x31),
+    ("rplidar", "c1"): TwinLidarModel(460_800, 5_000.0, "rp81", sets_speed=True, number=0x41),
+    ("rplidar", "s1"): TwinLidarModel(460_800, 9_200.0, "rp82", sets_speed=True, number=0x61),
+    ("rplidar", "s2"): TwinLidarModel(1_000_000, 32_000.0, "rp85", sets_speed=True, number=0x71),
     ("ydlidar", "x2"): TwinLidarModel(115_200, 3_000.0, "yd", talks=True),
-    ("ydlidar", "x4"): TwinLidarModel(128_000, 5_000.0, "yd"),
-    ("ydlidar", "g2"): TwinLidarModel(230_400, 5_000.0, "yd3"),
-    ("ydlidar", "g4"): TwinLidarModel(230_400, 9_000.0, "yd"),
-    ("ydlidar", "tg15"): TwinLidarModel(512_000, 20_000.0, "yd_mm"),
+    ("ydlidar", "x4"): TwinLidarModel(128_000, 5_000.0, "yd", number=6),
+    ("ydlidar", "g2"): TwinLidarModel(230_400, 5_000.0, "yd3", number=15),
+    ("ydlidar", "g4"): TwinLidarModel(230_400, 9_000.0, "yd", number=5),
+    ("ydlidar", "tg15"): TwinLidarModel(512_000, 20_000.0, "yd_mm", number=100),
 }
 """By kind and model of robot.toml."""
 
@@ -182,9 +184,10 @@ class LidarFirmware:
             return b"RP LIDAR System.\r\n"
         elif kind == 0xA8 and self.model.sets_speed and len(body) == 2:
             self._turn_hz = max(1.0, int.from_bytes(body, "little") / 60.0)
-        elif kind in (0x50, 0x90):
-            return _DESCRIBED + bytes((20, 0, 0, 0, 4)) + bytes(20)
-        elif kind in (0x52, 0x92):
+        elif kind == (0x50 if self.family == "rplidar" else 0x90):
+            body = bytes((self.model.number, 29, 1, 7, *range(16)))
+            return _DESCRIBED + bytes((20, 0, 0, 0, 4)) + body
+        elif kind == (0x52 if self.family == "rplidar" else 0x92):
             return _DESCRIBED + bytes((3, 0, 0, 0, 6)) + bytes(3)
         return b""
 

@@ -1,0 +1,182 @@
+"""Name every serial port and what answers on it, and print a ready part of robot.toml.
+
+``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
+and changes no setting. Needs no running robot; a port that a running one holds is named busy.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from devices.port_listing import describe_port, find_modem_manager, list_ports
+from pons.robot.port_finder import question_ports
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from devices.port_listing import SerialPortEntry
+    from pons.robot.port_finder import PortFinding
+    from pons.settings import LaunchSettings
+
+EXIT_FOUND, EXIT_NOTHING = 0, 3
+CODES: Final[dict[str, tuple[str, str]]] = {
+    "port_busy": (
+        "held by {detail}: end it, and run this again",
+        "被 {detail} 占用：请结束它后重试",
+    ),
+    "port_console": (
+        "the kernel's console or a login: no robot's device (raspi-config frees it)",
+        "内核控制台或登录终端，不是机器人设备（可用 raspi-config 释放）",
+    ),
+    "port_forbidden": (
+        "you may not open it: sudo usermod -a -G {detail} $USER, and log in anew",
+        "无权打开：sudo usermod -a -G {detail} $USER，然后重新登录",
+    ),
+    "port_missing": ("it is not there: {detail}", "端口不存在：{detail}"),
+    "port_not_serial": ("it is no serial port: {detail}", "不是串口：{detail}"),
+    "port_gone": ("it went while it was questioned: {detail}", "询问时端口消失：{detail}"),
+    "baud_unknown": ("its driver does none of the speeds: {detail}", "驱动不支持：{detail}"),
+    "port_silent": (
+        "nothing speaks and nothing answers: is it powered, and is TX wired to RX?",
+        "没有任何数据或应答：请检查供电，以及 TX 与 RX 接线",
+    ),
+    "port_unknown": (
+        "something speaks that Pons does not know: {detail}",
+        "有未知设备在发送数据：{detail}",
+    ),
+    "port_twins": (
+        "two adapters call themselves alike; only its name by-path tells them apart: {detail}",
+        "有两个同名的转接器，只能用 by-path 的名字区分：{detail}",
+    ),
+    "port_modem_manager": (
+        "ModemManager runs and questions new ports: deploy/pi/70-pons.rules keeps it away",
+        "ModemManager 正在运行并会询问新端口：请安装 deploy/pi/70-pons.rules",
+    ),
+    "port_none": (
+        "no serial port is here: plug the base or the lidar in, or name one by --port",
+        "没有串口：请插入底盘或激光雷达，或用 --port 指定",
+    ),
+}
+"""What is said of a port, in English and Chinese; ``detail`` is the finding's."""
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the grammar of ``pons robot``."""
+    top = argparse.ArgumentParser(prog="pons robot", description=__doc__)
+    acts = top.add_subparsers(dest="act", required=True, metavar="ACT")
+    find = acts.add_parser("find", help="name each serial port and what answers on it")
+    find.add_argument(
+        "--port", type=Path, action="append", metavar="PATH", help="this one alone, or several"
+    )
+    find.add_argument("--json", action="store_true")
+    return top
+
+
+def run(_settings: LaunchSettings, words: list[str]) -> int:
+    """Be ``pons robot``; 0 where a device was recognised, 3 where none was."""
+    said = parser().parse_args(words)
+    entries = [describe_port(path) for path in said.port] if said.port else list_ports()
+    if not said.json and entries:
+        names = ", ".join(str(entry.path) for entry in entries)
+        print(f"listening at {names} …", file=sys.stderr, flush=True)
+    found = question_ports(entries)
+    has_modem_manager = bool(entries) and find_modem_manager() is not None
+    if said.json:
+        content = {"ports": [_record(one) for one in found], "modem_manager": has_modem_manager}
+        print(json.dumps(content, ensure_ascii=False, indent=1))
+    else:
+        lines = list(describe(found, has_modem_manager=has_modem_manager))
+        print("\n".join([*lines, *robot_part(found)]))
+    return EXIT_FOUND if any(one.answer for one in found) else EXIT_NOTHING
+
+
+def describe(found: Sequence[PortFinding], *, has_modem_manager: bool = False) -> Iterator[str]:
+    """Yield the lines about ports, for a terminal."""
+    if not found:
+        yield from _explain("port_none")
+    for one in found:
+        yield f"{one.entry.path}  {_adapter(one.entry)}"
+        if one.answer is not None:
+            yield f"  {one.part} {one.kind}, {one.baud} baud: {_printable(one.answer.words)}"
+        else:
+            yield from _explain(one.code, one.detail)
+        if one.entry.twins:
+            yield from _explain("port_twins", ", ".join(map(str, one.entry.twins)))
+    if has_modem_manager:
+        yield from _explain("port_modem_manager")
+
+
+def robot_part(found: Sequence[PortFinding]) -> Iterator[str]:
+    """Yield what robot.toml should say of what was found; a part that stands twice is commented."""
+    seen: set[str] = set()
+    for one in found:
+        if one.answer is None:
+            continue
+        again = "# " if one.part in seen else ""
+        if not seen:
+            yield ""
+            yield "# for robot.toml:"
+        if again:
+            yield f"# a second {one.part}; robot.toml has one:"
+        seen.add(one.part)
+        keys = {"kind": one.kind, "port": str(one.entry.lasting), **one.answer.keys}
+        yield f"{again}[{one.part}]"
+        for key, value in keys.items():
+            yield f"{again}{key} = {json.dumps(value)}"
+        for key, where in one.answer.missing.items():
+            yield f"# {key} =     # {where}"
+
+
+def _explain(code: str, detail: str = "") -> Iterator[str]:
+    english, chinese = CODES[code]
+    detail = _printable(detail)
+    yield f"  {code}: {english.format(detail=detail)}"
+    yield f"  {chinese.format(detail=detail)}"
+
+
+def _adapter(entry: SerialPortEntry) -> str:
+    usb = entry.usb
+    if usb is None:
+        return entry.driver
+    named = " ".join(filter(None, (usb.maker, usb.name)))
+    serial = f", serial {usb.serial}" if usb.serial else ""
+    return _printable(f"usb {usb.vendor}:{usb.product} {named}{serial}")
+
+
+def _printable(text: str) -> str:
+    """Return what a device said of itself without what would move a terminal's cursor."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
+
+
+def _record(one: PortFinding) -> dict[str, Any]:
+    """Return a finding as JSON can hold it."""
+    english, chinese = CODES.get(one.code, ("", ""))
+    answer = None
+    if one.answer is not None:
+        answer = {
+            "words": one.answer.words,
+            "keys": dict(one.answer.keys),
+            "missing": dict(one.answer.missing),
+        }
+    usb = one.entry.usb
+    return {
+        "path": str(one.entry.path),
+        "lasting": str(one.entry.lasting),
+        "usb": None if usb is None else asdict(usb),
+        "code": one.code,
+        "detail": one.detail,
+        "message": {
+            "en": english.format(detail=one.detail),
+            "zh": chinese.format(detail=one.detail),
+        },
+        "part": one.part or None,
+        "kind": one.kind or None,
+        "baud": one.baud or None,
+        "answer": answer,
+        "twins": [str(path) for path in one.entry.twins],
+    }
