@@ -48,6 +48,8 @@ STOP_PRESSED: Final = 0x04
 BUMPER_FRONT: Final = 0x08
 BUMPER_REAR: Final = 0x10
 CLIFF: Final = 0x20
+TRIPPED: Final = 0x40
+"""The controller took the torque away itself: a wheel disobeyed, or drew too much current."""
 
 
 @dataclass(frozen=True, slots=True)

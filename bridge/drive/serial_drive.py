@@ -49,6 +49,22 @@ class SerialProtocol(Protocol):
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
 
 
+class ByteLine(Protocol):
+    """Be a line that may vanish and come back; a LastingPort is one."""
+
+    opened: int
+    """How often it was opened."""
+
+    def read(self) -> bytes:
+        """Return the bytes that came."""
+
+    def write(self, data: bytes) -> bool:
+        """Send a message whole or not at all; return which."""
+
+    def close(self) -> None:
+        """Give it back."""
+
+
 SERIAL_PROTOCOLS: Mapping[str, Callable[[DriveConfig, str], SerialProtocol]] = {
     "pons_mcu": PonsMcuProtocol,
 }
@@ -60,13 +76,20 @@ class SerialDrive:
 
     virtual = False
 
-    def __init__(self, protocol: SerialProtocol, port: LastingPort, boot: str) -> None:
+    def __init__(
+        self,
+        protocol: SerialProtocol,
+        port: ByteLine,
+        boot: str,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self.kind = protocol.kind
         self.braking = protocol.braking
         self._protocol = protocol
         self._port = port
         self._opened = 0
         self._boot = boot
+        self._clock = clock
         self._seq = 0
 
     def read(self) -> tuple[DriveState | DecodeFailure, ...]:
@@ -77,7 +100,7 @@ class SerialDrive:
             data = self._port.read()
             if not data:
                 break
-            found += self._protocol.decode(data, time.monotonic())
+            found += self._protocol.decode(data, self._clock())
         return tuple(found[-_KEPT:])
 
     def write(self, command: DriveCommand | None) -> None:

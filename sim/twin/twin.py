@@ -6,6 +6,8 @@ Its dead-man is the one that counts here; the body behind it is given a command 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from sim.twin.line import TwinLine
@@ -13,8 +15,7 @@ from sim.twin.pons_mcu import PonsMcuFirmware
 from wire import ConfigError, DriveCommand
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from pathlib import Path
+    from collections.abc import Mapping
 
     from wire import DriveState
     from wire.robot import DriveConfig
@@ -35,30 +36,45 @@ class Firmware(Protocol):
         """Return what is due to the host now, given what the body's sensors read."""
 
 
-FIRMWARES: Mapping[str, Callable[[DriveConfig], Firmware]] = {"pons_mcu": PonsMcuFirmware}
+class FarEnd(Protocol):
+    """Be the base's end of a serial line; never blocks."""
+
+    def read(self) -> bytes:
+        """Return the bytes that came."""
+
+    def write(self, data: bytes) -> None:
+        """Send bytes; what finds no room is lost."""
+
+    def close(self) -> None:
+        """Take the line away."""
+
+
+Boot = Callable[["DriveConfig"], Firmware]
+FIRMWARES: Mapping[str, Boot] = {"pons_mcu": PonsMcuFirmware}
 """By ``kind`` of robot.toml."""
 
 
 class DriveTwin:
     """Hold one firmware and its line."""
 
-    def __init__(self, config: DriveConfig, link: Path) -> None:
-        """Boot the firmware of robot.toml's drive at a line that ``link`` leads to.
+    def __init__(self, config: DriveConfig, line: Path | FarEnd, boot: Boot | None = None) -> None:
+        """Boot the firmware of robot.toml's drive, or another, at a line.
+
+        Args:
+            config: [drive] of robot.toml.
+            line: the line's far end, or the path of a link that is to lead to its near end.
+            boot: makes the firmware; the model of the drive's kind if None.
 
         Raises:
-            ConfigError: ``twin_unknown`` or ``twin_line``.
+            ConfigError: ``twin_unknown``, ``twin_line``, or what ``boot`` raises.
         """
-        if config.kind not in FIRMWARES:
-            known = ", ".join(sorted(FIRMWARES))
-            raise ConfigError(
-                "twin_unknown", f"drive.kind {config.kind!r} has no twin; these have: {known}"
-            )
         self._config = config
-        self.firmware = FIRMWARES[config.kind](config)
+        self._boot = boot or _model_of(config)
+        self.firmware = self._boot(config)
         try:
-            self.line = TwinLine(link)
+            self.line = TwinLine(line) if isinstance(line, Path) else line
         except OSError as error:
-            raise ConfigError("twin_line", f"{link}: {error.strerror}") from None
+            raise ConfigError("twin_line", f"{line}: {error.strerror}") from None
         self._seq = 0
 
     def command(self, now_s: float) -> DriveCommand:
@@ -82,7 +98,7 @@ class DriveTwin:
 
     def reset(self) -> None:
         """Boot the firmware anew, as a controller does whose supply dipped."""
-        self.firmware = FIRMWARES[self._config.kind](self._config)
+        self.firmware = self._boot(self._config)
 
     def discard(self) -> None:
         """Throw away what came while this process was frozen; a controller would not have been."""
@@ -92,6 +108,15 @@ class DriveTwin:
     def close(self) -> None:
         """Take the line away."""
         self.line.close()
+
+
+def _model_of(config: DriveConfig) -> Boot:
+    if config.kind not in FIRMWARES:
+        known = ", ".join(sorted(FIRMWARES))
+        raise ConfigError(
+            "twin_unknown", f"drive.kind {config.kind!r} has no twin; these have: {known}"
+        )
+    return FIRMWARES[config.kind]
 
 
 def _possible(radps: float) -> float:

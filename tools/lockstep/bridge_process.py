@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, cast
 
 from bridge.core import ON_TIME, BridgeState, CoreConfig, Decision, Inbox, initial
-from bridge.drive import SimDrive
+from bridge.drive import Drive, SimDrive
 from bridge.link import BridgeLink
 from wire import VIRTUAL_KEY, DriveCommand, Event, Status
 
@@ -30,7 +30,14 @@ KEPT_EVENTS = 4_000
 class BridgeProcess:
     """Connect the core to the bus and remember what it said."""
 
-    def __init__(self, config: CoreConfig, port: Port, step: Step, now_s: float) -> None:
+    def __init__(
+        self,
+        config: CoreConfig,
+        port: Port,
+        step: Step,
+        now_s: float,
+        drive: Drive | None = None,
+    ) -> None:
         self.config = config
         self.state: BridgeState = initial(config, now_s)
         self.decision: Decision | None = None
@@ -41,7 +48,7 @@ class BridgeProcess:
         self._step = step
         session = cast("Session", port)  # a port has a session's publishers and subscribers
         self._link = BridgeLink(session, config.robot.id, VIRTUAL_KEY)
-        self._drive = SimDrive(session, config.boot)
+        self._drive = drive or SimDrive(session, config.boot)
 
     def turn(self, now_s: float) -> Decision:
         """Drain, step, drive, tell: the shell's tick."""

@@ -9,13 +9,16 @@ from wire import keys
 if TYPE_CHECKING:
     from sim import Report, SimRobot
     from tools.lockstep.bus import Port
+    from tools.lockstep.drive_process import DriveProcess
 
 
 class RobotProcess:
     """Connect a simulated robot to the bus."""
 
-    def __init__(self, robot: SimRobot, port: Port) -> None:
+    def __init__(self, robot: SimRobot, port: Port, base: DriveProcess | None = None) -> None:
+        """Take commands from the wire, or from a base on a line, which then has the answers."""
         self.robot = robot
+        self._base = base
         self._commands = port.subscriber(keys.DRIVE_COMMAND)
         self._drive = port.publisher(keys.DRIVE_STATE)
         self._imu = port.publisher(keys.IMU)
@@ -25,12 +28,16 @@ class RobotProcess:
     def turn(self, now_s: float) -> None:
         """Take the newest command, advance the physics by a tick, report."""
         command = self._commands.newest()
+        if self._base is not None:
+            command = self._base.twin.command(now_s)
         if command is not None:
             self.robot.command(command, now_s)
-        self._say(self.robot.tick(now_s))
+        self._say(self.robot.tick(now_s), now_s)
 
-    def _say(self, report: Report) -> None:
-        if report.drive is not None:
+    def _say(self, report: Report, now_s: float) -> None:
+        if report.drive is not None and self._base is not None:
+            self._base.twin.report(report.drive, now_s)
+        elif report.drive is not None:
             self._drive.put(report.drive)
         if report.imu is not None:
             self._imu.put(report.imu)

@@ -16,6 +16,7 @@ from planner.brain import OfflineBrain
 from sim import Domain, Hardware, SimRobot
 from tools.lockstep.bridge_process import BridgeProcess, Step
 from tools.lockstep.bus import LockstepBus
+from tools.lockstep.drive_process import DriveProcess
 from tools.lockstep.latencies import TICK_S, Pace, ticks
 from tools.lockstep.lidar_process import LidarProcess
 from tools.lockstep.localizer_process import LocalizerProcess
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
     from planner.brain import Brain
     from planner.brain.image_questions import Looker
+    from sim.twin.twin import Boot
     from tools.lockstep.eyes import PerceptionProcess
     from wire import DriveCommand, Pose2, Status, Twist2
     from wire.session import Session
@@ -62,6 +64,7 @@ class World:
         start: Pose2 | None = None,
         pace: Pace | None = None,
         step: Step = step,
+        firmware: Boot | None = None,
     ) -> None:
         """Put the parts together.
 
@@ -75,6 +78,7 @@ class World:
             start: where the robot stands at first; the site's dock if None.
             pace: how long messages, routes, plans and the disk take.
             step: the bridge's core, or a wrapper that measures it.
+            firmware: of a base of metal, in place of its kind's model.
         """
         self.pace, self.seed = pace or Pace(), seed
         self.scene = scene(folder_of(site), robot or STAND_IN_ROBOT)
@@ -88,14 +92,19 @@ class World:
             hardware=hardware,
             domain=domain,
         )
-        self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT))
+        self.base: DriveProcess | None = None
+        """A base of metal's twin, where the robot's description names one."""
+        if not self.scene.robot.drive.virtual:
+            self.base = DriveProcess(self.sim, self._config(seed).boot, seed, self._clock, firmware)
+        self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT), self.base)
         self.lidar: LidarProcess | None = None
         """A lidar of metal's twin, where the robot's description names one."""
         if not self.scene.robot.lidar.is_simulated:
             self.lidar = LidarProcess(self.sim, self.bus.port(Party.LIDAR), seed)
         self._localization, self.localizer = self._localize(seed)
+        drive = self.base.drive if self.base else None
         self.bridge = BridgeProcess(
-            self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s
+            self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s, drive
         )
         self.notebook = Notebook()
         self._brain: Brain = brain or OfflineBrain()
@@ -158,6 +167,9 @@ class World:
     def now_s(self) -> float:
         """Return the time on every part's monotonic clock [s]."""
         return START_S + self.bus.tick * TICK_S
+
+    def _clock(self) -> float:
+        return self.now_s
 
     def tick(self) -> None:
         """Let one tick pass."""

@@ -9,8 +9,10 @@ from typing import NoReturn, cast
 import pytest
 
 from bridge.drive import Drive, SerialDrive, open_serial_drive, require_brakes
+from devices import LastingPort
 from devices.pons_mcu import McuCommand, McuReader
 from sim.twin import DriveTwin
+from sim.twin.line import TwinLine
 from tests.bridge.ground import until
 from tests.wire.examples import EXAMPLES
 from wire import ConfigError, DriveCommand, DriveState
@@ -101,6 +103,7 @@ def test_halt_never_raises(
 def test_a_line_that_hangs_up_is_silence_and_then_goes_on(
     drive: SerialDrive, twin: DriveTwin
 ) -> None:
+    assert isinstance(twin.line, TwinLine)
     twin.line.hang_up()
     assert drive.read() == ()
     drive.write(command(1.0, 1.0))
@@ -117,6 +120,7 @@ def test_a_line_that_hangs_up_is_silence_and_then_goes_on(
 def test_nobody_at_the_other_end_reads_and_nothing_waits(drive: SerialDrive) -> None:
     for seq in range(2_000):
         drive.write(command(1.0, 1.0, seq=seq))
+    assert isinstance(drive._port, LastingPort)
     assert drive._port._port is not None
     assert drive._port._port.dropped_bytes > 0
 

@@ -26,7 +26,7 @@ from sim.twin.lidar_formats import crc_4d
 from tools.bench.figures import none_in
 from tools.bench.report import ReportRow, row_of
 from tools.lockstep import TICK_S, LockstepWorld
-from tools.lockstep.lidar_process import LidarLine, LineFault
+from tools.lockstep.serial_line import LineFault, SerialLine
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, RobotDescription, encode
 from wire.lidar_config import LidarConfig
@@ -105,7 +105,7 @@ def _room(directions_rad: NDArray[np.float64]) -> tuple[float | None, ...]:
 
 def _cost(name: str, seconds: float = COST_S) -> ReportRow:
     config = config_of(name)
-    line, firmware = LidarLine(1), LidarFirmware(config)
+    line, firmware = SerialLine(1), LidarFirmware(config)
     reader = LidarReader(kind_of(config), line, "/dev/lidar", "bench")
     shares: list[float] = []
     used_s, scans, now_s = 0.0, 0, 100.0
