@@ -17,7 +17,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev page wheel run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
+.PHONY: help setup dev page firmware wheel run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -28,6 +28,9 @@ dev: $(DEV) $(PAGE_DEV) ## add what testing and checking need
 
 page: $(RUNTIME) ## build the page anew
 	@scripts/page.sh build
+
+firmware: ## build the motor controller's firmware (docs/firmware.md); needs gcc-avr and avr-libc
+	@$(MAKE) -C firmware all
 
 wheel: $(DEV) $(PAGE) ## build the wheel into dist/: packages, page, prompts, sites, detector, no tools
 	@$(BIN)/python -m scripts.wheel dist
@@ -106,7 +109,7 @@ audit: $(DEV) ## ask for known vulnerabilities of the locked packages; says alou
 	@scripts/audit.sh
 
 clean: ## remove .venv and caches; keeps .pons (recordings, missions, keys)
-	@rm -rf .venv web/node_modules web/dist build dist *.egg-info .coverage .coverage.* htmlcov
+	@rm -rf .venv firmware/build web/node_modules web/dist build dist *.egg-info .coverage .coverage.* htmlcov
 	@rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache .mutants
 	@find . -name __pycache__ -type d -not -path '*/node_modules/*' -prune -exec rm -rf {} +
 

@@ -79,6 +79,7 @@ def _launch(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     started.add_argument("--domain", metavar="random|FILE", help="make the simulated home worse")
     started.add_argument("--seed", type=int, help="of --domain, and of the simulator's noise")
     started.add_argument("--twin", action="store_true", help="play base and lidar of robot.toml")
+    started.add_argument("--twin-firmware", type=Path, metavar="BUILD", help="docs/firmware.md")
     started.add_argument("--map", dest="mapping", metavar="NAME", help="map a home by driving")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
 
@@ -239,7 +240,9 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
         port = port_of(said.port) if said.port is not None else None
         site = None if said.site is None else site_of(str(said.site), settings.home)
         given = {"site": site, "robot": said.robot, "port": port, "metal": said.metal}
-        given |= {"domain": said.domain, "seed": said.seed, "twin": said.twin}
+        given |= {"domain": said.domain, "seed": said.seed}
+        given |= {"twin": said.twin or said.twin_firmware is not None}
+        given |= {"twin_firmware": said.twin_firmware}
         given |= {"mapping": said.mapping}
         chosen = {name: value for name, value in given.items() if value is not None}
         chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before

@@ -42,6 +42,8 @@ def children(
         more += domain
         more += [] if settings.seed is None else ["--seed", str(settings.seed)]
         more += ["--twin", str(line)] if plays_drive else []
+        own = settings.twin_firmware
+        more += ["--twin-firmware", str(own)] if plays_drive and own else []
         more += ["--lidar-twin", str(lidar_line)] if has_lidar else []
         wanted = [("sim", [*world, *more]), ("localization", [*common, *maps]), *wanted]
     elif has_lidar:

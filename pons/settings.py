@@ -37,6 +37,8 @@ class LaunchSettings:
     """Of that, and of the simulator's noise."""
     twin: bool = False
     """Whether a base of metal is to be played by its twin (docs/drives.md)."""
+    twin_firmware: Path | None = None
+    """The build of our own firmware that the twin of a base is to run (docs/firmware.md)."""
     mapping: str | None = None
     """Of the site that is being mapped; its canvas takes the site's place for all but the simulator
     (docs/mapping.md)."""

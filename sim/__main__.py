@@ -1,6 +1,7 @@
 """Start the simulator: ``python -m sim --site sites/home [--robot robot.toml] [--home DIR]``.
 
 ``--twin LINK`` has it answer as a base on a serial line, not on the wire (docs/drives.md),
+``--twin-firmware BUILD`` has our own firmware's bytes do so (docs/firmware.md),
 ``--lidar-twin LINK`` as a lidar (docs/lidars.md);
 ``--metal FILE`` makes motors and wheels differ from what robot.toml believes (docs/calibrate.md);
 ``--domain FILE`` turns the knobs of sim/domain.py (docs/sim2real.md).
@@ -16,6 +17,7 @@ import secrets
 import signal
 import sys
 import threading
+from functools import partial
 from pathlib import Path
 
 from processes.priority import set_fifo
@@ -25,6 +27,7 @@ from sim.robot import SimRobot
 from sim.site import check_fresh
 from sim.true_parameters import load_metal
 from sim.twin import DriveTwin, LidarTwin
+from sim.twin.avr_board import boot_build
 from wire import ConfigError, Pose2, RobotDescription, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -45,6 +48,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--domain", type=Path, help="how home and robot are worse (TOML)")
     parser.add_argument(
         "--twin", type=Path, help="be the firmware of robot.toml's drive at a line of this name"
+    )
+    parser.add_argument(
+        "--twin-firmware", type=Path, help="folder of a built firmware that the twin is to run"
     )
     parser.add_argument(
         "--lidar-twin", type=Path, help="be robot.toml's lidar at a line of this name"
@@ -77,7 +83,8 @@ def _serve(options: argparse.Namespace) -> None:
         boot_id=boot_id,
     )
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    twin = DriveTwin(description.drive, options.twin) if options.twin else None
+    own = partial(boot_build, build=options.twin_firmware) if options.twin_firmware else None
+    twin = DriveTwin(description.drive, options.twin, own) if options.twin else None
     lidar = LidarTwin(description.lidar, options.lidar_twin) if options.lidar_twin else None
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:

@@ -131,13 +131,8 @@ class AvrBoard:
 class AvrFirmware:
     """Stand as a twin's firmware; a motor turns its wheel as fast as the duty's share of full."""
 
-    def __init__(self, config: DriveConfig, board: AvrBoard | None = None) -> None:
-        """Boot a board.
-
-        Raises:
-            ConfigError: ``twin_not_built``.
-        """
-        self._board = board or AvrBoard()
+    def __init__(self, config: DriveConfig, board: AvrBoard) -> None:
+        self._board = board
         self._ticks_per_turn = config.ticks_per_turn or 1
         self._heard = b""
         self._said = b""
@@ -182,6 +177,19 @@ class AvrFirmware:
             return 0.0
         turned_rad: float = getattr(self._body, angle) - getattr(self._reported, angle)
         return turned_rad / tau * self._ticks_per_turn / run_s
+
+
+def boot_build(config: DriveConfig, build: Path = BUILD) -> AvrFirmware:
+    """Return a twin's firmware that runs what lies in a build's folder.
+
+    Raises:
+        ConfigError: ``twin_unknown`` for a drive that isn't ours, or ``twin_not_built``.
+    """
+    if config.kind != "pons_mcu":
+        raise ConfigError(
+            "twin_unknown", f"drive.kind {config.kind!r} has no firmware of ours; expected pons_mcu"
+        )
+    return AvrFirmware(config, AvrBoard(build))
 
 
 def _pipes(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes]]:

@@ -92,20 +92,14 @@ class World:
             hardware=hardware,
             domain=domain,
         )
-        self.base: DriveProcess | None = None
-        """A base of metal's twin, where the robot's description names one."""
-        if not self.scene.robot.drive.virtual:
-            self.base = DriveProcess(self.sim, self._config(seed).boot, seed, self._clock, firmware)
+        self.base = self._base(firmware)
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT), self.base)
         self.lidar: LidarProcess | None = None
         """A lidar of metal's twin, where the robot's description names one."""
         if not self.scene.robot.lidar.is_simulated:
             self.lidar = LidarProcess(self.sim, self.bus.port(Party.LIDAR), seed)
         self._localization, self.localizer = self._localize(seed)
-        drive = self.base.drive if self.base else None
-        self.bridge = BridgeProcess(
-            self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s, drive
-        )
+        self.bridge = self._bridge(step)
         self.notebook = Notebook()
         self._brain: Brain = brain or OfflineBrain()
         self._planner: PlannerProcess | None = None
@@ -274,6 +268,18 @@ class World:
             f"owner {status.owner}, rows {rows}, waits for {status.waiting_for}, goals {goals}, "
             f"leg {status.leg}, reasons {self.bridge.reasons}"
         )
+
+    def _base(self, firmware: Boot | None) -> DriveProcess | None:
+        """Return a base of metal's twin, where the robot's description names one."""
+        if self.scene.robot.drive.virtual:
+            return None
+        boot = self._config(self.seed).boot
+        return DriveProcess(self.sim, boot, self.seed, self._clock, firmware)
+
+    def _bridge(self, step: Step) -> BridgeProcess:
+        drive = self.base.drive if self.base else None
+        port = self.bus.port(Party.BRIDGE)
+        return BridgeProcess(self._config(self.seed), port, step, self.now_s, drive)
 
     def _localize(
         self, seed: int
