@@ -19,7 +19,7 @@ from wire import DriveState
 if TYPE_CHECKING:
     from bridge.drive.base import Braking
     from wire import DriveCommand
-    from wire.robot import DriveConfig
+    from wire.drive_config import DriveConfig
 
 _TURN_US = 1 << 32
 _SEQ = 1 << 32

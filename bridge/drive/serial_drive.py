@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from bridge.drive.base import Braking
     from wire import DecodeFailure, DriveState
-    from wire.robot import DriveConfig
+    from wire.drive_config import DriveConfig
 
 _KEPT = 4
 """More than four readings at once are a stall's; the newest say all that counts."""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from wire import DriveState
-    from wire.robot import DriveConfig
+    from wire.drive_config import DriveConfig
 
 _FASTEST_RADPS = 1000.0
 

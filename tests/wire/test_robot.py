@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from wire import ConfigError, RobotDescription, load_robot
-from wire.robot import DriveConfig
+from wire.drive_config import DriveConfig
 
 
 def written(tmp_path: Path, text: str) -> Path:

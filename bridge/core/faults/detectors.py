@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority.message_limits import FULL_S
 from bridge.core.faults import detect_motion
-from bridge.core.faults.detect_motion import ENC_S
 from bridge.core.sensing.sensor_update import (
     GAP_S,
     GAPS,
@@ -48,7 +47,6 @@ BLIND_S = 0.3
 BLIND_LONG_S = 5.0
 
 ENC_LONG_S = 0.25
-NACK_S = 0.1
 NACK_LONG_S = 0.5
 PEAK_S = 0.1
 HEAT_S = 2.0
@@ -163,18 +161,18 @@ def pose(tick: TickContext, dirty: Dirty) -> None:
 
 def drive(tick: TickContext, dirty: Dirty) -> None:
     """Judge whether the drive reports, and whether it hears."""
-    memory = tick.s.drive
+    memory, robot_drive = tick.s.drive, tick.config.robot.drive
     newest, received_s = memory.newest, memory.received_s
     if newest is None or received_s is None:
         return  # SELFTEST waits for the first one
     same_host = tick.inbox.sensors_same_host
     age_s = sensor_age_s(tick.now_s, received_s, newest.stamp_s, same_host=same_host)
-    if not age_s <= ENC_S:
+    if not age_s <= robot_drive.encoder_window_s:
         dirty.append(("ENC_STALE.0", f"state {1000 * age_s:.0f} ms old"))
         if age_s > ENC_LONG_S:
             dirty.append(("ENC_STALE.1", f"state {1000 * age_s:.0f} ms old"))
     behind_s = memory.behind * tick.config.period_s
-    if behind_s > NACK_S:
+    if behind_s > robot_drive.answer_window_s:
         dirty.append(("DRIVER_NACK.0", f"{memory.behind} commands behind"))
         if behind_s > NACK_LONG_S:
             dirty.append(("DRIVER_NACK.1", f"{memory.behind} commands behind"))

@@ -135,15 +135,18 @@ ROWS: tuple[FaultRow, ...] = (
          "seen in one tick, so that its 2 s are all of the hold; a stop takes 0.9 s",
          _do("1 s; 5 s without progress; the grant is taken", _HOLD2, "WTX", clean_s=2.0),
          _do("3 in 5 min", _STOP1, "WTX", _REARM)),
-    _row("RUNAWAY", "measured faster than anything sent in the last lag + 0.2 s, or of other sign",
+    _row("RUNAWAY", "measured faster than anything sent in the last lag + 0.2 s (for a drive that "
+         "reports seldom as much more as its windows are longer), or of other sign",
          _do("100 ms", _FAST1, ALL, _RESET), _do("250 ms", _CUT0, ALL, _RESET)),
     _row("YAW_DISAGREE", "odometry and gyro differ by over 0.3 rad/s, or the gyro is stale or not "
          "wired",
          _do("0.5 s", _CAP, "WTX", clean_s=2.0, cap_mps=0.3)),
     _row("ENC_STALE", "no state from the drive",
-         _do("80 ms", _HOLD2), _do("250 ms", _FAST1, ALL, _REARM)),
+         _do("80 ms, or 2.5 reports of a drive that reports seldom", _HOLD2),
+         _do("250 ms", _FAST1, ALL, _REARM)),
     _row("DRIVER_NACK", "states arrive whose echo is behind by",
-         _do("100 ms", _HOLD2), _do("500 ms", _STOP1, ALL, _RESET)),
+         _do("100 ms, or 2.5 reports of a drive that reports seldom", _HOLD2),
+         _do("500 ms", _STOP1, ALL, _RESET)),
     _row("DRIVE_FOREIGN", "the drive echoes a command that this bridge has not sent",
          _do("at once", _FAST1, ALL, _RESET)),
     _row("DRIVE_REBOOT", "the drive's boot id changed, or after 250 ms of silence it counts from a "

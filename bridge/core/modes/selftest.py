@@ -104,7 +104,7 @@ def _wrong(tick: TickContext) -> str | None:
         return "encoders_moving"
     test = tick.s.selftest
     robot = tick.config.robot
-    patience_s = robot.drive.timeout_s + robot.drive.lag_s + PATIENCE_S
+    patience_s = robot.drive.timeout_s + robot.drive.late_s + PATIENCE_S
     if test.phase == WITHHOLD and _reports(tick) and tick.now_s - test.since_s > patience_s:
         return "drive_moves_on" if drive.moving_since_s is not None else "drive_no_timeout"
     return None

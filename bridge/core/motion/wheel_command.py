@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from bridge.core.motion.pursuit import PursuitCommand
     from bridge.core.state_orders import LegMemory
     from bridge.core.tick_context import TickContext
-    from wire.robot import DriveConfig, RobotDescription
+    from wire.drive_config import DriveConfig
+    from wire.robot import RobotDescription
 
 STALE = "ENC_STALE.0"
 """The row that says that nothing is measured: no feedback, so feed-forward alone."""

@@ -14,7 +14,7 @@ from sim.twin import DriveTwin
 from tests.bridge.ground import until
 from tests.wire.examples import EXAMPLES
 from wire import ConfigError, DriveCommand, DriveState
-from wire.robot import DriveConfig
+from wire.drive_config import DriveConfig
 
 BODY = cast("DriveState", EXAMPLES[DriveState])
 

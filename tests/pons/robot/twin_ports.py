@@ -18,8 +18,8 @@ from sim.twin.line import TwinLine
 from sim.twin.pons_mcu import PonsMcuFirmware
 from tests.wire.examples import EXAMPLES
 from wire import DriveState
+from wire.drive_config import DriveConfig
 from wire.lidar_config import LidarConfig
-from wire.robot import DriveConfig
 
 PERIOD_S = 0.01
 BODY = cast("DriveState", EXAMPLES[DriveState]).model_copy(update={"battery": 0.8})

@@ -15,7 +15,7 @@ from devices.pons_mcu import McuCommand, encode_command
 from sim.twin import DriveTwin
 from tests.wire.examples import EXAMPLES
 from wire import ConfigError, DriveState
-from wire.robot import DriveConfig
+from wire.drive_config import DriveConfig
 
 CONFIG = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400)
 BODY = cast("DriveState", EXAMPLES[DriveState])

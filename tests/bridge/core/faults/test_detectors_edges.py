@@ -330,7 +330,7 @@ def test_a_zone_begins_at_its_outline(metres: float, expected: bool) -> None:
 
 def test_a_real_drive_without_rights_is_slow_from_the_first_tick() -> None:
     robot = RobotDescription()
-    robot = robot.model_copy(update={"drive": robot.drive.model_copy(update={"kind": "serial"})})
+    robot = robot.model_copy(update={"drive": robot.drive.model_copy(update={"kind": "pons_mcu"})})
     assert not robot.drive.virtual
     for granted in (True, False):
         world = World(core=config(robot), real_time=granted)

@@ -57,7 +57,6 @@ NUMBERS: dict[str, dict[str, float]] = {
         "EQUAL_SCANS": 5,
         "EQUAL_MOVED_M": 0.02,
         "ENC_LONG_S": 0.25,
-        "NACK_S": 0.1,
         "NACK_LONG_S": 0.5,
     },
     "faults.detect_motion": {
@@ -79,7 +78,6 @@ NUMBERS: dict[str, dict[str, float]] = {
         "YAW_RADPS": 0.3,
         "YAW_S": 0.5,
         "GYRO_OLD_S": 0.25,
-        "ENC_S": 0.08,
     },
     "sensing.stop_inputs": {"LINK_SILENT_S": 0.5},
     "sensing.sensor_update": {
