@@ -77,7 +77,7 @@ def _serve(options: argparse.Namespace) -> None:
         boot_id=boot_id,
     )
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    twin = DriveTwin(description.drive, options.twin) if options.twin else None
+    twin = DriveTwin(description, options.twin) if options.twin else None
     lidar = LidarTwin(description.lidar, options.lidar_twin) if options.lidar_twin else None
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:

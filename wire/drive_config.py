@@ -35,18 +35,25 @@ class DriveKind:
     """Keys about its line that it may have."""
     report_s: float
     """Longest time between two states of a base in good order."""
+    dead_man_s: float | None = None
+    """Silence after which its firmware stops by itself, where a setting can't change that."""
+    reports_dead_man: bool = True
+    """It tells in each state whether its dead-man has fired, so that the self test can prove it."""
 
 
 DRIVE_KINDS: Mapping[str, DriveKind] = {
     "sim": DriveKind((), (), 0.01),
     "pons_mcu": DriveKind(("port", "ticks_per_turn"), ("baud", *_BATTERY_KEYS), 0.01),
+    "waveshare": DriveKind(
+        ("port",), ("baud", *_BATTERY_KEYS), 0.06, reports_dead_man=False
+    ),  # 20 Hz at most, and the turn of its loop
 }
 
 
 class DriveConfig(Record):
     """Choose the drive and state its known dynamics."""
 
-    kind: Literal["sim", "pons_mcu"] = "sim"
+    kind: Literal["sim", "pons_mcu", "waveshare"] = "sim"
     """``sim``: the simulated drive; the others are bases of metal (docs/drives.md)."""
     port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
     """Serial port of the base; one below /dev/serial/by-id keeps its name."""
@@ -122,6 +129,17 @@ class DriveConfig(Record):
         return self.lag_s + self.unseen_s
 
     @property
+    def dead_man_s(self) -> float:
+        """Return the silence after which the base stops by itself, as its firmware claims [s]."""
+        fixed_s = DRIVE_KINDS[self.kind].dead_man_s
+        return self.timeout_s if fixed_s is None else fixed_s
+
+    @property
+    def reports_dead_man(self) -> bool:
+        """Return whether each state tells that the dead-man has fired."""
+        return DRIVE_KINDS[self.kind].reports_dead_man
+
+    @property
     def virtual(self) -> bool:
         """Return whether the drive moves no metal; its kind says so, no setting can claim it."""
         return self.kind == "sim"
@@ -137,6 +155,12 @@ def _wrong_keys(drive: DriveConfig) -> Iterator[str]:
         if key not in needed + useful and getattr(drive, key) is not None:
             users = [name for name, kind in DRIVE_KINDS.items() if key in kind.needed + kind.useful]
             yield f"drive.{key} is for {', '.join(users)}, not for kind {drive.kind!r}"
+    fixed_s = DRIVE_KINDS[drive.kind].dead_man_s
+    if fixed_s is not None and drive.timeout_s != fixed_s and "timeout_s" in drive.model_fields_set:
+        yield (
+            f"drive.timeout_s {drive.timeout_s:g}: the firmware of kind {drive.kind!r} stops after "
+            f"{fixed_s:g} s, whatever it is told; leave the key out"
+        )
     empty_v, full_v = drive.battery_empty_v, drive.battery_full_v
     if (empty_v is None) != (full_v is None):
         yield "drive.battery_empty_v and battery_full_v come together or not at all"

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Protocol
 
 from sim.twin.line import TwinLine
 from sim.twin.pons_mcu import PonsMcuFirmware
+from sim.twin.waveshare import WaveshareFirmware
 from wire import ConfigError, DriveCommand
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from wire import DriveState
-    from wire.drive_config import DriveConfig
+    from wire import DriveState, RobotDescription
 
 _FASTEST_RADPS = 1000.0
 
@@ -35,26 +35,30 @@ class Firmware(Protocol):
         """Return what is due to the host now, given what the body's sensors read."""
 
 
-FIRMWARES: Mapping[str, Callable[[DriveConfig], Firmware]] = {"pons_mcu": PonsMcuFirmware}
+FIRMWARES: Mapping[str, Callable[[RobotDescription], Firmware]] = {
+    "pons_mcu": lambda robot: PonsMcuFirmware(robot.drive),
+    "waveshare": WaveshareFirmware,
+}
 """By ``kind`` of robot.toml."""
 
 
 class DriveTwin:
     """Hold one firmware and its line."""
 
-    def __init__(self, config: DriveConfig, link: Path) -> None:
+    def __init__(self, robot: RobotDescription, link: Path) -> None:
         """Boot the firmware of robot.toml's drive at a line that ``link`` leads to.
 
         Raises:
             ConfigError: ``twin_unknown`` or ``twin_line``.
         """
-        if config.kind not in FIRMWARES:
+        kind = robot.drive.kind
+        if kind not in FIRMWARES:
             known = ", ".join(sorted(FIRMWARES))
             raise ConfigError(
-                "twin_unknown", f"drive.kind {config.kind!r} has no twin; these have: {known}"
+                "twin_unknown", f"drive.kind {kind!r} has no twin; these have: {known}"
             )
-        self._config = config
-        self.firmware = FIRMWARES[config.kind](config)
+        self._robot = robot
+        self.firmware = FIRMWARES[kind](robot)
         try:
             self.line = TwinLine(link)
         except OSError as error:
@@ -82,7 +86,7 @@ class DriveTwin:
 
     def reset(self) -> None:
         """Boot the firmware anew, as a controller does whose supply dipped."""
-        self.firmware = FIRMWARES[self._config.kind](self._config)
+        self.firmware = FIRMWARES[self._robot.drive.kind](self._robot)
 
     def discard(self) -> None:
         """Throw away what came while this process was frozen; a controller would not have been."""

@@ -51,6 +51,9 @@ NACK_LONG_S = 0.5
 PEAK_S = 0.1
 HEAT_S = 2.0
 """So long a motor bears its peak current, as heat, before it must rest."""
+DEAD_MAN_S = 0.7
+"""The longest that robot.toml may ask of a drive, 0.5 s, and what a report and the motors' lag add
+where it is measured by the wheels."""
 CHARGE_LOW = 0.20
 CHARGE_EMPTY = 0.10
 CHARGE_UP = 0.05
@@ -250,6 +253,18 @@ def rights(tick: TickContext, dirty: Dirty) -> None:
         dirty.append(("NOT_RT.0", "scheduling or memory rights refused"))
 
 
+def dead_man(tick: TickContext, dirty: Dirty) -> None:
+    """Judge what is known of a dead-man that the self test can't prove."""
+    config, drive = tick.config, tick.config.robot.drive
+    if drive.reports_dead_man:
+        return
+    if config.dead_man_s is None:
+        dirty.append(("DEAD_MAN.0", f"not tried; its firmware claims {drive.dead_man_s:g} s"))
+    longest_s = drive.dead_man_s if config.dead_man_s is None else config.dead_man_s
+    if not longest_s <= DEAD_MAN_S:
+        dirty.append(("DEAD_MAN.1", f"it stops after {longest_s:.2f} s"))
+
+
 def current(tick: TickContext, dirty: Dirty) -> None:
     """Judge the motors' current: its peak, and the heat that I^2 t leaves (IEC 60034-11)."""
     state, watch, drive = tick.s.drive.newest, tick.s.watch, tick.config.robot.drive
@@ -305,6 +320,7 @@ DETECTORS = (
     current,
     battery,
     buttons,
+    dead_man,
     loop,
     rights,
 )

@@ -157,6 +157,10 @@ ROWS: tuple[FaultRow, ...] = (
     _row("BATTERY", "charge, or sag under load",
          _do("under 20 % for 2 s", _CAP, ALL, clean_s=5.0, cap_mps=0.3),
          _do("under 10 % for 2 s", _STOP1, ALL, _REARM)),
+    _row("DEAD_MAN", "the drive stops by itself in silence, but does not report it, so that no "
+         "self test proves it: `pons robot try` has not seen it on this base, or it takes too long",
+         _do("not seen", _CAP, ALL, Clears.REBOOT, cap_mps=0.3),
+         _do("over 0.7 s, seen or claimed", _CAP, ALL, Clears.REBOOT, cap_mps=0.15)),
     _row("LOOP_LATE", "this loop: ticks over 5 ms late, missed ticks, gaps between ticks",
          _do("late five times in 1 s, or two ticks missed", _CAP, ALL, clean_s=2.0,
              cap_factor=0.5),

@@ -340,4 +340,4 @@ def test_a_real_drive_without_rights_is_slow_from_the_first_tick() -> None:
 
 def test_every_stage_has_its_edges_here() -> None:
     here = {edge.stage for edge in EDGES} | {stage for stage, _, _ in VALUES}
-    assert here | {"SPEED_ZONE.0", "NOT_RT.0"} == set(oracle.TABLE)
+    assert here | {"SPEED_ZONE.0", "NOT_RT.0", "DEAD_MAN.0", "DEAD_MAN.1"} == set(oracle.TABLE)

@@ -48,6 +48,7 @@ NUMBERS: dict[str, dict[str, float]] = {
         "BLIND_SHARE": 0.05,
         "PEAK_S": 0.1,
         "HEAT_S": 2.0,
+        "DEAD_MAN_S": 0.7,
         "CHARGE_LOW": 0.2,
         "CHARGE_EMPTY": 0.1,
         "CHARGE_UP": 0.05,
@@ -183,6 +184,8 @@ CLEARS = {
     "DRIVE_FOREIGN.0": "ON_RESET",
     "OVERCURRENT.0": "ON_RESET",
     "ESTOP.0": "ON_RESET",
+    "DEAD_MAN.0": "REBOOT",
+    "DEAD_MAN.1": "REBOOT",
     "NOT_RT.0": "REBOOT",
 }
 """All others clear by themselves,"""
