@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
+from bridge.dead_man_file import load_dead_man
 from bridge.drive import SimDrive, open_serial_drive, require_brakes
 from bridge.fence_file import load_fence
 from bridge.fence_update import FenceDesk, Ground
@@ -122,6 +123,7 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
         fence_hash=fence_hash,
         map_id=read_map_id(site),  # the self test faults a fence drawn on another
         boot=secrets.token_hex(6),
+        dead_man_s=load_dead_man(home, robot),
         learnt=learnt,
         braking_trouble=trouble,
     )
@@ -130,7 +132,7 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
 def _drive(session: Session, robot: RobotDescription, boot: str, line: Path | None = None) -> Drive:
     if robot.drive.virtual:
         return require_brakes(SimDrive(session, boot))
-    return require_brakes(open_serial_drive(robot.drive, boot, line))
+    return require_brakes(open_serial_drive(robot, boot, line))
 
 
 def _loop(config: CoreConfig, parts: Parts, asked: _LeaveRequest, carried: Right) -> int:

@@ -84,7 +84,7 @@ def _serve(options: argparse.Namespace) -> None:
     )
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     own = partial(boot_build, build=options.twin_firmware) if options.twin_firmware else None
-    twin = DriveTwin(description.drive, options.twin, own) if options.twin else None
+    twin = DriveTwin(description, options.twin, own) if options.twin else None
     lidar = LidarTwin(description.lidar, options.lidar_twin) if options.lidar_twin else None
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROBOT, description.id, home) as session:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from wire.base import Record
+from wire.drive_config import DriveConfig
 from wire.errors import ConfigError
 from wire.fingerprint import fingerprint
 from wire.lidar_config import LidarConfig
@@ -28,17 +29,6 @@ MOST_BYTES = 16_000
 """Ours has 3 000. A parser is busy for seconds with 64 kB of one dotted key."""
 HIDDEN_BEYOND_M = OBSTACLE_MARGIN_M
 """What comes so near the robot's disc stops it."""
-PEAK_TIMES = 10.0
-"""Motors stall at most at about ten times what they bear for ever: a peak beyond bounds nothing."""
-
-_BATTERY_KEYS = ("battery_empty_v", "battery_full_v")
-_LINE_KEYS = ("port", "baud", "ticks_per_turn", *_BATTERY_KEYS)
-_KEYS_OF_KINDS = {
-    "sim": ((), ()),
-    "pons_mcu": (("port", "ticks_per_turn"), ("baud", *_BATTERY_KEYS)),
-}
-"""The keys about its line that each kind of drive must have, and those that it may have."""
-
 RobotId = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,31}$")]
 
 
@@ -73,84 +63,6 @@ class Limits(Record):
         if not self.hardest_decel_mps2 >= self.max_decel_mps2:
             raise ValueError("hardest_decel_mps2 must not be below max_decel_mps2")
         return self
-
-
-class DriveConfig(Record):
-    """Choose the drive and state its known dynamics."""
-
-    kind: Literal["sim", "pons_mcu"] = "sim"
-    """``sim``: the simulated drive; the others are bases of metal (docs/drives.md)."""
-    port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
-    """Serial port of the base; one below /dev/serial/by-id keeps its name."""
-    baud: int | None = Field(default=None, ge=9_600, le=4_000_000)
-    """None: as its firmware comes."""
-    ticks_per_turn: int | None = Field(default=None, ge=8, le=4_000_000)
-    """Of a wheel, not of its motor; all edges counted."""
-    battery_empty_v: float | None = Field(default=None, ge=1.0, le=60.0)
-    """With ``battery_full_v``: what the charge is reckoned from, straight between the two."""
-    battery_full_v: float | None = Field(default=None, ge=1.0, le=60.0)
-    lag_s: float = Field(default=0.06, ge=0.005, le=0.5)
-    """Command to wheel response, never assumed better than this."""
-    timeout_s: float = Field(default=0.2, ge=0.05, le=0.5)
-    """The drive's own dead-man: without a command for this long it stops by itself."""
-    dead_zone_radps: float = Field(default=0.05, ge=0.0, le=2.0)
-    """The motor turns so much slower than told; the bridge adds it to every command but zero."""
-    response_s: float = Field(default=0.049, ge=0.0, le=0.5)
-    """First-order lag of motor and wheel, fed forward. The shortest measured: more would make the
-    wheels change speed faster than meant. What exceeds lag_s does not count."""
-    kp: float = Field(default=0.71, ge=0.0, le=2.0)
-    """Wheel control, rad/s told per rad/s missing; 0 with ki_per_s 0 is feed-forward alone."""
-    ki_per_s: float = Field(default=14.5, ge=0.0, le=40.0)
-    max_correction: float = Field(default=0.2, ge=0.0, le=0.3)
-    """Most that wheel control may add or take, as a share of the speed meant, beside the dead zone:
-    a motor 15 % weak needs 0.18."""
-    peak_current_a: float = Field(default=30.0, ge=0.5, le=500.0)
-    """All motors together; OVERCURRENT after 0.1 s of more. Judged where the drive reports it."""
-    continuous_current_a: float = Field(default=15.0, ge=0.2, le=400.0)
-    """What may flow for ever; more heats the motors, to OVERCURRENT after 2 s at the peak."""
-
-    @model_validator(mode="after")
-    def _has_the_keys_of_its_kind(self) -> DriveConfig:
-        wrong = "; ".join(_wrong_keys(self))
-        if wrong:
-            raise ValueError(wrong)
-        return self
-
-    @model_validator(mode="after")
-    def _peak_is_more(self) -> DriveConfig:
-        lasting_a, peak_a = self.continuous_current_a, self.peak_current_a
-        if not lasting_a < peak_a:
-            raise ValueError(
-                f"drive.continuous_current_a {lasting_a} must be less than peak_current_a {peak_a}"
-            )
-        if not peak_a <= PEAK_TIMES * lasting_a:
-            raise ValueError(
-                f"drive.peak_current_a {peak_a} must be at most {PEAK_TIMES:g} times "
-                f"continuous_current_a {lasting_a}: a peak that no motor reaches guards none"
-            )
-        return self
-
-    @property
-    def virtual(self) -> bool:
-        """Return whether the drive moves no metal; its kind says so, no setting can claim it."""
-        return self.kind == "sim"
-
-
-def _wrong_keys(drive: DriveConfig) -> Iterator[str]:
-    """Yield what a kind of drive lacks, and what it was given though it can't use it."""
-    needed, useful = _KEYS_OF_KINDS[drive.kind]
-    for key in needed:
-        if getattr(drive, key) is None:
-            yield f"drive.{key} is missing: kind {drive.kind!r} needs {', '.join(needed)}"
-    for key in _LINE_KEYS:
-        if key not in needed + useful and getattr(drive, key) is not None:
-            users = [kind for kind, (a, b) in _KEYS_OF_KINDS.items() if key in a + b]
-            yield f"drive.{key} is for {', '.join(users)}, not for kind {drive.kind!r}"
-    empty_v, full_v = drive.battery_empty_v, drive.battery_full_v
-    if (empty_v is None) != (full_v is None):
-        yield "drive.battery_empty_v and battery_full_v come together or not at all"
-    elif empty_v is not None and full_v is not None and not empty_v < full_v:
-        yield f"drive.battery_empty_v {empty_v} must be less than battery_full_v {full_v}"
 
 
 class CameraConfig(Record):

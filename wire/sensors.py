@@ -34,8 +34,9 @@ class DriveState(Record):
     """Which bridge the echoed command came from; none since this boot if null."""
     echo_seq: Count
     enabled: bool
-    timed_out: bool
-    """The drive's own dead-man has fired: it had no command for its time-out."""
+    timed_out: bool | None
+    """The drive's own dead-man has fired: it had no command for its time-out. Null: it has one that
+    it does not report; row DEAD_MAN says what follows."""
     left_rad: WheelAngle
     right_rad: WheelAngle
     left_radps: WheelSpeed

@@ -162,7 +162,8 @@ class DriveReport(Record):
     kind: Name
     virtual: bool
     enabled: bool
-    timed_out: bool
+    timed_out: bool | None
+    """Null: the drive does not report it."""
     boot_id: Name | None
     battery: Ratio | None
     real_time: bool

@@ -23,6 +23,9 @@ class CoreConfig:
     boot: str
     """This run's name, [A-Za-z0-9]{1,32}: prefix of epochs and nonces, and the odom_id."""
     period_s: float = 0.01
+    dead_man_s: float | None = None
+    """Silence after which this very base was seen to stop; None: nobody has tried. Counts only for
+    a drive that does not report it."""
     learnt: Learnt = UNLEARNT
     """What earlier runs learnt of this robot's brakes: the state goes on from there."""
     braking_trouble: str | None = None

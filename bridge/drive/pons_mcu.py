@@ -11,6 +11,7 @@ import secrets
 from math import tau
 from typing import TYPE_CHECKING
 
+from bridge.drive.readings import charge_of, limit_radps
 from devices import pons_mcu
 from devices.clock import SensorClock, WrappedCounter
 from devices.pons_mcu import McuCommand, McuReader, McuState
@@ -19,7 +20,7 @@ from wire import DriveState
 if TYPE_CHECKING:
     from bridge.drive.base import Braking
     from wire import DriveCommand
-    from wire.robot import DriveConfig
+    from wire.drive_config import DriveConfig
 
 _TURN_US = 1 << 32
 _SEQ = 1 << 32
@@ -80,7 +81,7 @@ class PonsMcuProtocol:
             self._forget()
             self._mcu = frame.boot
         rad = tau / self._ticks_per_turn
-        bits, config = frame.bits, self._config
+        bits = frame.bits
         return DriveState(
             boot_id=f"mcu-{frame.boot:08x}",
             seq=frame.seq,
@@ -91,10 +92,10 @@ class PonsMcuProtocol:
             timed_out=bool(bits & pons_mcu.TIMED_OUT),
             left_rad=self._left.unwrap(frame.left_ticks) * rad,
             right_rad=self._right.unwrap(frame.right_ticks) * rad,
-            left_radps=_limit(frame.left_mradps),
-            right_radps=_limit(frame.right_mradps),
+            left_radps=limit_radps(frame.left_mradps / _MILLI),
+            right_radps=limit_radps(frame.right_mradps / _MILLI),
             current_a=_read_optional(frame.current_ma),
-            battery=_charge(frame.battery_mv, config.battery_empty_v, config.battery_full_v),
+            battery=charge_of(_read_optional(frame.battery_mv), self._config),
             estop_pressed=bool(bits & pons_mcu.STOP_PRESSED),
             bumper_front=bool(bits & pons_mcu.BUMPER_FRONT),
             bumper_rear=bool(bits & pons_mcu.BUMPER_REAR),
@@ -127,18 +128,5 @@ class _TickCount:
         return self._whole
 
 
-def _limit(mradps: int) -> float:
-    """Return a speed [rad/s] held to what the wire carries; beyond, "far too fast" is all."""
-    return min(max(mradps / _MILLI, -1000.0), 1000.0)
-
-
 def _read_optional(value: int) -> float | None:
     return None if value == pons_mcu.NOT_MEASURED else value / _MILLI
-
-
-def _charge(battery_mv: int, empty_v: float | None, full_v: float | None) -> float | None:
-    """Return the charge as a share, straight between two voltages; None where it isn't known."""
-    volts = _read_optional(battery_mv)
-    if volts is None or empty_v is None or full_v is None:
-        return None
-    return min(max((volts - empty_v) / (full_v - empty_v), 0.0), 1.0)

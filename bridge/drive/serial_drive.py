@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from bridge.drive.pons_mcu import PonsMcuProtocol
+from bridge.drive.waveshare import WaveshareProtocol
 from devices import LastingPort, PortTrouble
 from wire import ConfigError, DriveCommand
 
@@ -20,8 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from bridge.drive.base import Braking
-    from wire import DecodeFailure, DriveState
-    from wire.robot import DriveConfig
+    from wire import DecodeFailure, DriveState, RobotDescription
 
 _KEPT = 4
 """More than four readings at once are a stall's; the newest say all that counts."""
@@ -43,7 +43,7 @@ class SerialProtocol(Protocol):
         """Forget the unfinished; return what the base must be told whenever its port opens."""
 
     def encode(self, command: DriveCommand) -> bytes:
-        """Return the bytes of one command."""
+        """Return the bytes of one command; none where the base is not to hear each of them."""
 
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
@@ -65,10 +65,11 @@ class ByteLine(Protocol):
         """Give it back."""
 
 
-SERIAL_PROTOCOLS: Mapping[str, Callable[[DriveConfig, str], SerialProtocol]] = {
-    "pons_mcu": PonsMcuProtocol,
+SERIAL_PROTOCOLS: Mapping[str, Callable[[RobotDescription, str], SerialProtocol]] = {
+    "pons_mcu": lambda robot, boot: PonsMcuProtocol(robot.drive, boot),
+    "waveshare": WaveshareProtocol,
 }
-"""By ``kind`` of robot.toml. Each is given ``[drive]`` and this run's name."""
+"""By ``kind`` of robot.toml. Each is given the robot and this run's name."""
 
 
 class SerialDrive:
@@ -109,7 +110,9 @@ class SerialDrive:
             return
         self._seq = command.seq
         self._begin_if_opened()
-        self._port.write(self._protocol.encode(command))
+        data = self._protocol.encode(command)
+        if data:
+            self._port.write(data)
 
     def halt(self) -> None:
         """Zero both wheels and take the torque away. Never raises."""
@@ -142,13 +145,14 @@ class SerialDrive:
                 self._opened = opened
 
 
-def open_serial_drive(config: DriveConfig, boot: str, line: Path | None = None) -> SerialDrive:
+def open_serial_drive(robot: RobotDescription, boot: str, line: Path | None = None) -> SerialDrive:
     """Open the port that robot.toml names, or ``line`` in its place, and speak its protocol.
 
     Raises:
         ConfigError: the port can't be used and waiting would not mend it; its code is the port's.
     """
-    protocol = SERIAL_PROTOCOLS[config.kind](config, boot)
+    config = robot.drive
+    protocol = SERIAL_PROTOCOLS[config.kind](robot, boot)
     path = line or Path(config.port or "")
     try:
         port = LastingPort(path, config.baud or protocol.baud)

@@ -8,7 +8,14 @@ from dataclasses import asdict
 from subprocess import SubprocessError
 from typing import TYPE_CHECKING
 
-from pons.doctor import board_checks, host_checks, lidar_checks, model_checks, path_checks
+from pons.doctor import (
+    board_checks,
+    drive_checks,
+    host_checks,
+    lidar_checks,
+    model_checks,
+    path_checks,
+)
 from pons.doctor import jitter as late
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail
 
@@ -67,6 +74,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         run_check("sockets", lambda: path_checks.sockets(settings.home)),
         run_check("port", lambda: path_checks.port(settings.host, settings.port, running=running)),
         described,
+        run_check("drive", lambda: drive_checks.drive(robot)),
         run_check("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),

@@ -20,8 +20,8 @@ from wire import ConfigError
 if TYPE_CHECKING:
     from types import TracebackType
 
-    from wire import DriveState
-    from wire.robot import DriveConfig
+    from wire import DriveState, RobotDescription
+    from wire.drive_config import DriveConfig
 
 BUILD: Final = Path(__file__).parents[2] / "firmware" / "build"
 FREE_RADPS: Final = 20.0
@@ -179,17 +179,18 @@ class AvrFirmware:
         return turned_rad / tau * self._ticks_per_turn / run_s
 
 
-def boot_build(config: DriveConfig, build: Path = BUILD) -> AvrFirmware:
+def boot_build(robot: RobotDescription, build: Path = BUILD) -> AvrFirmware:
     """Return a twin's firmware that runs what lies in a build's folder.
 
     Raises:
         ConfigError: ``twin_unknown`` for a drive that isn't ours, or ``twin_not_built``.
     """
-    if config.kind != "pons_mcu":
+    if robot.drive.kind != "pons_mcu":
         raise ConfigError(
-            "twin_unknown", f"drive.kind {config.kind!r} has no firmware of ours; expected pons_mcu"
+            "twin_unknown",
+            f"drive.kind {robot.drive.kind!r} has no firmware of ours; expected pons_mcu",
         )
-    return AvrFirmware(config, AvrBoard(build))
+    return AvrFirmware(robot.drive, AvrBoard(build))
 
 
 def _pipes(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes]]:

@@ -15,7 +15,7 @@ from devices.pons_mcu import McuCommand, McuReader, McuState, encode_state
 
 if TYPE_CHECKING:
     from wire import DriveState
-    from wire.robot import DriveConfig
+    from wire.drive_config import DriveConfig
 
 _WRAP = 1 << 32
 _HALF = 1 << 31

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Protocol
 
 from sim.twin.line import TwinLine
 from sim.twin.pons_mcu import PonsMcuFirmware
+from sim.twin.waveshare import WaveshareFirmware
 from wire import ConfigError, DriveCommand
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from wire import DriveState
-    from wire.robot import DriveConfig
+    from wire import DriveState, RobotDescription
 
 _FASTEST_RADPS = 1000.0
 
@@ -49,28 +49,33 @@ class FarEnd(Protocol):
         """Take the line away."""
 
 
-Boot = Callable[["DriveConfig"], Firmware]
-FIRMWARES: Mapping[str, Boot] = {"pons_mcu": PonsMcuFirmware}
+Boot = Callable[["RobotDescription"], Firmware]
+FIRMWARES: Mapping[str, Boot] = {
+    "pons_mcu": lambda robot: PonsMcuFirmware(robot.drive),
+    "waveshare": WaveshareFirmware,
+}
 """By ``kind`` of robot.toml."""
 
 
 class DriveTwin:
     """Hold one firmware and its line."""
 
-    def __init__(self, config: DriveConfig, line: Path | FarEnd, boot: Boot | None = None) -> None:
+    def __init__(
+        self, robot: RobotDescription, line: Path | FarEnd, boot: Boot | None = None
+    ) -> None:
         """Boot the firmware of robot.toml's drive, or another, at a line.
 
         Args:
-            config: [drive] of robot.toml.
+            robot: of robot.toml.
             line: the line's far end, or the path of a link that is to lead to its near end.
             boot: makes the firmware; the model of the drive's kind if None.
 
         Raises:
             ConfigError: ``twin_unknown``, ``twin_line``, or what ``boot`` raises.
         """
-        self._config = config
-        self._boot = boot or _model_of(config)
-        self.firmware = self._boot(config)
+        self._robot = robot
+        self._boot = boot or _model_of(robot)
+        self.firmware = self._boot(robot)
         try:
             self.line = TwinLine(line) if isinstance(line, Path) else line
         except OSError as error:
@@ -98,7 +103,7 @@ class DriveTwin:
 
     def reset(self) -> None:
         """Boot the firmware anew, as a controller does whose supply dipped."""
-        self.firmware = self._boot(self._config)
+        self.firmware = self._boot(self._robot)
 
     def discard(self) -> None:
         """Throw away what came while this process was frozen; a controller would not have been."""
@@ -110,13 +115,12 @@ class DriveTwin:
         self.line.close()
 
 
-def _model_of(config: DriveConfig) -> Boot:
-    if config.kind not in FIRMWARES:
+def _model_of(robot: RobotDescription) -> Boot:
+    kind = robot.drive.kind
+    if kind not in FIRMWARES:
         known = ", ".join(sorted(FIRMWARES))
-        raise ConfigError(
-            "twin_unknown", f"drive.kind {config.kind!r} has no twin; these have: {known}"
-        )
-    return FIRMWARES[config.kind]
+        raise ConfigError("twin_unknown", f"drive.kind {kind!r} has no twin; these have: {known}")
+    return FIRMWARES[kind]
 
 
 def _possible(radps: float) -> float:

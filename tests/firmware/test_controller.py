@@ -15,7 +15,7 @@ from sim.twin.pons_mcu import PonsMcuFirmware
 from tests.firmware.core import Core, Encoder
 from tests.wire.examples import EXAMPLES
 from wire import DriveState
-from wire.robot import DriveConfig
+from wire.drive_config import DriveConfig
 
 TICKS = 400
 CONFIG = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=TICKS)

@@ -101,7 +101,7 @@ def test_it_obeys_stops_in_silence_and_ends_on_sigterm(
     bench.until(lambda: bench.moved(0.05) and bench.heard == {"scan", "imu"}, drive=2.0)
     assert bench.state is not None
     assert (bench.state.echo_boot, bench.state.enabled) == ("b", True)
-    bench.until(lambda: bench.state is not None and bench.state.timed_out)
+    bench.until(lambda: bench.state is not None and bench.state.timed_out is True)
     bench.until(lambda: bench.state is not None and not bench.state.enabled)
     target = Pose2(1.5, 4.2, 1.0)
     bench.place(target)

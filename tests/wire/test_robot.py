@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from wire import ConfigError, RobotDescription, load_robot
-from wire.robot import DriveConfig
+from wire.drive_config import DriveConfig
 
 
 def written(tmp_path: Path, text: str) -> Path:
@@ -49,7 +49,7 @@ MCU = "[drive]\nkind = 'pons_mcu'\nticks_per_turn = 4096\n"
         ("[drive]\ntimeout_s = 10.0", "robot_toml_invalid", "drive.timeout_s"),
         ("[drive]\nkind = 'warp'", "robot_toml_invalid", "drive.kind"),
         ("[drive]\nport = '/dev/ttyACM0'", "robot_toml_invalid",
-         "drive.port is for pons_mcu, not for kind 'sim'"),
+         "drive.port is for pons_mcu, waveshare, not for kind 'sim'"),
         ("[drive]\nkind = 'pons_mcu'", "robot_toml_invalid",
          ("drive.port is missing: kind 'pons_mcu' needs port, ticks_per_turn; "
          "drive.ticks_per_turn is missing")),

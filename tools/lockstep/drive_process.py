@@ -48,8 +48,8 @@ class DriveProcess:
         clock: Callable[[], float],
         firmware: Boot | None = None,
     ) -> None:
-        config = robot.robot.drive
+        described = robot.robot
         self.line = SerialLine(seed)
-        self.twin = DriveTwin(config, BaseEnd(self.line), firmware)
-        protocol = SERIAL_PROTOCOLS[config.kind](config, boot)
+        self.twin = DriveTwin(described, BaseEnd(self.line), firmware)
+        protocol = SERIAL_PROTOCOLS[described.drive.kind](described, boot)
         self.drive = SerialDrive(protocol, self.line, boot, clock)

@@ -47,7 +47,8 @@ def runaway(tick: TickContext, dirty: Dirty) -> None:
     sent, real = s.motion.limiter.sent, s.odometry.measured
     side = sent.w_radps * half_m
     _remember(tick, sent.v_mps - side, sent.v_mps + side)
-    if drive.received_s is None or not tick.now_s - drive.received_s <= ENC_S:
+    window_s = tick.config.robot.drive.encoder_window_s
+    if drive.received_s is None or not tick.now_s - drive.received_s <= window_s:
         return  # nothing is measured: row ENC_STALE
     side = real.w_radps * half_m
     left, right = real.v_mps - side, real.v_mps + side
@@ -82,7 +83,7 @@ def _remember(tick: TickContext, left: float, right: float) -> None:
     watch, now_s = tick.s.watch, tick.now_s
     newest = watch.sent[-1] if watch.sent else None
     if newest is None or now_s - newest.since_s >= BUCKET_S:
-        old_s = now_s - (tick.config.robot.drive.lag_s + FOLLOWS_S)
+        old_s = now_s - (tick.config.robot.drive.late_s + FOLLOWS_S)
         kept = watch.sent
         while len(kept) > 1 and kept[1].since_s <= old_s:
             kept = kept[1:]
@@ -188,6 +189,3 @@ def yaw(tick: TickContext, dirty: Dirty) -> None:
     s.watch.yaw_s = fill(s.watch.yaw_s, tick.dt_s, YAW_S, dirty=bool(evidence))
     if evidence and s.watch.yaw_s >= YAW_S:
         dirty.append(("YAW_DISAGREE.0", evidence))
-
-
-ENC_S = 0.08

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority.message_limits import FULL_S
 from bridge.core.faults import detect_motion
-from bridge.core.faults.detect_motion import ENC_S
 from bridge.core.sensing.sensor_update import (
     GAP_S,
     GAPS,
@@ -48,11 +47,13 @@ BLIND_S = 0.3
 BLIND_LONG_S = 5.0
 
 ENC_LONG_S = 0.25
-NACK_S = 0.1
 NACK_LONG_S = 0.5
 PEAK_S = 0.1
 HEAT_S = 2.0
 """So long a motor bears its peak current, as heat, before it must rest."""
+DEAD_MAN_S = 0.7
+"""The longest that robot.toml may ask of a drive, 0.5 s, and what a report and the motors' lag add
+where it is measured by the wheels."""
 CHARGE_LOW = 0.20
 CHARGE_EMPTY = 0.10
 CHARGE_UP = 0.05
@@ -163,18 +164,18 @@ def pose(tick: TickContext, dirty: Dirty) -> None:
 
 def drive(tick: TickContext, dirty: Dirty) -> None:
     """Judge whether the drive reports, and whether it hears."""
-    memory = tick.s.drive
+    memory, robot_drive = tick.s.drive, tick.config.robot.drive
     newest, received_s = memory.newest, memory.received_s
     if newest is None or received_s is None:
         return  # SELFTEST waits for the first one
     same_host = tick.inbox.sensors_same_host
     age_s = sensor_age_s(tick.now_s, received_s, newest.stamp_s, same_host=same_host)
-    if not age_s <= ENC_S:
+    if not age_s <= robot_drive.encoder_window_s:
         dirty.append(("ENC_STALE.0", f"state {1000 * age_s:.0f} ms old"))
         if age_s > ENC_LONG_S:
             dirty.append(("ENC_STALE.1", f"state {1000 * age_s:.0f} ms old"))
     behind_s = memory.behind * tick.config.period_s
-    if behind_s > NACK_S:
+    if behind_s > robot_drive.answer_window_s:
         dirty.append(("DRIVER_NACK.0", f"{memory.behind} commands behind"))
         if behind_s > NACK_LONG_S:
             dirty.append(("DRIVER_NACK.1", f"{memory.behind} commands behind"))
@@ -252,6 +253,18 @@ def rights(tick: TickContext, dirty: Dirty) -> None:
         dirty.append(("NOT_RT.0", "scheduling or memory rights refused"))
 
 
+def dead_man(tick: TickContext, dirty: Dirty) -> None:
+    """Judge what is known of a dead-man that the self test can't prove."""
+    config, drive = tick.config, tick.config.robot.drive
+    if drive.reports_dead_man:
+        return
+    if config.dead_man_s is None:
+        dirty.append(("DEAD_MAN.0", f"not tried; its firmware claims {drive.dead_man_s:g} s"))
+    longest_s = drive.dead_man_s if config.dead_man_s is None else config.dead_man_s
+    if not longest_s <= DEAD_MAN_S:
+        dirty.append(("DEAD_MAN.1", f"it stops after {longest_s:.2f} s"))
+
+
 def current(tick: TickContext, dirty: Dirty) -> None:
     """Judge the motors' current: its peak, and the heat that I^2 t leaves (IEC 60034-11)."""
     state, watch, drive = tick.s.drive.newest, tick.s.watch, tick.config.robot.drive
@@ -307,6 +320,7 @@ DETECTORS = (
     current,
     battery,
     buttons,
+    dead_man,
     loop,
     rights,
 )

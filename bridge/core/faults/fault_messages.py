@@ -75,6 +75,10 @@ WORDS: dict[str, tuple[str, str]] = {
         "电机电流过大，驱动已断开。",
     ),
     "BATTERY": ("The battery is low.", "电池电量低。"),
+    "DEAD_MAN": (
+        "Nobody has seen this base stop when the computer falls silent, or it is slow to.",
+        "尚未验证该底盘在计算机失联时会自行停车，限速行驶。请执行 pons robot try。",
+    ),
     "LOOP_LATE": (
         "This computer wakes the bridge late; driving slower or holding.",
         "本机唤醒安全桥不及时，减速或停住。",

@@ -135,15 +135,18 @@ ROWS: tuple[FaultRow, ...] = (
          "seen in one tick, so that its 2 s are all of the hold; a stop takes 0.9 s",
          _do("1 s; 5 s without progress; the grant is taken", _HOLD2, "WTX", clean_s=2.0),
          _do("3 in 5 min", _STOP1, "WTX", _REARM)),
-    _row("RUNAWAY", "measured faster than anything sent in the last lag + 0.2 s, or of other sign",
+    _row("RUNAWAY", "measured faster than anything sent in the last lag + 0.2 s (for a drive that "
+         "reports seldom as much more as its windows are longer), or of other sign",
          _do("100 ms", _FAST1, ALL, _RESET), _do("250 ms", _CUT0, ALL, _RESET)),
     _row("YAW_DISAGREE", "odometry and gyro differ by over 0.3 rad/s, or the gyro is stale or not "
          "wired",
          _do("0.5 s", _CAP, "WTX", clean_s=2.0, cap_mps=0.3)),
     _row("ENC_STALE", "no state from the drive",
-         _do("80 ms", _HOLD2), _do("250 ms", _FAST1, ALL, _REARM)),
+         _do("80 ms, or 2.5 reports of a drive that reports seldom", _HOLD2),
+         _do("250 ms", _FAST1, ALL, _REARM)),
     _row("DRIVER_NACK", "states arrive whose echo is behind by",
-         _do("100 ms", _HOLD2), _do("500 ms", _STOP1, ALL, _RESET)),
+         _do("100 ms, or 2.5 reports of a drive that reports seldom", _HOLD2),
+         _do("500 ms", _STOP1, ALL, _RESET)),
     _row("DRIVE_FOREIGN", "the drive echoes a command that this bridge has not sent",
          _do("at once", _FAST1, ALL, _RESET)),
     _row("DRIVE_REBOOT", "the drive's boot id changed, or after 250 ms of silence it counts from a "
@@ -154,6 +157,10 @@ ROWS: tuple[FaultRow, ...] = (
     _row("BATTERY", "charge, or sag under load",
          _do("under 20 % for 2 s", _CAP, ALL, clean_s=5.0, cap_mps=0.3),
          _do("under 10 % for 2 s", _STOP1, ALL, _REARM)),
+    _row("DEAD_MAN", "the drive stops by itself in silence, but does not report it, so that no "
+         "self test proves it: `pons robot try` has not seen it on this base, or it takes too long",
+         _do("not seen", _CAP, ALL, Clears.REBOOT, cap_mps=0.3),
+         _do("over 0.7 s, seen or claimed", _CAP, ALL, Clears.REBOOT, cap_mps=0.15)),
     _row("LOOP_LATE", "this loop: ticks over 5 ms late, missed ticks, gaps between ticks",
          _do("late five times in 1 s, or two ticks missed", _CAP, ALL, clean_s=2.0,
              cap_factor=0.5),

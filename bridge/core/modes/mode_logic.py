@@ -189,7 +189,7 @@ def _failure(tick: TickContext) -> str | None:
     if stop is None:
         return None
     robot = tick.config.robot
-    lag_s, elapsed_s = robot.drive.lag_s, tick.now_s - stop.since_s
+    lag_s, elapsed_s = robot.drive.late_s, tick.now_s - stop.since_s
     slow = too_slow(stop.plan, s.odometry.measured, elapsed_s, lag_s, robot.base)
     if slow or stop.slow_s > 0.0:
         stop = note_slow(tick, stop, fill(stop.slow_s, tick.dt_s, SLOW_S, dirty=slow))

@@ -1,7 +1,8 @@
 """Prove the drive before anybody may arm it. Waits for missing messages; raises faults.
 
 The drive's own dead-man is proven by withholding commands until the drive says that it has timed
-out, which is the one exception to one command per tick.
+out, which is the one exception to one command per tick. A drive that has a dead-man and does not
+report it can't be proven so: row DEAD_MAN slows it.
 """
 
 from __future__ import annotations
@@ -104,7 +105,7 @@ def _wrong(tick: TickContext) -> str | None:
         return "encoders_moving"
     test = tick.s.selftest
     robot = tick.config.robot
-    patience_s = robot.drive.timeout_s + robot.drive.lag_s + PATIENCE_S
+    patience_s = robot.drive.timeout_s + robot.drive.late_s + PATIENCE_S
     if test.phase == WITHHOLD and _reports(tick) and tick.now_s - test.since_s > patience_s:
         return "drive_moves_on" if drive.moving_since_s is not None else "drive_no_timeout"
     return None
@@ -118,11 +119,14 @@ def _prove_dead_man(tick: TickContext) -> None:
         return
     echoes = state.echo_boot == tick.config.boot
     phase = s.selftest.phase
-    if phase == ECHO and echoes and not state.timed_out and tick.still_for(STILL_S):
-        _phase(tick, WITHHOLD)
+    if phase == ECHO and echoes and tick.still_for(STILL_S):
+        if not tick.config.robot.drive.reports_dead_man:
+            _phase(tick, DONE)  # of wheels that stand silence shows nothing: row DEAD_MAN is up
+        elif state.timed_out is False:
+            _phase(tick, WITHHOLD)
     elif phase == WITHHOLD and echoes and state.timed_out and tick.still_for(0.0):
         _phase(tick, RETURN)
-    elif phase == RETURN and echoes and not state.timed_out:
+    elif phase == RETURN and echoes and state.timed_out is False:
         _phase(tick, DONE)
 
 

@@ -119,7 +119,7 @@ def _ratio(limit: float, value: float) -> float:
 BEGIN_MPS = 0.10
 """Slower stops are too short to tell: their path is that of a few encoder counts and one tick."""
 OLD_S = 0.05
-"""Without a reading for so long nothing is measured."""
+"""Without a reading for so long nothing is measured; a drive that reports seldom is given more."""
 LONGEST_S = 5.0
 HIGH, LOW = 0.75, 0.25
 RISE_SHARE = 0.05
@@ -166,7 +166,8 @@ def watch(tick: TickContext, before: BridgeState) -> None:
 
 def _measures(tick: TickContext) -> bool:
     received_s = tick.s.drive.received_s
-    return received_s is not None and tick.now_s - received_s <= OLD_S and tick.dt_s <= OLD_S
+    old_s = OLD_S + tick.config.robot.drive.unseen_s
+    return received_s is not None and tick.now_s - received_s <= old_s and tick.dt_s <= OLD_S
 
 
 def _follow(tick: TickContext, ramp: Ramp, sent: float) -> None:

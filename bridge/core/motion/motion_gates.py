@@ -121,7 +121,7 @@ def _inside_fence(tick: TickContext, twist: Twist2) -> Twist2:
         _tell_crossing(tick, fence.margin_m(here.x_m, here.y_m))
     robot = tick.config.robot
     learnt = tick.s.learnt
-    lag_s = robot.drive.lag_s + learnt.lag_more_s
+    lag_s = robot.drive.late_s + learnt.lag_more_s
     reaction = reaction_s(0.0, POSE_S, lag_s, robot.limits)
     share = learnt.decel_share
     scale = fence_scale(fence, here, twist, robot.base, robot.limits, reaction, share)

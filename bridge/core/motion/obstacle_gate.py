@@ -77,7 +77,7 @@ def obstacle_gate(
         braking: how much worse than that it has shown to brake.
     """
     base, limits, share = robot.base, robot.limits, braking.decel_share
-    lag_s = robot.drive.lag_s + braking.lag_more_s
+    lag_s = robot.drive.late_s + braking.lag_more_s
     reaction = reaction_s(scan_age_s, robot.lidar.scan_s, lag_s, limits)
     usual, speed = look_m(robot, braking), abs(asked.v_mps)
     reach = _reach_m(usual, speed, asked, robot, reaction, share)

@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from bridge.core.motion.pursuit import PursuitCommand
     from bridge.core.state_orders import LegMemory
     from bridge.core.tick_context import TickContext
-    from wire.robot import DriveConfig, RobotDescription
+    from wire.drive_config import DriveConfig
+    from wire.robot import RobotDescription
 
 STALE = "ENC_STALE.0"
 """The row that says that nothing is measured: no feedback, so feed-forward alone."""
@@ -126,7 +127,7 @@ def forget_after_gap(tick: TickContext) -> None:
 
     A loop that was frozen for seconds would otherwise ramp down a speed that nobody has any more.
     """
-    if not tick.dt_s <= tick.config.robot.drive.timeout_s:
+    if not tick.dt_s <= tick.config.robot.drive.dead_man_s:
         tick.s.motion.limiter = LimiterState()
         tick.s.motion.left = tick.s.motion.right = AT_REST
 
@@ -187,7 +188,12 @@ def _control(tick: TickContext) -> None:
     meant = wheels_of(motion.limiter.sent, robot.base)
     dt_s = tick_length(tick.dt_s, tick.config.period_s)
     trusted, left_radps, right_radps = False, None, None
-    if report is not None and report.enabled and not report.timed_out and STALE not in s.rows:
+    if (
+        report is not None
+        and report.enabled
+        and report.timed_out is not True
+        and STALE not in s.rows
+    ):
         trusted = drive.reborn_s != tick.now_s
         if drive.received_s == tick.now_s:
             left_radps, right_radps = report.left_radps, report.right_radps

@@ -203,7 +203,7 @@ def _limits(tick: TickContext) -> LimitsInForce:
     margin_m = None
     if motion.free_m is not None:
         sent = motion.limiter.sent
-        lag_s = robot.drive.lag_s + learnt.lag_more_s
+        lag_s = robot.drive.late_s + learnt.lag_more_s
         stop_m = stopping_m(sent, 0.0, robot.base, robot.limits, tick.config.period_s)
         stop_m += weak_m(sent, robot, learnt.decel_share)
         margin_m = motion.free_m - stop_m - abs(sent.v_mps) * lag_s
@@ -275,7 +275,7 @@ def _drive(tick: TickContext) -> DriveReport:
 def _braking(tick: TickContext) -> BrakingReport:
     robot, learnt = tick.config.robot, tick.s.learnt
     return BrakingReport(
-        lag_s=robot.drive.lag_s + learnt.lag_more_s,
+        lag_s=robot.drive.late_s + learnt.lag_more_s,
         decel_mps2=robot.limits.max_decel_mps2 * learnt.decel_share,
         learnt=learnt.lag_more_s > 0.0 or learnt.decel_share < 1.0,
         stops=learnt.stops,

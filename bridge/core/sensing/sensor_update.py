@@ -328,7 +328,7 @@ def look_m(robot: RobotDescription, braking: Braking = AS_CONFIGURED) -> float:
     """
     base, limits = robot.base, robot.limits
     v, d, j = limits.max_speed_mps, limits.max_decel_mps2, limits.stop_jerk_mps3
-    lag_s = robot.drive.lag_s + braking.lag_more_s
+    lag_s = robot.drive.late_s + braking.lag_more_s
     turning = limits.max_turn_radps * base.wheel_separation_m / 2
     rim = min(v + turning, limits.max_wheel_radps * base.wheel_radius_m)
     gate_s = _FRESH_S + robot.lidar.scan_s + lag_s

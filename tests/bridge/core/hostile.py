@@ -234,7 +234,7 @@ class Hostile:
             echo_boot=self._say(self.config.boot, None, "other"),
             echo_seq=self._say(self.state.command_seq, 0, HUGE),
             enabled=self._say(True, False),
-            timed_out=self._say(False, True),
+            timed_out=self._say(False, True, None),
             left_rad=_angle(self._say(left + 0.01 * sent, left, 1e9, -1e9)),
             right_rad=_angle(self._say(right + 0.01 * sent, right, 1e9, -1e9)),
             left_radps=self._say(sent, 0.0, 1_000.0, -1_000.0),

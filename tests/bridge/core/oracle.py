@@ -51,6 +51,8 @@ TABLE: dict[str, tuple[str, str, float | None]] = {
     "OVERCURRENT.0": ("STOP1", "", None),
     "BATTERY.0": ("CAP", "", 0.6),
     "BATTERY.1": ("STOP1", "", None),
+    "DEAD_MAN.0": ("CAP", "", 0.6),
+    "DEAD_MAN.1": ("CAP", "", 0.3),
     "LOOP_LATE.0": ("CAP", "", 0.5),
     "LOOP_LATE.1": ("HOLD2", "", None),
     "LOOP_LATE.2": ("STOP1", "", None),

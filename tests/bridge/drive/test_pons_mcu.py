@@ -13,7 +13,7 @@ from bridge.drive.pons_mcu import PonsMcuProtocol
 from devices import pons_mcu
 from devices.pons_mcu import McuCommand, McuReader, McuState, encode_command, encode_state
 from wire import DriveCommand, DriveState
-from wire.robot import DriveConfig
+from wire.drive_config import DriveConfig
 
 CONFIG = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=4096, timeout_s=0.2)
 STATE = McuState(1, 0xAB, 0, 0, 1_000_000, 0, 0, 0, 0, 0xFFFF, 0xFFFF, 0)

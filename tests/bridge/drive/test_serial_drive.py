@@ -15,14 +15,14 @@ from sim.twin import DriveTwin
 from sim.twin.line import TwinLine
 from tests.bridge.ground import until
 from tests.wire.examples import EXAMPLES
-from wire import ConfigError, DriveCommand, DriveState
-from wire.robot import DriveConfig
+from wire import ConfigError, DriveCommand, DriveState, RobotDescription
+from wire.drive_config import DriveConfig
 
 BODY = cast("DriveState", EXAMPLES[DriveState])
 
 
-def config(line: Path) -> DriveConfig:
-    return DriveConfig(kind="pons_mcu", port=str(line), ticks_per_turn=4096)
+def robot(line: Path) -> RobotDescription:
+    return RobotDescription(drive=DriveConfig(kind="pons_mcu", port=str(line), ticks_per_turn=4096))
 
 
 def command(left: float, right: float, seq: int = 7) -> DriveCommand:
@@ -36,14 +36,14 @@ def line(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def twin(line: Path) -> Iterator[DriveTwin]:
-    made = DriveTwin(config(line), line)
+    made = DriveTwin(robot(line), line)
     yield made
     made.close()
 
 
 @pytest.fixture
 def drive(twin: DriveTwin, line: Path) -> Iterator[SerialDrive]:
-    made = open_serial_drive(config(line), "b1")
+    made = open_serial_drive(robot(line), "b1")
     yield made
     made.close()
 
@@ -128,13 +128,13 @@ def test_nobody_at_the_other_end_reads_and_nothing_waits(drive: SerialDrive) -> 
 def test_a_port_that_waiting_will_not_mend_is_refused_with_its_cure(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(ConfigError, match="port_not_serial") as refused:
-        open_serial_drive(config(tmp_path / "file"), "b1")
+        open_serial_drive(robot(tmp_path / "file"), "b1")
     assert refused.value.code == "port_not_serial"
     assert "/dev/serial/by-id" in str(refused.value)
 
 
 def test_a_line_may_stand_in_for_the_port_of_robot_toml(twin: DriveTwin, line: Path) -> None:
-    drive = open_serial_drive(config(Path("/dev/ttyNONE")), "b1", line)
+    drive = open_serial_drive(robot(Path("/dev/ttyNONE")), "b1", line)
     drive.write(command(0.5, 0.5))
     assert twin.command(1.0).left_radps == 0.5
     drive.close()

@@ -18,11 +18,14 @@ from devices.port_listing import PortHolder, describe_port
 from pons.robot.port_finder import PROBES, PortFinding, question_port, question_ports
 from sim.twin.lidar import LIDAR_TWINS, LidarFirmware
 from sim.twin.pons_mcu import PonsMcuFirmware
+from sim.twin.waveshare import WaveshareFirmware
 from tests.pons.robot.twin_ports import (
     DRIVE,
+    UGV,
     PlayedController,
     PlayedLidar,
     PlayedNoise,
+    PlayedUgv,
     entry,
     played,
 )
@@ -39,19 +42,21 @@ def found() -> Iterator[dict[str, PortFinding]]:
     with TemporaryDirectory(prefix="pons-find-") as folder:
         paths = {name: Path(folder, name.replace(" ", "_")) for name in LIDARS}
         devices = {name: PlayedLidar(paths[name], *key) for name, key in LIDARS.items()}
-        paths |= {name: Path(folder, name) for name in ("mcu", "unknown", "silent")}
+        paths |= {name: Path(folder, name) for name in ("mcu", "unknown", "silent", "ugv")}
         paths[TURNING] = Path(folder, "turning")
         turning = PlayedLidar(paths[TURNING], "rplidar", "a1")
         turning.twin.firmware.tick(b"\xa5\x20", 0.0, lambda angles: (1.0,) * len(angles))
         others = [
             PlayedController(paths["mcu"]), PlayedNoise(paths["unknown"], 20),
-            PlayedNoise(paths["silent"], 0), turning,
+            PlayedNoise(paths["silent"], 0), turning, PlayedUgv(paths["ugv"]),
         ]  # fmt: skip
         with played([*devices.values(), *others]):
             findings = question_ports([entry(path) for path in paths.values()])
         yield dict(zip(paths, findings, strict=True))
         assert isinstance(others[0], PlayedController)
         assert not others[0].moved
+        assert isinstance(others[-1], PlayedUgv)
+        assert not others[-1].moved
 
 
 @pytest.mark.parametrize("name", sorted(LIDARS))
@@ -72,6 +77,13 @@ def test_a_motor_controller_is_named_with_its_battery(found: dict[str, PortFindi
     assert one.answer is not None
     assert "battery" in one.answer.words
     assert "ticks_per_turn" in one.answer.missing
+
+
+def test_a_ugv_base_is_named_with_its_battery(found: dict[str, PortFinding]) -> None:
+    one = found["ugv"]
+    assert (one.code, one.part, one.kind) == ("port_found", "drive", "waveshare")
+    assert one.answer is not None
+    assert "battery" in one.answer.words
 
 
 def test_a_lidar_that_still_turns_is_named_though_it_does_not_answer(
@@ -127,10 +139,10 @@ def test_a_port_that_goes_is_told(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=bytes.hex)
 def test_no_question_turns_a_wheel(question: bytes) -> None:
-    firmware = PonsMcuFirmware(DRIVE, 0xF0)
-    for k in range(100):
-        firmware.hear(question, 0.01 * k)
-        assert firmware.motors(0.01 * k) == (0.0, 0.0, False)
+    for firmware in (PonsMcuFirmware(DRIVE, 0xF0), WaveshareFirmware(UGV)):
+        for k in range(300):
+            firmware.hear(question, 0.01 * k)
+            assert firmware.motors(0.01 * k) == (0.0, 0.0, False)
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=bytes.hex)

@@ -16,13 +16,15 @@ from devices.port_listing import SerialPortEntry
 from sim.twin.lidar import LidarTwin
 from sim.twin.line import TwinLine
 from sim.twin.pons_mcu import PonsMcuFirmware
+from sim.twin.waveshare import WaveshareFirmware
 from tests.wire.examples import EXAMPLES
-from wire import DriveState
+from wire import DriveState, RobotDescription
+from wire.drive_config import DriveConfig
 from wire.lidar_config import LidarConfig
-from wire.robot import DriveConfig
 
 PERIOD_S = 0.01
 BODY = cast("DriveState", EXAMPLES[DriveState]).model_copy(update={"battery": 0.8})
+UGV = RobotDescription(drive=DriveConfig(kind="waveshare", port="/dev/x"))
 DRIVE = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400)
 
 
@@ -55,6 +57,25 @@ class PlayedController:
 
     def __init__(self, link: Path) -> None:
         self.line, self.firmware = TwinLine(link), PonsMcuFirmware(DRIVE, 0xF0)
+        self.moved = False
+
+    def turn(self, now_s: float) -> None:
+        speaks_alike = self.line.baud() == 115_200
+        heard = self.line.read()
+        self.firmware.hear(heard if speaks_alike else b"", now_s)
+        self.moved |= self.firmware.motors(now_s) != (0.0, 0.0, False)
+        said = self.firmware.say(BODY, now_s)
+        self.line.write(said if speaks_alike else b"\xf8" * len(said))
+
+    def close(self) -> None:
+        self.line.close()
+
+
+class PlayedUgv:
+    """Play a UGV base and remember whether its wheels were ever told to turn."""
+
+    def __init__(self, link: Path) -> None:
+        self.line, self.firmware = TwinLine(link), WaveshareFirmware(UGV)
         self.moved = False
 
     def turn(self, now_s: float) -> None:

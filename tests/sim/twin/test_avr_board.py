@@ -8,22 +8,22 @@ import pytest
 
 from sim.twin.avr_board import AvrBoard, boot_build
 from tests.firmware.conftest import board_build
-from wire import ConfigError
-from wire.robot import DriveConfig
+from wire import ConfigError, RobotDescription
+from wire.drive_config import DriveConfig
 
 __all__ = ["board_build"]
-CONFIG = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400)
+ROBOT = RobotDescription(drive=DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400))
 
 
 def test_what_was_not_built_is_refused_with_its_cure(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="make -C firmware board") as refused:
-        boot_build(CONFIG, tmp_path)
+        boot_build(ROBOT, tmp_path)
     assert refused.value.code == "twin_not_built"
 
 
 def test_a_drive_that_is_not_ours_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="expected pons_mcu") as refused:
-        boot_build(DriveConfig(), tmp_path)
+        boot_build(RobotDescription(), tmp_path)
     assert refused.value.code == "twin_unknown"
 
 

@@ -14,7 +14,7 @@ from devices.pons_mcu import McuCommand, McuReader, McuState, encode_command
 from sim.twin.pons_mcu import PonsMcuFirmware
 from tests.wire.examples import EXAMPLES
 from wire import DriveState
-from wire.robot import DriveConfig
+from wire.drive_config import DriveConfig
 
 CONFIG = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400)
 BODY = cast("DriveState", EXAMPLES[DriveState])

@@ -14,10 +14,10 @@ from devices import SerialPort, pons_mcu
 from devices.pons_mcu import McuCommand, encode_command
 from sim.twin import DriveTwin
 from tests.wire.examples import EXAMPLES
-from wire import ConfigError, DriveState
-from wire.robot import DriveConfig
+from wire import ConfigError, DriveState, RobotDescription
+from wire.drive_config import DriveConfig
 
-CONFIG = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400)
+CONFIG = RobotDescription(drive=DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400))
 BODY = cast("DriveState", EXAMPLES[DriveState])
 GO = McuCommand(7, 0xB1, 1500, -1500, 400, 200, pons_mcu.ENABLE)
 
@@ -81,7 +81,7 @@ def test_the_link_goes_with_the_twin(tmp_path: Path) -> None:
 
 def test_a_drive_without_a_twin_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match=r"^twin_unknown: .*'sim'.*these have: .*pons_mcu"):
-        DriveTwin(DriveConfig(), tmp_path / "drive")
+        DriveTwin(RobotDescription(), tmp_path / "drive")
 
 
 def test_a_line_that_can_not_be_made_is_refused(tmp_path: Path) -> None:

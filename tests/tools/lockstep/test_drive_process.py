@@ -38,7 +38,9 @@ def test_a_base_on_a_line_drives_to_the_other_room() -> None:
 
 def test_our_firmwares_own_bytes_drive_to_the_other_room(board_build: Path) -> None:
     with AvrBoard(board_build) as board:
-        world = LockstepWorld(robot=described(), firmware=lambda config: AvrFirmware(config, board))
+        world = LockstepWorld(
+            robot=described(), firmware=lambda robot: AvrFirmware(robot.drive, board)
+        )
         drive_to_the_other_room(world)
 
 

@@ -24,7 +24,7 @@ from tools.lockstep import TICK_S, LockstepWorld
 from tools.lockstep.serial_line import LineFault
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, RobotDescription
-from wire.robot import DriveConfig
+from wire.drive_config import DriveConfig
 
 if TYPE_CHECKING:
     from tools.bench.context import BenchLab

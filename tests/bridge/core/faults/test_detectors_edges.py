@@ -330,7 +330,7 @@ def test_a_zone_begins_at_its_outline(metres: float, expected: bool) -> None:
 
 def test_a_real_drive_without_rights_is_slow_from_the_first_tick() -> None:
     robot = RobotDescription()
-    robot = robot.model_copy(update={"drive": robot.drive.model_copy(update={"kind": "serial"})})
+    robot = robot.model_copy(update={"drive": robot.drive.model_copy(update={"kind": "pons_mcu"})})
     assert not robot.drive.virtual
     for granted in (True, False):
         world = World(core=config(robot), real_time=granted)
@@ -340,4 +340,4 @@ def test_a_real_drive_without_rights_is_slow_from_the_first_tick() -> None:
 
 def test_every_stage_has_its_edges_here() -> None:
     here = {edge.stage for edge in EDGES} | {stage for stage, _, _ in VALUES}
-    assert here | {"SPEED_ZONE.0", "NOT_RT.0"} == set(oracle.TABLE)
+    assert here | {"SPEED_ZONE.0", "NOT_RT.0", "DEAD_MAN.0", "DEAD_MAN.1"} == set(oracle.TABLE)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import nan
 
 import pytest
 
@@ -345,6 +346,17 @@ def test_not_real_time_is_only_shown_on_a_virtual_drive() -> None:
     assert not raised(world, "NOT_RT.0")
     assert world.status is not None
     assert not world.status.drive.real_time
+
+
+def test_a_base_that_does_not_report_its_dead_man_is_slow_until_it_was_tried() -> None:
+    robot = RobotDescription.model_validate({"drive": {"kind": "waveshare", "port": "/dev/x"}})
+    for seen_s, up in ((None, {0}), (0.3, set()), (0.7, set()), (0.71, {1}), (nan, {1})):
+        world = World(core=replace(config(robot), dead_man_s=seen_s), real_time=True)
+        world.tick()
+        assert {n for n in (0, 1) if raised(world, f"DEAD_MAN.{n}")} == up
+    often = World(real_time=True)
+    often.tick()
+    assert not raised(often, "DEAD_MAN.0")
 
 
 def test_the_drives_stop_input_latches_until_reset() -> None:

@@ -48,6 +48,7 @@ NUMBERS: dict[str, dict[str, float]] = {
         "BLIND_SHARE": 0.05,
         "PEAK_S": 0.1,
         "HEAT_S": 2.0,
+        "DEAD_MAN_S": 0.7,
         "CHARGE_LOW": 0.2,
         "CHARGE_EMPTY": 0.1,
         "CHARGE_UP": 0.05,
@@ -57,7 +58,6 @@ NUMBERS: dict[str, dict[str, float]] = {
         "EQUAL_SCANS": 5,
         "EQUAL_MOVED_M": 0.02,
         "ENC_LONG_S": 0.25,
-        "NACK_S": 0.1,
         "NACK_LONG_S": 0.5,
     },
     "faults.detect_motion": {
@@ -79,7 +79,6 @@ NUMBERS: dict[str, dict[str, float]] = {
         "YAW_RADPS": 0.3,
         "YAW_S": 0.5,
         "GYRO_OLD_S": 0.25,
-        "ENC_S": 0.08,
     },
     "sensing.stop_inputs": {"LINK_SILENT_S": 0.5},
     "sensing.sensor_update": {
@@ -185,6 +184,8 @@ CLEARS = {
     "DRIVE_FOREIGN.0": "ON_RESET",
     "OVERCURRENT.0": "ON_RESET",
     "ESTOP.0": "ON_RESET",
+    "DEAD_MAN.0": "REBOOT",
+    "DEAD_MAN.1": "REBOOT",
     "NOT_RT.0": "REBOOT",
 }
 """All others clear by themselves,"""

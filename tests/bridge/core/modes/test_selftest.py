@@ -37,6 +37,8 @@ PATIENCE_S = DRIVE.timeout_s + DRIVE.lag_s + 0.3
 
 EPS = 1e-9
 
+UGV = RobotDescription.model_validate({"drive": {"kind": "waveshare", "port": "/dev/x"}})
+
 
 def proving(phase: str = DONE, **change: Any) -> TickContext:
     """Return a tick of a self test that lacks nothing: it has stood for 1 s, all has just come."""
@@ -45,7 +47,7 @@ def proving(phase: str = DONE, **change: Any) -> TickContext:
     assert s.drive.newest is not None
     tick.now_s, s.mode = NOW_S, Mode.SELFTEST
     s.selftest = SelfTest(phase, NOW_S - 0.1)
-    timed_out = bool(change.get("timed_out", False))
+    timed_out = change.get("timed_out", False)
     s.drive.newest = s.drive.newest.model_copy(
         update={"echo_boot": change.get("echo", BOOT), "timed_out": timed_out}
     )
@@ -131,20 +133,23 @@ def test_it_waits_for_a_stop_buttons_link_where_there_is_one(
         (ECHO, {}, WITHHOLD),
         (ECHO, {"echo": "other"}, ECHO),
         (ECHO, {"timed_out": True}, ECHO),
+        (ECHO, {"timed_out": None}, ECHO),  # one that reports it must
         (ECHO, {"still_since_s": NOW_S - 0.4}, ECHO),
         (WITHHOLD, {}, WITHHOLD),
         (WITHHOLD, {"timed_out": True}, RETURN),
+        (WITHHOLD, {"timed_out": None}, WITHHOLD),
         (WITHHOLD, {"timed_out": True, "echo": "other"}, WITHHOLD),
         (WITHHOLD, {"timed_out": True, "still_since_s": NOW_S}, RETURN),
         (WITHHOLD, {"timed_out": True, "still_since_s": None}, WITHHOLD),
         (RETURN, {"timed_out": True}, RETURN),
+        (RETURN, {"timed_out": None}, RETURN),
         (RETURN, {"echo": "other"}, RETURN),
         (RETURN, {"received_s": NOW_S - 0.3}, ECHO),
         (WITHHOLD, {"received_s": None}, ECHO),
         (WITHHOLD, {"newest": None}, ECHO),
     ],
 )
-def test_a_drive_proves_its_own_dead_man_step_by_step(
+def test_silence_proves_a_dead_man_that_is_reported(
     phase: str, change: dict[str, Any], after: str
 ) -> None:
     tick = proving(phase, **change)
@@ -192,6 +197,19 @@ def test_what_takes_too_long_is_wrong(
     phase: str, now_s: float, moving_since_s: float | None, heard_s: float, found: str | None
 ) -> None:
     assert wrong(phase, now_s, moving_since_s, heard_s) == found
+
+
+@table(
+    ("change", "after"),
+    [({}, DONE), ({"echo": "other"}, ECHO), ({"still_since_s": NOW_S - 0.4}, ECHO),
+     ({"timed_out": True}, DONE)],
+)  # fmt: skip
+def test_one_that_is_not_reported_is_left_unproven(change: dict[str, Any], after: str) -> None:
+    tick = proving(ECHO, **{"timed_out": None, **change})
+    tick.config = config(UGV)
+    run(tick)
+    assert tick.s.selftest.phase == after
+    assert not withholds(tick)
 
 
 @pytest.mark.parametrize("lost", ["fence_missing", "fence_of_another_map"])

@@ -175,7 +175,8 @@ def test_a_hand_and_another_brain_have_no_end(start: str, arrives: bool) -> None
 
 @table(
     ("what", "corrects"),
-    [("nothing", True), ("disabled", False), ("timed_out", False), ("stale", False),
+    [("nothing", True), ("disabled", False), ("timed_out", False), ("unknown", True),
+     ("stale", False),
      ("reborn", False), ("silent", None), ("absent", False)],
 )  # fmt: skip
 def test_wheels_are_corrected_by_readings_that_may_be_trusted(
@@ -186,7 +187,11 @@ def test_wheels_are_corrected_by_readings_that_may_be_trusted(
     state = drive.newest
     assert state is not None
     drive.received_s, drive.reborn_s = NOW_S, NOW_S if what == "reborn" else None
-    changed = {"disabled": {"enabled": False}, "timed_out": {"timed_out": True}}.get(what, {})
+    changes: dict[str, dict[str, bool | None]] = {
+        "disabled": {"enabled": False}, "timed_out": {"timed_out": True},
+        "unknown": {"timed_out": None},
+    }  # fmt: skip
+    changed = changes.get(what, {})
     drive.newest = state.model_copy(update={"left_radps": 3.0, "right_radps": 3.5, **changed})
     tick.s.rows = {"ENC_STALE.0": RowUp(0.0, 0.0, "old")} if what == "stale" else {}
     if what == "silent":

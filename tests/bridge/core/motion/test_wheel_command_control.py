@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from bridge.core.motion.wheel_command import CORRECTION_MPS, CREEP_RADPS, DOUBT_S, control_wheel
 from bridge.core.state_motion import AT_REST, Wheel
 from wire import RobotDescription
-from wire.robot import DriveConfig, Limits
+from wire.drive_config import DriveConfig
+from wire.robot import Limits
 
 ROBOT = RobotDescription()
 

@@ -1,0 +1,245 @@
+"""Drive a Waveshare UGV base (lines: devices/waveshare.py).
+
+The base keeps no setting: heartbeat, echo and reports are sent when the port opens and every second
+again. No state is passed on before the base has printed the heartbeat back, so nothing is armed
+without one. Whether the heartbeat has stopped the wheels the base does not tell: ``timed_out`` is
+null. Its speeds are integrated and held to the whole centimetres that it counts.
+"""
+
+from __future__ import annotations
+
+import logging
+import secrets
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from bridge.drive.readings import charge_of, limit_radps
+from devices import waveshare
+from devices.waveshare import UgvEcho, UgvReader, UgvReport, UgvSetting, UgvText
+from wire import DriveState
+
+if TYPE_CHECKING:
+    from bridge.drive.base import Braking
+    from wire import DriveCommand, RobotDescription
+
+log = logging.getLogger("bridge.drive")
+
+SETTINGS_EVERY = 100
+"""Commands: a second. A base that was reset obeys at once, but comes back with 3 s of heartbeat."""
+UNSET_REPORTS = 60
+"""Three seconds of reports without a word of the heartbeat are a trouble worth a line."""
+SILENT_S = 1.0
+"""A base that starts is silent for longer: what speaks after such a silence is another."""
+_BITS_A_BYTE = 10
+_MILLI = 1000.0
+_SLIP_M = 0.03
+"""Two whole centimetres may hide three."""
+_OLDEST_S = 0.25
+_TROUBLE = {
+    "base_no_encoders": "it reports no way of its wheels (odl, odr): a WAVE ROVER or a board with "
+    "ugv_base_general has no encoders, and Pons drives nothing that it can't measure",
+    "base_firmware_old": "it reports odl and odr in metres: its firmware is older than "
+    "ugv_base_ros 0.96; update it (github.com/waveshareteam/ugv_base_ros)",
+    "base_not_set": "it reports, but does not print back the heartbeat: is TX wired, and does no "
+    "other program speak to it?",
+}
+
+
+class BoundedPath:
+    """Integrate a wheel's speed between reports, held to the centimetres that the base counts."""
+
+    def __init__(self) -> None:
+        self._m: float | None = None
+        self._mps, self._at_s = 0.0, 0.0
+
+    def advance(self, mps: float, whole_cm: int, at_s: float) -> float:
+        """Return the way [m] by now.
+
+        Whether the base rounds or cuts off is its own: the truth is within 1 cm of what it says.
+        """
+        low_m, high_m = (whole_cm - 1) / 100.0, (whole_cm + 1) / 100.0
+        if self._m is None:
+            self._m = whole_cm / 100.0
+        else:
+            dt_s = min(max(at_s - self._at_s, 0.0), _OLDEST_S)
+            self._m = min(max(self._m + (self._mps + mps) / 2.0 * dt_s, low_m), high_m)
+        self._mps, self._at_s = mps, at_s
+        return self._m
+
+
+@dataclass(slots=True)
+class _KnownBase:
+    """Hold what is known of a base since it began."""
+
+    is_set: bool = False
+    """It has printed our heartbeat back."""
+    waited: int = 0
+    """Reports without that."""
+    heard_s: float | None = None
+    ways: tuple[int, int] | None = None
+    odd: tuple[int, int] | None = None
+    """Ways that no wheel can have come; believed if the next report agrees."""
+    left: BoundedPath = field(default_factory=BoundedPath)
+    right: BoundedPath = field(default_factory=BoundedPath)
+    echo_boot: str | None = None
+    echo_seq: int = 0
+    enabled: bool = False
+
+
+class WaveshareProtocol:
+    """Translate between the wire's messages and the base's lines."""
+
+    kind = "waveshare"
+    baud = waveshare.BAUD
+    """A command of 45 bytes 50 times a second and a report of 180 bytes 20 times: with the echo 58
+    of 115 kbaud come back."""
+    braking: Braking = "brake"
+    """Both drivers' inputs differ and the PWM is low: TB6612 then shorts the motor."""
+
+    def __init__(self, robot: RobotDescription, boot: str) -> None:
+        self._config, self._radius_m = robot.drive, robot.base.wheel_radius_m
+        self._boot = boot
+        self._name = secrets.token_hex(2)
+        """Stands for ``boot`` in the tag."""
+        self._heartbeat_ms = round(robot.drive.timeout_s * _MILLI)
+        self._settings = waveshare.encode_settings(self._heartbeat_ms)
+        self._reader = UgvReader()
+        self._sent, self._stopped = 0, True
+        self._seq = 0
+        self._trouble: str | None = None
+        self._starts = 0
+        self._due = True
+        self._base = _KnownBase()
+
+    def begin(self) -> bytes:
+        """Forget the unfinished line and the base; tell it all that it must know."""
+        self._reader.reset()
+        self._forget()
+        return self._settings
+
+    def encode(self, command: DriveCommand) -> bytes:
+        """Return the line of every second command, of each that begins a stop, and the settings.
+
+        The base reads its line once a turn of its loop, and prints back all that it reads: at 100
+        lines a second it would fall behind.
+        """
+        stops = not command.enable or command.left_radps == command.right_radps == 0.0
+        data = b""
+        self._sent += 1
+        if self._due or self._sent % SETTINGS_EVERY == 0:
+            self._due, data = False, self._settings
+        if command.seq % 2 == 0 or stops > self._stopped:
+            left_mps = command.left_radps * self._radius_m if command.enable else 0.0
+            right_mps = command.right_radps * self._radius_m if command.enable else 0.0
+            over = max(abs(left_mps), abs(right_mps)) / waveshare.FASTEST_MPS
+            scale = 1.0 if over <= 1.0 else 1.0 / over
+            tag = f"{self._name}-{command.seq}-{command.enable:d}"
+            data += waveshare.encode_speed(left_mps * scale, right_mps * scale, tag)
+            self._stopped = stops
+        return data
+
+    def decode(self, data: bytes, now_s: float) -> list[DriveState]:
+        """Return the states that bytes read at ``now_s`` complete, oldest first."""
+        states: list[DriveState] = []
+        for line in self._reader.read(data):
+            match line:
+                case UgvReport():
+                    ways_cm = self._take(line, now_s)
+                    if ways_cm is not None:
+                        states.append(self._state(line, ways_cm, now_s))
+                case UgvEcho():
+                    self._note_echo(line.tag)
+                case UgvSetting(waveshare.T_HEARTBEAT, value):
+                    self._base.is_set = value == self._heartbeat_ms
+                case UgvText() if line.words in waveshare.START_WORDS:
+                    self._note_start("it printed that it starts")
+                case _:
+                    pass
+        return states
+
+    def _take(self, report: UgvReport, now_s: float) -> tuple[int, int] | None:
+        """Note what a report shows of the base; return its ways [cm] if it may be passed on."""
+        heard_s, self._base.heard_s = self._base.heard_s, now_s
+        if report.ways_cm is None:
+            self._say("base_firmware_old" if report.is_old else "base_no_encoders")
+            return None
+        if heard_s is not None and now_s - heard_s > SILENT_S:
+            self._note_start(f"it was silent for {now_s - heard_s:.1f} s")
+            self._base.heard_s = now_s
+        if not self._follows(report.ways_cm, now_s - (heard_s or now_s)):
+            return None
+        if not self._base.is_set:
+            self._base.waited += 1
+            if self._base.waited > UNSET_REPORTS:
+                self._say("base_not_set")
+            return None
+        self._say(None)
+        return report.ways_cm
+
+    def _follows(self, ways: tuple[int, int], dt_s: float) -> bool:
+        """Tell whether wheels can have come so far; a jump that lasts is a base that began anew."""
+        last, odd = self._base.ways, self._base.odd
+        most_cm = 100.0 * (2 * waveshare.FASTEST_MPS * dt_s + _SLIP_M)
+        if last is None or _near(ways, last, most_cm):
+            self._base.ways, self._base.odd = ways, None
+            return True
+        if odd is None or not _near(ways, odd, most_cm):
+            self._base.odd = ways
+            return False
+        self._note_start(f"its ways jumped from {last} to {ways} cm")
+        self._base.ways = ways
+        return True
+
+    def _state(self, report: UgvReport, ways_cm: tuple[int, int], now_s: float) -> DriveState:
+        stamp_s = now_s - report.size * _BITS_A_BYTE / self.baud
+        left_m = self._base.left.advance(report.left_mps, ways_cm[0], stamp_s)
+        right_m = self._base.right.advance(report.right_mps, ways_cm[1], stamp_s)
+        self._seq += 1
+        return DriveState(
+            boot_id=f"ugv-{self._name}-{self._starts}",
+            seq=self._seq,
+            stamp_s=stamp_s,
+            echo_boot=self._base.echo_boot,
+            echo_seq=self._base.echo_seq,
+            enabled=self._base.enabled,
+            timed_out=None,
+            left_rad=left_m / self._radius_m,
+            right_rad=right_m / self._radius_m,
+            left_radps=limit_radps(report.left_mps / self._radius_m),
+            right_radps=limit_radps(report.right_mps / self._radius_m),
+            battery=charge_of(report.volts, self._config),
+            estop_pressed=False,
+            bumper_front=False,
+            bumper_rear=False,
+            cliff=False,
+        )
+
+    def _note_echo(self, tag: str) -> None:
+        """Note which command the base printed back; a tag of another shape is nobody's."""
+        name, _, rest = tag.partition("-")
+        seq, _, enable = rest.partition("-")
+        if not (seq.isascii() and seq.isdigit() and len(seq) <= 15 and enable in {"0", "1"}):
+            return
+        self._base.echo_boot = self._boot if name == self._name else f"other-{name[:8]}"
+        self._base.echo_seq, self._base.enabled = int(seq), enable == "1"
+
+    def _note_start(self, why: str) -> None:
+        """Take note that the base began anew: it knows no setting, and counts from nought."""
+        if self._base.is_set:  # it says several things while it starts
+            log.warning("base_reset: %s; its settings are sent anew", why)
+        self._forget()
+
+    def _forget(self) -> None:
+        self._starts += 1
+        self._due = True
+        self._base = _KnownBase()
+
+    def _say(self, code: str | None) -> None:
+        """Log a trouble once, not 20 times a second."""
+        if code is not None and code != self._trouble:
+            log.error("%s: %s", code, _TROUBLE[code])
+        self._trouble = code
+
+
+def _near(a: tuple[int, int], b: tuple[int, int], most_cm: float) -> bool:
+    return abs(a[0] - b[0]) <= most_cm and abs(a[1] - b[1]) <= most_cm
