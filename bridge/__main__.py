@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
-from bridge.dead_man_file import load_dead_man
 from bridge.drive import SimDrive, open_serial_drive, require_brakes
 from bridge.fence_file import load_fence
 from bridge.fence_update import FenceDesk, Ground
@@ -115,6 +114,7 @@ def _robot(path: Path | None) -> RobotDescription:
 def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
     """Read the site's fence, map and learnt brakes; mint this run's name."""
     learnt, trouble = load_learnt(path_of(home, robot), robot)
+    trial = robot.valid_trial
     fence, fence_hash = load_fence(site / "fence.json")
     return CoreConfig(
         robot=robot,
@@ -123,7 +123,7 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
         fence_hash=fence_hash,
         map_id=read_map_id(site),  # the self test faults a fence drawn on another
         boot=secrets.token_hex(6),
-        dead_man_s=load_dead_man(home, robot),
+        dead_man_s=trial.dead_man_s if trial else None,
         learnt=learnt,
         braking_trouble=trouble,
     )

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from devices.serial_port import PortTrouble, SerialPort
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
 log = logging.getLogger("devices")
@@ -25,15 +26,26 @@ PASSING = frozenset({"port_missing", "port_busy", "port_gone"})
 class LastingPort:
     """Read and write a port that is opened anew whenever it went."""
 
-    def __init__(self, path: Path, baud: int, *, dtr: bool | None = None) -> None:
+    def __init__(
+        self,
+        path: Path,
+        baud: int,
+        *,
+        dtr: bool | None = None,
+        guard: Callable[[Path], None] | None = None,
+    ) -> None:
         """Try to open the port once, and from then on in the background.
 
-        ``dtr`` is set at each opening, as SerialPort says.
+        Args:
+            path: of the port.
+            baud: of the line.
+            dtr: set at each opening, as SerialPort says.
+            guard: is given the path before each opening, and raises a PortTrouble to refuse it.
 
         Raises:
             PortTrouble: it can't be used, and waiting would not mend it.
         """
-        self._path, self._baud, self._dtr = path, baud, dtr
+        self._path, self._baud, self._dtr, self._guard = path, baud, dtr, guard
         self._port: SerialPort | None = None
         self._gone: SerialPort | None = None
         self.trouble: PortTrouble | None = None
@@ -105,6 +117,8 @@ class LastingPort:
                 self._ending.wait(RETRY_S)
 
     def _open(self) -> None:
+        if self._guard is not None:
+            self._guard(self._path)
         port = SerialPort(self._path, self._baud, dtr=self._dtr)
         if self.trouble is not None:
             log.warning("port_back: %s", self._path)

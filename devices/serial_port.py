@@ -40,6 +40,7 @@ _CURES = {
     "port_not_serial": "name a serial port, such as one below /dev/serial/by-id",
     "port_gone": "it was unplugged, or its device began anew",
     "baud_unknown": "the port's driver does not do this speed",
+    "robot_untried": "lift the wheels off the ground and run `pons robot try`",
 }
 
 

@@ -20,6 +20,7 @@ from wire.fingerprint import fingerprint
 from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
+from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -154,6 +155,7 @@ class RobotDescription(Record):
     inputs: Inputs = Inputs()
     recording: Recording = Recording()
     localization: LocalizationConfig = LocalizationConfig()
+    trial: TrialRecord | None = None
 
     @model_validator(mode="after")
     def _wheels_reach_the_speed(self) -> RobotDescription:
@@ -174,8 +176,19 @@ class RobotDescription(Record):
 
     @property
     def hash(self) -> str:
-        """Return the fingerprint that status publishes and hello must match."""
-        return fingerprint(self.model_dump_json().encode())
+        """Return the fingerprint that status publishes and hello must match.
+
+        Without the trial, which says something about the robot and changes nothing of it.
+        """
+        return fingerprint(self.model_dump_json(exclude={"trial"}).encode())
+
+    @property
+    def valid_trial(self) -> TrialRecord | None:
+        """Return the trial; None where there was none, or one of another wiring."""
+        trial = self.trial
+        if trial is None or trial.wiring != wiring_of(self.drive, self.lidar):
+            return None
+        return trial
 
 
 def _misfits(base: Base, lidar: LidarConfig) -> Iterator[str]:

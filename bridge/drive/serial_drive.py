@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
@@ -145,17 +146,42 @@ class SerialDrive:
                 self._opened = opened
 
 
-def open_serial_drive(robot: RobotDescription, boot: str, line: Path | None = None) -> SerialDrive:
+def open_serial_drive(
+    robot: RobotDescription, boot: str, line: Path | None = None, *, for_trial: bool = False
+) -> SerialDrive:
     """Open the port that robot.toml names, or ``line`` in its place, and speak its protocol.
 
+    A robot whose trial is missing, or was of another wiring, gets no line at which metal may be:
+    only one with a program at its far end, as a twin's is.
+
+    Args:
+        robot: its description.
+        boot: this run's name.
+        line: in place of robot.toml's port.
+        for_trial: the wheels are off the ground, and who asks is the trial itself.
+
     Raises:
-        ConfigError: the port can't be used and waiting would not mend it; its code is the port's.
+        ConfigError: ``robot_untried``, or the port can't be used and waiting would not mend it; its
+            code is the port's.
     """
     config = robot.drive
     protocol = SERIAL_PROTOCOLS[config.kind](robot, boot)
     path = line or Path(config.port or "")
     try:
-        port = LastingPort(path, config.baud or protocol.baud)
+        guard = None if for_trial or robot.valid_trial else partial(_refuse_metal, robot)
+        port = LastingPort(path, config.baud or protocol.baud, guard=guard)
     except PortTrouble as trouble:
         raise ConfigError(trouble.code, f"drive.port {trouble.detail}") from None
     return SerialDrive(protocol, port, boot)
+
+
+def _refuse_metal(robot: RobotDescription, path: Path) -> None:
+    """Refuse a line that is there and is no pseudo-terminal, whose far end is always a program."""
+    if not path.exists() or path.resolve().is_relative_to("/dev/pts"):
+        return
+    known = "none" if robot.trial is None else f"one of {robot.trial.date}, of another wiring"
+    raise PortTrouble(
+        "robot_untried",
+        path,
+        f"before metal moves, robot.toml must hold a trial of it; it holds {known}",
+    )

@@ -1,10 +1,10 @@
-"""Check the drive of robot.toml: how often it reports, and what its silence costs in distance."""
+"""Check the drive of robot.toml: how often it reports, what its silence costs, who has tried it."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pons.doctor.finding import HealthFinding, ok
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok
 
 if TYPE_CHECKING:
     from wire import RobotDescription
@@ -23,3 +23,26 @@ def drive(robot: RobotDescription) -> HealthFinding:
         english += f"; it reports seldom: {more_ms:.0f} ms more lag in every stopping distance"
         chinese += f"；该底盘反馈较慢：每段制动距离多计 {more_ms:.0f} 毫秒延迟"
     return ok("drive", english, chinese)
+
+
+def trial(robot: RobotDescription) -> HealthFinding:
+    """Say whether somebody has tried this robot with its wheels off the ground."""
+    made, valid = robot.trial, robot.valid_trial
+    if robot.drive.virtual:
+        return ok("trial", "a simulated drive needs none", "仿真驱动不需要测试")
+    if valid is not None:
+        return ok(
+            "trial",
+            f"tried on {valid.date}: without a command it stands after {valid.dead_man_s:g} s",
+            f"{valid.date} 测试通过：没有指令时 {valid.dead_man_s:g} 秒内停下",
+        )
+    found = BilingualWords("nobody has tried this robot", "尚未测试过此机器人")
+    if made is not None:
+        found = BilingualWords(
+            f"the trial of {made.date} was of other values of [drive] or [lidar]",
+            f"{made.date} 的测试针对的是不同的 [drive] 或 [lidar] 设置",
+        )
+    cure = BilingualWords(
+        "lift its wheels off the ground and run: pons robot try", "把轮子架空后运行：pons robot try"
+    )
+    return fail("trial", found, cure)

@@ -2,6 +2,7 @@
 
 ``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
 and changes no setting. Needs no running robot; a port that a running one holds is named busy.
+``pons robot try [--robot FILE]`` turns the wheels, off the ground (docs/robot-try.md).
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -74,12 +75,18 @@ def parser() -> argparse.ArgumentParser:
         "--port", type=Path, action="append", metavar="PATH", help="this one alone, or several"
     )
     find.add_argument("--json", action="store_true")
+    tried = acts.add_parser("try", help="turn the wheels, off the ground, and prove that they stop")
+    tried.add_argument("--robot", type=Path, metavar="FILE", help="robot.toml (PONS_ROBOT)")
     return top
 
 
-def run(_settings: LaunchSettings, words: list[str]) -> int:
-    """Be ``pons robot``; 0 where a device was recognised, 3 where none was."""
+def run(settings: LaunchSettings, words: list[str]) -> int:
+    """Be ``pons robot``; 0 where a device was recognised or all was proved, 3 where not."""
     said = parser().parse_args(words)
+    if said.act == "try":
+        from pons.robot.trial_command import run_trial
+
+        return run_trial(replace(settings, robot=said.robot) if said.robot else settings)
     entries = [describe_port(path) for path in said.port] if said.port else list_ports()
     if not said.json and entries:
         names = ", ".join(str(entry.path) for entry in entries)

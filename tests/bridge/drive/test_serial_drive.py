@@ -17,6 +17,7 @@ from tests.bridge.ground import until
 from tests.wire.examples import EXAMPLES
 from wire import ConfigError, DriveCommand, DriveState, RobotDescription
 from wire.drive_config import DriveConfig
+from wire.trial_record import TrialRecord, wiring_of
 
 BODY = cast("DriveState", EXAMPLES[DriveState])
 
@@ -128,9 +129,30 @@ def test_nobody_at_the_other_end_reads_and_nothing_waits(drive: SerialDrive) -> 
 def test_a_port_that_waiting_will_not_mend_is_refused_with_its_cure(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(ConfigError, match="port_not_serial") as refused:
-        open_serial_drive(robot(tmp_path / "file"), "b1")
+        open_serial_drive(robot(tmp_path / "file"), "b1", for_trial=True)
     assert refused.value.code == "port_not_serial"
     assert "/dev/serial/by-id" in str(refused.value)
+
+
+def test_metal_that_nobody_tried_is_not_opened(tmp_path: Path) -> None:
+    (tmp_path / "metal").write_text("")
+    described = robot(tmp_path / "metal")
+    record = TrialRecord(date="2026-11-24", wiring="0" * 16, dead_man_s=0.2, brake_s=0.0)
+    for trial, words in ((None, "it holds none"), (record, "one of 2026-11-24, of another")):
+        with pytest.raises(ConfigError, match=words) as refused:
+            open_serial_drive(described.model_copy(update={"trial": trial}), "b1")
+        assert refused.value.code == "robot_untried"
+        assert "pons robot try" in str(refused.value)
+
+
+def test_metal_that_was_tried_is_opened(tmp_path: Path) -> None:
+    (tmp_path / "metal").write_text("")
+    described = robot(tmp_path / "metal")
+    wiring = wiring_of(described.drive, described.lidar)
+    record = TrialRecord(date="2026-11-24", wiring=wiring, dead_man_s=0.2, brake_s=0.0)
+    with pytest.raises(ConfigError) as refused:
+        open_serial_drive(described.model_copy(update={"trial": record}), "b1")
+    assert refused.value.code == "port_not_serial"
 
 
 def test_a_line_may_stand_in_for_the_port_of_robot_toml(twin: DriveTwin, line: Path) -> None:

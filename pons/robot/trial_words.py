@@ -1,0 +1,141 @@
+"""Say what ``pons robot try`` asks of a person and what it found, in English and Chinese."""
+
+from __future__ import annotations
+
+from typing import Final
+
+PROMPTS: Final[dict[str, tuple[str, str]]] = {
+    "wheels_up": (
+        "The wheels will turn. Lift them off the ground, hands and cables away; type UP, Enter",
+        "轮子将会转动。请把轮子架空，手和线缆远离轮子。输入 UP 后回车",
+    ),
+    "hand_left": (
+        "Turn the LEFT wheel FORWARD by hand, three whole turns, then Enter",
+        "请用手把左轮向前转三整圈，然后回车",
+    ),
+    "hand_right": (
+        "Turn the RIGHT wheel FORWARD by hand, three whole turns, then Enter",
+        "请用手把右轮向前转三整圈，然后回车",
+    ),
+    "lidar_clear": (
+        "Step away from the robot, so that nothing moves around it, then Enter",
+        "请离开机器人，保证周围没有东西移动，然后回车",
+    ),
+    "lidar_front": (
+        "Hold a box half a metre in FRONT of the robot, at the lidar's height, then Enter",
+        "请把一个盒子举在机器人正前方半米、与激光雷达同高处，然后回车",
+    ),
+    "lidar_left": (
+        "Hold the box half a metre to the LEFT of the robot, then Enter",
+        "请把盒子举在机器人左侧半米处，然后回车",
+    ),
+}
+"""By what is asked."""
+
+REFUSALS: Final[dict[str, tuple[str, str]]] = {
+    "not_lifted": (
+        "nothing was turned: UP was not typed",
+        "没有输入 UP，未转动任何轮子",
+    ),
+    "trial_shipped": (
+        "this robot.toml came with Pons and is not written to: copy it, name the copy by --robot",
+        "此 robot.toml 随 Pons 安装，不会被改写；请复制后用 --robot 指定",
+    ),
+    "trial_virtual": (
+        "a simulated drive needs no trial: drive.kind is 'sim'",
+        "仿真驱动（drive.kind = 'sim'）不需要测试",
+    ),
+    "trial_silent": (
+        "the base says nothing: is it powered, is this its port? pons robot find tells",
+        "底盘没有数据：请检查供电和端口，可用 pons robot find 查看",
+    ),
+    "trial_stop_pressed": (
+        "the stop input is pressed, or its contact open: release or wire it (docs/firmware.md)",
+        "急停输入被按下或断线：请松开或接好（见 docs/firmware.md）",
+    ),
+    "trial_rebooted": (
+        "the controller began anew in the middle: its supply dips, or its cable is loose",
+        "控制器中途重启：供电不足或接线松动",
+    ),
+    "trial_rolls": (
+        "a wheel turns without torque: hold the robot still; is a motor fed past the controller?",
+        "没有扭矩时轮子自己在转：请固定机器人，并检查电机是否被供电",
+    ),
+    "trial_no_time_out": (
+        "without a command the base has not timed out: no dead-man, or another program drives it",
+        "没有指令时底盘仍说未超时：它没有看门狗，或有其他程序在驱动它",
+    ),
+    "hand_none": (
+        "no encoder moved: check its supply and both of its lines",
+        "编码器没有变化：请检查供电和两根信号线",
+    ),
+    "hand_swapped": (
+        "the other side's encoder moved: swap the encoders' plugs",
+        "另一侧的编码器在动：请交换两个编码器的插头",
+    ),
+    "hand_backwards": (
+        "its encoder counts backwards: swap A and B, or ..._ENCODER_SENSE (docs/firmware.md)",
+        "编码器方向相反：请交换 A、B 线，或修改 ..._ENCODER_SENSE（见 docs/firmware.md）",
+    ),
+    "hand_ticks": (
+        "the turns don't fit ticks_per_turn: lines of the encoder × 4 × gear",
+        "圈数与 ticks_per_turn 不符：应为编码器线数 × 4 × 减速比",
+    ),
+    "power_none": (
+        "the motor does not turn: check its supply, its wires and the driver's standby pin",
+        "电机不转：请检查供电、接线和驱动板的待机引脚",
+    ),
+    "power_swapped": (
+        "the other wheel turned: swap the motors' wires",
+        "另一侧的轮子在转：请交换两个电机的接线",
+    ),
+    "power_backwards": (
+        "the wheel turned backwards: swap its motor's two wires, or set ..._MOTOR_SENSE",
+        "轮子向后转：请交换该电机的两根线，或修改 ..._MOTOR_SENSE",
+    ),
+    "power_both": (
+        "both wheels turned though one was told to: look for a bridge between their wires",
+        "只命令一个轮子却两个都转：请检查接线是否短接",
+    ),
+    "power_runaway": (
+        "a wheel ran far faster than told: its encoder does not count while the motor turns",
+        "轮速远高于指令：电机转动时编码器没有计数",
+    ),
+    "power_speed": (
+        "a wheel does not keep its speed: look at FREE_RADPS and the regulation of its firmware",
+        "轮速与指令不符：请检查固件的 FREE_RADPS 与调速参数",
+    ),
+    "dead_man_none": (
+        "the base drives on without commands: it is not to be driven",
+        "没有指令时底盘仍继续行驶：不能使用",
+    ),
+    "dead_man_late": (
+        "the base stops later than it claims without commands",
+        "没有指令时底盘停得比声称的晚",
+    ),
+    "dead_man_untold": (
+        "the base stopped without commands and does not say so",
+        "没有指令时底盘停下了，却没有报告",
+    ),
+    "coasts": (
+        "the wheels roll on without torque: short the motors, or fit a brake",
+        "失去扭矩后轮子继续滑行：请短接电机或安装制动",
+    ),
+    "lidar_silent": (
+        "the lidar gives no whole scan: pons doctor says more",
+        "激光雷达没有完整扫描：请运行 pons doctor",
+    ),
+    "lidar_nothing": (
+        "the lidar did not see what was held up: hold it at the lidar's height, within a metre",
+        "激光雷达没有看到举起的物体：请举到与雷达同高、一米以内",
+    ),
+    "lidar_mirrored": (
+        "what stands left is seen right: turn lidar.upside_down round",
+        "左侧的物体出现在右侧：请改变 lidar.upside_down",
+    ),
+    "lidar_turned": (
+        "what stands in front is not seen in front: set lidar.yaw_rad",
+        "正前方的物体不在正前方：请设置 lidar.yaw_rad",
+    ),
+}
+"""By code; each is preceded by what came."""

@@ -1,0 +1,145 @@
+"""``pons robot try`` turns nothing unasked, writes what was proved, and says how to mend it."""
+
+from __future__ import annotations
+
+import io
+import os
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from pons.__main__ import main
+from pons.robot.trial_command import refusal_lines, set_trial
+from pons.robot.trial_words import PROMPTS, REFUSALS
+from pons.robot.wheel_trial import TrialRefusal
+from sim.twin.line import TwinLine
+from tests.conftest import ROOT
+from tests.pons.robot.stand import START_S, TICK_S, Stand
+from wire import load_robot
+from wire.trial_record import TrialRecord
+
+RECORD = TrialRecord(date="2026-11-24", wiring="0" * 16, dead_man_s=0.27, brake_s=0.05)
+TEXT = (ROOT / "robots" / "pons_mcu.toml").read_text("utf-8")
+
+
+def test_a_trial_is_set_below_all_else_and_replaces_the_one_before() -> None:
+    once = set_trial(TEXT, RECORD)
+    again = set_trial(once, RECORD.model_copy(update={"dead_man_s": 0.3}))
+    assert once.startswith(TEXT.rstrip())
+    assert again.count("[trial]") == 1
+    assert "dead_man_s = 0.3\n" in again
+    assert set_trial(again, RECORD) == once
+
+
+def test_a_trial_in_the_middle_leaves_what_follows(tmp_path: Path) -> None:
+    text = '[trial] # old\ndate = "2020-01-01"\n\n[base]\nradius_m = 0.3\n'
+    path = tmp_path / "robot.toml"
+    path.write_text(set_trial(text, RECORD))
+    robot = load_robot(path)
+    assert robot.base.radius_m == 0.3
+    assert robot.trial == RECORD
+
+
+@pytest.mark.parametrize("words", [*PROMPTS.values(), *REFUSALS.values()])
+def test_all_is_said_in_both_languages(words: tuple[str, str]) -> None:
+    english, chinese = words
+    assert english.isascii() or "×" in english
+    assert any(ord(letter) > 0x2E80 for letter in chinese)
+
+
+@pytest.mark.parametrize("code", REFUSALS)
+def test_a_refusal_says_what_came_and_that_nothing_was_written(code: str) -> None:
+    lines = refusal_lines(TrialRefusal(code, "left +1"))
+    assert lines[0] == f"{code} (left +1)"
+    assert lines[-1] == "nothing was written"
+
+
+def robot_at(folder: Path, port: Path) -> Path:
+    path = folder / "robot.toml"
+    path.write_text(TEXT.replace("/dev/ttyACM0", str(port)))
+    return path
+
+
+def test_a_simulated_drive_needs_none(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "robot.toml"
+    path.write_text('id = "r1"\n')
+    assert main(["robot", "try", "--robot", str(path)]) == 3
+    assert "trial_virtual" in capsys.readouterr().err
+
+
+def test_without_the_word_nothing_is_opened(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with typed(monkeypatch, "yes\n"):
+        assert main(["robot", "try", "--robot", str(robot_at(tmp_path, tmp_path / "no"))]) == 3
+    assert "not_lifted" in capsys.readouterr().err
+
+
+def test_a_terminal_that_goes_is_an_interrupt(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with typed(monkeypatch, ""):
+        assert main(["robot", "try", "--robot", str(robot_at(tmp_path, tmp_path / "no"))]) == 130
+    assert "nothing was written" in capsys.readouterr().err
+
+
+@contextmanager
+def typed(monkeypatch: pytest.MonkeyPatch, text: str) -> Iterator[int]:
+    """Be a terminal on which this was typed; yield where more can be."""
+    reading, writing = os.pipe()
+    with os.fdopen(reading, "r") as stdin:
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(stdin.buffer, write_through=True))
+        os.write(writing, text.encode())
+        if not text:
+            os.close(writing)
+        yield writing
+        if text:
+            os.close(writing)
+
+
+@pytest.mark.e2e
+def test_a_person_tries_a_base_and_the_bridge_may_then_drive_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """At a real line, in real time: about half a minute."""
+    link = tmp_path / "base"
+    path = robot_at(tmp_path, link)
+    assert load_robot(path).valid_trial is None
+    line = TwinLine(link)
+    stand = Stand(load_robot(path))
+    stand.end = line  # type: ignore[assignment]
+    ending = threading.Event()
+    with typed(monkeypatch, "UP\n") as terminal:
+
+        def live() -> None:
+            began_s, turns = time.monotonic(), iter(("hand_left", "hand_right"))
+            asked_s = began_s + 4.0
+            while not ending.wait(TICK_S / 4):
+                while began_s + stand.time_s - START_S < time.monotonic():
+                    stand.wait()
+                if time.monotonic() >= asked_s and stand.has_answered():
+                    code = next(turns, None)
+                    if code is not None:
+                        stand.ask(code)
+                        asked_s = time.monotonic() + 4.0
+                        threading.Timer(3.0, os.write, (terminal, b"\n")).start()
+
+        thread = threading.Thread(target=live)
+        thread.start()
+        try:
+            assert main(["robot", "try", "--robot", str(path)]) == 0, capsys.readouterr().err
+        finally:
+            ending.set()
+            thread.join()
+            line.close()
+    trial = load_robot(path).valid_trial
+    assert trial is not None
+    assert 0.2 <= trial.dead_man_s <= 0.5
+    moved = load_robot(path).model_copy(
+        update={"drive": load_robot(path).drive.model_copy(update={"ticks_per_turn": 99})}
+    )
+    assert moved.valid_trial is None
