@@ -12,7 +12,9 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+from bridge.drive.arduino import ArduinoProtocol
 from bridge.drive.pons_mcu import PonsMcuProtocol
+from bridge.drive.turtlebot3 import Turtlebot3Protocol
 from bridge.drive.waveshare import WaveshareProtocol
 from devices import LastingPort, PortTrouble
 from wire import ConfigError, DriveCommand
@@ -52,6 +54,8 @@ class SerialProtocol(Protocol):
 SERIAL_PROTOCOLS: Mapping[str, Callable[[RobotDescription, str], SerialProtocol]] = {
     "pons_mcu": lambda robot, boot: PonsMcuProtocol(robot.drive, boot),
     "waveshare": WaveshareProtocol,
+    "arduino": ArduinoProtocol,
+    "turtlebot3": Turtlebot3Protocol,
 }
 """By ``kind`` of robot.toml. Each is given the robot and this run's name."""
 

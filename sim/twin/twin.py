@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from sim.twin.arduino import ArduinoFirmware
 from sim.twin.line import TwinLine
 from sim.twin.pons_mcu import PonsMcuFirmware
+from sim.twin.turtlebot3 import Turtlebot3Firmware
 from sim.twin.waveshare import WaveshareFirmware
 from wire import ConfigError, DriveCommand
 
@@ -38,6 +40,8 @@ class Firmware(Protocol):
 FIRMWARES: Mapping[str, Callable[[RobotDescription], Firmware]] = {
     "pons_mcu": lambda robot: PonsMcuFirmware(robot.drive),
     "waveshare": WaveshareFirmware,
+    "arduino": ArduinoFirmware,
+    "turtlebot3": Turtlebot3Firmware,
 }
 """By ``kind`` of robot.toml."""
 
