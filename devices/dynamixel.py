@@ -86,7 +86,7 @@ class DynamixelReader:
         while True:
             head = data.find(HEAD, at)
             if head < 0:
-                keep = _begun(data[at:])
+                keep = _count_begun(data[at:])
                 self.spoilt_bytes += len(data) - at - keep
                 self._rest = data[len(data) - keep :]
                 return found
@@ -104,7 +104,7 @@ class DynamixelReader:
             at = end
 
 
-def _begun(tail: bytes) -> int:
+def _count_begun(tail: bytes) -> int:
     """Return how many of the last bytes may be the beginning of a head."""
     return next((n for n in (3, 2, 1) if tail.endswith(HEAD[:n])), 0)
 
