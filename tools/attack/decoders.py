@@ -256,6 +256,11 @@ def _offline(_folder: Path) -> Reader:
     return Reader(read)
 
 
+def _drive(kind: str, _folder: Path) -> Reader:
+    """Hear spoilt lines of a base in the middle of a drive."""
+    return Reader(drive_lines.SpoiltLines(kind).read)
+
+
 @cache
 def _vocabulary() -> Any:
     from planner.site import Site
@@ -276,12 +281,7 @@ DECODERS = (
     AttackedDecoder("language", seeds.texts, _language, 600),
     AttackedDecoder("offline", seeds.texts, _offline, 300),
     *(
-        AttackedDecoder(
-            kind,
-            partial(drive_lines.lines_of, kind),
-            lambda _folder, kind=kind: Reader(drive_lines.SpoiltLines(kind).read),
-            600,
-        )
+        AttackedDecoder(kind, partial(drive_lines.lines_of, kind), partial(_drive, kind), 600)
         for kind in drive_lines.KINDS
     ),
 )

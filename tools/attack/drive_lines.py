@@ -7,7 +7,7 @@ sent; and after the noise the base is heard again within two seconds.
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from tools.attack.unsound import Unsound
 
@@ -44,7 +44,7 @@ class DrivenLine:
 
         self._protocol = SERIAL_PROTOCOLS[kind](_robot(kind), "b1")
         self._firmware = FIRMWARES[kind](_robot(kind))
-        self._body = EXAMPLES[DriveState]
+        self._body = cast("DriveState", EXAMPLES[DriveState])
         self._seq, self._now_s = 0, 100.0
         self.said: list[bytes] = []
         self._firmware.hear(self._protocol.begin(), self._now_s)

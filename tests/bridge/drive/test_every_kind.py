@@ -15,7 +15,7 @@ from sim.twin import FIRMWARES
 from tests.wire.examples import EXAMPLES
 from wire import DriveCommand, DriveState, RobotDescription, load_robot
 
-ROBOTS = {
+ROBOTS: dict[str, RobotDescription] = {
     robot.drive.kind: robot
     for robot in map(load_robot, sorted(Path("robots").glob("*.toml"), reverse=True))
 }
