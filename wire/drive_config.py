@@ -47,13 +47,19 @@ DRIVE_KINDS: Mapping[str, DriveKind] = {
     "waveshare": DriveKind(
         ("port",), ("baud", *_BATTERY_KEYS), 0.06, reports_dead_man=False
     ),  # 20 Hz at most, and the turn of its loop
+    "arduino": DriveKind(
+        ("port", "ticks_per_turn"), ("baud",), 0.04, dead_man_s=2.0, reports_dead_man=False
+    ),  # asked at 50 Hz, through adapters that wait 16 ms
+    "turtlebot3": DriveKind(
+        ("port",), (), 0.04, dead_man_s=0.5, reports_dead_man=False
+    ),  # asked at 50 Hz for a table that is filled at 50 Hz
 }
 
 
 class DriveConfig(Record):
     """Choose the drive and state its known dynamics."""
 
-    kind: Literal["sim", "pons_mcu", "waveshare"] = "sim"
+    kind: Literal["sim", "pons_mcu", "waveshare", "arduino", "turtlebot3"] = "sim"
     """``sim``: the simulated drive; the others are bases of metal (docs/drives.md)."""
     port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
     """Serial port of the base; one below /dev/serial/by-id keeps its name."""

@@ -13,7 +13,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+from bridge.drive.arduino import ArduinoProtocol
 from bridge.drive.pons_mcu import PonsMcuProtocol
+from bridge.drive.turtlebot3 import Turtlebot3Protocol
 from bridge.drive.waveshare import WaveshareProtocol
 from devices import LastingPort, PortTrouble
 from wire import ConfigError, DriveCommand
@@ -69,6 +71,8 @@ class ByteLine(Protocol):
 SERIAL_PROTOCOLS: Mapping[str, Callable[[RobotDescription, str], SerialProtocol]] = {
     "pons_mcu": lambda robot, boot: PonsMcuProtocol(robot.drive, boot),
     "waveshare": WaveshareProtocol,
+    "arduino": ArduinoProtocol,
+    "turtlebot3": Turtlebot3Protocol,
 }
 """By ``kind`` of robot.toml. Each is given the robot and this run's name."""
 

@@ -9,6 +9,7 @@ null. Its speeds are integrated and held to the whole centimetres that it counts
 from __future__ import annotations
 
 import logging
+import re
 import secrets
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -31,6 +32,8 @@ UNSET_REPORTS = 60
 SILENT_S = 1.0
 """A base that starts is silent for longer: what speaks after such a silence is another."""
 _BITS_A_BYTE = 10
+_TAG_NAME = re.compile(r"[0-9a-z]{4}")
+_TAG_SEQ = re.compile(r"[0-9]{1,15}")
 _MILLI = 1000.0
 _SLIP_M = 0.03
 """Two whole centimetres may hide three."""
@@ -218,9 +221,9 @@ class WaveshareProtocol:
         """Note which command the base printed back; a tag of another shape is nobody's."""
         name, _, rest = tag.partition("-")
         seq, _, enable = rest.partition("-")
-        if not (seq.isascii() and seq.isdigit() and len(seq) <= 15 and enable in {"0", "1"}):
+        if not (_TAG_NAME.fullmatch(name) and _TAG_SEQ.fullmatch(seq) and enable in {"0", "1"}):
             return
-        self._base.echo_boot = self._boot if name == self._name else f"other-{name[:8]}"
+        self._base.echo_boot = self._boot if name == self._name else f"other-{name}"
         self._base.echo_seq, self._base.enabled = int(seq), enable == "1"
 
     def _note_start(self, why: str) -> None:

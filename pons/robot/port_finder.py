@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from devices import PortTrouble, SerialPort, pons_mcu, waveshare
+from devices import PortTrouble, SerialPort, pons_mcu, ros_arduino, turtlebot3, waveshare
 from devices.port_probe import PortAnswer
 from sensors.lidar import ldrobot, rplidar, ydlidar
 from sensors.lidar.kinds import recognize
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from devices.port_probe import PortProbe
 
 PROBES: Final[tuple[PortProbe, ...]] = (
-    *pons_mcu.PROBES, *waveshare.PROBES, *ldrobot.PROBES, *rplidar.PROBES, *ydlidar.PROBES,
+    *pons_mcu.PROBES, *waveshare.PROBES, *ros_arduino.PROBES, *turtlebot3.PROBES,
+    *ldrobot.PROBES, *rplidar.PROBES, *ydlidar.PROBES,
 )  # fmt: skip
 BOOT_S: Final = 2.5
 """The first listening: opening a port resets most Arduinos, whose loader then waits so long."""

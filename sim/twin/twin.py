@@ -10,8 +10,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+from sim.twin.arduino import ArduinoFirmware
 from sim.twin.line import TwinLine
 from sim.twin.pons_mcu import PonsMcuFirmware
+from sim.twin.turtlebot3 import Turtlebot3Firmware
 from sim.twin.waveshare import WaveshareFirmware
 from wire import ConfigError, DriveCommand
 
@@ -53,6 +55,8 @@ Boot = Callable[["RobotDescription"], Firmware]
 FIRMWARES: Mapping[str, Boot] = {
     "pons_mcu": lambda robot: PonsMcuFirmware(robot.drive),
     "waveshare": WaveshareFirmware,
+    "arduino": ArduinoFirmware,
+    "turtlebot3": Turtlebot3Firmware,
 }
 """By ``kind`` of robot.toml."""
 

@@ -33,6 +33,24 @@ def test_no_kind_reports_so_seldom_that_its_window_hides_the_longer_one(kind: st
     assert config.answer_window_s < ENC_LONG_S
 
 
+@pytest.mark.parametrize("kind", sorted(DRIVE_KINDS))
+def test_a_dead_man_that_nothing_can_set_is_the_firmwares_own(kind: str) -> None:
+    config = config_of(kind)
+    fixed_s = DRIVE_KINDS[kind].dead_man_s
+    assert config.dead_man_s == (config.timeout_s if fixed_s is None else fixed_s)
+    given_keys = config.model_dump(exclude_unset=True)
+    if fixed_s is None:
+        assert DriveConfig.model_validate({**given_keys, "timeout_s": 0.3}).dead_man_s == 0.3
+    else:
+        with pytest.raises(ValueError, match="whatever it is told"):
+            DriveConfig.model_validate({**given_keys, "timeout_s": 0.3})
+
+
+@pytest.mark.parametrize("kind", sorted(DRIVE_KINDS))
+def test_only_a_drive_that_reports_its_dead_man_needs_no_trial(kind: str) -> None:
+    assert config_of(kind).reports_dead_man is (kind in {"sim", "pons_mcu"})
+
+
 @given(st.floats(0.001, 0.1))
 def test_longer_windows_are_paid_for_in_lag(report_s: float) -> None:
     with pytest.MonkeyPatch.context() as patch:

@@ -49,7 +49,7 @@ MCU = "[drive]\nkind = 'pons_mcu'\nticks_per_turn = 4096\n"
         ("[drive]\ntimeout_s = 10.0", "robot_toml_invalid", "drive.timeout_s"),
         ("[drive]\nkind = 'warp'", "robot_toml_invalid", "drive.kind"),
         ("[drive]\nport = '/dev/ttyACM0'", "robot_toml_invalid",
-         "drive.port is for pons_mcu, waveshare, not for kind 'sim'"),
+         "drive.port is for pons_mcu, waveshare, arduino, turtlebot3, not for kind 'sim'"),
         ("[drive]\nkind = 'pons_mcu'", "robot_toml_invalid",
          ("drive.port is missing: kind 'pons_mcu' needs port, ticks_per_turn; "
          "drive.ticks_per_turn is missing")),

@@ -6,11 +6,12 @@ A reader takes bytes and returns; any exception but its own refusals is a crash.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tools.attack import seeds
+from tools.attack import drive_lines, seeds
+from tools.attack.unsound import Unsound
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -50,10 +51,6 @@ def stable(refusal: Exception) -> bool:
     """Return whether a refusal carries what a program may rely on: a code, or a model's why."""
     code = getattr(refusal, "code", None) or getattr(refusal, "why", None)
     return isinstance(code, str) and bool(code)
-
-
-class Unsound(Exception):
-    """A decoder took what it should not, or does not say again what it took."""
 
 
 def _codec(_folder: Path) -> Reader:
@@ -259,6 +256,11 @@ def _offline(_folder: Path) -> Reader:
     return Reader(read)
 
 
+def _drive(kind: str, _folder: Path) -> Reader:
+    """Hear spoilt lines of a base in the middle of a drive."""
+    return Reader(drive_lines.SpoiltLines(kind).read)
+
+
 @cache
 def _vocabulary() -> Any:
     from planner.site import Site
@@ -278,5 +280,9 @@ DECODERS = (
     AttackedDecoder("yaml", lambda: [*seeds.places(), *seeds.maps()], _yaml),
     AttackedDecoder("language", seeds.texts, _language, 600),
     AttackedDecoder("offline", seeds.texts, _offline, 300),
+    *(
+        AttackedDecoder(kind, partial(drive_lines.lines_of, kind), partial(_drive, kind), 600)
+        for kind in drive_lines.KINDS
+    ),
 )
 BY_NAME = {decoder.name: decoder for decoder in DECODERS}

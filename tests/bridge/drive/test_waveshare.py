@@ -109,7 +109,10 @@ def test_the_echo_names_this_bridge_another_or_none() -> None:
     other = b'{"T":1,"L":0.0,"R":0.0,"s":"zzzz-99-0"}\n'
     state = one(protocol, other + report(), 1.1)
     assert (state.echo_boot, state.echo_seq, state.enabled) == ("other-zzzz", 99, False)
-    for tag in ("", "a", "a-b-1", "a-1-2", "a-1", f"a-{'9' * 16}-1", "a-\u0663-1"):
+    for tag in (
+        "", "a", "abcd-b-1", "abcd-1-2", "abcd-1", f"abcd-{'9' * 16}-1", "abcd-\u0663-1",
+        "ab d-1-1", "停停停停-1-1", "abcde-1-1", "-1-1",
+    ):  # fmt: skip
         odd = json.dumps({"T": 1, "s": tag}).encode() + b"\n"
         assert one(protocol, odd + report(), 1.1).echo_seq == 99
 

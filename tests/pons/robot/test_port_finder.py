@@ -17,20 +17,20 @@ from devices import SerialPort
 from devices.port_listing import PortHolder, describe_port
 from pons.robot.port_finder import PROBES, PortFinding, question_port, question_ports
 from sim.twin.lidar import LIDAR_TWINS, LidarFirmware
-from sim.twin.pons_mcu import PonsMcuFirmware
-from sim.twin.waveshare import WaveshareFirmware
+from sim.twin.twin import FIRMWARES
 from tests.pons.robot.twin_ports import (
-    DRIVE,
-    UGV,
+    BASES,
+    PlayedBase,
     PlayedController,
     PlayedLidar,
     PlayedNoise,
-    PlayedUgv,
     entry,
     played,
 )
+from wire.drive_config import DRIVE_KINDS
 from wire.lidar_config import LidarConfig
 
+BASES_OF_OTHERS = sorted(BASES.keys() - {"pons_mcu"})
 LIDARS = {"_".join(filter(None, key)): key for key in LIDAR_TWINS}
 QUESTIONS = sorted({probe.question for probe in PROBES if probe.question})
 TURNING = "rplidar that turns"
@@ -42,21 +42,24 @@ def found() -> Iterator[dict[str, PortFinding]]:
     with TemporaryDirectory(prefix="pons-find-") as folder:
         paths = {name: Path(folder, name.replace(" ", "_")) for name in LIDARS}
         devices = {name: PlayedLidar(paths[name], *key) for name, key in LIDARS.items()}
-        paths |= {name: Path(folder, name) for name in ("mcu", "unknown", "silent", "ugv")}
+        paths |= {
+            name: Path(folder, name) for name in ("mcu", "unknown", "silent", *BASES_OF_OTHERS)
+        }
         paths[TURNING] = Path(folder, "turning")
         turning = PlayedLidar(paths[TURNING], "rplidar", "a1")
         turning.twin.firmware.tick(b"\xa5\x20", 0.0, lambda angles: (1.0,) * len(angles))
         others = [
             PlayedController(paths["mcu"]), PlayedNoise(paths["unknown"], 20),
-            PlayedNoise(paths["silent"], 0), turning, PlayedUgv(paths["ugv"]),
+            PlayedNoise(paths["silent"], 0), turning,
+            *(PlayedBase(paths[kind], kind) for kind in BASES_OF_OTHERS),
         ]  # fmt: skip
         with played([*devices.values(), *others]):
             findings = question_ports([entry(path) for path in paths.values()])
         yield dict(zip(paths, findings, strict=True))
         assert isinstance(others[0], PlayedController)
         assert not others[0].moved
-        assert isinstance(others[-1], PlayedUgv)
-        assert not others[-1].moved
+        bases = [one for one in others if isinstance(one, PlayedBase)]
+        assert [one.moved for one in bases] == [False] * len(BASES_OF_OTHERS)
 
 
 @pytest.mark.parametrize("name", sorted(LIDARS))
@@ -79,11 +82,12 @@ def test_a_motor_controller_is_named_with_its_battery(found: dict[str, PortFindi
     assert "ticks_per_turn" in one.answer.missing
 
 
-def test_a_ugv_base_is_named_with_its_battery(found: dict[str, PortFinding]) -> None:
-    one = found["ugv"]
-    assert (one.code, one.part, one.kind) == ("port_found", "drive", "waveshare")
+@pytest.mark.parametrize("kind", BASES_OF_OTHERS)
+def test_each_base_is_named(kind: str, found: dict[str, PortFinding]) -> None:
+    one = found[kind]
+    assert (one.code, one.part, one.kind) == ("port_found", "drive", kind), one
     assert one.answer is not None
-    assert "battery" in one.answer.words
+    assert set(one.answer.missing) == set(DRIVE_KINDS[kind].needed) - {"port"}
 
 
 def test_a_lidar_that_still_turns_is_named_though_it_does_not_answer(
@@ -139,10 +143,11 @@ def test_a_port_that_goes_is_told(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=bytes.hex)
 def test_no_question_turns_a_wheel(question: bytes) -> None:
-    for firmware in (PonsMcuFirmware(DRIVE, 0xF0), WaveshareFirmware(UGV)):
+    for kind, make in FIRMWARES.items():
+        firmware = make(BASES[kind])
         for k in range(300):
             firmware.hear(question, 0.01 * k)
-            assert firmware.motors(0.01 * k) == (0.0, 0.0, False)
+            assert firmware.motors(0.01 * k)[:2] == (0.0, 0.0), kind
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=bytes.hex)

@@ -12,19 +12,27 @@ from typing import Any, Protocol, cast
 
 import numpy as np
 
+from bridge.drive.serial_drive import SERIAL_PROTOCOLS
 from devices.port_listing import SerialPortEntry
 from sim.twin.lidar import LidarTwin
 from sim.twin.line import TwinLine
 from sim.twin.pons_mcu import PonsMcuFirmware
-from sim.twin.waveshare import WaveshareFirmware
+from sim.twin.twin import FIRMWARES
 from tests.wire.examples import EXAMPLES
 from wire import DriveState, RobotDescription
-from wire.drive_config import DriveConfig
+from wire.drive_config import DRIVE_KINDS, DriveConfig
 from wire.lidar_config import LidarConfig
 
 PERIOD_S = 0.01
 BODY = cast("DriveState", EXAMPLES[DriveState]).model_copy(update={"battery": 0.8})
-UGV = RobotDescription(drive=DriveConfig(kind="waveshare", port="/dev/x"))
+_NEEDED = {"port": "/dev/x", "ticks_per_turn": 400}
+BASES = {
+    kind: RobotDescription.model_validate(
+        {"drive": {"kind": kind, **{key: _NEEDED[key] for key in DRIVE_KINDS[kind].needed}}}
+    )
+    for kind in FIRMWARES
+}
+"""A robot of each kind that has a twin."""
 DRIVE = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400)
 
 
@@ -71,18 +79,20 @@ class PlayedController:
         self.line.close()
 
 
-class PlayedUgv:
-    """Play a UGV base and remember whether its wheels were ever told to turn."""
+class PlayedBase:
+    """Play a base of one kind and remember whether its wheels were ever told to turn."""
 
-    def __init__(self, link: Path) -> None:
-        self.line, self.firmware = TwinLine(link), WaveshareFirmware(UGV)
+    def __init__(self, link: Path, kind: str) -> None:
+        self.line, self.firmware = TwinLine(link), FIRMWARES[kind](BASES[kind])
+        self._baud = SERIAL_PROTOCOLS[kind](BASES[kind], "b1").baud
         self.moved = False
 
     def turn(self, now_s: float) -> None:
-        speaks_alike = self.line.baud() == 115_200
+        speaks_alike = self.line.baud() == self._baud
         heard = self.line.read()
         self.firmware.hear(heard if speaks_alike else b"", now_s)
-        self.moved |= self.firmware.motors(now_s) != (0.0, 0.0, False)
+        left_radps, right_radps, _ = self.firmware.motors(now_s)
+        self.moved |= (left_radps, right_radps) != (0.0, 0.0)
         said = self.firmware.say(BODY, now_s)
         self.line.write(said if speaks_alike else b"\xf8" * len(said))
 

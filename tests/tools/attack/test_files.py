@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from tools.attack.decoders import Unsound
 from tools.attack.file_kinds import KINDS
 from tools.attack.files import file_outcome, outcome_of
 from tools.attack.lab import ChildEnd
+from tools.attack.unsound import Unsound
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
 """The fork only reads one file and ends; threads of the test's own process are nothing to it."""
