@@ -51,6 +51,11 @@ def encode_move(left_ticks: int, right_ticks: int) -> bytes:
     return b"m %d %d\re\r" % (left, right)
 
 
+def encode_question() -> bytes:
+    """Return the question for the counts."""
+    return b"e\r"
+
+
 class ArduinoReader:
     """Find the lines in a stream of bytes. Keeps at most one unfinished line between calls."""
 

@@ -108,6 +108,14 @@ class ArduinoProtocol:
             round(command.left_radps * scale), round(command.right_radps * scale)
         )
 
+    def question(self, seq: int) -> bytes:
+        """Return the question for the counts alone: it is no command, and stops no time-out."""
+        if not self._may_ask(seq):
+            return b""
+        echo = self._base.echo
+        self._base.asked.append(_AskedMove(echo.seq, echo.enable, is_heard=True))
+        return ros_arduino.encode_question()
+
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
         if data and self._base.is_lost:

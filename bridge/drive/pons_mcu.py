@@ -71,6 +71,10 @@ class PonsMcuProtocol:
             )
         )
 
+    def question(self, seq: int) -> bytes:
+        """Return nothing: the base speaks by itself."""
+        return b""
+
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
         frames = self._reader.read(data)

@@ -48,6 +48,9 @@ class SerialProtocol(Protocol):
     def encode(self, command: DriveCommand) -> bytes:
         """Return the bytes of one command; none where the base is not to hear each of them."""
 
+    def question(self, seq: int) -> bytes:
+        """Return what asks for a state and is no command: no dead-man is fed by it."""
+
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
 
@@ -96,7 +99,7 @@ class SerialDrive:
         self._opened = 0
         self._boot = boot
         self._clock = clock
-        self._seq = 0
+        self._seq = self._asked = 0
 
     def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         """Return the states since the last call, oldest first, at most the 4 newest."""
@@ -116,6 +119,14 @@ class SerialDrive:
         self._seq = command.seq
         self._begin_if_opened()
         data = self._protocol.encode(command)
+        if data:
+            self._port.write(data)
+
+    def ask(self) -> None:
+        """Ask for a state without commanding anything, where the base speaks only when asked."""
+        self._asked += 1
+        self._begin_if_opened()
+        data = self._protocol.question(self._asked)
         if data:
             self._port.write(data)
 

@@ -104,6 +104,10 @@ class Turtlebot3Protocol:
         self._board.sent.append(_SentCommand(command.seq, twist, command.enable))
         return turtlebot3.encode_command(*twist) + turtlebot3.encode_heartbeat(command.seq)
 
+    def question(self, seq: int) -> bytes:
+        """Return the question for the table alone, every second time; no beat goes with it."""
+        return turtlebot3.encode_question() if seq % 2 else b""
+
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
         states: list[DriveState] = []

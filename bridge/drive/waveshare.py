@@ -141,6 +141,10 @@ class WaveshareProtocol:
             self._stopped = stops
         return data
 
+    def question(self, seq: int) -> bytes:
+        """Return nothing: the base speaks by itself."""
+        return b""
+
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
         states: list[DriveState] = []

@@ -24,8 +24,8 @@ LISTEN_S = 1.0
 POWER_S = 1.5
 SPIN_UP_S = 1.5
 SILENCES = 3
-GIVE_UP_S = 3.0
-"""Of silence: a base that drives on for so long is stopped by hand."""
+GIVE_UP_S = 1.5
+"""Of silence beyond what it claims: a base that drives on for so long is told to stop."""
 HAND_TURNS = 3
 HAND_SHARE = 0.12
 """A person turns a wheel three times to within a twelfth of a turn or so."""
@@ -59,6 +59,9 @@ class TrialBase(Protocol):
 
     def write(self, command: DriveCommand | None) -> None:
         """Send one command."""
+
+    def ask(self) -> None:
+        """Ask for a state, where the base speaks only when asked; no dead-man is fed by it."""
 
     def halt(self) -> None:
         """Zero both wheels and take the torque away. Never raises."""
@@ -143,7 +146,9 @@ class WheelTrial:
             TrialRefusal: ``trial_rebooted`` or ``trial_stop_pressed``.
         """
         self._seq += 1
-        if left_radps is not None:
+        if left_radps is None:
+            self._base.ask()
+        else:
             self._base.write(
                 DriveCommand(
                     boot=self._boot,
@@ -280,7 +285,7 @@ class WheelTrial:
             TrialRefusal: ``dead_man_none``, ``dead_man_late``, ``dead_man_untold``, ``coasts`` or
                 ``power_speed``.
         """
-        speed_radps = self._speed_radps
+        speed_radps, claimed_s = self._speed_radps, self._robot.drive.dead_man_s
         until_s = self._pace.now_s() + SPIN_UP_S
         while self._pace.now_s() < until_s:
             self._tick(speed_radps, speed_radps)
@@ -291,9 +296,10 @@ class WheelTrial:
         slowed_s = stood_s = None
         while stood_s is None:
             passed_s = self._pace.now_s() - last_s
-            if passed_s > GIVE_UP_S:
+            if passed_s > claimed_s + GIVE_UP_S:
                 self._base.halt()
-                raise TrialRefusal("dead_man_none", f"it drove on for {passed_s:.1f} s")
+                code = "dead_man_none" if slowed_s is None else "coasts"
+                raise TrialRefusal(code, f"it turns {passed_s:.1f} s after the last command")
             for state in self._tick():
                 passed_s = self._pace.now_s() - last_s
                 if slowed_s is None and _faster(state) < SLOWED * speed_radps:
@@ -304,7 +310,6 @@ class WheelTrial:
         slowed_s = stood_s if slowed_s is None else slowed_s
         if stood_s - slowed_s > COASTS_S:
             raise TrialRefusal("coasts", f"{stood_s - slowed_s:.2f} s, at most {COASTS_S:g}")
-        claimed_s = self._robot.drive.dead_man_s
         allowed_s = claimed_s + self._robot.drive.lag_s + UNSEEN_S
         if slowed_s > allowed_s:
             raise TrialRefusal(

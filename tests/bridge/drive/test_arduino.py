@@ -173,3 +173,11 @@ def test_no_echo_is_ever_newer_than_what_was_sent(said: list[bytes]) -> None:
             sent.append(line.seq)
         for state in line.hear(data):
             assert state.echo_seq in sent
+
+
+def test_a_question_alone_brings_counts_and_keeps_the_dead_man() -> None:
+    protocol = ArduinoProtocol(ROBOT, "b1")
+    asked = b"".join(protocol.question(seq) for seq in range(400))
+    assert set(asked.split(b"\r")) == {b"e", b""}
+    protocol.decode(b"", 1.0)
+    assert [state.left_rad for state in protocol.decode(b"7 8\r\n", 1.0)] != []

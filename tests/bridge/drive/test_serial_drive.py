@@ -84,7 +84,13 @@ def test_halt_sends_zero_without_torque_and_numbers_that_rise(
 ) -> None:
     drive.write(command(2.0, 2.0, seq=40))
     drive.halt()
-    frames = [f for f in McuReader().read(twin.line.read()) if isinstance(f, McuCommand)]
+    reader, frames = McuReader(), list[McuCommand]()
+
+    def are_all_here() -> bool:
+        frames.extend(f for f in reader.read(twin.line.read()) if isinstance(f, McuCommand))
+        return len(frames) >= 6
+
+    assert until(are_all_here)
     assert [frame.seq for frame in frames] == [40, 41, 42, 43, 44, 45]
     assert {(f.left_mradps, f.right_mradps, f.flags) for f in frames[1:]} == {(0, 0, 0)}
     assert twin.command(1.0).enable is False
@@ -169,3 +175,9 @@ def test_bytes_of_another_kind_are_no_state(drive: SerialDrive, twin: DriveTwin)
     (state,) = drive.read()
     assert isinstance(state, DriveState)
     assert state.enabled is False
+
+
+def test_a_base_that_speaks_by_itself_is_asked_nothing(drive: SerialDrive, twin: DriveTwin) -> None:
+    for _ in range(4):
+        drive.ask()
+    assert twin.line.read() == b""

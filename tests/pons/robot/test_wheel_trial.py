@@ -79,7 +79,7 @@ def test_what_is_wrong_is_named_and_no_wheel_runs_wild(wires: Wires, code: str) 
     said, stand = refused(wires)
     assert said == code
     assert stand.fastest_radps <= 8.0
-    if not (wires.deaf or wires.rolls_radps):
+    if not (wires.deaf or wires.rolls_radps or wires.coast_s > 0.5):
         assert max(map(abs, stand.radps)) < 0.1
 
 
