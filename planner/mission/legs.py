@@ -33,6 +33,8 @@ MAX_ROUTES = 5
 """Routes of one leg that may be lost (off the path, refused by the bridge, short of the room)."""
 MAX_DETOURS_FAILED = 3
 RETRY_S = 1.0
+_ROUND = (Way.ROUTE, Way.EXPLORE)
+"""Ways that lead round what is known to stand."""
 DETOUR_AFTER_S = 3.0
 DETOUR_MOST_S = 30.0
 
@@ -55,7 +57,7 @@ def ask_route(turn: Transaction, *, detour: bool, doubted: bool = False) -> None
     turn.set(tickets=ticket)
     turn.change(ticket=ticket, ticket_detour=detour, ticket_doubted=doubted)
     turn.change(retry_s=None, route_when_standing=False)
-    shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way is Way.ROUTE else ()
+    shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way in _ROUND else ()
     seen = detour or way is Way.STRAIGHT or bool(shut)
     heading = leg.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
