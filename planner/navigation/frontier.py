@@ -15,8 +15,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from maps.beam_gaps import wide_unknown
 from maps.cell_array import cell_array
-from maps.grid import FREE, OCCUPIED, UNKNOWN
+from maps.grid import FREE, OCCUPIED
 from planner.navigation.smoothing import sample
 from planner.navigation.start_and_goal import Cell
 
@@ -33,18 +34,21 @@ SHORTEST_M = 0.5
 """Nothing wider than the robot lies behind less."""
 LONGEST_M = 2.5
 """A longer frontier is cut in parts, each looked at by itself: its middle may be far from all."""
-THIN_M = 0.25
-"""Unknown floor narrower than this lies between two beams, or along a wall seen at a slant."""
 VIEW_M = 1.2
 """A frontier is looked at from no farther away than this."""
-LENGTH_WORTH = 0.5
-"""Metres of way that a metre of frontier is worth."""
+REACH_M = 4.0
+"""So far a look is counted to reach: most of a room."""
+GAIN_WORTH, MOST_GAIN_M2 = 0.5, 8.0
+"""Metres of way that a square metre of unknown floor in view is worth, up to so many of them."""
+LEAST_GAIN_M2 = 0.15
+"""Less behind a frontier is no floor to stand on: a nook beside a cupboard."""
 KEEP_M = 1.0
 """The frontier that was driven to before stays the choice unless another is so much better."""
 SAME_M = 0.5
 """Frontiers whose middles are nearer to each other than this are one."""
 STOOD_M = 0.3
 """From a spot nearer than this to one where the robot stood nothing new is seen."""
+BEAMS, NEAR_M = 180, 0.25
 MOST_VISITS, MOST_TRIES = 2, 3
 """A frontier is looked at so often, and driven to in vain so often."""
 
@@ -61,11 +65,13 @@ class Frontier:
     """The middle of the viewpoint [m]."""
     way_m: float
     """Cost of the way there: metres in the open, more beside walls."""
+    gain_m2: float
+    """Unknown floor that should come into view there."""
 
     @property
     def score(self) -> float:
         """Return the price of a look at it; the lowest is the best."""
-        return self.way_m - LENGTH_WORTH * self.length_m
+        return self.way_m - GAIN_WORTH * min(self.gain_m2, MOST_GAIN_M2)
 
 
 class FrontierMemory:
@@ -124,16 +130,46 @@ def find_frontiers(
         way_m: the cost of the way from the robot to a cell; infinite where there is none.
     """
     found = []
+    look = _LookModel(grid)
     for cells in _stretches(grid):
         length_m = _length_m(cells, grid.resolution_m)
         if not length_m >= SHORTEST_M:
             continue
         middle = _middle(cells)
         viewpoint = _viewpoint(grid, costmap, middle, way_m)
-        if viewpoint is not None:
-            stand, way = grid.centre_of(*viewpoint), way_m(viewpoint)
-            found.append(Frontier(grid.centre_of(*middle), length_m, viewpoint, stand, way))
+        gain_m2 = look.gain_m2(viewpoint) if viewpoint is not None else 0.0
+        if viewpoint is not None and gain_m2 >= LEAST_GAIN_M2:
+            ends = grid.centre_of(*middle), grid.centre_of(*viewpoint)
+            way = way_m(viewpoint)
+            found.append(Frontier(ends[0], length_m, viewpoint, ends[1], way, gain_m2))
     return found
+
+
+class _LookModel:
+    """Foresee what a look round from a spot adds to the map."""
+
+    def __init__(self, grid: GridMap) -> None:
+        self._wide = wide_unknown(grid)
+        walls = (cell_array(grid) == OCCUPIED).astype(np.uint8)
+        # Between two returns a wall has holes that no beam goes through.
+        self._walls = cv2.dilate(walls, np.ones((3, 3), np.uint8)) > 0
+        self._resolution_m = grid.resolution_m
+        angles = np.arange(0.0, 2.0 * np.pi, 2.0 * np.pi / BEAMS)
+        along = np.arange(1, round(REACH_M / grid.resolution_m) + 1)
+        self._columns = np.rint(np.outer(np.cos(angles), along)).astype(np.intp)
+        self._rows = np.rint(np.outer(np.sin(angles), along)).astype(np.intp)
+
+    def gain_m2(self, cell: Cell) -> float:
+        """Return the unknown floor that no known wall hides from a cell [m2]."""
+        rows, columns = self._wide.shape
+        column = np.clip(self._columns + cell[0], 0, columns - 1)
+        row = np.clip(self._rows + cell[1], 0, rows - 1)
+        # Beside the robot a dilated wall hides nothing: it stands there.
+        hit = self._walls[row, column]
+        hit[:, : round(NEAR_M / self._resolution_m)] = False
+        seen = self._wide[row, column] & ~np.logical_or.accumulate(hit, axis=1)
+        cells = np.unique(row[seen] * columns + column[seen])
+        return len(cells) * self._resolution_m**2
 
 
 def known_m2(grid: GridMap) -> float:
@@ -143,12 +179,9 @@ def known_m2(grid: GridMap) -> float:
 
 def border_cells(grid: GridMap) -> Mask:
     """Return the free cells beside unknown floor that is wider than the gaps between beams."""
-    cells = cell_array(grid)
-    size = max(1, round(THIN_M / grid.resolution_m))
-    unknown = (cells == UNKNOWN).astype(np.uint8)
-    wide = cv2.morphologyEx(unknown, cv2.MORPH_OPEN, np.ones((size, size), np.uint8))
     cross = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
-    return np.asarray((cells == FREE) & (cv2.dilate(wide, cross) > 0), np.bool_)
+    beside = cv2.dilate(wide_unknown(grid).astype(np.uint8), cross) > 0
+    return np.asarray((cell_array(grid) == FREE) & beside, np.bool_)
 
 
 def _stretches(grid: GridMap) -> Iterator[NDArray[np.intp]]:

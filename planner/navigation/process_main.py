@@ -12,6 +12,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from maps.beam_gaps import fill_beam_gaps
 from maps.growing_map import GROWING_MAP, GrowingMapError, read_growing_map
 from planner.navigation.frontier import FrontierMemory
 from planner.navigation.ipc import (
@@ -60,7 +61,7 @@ class GrowingRouter:
         try:
             written_ns = (folder / GROWING_MAP).stat().st_mtime_ns
             if written_ns != self._read_ns and (grown := read_growing_map(folder)) is not None:
-                site = replace(self._site, grid=grown.paint_on(self._site.grid))
+                site = replace(self._site, grid=fill_beam_gaps(grown.paint_on(self._site.grid)))
                 self._newest, self._read_ns = Router(site, self._limits), written_ns
         except FileNotFoundError:
             return self._newest

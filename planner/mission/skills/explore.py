@@ -25,7 +25,7 @@ def explore(scene: Scene[ExploreState]) -> SkillAction:
     state = scene.state
     if state.explored:
         return _finish(scene, Code.EXPLORED)
-    if state.shut >= MOST_SHUT or scene.spent_m >= MAX_M or scene.spent_s >= MAX_S:
+    if state.shut_ways >= MOST_SHUT or scene.spent_m >= MAX_M or scene.spent_s >= MAX_S:
         return _finish(scene, Code.PARTLY_EXPLORED)
     if scene.pose is None:
         return Retry()
@@ -38,8 +38,8 @@ def explore(scene: Scene[ExploreState]) -> SkillAction:
         limit_s=LEG_S,
         limit_m=LAST_M - scene.spent_m,
         state=state,
-        then=state.but(arrived=True, shut=0, looks=state.looks + 1),
-        otherwise=state.but(shut=state.shut + 1),
+        then=state.but(arrived=True, shut_ways=0, looks=state.looks + 1),
+        otherwise=state.but(shut_ways=state.shut_ways + 1),
     )
 
 

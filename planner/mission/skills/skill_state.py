@@ -209,7 +209,7 @@ class ExploreState(SkillStateBase):
     kind: Literal["explore"] = "explore"
     arrived: bool = False
     """The robot stands where it was to look from, and the map does not show yet what it saw."""
-    shut: int = 0
+    shut_ways: int = 0
     """Ways to frontiers that were shut, one after the other."""
     looks: int = 0
     """Frontiers that were looked at."""
