@@ -39,7 +39,9 @@ DETOUR_AFTER_S = 3.0
 DETOUR_MOST_S = 30.0
 
 
-def ask_route(turn: Transaction, *, detour: bool, doubted: bool = False) -> None:
+def ask_route(
+    turn: Transaction, *, detour: bool, doubted: bool = False, explores: bool = False
+) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
     mission, leg, status = turn.running, turn.driving, turn.book.status
     if mission is None or leg is None:
@@ -52,10 +54,13 @@ def ask_route(turn: Transaction, *, detour: bool, doubted: bool = False) -> None
     ticket, way, goal = turn.book.tickets + 1, leg.way, record.aim(leg.goal)
     if own is not None:
         way, goal = own.way, own.goal
+    if explores:
+        way = Way.EXPLORE
     if way is Way.SPIN:
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
     turn.set(tickets=ticket)
     turn.change(ticket=ticket, ticket_detour=detour, ticket_doubted=doubted)
+    turn.change(ticket_explores=explores)
     turn.change(retry_s=None, route_when_standing=False)
     shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way in _ROUND else ()
     seen = detour or way is Way.STRAIGHT or bool(shut)

@@ -14,7 +14,7 @@ from planner.mission.account import place_name
 from planner.mission.activity import Driving, Manoeuvre
 from planner.mission.bridge_status import standing
 from planner.mission.events import Routed, Surveyed
-from planner.mission.exploration import take_viewpoint
+from planner.mission.exploration import take_better_viewpoint, take_viewpoint
 from planner.mission.legs import ask_route, detour_failed, new_leg, take_short
 from planner.mission.obstruction_text import tell_obstruction
 from planner.mission.occupied_goal import give_up_goal, look_for_room, wait_beside
@@ -267,8 +267,9 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
     failure, short_m = routed.failure, routed.short_m
     turn.change(ticket=None)
     leg = turn.driving or leg
-    if leg.ticket_doubted:
-        take_doubted(turn, mission, leg, routed)
+    if leg.ticket_doubted or leg.ticket_explores:
+        take = take_doubted if leg.ticket_doubted else take_better_viewpoint
+        take(turn, mission, leg, routed)
     elif leg.manoeuvre is not None and failure is not None:
         _end_manoeuvre(turn, leg, leg.manoeuvre)
     elif leg.manoeuvre is not None:

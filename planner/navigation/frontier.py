@@ -34,8 +34,10 @@ SHORTEST_M = 0.5
 """Nothing wider than the robot lies behind less."""
 LONGEST_M = 2.5
 """A longer frontier is cut in parts, each looked at by itself: its middle may be far from all."""
-VIEW_M = 1.2
+VIEW_M = 2.0
 """A frontier is looked at from no farther away than this."""
+STRIDE = 7
+"""Of so many spots that are about as near to a frontier one is compared."""
 REACH_M = 4.0
 """So far a look is counted to reach: most of a room."""
 GAIN_WORTH, MOST_GAIN_M2 = 0.5, 8.0
@@ -49,8 +51,8 @@ SAME_M = 0.5
 STOOD_M = 0.3
 """From a spot nearer than this to one where the robot stood nothing new is seen."""
 BEAMS, NEAR_M = 180, 0.25
-MOST_VISITS, MOST_TRIES = 2, 3
-"""A frontier is looked at so often, and driven to in vain so often."""
+MOST_VISITS, MOST_TRIES = 2, 2
+"""A frontier is looked at so often, and asked for from one spot in vain so often."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,16 +81,19 @@ class FrontierMemory:
 
     def __init__(self) -> None:
         self._target: Frontier | None = None
+        self._asked_at: Point | None = None
         self._tries = 0
         self._visits: list[tuple[Point, Point]] = []
         """Middle of each frontier that was looked at, and from where."""
 
     def note_start(self, start: Point) -> None:
-        """Take where the robot stands as the next frontier is asked for."""
-        target = self._target
+        """Take where the robot is as it asks where to look, there or on its way."""
+        target, before = self._target, self._asked_at
+        stays = before is not None and _away_m(start, before) <= STOOD_M
+        self._tries = self._tries + 1 if stays else 0
+        self._asked_at = start
         if target is None:
             return
-        self._tries += 1
         arrived = _away_m(start, target.stand) <= STOOD_M
         if arrived or self._tries >= MOST_TRIES:
             self._visits += [(target.middle, target.stand)] * (1 if arrived else MOST_VISITS)
@@ -103,8 +108,6 @@ class FrontierMemory:
         )
         if best is None:
             self._visits.clear()
-        if best is None or not self._is_target(best):
-            self._tries = 0
         self._target = best
         return best
 
@@ -136,12 +139,15 @@ def find_frontiers(
         if not length_m >= SHORTEST_M:
             continue
         middle = _middle(cells)
-        viewpoint = _viewpoint(grid, costmap, middle, way_m)
-        gain_m2 = look.gain_m2(viewpoint) if viewpoint is not None else 0.0
-        if viewpoint is not None and gain_m2 >= LEAST_GAIN_M2:
-            ends = grid.centre_of(*middle), grid.centre_of(*viewpoint)
-            way = way_m(viewpoint)
-            found.append(Frontier(ends[0], length_m, viewpoint, ends[1], way, gain_m2))
+        spots = [
+            Frontier(
+                *(grid.centre_of(*middle), length_m, spot, grid.centre_of(*spot)),
+                *(way_m(spot), look.gain_m2(spot)),
+            )
+            for spot in _viewpoints(grid, costmap, middle, way_m)
+        ]
+        worth = [spot for spot in spots if spot.gain_m2 >= LEAST_GAIN_M2]
+        found += sorted(worth, key=lambda spot: spot.score)[:1]
     return found
 
 
@@ -225,23 +231,25 @@ def _middle(cells: NDArray[np.intp]) -> Cell:
     return column, row
 
 
-def _viewpoint(
+def _viewpoints(
     grid: GridMap, costmap: Costmap, middle: Cell, way_m: Callable[[Cell], float]
-) -> Cell | None:
-    """Return the nearest cell to stand on with nothing known between it and the frontier."""
+) -> list[Cell]:
+    """Return where to stand with nothing known between: nearest to the frontier, to the robot."""
     reach = ceil(VIEW_M / grid.resolution_m)
     left, low = max(0, middle[0] - reach), max(0, middle[1] - reach)
     window = costmap.free[low : middle[1] + reach + 1, left : middle[0] + reach + 1]
     rows, columns = np.nonzero(window)
     rows, columns = rows + low, columns + left
     away_m = np.hypot(columns - middle[0], rows - middle[1]) * grid.resolution_m
-    for at in np.argsort(away_m, kind="stable").tolist():
-        if not away_m[at] <= VIEW_M:
-            return None
-        cell = int(columns[at]), int(rows[at])
-        if way_m(cell) < np.inf and _is_in_sight(grid, cell, middle):
-            return cell
-    return None
+    order = np.argsort(away_m, kind="stable")
+    near = [(int(columns[at]), int(rows[at])) for at in order if away_m[at] <= VIEW_M]
+    joined = [cell for cell in near if way_m(cell) < np.inf]
+    by_way = sorted(joined[::int(STRIDE)], key=way_m) if STRIDE else []
+    firsts = (
+        next((cell for cell in cells if _is_in_sight(grid, cell, middle)), None)
+        for cells in (joined, by_way)
+    )
+    return [cell for cell in firsts if cell is not None]
 
 
 def _is_in_sight(grid: GridMap, one: Cell, other: Cell) -> bool:

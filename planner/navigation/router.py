@@ -185,6 +185,12 @@ class Router:
 
         memory.note_start((request.start.x_m, request.start.y_m))
         frontier = memory.choose(find_frontiers(grid, costmap, way_m))
+        if frontier is None and costmap is not self._mapped and not request.strict:
+            # Somebody in a door does not make what lies behind it explored.
+            mapped = replace(request, obstacles=(), strict=True)
+            left = self._explore(self._mapped, mapped, FrontierMemory(), began_s, clock)
+            if left.floor is not None and not left.floor.explored:
+                raise RouteFailure("no_route", "what is left lies behind what stands in the way")
         report = FloorReport(known_m2(grid), explored=frontier is None)
         if frontier is None:
             here = RoutePoint(request.start.x_m, request.start.y_m, MIN_SPEED_MPS)

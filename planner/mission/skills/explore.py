@@ -1,7 +1,7 @@
 """Drive from frontier to frontier until the map that is being made is whole.
 
 Precondition: the map grows while the robot drives. The route search knows the map and chooses; here
-is decided whether to go on. Verdict: no frontier is left that can be looked at. Two ways in a row
+is decided whether to go on. Verdict: no frontier is left that can be looked at. Three ways in a row
 that are shut, or a spent budget, end it early, and it says so: what was mapped stays, and another
 order goes on there. Budget: 55 m and 540 s, since a grant is 60 m and 600 s.
 """
@@ -16,8 +16,7 @@ from planner.plan import Bilingual, Code
 
 DRAWN_S = 3.0
 """From standing until the map shows what is seen from there: it is written every 2 s."""
-MOST_SHUT = 2
-LEG_S = 120.0
+MOST_SHUT = 3
 
 
 def explore(scene: Scene[ExploreState]) -> SkillAction:
@@ -35,7 +34,6 @@ def explore(scene: Scene[ExploreState]) -> SkillAction:
         scene.pose,
         heading=False,
         way=Way.EXPLORE,
-        limit_s=LEG_S,
         limit_m=LAST_M - scene.spent_m,
         state=state,
         then=state.but(arrived=True, shut_ways=0, looks=state.looks + 1),
