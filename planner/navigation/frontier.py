@@ -42,10 +42,11 @@ REACH_M = 4.0
 """So far a look is counted to reach: most of a room."""
 GAIN_WORTH, MOST_GAIN_M2 = 0.5, 8.0
 """Metres of way that a square metre of unknown floor in view is worth, up to so many of them."""
-LEAST_GAIN_M2 = 0.15
+LEAST_GAIN_M2 = 0.3
 """Less behind a frontier is no floor to stand on: a nook beside a cupboard."""
-KEEP_M = 1.0
-"""The frontier that was driven to before stays the choice unless another is so much better."""
+KEEP_M, NEAR_TARGET_M = 2.0, 1.0
+"""The frontier that was driven to before stays the choice unless another is so much better; its
+middle moves as it comes into view."""
 SAME_M = 0.5
 """Frontiers whose middles are nearer to each other than this are one."""
 STOOD_M = 0.3
@@ -119,7 +120,7 @@ class FrontierMemory:
 
     def _is_target(self, frontier: Frontier) -> bool:
         target = self._target
-        return target is not None and _away_m(target.middle, frontier.middle) <= KEEP_M
+        return target is not None and _away_m(target.middle, frontier.middle) <= NEAR_TARGET_M
 
 
 def find_frontiers(
