@@ -42,9 +42,9 @@ REACH_M = 4.0
 """So far a look is counted to reach: most of a room."""
 GAIN_WORTH, MOST_GAIN_M2 = 0.5, 8.0
 """Metres of way that a square metre of unknown floor in view is worth, up to so many of them."""
-LEAST_GAIN_M2 = 0.3
+LEAST_GAIN_M2 = 0.5
 """Less behind a frontier is no floor to stand on: a nook beside a cupboard."""
-KEEP_M, NEAR_TARGET_M = 2.0, 1.0
+KEEP_M, NEAR_TARGET_M = 3.0, 1.0
 """The frontier that was driven to before stays the choice unless another is so much better; its
 middle moves as it comes into view."""
 SAME_M = 0.5
@@ -245,7 +245,7 @@ def _viewpoints(
     order = np.argsort(away_m, kind="stable")
     near = [(int(columns[at]), int(rows[at])) for at in order if away_m[at] <= VIEW_M]
     joined = [cell for cell in near if way_m(cell) < np.inf]
-    by_way = sorted(joined[::int(STRIDE)], key=way_m) if STRIDE else []
+    by_way = sorted(joined[::STRIDE], key=way_m)
     firsts = (
         next((cell for cell in cells if _is_in_sight(grid, cell, middle)), None)
         for cells in (joined, by_way)

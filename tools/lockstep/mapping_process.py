@@ -14,6 +14,7 @@ from localization.mapping.map_builder import MapBuilder
 from localization.mapping.mapping_node import MappingNode
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
     from localization.global_search import Candidate
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from tools.lockstep.bus import Port
     from tools.lockstep.scene import LockstepScene
     from wire.session import Session
-
-    import numpy as np
 
 
 class PacedBuilder:
