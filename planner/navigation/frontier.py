@@ -40,7 +40,7 @@ STRIDE = 7
 """Of so many spots that are about as near to a frontier one is compared."""
 REACH_M = 4.0
 """So far a look is counted to reach: most of a room."""
-GAIN_WORTH, MOST_GAIN_M2 = 0.5, 8.0
+GAIN_WORTH, MOST_GAIN_M2 = 1.0, 4.0
 """Metres of way that a square metre of unknown floor in view is worth, up to so many of them."""
 LEAST_GAIN_M2 = 0.5
 """Less behind a frontier is no floor to stand on: a nook beside a cupboard."""
