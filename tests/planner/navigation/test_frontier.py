@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from maps import FREE, OCCUPIED, UNKNOWN, GridMap
 from maps.cell_array import cell_array
-from planner.navigation import FloorReport, RouteLimits, RouteRequest, RouteResult
+from planner.navigation import FloorReport, RouteFailure, RouteLimits, RouteRequest, RouteResult
 from planner.navigation.costmap import static_costmap
 from planner.navigation.frontier import (
     KEEP_M,
@@ -69,6 +69,18 @@ def test_an_open_door_is_looked_through_and_not_driven_through() -> None:
     assert not found.floor.explored
     end = found.points[-1]
     assert end.x_m < 2.25, "on this side of the door"
+
+
+def test_who_stands_in_the_door_does_not_make_what_lies_behind_it_explored() -> None:
+    """The frontier is far down a corridor, and something shuts the corridor."""
+    corridor = sketched("#" * 24, *["." * 20 + "????"] * 6, "#" * 24, square_m=0.25)
+    here = Pose2(0.75, 1.0, 0.0)
+    crate = tuple((2.0, 0.05 * at) for at in range(40))
+    router = Router(corridor, RouteLimits())
+    free = router.route(RouteRequest(here, here, explore=True))
+    assert free.points[-1].x_m > 2.5
+    with pytest.raises(RouteFailure, match="no_route"):
+        router.route(RouteRequest(here, here, obstacles=crate, explore=True))
 
 
 @given(st.lists(st.sampled_from("#.?"), min_size=36, max_size=36))

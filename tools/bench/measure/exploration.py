@@ -9,7 +9,6 @@ has floor within 0.1 m of it, so that a wall drawn two cells off is no floor tha
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -41,7 +40,6 @@ NAME = "exploration"
 TITLE = "homes explored by one sentence"
 LONG_ONLY = True
 SITES = {"home": CHECKOUT / "sites" / "home", "two rooms": CHECKOUT / "sites" / "two_room"}
-MADE = "made homes"
 ORDERS = 3
 ORDER_S = 900.0
 NEAR_M = 0.1
@@ -66,8 +64,8 @@ class Exploration:
 def measure(lab: BenchLab) -> list[ReportRow]:
     """Explore each site from its dock, by seeds of noise; and homes that are drawn by seed."""
     rows = []
-    for site in (*SITES, MADE):
-        taken = lab.side_by_side(site, lab.count(1, 4), partial(explore_record, site))
+    for site, take in HOMES.items():
+        taken = lab.side_by_side(site, lab.count(1, 4), take)
         homes = [Exploration(**one) for one in taken]
         ends = ", ".join(sorted({one.code for one in homes}))
         rows += [
@@ -80,11 +78,28 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     return rows
 
 
-def explore_record(site: str, seed: int) -> dict[str, object]:
-    """Explore one home; return the figures as JSON can hold them."""
+def explore_home(seed: int) -> dict[str, object]:
+    """Explore the default home; return the figures as JSON can hold them."""
+    return _explore_anew(SITES["home"], seed)
+
+
+def explore_two_rooms(seed: int) -> dict[str, object]:
+    """Explore the site of two rooms."""
+    return _explore_anew(SITES["two rooms"], seed)
+
+
+def explore_made_home(seed: int) -> dict[str, object]:
+    """Explore a home that is drawn by this seed."""
     with TemporaryDirectory() as parent:
-        folder = SITES.get(site) or made_home(Path(parent), seed + 1)
-        return asdict(explore(folder, Path(parent) / "canvas", seed + 1))
+        return _explore_anew(made_home(Path(parent), seed + 1), seed)
+
+
+HOMES = {"home": explore_home, "two rooms": explore_two_rooms, "made homes": explore_made_home}
+
+
+def _explore_anew(site: Path, seed: int) -> dict[str, object]:
+    with TemporaryDirectory() as parent:
+        return asdict(explore(site, Path(parent) / "canvas", seed + 1))
 
 
 def explore(site: Path, canvas: Path, seed: int) -> Exploration:
