@@ -51,6 +51,11 @@ class TooLong(Exception):
 class World:
     """Hold the parts of one world and turn them."""
 
+    mapping: MappingProcess | None = None
+    """What makes the map, where one is made."""
+    localizer: LocalizerProcess | None = None
+    """What finds the robot by scans on a known map, where that is done."""
+
     def __init__(  # noqa: PLR0913  # a world's parts, all by name
         self,
         *,
@@ -84,22 +89,14 @@ class World:
         latency = {frozenset({Party.PLANNER, Party.BRIDGE}): self.pace.planner_bridge}
         self.bus = LockstepBus(seed, latency)
         self.sim = SimRobot(
-            folder_of(site),
-            self.scene.robot,
-            seed=seed,
-            start=start,
-            hardware=hardware,
-            domain=domain,
-        )
+            folder_of(site), self.scene.robot, seed=seed, start=start,
+            hardware=hardware, domain=domain,
+        )  # fmt: skip
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT))
         self.lidar: LidarProcess | None = None
         """A lidar of metal's twin, where the robot's description names one."""
         if not self.scene.robot.lidar.is_simulated:
             self.lidar = LidarProcess(self.sim, self.bus.port(Party.LIDAR), seed)
-        self.mapping: MappingProcess | None = None
-        """What makes the map, where one is made."""
-        self.localizer: LocalizerProcess | None = None
-        """What finds the robot by scans on a known map, where that is done."""
         self._localization = self._localize(seed)
         self.bridge = BridgeProcess(
             self._config(seed), self.bus.port(Party.BRIDGE), step, self.now_s

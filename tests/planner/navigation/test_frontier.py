@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from maps import FREE, OCCUPIED, UNKNOWN, GridMap
 from maps.cell_array import cell_array
-from planner.navigation import FloorReport, RouteFailure, RouteLimits, RouteRequest, RouteResult
+from planner.navigation import RouteFailure, RouteLimits, RouteRequest, RouteResult
 from planner.navigation.costmap import static_costmap
 from planner.navigation.frontier import (
     KEEP_M,
@@ -50,15 +50,19 @@ BEHIND_WALL = tuple(row + "?" * 10 for row in ROOM)
 
 
 def explore(
-    site: Site, x_m: float = 1.25, y_m: float = 1.25, **more: FrontierMemory
+    site: Site, x_m: float = 1.25, y_m: float = 1.25, memory: FrontierMemory | None = None
 ) -> RouteResult:
+    """Return the answer to one who explores, at a point."""
     here = Pose2(x_m, y_m, 0.0)
-    return Router(site, RouteLimits()).route(RouteRequest(here, here, explore=True), **more)
+    request = RouteRequest(here, here, explore=True)
+    return Router(site, RouteLimits()).route(request, frontiers=memory)
 
 
 def test_a_closed_room_is_explored() -> None:
     found = explore(sketched(*ROOM))
-    assert found.floor == FloorReport(pytest.approx(4.0), explored=True)
+    assert found.floor is not None
+    assert found.floor.known_m2 == pytest.approx(4.0)
+    assert found.floor.explored
     assert [(p.x_m, p.y_m) for p in found.points] == [(1.25, 1.25)], "the robot stays"
     assert explore(sketched(*BEHIND_WALL)).floor == found.floor, "no wall is a frontier"
 
@@ -183,7 +187,7 @@ def test_an_exploration_ends_whatever_the_map_shows() -> None:
     """A frontier that no look changes, as behind glass, is left after some looks."""
     site, memory, at = sketched(*HALF_KNOWN), FrontierMemory(), (1.25, 1.25)
     for _ in range(10):
-        found = explore(site, *at, frontiers=memory)
+        found = explore(site, *at, memory)
         assert found.floor is not None
         if found.floor.explored:
             break
