@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from planner.site.site_view import SiteView
 
 DRIVEN = frozenset({"go_to", "return_home", "come_back"})
-MOTION = DRIVEN | {"turn", "move", "patrol"}
+MOTION = DRIVEN | {"turn", "move", "patrol", "explore"}
 BACK = frozenset({"come_back", "return_home"})
 _OVER = frozenset({StepState.SUCCEEDED, StepState.FAILED})
 _IDLE = frozenset({StepState.PENDING, StepState.SKIPPED})
@@ -70,6 +70,8 @@ def place_name(facts: SiteView, mission: Mission, step: StepRecord | None) -> Bi
         return say("account.start")
     if step is not None and step.kind in ("turn", "move"):
         return say("account.goal_pose")
+    if step is not None and step.kind == "explore":
+        return say("account.frontier")
     wanted = facts.home if step is not None and step.kind == "return_home" else None
     return _name(facts, wanted or (_place(mission, step) if step is not None else ""))
 
@@ -230,6 +232,8 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
             return say("account.visiting", names=list_names(names))
         case "go_to_point":
             return say("account.going_to_point")
+        case "explore":
+            return say("account.exploring")
         case _:
             name = place_name(facts, mission, step)
             return say("account.going_to", name=name)

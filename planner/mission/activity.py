@@ -96,6 +96,10 @@ class Driving(_StepActivity):
     """It is to lead round what the lidar sees."""
     ticket_doubted: bool = False
     """It is to lead round what the route search remembers; without one the leg goes on."""
+    ticket_explores: bool = False
+    """It is to say whether to look from elsewhere; without an answer the leg goes on."""
+    explore_asked_s: float = float("-inf")
+    """When that was asked last."""
     doubt: RouteDoubt | None = None
     doubt_asked_s: float = float("-inf")
     """When a way round was searched last because of a doubt."""

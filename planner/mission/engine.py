@@ -17,7 +17,7 @@ from planner.mission.reducer import advance, motion_request
 from planner.mission.route_doubts import standing_doubt
 from planner.mission.skills import Way
 from planner.mission.state import MissionState
-from planner.navigation import Horizon, LegPath, RoutePoint, cut
+from planner.navigation import FloorReport, Horizon, LegPath, RoutePoint, cut
 from wire import Record, Status
 
 SPIN_MPS = 0.05
@@ -122,9 +122,13 @@ class Engine:
         points: tuple[RoutePoint, ...] | None,
         failure: str | None,
         now_s: float,
+        floor: FloorReport | None = None,
     ) -> Output:
-        """Take the answer to ``AskRoute``: the route's points, or the code of why there is none."""
-        effects = self._take_route(ask, points, failure, now_s)
+        """Take the answer to ``AskRoute``: the route's points, or the code of why there is none.
+
+        ``floor`` comes with the answer to one who explores.
+        """
+        effects = self._take_route(ask, points, failure, now_s, floor)
         return Output(self._speak(now_s), effects)
 
     def take_journalled(self, journal: Journal, now_s: float) -> Output:
@@ -149,6 +153,7 @@ class Engine:
         points: tuple[RoutePoint, ...] | None,
         failure: str | None,
         now_s: float,
+        floor: FloorReport | None = None,
     ) -> tuple[Effect, ...]:
         short_m, end_m, length_m = 0.0, None, 0.0
         if points is not None:
@@ -157,7 +162,7 @@ class Engine:
             end_m, length_m = (points[-1].x_m, points[-1].y_m), self._path.length_m
             short_m = hypot(ask.goal.x_m - points[-1].x_m, ask.goal.y_m - points[-1].y_m)
         code = failure if points is None else None
-        event = Routed(ask.id, ask.ticket, code, short_m, end_m, length_m)
+        event = Routed(ask.id, ask.ticket, code, short_m, end_m, length_m, floor)
         effects = self._advance(event, now_s)
         self._adopt()
         self._path = None

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from planner.mission.skills.perception import ImageAnswer as EyeAnswer
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
+from planner.navigation.route import FloorReport
 from planner.perception.snapshot import Sight
 from planner.plan import AnswerPlan, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
 from planner.site.site_view import SiteView
@@ -61,6 +62,8 @@ class Routed:
     end_m: tuple[float, float] | None = None
     """Where it ends, in ``map``."""
     length_m: float = 0.0
+    floor: FloorReport | None = None
+    """What the map shows, where somebody explores."""
 
 
 @dataclass(frozen=True, slots=True)

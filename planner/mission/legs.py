@@ -33,11 +33,15 @@ MAX_ROUTES = 5
 """Routes of one leg that may be lost (off the path, refused by the bridge, short of the room)."""
 MAX_DETOURS_FAILED = 3
 RETRY_S = 1.0
+_ROUND = (Way.ROUTE, Way.EXPLORE)
+"""Ways that lead round what is known to stand."""
 DETOUR_AFTER_S = 3.0
 DETOUR_MOST_S = 30.0
 
 
-def ask_route(turn: Transaction, *, detour: bool, doubted: bool = False) -> None:
+def ask_route(
+    turn: Transaction, *, detour: bool, doubted: bool = False, explores: bool = False
+) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
     mission, leg, status = turn.running, turn.driving, turn.book.status
     if mission is None or leg is None:
@@ -50,12 +54,15 @@ def ask_route(turn: Transaction, *, detour: bool, doubted: bool = False) -> None
     ticket, way, goal = turn.book.tickets + 1, leg.way, record.aim(leg.goal)
     if own is not None:
         way, goal = own.way, own.goal
+    if explores:
+        way = Way.EXPLORE
     if way is Way.SPIN:
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
     turn.set(tickets=ticket)
     turn.change(ticket=ticket, ticket_detour=detour, ticket_doubted=doubted)
+    turn.change(ticket_explores=explores)
     turn.change(retry_s=None, route_when_standing=False)
-    shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way is Way.ROUTE else ()
+    shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way in _ROUND else ()
     seen = detour or way is Way.STRAIGHT or bool(shut)
     heading = leg.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None

@@ -45,7 +45,7 @@ from planner.mission.skills import Eyesight
 from planner.mission.state import GoalKey, MissionState, Rules
 from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
-from planner.navigation import RoutePoint
+from planner.navigation import RouteResult
 from wire import OpRequest, Status, Waypoints
 
 if TYPE_CHECKING:
@@ -283,10 +283,10 @@ class Loop:
         """End the loop with an error that came up beside it."""
         self._broken = error
 
-    def _on_routed(
-        self, ask: AskRoute, points: tuple[RoutePoint, ...] | None, failure: str | None
-    ) -> None:
-        self._carry(self._engine.take_route(ask, points, failure, self._clocks.monotonic()))
+    def _on_routed(self, ask: AskRoute, result: RouteResult | None, failure: str | None) -> None:
+        points, floor = (None, None) if result is None else (result.points, result.floor)
+        now_s = self._clocks.monotonic()
+        self._carry(self._engine.take_route(ask, points, failure, now_s, floor))
 
     def _carry(self, output: Output) -> None:
         """Send first, then do the rest in order."""

@@ -14,6 +14,7 @@ from planner.mission.account import place_name
 from planner.mission.activity import Driving, Manoeuvre
 from planner.mission.bridge_status import standing
 from planner.mission.events import Routed, Surveyed
+from planner.mission.exploration import take_better_viewpoint, take_viewpoint
 from planner.mission.legs import ask_route, detour_failed, new_leg, take_short
 from planner.mission.obstruction_text import tell_obstruction
 from planner.mission.occupied_goal import give_up_goal, look_for_room, wait_beside
@@ -266,8 +267,9 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
     failure, short_m = routed.failure, routed.short_m
     turn.change(ticket=None)
     leg = turn.driving or leg
-    if leg.ticket_doubted:
-        take_doubted(turn, mission, leg, routed)
+    if leg.ticket_doubted or leg.ticket_explores:
+        take = take_doubted if leg.ticket_doubted else take_better_viewpoint
+        take(turn, mission, leg, routed)
     elif leg.manoeuvre is not None and failure is not None:
         _end_manoeuvre(turn, leg, leg.manoeuvre)
     elif leg.manoeuvre is not None:
@@ -275,7 +277,7 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
     elif failure is None and leg.way is Way.STRAIGHT and not short_m <= SHORT_M:
         take_short(turn, leg, short_m)
     elif failure is None:
-        _take_route(turn, mission, leg, short_m, routed.end_m)
+        _take_route(turn, mission, leg, routed)
     elif leg.way is not Way.ROUTE and leg.ticket_detour:
         detour_failed(turn, leg)
     elif failure == OCCUPIED and leg.way is Way.ROUTE:
@@ -290,11 +292,12 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
         fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
 
 
-def _take_route(
-    turn: Transaction, mission: Mission, leg: Driving, short_m: float,
-    end_m: tuple[float, float] | None,
-) -> None:  # fmt: skip
+def _take_route(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
     """Stream a route; one round something that ends short of its goal moves the goal, once."""
+    if leg.way is Way.EXPLORE:
+        take_viewpoint(turn, mission, leg, routed)
+        return
+    short_m, end_m = routed.short_m, routed.end_m
     moved = leg.way is Way.ROUTE and leg.ticket_detour and short_m > MOVED_M and end_m is not None
     if not moved:
         new_leg(turn, mission)

@@ -152,7 +152,7 @@ def _adopt(turn: Transaction, mission: Mission, steps: tuple[StepRecord, ...]) -
 
 BACK = ""
 """Where a goal was given: no place has this id."""
-ROAMS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point", "look"})
+ROAMS = frozenset({"find", "count", "follow", "go_to_object", "go_to_point", "look", "explore"})
 """Steps that lead where the eyes say, and not to a place."""
 
 

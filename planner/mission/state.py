@@ -203,4 +203,4 @@ class MissionState:
     @property
     def means(self) -> Means:
         """Return the robot's means besides driving and talking, as its eyes are now."""
-        return self.eyes.means(self.sight.blind)
+        return self.eyes.means(self.sight.blind, grows=self.facts.grows)

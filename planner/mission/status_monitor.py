@@ -17,6 +17,7 @@ from planner.mission.bridge_status import (
     shows,
     standing,
 )
+from planner.mission.exploration import reconsider_viewpoint
 from planner.mission.legs import (
     abandon_route,
     ask_route,
@@ -267,6 +268,7 @@ def _recover_or_go_on(turn: Transaction, status: Status) -> None:
         recover(turn, leg, status)
     else:
         note_unblocked(turn)
+        reconsider_viewpoint(turn)
 
 
 def _since(since_s: float | None, true_now: bool, now_s: float) -> float | None:

@@ -19,7 +19,7 @@ from planner.mission.activity import (
 )
 from planner.mission.bridge_status import cannot_move, standing
 from planner.mission.effects import AskEyes, SayAloud
-from planner.mission.legs import RETRY_S, abandon_route, ask_route, measure_from, settle_amounts
+from planner.mission.legs import abandon_route, ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import (
     ended_outcome,
     moves,
@@ -102,7 +102,7 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
         case AskImage():
             _inquire(turn, mission, act)
         case Retry():
-            _later(turn, mission)
+            _later(turn, mission, act)
         case Stand():
             note_step(turn, mission, state=StepState.RUNNING, reason=None)
             until_s = turn.now_s + act.seconds
@@ -201,9 +201,11 @@ def go_on(
     carry_out(turn, mission, act_of(scene_of(turn, mission, gazed_s, answer)))
 
 
-def _later(turn: Transaction, mission: Mission) -> None:
+def _later(turn: Transaction, mission: Mission, act: Retry) -> None:
     """Try again soon; how long what holds has stood runs on, so that no wait lasts for ever."""
-    retry_s = turn.now_s + RETRY_S
+    retry_s = turn.now_s + act.seconds
+    if act.state is not None:
+        mission = turn.put(mission, skill_state=act.state)
     if isinstance(turn.book.activity, Retrying):
         turn.change(retry_s=retry_s)
         return

@@ -14,7 +14,7 @@ from planner.mission.events import Planned, Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Way
 from planner.mission.skills.perception import ImageAnswer
-from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
+from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.navigation.obstruction import points_of
 from planner.plan import Code, Outcome
 
@@ -36,7 +36,7 @@ class Answers:
     """Name where answers go, and the lidar's points when a way round is wanted."""
 
     planned: Callable[[Planned], None]
-    routed: Callable[[AskRoute, tuple[RoutePoint, ...] | None, str | None], None]
+    routed: Callable[[AskRoute, RouteResult | None, str | None], None]
     obstacles: Callable[[], tuple[tuple[float, float], ...]]
     told: Callable[[Told], None]
     broken: Callable[[BaseException], None]
@@ -140,6 +140,7 @@ class MissionTasks:
                 *(ask.start, ask.goal, obstacles),
                 straight=ask.way is Way.STRAIGHT,
                 aside=ask.way is Way.ASIDE,
+                explore=ask.way is Way.EXPLORE,
                 strict=ask.doubted,
             )
             result = await self._router.route(request)
@@ -148,4 +149,4 @@ class MissionTasks:
             log.log(level, "no route for goal %s: %s", ask.id, failure)
             self._answers.routed(ask, None, failure.code)
             return
-        self._answers.routed(ask, result.points, None)
+        self._answers.routed(ask, result, None)

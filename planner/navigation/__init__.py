@@ -8,6 +8,7 @@ harness does, imports ``planner.navigation.router`` by name.
 from planner.navigation.horizon import Horizon, LegPath, cut
 from planner.navigation.process_client import RouteWorker
 from planner.navigation.route import (
+    FloorReport,
     Mover,
     ObstacleReport,
     RouteFailure,
@@ -19,6 +20,7 @@ from planner.navigation.route import (
 )
 
 __all__ = [
+    "FloorReport",
     "Horizon",
     "LegPath",
     "Mover",

@@ -35,6 +35,8 @@ class SearchFloor(Protocol):
     """Find ways between cells of one costmap; fields of costs to a goal are on its lattice."""
 
     lattice: Lattice
+    cells_a_step: int
+    """Cells between neighbours of the lattice."""
 
     def index(self, cell: Cell) -> int:
         """Return where a cell's costs stand in a field over the lattice."""
@@ -57,6 +59,8 @@ def floor_of(cost: Floats, resolution_m: float, radius_m: float) -> SearchFloor:
 class CellFloor:
     """Search all cells at once: exact, and quick up to a home's size."""
 
+    cells_a_step = 1
+
     def __init__(self, cost: Floats) -> None:
         """Take the costs of cells, shape (rows, columns), infinite where blocked."""
         self.lattice = Lattice.of(cost)
@@ -77,6 +81,8 @@ class CellFloor:
 
 class CoarseFloor:
     """Search blocks of cells, then the cells along the way over blocks."""
+
+    cells_a_step = BLOCK
 
     def __init__(self, cost: Floats) -> None:
         """Take the costs of cells, shape (rows, columns), infinite where blocked."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict
+from typing import Any
 
 from planner.navigation.route import (
+    FloorReport,
     Mover,
     ObstacleReport,
     RouteLimits,
@@ -23,7 +25,7 @@ def read_request(frame: Frame) -> RouteRequest:
     head, _ = frame
     start, goal = Pose2(**head["start"]), Pose2(**head["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in head["obstacles"])
-    kinds = {name: bool(head[name]) for name in ("straight", "aside", "strict")}
+    kinds = {name: bool(head[name]) for name in ("straight", "aside", "strict", "explore")}
     return RouteRequest(start, goal, obstacles, **kinds)
 
 
@@ -42,7 +44,12 @@ def read_result(frame: Frame) -> RouteResult:
         moved_goal_m=float(head["moved_goal_m"]),
         start_escaped=bool(head["start_escaped"]),
         took_s=float(head["took_s"]),
+        floor=_read_floor(head["floor"]),
     )
+
+
+def _read_floor(head: dict[str, Any] | None) -> FloorReport | None:
+    return None if head is None else FloorReport(float(head["known_m2"]), bool(head["explored"]))
 
 
 def is_observation(frame: Frame) -> bool:

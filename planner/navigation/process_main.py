@@ -12,7 +12,9 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from maps.beam_gaps import fill_beam_gaps
 from maps.growing_map import GROWING_MAP, GrowingMapError, read_growing_map
+from planner.navigation.frontier import FrontierMemory
 from planner.navigation.ipc import (
     is_observation,
     read_limits,
@@ -40,7 +42,8 @@ def main(parent: ParentPipes, folder: str, limits: str) -> int:
         return parent.refuse(CODES.down, str(error))
     found = GrowingRouter(site, read_limits(limits))
     parent.write({"ready": site.map_id})
-    return parent.serve(partial(_answer, found, found.router.new_memory()), found.router.warm())
+    memories = found.router.new_memory(), FrontierMemory()
+    return parent.serve(partial(_answer, found, *memories), found.router.warm())
 
 
 class GrowingRouter:
@@ -58,7 +61,7 @@ class GrowingRouter:
         try:
             written_ns = (folder / GROWING_MAP).stat().st_mtime_ns
             if written_ns != self._read_ns and (grown := read_growing_map(folder)) is not None:
-                site = replace(self._site, grid=grown.paint_on(self._site.grid))
+                site = replace(self._site, grid=fill_beam_gaps(grown.paint_on(self._site.grid)))
                 self._newest, self._read_ns = Router(site, self._limits), written_ns
         except FileNotFoundError:
             return self._newest
@@ -67,10 +70,12 @@ class GrowingRouter:
         return self._newest
 
 
-def _answer(found: GrowingRouter, memory: ObstacleMemory, asked: Frame) -> Frame:
+def _answer(
+    found: GrowingRouter, memory: ObstacleMemory, frontiers: FrontierMemory, asked: Frame
+) -> Frame:
     if is_observation(asked):
         return report_frame(found.router.observe(memory, read_observation(asked)))
-    return result_frame(found.router.route(read_request(asked), memory=memory))
+    return result_frame(found.router.route(read_request(asked), memory=memory, frontiers=frontiers))
 
 
 if __name__ == "__main__":

@@ -65,6 +65,7 @@ class RouteRequest:
     straight: bool = False  # go straight, as far as floor is free, backwards if the goal is behind
     aside: bool = False  # go where somebody who stands at the goal can walk past
     strict: bool = False  # fail, where the only way leads through what is remembered
+    explore: bool = False  # go where the map's next frontier is seen from; the goal means nothing
 
 
 MIN_SPEED_MPS = 0.05
@@ -84,6 +85,14 @@ class RoutePoint:
 
 
 @dataclass(frozen=True, slots=True)
+class FloorReport:
+    """Say how much floor the map shows, and whether a frontier was left to go to."""
+
+    known_m2: float
+    explored: bool  # nothing is left: the route is where the robot stands
+
+
+@dataclass(frozen=True, slots=True)
 class RouteResult:
     """Hold a route: from where the robot stood to the goal, or to the nearest free floor."""
 
@@ -92,6 +101,7 @@ class RouteResult:
     moved_goal_m: float  # from the goal to where the route ends, for want of free floor; 0 as asked
     start_escaped: bool  # the way begins by leaving a place too near to an obstacle
     took_s: float  # in the search itself
+    floor: FloorReport | None = None  # to a request to explore
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,8 +18,11 @@ import numpy as np
 from planner.navigation.bay import find_bay
 from planner.navigation.coarse_search import SearchFloor, floor_of
 from planner.navigation.costmap import Costmap, static_costmap
+from planner.navigation.frontier import FrontierMemory, find_frontiers, known_m2
 from planner.navigation.obstacle_memory import ObstacleMemory
 from planner.navigation.route import (
+    MIN_SPEED_MPS,
+    FloorReport,
     ObstacleReport,
     RouteFailure,
     RouteLimits,
@@ -28,9 +31,9 @@ from planner.navigation.route import (
     RouteResult,
     ScanObservation,
 )
-from planner.navigation.search import costs_in_slices
+from planner.navigation.search import costs_in_slices, costs_to
 from planner.navigation.smoothing import Line, densify, is_free, relax, straighten
-from planner.navigation.start_and_goal import Cell, Ends, choose_ends, moved_m
+from planner.navigation.start_and_goal import Cell, Ends, choose_ends, choose_start, moved_m
 from planner.navigation.straight_line import BACK_MPS, backwards, straight_line
 from planner.navigation.waypoints import evenly, speeds, thin
 from planner.site import Site
@@ -108,8 +111,9 @@ class Router:
         request: RouteRequest,
         clock: Callable[[], float] = perf_counter,
         memory: ObstacleMemory | None = None,
+        frontiers: FrontierMemory | None = None,
     ) -> RouteResult:
-        """Find the way, around what the memory holds.
+        """Find the way, around what the memory holds; to explore, past the frontiers visited.
 
         Raises:
             RouteFailure: there is none; the code says why.
@@ -121,6 +125,8 @@ class Router:
         costmap = layered.with_obstacles(request.obstacles, start_m)
         if request.straight:
             return self._straight(costmap, request, began_s, clock)
+        if request.explore:
+            return self._explore(costmap, request, frontiers or FrontierMemory(), began_s, clock)
         if request.aside:
             person_m = (request.goal.x_m, request.goal.y_m)
             bay_m = find_bay(self._mapped, costmap, start_m, person_m)
@@ -155,6 +161,43 @@ class Router:
             start_escaped=ends.start_escaped,
             took_s=clock() - began_s,
         )
+
+    def _explore(
+        self,
+        costmap: Costmap,
+        request: RouteRequest,
+        memory: FrontierMemory,
+        began_s: float,
+        clock: Callable[[], float],
+    ) -> RouteResult:
+        """Find the way to where the best frontier is seen from; stay where there is none."""
+        grid, start = self._site.grid, choose_start(costmap, request)
+        floor = self._floor if costmap is self._mapped else self._floor_of(costmap)
+        field, part = (
+            costs_to(floor.lattice, floor.index(start)),
+            costmap.labels[start[1], start[0]],
+        )
+        step_m = floor.cells_a_step * grid.resolution_m
+
+        def way_m(cell: Cell) -> float:
+            joined = costmap.labels[cell[1], cell[0]] == part
+            return field[floor.index(cell)] * step_m if joined else float("inf")
+
+        memory.note_start((request.start.x_m, request.start.y_m))
+        frontier = memory.choose(find_frontiers(grid, costmap, way_m))
+        if frontier is None and costmap is not self._mapped and not request.strict:
+            # Somebody in a door does not make what lies behind it explored.
+            mapped = replace(request, obstacles=(), strict=True)
+            left = self._explore(self._mapped, mapped, FrontierMemory(), began_s, clock)
+            if left.floor is not None and not left.floor.explored:
+                raise RouteFailure("no_route", "what is left lies behind what stands in the way")
+        report = FloorReport(known_m2(grid), explored=frontier is None)
+        if frontier is None:
+            here = RoutePoint(request.start.x_m, request.start.y_m, MIN_SPEED_MPS)
+            return RouteResult((here,), 0.0, 0.0, False, clock() - began_s, report)
+        goal = Pose2(*frontier.stand, request.start.yaw_rad)
+        found = self._find(costmap, replace(request, goal=goal, explore=False), began_s, clock)
+        return replace(found, floor=report)
 
     def _straight(
         self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]

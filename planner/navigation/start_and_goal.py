@@ -150,6 +150,15 @@ def _on_this_side(
     return np.asarray(side >= 0.0, np.bool_)
 
 
+def choose_start(costmap: Costmap, request: RouteRequest) -> Cell:
+    """Return the nearest free cell to begin in.
+
+    Raises:
+        RouteFailure: ``start_outside_map`` or ``start_blocked``.
+    """
+    return _starts(costmap, _xy(costmap, request, "start")).first()
+
+
 def _starts(costmap: Costmap, start_m: tuple[float, float]) -> _Near:
     column, row = costmap.grid.cell_of(*start_m)
     if costmap.free[row, column]:

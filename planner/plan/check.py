@@ -19,7 +19,7 @@ from planner.plan.base import Bilingual, Frozen
 from planner.plan.goal import StepRecord, places_of, plan_record
 from planner.plan.outcome import Code
 from planner.plan.responses import MAX_STEPS, AnswerPlan, Clarify, Plan, Refuse, StepPlan
-from planner.plan.steps import NEEDS_CAMERA, RUNNABLE, Step
+from planner.plan.steps import NEEDS_CAMERA, NEEDS_GROWING_MAP, RUNNABLE, Step
 
 NEEDS_DETECTOR = frozenset({"find", "count", "follow", "go_to_object"})
 POINTS = frozenset({"go_to_point"})
@@ -32,14 +32,16 @@ class Means(Frozen):
     camera: bool = False
     detector: bool = False  # recognises what the camera shows
     model: bool = False  # a vision model may be asked about a picture
+    growing_map: bool = False  # a map is being made by driving
 
     @property
     def runnable(self) -> frozenset[str]:
         """Return the kinds of steps that this robot can do."""
+        drives = RUNNABLE | (NEEDS_GROWING_MAP if self.growing_map else frozenset())
         if not self.camera:
-            return RUNNABLE
+            return drives
         look = {"look"} if self.detector or self.model else set()
-        return RUNNABLE | POINTS | look | (NEEDS_DETECTOR if self.detector else frozenset())
+        return drives | POINTS | look | (NEEDS_DETECTOR if self.detector else frozenset())
 
     @property
     def plannable(self) -> frozenset[str]:
@@ -55,7 +57,7 @@ class Means(Frozen):
         """Return the part missing for a kind of step, or None where nothing is."""
         if kind in self.runnable:
             return None
-        return self.blind if kind in NEEDS_CAMERA else Code.NO_CAPABILITY
+        return _lack(kind, self.blind)
 
 
 BARE = Means()
@@ -149,4 +151,10 @@ def _unknown(
 
 def lacking(step: Step | StepRecord, blind: Code = Code.NO_CAMERA) -> Code:
     """Name the robot's lack for a step that it can't run; ``blind``: its eyes' lack."""
-    return blind if step.kind in NEEDS_CAMERA else Code.NO_CAPABILITY
+    return _lack(step.kind, blind)
+
+
+def _lack(kind: str, blind: Code) -> Code:
+    if kind in NEEDS_GROWING_MAP:
+        return Code.NOT_MAPPING
+    return blind if kind in NEEDS_CAMERA else Code.NO_CAPABILITY

@@ -86,6 +86,12 @@ class Patrol(Frozen):
     places: Annotated[tuple[PlaceId, ...], Field(min_length=1, max_length=20)]
 
 
+class Explore(Frozen):
+    """Drive over floor that is not on the map yet, until the map is whole."""
+
+    kind: Literal["explore"] = "explore"
+
+
 class GoToObject(Frozen):
     """Drive up to an object that was seen."""
 
@@ -144,6 +150,7 @@ Step = Annotated[
     | Turn
     | MoveStraight
     | Patrol
+    | Explore
     | GoToObject
     | GoToPoint
     | Find
@@ -158,10 +165,11 @@ RUNNABLE = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
     | {"wait", "say", "ask", "decide"}
 )  # what a mission can walk without eyes; `Means` says what else a robot can
+NEEDS_GROWING_MAP = frozenset({"explore"})
 NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
 EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
 """What a plan may hold at all; a robot's own `runnable` is a part of it."""
 DRIVES = frozenset(
-    {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
+    {"go_to", "come_back", "return_home", "turn", "move", "patrol", "explore"}
     | {"go_to_object", "go_to_point", "find", "follow"}
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from maps.growing_map import GROWING_MAP
 from planner.language.catalogue import place_name
 from planner.plan import Bilingual, Entry, Vocabulary
 from planner.site.places import Place
@@ -31,12 +32,16 @@ class SiteView:
     targets: dict[str, Target]
     home: str
     map_id: str = ""
+    grows: bool = False
+    """The map is being made by driving: there may be floor that nobody saw yet."""
 
 
 def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> SiteView:
     """Return the rooms and places of a site, and the taught ones, as targets; and its home."""
     places = (*site.places, *taught)
-    return SiteView({place.id: _target(place) for place in places}, site.home.id, site.map_id)
+    targets = {place.id: _target(place) for place in places}
+    grows = (site.folder / GROWING_MAP).is_file()
+    return SiteView(targets, site.home.id, site.map_id, grows)
 
 
 def _target(place: Place) -> Target:

@@ -108,7 +108,7 @@ LAWS: dict[str, Law] = {
     "bring_manipulate": Law(clarify=_NO_ARM, refuse=_NO_ARM),
     "incomplete": Law(),
     "egpsr_other": Law(
-        _GO | _SEE | _STAND | {"ask", "follow", "patrol", "turn", "move", "decide"},
+        _GO | _SEE | _STAND | {"ask", "follow", "patrol", "turn", "move", "decide", "explore"},
         refuse=_ANY,
         answer=True,
     ),

@@ -12,6 +12,7 @@ from planner.plan import (
     DRIVES,
     ComeBack,
     Count,
+    Explore,
     Find,
     Follow,
     GoToObject,
@@ -33,6 +34,7 @@ _LEFT, _RIGHT = r"left|counter|anti|左|逆", r"right|(?<!counter)(?<!anti)clock
 _TURN = r"turn|spin|rotat|face|around|degree|radian|circle|转|掉头|调头|偏|方向|圈|朝"
 _FORWARD = r"forward|ahead|straight|front|front|前|直"
 _BACKWARD = r"back|reverse|后|退|倒"
+_EXPLORE = r"explor|map|survey|探索|探查|勘探|地图|建图"
 _MOVE = rf"move|go|drive|walk|come|step|roll|走|移|进|行|开|{_FORWARD}|{_BACKWARD}"
 _USUAL_DEG = {
     90.0: r"left|right|左|右",
@@ -67,6 +69,8 @@ def _unnamed_part(step: Step, said: str) -> str:
             return "" if re.search(_HOME, said) else "no word of home"
         case ComeBack():
             return "" if re.search(_BACK, said) else "no word of coming back"
+        case Explore():
+            return "" if re.search(_EXPLORE, said) else "no word of exploring"
         case Follow():
             if not re.search(_FOLLOW, said):
                 return "no word of following"

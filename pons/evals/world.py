@@ -67,7 +67,7 @@ def _act(trace: _Walk, kind: str, fields: dict[str, Any]) -> None:
     what = fields.get("object") or fields.get("text") or fields.get("question") or ""
     number = fields.get("seconds", fields.get("angle_rad", fields.get("distance_m")))
     trace.act(kind, what, number)
-    if kind in ("turn", "move", "follow", "go_to_object", "go_to_point"):
+    if kind in ("turn", "move", "follow", "go_to_object", "go_to_point", "explore"):
         trace.here = SOMEWHERE
 
 

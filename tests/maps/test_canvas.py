@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from maps import FREE, UNKNOWN
 from maps.canvas import FLOOR_M, canvas_site
 from maps.growing_map import read_growing_map
 from planner.site import Site
+from planner.site.site_view import facts_of
 
 RADIUS_M = 0.3
 
@@ -34,6 +37,12 @@ def test_floor_is_where_the_robot_stands_and_nowhere_else(canvas: Site) -> None:
         (15.0, -15.0, UNKNOWN),
     ):
         assert canvas.grid.at(x_m, y_m) == kind, (x_m, y_m)
+
+
+def test_it_is_known_as_a_map_that_grows(canvas: Site) -> None:
+    assert facts_of(canvas).grows
+    whole = Site.load(Path(__file__).resolve().parents[2] / "sites" / "two_room")
+    assert not facts_of(whole).grows
 
 
 def test_the_fence_lets_it_into_all_that_may_be_mapped(canvas: Site) -> None:

@@ -17,6 +17,9 @@ from planner.language.utterance import parse
 from planner.mission import Clocks, Missions
 from planner.mission.journal import JournalContents
 from planner.mission.state import GoalKey
+from planner.navigation import RouteLimits
+from planner.navigation.frontier import FrontierMemory
+from planner.navigation.process_main import GrowingRouter
 from tools.lockstep.latencies import TICK_S
 from tools.lockstep.tick_loop import TickLoop
 from wire import VIRTUAL_KEY, OpKind, OpRequest, signed_request
@@ -33,6 +36,7 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport, RouteRequest, RouteResult, ScanObservation
     from planner.navigation.obstacle_memory import ObstacleMemory
+    from planner.navigation.router import Router
     from planner.plan import BrainTag, Language
     from sim import SimRobot
     from tools.lockstep.bus import Port
@@ -115,20 +119,29 @@ class PacedBrain:
 class PacedRouter:
     """Find ways in this process, a fixed time later."""
 
-    scene: LockstepScene
+    newest: Callable[[], Router]
     delay_s: float
     memory: ObstacleMemory
+    frontiers: FrontierMemory = field(default_factory=FrontierMemory)
 
     async def route(self, request: RouteRequest) -> RouteResult:
         """Find the way, or raise ``RouteFailure``."""
         await asyncio.sleep(self.delay_s)
         time = asyncio.get_running_loop().time
-        return self.scene.router.route(request, time, self.memory)
+        return self.newest().route(request, time, self.memory, self.frontiers)
 
     async def observe(self, seen: ScanObservation) -> ObstacleReport:
         """Take a scan into the obstacle layer."""
         await asyncio.sleep(self.delay_s)
-        return self.scene.router.observe(self.memory, seen)
+        return self.newest().observe(self.memory, seen)
+
+
+def _routers(scene: LockstepScene) -> Callable[[], Router]:
+    """Return what gives the router of the map as it is known now."""
+    if not scene.grows:
+        return lambda: scene.router
+    growing = GrowingRouter(scene.site, RouteLimits.of(scene.robot))
+    return lambda: growing.router
 
 
 @dataclass(slots=True)
@@ -174,7 +187,7 @@ class PlannerProcess:
             clock=self._tasks.time,
             new_id=self._new_id,
         )
-        router = PacedRouter(scene, pace.route * TICK_S, scene.router.new_memory())
+        router = PacedRouter(_routers(scene), pace.route * TICK_S, scene.router.new_memory())
         self.missions = Missions(
             site=scene.site,
             robot=scene.robot,

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from bridge.core.geometry.fence import FenceGrid
 from bridge.fence_file import load_fence
+from maps.growing_map import GROWING_MAP
 from planner.navigation import RouteLimits
 from planner.navigation.router import Router
 from planner.plan import Vocabulary
@@ -29,6 +30,11 @@ class LockstepScene:
     fence: FenceGrid
     fence_hash: str
     router: Router
+
+    @property
+    def grows(self) -> bool:
+        """Tell whether its map is made by driving."""
+        return (self.folder / GROWING_MAP).is_file()
 
 
 @lru_cache(maxsize=16)

@@ -32,7 +32,7 @@ class LockstepWorld(World):
 
         Args:
             ready: run on until the robot is armed and owned, as ``pons up`` leaves it.
-            parts: site, seed, brain, robot, hardware, domain, start, pace, step.
+            parts: site, canvas, seed, brain, robot, hardware, domain, start, pace, step.
 
         Raises:
             TooLong: it did not become ready.

@@ -20,6 +20,7 @@ from tools.lockstep.drive_process import DriveProcess
 from tools.lockstep.latencies import TICK_S, Pace, ticks
 from tools.lockstep.lidar_process import LidarProcess
 from tools.lockstep.localizer_process import LocalizerProcess
+from tools.lockstep.mapping_process import MappingProcess
 from tools.lockstep.planner_process import Notebook, PlannerProcess
 from tools.lockstep.robot_process import RobotProcess
 from tools.lockstep.scene import folder_of, scene
@@ -52,10 +53,16 @@ class TooLong(Exception):
 class World:
     """Hold the parts of one world and turn them."""
 
+    mapping: MappingProcess | None = None
+    """What makes the map, where one is made."""
+    localizer: LocalizerProcess | None = None
+    """What finds the robot by scans on a known map, where that is done."""
+
     def __init__(  # noqa: PLR0913  # a world's parts, all by name
         self,
         *,
         site: Path | str = "two_room",
+        canvas: Path | None = None,
         seed: int = 1,
         brain: Brain | None = None,
         robot: RobotDescription | None = None,
@@ -70,6 +77,7 @@ class World:
 
         Args:
             site: a site's folder, or the name of one of the checkout's own.
+            canvas: the folder in which a map of it is made by driving; None: the map is known.
             seed: of all noise and of what varies on the wire.
             brain: what turns sentences into plans; the offline brain if None. It answers at once.
             robot: its description; the default robot if None. It says what localizes.
@@ -81,24 +89,20 @@ class World:
             firmware: of a base of metal, in place of its kind's model.
         """
         self.pace, self.seed = pace or Pace(), seed
-        self.scene = scene(folder_of(site), robot or STAND_IN_ROBOT)
+        self.scene = scene(canvas or folder_of(site), robot or STAND_IN_ROBOT)
         latency = {frozenset({Party.PLANNER, Party.BRIDGE}): self.pace.planner_bridge}
         self.bus = LockstepBus(seed, latency)
         self.sim = SimRobot(
-            self.scene.folder,
-            self.scene.robot,
-            seed=seed,
-            start=start,
-            hardware=hardware,
-            domain=domain,
-        )
+            folder_of(site), self.scene.robot, seed=seed, start=start,
+            hardware=hardware, domain=domain,
+        )  # fmt: skip
         self.base = self._base(firmware)
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT), self.base)
         self.lidar: LidarProcess | None = None
         """A lidar of metal's twin, where the robot's description names one."""
         if not self.scene.robot.lidar.is_simulated:
             self.lidar = LidarProcess(self.sim, self.bus.port(Party.LIDAR), seed)
-        self._localization, self.localizer = self._localize(seed)
+        self._localization = self._localize(seed)
         self.bridge = self._bridge(step)
         self.notebook = Notebook()
         self._brain: Brain = brain or OfflineBrain()
@@ -281,16 +285,17 @@ class World:
         port = self.bus.port(Party.BRIDGE)
         return BridgeProcess(self._config(self.seed), port, step, self.now_s, drive)
 
-    def _localize(
-        self, seed: int
-    ) -> tuple[LocalizerProcess | StandInNode, LocalizerProcess | None]:
-        """Return what says where the robot is, and the localizer where that is one."""
+    def _localize(self, seed: int) -> MappingProcess | LocalizerProcess | StandInNode:
+        """Return what says where the robot is."""
         port = self.bus.port(Party.LOCALIZATION)
+        if self.scene.grows:
+            self.mapping = MappingProcess(self.scene, port)
+            return self.mapping
         if self.scene.robot.localization.kind == "scans":
-            localizer = LocalizerProcess(self.scene, port)
-            return localizer, localizer
+            self.localizer = LocalizerProcess(self.scene, port)
+            return self.localizer
         stand_in = StandIn(self.scene.site.map_id, seed=seed)
-        return StandInNode(stand_in, cast("Session", port)), None
+        return StandInNode(stand_in, cast("Session", port))
 
     def _config(self, seed: int) -> CoreConfig:
         return CoreConfig(

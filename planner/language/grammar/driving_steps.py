@@ -6,6 +6,7 @@ One way for all tongues. Counter-clockwise is positive.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from math import pi
 from re import Match
 
@@ -17,13 +18,26 @@ from planner.language.grammar.noun_phrases import go_to, several_of, up_to
 from planner.language.grammar.numbers import angle_rad, metres, seconds, times
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
 from planner.language.grammar.step_builders import ASIDE, look, missing, one_at_a_time
-from planner.plan import Code, ComeBack, GoTo, MoveStraight, Patrol, ReturnHome, Say, Turn, Wait
+from planner.plan import (
+    Code,
+    ComeBack,
+    Explore,
+    GoTo,
+    MoveStraight,
+    Patrol,
+    ReturnHome,
+    Say,
+    Turn,
+    Wait,
+)
 
 HOW_FAR = message_of("grammar.how_far")
 _BACKWARD = ("back", "reverse", "后", "倒", "退")
 _RIGHT = ("right", "clockwise", "右", "顺")
 _HALF_M = 0.5
 _TOO_FAR = message_of("grammar.too_far")
+_HOME = ("home", "家", "家里")
+"""The one place of a map that has just begun: as the object of "explore", all of it."""
 WHERE = message_of("grammar.which_places")
 
 
@@ -185,6 +199,18 @@ def patrol_all(found: Match[str], reading: Reading) -> Meaning:
 def in_all(found: Match[str], reading: Reading) -> Meaning | None:
     """Read "in every room" as the round, where it opens an order and more follows."""
     return patrol_all(found, reading) if reading.opens else None
+
+
+def explore(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read an order to drive over what is not mapped yet, where a map is being made."""
+    place = found.groupdict().get("place")
+    whole = place is None or reading.marked.restore(place) in _HOME
+    return Steps((Explore(),)) if reading.maps and whole else None
+
+
+def map_alone(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read an order that can only mean this: where no map is being made, it is refused."""
+    return explore(found, replace(reading, maps=True))
 
 
 def wander(found: Match[str], reading: Reading) -> Meaning:

@@ -120,6 +120,7 @@ class Reading:
     now: datetime | None = None
     things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
     scene: ClauseContext = field(default_factory=ClauseContext)
+    maps: bool = False  # a map is being made by driving
     opens: bool = False  # the clause opens the sentence, and others follow
 
     @property

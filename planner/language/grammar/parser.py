@@ -150,7 +150,8 @@ def _read_once(
         return vetoed
     bare = _BORDERS.sub("", marked.text)
     things = context.things if "go_to_object" in context.runnable else frozenset()
-    reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now, things)
+    maps = "explore" in context.runnable
+    reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now, things, maps=maps)
     topic = read_by((*TALK, *ZH_TALK), bare, reading)
     if isinstance(topic, TopicQuestion):
         return compose([topic], bare, setting)

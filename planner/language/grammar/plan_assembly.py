@@ -29,6 +29,7 @@ from planner.plan import (
     Code,
     ComeBack,
     Count,
+    Explore,
     Find,
     Follow,
     GoTo,
@@ -53,16 +54,23 @@ _RANK = (
     Code.NO_CAPABILITY,
     Code.NO_CAMERA,
     Code.NO_DETECTOR,
+    Code.NOT_MAPPING,
     Code.BAD_PLAN,
     Code.NOT_UNDERSTOOD,
     Code.UNKNOWN_PLACE,
     Code.INCOMPLETE,
     Code.AMBIGUOUS,
 )
-_LACKING = frozenset({Code.NO_CAPABILITY, Code.NO_CAMERA, Code.NO_DETECTOR})
+_LACKING = frozenset({Code.NO_CAPABILITY, Code.NO_CAMERA, Code.NO_DETECTOR, Code.NOT_MAPPING})
 _SHOWN = 60  # characters of the sentence that a message repeats
 _SPAN = say("grammar.wait_too_long")
 _NO_ROOM = say("grammar.room_unknown")
+
+_ORDERS = {
+    "come_back": "order.come_back",
+    "return_home": "order.go_home",
+    "explore": "order.explore",
+}
 
 Plan = StepPlan | AnswerPlan | Clarify | Refuse
 
@@ -235,7 +243,7 @@ def _offer(meanings: Sequence[Meaning]) -> tuple[Step, ...]:
 
 
 def _drives(steps: Sequence[Step]) -> bool:
-    return any(isinstance(step, GoTo | ReturnHome | Find | Patrol) for step in steps)
+    return any(isinstance(step, GoTo | ReturnHome | Find | Patrol | Explore) for step in steps)
 
 
 def _cut(part: str) -> Bilingual:
@@ -271,10 +279,8 @@ def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingua
         case GoTo():
             name = name_of(step.place)
             return say("order.go_to", name=name)
-        case ComeBack():
-            return say("order.come_back")
-        case ReturnHome():
-            return say("order.go_home")
+        case ComeBack() | ReturnHome() | Explore():
+            return say(_ORDERS[step.kind])
         case Wait():
             return say("order.wait", seconds=step.seconds)
         case Say():

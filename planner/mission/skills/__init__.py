@@ -29,6 +29,7 @@ from planner.mission.skills.ask import ask
 from planner.mission.skills.count import count
 from planner.mission.skills.decide import decide
 from planner.mission.skills.drive_to_place import come_back, go_to, patrol, return_home
+from planner.mission.skills.explore import explore
 from planner.mission.skills.find import find
 from planner.mission.skills.follow import follow
 from planner.mission.skills.go_to_object import go_to_object
@@ -50,6 +51,7 @@ SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProx
         "turn": turn,
         "move": move,
         "patrol": patrol,
+        "explore": explore,
         "wait": wait,
         "say": say,
         "ask": ask,
@@ -74,7 +76,7 @@ def act_of(scene: Scene[Any]) -> SkillAction:
     if type(scene.state) is not state:
         got = type(scene.state).__name__
         raise TypeError(f"the step {kind!r} needs the state {state.__name__}, got {got}")
-    code = scene.eyes.means(scene.sight.blind).lacks(kind)
+    code = scene.eyes.means(scene.sight.blind, grows=scene.facts.grows).lacks(kind)
     skill = SKILLS.get(kind)
     if skill is not None and code is None:
         return skill(scene)

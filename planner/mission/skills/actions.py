@@ -38,6 +38,8 @@ class Way(StrEnum):
     """Straight along the heading, ahead or backwards, or not at all."""
     ASIDE = "aside"
     """To where somebody who stands at the goal can walk past the robot."""
+    EXPLORE = "explore"
+    """To where floor is seen that is not on the map yet; by route, once that is known."""
     SPIN = "spin"
     """On the spot: the bridge turns to the heading by the shorter way."""
 
@@ -174,7 +176,11 @@ class Think:
 
 @dataclass(frozen=True, slots=True)
 class Retry:
-    """Wait, standing, until the robot knows where it is."""
+    """Wait, standing, and ask the skill again: it knows not where the robot is, or what it saw."""
+
+    seconds: float = 1.0
+    state: SkillStateBase | None = None
+    """Held from now on; None: as before."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from math import ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
 from planner.language.questions import Relation
-from planner.plan import BARE, Means
+from planner.plan import Means
 
 if TYPE_CHECKING:
     from planner.plan import Bilingual
@@ -55,11 +55,17 @@ class Eyesight:
     model: bool = False
     """A vision model may be asked."""
 
-    def means(self, blind: str | None) -> Means:
-        """Return the robot's means by this, if it is blind for that reason (None: it sees)."""
+    def means(self, blind: str | None, *, grows: bool = False) -> Means:
+        """Return the robot's means by this.
+
+        Args:
+            blind: why it sees nothing; None: it sees.
+            grows: its map is being made.
+        """
         if self.camera is None or self.camera.kind == "none" or blind == "no_camera":
-            return BARE
-        return Means(camera=True, detector=blind != "no_detector", model=self.model)
+            return Means(growing_map=grows)
+        detector = blind != "no_detector"
+        return Means(camera=True, detector=detector, model=self.model, growing_map=grows)
 
     @property
     def views(self) -> int:

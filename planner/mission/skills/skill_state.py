@@ -203,6 +203,22 @@ class GoToPointState(ApproachState):
     reached: bool = False
 
 
+class ExploreState(SkillStateBase):
+    """Remember how far an exploration has come."""
+
+    kind: Literal["explore"] = "explore"
+    arrived: bool = False
+    """The robot stands where it was to look from, and the map does not show yet what it saw."""
+    shut_ways: int = 0
+    """Ways to frontiers that were shut, one after the other."""
+    looks: int = 0
+    """Frontiers that were looked at."""
+    known_m2: float = 0.0
+    """Floor on the map."""
+    explored: bool = False
+    """No frontier is left."""
+
+
 class AskStage(StrEnum):
     """Say what was done about an answer."""
 
@@ -225,6 +241,7 @@ class AskState(SkillStateBase):
 SkillState = Annotated[
     AskState
     | CountState
+    | ExploreState
     | FindState
     | FollowPersonState
     | GoToObjectState
@@ -236,6 +253,7 @@ STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
     {
         "ask": AskState,
         "count": CountState,
+        "explore": ExploreState,
         "find": FindState,
         "follow": FollowPersonState,
         "go_to_object": GoToObjectState,

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.navigation import (
+    FloorReport,
     Mover,
     ObstacleReport,
     RouteLimits,
@@ -35,7 +36,7 @@ poses = st.builds(Pose2, numbers, numbers, st.floats(-6, 6))
 requests = st.builds(
     RouteRequest,
     *(poses, poses, st.lists(st.tuples(numbers, numbers), max_size=5).map(tuple)),
-    *(st.booleans(), st.booleans()),
+    *(st.booleans() for _ in range(4)),
 )
 results = st.builds(
     RouteResult,
@@ -44,6 +45,7 @@ results = st.builds(
     moved_goal_m=numbers,
     start_escaped=st.booleans(),
     took_s=numbers,
+    floor=st.none() | st.builds(FloorReport, numbers, st.booleans()),
 )
 
 

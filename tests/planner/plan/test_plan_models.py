@@ -67,6 +67,7 @@ STEPS: list[dict[str, Any]] = [
     {"kind": "count", "object": "people", "place": None},
     {"kind": "look", "question": "what do you see?"},
     {"kind": "follow", "object": "the person"},
+    {"kind": "explore"},
 ]
 KINDS = [cls.model_fields["kind"].default for cls in get_args(get_args(Step)[0])]
 
@@ -156,9 +157,8 @@ def test_what_cannot_run_is_refused_with_its_code(step: dict[str, Any]) -> None:
         return
     assert verdict is not None
     camera = step["kind"] in NEEDS_CAMERA
-    assert rejection_outcome(verdict, HOME).code is (
-        Code.NO_CAMERA if camera else Code.NO_CAPABILITY
-    )
+    lack = Code.NO_CAMERA if camera else Code.NOT_MAPPING
+    assert rejection_outcome(verdict, HOME).code is lack
     assert not verdict.repairable
 
 

@@ -123,6 +123,8 @@ def test_an_expectation_that_is_none_is_refused(text: str) -> None:
         ("follow Mary", {"kind": "follow", "object": "mary"}, False),
         ("go there", {"kind": "go_to_point", "x": 1, "y": 1}, True),
         ("say hello", SAY, False),
+        ("map the house by yourself", {"kind": "explore"}, False),
+        ("go to the kitchen", {"kind": "explore"}, True),
     ],
 )
 def test_motion_that_the_sentence_does_not_name(

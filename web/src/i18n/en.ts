@@ -295,6 +295,7 @@ export const en = {
   "step.turn": "Turn {what}",
   "step.move": "Move {what}",
   "step.patrol": "Patrol {what}",
+  "step.explore": "Explore",
   "step.go_to_object": "Go to {what}",
   "step.go_to_point": "Go to the point {what}",
   "step.find": "Find {what}",

@@ -292,6 +292,7 @@ export const zh: Record<Key, string> = {
   "step.turn": "转动 {what}",
   "step.move": "移动 {what}",
   "step.patrol": "巡视{what}",
+  "step.explore": "探索",
   "step.go_to_object": "去找{what}",
   "step.go_to_point": "去图中的点 {what}",
   "step.find": "寻找{what}",

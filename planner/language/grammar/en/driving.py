@@ -9,7 +9,9 @@ from planner.language.grammar.driving_steps import (
     come_back,
     drive_into,
     drive_to,
+    explore,
     home,
+    map_alone,
     move,
     patrol,
     patrol_all,
@@ -75,6 +77,13 @@ _HEAD = r"(?:move|go|drive|walk|come|step|roll|travel|advance)"
 _WAY = (
     r"(?:to the )?(?P<way>forwards?|ahead|straight(?: (?:ahead|on|forward))?|backwards?|back|front)"
 )
+_WHOLE = (
+    r"(?:(?:all (?:of )?)?(?:the |my |our |your |this )?(?:whole |entire |rest of the )?"
+    r"(?:house|home|flat|apartment|building|place|area|rooms?|floor|surroundings|rest|"
+    rf"(?P<place>{MARK}))|everything|everywhere)"
+)
+_DRAW = r"(?:make|build|draw|create) (?:a|the|your) map"
+_ALONE = r"(?:by yourself|on your own|yourself|alone|automatically|autonomously)"
 
 
 def _come_here(found: Match[str], reading: Reading) -> Meaning:
@@ -179,6 +188,15 @@ RULES: tuple[Rule, ...] = (
         r"(?:all (?:of )?(?:the )?|every |each |the whole )(?:rooms?|house|home|flat|apartment)"
         r"|patrol (?:the |our |my )?(?:house|home|flat|apartment|building)",
         patrol_all,
+    ),
+    rule(
+        rf"(?:(?:go (?:and )?)?explore|map|(?:start|continue|keep|carry on|go on) exploring)"
+        rf"(?: {_WHOLE})?(?: {_ALONE})?",
+        explore,
+    ),
+    rule(
+        rf"(?:map|{_DRAW} of) {_WHOLE} {_ALONE}|{_DRAW} {_ALONE}",
+        map_alone,
     ),
     rule(
         r"(?:patrol|wander|roam|explore|cruise|make (?:a|your) rounds?)\b[^\ue000-\ue7ff]*",

@@ -10,6 +10,7 @@ from planner.language.grammar.driving_steps import (
     drive_to,
     home,
     in_all,
+    map_alone,
     move,
     patrol,
     patrol_all,
@@ -69,6 +70,10 @@ _FACE = r"(?:往|向|朝|原地)?(?:着)?"
 _TURN = r"(?:方向)?(?:转动?|旋转|拐|转弯|转身|转过去|转向|偏)"
 _RUN = r"(?:走|移动|前进|行进|行驶|开|挪|直行|移)"
 _AHEAD = r"(?P<way>前|后|前方|后方|正前方|正后方|前面|后面)"
+_WHOLE = (
+    r"(?:(?:整个|全部|所有|这个|这间|剩下的?|未知的?|没去过的?)?的?"
+    rf"(?:房子|屋子|房间|房屋|公寓|全屋|家里?|环境|区域|地方|周围|四周|这里|这儿|(?P<place>{MARK})(?:里)?))"
+)
 
 
 def _greet(_found: Match[str], _reading: Reading) -> Meaning:
@@ -155,6 +160,12 @@ RULES: tuple[Rule, ...] = (
         patrol_all,
     ),
     rule(rf"在?{ALL_ROOMS}", in_all),
+    rule(
+        rf"(?:自己|自动|自主)?(?:去|来|开始|继续)?(?:探索|探查|勘探)(?:一下|一遍|下)?{_WHOLE}?"
+        r"|(?:自己|自动|自主)(?:去|来|开始|继续)?(?:把)?(?:地图)?"
+        r"(?:建图|建(?:个|张|一张|一个)?地图|绘制地图|画(?:个|张|一张)?地图|扫图|建好|画好)",
+        map_alone,
+    ),
     rule(
         r"(?:巡逻|巡检|巡视|巡查|到处走走|随处走走|转转|转一转|逛逛|遛遛|溜达)[^\ue000-\ue7ff]*",
         wander,

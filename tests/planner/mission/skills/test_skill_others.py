@@ -22,7 +22,16 @@ from planner.mission.skills import (
     act_of,
     begin_state,
 )
-from planner.plan import EVERY_KIND, NEEDS_CAMERA, RUNNABLE, Code, Means, StepState, say_same
+from planner.plan import (
+    EVERY_KIND,
+    NEEDS_CAMERA,
+    NEEDS_GROWING_MAP,
+    RUNNABLE,
+    Code,
+    Means,
+    StepState,
+    say_same,
+)
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
 from wire import Pose2
@@ -32,12 +41,15 @@ BACK = Pose2(1.0, 1.0, 0.5)
 
 
 def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
-    assert set(SKILLS) == EVERY_KIND == Means(camera=True, detector=True).runnable
-    assert Means().runnable == RUNNABLE == EVERY_KIND - NEEDS_CAMERA
+    whole = Means(camera=True, detector=True, growing_map=True)
+    assert set(SKILLS) == EVERY_KIND == whole.runnable
+    assert Means().runnable == RUNNABLE == EVERY_KIND - NEEDS_CAMERA - NEEDS_GROWING_MAP
+    assert Means(growing_map=True).runnable - RUNNABLE == NEEDS_GROWING_MAP == {"explore"}
     blind = Means(camera=True)
     assert blind.runnable - RUNNABLE == {"go_to_point"}
     assert Means(camera=True, model=True).runnable - blind.runnable == {"look"}
     assert blind.plannable == RUNNABLE, "who sees no picture can't point at it"
+    assert Means(camera=True, detector=True).lacks("explore") is Code.NOT_MAPPING
     assert [m.lacks("find") for m in (Means(), blind)] == [Code.NO_CAMERA, Code.NO_DETECTOR]
 
 
