@@ -74,7 +74,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         run_check("sockets", lambda: path_checks.sockets(settings.home)),
         run_check("port", lambda: path_checks.port(settings.host, settings.port, running=running)),
         described,
-        run_check("drive", lambda: drive_checks.drive(robot)),
+        run_check("drive", lambda: drive_checks.drive(settings.home, robot)),
         run_check("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),
