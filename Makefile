@@ -42,7 +42,7 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 # for `test`. Only the files that tell some are read, for reading all tests costs seconds. Unit tests
 # beside them starve them, nice or not: each robot is a session of its own to the scheduler.
 WHOLE := tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py
-OWN := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py \
+OWN := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_bases.py \
   tests/deploy/test_separate_starts.py
 ALONE := tests/e2e/test_conformance.py
 STORIES = $(filter-out $(WHOLE) $(OWN) $(ALONE) tests/web/%,\

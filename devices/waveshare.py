@@ -52,9 +52,11 @@ class UgvReport:
 
 @dataclass(frozen=True, slots=True)
 class UgvEcho:
-    """Hold the tag of a speed command that the base has read."""
+    """Hold a speed command as the base has read it."""
 
     tag: str
+    left_mps: float
+    right_mps: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +79,7 @@ UgvLine = UgvReport | UgvEcho | UgvSetting | UgvText
 
 def encode_speed(left_mps: float, right_mps: float, tag: str) -> bytes:
     """Return the line that sets both wheels' speeds and feeds the heartbeat."""
-    return _line({"T": T_SPEED, "L": round(left_mps, 4), "R": round(right_mps, 4), "s": tag})
+    return _line({"T": T_SPEED, "L": left_mps, "R": right_mps, "s": tag})
 
 
 def encode_settings(heartbeat_ms: int) -> bytes:
@@ -141,10 +143,17 @@ def _read_line(line: bytes) -> UgvLine | None:
     if kind == T_REPORT:
         return _report(said, len(line) + 2)
     if kind == T_SPEED:
-        tag = said.get("s")
-        return UgvEcho(tag) if isinstance(tag, str) else None
+        return _echo(said)
     value = said.get("cmd")
     return UgvSetting(kind, value) if type(value) is int else None
+
+
+def _echo(said: dict[str, Any]) -> UgvEcho | None:
+    tag = said.get("s")
+    left, right = _number(said.get("L"), _POSSIBLE_MPS), _number(said.get("R"), _POSSIBLE_MPS)
+    if left is None or right is None or not isinstance(tag, str):
+        return None
+    return UgvEcho(tag, left, right)
 
 
 def _report(said: dict[str, Any], size: int) -> UgvReport | None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import logging
 import re
 import secrets
+from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -29,12 +30,15 @@ SETTINGS_EVERY = 100
 """Commands: a second. A base that was reset obeys at once, but comes back with 3 s of heartbeat."""
 UNSET_REPORTS = 60
 """Three seconds of reports without a word of the heartbeat are a trouble worth a line."""
+KEPT = 50
+"""Commands that an echo may name: a second's."""
 SILENT_S = 1.0
 """A base that starts is silent for longer: what speaks after such a silence is another."""
 _BITS_A_BYTE = 10
 _TAG_NAME = re.compile(r"[0-9a-z]{4}")
 _TAG_SEQ = re.compile(r"[0-9]{1,15}")
 _MILLI = 1000.0
+_DIGITS = 4
 _SLIP_M = 0.03
 """Two whole centimetres may hide three."""
 _OLDEST_S = 0.25
@@ -78,6 +82,8 @@ class _KnownBase:
     """It has printed our heartbeat back."""
     waited: int = 0
     """Reports without that."""
+    sent: deque[tuple[str, float, float]] = field(default_factory=lambda: deque(maxlen=KEPT))
+    """Tags with the speeds that went with them."""
     heard_s: float | None = None
     ways: tuple[int, int] | None = None
     odd: tuple[int, int] | None = None
@@ -132,18 +138,24 @@ class WaveshareProtocol:
         if self._due or self._sent % SETTINGS_EVERY == 0:
             self._due, data = False, self._settings
         if command.seq % 2 == 0 or stops > self._stopped:
-            left_mps = command.left_radps * self._radius_m if command.enable else 0.0
-            right_mps = command.right_radps * self._radius_m if command.enable else 0.0
-            over = max(abs(left_mps), abs(right_mps)) / waveshare.FASTEST_MPS
-            scale = 1.0 if over <= 1.0 else 1.0 / over
             tag = f"{self._name}-{command.seq}-{command.enable:d}"
-            data += waveshare.encode_speed(left_mps * scale, right_mps * scale, tag)
+            speeds = (0.0, 0.0) if stops else self._speeds_of(command)
+            self._base.sent.append((tag, *speeds))
+            data += waveshare.encode_speed(*speeds, tag)
             self._stopped = stops
         return data
 
     def question(self, seq: int) -> bytes:
         """Return nothing: the base speaks by itself."""
         return b""
+
+    def _speeds_of(self, command: DriveCommand) -> tuple[float, float]:
+        """Return both wheels' speeds [m/s], scaled to what the base does not ignore."""
+        left_mps = command.left_radps * self._radius_m
+        right_mps = command.right_radps * self._radius_m
+        over = max(abs(left_mps), abs(right_mps)) / waveshare.FASTEST_MPS
+        scale = 1.0 if over <= 1.0 else 1.0 / over
+        return round(left_mps * scale, _DIGITS), round(right_mps * scale, _DIGITS)
 
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
@@ -155,7 +167,7 @@ class WaveshareProtocol:
                     if ways_cm is not None:
                         states.append(self._state(line, ways_cm, now_s))
                 case UgvEcho():
-                    self._note_echo(line.tag)
+                    self._note_echo(line)
                 case UgvSetting(waveshare.T_HEARTBEAT, value):
                     self._base.is_set = value == self._heartbeat_ms
                 case UgvText() if line.words in waveshare.START_WORDS:
@@ -221,13 +233,21 @@ class WaveshareProtocol:
             cliff=False,
         )
 
-    def _note_echo(self, tag: str) -> None:
-        """Note which command the base printed back; a tag of another shape is nobody's."""
-        name, _, rest = tag.partition("-")
+    def _note_echo(self, echo: UgvEcho) -> None:
+        """Note which command the base printed back; a tag of another shape is nobody's.
+
+        Lines have no checksum. One that came back with other speeds than were sent was misread on
+        one of its ways: it is no echo, and the row DRIVER_NACK counts.
+        """
+        name, _, rest = echo.tag.partition("-")
         seq, _, enable = rest.partition("-")
         if not (_TAG_NAME.fullmatch(name) and _TAG_SEQ.fullmatch(seq) and enable in {"0", "1"}):
             return
-        self._base.echo_boot = self._boot if name == self._name else f"other-{name}"
+        is_ours = name == self._name
+        if is_ours and (echo.tag, echo.left_mps, echo.right_mps) not in self._base.sent:
+            log.warning("base_misread: it printed back %s, which was not sent so", echo)
+            return
+        self._base.echo_boot = self._boot if is_ours else f"other-{name}"
         self._base.echo_seq, self._base.enabled = int(seq), enable == "1"
 
     def _note_start(self, why: str) -> None:

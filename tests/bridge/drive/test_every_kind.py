@@ -5,19 +5,19 @@ Protocol and firmware twin are joined by memory, with wheels that do at once wha
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import cast
 
 import pytest
 
 from bridge.drive.serial_drive import SERIAL_PROTOCOLS
+from pons.settings import CHECKOUT
 from sim.twin import FIRMWARES
 from tests.wire.examples import EXAMPLES
 from wire import DriveCommand, DriveState, RobotDescription, load_robot
 
 ROBOTS: dict[str, RobotDescription] = {
     robot.drive.kind: robot
-    for robot in map(load_robot, sorted(Path("robots").glob("*.toml"), reverse=True))
+    for robot in map(load_robot, sorted((CHECKOUT / "robots").glob("*.toml"), reverse=True))
 }
 KINDS = sorted(ROBOTS)
 BODY = cast("DriveState", EXAMPLES[DriveState])

@@ -113,8 +113,20 @@ def test_the_echo_names_this_bridge_another_or_none() -> None:
         "", "a", "abcd-b-1", "abcd-1-2", "abcd-1", f"abcd-{'9' * 16}-1", "abcd-\u0663-1",
         "ab d-1-1", "停停停停-1-1", "abcde-1-1", "-1-1",
     ):  # fmt: skip
-        odd = json.dumps({"T": 1, "s": tag}).encode() + b"\n"
+        odd = json.dumps({"T": 1, "L": 0.0, "R": 0.0, "s": tag}).encode() + b"\n"
         assert one(protocol, odd + report(), 1.1).echo_seq == 99
+
+
+@pytest.mark.parametrize(("old", "new"), [(b"0.2", b"0.9"), (b"-0.2", b"0.2"), (b"-12-", b"-14-")])
+def test_a_command_that_was_misread_is_no_echo(
+    old: bytes, new: bytes, caplog: pytest.LogCaptureFixture
+) -> None:
+    protocol = begun()
+    line = protocol.encode(command(12))
+    assert old in line
+    assert one(protocol, line.replace(old, new, 1) + report(), 1.0).echo_boot is None
+    assert "base_misread" in caplog.text
+    assert one(protocol, line + report(), 1.05).echo_seq == 12
 
 
 @pytest.mark.parametrize(
