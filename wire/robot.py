@@ -19,6 +19,7 @@ from wire.fingerprint import fingerprint
 from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
+from wire.ros2_config import Ros2Config, wrong_ros2
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,6 +37,7 @@ _LINE_KEYS = ("port", "baud", "ticks_per_turn", *_BATTERY_KEYS)
 _KEYS_OF_KINDS = {
     "sim": ((), ()),
     "pons_mcu": (("port", "ticks_per_turn"), ("baud", *_BATTERY_KEYS)),
+    "ros2": ((), ()),
 }
 """The keys about its line that each kind of drive must have, and those that it may have."""
 
@@ -78,7 +80,7 @@ class Limits(Record):
 class DriveConfig(Record):
     """Choose the drive and state its known dynamics."""
 
-    kind: Literal["sim", "pons_mcu"] = "sim"
+    kind: Literal["sim", "pons_mcu", "ros2"] = "sim"
     """``sim``: the simulated drive; the others are bases of metal (docs/drives.md)."""
     port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
     """Serial port of the base; one below /dev/serial/by-id keeps its name."""
@@ -242,6 +244,8 @@ class RobotDescription(Record):
     inputs: Inputs = Inputs()
     recording: Recording = Recording()
     localization: LocalizationConfig = LocalizationConfig()
+    ros2: Ros2Config | None = None
+    """Where ``drive.kind`` is "ros2", and there alone (docs/ros2.md)."""
 
     @model_validator(mode="after")
     def _wheels_reach_the_speed(self) -> RobotDescription:
@@ -256,6 +260,14 @@ class RobotDescription(Record):
     @model_validator(mode="after")
     def _parts_fit(self) -> RobotDescription:
         wrong = "; ".join(_misfits(self.base, self.lidar))
+        if wrong:
+            raise ValueError(wrong)
+        return self
+
+    @model_validator(mode="after")
+    def _ros2_is_whole(self) -> RobotDescription:
+        parts = (self.ros2, self.drive.kind, self.lidar.kind)
+        wrong = "; ".join(wrong_ros2(*parts, has_imu=self.inputs.imu))
         if wrong:
             raise ValueError(wrong)
         return self

@@ -1,0 +1,155 @@
+"""Give a ROS 2 base the dead-man that cmd_vel lacks. Run it on the robot: `python3 relay.py`.
+
+Hears Pons on /pons/command, drives /cmd_vel, and says on /pons/state which command it obeys. A
+command moves the base until `seen` + `ttl` on this computer's clock, however late it came; then the
+base gets zeros. This one file needs rclpy and nothing of Pons (docs/ros2.md).
+"""
+
+from __future__ import annotations
+
+import json
+import secrets
+import sys
+import time
+from typing import Any
+
+try:
+    import rclpy
+    from geometry_msgs.msg import Twist, TwistStamped
+    from rclpy.executors import ExternalShutdownException
+    from rclpy.node import Node
+    from std_msgs.msg import String
+except ImportError as missing:  # the dead-man is tested without ROS too
+    MISSING: str | None = f"{missing}: source ROS 2 first, e.g. . /opt/ros/jazzy/setup.bash"
+    Node = object
+else:
+    MISSING = None
+
+TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
+TTL_S = (0.05, 0.5)
+PERIOD_S = 0.01
+
+
+class DeadMan:
+    """Decide what the base is told now. Told JSON and the time; knows no ROS."""
+
+    def __init__(self, boot: str) -> None:
+        self.boot, self.seq, self.until_s = boot, 0, 0.0
+        self.command: dict[str, Any] | None = None
+
+    def hear(self, text: str, now_s: float) -> bool:
+        """Take a command; False where it is unreadable, old, too long-lived or another relay's."""
+        try:
+            raw = json.loads(text)
+            boot, seq, seen_s, ttl_s = str(raw["boot"]), raw["seq"], raw["seen"], raw["ttl"]
+            raw["v"], raw["w"] = float(raw["v"]), float(raw["w"])
+            fresh = raw["relay"] == self.boot and 0.0 <= now_s - seen_s < ttl_s
+            sane = TTL_S[0] <= ttl_s <= TTL_S[1] and abs(raw["v"]) < 10.0 and abs(raw["w"]) < 20.0
+            last = self.command
+            newer = last is None or boot != last["boot"] or seq > last["seq"]
+            if not (fresh and sane and newer and isinstance(seq, int)):
+                return False
+        except (ValueError, KeyError, TypeError):
+            return False
+        self.command, self.until_s = raw, seen_s + ttl_s
+        return True
+
+    def twist(self, now_s: float) -> tuple[float, float, bool]:
+        """Return forward [m/s], turning [rad/s], and whether the dead-man has fired."""
+        if self.command is None or not now_s < self.until_s:
+            return 0.0, 0.0, True
+        on = self.command.get("on") is True
+        return (self.command["v"], self.command["w"], False) if on else (0.0, 0.0, False)
+
+    def state(self, now_s: float, ros_s: float, cmd_vel: str, others: int) -> str:
+        """Return what Pons is told."""
+        self.seq += 1
+        obeyed = self.command or {"boot": None, "seq": 0, "on": False}
+        return json.dumps(
+            {
+                "relay": self.boot, "seq": self.seq, "t": now_s, "ros": ros_s,
+                "echo_boot": obeyed["boot"], "echo_seq": obeyed["seq"],
+                "timed_out": self.twist(now_s)[2], "on": obeyed.get("on") is True,
+                "cmd_vel": cmd_vel, "others": others,
+            }
+        )  # fmt: skip
+
+
+class Relay(Node):
+    """Pass on what may move the base."""
+
+    def __init__(self) -> None:
+        super().__init__("pons_relay")
+        ask = self.declare_parameter
+        self.topic = self.resolve_topic_name(ask("cmd_vel", "/cmd_vel").value)
+        self.frame = ask("frame", "base_link").value
+        below = ask("relay", "/pons").value
+        self.dead_man = DeadMan(f"relay-{secrets.token_hex(4)}")
+        self.kind, self.drives, self.others, self.look_s = "", None, 0, 0.0
+        self.says = self.create_publisher(String, f"{below}/state", 10)
+        self.create_subscription(String, f"{below}/command", self.hear, 10)
+        self.create_timer(PERIOD_S, self.turn)
+
+    def hear(self, message: String) -> None:
+        if self.dead_man.hear(message.data, time.monotonic()):
+            self.drive()
+
+    def turn(self) -> None:
+        now_s = time.monotonic()
+        if now_s >= self.look_s:
+            self.look_s = now_s + 0.5
+            self.look()
+        if self.dead_man.twist(now_s)[2]:
+            self.drive()  # zeros, again and again: a base that missed one must not go on
+        ros_s = self.get_clock().now().nanoseconds * 1e-9
+        state = self.dead_man.state(now_s, ros_s, self.kind, self.others)
+        self.says.publish(String(data=state))
+
+    def look(self) -> None:
+        """Ask the graph who listens on cmd_vel and with which type; guess nothing."""
+        kinds = {one.topic_type for one in self.get_subscriptions_info_by_topic(self.topic)}
+        kind = next(iter(kinds)) if len(kinds) == 1 and kinds <= {TWIST, STAMPED} else ""
+        if kind != self.kind:
+            self.get_logger().info(f"{self.topic}: {sorted(kinds)}, publishes {kind or None}")
+            if self.drives is not None:
+                self.destroy_publisher(self.drives)
+            made = TwistStamped if kind == STAMPED else Twist
+            self.drives = self.create_publisher(made, self.topic, 1) if kind else None
+            self.kind = kind
+        ours = 0 if self.drives is None else 1
+        self.others = max(0, len(self.get_publishers_info_by_topic(self.topic)) - ours)
+
+    def drive(self) -> None:
+        if self.drives is None:
+            return
+        twist = Twist()
+        twist.linear.x, twist.angular.z, _ = self.dead_man.twist(time.monotonic())
+        if self.kind == STAMPED:
+            stamped = TwistStamped(twist=twist)
+            stamped.header.stamp = self.get_clock().now().to_msg()
+            stamped.header.frame_id = self.frame
+            self.drives.publish(stamped)
+        else:
+            self.drives.publish(twist)
+
+
+def main() -> int:
+    """Be the node."""
+    if MISSING is not None:
+        print(MISSING, file=sys.stderr)
+        return 2
+    rclpy.init(args=sys.argv)
+    relay = Relay()
+    try:
+        rclpy.spin(relay)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        relay.dead_man.until_s = 0.0
+        if rclpy.ok():
+            relay.drive()  # zeros, where the context still lives
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
