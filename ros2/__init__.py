@@ -4,6 +4,6 @@ A process of its own (``python -m ros2``), so that neither a slow network nor a 
 the bridge a tick. No ROS is needed on this side (docs/ros2.md).
 """
 
-from ros2.base_link import BaseLink, Heard
+from ros2.base_link import BaseLink, LinkMessages
 
-__all__ = ["BaseLink", "Heard"]
+__all__ = ["BaseLink", "LinkMessages"]

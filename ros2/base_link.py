@@ -45,7 +45,7 @@ WORDS_S = 5.0
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
+class LinkMessages:
     """Hold the messages of the wire that one frame makes; None for each that it does not."""
 
     state: DriveState | None = None
@@ -53,7 +53,7 @@ class Heard:
     imu: Imu | None = None
 
 
-NOTHING = Heard()
+NOTHING = LinkMessages()
 
 
 class BaseLink:
@@ -77,7 +77,7 @@ class BaseLink:
         self._odom_stamp_s = -inf
         self._words: tuple[float, str] | None = None
         self._topics = {need.key: TopicArrivals() for need in self._graph.needs}
-        self._readers: dict[str, Callable[[Message, float], Heard]] = {
+        self._readers: dict[str, Callable[[Message, float], LinkMessages]] = {
             self._ros2.state: self._hear_relay,
             self._ros2.odom: self._hear_odometry,
         }
@@ -114,7 +114,7 @@ class BaseLink:
             frames += self._subscriptions()
         return frames
 
-    def hear(self, frame: str | bytes, now_s: float) -> Heard:
+    def hear(self, frame: str | bytes, now_s: float) -> LinkMessages:
         """Take one frame of the server; return what it makes."""
         said = rosbridge.read(frame)
         if isinstance(said, TopicMessage):
@@ -235,7 +235,7 @@ class BaseLink:
             return Ros2Trouble("ros2_relay_disagrees", f"{found} {relay.cmd_vel}")
         return None
 
-    def _hear_topic(self, said: TopicMessage, now_s: float) -> Heard:
+    def _hear_topic(self, said: TopicMessage, now_s: float) -> LinkMessages:
         reader = self._readers.get(said.topic)
         if reader is None or self._closed is not None:
             return NOTHING
@@ -249,7 +249,7 @@ class BaseLink:
         topic.note(now_s)
         return heard
 
-    def _hear_relay(self, message: Message, now_s: float) -> Heard:
+    def _hear_relay(self, message: Message, now_s: float) -> LinkMessages:
         state, last = decode_state(message), self._relay
         if last is not None and state.relay == last.relay and state.seq <= last.seq:
             return NOTHING
@@ -260,7 +260,7 @@ class BaseLink:
         self._relay = state
         return NOTHING
 
-    def _hear_odometry(self, message: Message, now_s: float) -> Heard:
+    def _hear_odometry(self, message: Message, now_s: float) -> LinkMessages:
         pose = messages.read_odometry(message)
         relay = self._relay
         if relay is None:
@@ -277,7 +277,7 @@ class BaseLink:
             or self._topics["relay"].silent_s(-inf, now_s) > SILENT_S
         ):
             return NOTHING
-        return Heard(
+        return LinkMessages(
             state=DriveState(
                 boot_id=boot_id,
                 seq=self._seq,
@@ -308,10 +308,14 @@ class BaseLink:
             self._life_of = relay
         return f"{self._boot_id}-{self._lives}"
 
-    def _hear_scan(self, message: Message, now_s: float) -> Heard:
+    def _hear_scan(self, message: Message, now_s: float) -> LinkMessages:
         reading = messages.read_scan(message, self._ros2.scan_zero)
-        return Heard(scan=self._sensors.scan(reading, self._clock.date(reading.stamp_s, now_s)))
+        return LinkMessages(
+            scan=self._sensors.scan(reading, self._clock.date(reading.stamp_s, now_s))
+        )
 
-    def _hear_imu(self, message: Message, now_s: float) -> Heard:
+    def _hear_imu(self, message: Message, now_s: float) -> LinkMessages:
         reading = messages.read_imu(message)
-        return Heard(imu=self._sensors.imu(reading, self._clock.date(reading.stamp_s, now_s)))
+        return LinkMessages(
+            imu=self._sensors.imu(reading, self._clock.date(reading.stamp_s, now_s))
+        )

@@ -22,7 +22,7 @@ from ros2.trouble import Ros2Trouble
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros2.base_link import BaseLink, Heard
+    from ros2.base_link import BaseLink, LinkMessages
 
 log = logging.getLogger("ros2")
 
@@ -36,7 +36,7 @@ PORTS = {"ws": 80, "wss": 443}
 class RosbridgeConnection:
     """Dial one server for as long as the process lives."""
 
-    def __init__(self, url: str, link: BaseLink, publish: Callable[[Heard], None]) -> None:
+    def __init__(self, url: str, link: BaseLink, publish: Callable[[LinkMessages], None]) -> None:
         self._url, self._link, self._publish = url, link, publish
         self._socket: ClientConnection | None = None
         self._heard_s = 0.0

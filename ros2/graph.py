@@ -25,7 +25,7 @@ ANSWER_S = 3.0
 
 
 @dataclass(frozen=True, slots=True)
-class TopicNeed:
+class RequiredTopic:
     """Say which types a topic may have, and the codes where it has none of them."""
 
     key: str
@@ -35,19 +35,19 @@ class TopicNeed:
     other: str
 
 
-def needs_of(ros2: Ros2Config) -> tuple[TopicNeed, ...]:
+def needs_of(ros2: Ros2Config) -> tuple[RequiredTopic, ...]:
     """Return what the graph must have, the base first."""
     missing, other = "ros2_topic_missing", "ros2_topic_type"
     twists = (TWIST, TWIST_STAMPED)
     needs = [
-        TopicNeed("cmd_vel", ros2.cmd_vel, twists, "ros2_no_base", "ros2_cmd_vel_type"),
-        TopicNeed("relay", ros2.state, (STRING,), "ros2_no_relay", other),
-        TopicNeed("odom", ros2.odom, (ODOMETRY,), missing, other),
+        RequiredTopic("cmd_vel", ros2.cmd_vel, twists, "ros2_no_base", "ros2_cmd_vel_type"),
+        RequiredTopic("relay", ros2.state, (STRING,), "ros2_no_relay", other),
+        RequiredTopic("odom", ros2.odom, (ODOMETRY,), missing, other),
     ]
     if ros2.scan is not None:
-        needs.append(TopicNeed("scan", ros2.scan, (LASER_SCAN,), missing, other))
+        needs.append(RequiredTopic("scan", ros2.scan, (LASER_SCAN,), missing, other))
     if ros2.imu is not None:
-        needs.append(TopicNeed("imu", ros2.imu, (IMU,), missing, other))
+        needs.append(RequiredTopic("imu", ros2.imu, (IMU,), missing, other))
     return tuple(needs)
 
 
@@ -101,10 +101,12 @@ class GraphCheck:
                 return trouble
         return None
 
-    def _pairs(self, found: list[Ros2Trouble | None]) -> list[tuple[Ros2Trouble | None, TopicNeed]]:
+    def _pairs(
+        self, found: list[Ros2Trouble | None]
+    ) -> list[tuple[Ros2Trouble | None, RequiredTopic]]:
         return list(zip(found, self.needs, strict=True))
 
-    def _judge(self, need: TopicNeed) -> Ros2Trouble | None:
+    def _judge(self, need: RequiredTopic) -> Ros2Trouble | None:
         answer = self._answers.get(need.topic)
         if not isinstance(answer, TopicType):
             why = "no answer yet" if answer is None else answer.reason
@@ -119,7 +121,7 @@ class GraphCheck:
             return Ros2Trouble(need.other, found)
         return None
 
-    def _absent(self, need: TopicNeed) -> str:
+    def _absent(self, need: RequiredTopic) -> str:
         if need.key != "relay":
             return f"the graph has no {need.topic}, which ros2.{need.key} names"
         cmd_vel = self.needs[0].topic

@@ -14,7 +14,7 @@ from wire import keys
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros2.base_link import BaseLink, Heard
+    from ros2.base_link import BaseLink, LinkMessages
     from wire.session import Session
 
 log = logging.getLogger("ros2")
@@ -76,7 +76,7 @@ class Ros2Node:
         await self._connection.drop_if_silent(now_s)
         self._say(now_s)
 
-    def _publish(self, heard: Heard) -> None:
+    def _publish(self, heard: LinkMessages) -> None:
         if heard.state is not None:
             self._drive.put(heard.state)
         if heard.scan is not None:

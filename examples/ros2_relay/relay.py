@@ -20,17 +20,17 @@ try:
     from rclpy.node import Node
     from std_msgs.msg import String
 except ImportError as missing:  # the dead-man is tested without ROS too
-    MISSING: str | None = f"{missing}: source ROS 2 first, e.g. . /opt/ros/jazzy/setup.bash"
+    MISSING = f"{missing}: source ROS 2 first, e.g. . /opt/ros/jazzy/setup.bash"
     Node = object
 else:
-    MISSING = None
+    MISSING = ""
 
 TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 TTL_S = (0.05, 0.5)
 PERIOD_S = 0.01
 
 
-class DeadMan:
+class RelayDeadMan:
     """Decide what the base is told now. Told JSON and the time; knows no ROS."""
 
     def __init__(self, boot: str) -> None:
@@ -84,7 +84,7 @@ class Relay(Node):
         self.topic = self.resolve_topic_name(ask("cmd_vel", "/cmd_vel").value)
         self.frame = ask("frame", "base_link").value
         below = ask("relay", "/pons").value
-        self.dead_man = DeadMan(f"relay-{secrets.token_hex(4)}")
+        self.dead_man = RelayDeadMan(f"relay-{secrets.token_hex(4)}")
         self.kind, self.drives, self.others, self.look_s = "", None, 0, 0.0
         self.says = self.create_publisher(String, f"{below}/state", 10)
         self.create_subscription(String, f"{below}/command", self.hear, 10)
@@ -119,6 +119,12 @@ class Relay(Node):
         ours = 0 if self.drives is None else 1
         self.others = max(0, len(self.get_publishers_info_by_topic(self.topic)) - ours)
 
+    def stop(self) -> None:
+        """Send zeros a last time, where ROS still lets us."""
+        self.dead_man.until_s = 0.0
+        if rclpy.ok():
+            self.drive()
+
     def drive(self) -> None:
         if self.drives is None:
             return
@@ -135,7 +141,7 @@ class Relay(Node):
 
 def main() -> int:
     """Be the node."""
-    if MISSING is not None:
+    if MISSING:
         print(MISSING, file=sys.stderr)
         return 2
     rclpy.init(args=sys.argv)
@@ -145,9 +151,7 @@ def main() -> int:
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
-        relay.dead_man.until_s = 0.0
-        if rclpy.ok():
-            relay.drive()  # zeros, where the context still lives
+        relay.stop()
     return 0
 
 

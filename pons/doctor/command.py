@@ -8,7 +8,14 @@ from dataclasses import asdict
 from subprocess import SubprocessError
 from typing import TYPE_CHECKING
 
-from pons.doctor import board_checks, host_checks, lidar_checks, model_checks, path_checks
+from pons.doctor import (
+    board_checks,
+    host_checks,
+    lidar_checks,
+    model_checks,
+    path_checks,
+    ros2_checks,
+)
 from pons.doctor import jitter as late
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail
 
@@ -68,6 +75,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         run_check("port", lambda: path_checks.port(settings.host, settings.port, running=running)),
         described,
         run_check("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
+        run_check("ros2", lambda: ros2_checks.ros2(settings.home, robot)),
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),
         run_check("recogniser", lambda: model_checks.recogniser(site)),
