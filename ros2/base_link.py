@@ -189,7 +189,7 @@ class BaseLink:
             yield Ros2Trouble("ros2_server_refuses", f"rosbridge says: {self._words[1]}")
         young = now_s - since_s < YOUNG_S
         silent_s = self._topics["relay"].silent_s(since_s, now_s)
-        if silent_s > SILENT_S:
+        if self._relay is None or silent_s > SILENT_S:
             code = STARTING if young and self._relay is None else "ros2_relay_silent"
             yield Ros2Trouble(code, f"{self._ros2.state} says nothing for {silent_s:.1f} s")
         if self._relay is not None:
@@ -310,12 +310,16 @@ class BaseLink:
 
     def _hear_scan(self, message: Message, now_s: float) -> LinkMessages:
         reading = messages.read_scan(message, self._ros2.scan_zero)
+        if self._relay is None:
+            return NOTHING
         return LinkMessages(
             scan=self._sensors.scan(reading, self._clock.date(reading.stamp_s, now_s))
         )
 
     def _hear_imu(self, message: Message, now_s: float) -> LinkMessages:
         reading = messages.read_imu(message)
+        if self._relay is None:
+            return NOTHING
         return LinkMessages(
             imu=self._sensors.imu(reading, self._clock.date(reading.stamp_s, now_s))
         )

@@ -41,13 +41,14 @@ class RelayDeadMan:
         """Take a command; False where it is unreadable, old, too long-lived or another relay's."""
         try:
             raw = json.loads(text)
-            boot, seq, seen_s, ttl_s = str(raw["boot"]), raw["seq"], raw["seen"], raw["ttl"]
+            boot, seq, seen_s, ttl_s = raw["boot"], raw["seq"], raw["seen"], raw["ttl"]
             raw["v"], raw["w"] = float(raw["v"]), float(raw["w"])
             fresh = raw["relay"] == self.boot and 0.0 <= now_s - seen_s < ttl_s
             sane = TTL_S[0] <= ttl_s <= TTL_S[1] and abs(raw["v"]) < 10.0 and abs(raw["w"]) < 20.0
             last = self.command
             newer = last is None or boot != last["boot"] or seq > last["seq"]
-            if not (fresh and sane and newer and isinstance(seq, int)):
+            named = isinstance(boot, str) and isinstance(seq, int)
+            if not (named and fresh and sane and newer):
                 return False
         except (ValueError, KeyError, TypeError):
             return False
