@@ -69,7 +69,7 @@ class Bridge(Node):
         self.heard: dict[str, Any] = {}
 
     def obey(self, raw: dict[str, Any]) -> dict[str, Any] | None:
-        operation, topic = raw["op"], raw.get("topic")
+        operation, topic = raw["op"], str(raw.get("topic"))
         if operation == "advertise" and topic not in self.said:
             self.said[topic] = self.create_publisher(KINDS[raw["type"]], topic, 10)
         elif operation == "publish":

@@ -259,7 +259,7 @@ def test_no_message_raises_whatever_it_holds(topic: str, message: dict[str, Any]
     JSON,
 )
 def test_no_hole_in_a_good_message_raises(topic: str, path: list[int], value: object) -> None:
-    message: dict[str, Any] = {"/odom": odometry, "/scan": scan, "/imu": imu}[topic](10.1)
+    message = {"/odom": odometry(10.1), "/scan": scan(10.1), "/imu": imu(10.1)}[topic]
     inner: Any = message
     for at, step in enumerate(path):
         if not isinstance(inner, dict) or not inner:

@@ -105,5 +105,5 @@ def test_a_gyro_is_read_about_its_z_axis_or_refused() -> None:
     assert (read.yaw_rate_radps, read.accel_x_mps2, read.accel_y_mps2) == (0.25, 0.1, 0.2)
     message = imu(1.0)
     message["angular_velocity"]["z"] = None
-    with pytest.raises(Unreadable, match="angular_velocity.z holds None"):
+    with pytest.raises(Unreadable, match=r"angular_velocity\.z holds None"):
         read_imu(message)

@@ -1,4 +1,4 @@
-"""The twin's rosbridge server keeps the protocol's page, against the websockets library's client."""
+"""The twin's rosbridge server keeps the protocol's page, as a plain client sees it."""
 
 from __future__ import annotations
 
