@@ -7,13 +7,15 @@ a pose with a hole in it is no pose. Only a beam may be null, which is how JSON 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, hypot, isfinite, pi
+from math import atan2, hypot, pi
 from typing import Literal
 
 from ros2.rosbridge import Message
 from wire.bounded_types import MAX_BEAMS
 
 SLOWEST_BEAM_S = 0.01
+MOST = 1e12
+"""No stamp, length or speed of a robot is more; integers of JSON know no bound."""
 _UNIT = 0.1
 """How far a quaternion's length may be off: some bases send all zeros, which turns by nothing."""
 
@@ -154,7 +156,8 @@ def _wrap_once(angle_rad: float) -> float:
 
 
 def _stamp(message: Message) -> float:
-    stamp = (message.get("header") or {}).get("stamp")
+    header = message.get("header")
+    stamp = header.get("stamp") if isinstance(header, dict) else None
     if not isinstance(stamp, dict):
         raise Unreadable("header.stamp is missing")
     return _number(stamp, "sec") + _number(stamp, "nanosec") * 1e-9
@@ -164,9 +167,10 @@ def _number(message: Message, *path: str) -> float:
     value: object = message
     for part in path:
         value = value.get(part) if isinstance(value, dict) else None
-    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not number or not -MOST <= value <= MOST:  # type: ignore[operator]  # a number it is
         raise Unreadable(f"{'.'.join(path)} holds {_show(value)}, expected a finite number")
-    return float(value)
+    return float(value)  # type: ignore[arg-type]  # a number it is
 
 
 def _show(value: object) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import secrets
+import signal
 import sys
 import time
 from typing import Any
@@ -16,8 +17,8 @@ from typing import Any
 try:
     import rclpy
     from geometry_msgs.msg import Twist, TwistStamped
-    from rclpy.executors import ExternalShutdownException
     from rclpy.node import Node
+    from rclpy.signals import SignalHandlerOptions
     from std_msgs.msg import String
 except ImportError as missing:  # the dead-man is tested without ROS too
     MISSING = f"{missing}: source ROS 2 first, e.g. . /opt/ros/jazzy/setup.bash"
@@ -28,6 +29,8 @@ else:
 TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 TTL_S = (0.05, 0.5)
 PERIOD_S = 0.01
+LAST_S = 0.1
+"""What the last zeros may take to the base before this process ends."""
 
 
 class RelayDeadMan:
@@ -47,10 +50,10 @@ class RelayDeadMan:
             sane = TTL_S[0] <= ttl_s <= TTL_S[1] and abs(raw["v"]) < 10.0 and abs(raw["w"]) < 20.0
             last = self.command
             newer = last is None or boot != last["boot"] or seq > last["seq"]
-            named = isinstance(boot, str) and isinstance(seq, int)
+            named = isinstance(boot, str) and isinstance(seq, int) and 0 <= seq < 2**53
             if not (named and fresh and sane and newer):
                 return False
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
             return False
         self.command, self.until_s = raw, seen_s + ttl_s
         return True
@@ -86,7 +89,8 @@ class Relay(Node):
         self.frame = ask("frame", "base_link").value
         below = ask("relay", "/pons").value
         self.dead_man = RelayDeadMan(f"relay-{secrets.token_hex(4)}")
-        self.kind, self.drives, self.others, self.look_s = "", None, 0, 0.0
+        self.kind, self.heard, self.others, self.look_s = "", "", 0, 0.0
+        self.drives: Any = None
         self.says = self.create_publisher(String, f"{below}/state", 10)
         self.create_subscription(String, f"{below}/command", self.hear, 10)
         self.create_timer(PERIOD_S, self.turn)
@@ -103,28 +107,28 @@ class Relay(Node):
         if self.dead_man.twist(now_s)[2]:
             self.drive()  # zeros, again and again: a base that missed one must not go on
         ros_s = self.get_clock().now().nanoseconds * 1e-9
-        state = self.dead_man.state(now_s, ros_s, self.kind, self.others)
+        state = self.dead_man.state(now_s, ros_s, self.heard, self.others)
         self.says.publish(String(data=state))
 
     def look(self) -> None:
         """Ask the graph who listens on cmd_vel and with which type; guess nothing."""
         kinds = {one.topic_type for one in self.get_subscriptions_info_by_topic(self.topic)}
-        kind = next(iter(kinds)) if len(kinds) == 1 and kinds <= {TWIST, STAMPED} else ""
-        if kind != self.kind:
-            self.get_logger().info(f"{self.topic}: {sorted(kinds)}, publishes {kind or None}")
+        only = next(iter(kinds)) if len(kinds) == 1 and kinds <= {TWIST, STAMPED} else ""
+        if only not in ("", self.kind):
+            self.get_logger().info(f"{self.topic}: publishes {only}")
             if self.drives is not None:
+                self.stop()  # whoever still hears the other type must not go on by it
                 self.destroy_publisher(self.drives)
-            made = TwistStamped if kind == STAMPED else Twist
-            self.drives = self.create_publisher(made, self.topic, 1) if kind else None
-            self.kind = kind
+            made = TwistStamped if only == STAMPED else Twist
+            self.drives, self.kind = self.create_publisher(made, self.topic, 1), only
+        self.heard = self.kind if self.kind in kinds else ""
         ours = 0 if self.drives is None else 1
         self.others = max(0, len(self.get_publishers_info_by_topic(self.topic)) - ours)
 
     def stop(self) -> None:
-        """Send zeros a last time, where ROS still lets us."""
+        """Send zeros, whatever was asked for."""
         self.dead_man.until_s = 0.0
-        if rclpy.ok():
-            self.drive()
+        self.drive()
 
     def drive(self) -> None:
         if self.drives is None:
@@ -145,14 +149,14 @@ def main() -> int:
     if MISSING:
         print(MISSING, file=sys.stderr)
         return 2
-    rclpy.init(args=sys.argv)
+    rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))  # ROS would end before the last zeros
     relay = Relay()
     try:
         rclpy.spin(relay)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
+    except (KeyboardInterrupt, SystemExit):
         relay.stop()
+        time.sleep(LAST_S)
     return 0
 
 

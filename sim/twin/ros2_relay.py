@@ -86,12 +86,13 @@ class RelayFirmware:
                 w_radps=float(raw["w"]),
                 on=raw["on"] is True,
             )
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
             return None
         within = (
             raw.get("relay") == self.boot
             and isinstance(raw["boot"], str)
             and isinstance(raw["seq"], int)
+            and 0 <= raw["seq"] < 1 << 53
             and TTL_S[0] <= ttl_s <= TTL_S[1]
             and 0.0 <= now_s - seen_s < ttl_s
             and isfinite(order.v_mps)

@@ -134,6 +134,20 @@ def test_a_base_of_either_twist_is_driven_and_stands_when_the_process_is_killed(
     assert all(one["v"] == 0.0 for one in graph.twists[stood:])
 
 
+def test_a_relay_that_is_ended_in_mid_drive_leaves_zeros_behind(
+    graph: Graph, bridge: Bridge
+) -> None:
+    graph.bridge()
+    graph.base(STAMPED)
+    graph.process()
+    relay = graph.relay()
+    bridge.until(is_fast(graph))
+    relay.terminate()
+    assert relay.wait(LIMIT_S) == 0
+    bridge.until(lambda: graph.twists[-1]["v"] == 0.0)
+    bridge.until(lambda: bridge.code() == "ros2_relay_silent")
+
+
 def test_a_relay_that_is_not_alone_on_cmd_vel_is_not_driven(graph: Graph, bridge: Bridge) -> None:
     graph.bridge()
     graph.base(TWIST)

@@ -101,6 +101,10 @@ def test_a_command_moves_until_its_end_on_the_relays_clock_however_late_it_came(
         {"seq": "7"},
         {"seen": None},
         {"boot": 7},
+        {"seq": -1},
+        {"seq": 1 << 53},
+        {"seen": 10**400},
+        {"v": 10**400},
         {"seq": None},
     ],
 )
@@ -113,7 +117,9 @@ def test_what_is_old_of_another_relay_or_insane_moves_nothing(
 
 
 @BOTH
-@pytest.mark.parametrize("text", ["", "[]", "7", "null", "{", '{"boot": "b"}', words()[:-9]])
+@pytest.mark.parametrize(
+    "text", ["", "[]", "7", "null", "{", '{"boot": "b"}', words()[:-9], "[" * 99_999]
+)
 def test_what_is_no_command_moves_nothing(made: type[Example | Twin], text: str) -> None:
     relay = made()
     assert not relay.hear(text, 10.01)
