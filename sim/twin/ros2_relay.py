@@ -30,7 +30,8 @@ class RelayFirmware:
     def __init__(self, cmd_vel: str, boot: str | None = None) -> None:
         self.boot = boot or f"twin-{secrets.token_hex(4)}"
         self._cmd_vel = cmd_vel
-        self._order: RelayOrder | None = None
+        self.order: RelayOrder | None = None
+        """The newest that was taken; it may have ended."""
         self._seq = 0
 
     def hear(self, text: object, now_s: float) -> bool:
@@ -38,15 +39,15 @@ class RelayFirmware:
         order = self._order_of(text, now_s)
         if order is None:
             return False
-        last = self._order
+        last = self.order
         if last is not None and order.boot == last.boot and order.seq <= last.seq:
             return False
-        self._order = order
+        self.order = order
         return True
 
     def twist(self, now_s: float) -> tuple[float, float, bool]:
         """Return forward [m/s], turning [rad/s], and whether a command holds."""
-        order = self._order
+        order = self.order
         if order is None or not now_s < order.until_s:
             return 0.0, 0.0, False
         return (order.v_mps, order.w_radps, True) if order.on else (0.0, 0.0, True)
@@ -54,7 +55,7 @@ class RelayFirmware:
     def state(self, now_s: float, ros_s: float) -> str:
         """Return the state that is due."""
         self._seq += 1
-        order = self._order
+        order = self.order
         return json.dumps(
             {
                 "relay": self.boot,
@@ -72,7 +73,7 @@ class RelayFirmware:
 
     def has_torque(self, now_s: float) -> bool:
         """Return whether the command that holds asks for torque."""
-        return self.twist(now_s)[2] and self._order is not None and self._order.on
+        return self.twist(now_s)[2] and self.order is not None and self.order.on
 
     def _order_of(self, text: object, now_s: float) -> RelayOrder | None:
         try:
