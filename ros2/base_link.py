@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from ros2 import graph, messages, rosbridge
 from ros2.arrivals import TopicArrivals
 from ros2.graph import GraphCheck
+from ros2.last_resort import LastResort
 from ros2.messages import Unreadable
 from ros2.relay import STRING, RelayCommand, RelayState, decode_state, encode_command
 from ros2.ros_clock import OLDEST_S, RosClock
@@ -73,7 +74,7 @@ class BaseLink:
         self._subscribed_s: float | None = None
         self._asked_s = -inf
         self._relay: RelayState | None = None
-        self._clock = RosClock()
+        self._clock, self._last_resort = RosClock(), LastResort(self._ros2.cmd_vel)
         self._odom_stamp_s = -inf
         self._words: tuple[float, str] | None = None
         self._topics = {need.key: TopicArrivals() for need in self._graph.needs}
@@ -95,6 +96,7 @@ class BaseLink:
         self._graph.begin(now_s)
         self._subscribed_s, self._asked_s, self._relay, self._words = None, -inf, None, None
         self._clock.reset()
+        self._last_resort.begin()
         self.reached += 1
 
     def close(self, trouble: Ros2Trouble) -> None:
@@ -112,7 +114,9 @@ class BaseLink:
         if self._graph.is_sound and self._subscribed_s is None:
             self._subscribed_s = now_s
             frames += self._subscriptions()
-        return frames
+        silent = self._relay is not None and self._relay_silent_s(now_s) > SILENT_S
+        kind = self._graph.kind_of(self._ros2.cmd_vel)
+        return frames + self._last_resort.due(kind, now_s, silent=silent)
 
     def hear(self, frame: str | bytes, now_s: float) -> LinkMessages:
         """Take one frame of the server; return what it makes."""
@@ -218,6 +222,9 @@ class BaseLink:
             found = f"{self._ros2.odom} came {rate_hz:.1f} times a second"
             yield Ros2Trouble("ros2_odom_slow", f"{found}, expected {SLOWEST_ODOM_HZ:g} or more")
 
+    def _relay_silent_s(self, now_s: float) -> float:
+        return self._topics["relay"].silent_s(-inf, now_s)
+
     def _refuse_relay(self, relay: RelayState, now_s: float) -> Ros2Trouble | None:
         """Return why this relay may not be driven by, or its words not be believed."""
         ros2 = self._ros2
@@ -272,10 +279,7 @@ class BaseLink:
         boot_id = self._live(pose, relay.relay)
         self._seq += 1
         wheels = self._wheels.turn(pose)
-        if (
-            self._refuse_relay(relay, now_s) is not None
-            or self._topics["relay"].silent_s(-inf, now_s) > SILENT_S
-        ):
+        if self._refuse_relay(relay, now_s) is not None or self._relay_silent_s(now_s) > SILENT_S:
             return NOTHING
         return LinkMessages(
             state=DriveState(

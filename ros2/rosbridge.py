@@ -58,6 +58,11 @@ def advertise(topic: str, kind: str) -> str:
     return _write(op="advertise", topic=topic, type=kind)
 
 
+def unadvertise(topic: str) -> str:
+    """Return the operation that says that we publish there no more."""
+    return _write(op="unadvertise", topic=topic)
+
+
 def publish(topic: str, message: Message) -> str:
     """Return the operation that publishes one message."""
     return _write(op="publish", topic=topic, msg=message)

@@ -124,6 +124,8 @@ class RosbridgeServer:
                 self._subscribe(client, raw)
             elif operation == "unsubscribe":
                 client.topics.pop(topic, None)
+            elif operation == "unadvertise":
+                pass  # the graph is of known topics; none goes
             elif operation == "advertise":
                 self._advertise(client, topic, raw["type"])
             elif operation == "call_service":

@@ -73,7 +73,9 @@ class Bridge(Node):
         if operation == "advertise" and topic not in self.said:
             self.said[topic] = self.create_publisher(KINDS[raw["type"]], topic, 10)
         elif operation == "publish":
-            self.said[topic].publish(String(data=raw["msg"]["data"]))
+            self.said[topic].publish(made_of(raw["msg"], self.said[topic].msg_type))
+        elif operation == "unadvertise":
+            self.destroy_publisher(self.said.pop(topic))
         elif operation == "subscribe" and topic not in self.heard:
             kind = KINDS[raw["type"]]
             self.heard[topic] = self.create_subscription(
@@ -107,6 +109,16 @@ class Bridge(Node):
         async with serve(attend, "127.0.0.1", port, compression=None):
             print("ready", flush=True)
             await asyncio.Event().wait()
+
+
+def made_of(raw: dict[str, Any], kind: Any) -> Any:
+    """Return a string or a twist."""
+    if kind is String:
+        return String(data=raw["data"])
+    message, twist = kind(), raw.get("twist", raw)
+    inner = getattr(message, "twist", message)
+    inner.linear.x, inner.angular.z = twist["linear"]["x"], twist["angular"]["z"]
+    return message
 
 
 def as_json(value: Any) -> Any:

@@ -135,6 +135,18 @@ def test_a_relay_that_falls_silent_takes_the_states_along() -> None:
     assert code_of(link, 14.1 + SILENT_S) == "ros2_relay_silent"
 
 
+def test_while_the_relay_is_silent_zeros_go_straight_to_the_base() -> None:
+    link = driven(10.0)
+    assert [f for f in link.due(10.0 + SILENT_S) if "cmd_vel" in f and "publish" in f] == []
+    sent = [json.loads(frame) for frame in link.due(10.1 + SILENT_S)]
+    assert [(one["op"], one["topic"]) for one in sent] == [
+        ("advertise", "/cmd_vel"), ("publish", "/cmd_vel"),
+    ]  # fmt: skip
+    assert sent[0]["type"] == TYPES["/cmd_vel"]
+    link.hear(on_topic(STATE, relay_state(10.7, 2)), 10.7)
+    assert [json.loads(frame)["op"] for frame in link.due(10.7)] == ["unadvertise"]
+
+
 @pytest.mark.parametrize(
     ("topic", "message", "code"),
     [

@@ -148,6 +148,19 @@ def test_a_relay_that_is_ended_in_mid_drive_leaves_zeros_behind(
     bridge.until(lambda: bridge.code() == "ros2_relay_silent")
 
 
+def test_a_base_without_a_dead_man_stands_when_its_relay_is_killed_in_mid_drive(
+    graph: Graph, bridge: Bridge
+) -> None:
+    graph.bridge()
+    graph.base(STAMPED)
+    graph.process()
+    relay = graph.relay()
+    bridge.until(is_fast(graph))
+    relay.kill()
+    bridge.until(lambda: graph.twists[-1]["v"] == 0.0)  # by zeros through the server
+    bridge.until(lambda: bridge.code() == "ros2_relay_silent")
+
+
 def test_a_relay_that_is_not_alone_on_cmd_vel_is_not_driven(graph: Graph, bridge: Bridge) -> None:
     graph.bridge()
     graph.base(TWIST)
