@@ -53,16 +53,18 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     delivered = ", ".join(f"{run['delivered']} of {run['sent']}" for run in runs)
     return [
         ReportRow("commands that the relay obeyed", "", "all", value=delivered),
-        row_of("bridge to relay", "ms", "", _joined(runs, "ros2_ms")),
-        row_of("bridge to the simulator's drive", "ms", "", _joined(runs, "wire_ms")),
-        row_of("bridge to relay and back, as states say", "ms", "< 100", _joined(runs, "echo_ms")),
+        row_of("bridge to relay", "ms", "", _join_samples(runs, "ros2_ms")),
+        row_of("bridge to the simulator's drive", "ms", "", _join_samples(runs, "wire_ms")),
+        row_of(
+            "bridge to relay and back, as states say", "ms", "< 100", _join_samples(runs, "echo_ms")
+        ),
         row_of("killed: relay at zero", "ms", within, [run["zero_ms"] for run in relays]),
         row_of("killed: body stands", "ms", "", [run["stands_ms"] for run in bodies]),
         row_of("killed: path", "m", "", [run["path_m"] for run in bodies]),
     ]
 
 
-def _joined(runs: list[dict[str, Any]], name: str) -> list[float]:
+def _join_samples(runs: list[dict[str, Any]], name: str) -> list[float]:
     return [one for run in runs for one in run[name]]
 
 
@@ -83,7 +85,7 @@ class _RelayWatch(threading.Thread):
             ticks += 1
             self._obey(now_s)
             if ticks % 10 == 0:
-                self.twin.report(_still(now_s), now_s)
+                self.twin.report(_make_resting_state(now_s), now_s)
                 self.twin.command(now_s)
 
     def _obey(self, now_s: float) -> None:
@@ -102,7 +104,7 @@ class _RelayWatch(threading.Thread):
         self.twin.close()
 
 
-def _still(now_s: float) -> DriveState:
+def _make_resting_state(now_s: float) -> DriveState:
     return DriveState(
         boot_id="bench", seq=1, stamp_s=now_s, echo_boot=None, echo_seq=0, enabled=True,
         timed_out=False, left_rad=0.0, right_rad=0.0, left_radps=0.0, right_radps=0.0,
