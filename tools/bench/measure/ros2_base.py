@@ -47,7 +47,15 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     """Measure the line, then kill the process behind a relay alone, then behind a body."""
     runs = list(lab.slices("line", lab.count(1, 3), lambda _: _line(lab)))
     timeout_s = load_robot(ROBOT).drive.timeout_s
-    relays = list(lab.slices("relay", lab.count(3, KILLS), lambda _: _kill_before_relay(lab)))
+    relays = {
+        fault: [
+            run["zero_ms"]
+            for run in lab.slices(
+                fault, lab.count(3, KILLS), lambda _, fault=fault: _break_before_relay(lab, fault)
+            )
+        ]
+        for fault in ("killed", "frozen", "cut")
+    }
     bodies = list(lab.slices("body", lab.count(3, KILLS), lambda _: _kill_before_body(lab)))
     within = f"<= {1000 * timeout_s + 50:.0f}"
     delivered = ", ".join(f"{run['delivered']} of {run['sent']}" for run in runs)
@@ -58,7 +66,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
         row_of(
             "bridge to relay and back, as states say", "ms", "< 100", _join_samples(runs, "echo_ms")
         ),
-        row_of("killed: relay at zero", "ms", within, [run["zero_ms"] for run in relays]),
+        *(row_of(f"{fault}: relay at zero", "ms", within, ms) for fault, ms in relays.items()),
         row_of("killed: body stands", "ms", "", [run["stands_ms"] for run in bodies]),
         row_of("killed: path", "m", "", [run["path_m"] for run in bodies]),
     ]
@@ -75,7 +83,9 @@ class _RelayWatch(threading.Thread):
         super().__init__(daemon=True)
         self.twin = Ros2Twin(load_robot(ROBOT), port)
         self.obeyed_s: dict[int, float] = {}
-        self.zero_s: float | None = None
+        self.zeros_s: list[float] = []
+        """When the twist fell to zero."""
+        self._moved = False
         self._ending = threading.Event()
 
     def run(self) -> None:
@@ -96,7 +106,9 @@ class _RelayWatch(threading.Thread):
                 if order is not None:
                     self.obeyed_s[order.seq] = now_s
         moves = relay.twist(now_s)[0] != 0.0
-        self.zero_s = None if moves else self.zero_s or now_s
+        if self._moved and not moves:
+            self.zeros_s.append(now_s)
+        self._moved = moves
 
     def end(self) -> None:
         self._ending.set()
@@ -203,7 +215,8 @@ def _line(lab: BenchLab) -> dict[str, Any]:
     }
 
 
-def _kill_before_relay(lab: BenchLab) -> dict[str, float]:
+def _break_before_relay(lab: BenchLab, fault: str) -> dict[str, float]:
+    """Kill or freeze the process, or cut its connection, in mid-drive."""
     port = free_port()
     with lab.folder() as home, ExitStack() as stack:
         watch = _RelayWatch(port)
@@ -215,12 +228,16 @@ def _kill_before_relay(lab: BenchLab) -> dict[str, float]:
         commander.until_obeyed()
         for _ in range(100):
             commander.turn(DRIVE_MPS / 0.1)
-        process.send_signal(signal.SIGKILL)
-        killed_s = time.monotonic()
-        for _ in range(60):  # the bridge goes on: nobody must hear it
+        watch.zeros_s.clear()
+        broken_s = time.monotonic()
+        if fault == "cut":
+            watch.twin.server.hang_up()
+        else:
+            process.send_signal(signal.SIGKILL if fault == "killed" else signal.SIGSTOP)
+        for _ in range(60):  # the bridge goes on
             commander.turn(DRIVE_MPS / 0.1)
-        until(lambda: watch.zero_s is not None, START_S, "the relay at zero")
-        return {"zero_ms": 1000 * ((watch.zero_s or 0.0) - killed_s)}
+        until(lambda: watch.zeros_s, START_S, "the relay at zero")
+        return {"zero_ms": 1000 * (watch.zeros_s[0] - broken_s)}
 
 
 def _kill_before_body(lab: BenchLab) -> dict[str, float]:
