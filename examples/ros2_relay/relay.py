@@ -12,12 +12,14 @@ import secrets
 import signal
 import sys
 import time
+from math import inf
 from typing import Any
 
 try:
     import rclpy
     from geometry_msgs.msg import Twist, TwistStamped
     from rclpy.node import Node
+    from rclpy.qos import qos_profile_sensor_data
     from rclpy.signals import SignalHandlerOptions
     from std_msgs.msg import String
 except ImportError as missing:  # the dead-man is tested without ROS too
@@ -94,10 +96,21 @@ class Relay(Node):
         self.says = self.create_publisher(String, f"{below}/state", 10)
         self.create_subscription(String, f"{below}/command", self.hear, 10)
         self.create_timer(PERIOD_S, self.turn)
+        scan = ask("scan", "").value
+        if scan:
+            from sensor_msgs.msg import LaserScan
+
+            self.scans = self.create_publisher(LaserScan, f"{below}/scan", qos_profile_sensor_data)
+            self.create_subscription(LaserScan, scan, self.hear_scan, qos_profile_sensor_data)
 
     def hear(self, message: String) -> None:
         if self.dead_man.hear(message.data, time.monotonic()):
             self.drive()
+
+    def hear_scan(self, message: Any) -> None:
+        """Say "too near" as 0: in rosbridge's JSON minus infinity would look like no return."""
+        message.ranges = [0.0 if far == -inf else far for far in message.ranges]
+        self.scans.publish(message)
 
     def turn(self) -> None:
         now_s = time.monotonic()

@@ -1,8 +1,9 @@
-"""Be parts of a true ROS 2 graph, run by a Python that has rclpy: a base, or a rosbridge server.
+"""Be a part of a true ROS 2 graph, run by a Python that has rclpy: base, lidar, rosbridge server.
 
 ``base`` drives for ever by the last twist that it got, as a base without a dead-man does, and says
-odometry at 50 Hz and its speed, a line of JSON each, on stdout. ``bridge`` speaks rosbridge's
-protocol for the topics that Pons uses, on true publishers and subscriptions. Knows nothing of Pons.
+odometry at 50 Hz, and each twist as a line of JSON on stdout. ``lidar`` says three beams: too near
+to measure (minus infinity), no return, 1.5 m. ``bridge`` speaks rosbridge's protocol for the topics
+that Pons uses, on true publishers and subscriptions. Knows nothing of Pons.
 """
 
 from __future__ import annotations
@@ -19,12 +20,15 @@ import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 
 KINDS = {
     "geometry_msgs/msg/Twist": Twist,
     "geometry_msgs/msg/TwistStamped": TwistStamped,
     "nav_msgs/msg/Odometry": Odometry,
+    "sensor_msgs/msg/LaserScan": LaserScan,
     "std_msgs/msg/String": String,
 }
 PERIOD_S = 0.02
@@ -58,6 +62,21 @@ class Base(Node):
         self.odom.publish(message)
 
 
+class Lidar(Node):
+    """Say scans of three beams."""
+
+    def __init__(self) -> None:
+        super().__init__("lidar")
+        self.scans = self.create_publisher(LaserScan, "/scan", qos_profile_sensor_data)
+        self.create_timer(0.1, self.turn)
+
+    def turn(self) -> None:
+        scan = LaserScan(angle_increment=0.5, range_min=0.1, range_max=8.0, scan_time=0.1)
+        scan.header.stamp = self.get_clock().now().to_msg()
+        scan.ranges = [-math.inf, math.inf, 1.5]
+        self.scans.publish(scan)
+
+
 class Bridge(Node):
     """Speak rosbridge to one client at a time."""
 
@@ -79,7 +98,7 @@ class Bridge(Node):
         elif operation == "subscribe" and topic not in self.heard:
             kind = KINDS[raw["type"]]
             self.heard[topic] = self.create_subscription(
-                kind, topic, lambda message: self.tell(topic, message), 10
+                kind, topic, lambda message: self.tell(topic, message), qos_profile_sensor_data
             )
         elif operation == "call_service":
             asked = raw["args"]["topic"]
@@ -136,6 +155,9 @@ def main(arguments: list[str]) -> None:
     rclpy.init()
     if arguments[0] == "base":
         rclpy.spin(Base(arguments[1]))
+        return
+    if arguments[0] == "lidar":
+        rclpy.spin(Lidar())
         return
     bridge = Bridge()
     threading.Thread(target=rclpy.spin, args=(bridge,), daemon=True).start()

@@ -20,6 +20,7 @@ import pytest
 
 from pons.robot_processes import free_port
 from tests.ros2.test_process import ROBOT, Bridge
+from wire import Scan, keys
 
 NEEDS = "import rclpy, nav_msgs, websockets"
 LIMIT_S = 20.0
@@ -72,11 +73,15 @@ class Graph:
         assert server.stdout.readline() == "ready\n"
 
     def relay(self) -> subprocess.Popen[str]:
-        return self.start(PYTHON, "examples/ros2_relay/relay.py")
+        given = ["--ros-args", "-p", "scan:=/scan"]
+        return self.start(PYTHON, "examples/ros2_relay/relay.py", *given)
 
-    def process(self) -> subprocess.Popen[str]:
+    def process(self, scan: str = "") -> subprocess.Popen[str]:
         path = self.home / "robot.toml"
-        path.write_text(ROBOT.format(port=self.port))
+        text = ROBOT.format(port=self.port)
+        if scan:
+            text = text.replace("[inputs]", f'scan = "{scan}"\n[lidar]\nkind = "ros2"\n[inputs]')
+        path.write_text(text)
         words = ("--robot", str(path), "--home", str(self.home))
         return self.start(sys.executable, "-m", "ros2", *words)
 
@@ -132,6 +137,26 @@ def test_a_base_of_either_twist_is_driven_and_stands_when_the_process_is_killed(
     stood = len(graph.twists)
     time.sleep(0.5)
     assert all(one["v"] == 0.0 for one in graph.twists[stood:])
+
+
+def test_what_is_too_near_for_a_lidar_is_near_and_no_free_floor(
+    graph: Graph, bridge: Bridge
+) -> None:
+    graph.bridge()
+    graph.base(STAMPED)
+    graph.start(PYTHON, "tests/ros2/ros_graph.py", "lidar")
+    graph.relay()
+    graph.process(scan="/pons/scan")
+    scans = bridge.session.subscriber(keys.SCAN)
+    heard: list[Scan] = []
+
+    def has_heard() -> bool:
+        scan = scans.newest()
+        heard.extend([] if scan is None else [scan])
+        return bool(heard)
+
+    bridge.until(has_heard)
+    assert heard[0].ranges_m == (0.0, None, 1.5)
 
 
 def test_a_relay_that_is_ended_in_mid_drive_leaves_zeros_behind(

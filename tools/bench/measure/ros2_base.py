@@ -13,6 +13,7 @@ import subprocess
 import threading
 import time
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from pons.robot_processes import free_port
@@ -47,15 +48,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     """Measure the line, then kill the process behind a relay alone, then behind a body."""
     runs = list(lab.slices("line", lab.count(1, 3), lambda _: _line(lab)))
     timeout_s = load_robot(ROBOT).drive.timeout_s
-    relays = {
-        fault: [
-            run["zero_ms"]
-            for run in lab.slices(
-                fault, lab.count(3, KILLS), lambda _, fault=fault: _break_before_relay(lab, fault)
-            )
-        ]
-        for fault in ("killed", "frozen", "cut")
-    }
+    relays = {fault: _zeros_ms(lab, fault) for fault in ("killed", "frozen", "cut")}
     bodies = list(lab.slices("body", lab.count(3, KILLS), lambda _: _kill_before_body(lab)))
     within = f"<= {1000 * timeout_s + 50:.0f}"
     delivered = ", ".join(f"{run['delivered']} of {run['sent']}" for run in runs)
@@ -70,6 +63,12 @@ def measure(lab: BenchLab) -> list[ReportRow]:
         row_of("killed: body stands", "ms", "", [run["stands_ms"] for run in bodies]),
         row_of("killed: path", "m", "", [run["path_m"] for run in bodies]),
     ]
+
+
+def _zeros_ms(lab: BenchLab, fault: str) -> list[float]:
+    take = partial(_break_before_relay, lab, fault)
+    runs = lab.slices(fault, lab.count(3, KILLS), lambda _: take())
+    return [run["zero_ms"] for run in runs]
 
 
 def _join_samples(runs: list[dict[str, Any]], name: str) -> list[float]:
