@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
+from pydantic import ValidationError
+
 from ros2 import graph, messages, rosbridge
 from ros2.arrivals import TopicArrivals
 from ros2.graph import GraphCheck
@@ -249,9 +251,9 @@ class BaseLink:
         topic = self._topics[self._key_of[said.topic]]
         try:
             heard = reader(said.message, now_s)
-        except Unreadable as why:
+        except (Unreadable, ValidationError) as why:  # finite, and beyond what the wire carries
             self.unreadable += 1
-            topic.refuse(str(why), now_s)
+            topic.refuse(str(why)[:200], now_s)
             return NOTHING
         topic.note(now_s)
         return heard

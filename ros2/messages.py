@@ -7,7 +7,7 @@ a pose with a hole in it is no pose. Only a beam may be null, which is how JSON 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, hypot, pi
+from math import atan2, hypot, pi, remainder
 from typing import Literal
 
 from ros2.rosbridge import Message
@@ -120,7 +120,7 @@ def read_scan(message: Message, zero: Literal["near", "nothing"] = "near") -> Sc
     each = -(-len(ranges) // MAX_BEAMS)
     return ScanReading(
         stamp_s=_stamp(message),
-        angle_min_rad=_wrap_once(first_rad + abs(step_rad) * (each - 1) / 2.0),
+        angle_min_rad=remainder(first_rad + abs(step_rad) * (each - 1) / 2.0, 2.0 * pi),
         angle_increment_rad=abs(step_rad) * each,
         time_increment_s=min(max(_number(message, "time_increment") * each, 0.0), SLOWEST_BEAM_S),
         range_min_m=least_m,
@@ -148,11 +148,6 @@ def _range(value: object, most_m: float, zero: str) -> float | None:
     if value <= 0.0:
         return 0.0
     return round(value, 4) if value <= most_m else None  # and not-a-number is no return
-
-
-def _wrap_once(angle_rad: float) -> float:
-    """Bring an angle that counts from 0 to a turn, or beyond, to what the wire carries."""
-    return angle_rad - 2.0 * pi if angle_rad > 2.0 * pi else angle_rad
 
 
 def _stamp(message: Message) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from math import sin
 from typing import Any
 
 import pytest
@@ -251,6 +252,32 @@ def test_needs_are_as_robot_toml_names_them() -> None:
     needed = {need.key: need.topic for need in GraphCheck(ros2).needs}
     assert needed["cmd_vel"] == "/base/cmd"
     assert (needed["odom"], needed["relay"]) == ("/base/odom", "/guard/state")
+
+
+@pytest.mark.parametrize(
+    ("topic", "message"),
+    [
+        ("/imu", imu(10.1, yaw_rate=25.0)),
+        ("/imu", imu(10.1) | {"linear_acceleration": {"x": 5e3, "y": 0.0}}),
+        ("/scan", scan(10.1, ranges=[1.0, 2.0], angle_increment=2.0)),
+        ("/odom", odometry(10.1, x_m=9e11)),
+    ],
+)
+def test_what_is_beyond_the_wire_is_refused_and_ends_nothing(
+    topic: str, message: dict[str, Any]
+) -> None:
+    link = driven(10.0)
+    states(link, 10.0)
+    heard = link.hear(on_topic(topic, message), 10.1)
+    assert heard == NOTHING or (heard.state is not None and heard.state.left_rad == 0.0)
+    assert link.unreadable == (heard == NOTHING)
+
+
+@pytest.mark.parametrize("angle_rad", [-1e9, -7.0, 7.0, 20.0, 1e9])
+def test_a_scan_may_count_its_angles_from_anywhere(angle_rad: float) -> None:
+    heard = driven(10.0).hear(on_topic("/scan", scan(10.1, angle_min=angle_rad)), 10.1).scan
+    assert heard is not None
+    assert sin(heard.angle_min_rad) == pytest.approx(sin(angle_rad), abs=1e-6)
 
 
 JSON = st.recursive(
