@@ -37,13 +37,15 @@ if TYPE_CHECKING:
 log = logging.getLogger("ros2")
 
 ASK_S = 2.0
-"""The graph is asked anew so often: nodes come, go, and come back with another type."""
+"""The graph is asked so often while something is missing. Not while the relay speaks, which looks
+at the graph itself: some versions of rosbridge take no command while a service answers."""
 SILENT_S = 0.5
 SCAN_SILENT_S = 1.0
 SLOWEST_ODOM_HZ = 20.0
 """A state may be 80 ms old before the bridge holds (ENC_STALE)."""
 YOUNG_S = 3.0
-IMU_EVERY_MS = 10
+IMU_EVERY_MS = 20
+"""A server in Python writes each message field by field."""
 WORDS_S = 5.0
 
 
@@ -110,7 +112,7 @@ class BaseLink:
         if self._closed is not None:
             return []
         frames = []
-        if now_s - self._asked_s >= ASK_S:
+        if now_s - self._asked_s >= ASK_S and not self._is_driven(now_s):
             self._asked_s = now_s
             frames += [rosbridge.ask_type(need.topic) for need in self._graph.needs]
         if self._graph.is_sound and self._subscribed_s is None:
@@ -223,6 +225,15 @@ class BaseLink:
         if rate_hz < SLOWEST_ODOM_HZ:
             found = f"{self._ros2.odom} came {rate_hz:.1f} times a second"
             yield Ros2Trouble("ros2_odom_slow", f"{found}, expected {SLOWEST_ODOM_HZ:g} or more")
+
+    def _is_driven(self, now_s: float) -> bool:
+        """Return whether the relay speaks and may be driven by."""
+        relay = self._relay
+        return (
+            relay is not None
+            and self._relay_silent_s(now_s) <= SILENT_S
+            and self._refuse_relay(relay, now_s) is None
+        )
 
     def _relay_silent_s(self, now_s: float) -> float:
         return self._topics["relay"].silent_s(-inf, now_s)

@@ -72,6 +72,15 @@ def test_nothing_is_advertised_or_subscribed_before_the_graph_has_answered() -> 
     assert len(link.due(ASK_S)) == len(TYPES), "the graph is asked anew"
 
 
+def test_the_graph_is_asked_while_something_is_missing_and_not_in_mid_drive() -> None:
+    link = driven(10.0)
+    keep_saying(link, 10.01, 15.0)
+    assert link.due(15.0) == []
+    link.hear(on_topic(STATE, relay_state(15.0, 900, cmd_vel="")), 15.0)
+    asked = [json.loads(frame)["op"] for frame in link.due(15.01)]
+    assert asked == ["call_service"] * len(TYPES)
+
+
 def test_a_command_goes_to_the_relay_that_spoke_with_the_time_that_it_said() -> None:
     link = driven(10.0)
     frame = json.loads(link.encode(command(5, left=1.0, right=2.0), 10.01) or "{}")
