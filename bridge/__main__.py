@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from bridge.braking_file import BrakingKeeper, load_learnt, path_of
 from bridge.core import CoreConfig
-from bridge.drive import SimDrive, open_serial_drive, require_brakes
+from bridge.drive import Ros2Drive, SimDrive, open_serial_drive, require_brakes
 from bridge.fence_file import load_fence
 from bridge.fence_update import FenceDesk, Ground
 from bridge.link import BridgeLink
@@ -40,6 +40,7 @@ from bridge.recording.recorder import Recorder
 from bridge.warmup import warm_up
 from wire import ConfigError, RobotDescription, load_robot
 from wire.keys import Party
+from wire.ros2_config import ROS2
 from wire.session import open_session
 from wire.site_map import read_map_id
 
@@ -132,6 +133,8 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
 def _drive(session: Session, robot: RobotDescription, boot: str, line: Path | None = None) -> Drive:
     if robot.drive.virtual:
         return require_brakes(SimDrive(session, boot))
+    if robot.drive.kind == ROS2:
+        return require_brakes(Ros2Drive(session, boot))
     return require_brakes(open_serial_drive(robot, boot, line))
 
 

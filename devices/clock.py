@@ -48,6 +48,15 @@ class SensorClock:
         # What was just read was not measured later, whatever the last digit of a float says.
         return min(sensor_s + min(least for _, least in self._least), arrival_s)
 
+    def date(self, sensor_s: float, arrival_s: float) -> float | None:
+        """Return when ``sensor_s`` was, on our clock, and learn nothing; None before any arrival.
+
+        For what comes with a delay of its own (a scan takes a turn), dated by what comes without.
+        """
+        if not self._least:
+            return None
+        return min(sensor_s + min(least for _, least in self._least), arrival_s)
+
 
 class WrappedCounter:
     """Unwrap a counter that begins again at a modulus."""

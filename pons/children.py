@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pons.robot_processes import address_arguments, common_arguments
+from pons.robot_processes import address_arguments, common_arguments, free_port
 from pons.settings import allowed_hosts
 from pons.supervisor import Child
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from pons.authority import IssuedCertificate
     from pons.settings import LaunchSettings
     from wire import RobotDescription
@@ -30,7 +32,9 @@ def children(
     maps = [] if canvas is None else ["--mapping"]
     domain = ["--domain", settings.domain] if settings.domain else []
     line, lidar_line = settings.home / "twin" / "drive", settings.home / "twin" / "lidar"
-    has_lidar, plays_drive = not robot.lidar.is_simulated, not robot.drive.virtual and settings.twin
+    has_ros2, has_lidar = robot.ros2 is not None, robot.lidar.has_line
+    plays_drive = not robot.drive.virtual and settings.twin and not has_ros2
+    ros2_port = str(free_port()) if has_ros2 and settings.twin else None
     at_line = ["--drive-port", str(line)] if plays_drive else []
     wanted = [("bridge", [*common, *at_line])]
     if planner:
@@ -38,15 +42,12 @@ def children(
         wanted.append(("planner", [*common, *address_arguments(settings), *secured]))
     simulated = robot.drive.virtual or settings.twin
     if simulated:
-        more = ["--metal", str(settings.metal)] if settings.metal else []
-        more += domain
-        more += [] if settings.seed is None else ["--seed", str(settings.seed)]
-        more += ["--twin", str(line)] if plays_drive else []
-        own = settings.twin_firmware
-        more += ["--twin-firmware", str(own)] if plays_drive and own else []
+        more = [*_simulator(settings), *domain]
+        more += _drive_twin(settings, line) if plays_drive else []
         more += ["--lidar-twin", str(lidar_line)] if has_lidar else []
+        more += ["--ros2-twin", ros2_port] if ros2_port else []
         wanted = [("sim", [*world, *more]), ("localization", [*common, *maps]), *wanted]
-    elif has_lidar:
+    elif has_lidar or has_ros2:
         wanted = [("localization", [*common, *maps]), *wanted]
     found = [
         Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
@@ -56,6 +57,8 @@ def children(
         arguments = ["sensors.lidar", *common]
         arguments += ["--port", str(lidar_line)] if settings.twin else []
         found.insert(int(simulated), Child("lidar", arguments, logs / "lidar.log"))
+    if has_ros2:
+        found.insert(int(simulated), _ros2(common, ros2_port, logs))
     for child in found:
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())
@@ -63,3 +66,21 @@ def children(
         arguments = ["sim.camera", *world, *domain]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
     return found
+
+
+def _simulator(settings: LaunchSettings) -> list[str]:
+    """Return what says how the simulated robot differs from the described one."""
+    metal = ["--metal", str(settings.metal)] if settings.metal else []
+    return metal if settings.seed is None else [*metal, "--seed", str(settings.seed)]
+
+
+def _drive_twin(settings: LaunchSettings, line: Path) -> list[str]:
+    """Return what has the simulator play a base at a line."""
+    own = settings.twin_firmware
+    return ["--twin", str(line), *(["--twin-firmware", str(own)] if own else [])]
+
+
+def _ros2(common: list[str], port: str | None, logs: Path) -> Child:
+    """Return the process that speaks to a ROS 2 base, at its twin's port where that plays it."""
+    url = ["--url", f"ws://127.0.0.1:{port}"] if port else []
+    return Child("ros2", ["ros2", *common, *url], logs / "ros2.log")

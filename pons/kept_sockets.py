@@ -21,6 +21,7 @@ LISTENING = {
     "localization": Party.LOCALIZATION,
     "camera": Party.CAMERA,
     "lidar": Party.LIDAR,
+    "ros2": Party.ROS2,
 }
 """Which party each child of ``pons up`` is."""
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from sim.messages import Report
     from sim.robot import SimRobot
-    from sim.twin import DriveTwin, LidarTwin
+    from sim.twin import DriveTwin, LidarTwin, Ros2Twin
     from wire import SimControl
     from wire.session import Session
 
@@ -39,13 +39,15 @@ class SimNode:
         session: Session,
         twin: DriveTwin | None = None,
         lidar: LidarTwin | None = None,
+        ros2: Ros2Twin | None = None,
     ) -> None:
-        """Take commands from the wire, or from a twin's serial line, which then has the answers.
+        """Take commands from the wire, or from a twin's line, which then has the answers.
 
-        A lidar's twin says on its line what the scans would have said.
+        A lidar's twin says on its line what the scans would have said; a ROS 2 robot's says all.
         """
         self._robot = robot
-        self._twin = twin
+        self._twin: DriveTwin | Ros2Twin | None = twin or ros2
+        self._ros2 = ros2
         self._lidar = lidar
         self._commands = session.subscriber(keys.DRIVE_COMMAND)
         self._controls = session.subscriber(keys.SIM_CONTROL)
@@ -108,9 +110,9 @@ class SimNode:
         elif report.drive is not None:
             self._drive.put(report.drive)
         if report.imu is not None:
-            self._imu.put(report.imu)
+            (self._imu.put if self._ros2 is None else self._ros2.hear_imu)(report.imu)
         if report.scan is not None:
-            self._scan.put(report.scan)
+            (self._scan.put if self._ros2 is None else self._ros2.hear_scan)(report.scan)
         if report.truth is not None:
             self._truth.put(report.truth)
 

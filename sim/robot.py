@@ -291,7 +291,7 @@ class SimRobot:
         return ranges_m
 
     def _scan_due(self, now_s: float) -> Scan | None:
-        if not self.robot.lidar.is_simulated:
+        if self.robot.lidar.has_line:
             return None  # its twin casts its own rays
         ticks_left = -self._ticks % self._scan_ticks
         if ticks_left < self._lidar.sweep_ticks(PERIODS.tick_s):

@@ -60,6 +60,7 @@ from wire.sensors import (
     Odometry,
     PoseCandidate,
     PoseHint,
+    Ros2Status,
     Scan,
 )
 from wire.simulation import SimControl, SimFault, SimScene, SimThing, SimTruth
@@ -131,6 +132,7 @@ __all__ = [
     "Proof",
     "Record",
     "RobotDescription",
+    "Ros2Status",
     "RowReport",
     "Scan",
     "SimControl",

@@ -85,6 +85,18 @@ SCANS_DOOR = Door(
     _keys(keys.SCAN, keys.LIDAR_STATE),
     "a copy of what a real lidar says; it hears nothing",
 )  # fmt: skip
+ROS2_DOOR = Door(
+    "ros2", Party.ROS2, (Party.BRIDGE,),
+    _keys(keys.DRIVE_COMMAND),
+    _keys(keys.DRIVE_STATE, keys.SCAN, keys.IMU, keys.STOP),
+    "wheels and sensors of a ROS 2 base, for the bridge alone",
+)  # fmt: skip
+ROS2_COPY_DOOR = Door(
+    "ros2_copy", Party.ROS2, (Party.PLANNER, Party.LOCALIZATION, Party.JUDGE),
+    (),
+    _keys(keys.DRIVE_STATE, keys.SCAN, keys.IMU, keys.ROS2_STATE),
+    "a copy of what a ROS 2 base says; it hears nothing",
+)  # fmt: skip
 SIM_DOOR = Door(
     "sim", Party.ROBOT, (Party.JUDGE,),
     _keys(keys.SIM_CONTROL),
@@ -111,8 +123,8 @@ CAMERA_DOOR = Door(
 )  # fmt: skip
 
 DOORS = (
-    DRIVE_DOOR, BRIDGE_DOOR, SENSES_DOOR, LIDAR_DOOR, ROBOT_DOOR, SCANS_DOOR, SIM_DOOR,
-    LOCALIZATION_DOOR, HINT_DOOR, CAMERA_DOOR,
+    DRIVE_DOOR, ROS2_DOOR, BRIDGE_DOOR, SENSES_DOOR, LIDAR_DOOR, ROBOT_DOOR, ROS2_COPY_DOOR,
+    SCANS_DOOR, SIM_DOOR, LOCALIZATION_DOOR, HINT_DOOR, CAMERA_DOOR,
 )  # fmt: skip
 """In the order in which a message that passes several is said: the wheels first."""
 

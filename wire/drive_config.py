@@ -53,13 +53,14 @@ DRIVE_KINDS: Mapping[str, DriveKind] = {
     "turtlebot3": DriveKind(
         ("port",), (), 0.04, dead_man_s=0.5, reports_dead_man=False
     ),  # asked at 50 Hz for a table that is filled at 50 Hz
+    "ros2": DriveKind((), (), 0.05),  # ros2_odom_slow says so where a base is slower
 }
 
 
 class DriveConfig(Record):
     """Choose the drive and state its known dynamics."""
 
-    kind: Literal["sim", "pons_mcu", "waveshare", "arduino", "turtlebot3"] = "sim"
+    kind: Literal["sim", "pons_mcu", "waveshare", "arduino", "turtlebot3", "ros2"] = "sim"
     """``sim``: the simulated drive; the others are bases of metal (docs/drives.md)."""
     port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
     """Serial port of the base; one below /dev/serial/by-id keeps its name."""

@@ -28,6 +28,7 @@ from wire.sensors import (
     LocalizerStatus,
     Odometry,
     PoseHint,
+    Ros2Status,
     Scan,
 )
 from wire.simulation import SimControl, SimScene, SimTruth
@@ -57,6 +58,7 @@ class Party(StrEnum):
     OPERATOR = "operator"
     JUDGE = "judge"
     LIDAR = "lidar"
+    ROS2 = "ros2"
 
 
 M = TypeVar("M", bound=Record)
@@ -83,7 +85,7 @@ class Key(Generic[M]):
         return f"pons/{robot_id}/{self.path}"
 
 
-_P, _B, _L, _R, _C, _S, _O, _J, _LI = Party  # short, for the table below
+_P, _B, _L, _R, _C, _S, _O, _J, _LI, _RO = Party  # short, for the table below
 _WHO_ASKS = frozenset({_P, _O, _J})
 """Receivers of the bridge's status and events."""
 
@@ -149,16 +151,22 @@ LOC_HINT = _from(_P, "loc/hint", PoseHint, frozenset({_L}), "20 Hz until answere
                  "a person says where the robot is", ring=FEW)  # fmt: skip
 LOCALIZATION = _from(_L, "localization", Localization, frozenset({_B, _P, _J}), "10 Hz or more",
                      "odom in map")  # fmt: skip
-DRIVE_COMMAND = _from(_B, "drive/command", DriveCommand, frozenset({_R, _J}), "100 Hz",
+DRIVE_COMMAND = _from(_B, "drive/command", DriveCommand, frozenset({_R, _RO, _J}), "100 Hz",
                       "wheel speeds, one per tick")  # fmt: skip
-DRIVE_STATE = _from(_R, "drive/state", DriveState, frozenset({_B, _J}), "100 Hz",
-                    "what the drive does", ring=SEQUENCED)  # fmt: skip
+_WHO_DRIVES = frozenset({_R, _RO})
+DRIVE_STATE = Key("drive/state", DriveState, _WHO_DRIVES, frozenset({_B, _J}),
+                  "100 Hz; over ROS 2 as odometry comes", SEQUENCED, SMALL,
+                  "what the drive does")  # fmt: skip
 _HEARERS = frozenset({_B, _P, _L, _J})
-SCAN = Key("scan", Scan, frozenset({_R, _LI}), _HEARERS, "10 Hz; more of a lidar that turns slowly",
-           LATEST, MEDIUM, "planar lidar, of the simulator or of a real one's process")  # fmt: skip
+SCAN = Key("scan", Scan, frozenset({_R, _LI, _RO}), _HEARERS,
+           "10 Hz; more of a lidar that turns slowly", LATEST, MEDIUM,
+           "planar lidar, of the simulator or of a real one's process")  # fmt: skip
 LIDAR_STATE = _from(_LI, "lidar/state", LidarStatus, frozenset({_P, _J}), "2 Hz and on change",
                     "how well a real lidar is read")  # fmt: skip
-IMU = _from(_R, "imu", Imu, _HEARERS, "100 Hz", "rate of turn, acceleration")
+IMU = Key("imu", Imu, _WHO_DRIVES, _HEARERS, "100 Hz", LATEST, SMALL,
+          "rate of turn, acceleration")  # fmt: skip
+ROS2_STATE = _from(_RO, "ros2/state", Ros2Status, frozenset({_P, _J}), "2 Hz and on change",
+                   "how well a ROS 2 base is heard")  # fmt: skip
 CAMERA_COLOR = _from(_C, "camera/color", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "JPEG, header attached", max_bytes=IMAGE)  # fmt: skip
 CAMERA_DEPTH = _from(_C, "camera/depth", ImageHeader, frozenset({_P, _J}), "10 Hz",
@@ -175,6 +183,6 @@ OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
     *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
-    LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, CAMERA_COLOR, CAMERA_DEPTH,
-    SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
+    LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, ROS2_STATE,
+    CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
 )  # fmt: skip

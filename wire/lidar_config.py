@@ -14,19 +14,23 @@ if TYPE_CHECKING:
 
 LIDAR_MODELS: Mapping[str, tuple[str, ...]] = {
     "sim": (),
+    "ros2": (),
     "ld19": (),
     "rplidar": ("a1", "a2", "a2m12", "a3", "c1", "s1", "s2"),
     "ydlidar": ("x2", "x4", "g2", "g4", "tg15"),
 }
 """The kinds, and the models among which each must choose; LD06, LD19 and STL-19P speak alike."""
 SIMULATED = "sim"
+WITHOUT_LINE = (SIMULATED, "ros2")
+"""Kinds that no process of ours reads at a serial port."""
 
 
 class LidarConfig(Record):
     """Place the planar lidar on the robot and state its range."""
 
-    kind: Literal["sim", "ld19", "rplidar", "ydlidar"] = "sim"
-    """``sim``: the simulator casts its rays; the others are read at ``port`` (docs/lidars.md)."""
+    kind: Literal["sim", "ros2", "ld19", "rplidar", "ydlidar"] = "sim"
+    """``sim``: the simulator casts its rays; ``ros2``: a topic (docs/ros2.md); the others are read
+    at ``port`` (docs/lidars.md)."""
     model: Annotated[str, Field(pattern=r"^[a-z0-9]{1,16}$")] | None = None
     """Of the kinds that have several, which differ in speed and answer."""
     port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
@@ -57,16 +61,21 @@ class LidarConfig(Record):
         """Return whether the simulator's own messages stand for it."""
         return self.kind == SIMULATED
 
+    @property
+    def has_line(self) -> bool:
+        """Return whether it hangs on a serial line, which a process of its own reads."""
+        return self.kind not in WITHOUT_LINE
+
 
 def _wrong_lidar_keys(lidar: LidarConfig) -> Iterator[str]:
     """Yield what a kind of lidar lacks, and what it was given though it can't use it."""
     models = LIDAR_MODELS[lidar.kind]
-    if lidar.is_simulated:
+    if not lidar.has_line:
         for key in ("port", "baud"):
             if getattr(lidar, key) is not None:
-                yield f"lidar.{key} is for a lidar on a serial line, not for kind 'sim'"
+                yield f"lidar.{key} is for a lidar on a serial line, not for kind {lidar.kind!r}"
         if lidar.upside_down:
-            yield "lidar.upside_down is for a lidar on a serial line, not for kind 'sim'"
+            yield f"lidar.upside_down is for one on a serial line, not for kind {lidar.kind!r}"
     elif lidar.port is None:
         yield f"lidar.port is missing: kind {lidar.kind!r} is read at a serial port"
     if models and lidar.model not in models:

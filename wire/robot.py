@@ -20,6 +20,7 @@ from wire.fingerprint import fingerprint
 from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
+from wire.ros2_config import Ros2Config, wrong_ros2
 from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
@@ -156,6 +157,8 @@ class RobotDescription(Record):
     recording: Recording = Recording()
     localization: LocalizationConfig = LocalizationConfig()
     trial: TrialRecord | None = None
+    ros2: Ros2Config | None = None
+    """Where ``drive.kind`` is "ros2", and there alone (docs/ros2.md)."""
 
     @model_validator(mode="after")
     def _wheels_reach_the_speed(self) -> RobotDescription:
@@ -170,6 +173,14 @@ class RobotDescription(Record):
     @model_validator(mode="after")
     def _parts_fit(self) -> RobotDescription:
         wrong = "; ".join(_misfits(self.base, self.lidar))
+        if wrong:
+            raise ValueError(wrong)
+        return self
+
+    @model_validator(mode="after")
+    def _ros2_is_whole(self) -> RobotDescription:
+        parts = (self.ros2, self.drive.kind, self.lidar.kind)
+        wrong = "; ".join(wrong_ros2(*parts, has_imu=self.inputs.imu))
         if wrong:
             raise ValueError(wrong)
         return self

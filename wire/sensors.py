@@ -111,6 +111,32 @@ class LidarStatus(Record):
     """How often the port was opened."""
 
 
+class Ros2Status(Record):
+    """Say how well a ROS 2 base is heard, for people; the bridge needs none of it."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    code: Code | None
+    """What is wrong, None where nothing is; docs/ros2.md lists them."""
+    detail: Text = ""
+    """What came, what was expected and what cures it; empty where nothing is wrong."""
+    cmd_vel: Text = ""
+    """The type of what the base obeys, as the graph says; empty where nobody listens."""
+    odom_hz: Annotated[float, Field(ge=0.0, le=100_000.0)]
+    """Of the last seconds, as the next two."""
+    relay_hz: Annotated[float, Field(ge=0.0, le=100_000.0)]
+    scan_hz: Annotated[float, Field(ge=0.0, le=100_000.0)]
+    sent: Count
+    """Commands since the process began, as the next three."""
+    unsent: Count
+    """Commands that found the line full, or nobody to hear them."""
+    unreadable: Count
+    """Messages that were refused."""
+    opened: Count
+    """How often the server was reached."""
+
+
 class Imu(Record):
     """Give rate of turn and acceleration in ``base``."""
 

@@ -162,7 +162,8 @@ start_services() {
   fi
   make_key
   systemctl enable pons.target pons-localization
-  [ "$(kind_of lidar)" = sim ] || systemctl enable pons-lidar
+  case "$(kind_of lidar)" in sim | ros2) ;; *) systemctl enable pons-lidar ;; esac
+  [ "$(kind_of drive)" != ros2 ] || systemctl enable pons-ros2
   say "services start with the computer; on metal a person arms: docs/raspberry-pi.md"
   [ "$start" = no ] || systemctl start pons.target
 }

@@ -15,6 +15,7 @@ from pons.doctor import (
     lidar_checks,
     model_checks,
     path_checks,
+    ros2_checks,
 )
 from pons.doctor import jitter as late
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail
@@ -77,6 +78,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         run_check("drive", lambda: drive_checks.drive(robot)),
         run_check("trial", lambda: drive_checks.trial(robot)),
         run_check("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
+        run_check("ros2", lambda: ros2_checks.ros2(settings.home, robot)),
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),
         run_check("recogniser", lambda: model_checks.recogniser(site)),

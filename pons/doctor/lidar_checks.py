@@ -50,6 +50,8 @@ def lidar(home: Path, robot: RobotDescription) -> HealthFinding:
     config = robot.lidar
     if config.is_simulated and robot.drive.virtual:
         return ok("lidar", "simulated", "模拟")
+    if not (config.is_simulated or config.has_line):
+        return ok("lidar", "a topic of ROS 2: see the line ros2", "ROS 2 话题：见 ros2 一行")
     if config.is_simulated:
         return warn(
             "lidar",

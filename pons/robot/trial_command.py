@@ -23,6 +23,7 @@ from pons_assets import IS_INSTALLED, ROBOT_FILE
 from sensors.lidar.kinds import kind_of
 from sensors.lidar.reader import LidarReader
 from wire import ConfigError, load_robot
+from wire.ros2_config import ROS2
 from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ def run_trial(settings: LaunchSettings) -> int:
         robot = load_robot(settings.robot)
         if robot.drive.virtual:
             raise TrialRefusal("trial_virtual")
+        if robot.drive.kind == ROS2:
+            raise TrialRefusal("trial_ros2")
         before = settings.robot.read_text("utf-8")
         person = TerminalPerson()
         person.ask_and_wait("wheels_up")

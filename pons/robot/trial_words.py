@@ -45,6 +45,10 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "a simulated drive needs no trial: drive.kind is 'sim'",
         "仿真驱动（drive.kind = 'sim'）不需要测试",
     ),
+    "trial_ros2": (
+        "a ROS 2 base is not tried here: its relay proves the dead-man, its driver knows wheels",
+        "ROS 2 底盘不在此测试：中继节点验证看门狗，轮子方向由其驱动负责",
+    ),
     "trial_silent": (
         "the base says nothing: is it powered, is this its port? pons robot find tells",
         "底盘没有数据：请检查供电和端口，可用 pons robot find 查看",

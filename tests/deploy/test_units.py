@@ -100,6 +100,16 @@ def test_the_lidars_service_is_as_hardened_and_opens_serial_ports_alone() -> Non
     assert lidar["Install"]["WantedBy"] == ["pons.target"]
 
 
+def test_the_service_of_a_ros2_base_is_hardened_as_one_that_has_no_devices() -> None:
+    ros2, other = (unit(UNITS / f"pons-{name}.service") for name in ("ros2", "localization"))
+    own = {"ExecStart", "User", "MemoryMax"}
+    assert {n: v for n, v in ros2["Service"].items() if n not in own} == {
+        n: v for n, v in other["Service"].items() if n not in own
+    }
+    assert "python -m ros2 --home /var/lib/pons" in ros2["Service"]["ExecStart"][0]
+    assert ros2["Install"]["WantedBy"] == ["pons.target"]
+
+
 def test_neither_user_can_replace_what_the_other_made() -> None:
     made = folders()
     assert made["/var/lib/pons"] == ("3770", "root", "pons")
@@ -118,6 +128,7 @@ def test_every_door_has_a_folder_that_its_listener_alone_writes_and_who_dials_it
         Party.LOCALIZATION: users["localization"],
         Party.CAMERA: users["camera"],
         Party.LIDAR: unit(UNITS / "pons-lidar.service")["Service"]["User"][0],
+        Party.ROS2: unit(UNITS / "pons-ros2.service")["Service"]["User"][0],
     }
     for door in DOORS:
         mode, owner, group = made[f"/var/lib/pons/run/{door.name}"]

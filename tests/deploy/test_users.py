@@ -35,6 +35,7 @@ PARTIES = {
     Party.LOCALIZATION: "pons-localization",
     Party.CAMERA: "pons-camera",
     Party.LIDAR: "pons-lidar",
+    Party.ROS2: "pons-ros2",
     Party.PLANNER: "pons-planner",
     Party.OPERATOR: "pons-planner",
 }

@@ -41,3 +41,13 @@ def test_a_counter_that_begins_again_goes_on() -> None:
         30_003,
         30_009,
     ]
+
+
+def test_what_comes_with_a_delay_of_its_own_is_dated_by_what_comes_without() -> None:
+    clock = SensorClock()
+    assert clock.date(5.0, 100.0) is None
+    clock.note(5.0, 100.01)
+    clock.note(5.1, 100.2)
+    assert clock.date(5.05, 100.3) == pytest.approx(100.06)
+    assert clock.date(9.0, 100.3) == 100.3, "nothing is dated later than it came"
+    assert clock.date(5.05, 100.3) == pytest.approx(100.06), "and it learns nothing by it"

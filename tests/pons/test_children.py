@@ -69,6 +69,35 @@ def test_a_robot_of_metal_has_what_its_file_names_and_a_twin_what_it_plays(
         assert ("--lidar-twin" in found["sim"]) == bool(lidar)
 
 
+ROS2 = {"url": "ws://10.0.0.5:9090", "scan": "/scan", "imu": "/imu"}
+
+
+@pytest.mark.parametrize(
+    ("twin", "expected"),
+    [
+        (False, ["ros2", "localization", "bridge", "planner"]),
+        (True, ["sim", "ros2", *ROBOT[1:], "camera"]),
+    ],
+)
+def test_a_base_of_ros2_has_its_process_and_its_twin_a_server_that_this_dials(
+    tmp_path: Path, twin: bool, expected: list[str]
+) -> None:
+    robot = RobotDescription.model_validate(
+        {"drive": {"kind": "ros2"}, "lidar": {"kind": "ros2"}, "ros2": ROS2}
+    )
+    settings = LaunchSettings(
+        tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
+    )
+    found = {child.name: child.arguments for child in children(settings, robot)}
+    assert list(found) == expected
+    assert ("--url" in found["ros2"]) == twin
+    assert "--drive-port" not in found["bridge"]
+    if twin:
+        port = found["sim"][found["sim"].index("--ros2-twin") + 1]
+        assert found["ros2"][-1] == f"ws://127.0.0.1:{port}"
+        assert not {"--twin", "--lidar-twin"} & set(found["sim"])
+
+
 @pytest.mark.parametrize(
     ("text", "twin", "code"),
     [

@@ -110,6 +110,7 @@ PARTS = (
     "localization",
     "bridge",
     "sensors",
+    "ros2",
     "sim",
     "pons",
 )

@@ -19,6 +19,7 @@ PRODUCT = {
     "localization",
     "bridge",
     "sensors",
+    "ros2",
     "sim",
     "pons",
 }

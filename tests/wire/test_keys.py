@@ -17,5 +17,5 @@ def test_paths_are_unique() -> None:
 @pytest.mark.parametrize("key", KEYS, ids=lambda key: key.path)
 def test_rings_and_expressions_are_sane(key: Key[Record]) -> None:
     assert key.ring in (LATEST, FEW, SEQUENCED)
-    assert re.fullmatch(r"[a-z_]+(/[a-z_]+)?", key.path)
+    assert re.fullmatch(r"[a-z_]+([0-9]?/[a-z_]+)?", key.path)
     assert key.expression("r1") == f"pons/r1/{key.path}"

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from wire.lidar_config import LIDAR_MODELS, LidarConfig
+from wire.lidar_config import LIDAR_MODELS, WITHOUT_LINE, LidarConfig
 
 
 def test_the_simulated_lidar_is_what_is_meant_where_nothing_is_said() -> None:
@@ -19,10 +19,11 @@ def test_the_simulated_lidar_is_what_is_meant_where_nothing_is_said() -> None:
     [(kind, model) for kind, models in LIDAR_MODELS.items() for model in models or (None,)],
 )
 def test_each_kind_is_taken_with_each_of_its_models(kind: str, model: str | None) -> None:
-    port = None if kind == "sim" else "/dev/ttyUSB0"
+    port = None if kind in WITHOUT_LINE else "/dev/ttyUSB0"
     made = LidarConfig.model_validate({"kind": kind, "model": model, "port": port})
     assert made.model == model
     assert made.is_simulated == (kind == "sim")
+    assert made.has_line == (port is not None)
 
 
 @pytest.mark.parametrize(
@@ -30,7 +31,8 @@ def test_each_kind_is_taken_with_each_of_its_models(kind: str, model: str | None
     [
         ({"kind": "sim", "port": "/dev/x"}, "lidar.port is for a lidar on a serial line"),
         ({"kind": "sim", "baud": 115_200}, "lidar.baud is for a lidar on a serial line"),
-        ({"kind": "sim", "upside_down": True}, "lidar.upside_down is for a lidar"),
+        ({"kind": "sim", "upside_down": True}, "lidar.upside_down is for one on a serial line"),
+        ({"kind": "ros2", "port": "/dev/x"}, "lidar.port is for a lidar on a serial line"),
         ({"kind": "sim", "model": "a1"}, "lidar.model is for kinds of several models"),
         ({"kind": "ld19"}, "lidar.port is missing: kind 'ld19'"),
         ({"kind": "ld19", "port": "/dev/x", "model": "a1"}, "not for kind 'ld19'"),

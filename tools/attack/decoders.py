@@ -5,6 +5,7 @@ A reader takes bytes and returns; any exception but its own refusals is a crash.
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -219,6 +220,39 @@ def _yaml(folder: Path) -> Reader:
     return Reader(read, (SiteError,))
 
 
+def _rosbridge(_folder: Path) -> Reader:
+    """Hear a server's frame on a base that is driven; what comes of it the wire must carry."""
+    from ros2 import BaseLink
+    from ros2.graph import needs_of
+    from wire import decode, encode, keys, load_robot
+
+    robot = load_robot(seeds.SITES.parent / "robots" / "ros2_diff_drive.toml")
+    needs = needs_of(robot.ros2) if robot.ros2 is not None else ()
+    answers = [{"id": f"type:{need.topic}", "values": {"type": need.kinds[0]}} for need in needs]
+    heard_before: list[str | bytes] = [
+        json.dumps({"op": "service_response"} | answer) for answer in answers
+    ]
+    heard_before += seeds.rosbridge_frames()[:1]
+
+    def read(data: bytes) -> object:
+        link = BaseLink(robot, "attacked")
+        link.open(1.0)
+        for frame in heard_before:
+            link.hear(frame, 1.0)
+        heard = link.hear(data, 1.01)
+        link.judge(1.02)
+        for made, again in (
+            (heard.state, partial(decode, keys.DRIVE_STATE)),
+            (heard.scan, partial(decode, keys.SCAN)),
+            (heard.imu, partial(decode, keys.IMU)),
+        ):
+            if made is not None and again(encode(made)) != made:
+                raise Unsound("a message that the wire does not carry")
+        return link.status(1, 1.02)
+
+    return Reader(read)
+
+
 def _language(_folder: Path) -> Reader:
     from planner.language import folding
     from planner.language.stop import is_stop, read_stop
@@ -278,6 +312,7 @@ DECODERS = (
     AttackedDecoder("fence", seeds.fences, _fence),
     AttackedDecoder("toml", lambda: [*seeds.robots(), *seeds.SETTINGS], _toml),
     AttackedDecoder("yaml", lambda: [*seeds.places(), *seeds.maps()], _yaml),
+    AttackedDecoder("rosbridge", seeds.rosbridge_frames, _rosbridge),
     AttackedDecoder("language", seeds.texts, _language, 600),
     AttackedDecoder("offline", seeds.texts, _offline, 300),
     *(

@@ -177,6 +177,42 @@ def kept_seeds() -> list[bytes]:
     ]
 
 
+def rosbridge_frames() -> list[bytes]:
+    """Return what a rosbridge server says of a base: answers, a relay's state, sensors."""
+    header = {"stamp": {"sec": 1_800_000_000, "nanosec": 5}, "frame_id": "odom"}
+    turned = {"x": 0.0, "y": 0.0, "z": 0.6, "w": 0.8}
+    pose = {"pose": {"position": {"x": 1.0, "y": 2.0, "z": 0.0}, "orientation": turned}}
+    twist = {"twist": {"linear": {"x": 0.3}, "angular": {"z": 0.1}}}
+    state = {
+        "relay": "relay-1", "seq": 2, "t": 7.0, "ros": 1.8e9, "echo_boot": "b", "echo_seq": 3,
+        "timed_out": False, "on": True, "cmd_vel": "geometry_msgs/msg/Twist", "others": 0,
+    }  # fmt: skip
+    scan = {
+        "header": header, "angle_min": -3.1, "angle_increment": 0.1, "time_increment": 0.001,
+        "range_min": 0.1, "range_max": 8.0, "ranges": [1.0, None, 0.0, 9.0, 2.5],
+    }  # fmt: skip
+    imu = {
+        "header": header,
+        "angular_velocity": {"z": 0.2},
+        "linear_acceleration": {"x": 0.1, "y": 0.0},
+    }
+    said = {
+        "/pons/state": {"data": json.dumps(state)},
+        "/odom": {"header": header, "pose": pose, "twist": twist},
+        "/scan": scan,
+        "/imu": imu,
+    }
+    frames: list[dict[str, object]] = [
+        {"op": "publish", "topic": topic, "msg": message} for topic, message in said.items()
+    ]
+    frames.append({"op": "status", "level": "error", "msg": "no"})
+    frames += [
+        {"op": "service_response", "id": f"type:{topic}", "values": {"type": "x"}, "result": True}
+        for topic in said
+    ]
+    return [json.dumps(frame).encode() for frame in frames]
+
+
 def homes() -> list[bytes]:
     """Return home.yaml of the small site."""
     return [(SITES / "two_room" / "home.yaml").read_bytes()]

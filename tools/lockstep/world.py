@@ -100,7 +100,7 @@ class World:
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT), self.base)
         self.lidar: LidarProcess | None = None
         """A lidar of metal's twin, where the robot's description names one."""
-        if not self.scene.robot.lidar.is_simulated:
+        if self.scene.robot.lidar.has_line:
             self.lidar = LidarProcess(self.sim, self.bus.port(Party.LIDAR), seed)
         self._localization = self._localize(seed)
         self.bridge = self._bridge(step)

@@ -80,12 +80,14 @@ def senders(home: Path, ends: tuple[Session, WireBus]) -> Iterator[dict[Party, S
         open_session(Party.ROBOT, "r1", home) as robot,
         open_session(Party.LOCALIZATION, "r1", home) as localization,
         open_session(Party.LIDAR, "r1", home) as lidar,
+        open_session(Party.ROS2, "r1", home) as ros2,
     ):
         yield {
             Party.BRIDGE: ends[0],
             Party.ROBOT: robot,
             Party.LOCALIZATION: localization,
             Party.LIDAR: lidar,
+            Party.ROS2: ros2,
         }
 
 

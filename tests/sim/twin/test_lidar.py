@@ -20,7 +20,7 @@ from sim.sensor_channel import Trouble
 from sim.twin.lidar import LIDAR_TWINS, LidarFirmware, LidarTwin
 from tests.sensors.lidar.ports import MemoryPort
 from wire import ConfigError, Pose2, RobotDescription, Scan, SimFault
-from wire.lidar_config import LIDAR_MODELS, LidarConfig
+from wire.lidar_config import LIDAR_MODELS, WITHOUT_LINE, LidarConfig
 
 PRECISE = Hardware(lidar_noise_m=0.0, lidar_dropout=0.0)
 TURNS_S = 3.0
@@ -109,7 +109,7 @@ def test_every_model_of_robot_toml_has_a_twin() -> None:
     known = {
         (kind, model)
         for kind, models in LIDAR_MODELS.items()
-        if kind != "sim"
+        if kind not in WITHOUT_LINE
         for model in (models or (None,))
     }
     assert set(LIDAR_TWINS) == known

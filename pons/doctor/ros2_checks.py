@@ -1,0 +1,84 @@
+"""Check a ROS 2 base: what its process says, or, where none runs, what server and graph say."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from typing import TYPE_CHECKING
+
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok
+from ros2 import BaseLink
+from ros2.connection import RosbridgeConnection
+from ros2.trouble import CODES, STARTING, Ros2Trouble
+from wire import keys
+from wire.doors import ROS2_COPY_DOOR
+from wire.keys import Party
+from wire.session import open_session
+from wire.sockets import Endpoints, is_listening
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from wire import RobotDescription, Ros2Status
+    from wire.ros2_config import Ros2Config
+
+HEAR_S = 2.0
+ASK_S = 6.0
+PERIOD_S = 0.01
+
+
+def ros2(home: Path, robot: RobotDescription) -> HealthFinding:
+    """Look how well the base is heard; asks and subscribes, and publishes nothing."""
+    config = robot.ros2
+    if config is None:
+        return ok("ros2", "not used", "未使用")
+    if is_listening(Endpoints(home).socket(ROS2_COPY_DOOR)):
+        return _hear_process(home, robot, config)
+    trouble = asyncio.run(_ask_server(robot, config))
+    return _describe(config, trouble.code if trouble else None, trouble.found if trouble else "")
+
+
+def _hear_process(home: Path, robot: RobotDescription, config: Ros2Config) -> HealthFinding:
+    """Report what the running process says."""
+    status: Ros2Status | None = None
+    with open_session(Party.JUDGE, robot.id, home) as session:
+        heard = session.subscriber(keys.ROS2_STATE)
+        end_s = time.monotonic() + HEAR_S
+        while status is None and time.monotonic() < end_s:
+            time.sleep(PERIOD_S)
+            status = heard.newest()
+    if status is None:
+        return fail(
+            "ros2",
+            BilingualWords("its process runs and says nothing", "其进程在运行，但没有任何消息"),
+            BilingualWords("see logs/ros2.log, and start it anew", "请查看 logs/ros2.log 并重启"),
+        )
+    return _describe(config, status.code, status.detail)
+
+
+async def _ask_server(robot: RobotDescription, config: Ros2Config) -> Ros2Trouble | None:
+    """Dial the server as the process would, and listen for some seconds."""
+    link = BaseLink(robot, "doctor")
+    connection = RosbridgeConnection(config.url, link, lambda _: None)
+    reading = asyncio.create_task(connection.serve())
+    end_s = time.monotonic() + ASK_S
+    trouble: Ros2Trouble | None = Ros2Trouble(STARTING, f"{config.url}: not dialled")
+    while trouble is not None and time.monotonic() < end_s:
+        await asyncio.sleep(PERIOD_S)
+        now_s = time.monotonic()
+        for frame in link.due(now_s):
+            await connection.send(frame)
+        trouble = link.judge(now_s)
+        if trouble is not None and trouble.code == "ros2_no_server":
+            break
+    reading.cancel()
+    await asyncio.gather(reading, return_exceptions=True)
+    return trouble
+
+
+def _describe(config: Ros2Config, code: str | None, found: str) -> HealthFinding:
+    if code is None:
+        return ok("ros2", f"{config.url} and its base are heard", f"{config.url}：底盘正常")
+    words = f"{code}: {found.split(';', 1)[0]}"
+    english, chinese = CODES.get(code, ("see docs/ros2.md", "请查看 docs/ros2.md"))
+    return fail("ros2", BilingualWords(words, words), BilingualWords(english, chinese))

@@ -1,0 +1,78 @@
+"""Drive robot.toml's ROS 2 base: ``python -m ros2 --robot robot.toml [--home DIR]``.
+
+It dials ``ros2.url``, holds the graph against robot.toml, and says on ``ros2/state`` how it goes
+(docs/ros2.md). A server, base or relay that is missing is waited for; the robot stands meanwhile.
+Exit status: 0 left when asked, 1 its home can't be written at present, 2 refused.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import gc
+import logging
+import os
+import secrets
+import signal
+import sys
+import threading
+from pathlib import Path
+
+from processes.priority import set_fifo
+from ros2.base_link import BaseLink
+from ros2.node import Ros2Node
+from wire import ConfigError, load_robot
+from wire.keys import Party
+from wire.session import open_session
+
+log = logging.getLogger("ros2")
+
+PRIORITY = 40
+"""Of SCHED_FIFO; below the bridge, beside what else stands for wheels."""
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m ros2", description=__doc__)
+    parser.add_argument("--robot", type=Path, required=True, help="robot.toml")
+    parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
+    parser.add_argument("--site", type=Path, help="taken as every process's, and not used")
+    parser.add_argument("--url", help="in place of ros2.url: a twin's")
+    return parser.parse_args(arguments)
+
+
+def _serve(options: argparse.Namespace) -> None:
+    stopped = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: stopped.set())
+    robot = load_robot(options.robot)
+    ros2 = robot.ros2
+    if ros2 is None:
+        raise ConfigError(
+            "ros2_not_configured", f"{options.robot} has no part ros2; docs/ros2.md shows one"
+        )
+    url = options.url or ros2.url
+    robot = robot.model_copy(update={"ros2": ros2.model_copy(update={"url": url})})
+    home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
+    set_fifo(PRIORITY)  # before the session, whose threads inherit it
+    with open_session(Party.ROS2, robot.id, home) as session:
+        node = Ros2Node(BaseLink(robot, f"ros2-{secrets.token_hex(4)}"), url, session)
+        gc.collect()
+        gc.freeze()
+        log.info("dialling %s", url)
+        asyncio.run(node.run(stopped.is_set))
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    logging.getLogger("websockets").setLevel(logging.ERROR)  # what ends is said by a code of ours
+    try:
+        _serve(_options(arguments))
+    except ConfigError as error:
+        print(f"ros2: {error}", file=sys.stderr)
+        return error.exit_status
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,342 @@
+"""Join a rosbridge connection to the wire: frames in, messages of the wire out, and back.
+
+Told frames and the time; knows no socket, no clock and no thread. What it cannot stand for (a graph
+that is not as robot.toml says, a relay that is silent or not alone, a message with holes) gives no
+drive state, and without one the bridge stands.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from math import inf
+from typing import TYPE_CHECKING
+
+from pydantic import ValidationError
+
+from ros2 import graph, messages, rosbridge
+from ros2.arrivals import TopicArrivals
+from ros2.graph import GraphCheck
+from ros2.last_resort import LastResort
+from ros2.messages import Unreadable
+from ros2.relay import STRING, RelayCommand, RelayState, decode_state, encode_command
+from ros2.ros_clock import OLDEST_S, RosClock
+from ros2.rosbridge import NoAnswer, ServerWords, TopicMessage, TopicType, plain_type
+from ros2.sensor_messages import SensorMessages
+from ros2.trouble import STARTING, Ros2Trouble
+from ros2.virtual_wheels import VirtualWheels
+from wire import DriveState, Ros2Status
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from ros2.rosbridge import Message
+    from wire import DriveCommand, Imu, RobotDescription, Scan
+    from wire.ros2_config import Ros2Config
+
+log = logging.getLogger("ros2")
+
+ASK_S = 2.0
+"""The graph is asked so often while something is missing. Not while the relay speaks, which looks
+at the graph itself: some versions of rosbridge take no command while a service answers."""
+SILENT_S = 0.5
+SCAN_SILENT_S = 1.0
+SLOWEST_ODOM_HZ = 20.0
+"""A state may be 80 ms old before the bridge holds (ENC_STALE)."""
+YOUNG_S = 3.0
+IMU_EVERY_MS = 20
+"""A server in Python writes each message field by field."""
+WORDS_S = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class LinkMessages:
+    """Hold the messages of the wire that one frame makes; None for each that it does not."""
+
+    state: DriveState | None = None
+    scan: Scan | None = None
+    imu: Imu | None = None
+
+
+NOTHING = LinkMessages()
+
+
+class BaseLink:
+    """Hold all that is known of one ROS 2 base."""
+
+    def __init__(self, robot: RobotDescription, boot_id: str) -> None:
+        if robot.ros2 is None:
+            raise ValueError("ros2: robot.toml is refused without it")
+        self._ros2: Ros2Config = robot.ros2
+        self._ttl_s = robot.drive.timeout_s
+        self._wheels = VirtualWheels(
+            robot.base, robot.limits.max_speed_mps, robot.limits.max_turn_radps
+        )
+        self._boot_id, self._lives, self._life_of = boot_id, 0, ""
+        self._graph = GraphCheck(self._ros2)
+        self._closed: Ros2Trouble | None = Ros2Trouble(STARTING, f"{self._ros2.url}: not dialled")
+        self._subscribed_s: float | None = None
+        self._asked_s = -inf
+        self._relay: RelayState | None = None
+        self._clock, self._last_resort = RosClock(), LastResort(self._ros2.cmd_vel)
+        self._odom_stamp_s = -inf
+        self._words: tuple[float, str] | None = None
+        self._topics = {need.key: TopicArrivals() for need in self._graph.needs}
+        self._readers: dict[str, Callable[[Message, float], LinkMessages]] = {
+            self._ros2.state: self._hear_relay,
+            self._ros2.odom: self._hear_odometry,
+        }
+        if self._ros2.scan is not None:
+            self._readers[self._ros2.scan] = self._hear_scan
+        if self._ros2.imu is not None:
+            self._readers[self._ros2.imu] = self._hear_imu
+        self._key_of = {need.topic: need.key for need in self._graph.needs}
+        self._sensors, self._seq = SensorMessages(boot_id), 0
+        self.sent = self.unsent = self.unreadable = self.reached = 0
+
+    def open(self, now_s: float) -> None:
+        """Begin anew on a connection that was just made; nothing on it is known yet."""
+        self._closed = None
+        self._graph.begin(now_s)
+        self._subscribed_s, self._asked_s, self._relay, self._words = None, -inf, None, None
+        self._clock.reset()
+        self._last_resort.begin()
+        self.reached += 1
+
+    def close(self, trouble: Ros2Trouble) -> None:
+        """Note that there is no connection now, and why."""
+        self._closed, self._relay = trouble, None
+
+    def due(self, now_s: float) -> list[str]:
+        """Return the operations that are due: questions to the graph, then what it allows."""
+        if self._closed is not None:
+            return []
+        frames = []
+        if now_s - self._asked_s >= ASK_S and not self._is_driven(now_s):
+            self._asked_s = now_s
+            frames += [rosbridge.ask_type(need.topic) for need in self._graph.needs]
+        if self._graph.is_sound and self._subscribed_s is None:
+            self._subscribed_s = now_s
+            frames += self._subscriptions()
+        silent = self._relay is not None and self._relay_silent_s(now_s) > SILENT_S
+        kind = self._graph.kind_of(self._ros2.cmd_vel)
+        return frames + self._last_resort.due(kind, now_s, silent=silent)
+
+    def hear(self, frame: str | bytes, now_s: float) -> LinkMessages:
+        """Take one frame of the server; return what it makes."""
+        said = rosbridge.read(frame)
+        if isinstance(said, TopicMessage):
+            return self._hear_topic(said, now_s)
+        if isinstance(said, TopicType | NoAnswer):
+            self._graph.note(said)
+        elif isinstance(said, ServerWords) and said.level == "error":
+            self._words = now_s, said.text
+            log.warning("rosbridge says: %s", said.text)
+        return NOTHING
+
+    def encode(self, command: DriveCommand, now_s: float) -> str | None:
+        """Return the operation of a command; None where nobody may be moved by it."""
+        relay = self._relay
+        if relay is None or self._refuse_relay(relay, now_s) is not None:
+            self.unsent += 1
+            return None
+        v_mps, w_radps = self._wheels.twist(command.left_radps, command.right_radps)
+        words = RelayCommand(command, relay.relay, relay.t, self._ttl_s, v_mps, w_radps)
+        return rosbridge.publish(self._ros2.command, encode_command(words))
+
+    def judge(self, now_s: float) -> Ros2Trouble | None:
+        """Return what is wrong now; None where nothing is."""
+        return next(self._troubles(now_s), None)
+
+    def status(self, seq: int, now_s: float) -> Ros2Status:
+        """Return what this process tells people."""
+        trouble, rates = self.judge(now_s), self._rates_hz(now_s)
+        return Ros2Status(
+            boot_id=self._boot_id,
+            seq=seq,
+            stamp_s=now_s,
+            code=trouble.code if trouble else None,
+            detail=trouble.detail if trouble else "",
+            cmd_vel=self._graph.kind_of(self._ros2.cmd_vel)[:400],
+            odom_hz=rates["odom"],
+            relay_hz=rates["relay"],
+            scan_hz=rates.get("scan", 0.0),
+            sent=self.sent,
+            unsent=self.unsent,
+            unreadable=self.unreadable,
+            opened=self.reached,
+        )
+
+    def _rates_hz(self, now_s: float) -> dict[str, float]:
+        return {key: round(topic.rate_hz(now_s), 1) for key, topic in self._topics.items()}
+
+    def _subscriptions(self) -> list[str]:
+        ros2 = self._ros2
+        frames = [
+            rosbridge.advertise(ros2.command, STRING),
+            rosbridge.subscribe(ros2.state, STRING),
+            rosbridge.subscribe(ros2.odom, graph.ODOMETRY),
+        ]
+        if ros2.scan is not None:
+            frames.append(rosbridge.subscribe(ros2.scan, graph.LASER_SCAN))
+        if ros2.imu is not None:
+            frames.append(rosbridge.subscribe(ros2.imu, graph.IMU, IMU_EVERY_MS))
+        return frames
+
+    def _troubles(self, now_s: float) -> Iterator[Ros2Trouble]:
+        """Yield all that is wrong, what must be mended first before the rest."""
+        if self._closed is not None:
+            yield self._closed
+            return
+        wrong = self._graph.trouble(now_s)
+        since_s = self._subscribed_s
+        if wrong is not None or since_s is None:
+            yield wrong or Ros2Trouble(STARTING, f"{self._ros2.url}: not subscribed yet")
+            return
+        if self._words is not None and now_s - self._words[0] <= WORDS_S:
+            yield Ros2Trouble("ros2_server_refuses", f"rosbridge says: {self._words[1]}")
+        young = now_s - since_s < YOUNG_S
+        silent_s = self._topics["relay"].silent_s(since_s, now_s)
+        if self._relay is None or silent_s > SILENT_S:
+            code = STARTING if young and self._relay is None else "ros2_relay_silent"
+            yield Ros2Trouble(code, f"{self._ros2.state} says nothing for {silent_s:.1f} s")
+        if self._relay is not None:
+            refused = self._refuse_relay(self._relay, now_s)
+            if refused is not None:
+                yield refused
+        for need in self._graph.needs:
+            topic = self._topics[need.key]
+            if topic.is_refused(now_s):
+                code = "ros2_clock" if " clock" in topic.wrong else "ros2_unreadable"
+                yield Ros2Trouble(code, f"{need.topic}: {topic.wrong}")
+        if not young:
+            yield from self._slow_topics(since_s, now_s)
+
+    def _slow_topics(self, since_s: float, now_s: float) -> Iterator[Ros2Trouble]:
+        for need in self._graph.needs:
+            if need.key not in ("odom", "scan", "imu"):
+                continue
+            silent_s = self._topics[need.key].silent_s(since_s, now_s)
+            if silent_s > (SCAN_SILENT_S if need.key == "scan" else SILENT_S):
+                yield Ros2Trouble(
+                    "ros2_topic_silent", f"{need.topic} says nothing for {silent_s:.1f} s"
+                )
+        rate_hz = self._topics["odom"].rate_hz(now_s)
+        if rate_hz < SLOWEST_ODOM_HZ:
+            found = f"{self._ros2.odom} came {rate_hz:.1f} times a second"
+            yield Ros2Trouble("ros2_odom_slow", f"{found}, expected {SLOWEST_ODOM_HZ:g} or more")
+
+    def _is_driven(self, now_s: float) -> bool:
+        """Return whether the relay speaks and may be driven by."""
+        relay = self._relay
+        return (
+            relay is not None
+            and self._relay_silent_s(now_s) <= SILENT_S
+            and self._refuse_relay(relay, now_s) is None
+        )
+
+    def _relay_silent_s(self, now_s: float) -> float:
+        return self._topics["relay"].silent_s(-inf, now_s)
+
+    def _refuse_relay(self, relay: RelayState, now_s: float) -> Ros2Trouble | None:
+        """Return why this relay may not be driven by, or its words not be believed."""
+        ros2 = self._ros2
+        if not self._graph.is_sound:
+            return self._graph.trouble(now_s)
+        if relay.others > 0:
+            return Ros2Trouble(
+                "ros2_cmd_vel_shared", f"{relay.others} more publish on {ros2.cmd_vel}"
+            )
+        if not relay.cmd_vel:
+            return Ros2Trouble("ros2_no_base", f"the relay finds nobody on {ros2.cmd_vel}")
+        kind = self._graph.kind_of(ros2.cmd_vel)
+        if kind and plain_type(kind) != plain_type(relay.cmd_vel):
+            found = f"rosapi says that {ros2.cmd_vel} is {kind}, the relay publishes"
+            return Ros2Trouble("ros2_relay_disagrees", f"{found} {relay.cmd_vel}")
+        return None
+
+    def _hear_topic(self, said: TopicMessage, now_s: float) -> LinkMessages:
+        reader = self._readers.get(said.topic)
+        if reader is None or self._closed is not None:
+            return NOTHING
+        topic = self._topics[self._key_of[said.topic]]
+        try:
+            heard = reader(said.message, now_s)
+        except (Unreadable, ValidationError) as why:  # finite, and beyond what the wire carries
+            self.unreadable += 1
+            topic.refuse(str(why)[:200], now_s)
+            return NOTHING
+        topic.note(now_s)
+        return heard
+
+    def _hear_relay(self, message: Message, now_s: float) -> LinkMessages:
+        state, last = decode_state(message), self._relay
+        if last is not None and state.relay == last.relay and state.seq <= last.seq:
+            return NOTHING
+        if last is None or state.relay != last.relay:
+            log.info("relay %s on %s", state.relay, self._ros2.state)
+            self._clock.reset()
+        self._clock.note(state.ros, now_s)
+        self._relay = state
+        return NOTHING
+
+    def _hear_odometry(self, message: Message, now_s: float) -> LinkMessages:
+        pose = messages.read_odometry(message)
+        relay = self._relay
+        if relay is None:
+            return NOTHING
+        stamp_s = self._clock.date(pose.stamp_s, now_s)
+        if 0.0 <= self._odom_stamp_s - pose.stamp_s <= OLDEST_S:
+            return NOTHING  # overtaken on its way
+        self._odom_stamp_s = pose.stamp_s
+        boot_id = self._live(pose, relay.relay)
+        self._seq += 1
+        wheels = self._wheels.turn(pose)
+        if self._refuse_relay(relay, now_s) is not None or self._relay_silent_s(now_s) > SILENT_S:
+            return NOTHING
+        return LinkMessages(
+            state=DriveState(
+                boot_id=boot_id,
+                seq=self._seq,
+                stamp_s=stamp_s,
+                echo_boot=relay.echo_boot,
+                echo_seq=relay.echo_seq,
+                enabled=relay.on and not relay.timed_out,
+                timed_out=relay.timed_out,
+                left_rad=wheels.left_rad,
+                right_rad=wheels.right_rad,
+                left_radps=wheels.left_radps,
+                right_radps=wheels.right_radps,
+                estop_pressed=False,  # no such inputs are wired to this drive
+                bumper_front=False,
+                bumper_rear=False,
+                cliff=False,
+            )
+        )
+
+    def _live(self, pose: messages.OdometryReading, relay: str) -> str:
+        """Return the drive's boot id; another where relay or odometry began anew."""
+        jumped = self._wheels.jumps(pose)
+        if jumped or self._lives == 0 or relay != self._life_of:
+            if jumped:
+                log.warning("odometry jumped: the base counts anew")
+            self._wheels.forget()
+            self._lives += 1
+            self._life_of = relay
+        return f"{self._boot_id}-{self._lives}"
+
+    def _hear_scan(self, message: Message, now_s: float) -> LinkMessages:
+        reading = messages.read_scan(message, self._ros2.scan_zero)
+        if self._relay is None:
+            return NOTHING
+        return LinkMessages(
+            scan=self._sensors.scan(reading, self._clock.date(reading.stamp_s, now_s))
+        )
+
+    def _hear_imu(self, message: Message, now_s: float) -> LinkMessages:
+        reading = messages.read_imu(message)
+        if self._relay is None:
+            return NOTHING
+        return LinkMessages(
+            imu=self._sensors.imu(reading, self._clock.date(reading.stamp_s, now_s))
+        )

@@ -1,0 +1,97 @@
+"""Run one ROS 2 base as a process: commands from the wire to the server, and back what it says."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from typing import TYPE_CHECKING
+
+from ros2.connection import RosbridgeConnection
+from ros2.trouble import STARTING
+from wire import keys
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ros2.base_link import BaseLink, LinkMessages
+    from wire.session import Session
+
+log = logging.getLogger("ros2")
+
+PERIOD_S = 0.002
+"""A command waits so long at most. The transport's ring is asked; it wakes nobody."""
+STATE_S = 0.5
+FROZEN_S = 0.1
+DISTRUST_S = 0.1
+"""After a pause of this process, what lay in its sockets for so long is thrown away: nobody can say
+how old it is, and the relay has stopped the base by then."""
+
+
+class Ros2Node:
+    """Connect one base's link to the wire and to its server."""
+
+    def __init__(self, link: BaseLink, url: str, session: Session) -> None:
+        self._link = link
+        self._commands = session.subscriber(keys.DRIVE_COMMAND)
+        self._drive = session.publisher(keys.DRIVE_STATE)
+        self._scan = session.publisher(keys.SCAN)
+        self._imu = session.publisher(keys.IMU)
+        self._state = session.publisher(keys.ROS2_STATE)
+        self._connection = RosbridgeConnection(url, link, self._publish)
+        self._turned_s = time.monotonic()
+        self._distrusted_until_s = float("-inf")
+        self._said_s = float("-inf")
+        self._code: str | None = STARTING
+        self._seq = 0
+
+    async def run(self, stopped: Callable[[], bool]) -> None:
+        """Serve until told to stop."""
+        reading = asyncio.create_task(self._connection.serve())
+        try:
+            while not stopped() and not reading.done():
+                await self.turn(time.monotonic())
+                await asyncio.sleep(PERIOD_S)
+        finally:
+            reading.cancel()
+            result = await asyncio.gather(reading, return_exceptions=True)
+        if isinstance(result[0], Exception):
+            raise result[0]
+
+    async def turn(self, now_s: float) -> None:
+        """Pass on the newest command, ask what is due, say twice a second how it goes."""
+        slept_s, self._turned_s = now_s - self._turned_s, now_s
+        if slept_s > FROZEN_S:
+            log.warning("frozen for %.2f s: what came meanwhile is thrown away", slept_s)
+            self._distrusted_until_s = now_s + DISTRUST_S
+        command = self._commands.newest()
+        if command is not None and now_s >= self._distrusted_until_s:
+            frame = self._link.encode(command, now_s)
+            if frame is not None and self._connection.has_room():
+                self._link.sent += int(await self._connection.send(frame))
+            elif frame is not None:
+                self._link.unsent += 1
+        for frame in self._link.due(now_s):
+            await self._connection.send(frame)
+        await self._connection.drop_if_silent(now_s)
+        self._say(now_s)
+
+    def _publish(self, heard: LinkMessages) -> None:
+        if heard.state is not None:
+            self._drive.put(heard.state)
+        if heard.scan is not None:
+            self._scan.put(heard.scan)
+        if heard.imu is not None:
+            self._imu.put(heard.imu)
+
+    def _say(self, now_s: float) -> None:
+        trouble = self._link.judge(now_s)
+        code = trouble.code if trouble else None
+        if code == self._code and now_s - self._said_s < STATE_S:
+            return
+        if code != self._code:
+            level = logging.INFO if code in (None, STARTING) else logging.WARNING
+            log.log(level, "%s", f"{code}: {trouble.detail}" if trouble else "the base is heard")
+        self._code, self._said_s = code, now_s
+        self._seq += 1
+        self._state.put(self._link.status(self._seq, now_s))

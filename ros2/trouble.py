@@ -1,0 +1,90 @@
+"""Name what is wrong between Pons and a ROS 2 base, with the cure in English and Chinese."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+STARTING = "ros2_starting"
+_LAUNCH = "ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
+_RELAY = "python3 examples/ros2_relay/relay.py"
+CODES: dict[str, tuple[str, str]] = {
+    STARTING: ("it was just reached: wait", "刚刚连上：请稍候"),
+    "ros2_no_server": (
+        f"start `{_LAUNCH}` on the robot, and look at ros2.url",
+        f"请在机器人上运行 `{_LAUNCH}`，并检查 ros2.url",
+    ),
+    "ros2_server_gone": (
+        "the robot stands by its relay's dead-man; it is dialled anew",
+        "机器人已由中继节点的超时保护停下；正在重新连接",
+    ),
+    "ros2_no_rosapi": (
+        "is this rosbridge_server, with rosapi beside it, as its launch file starts both?",
+        "请确认这是 rosbridge_server，且 rosapi 已随其启动文件一同运行",
+    ),
+    "ros2_no_base": (
+        "start the base's own driver, or name its topic in ros2.cmd_vel",
+        "请启动底盘自己的驱动，或在 ros2.cmd_vel 中写它的话题",
+    ),
+    "ros2_cmd_vel_type": (
+        "ros2.cmd_vel must name a topic of Twist or TwistStamped",
+        "ros2.cmd_vel 必须是 Twist 或 TwistStamped 类型的话题",
+    ),
+    "ros2_no_relay": (
+        f"a bare cmd_vel has no dead-man: start `{_RELAY}` on the robot, where ROS 2 is sourced",
+        f"单独的 cmd_vel 没有超时保护：请在已加载 ROS 2 的机器人上运行 `{_RELAY}`",
+    ),
+    "ros2_relay_silent": (
+        f"it was there; look at its terminal, and start `{_RELAY}` anew",
+        f"中继节点曾经在线；请查看它的终端并重新运行 `{_RELAY}`",
+    ),
+    "ros2_relay_disagrees": (
+        "relay and rosapi must see one graph: the same ROS_DOMAIN_ID, and one type on ros2.cmd_vel",
+        "中继节点与 rosapi 必须看到同一个图：相同的 ROS_DOMAIN_ID，且 ros2.cmd_vel 只有一种类型",
+    ),
+    "ros2_cmd_vel_shared": (
+        "the relay must be alone there: end the other (Nav2, a joystick), or name another topic",
+        "ros2.cmd_vel 上只能有中继节点发布：请关闭其他发布者（Nav2、手柄），或改用其他话题",
+    ),
+    "ros2_topic_missing": (
+        "start what publishes it, or name the topic that there is",
+        "请启动发布它的节点，或填写实际存在的话题",
+    ),
+    "ros2_topic_type": (
+        "name the topic of the expected type",
+        "请填写类型正确的话题",
+    ),
+    "ros2_unreadable": (
+        "look at it with `ros2 topic echo`; what is null or not a number moves nothing",
+        "请用 `ros2 topic echo` 查看；空值或非数字不会驱动机器人",
+    ),
+    "ros2_clock": (
+        "base, sensors and relay must share one clock (chrony; use_sim_time for all or none)",
+        "底盘、传感器与中继节点必须使用同一时钟（chrony；use_sim_time 要么都用要么都不用）",
+    ),
+    "ros2_odom_slow": (
+        "raise the base's publishing rate to 25 Hz or more; at less the bridge holds (ENC_STALE)",
+        "请将底盘的发布频率提高到 25 Hz 以上；过慢时桥会保持停止（ENC_STALE）",
+    ),
+    "ros2_topic_silent": (
+        "its publisher is there and says nothing: look at its log",
+        "发布者在线但没有消息：请查看其日志",
+    ),
+    "ros2_server_refuses": (
+        "look at rosbridge's parameters (topics_glob, services_glob) and log",
+        "请检查 rosbridge 的参数（topics_glob、services_glob）和日志",
+    ),
+}
+"""What cures each, in English and Chinese."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ros2Trouble:
+    """Hold what is wrong: a code, and what came where something else was expected."""
+
+    code: str
+    found: str
+
+    @property
+    def detail(self) -> str:
+        """Return it with its cure, in English, as long as the wire carries."""
+        return f"{self.found}; {CODES[self.code][0]}"[:400]

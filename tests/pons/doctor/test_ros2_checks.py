@@ -1,0 +1,91 @@
+"""The doctor says of a ROS 2 base what is missing, by its process or by asking the server."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from pons.doctor import ros2_checks
+from pons.doctor.finding import HealthVerdict
+from pons.robot_processes import free_port
+from ros2.trouble import CODES
+from tests.ros2.frames import robot
+from tests.ros2.test_process import Base
+from tests.wire.examples import EXAMPLES
+from wire import RobotDescription, Ros2Status, keys
+from wire.keys import Party
+from wire.session import open_session
+
+TYPES = {
+    "/cmd_vel": "geometry_msgs/msg/TwistStamped",
+    "/pons/state": "std_msgs/msg/String",
+    "/odom": "nav_msgs/msg/Odometry",
+}
+
+
+def described(port: int) -> RobotDescription:
+    return robot(url=f"ws://127.0.0.1:{port}", scan=None, imu=None)
+
+
+@pytest.fixture
+def base() -> Iterator[Base]:
+    made = Base(0, dict(TYPES))
+    made.start()
+    yield made
+    made.end()
+
+
+def test_without_ros2_there_is_nothing_to_look_at(tmp_path: Path) -> None:
+    assert ros2_checks.ros2(tmp_path, RobotDescription()).verdict is HealthVerdict.OK
+
+
+def test_without_a_server_it_says_how_to_start_one(tmp_path: Path) -> None:
+    found = ros2_checks.ros2(tmp_path, described(free_port()))
+    assert found.verdict is HealthVerdict.FAIL
+    assert "ros2_no_server" in found.found.en
+    assert found.fix is not None
+    assert (found.fix.en, found.fix.zh) == CODES["ros2_no_server"]
+
+
+def test_a_base_that_speaks_is_well_and_a_bare_cmd_vel_is_not(tmp_path: Path, base: Base) -> None:
+    found = ros2_checks.ros2(tmp_path, described(base.server.port))
+    assert found.verdict is HealthVerdict.OK, found
+    assert base.accepted == [], "the doctor drives nothing"
+    del base.server.types["/pons/state"]
+    found = ros2_checks.ros2(tmp_path, described(base.server.port))
+    assert found.verdict is HealthVerdict.FAIL
+    assert "ros2_no_relay" in found.found.en
+
+
+def test_a_process_that_runs_is_heard_instead(tmp_path: Path) -> None:
+    said = EXAMPLES[Ros2Status]
+    assert isinstance(said, Ros2Status)
+    ending = threading.Event()
+    with open_session(Party.ROS2, "r1", tmp_path) as session:
+        state = session.publisher(keys.ROS2_STATE)
+
+        def say() -> None:
+            while not ending.is_set():
+                state.put(said)
+                time.sleep(0.02)
+
+        speaking = threading.Thread(target=say, daemon=True)
+        speaking.start()
+        found = ros2_checks.ros2(tmp_path, described(1))
+        ending.set()
+        speaking.join()
+    assert found.verdict is HealthVerdict.FAIL
+    assert "ros2_no_relay" in found.found.en
+
+
+def test_a_process_that_says_nothing_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ros2_checks, "HEAR_S", 0.1)
+    with open_session(Party.ROS2, "r1", tmp_path):
+        found = ros2_checks.ros2(tmp_path, described(1))
+    assert (found.verdict, "says nothing" in found.found.en) == (HealthVerdict.FAIL, True)

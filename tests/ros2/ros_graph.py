@@ -1,0 +1,168 @@
+"""Be a part of a true ROS 2 graph, run by a Python that has rclpy: base, lidar, rosbridge server.
+
+``base`` drives for ever by the last twist that it got, as a base without a dead-man does, and says
+odometry at 50 Hz, and each twist as a line of JSON on stdout. ``lidar`` says three beams: too near
+to measure (minus infinity), no return, 1.5 m. ``bridge`` speaks rosbridge's protocol for the topics
+that Pons uses, on true publishers and subscriptions. Knows nothing of Pons.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import math
+import sys
+import threading
+import time
+from typing import Any
+
+import rclpy
+from geometry_msgs.msg import Twist, TwistStamped
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+
+KINDS = {
+    "geometry_msgs/msg/Twist": Twist,
+    "geometry_msgs/msg/TwistStamped": TwistStamped,
+    "nav_msgs/msg/Odometry": Odometry,
+    "sensor_msgs/msg/LaserScan": LaserScan,
+    "std_msgs/msg/String": String,
+}
+PERIOD_S = 0.02
+
+
+class Base(Node):
+    """Obey the last twist, for ever."""
+
+    def __init__(self, kind: str) -> None:
+        super().__init__("base")
+        self.x = self.y = self.yaw = self.v = self.w = 0.0
+        self.odom = self.create_publisher(Odometry, "/odom", 10)
+        self.create_subscription(KINDS[kind], "/cmd_vel", self.hear, 10)
+        self.create_timer(PERIOD_S, self.turn)
+
+    def hear(self, message: Any) -> None:
+        twist = getattr(message, "twist", message)
+        self.v, self.w = twist.linear.x, twist.angular.z
+        print(json.dumps({"at_s": time.monotonic(), "v": self.v, "w": self.w}), flush=True)
+
+    def turn(self) -> None:
+        self.x += self.v * math.cos(self.yaw) * PERIOD_S
+        self.y += self.v * math.sin(self.yaw) * PERIOD_S
+        self.yaw += self.w * PERIOD_S
+        message = Odometry()
+        message.header.stamp = self.get_clock().now().to_msg()
+        pose, twist = message.pose.pose, message.twist.twist
+        pose.position.x, pose.position.y = self.x, self.y
+        pose.orientation.z, pose.orientation.w = math.sin(self.yaw / 2), math.cos(self.yaw / 2)
+        twist.linear.x, twist.angular.z = self.v, self.w
+        self.odom.publish(message)
+
+
+class Lidar(Node):
+    """Say scans of three beams."""
+
+    def __init__(self) -> None:
+        super().__init__("lidar")
+        self.scans = self.create_publisher(LaserScan, "/scan", qos_profile_sensor_data)
+        self.create_timer(0.1, self.turn)
+
+    def turn(self) -> None:
+        scan = LaserScan(angle_increment=0.5, range_min=0.1, range_max=8.0, scan_time=0.1)
+        scan.header.stamp = self.get_clock().now().to_msg()
+        scan.ranges = [-math.inf, math.inf, 1.5]
+        self.scans.publish(scan)
+
+
+class Bridge(Node):
+    """Speak rosbridge to one client at a time."""
+
+    def __init__(self) -> None:
+        super().__init__("rosbridge")
+        self.said: dict[str, Any] = {}
+        self.loop: asyncio.AbstractEventLoop | None = None
+        self.socket: Any = None
+        self.heard: dict[str, Any] = {}
+
+    def obey(self, raw: dict[str, Any]) -> dict[str, Any] | None:
+        operation, topic = raw["op"], str(raw.get("topic"))
+        if operation == "advertise" and topic not in self.said:
+            self.said[topic] = self.create_publisher(KINDS[raw["type"]], topic, 10)
+        elif operation == "publish":
+            self.said[topic].publish(made_of(raw["msg"], self.said[topic].msg_type))
+        elif operation == "unadvertise":
+            self.destroy_publisher(self.said.pop(topic))
+        elif operation == "subscribe" and topic not in self.heard:
+            kind = KINDS[raw["type"]]
+            self.heard[topic] = self.create_subscription(
+                kind, topic, lambda message: self.tell(topic, message), qos_profile_sensor_data
+            )
+        elif operation == "call_service":
+            asked = raw["args"]["topic"]
+            known = dict(self.get_topic_names_and_types())
+            values = {"type": (known.get(asked) or [""])[0]}
+            return {"op": "service_response", "id": raw["id"], "service": raw["service"],
+                    "values": values, "result": True}  # fmt: skip
+        return None
+
+    def tell(self, topic: str, message: Any) -> None:
+        socket, loop = self.socket, self.loop
+        if socket is not None and loop is not None:
+            frame = json.dumps({"op": "publish", "topic": topic, "msg": as_json(message)})
+            asyncio.run_coroutine_threadsafe(socket.send(frame), loop)
+
+    async def serve(self, port: int) -> None:
+        from websockets.asyncio.server import serve
+
+        async def attend(socket: Any) -> None:
+            self.socket = socket
+            async for frame in socket:
+                answer = self.obey(json.loads(frame))
+                if answer is not None:
+                    await socket.send(json.dumps(answer))
+
+        self.loop = asyncio.get_running_loop()
+        async with serve(attend, "127.0.0.1", port, compression=None):
+            print("ready", flush=True)
+            await asyncio.Event().wait()
+
+
+def made_of(raw: dict[str, Any], kind: Any) -> Any:
+    """Return a string or a twist."""
+    if kind is String:
+        return String(data=raw["data"])
+    message, twist = kind(), raw.get("twist", raw)
+    inner = getattr(message, "twist", message)
+    inner.linear.x, inner.angular.z = twist["linear"]["x"], twist["angular"]["z"]
+    return message
+
+
+def as_json(value: Any) -> Any:
+    """Return a message as rosbridge writes it: what is not finite is null."""
+    if hasattr(value, "get_fields_and_field_types"):
+        return {name: as_json(getattr(value, name)) for name in value.get_fields_and_field_types()}
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, str | int | bool):
+        return value
+    return [as_json(one) for one in value]
+
+
+def main(arguments: list[str]) -> None:
+    rclpy.init()
+    if arguments[0] == "base":
+        rclpy.spin(Base(arguments[1]))
+        return
+    if arguments[0] == "lidar":
+        rclpy.spin(Lidar())
+        return
+    bridge = Bridge()
+    threading.Thread(target=rclpy.spin, args=(bridge,), daemon=True).start()
+    asyncio.run(bridge.serve(int(arguments[1])))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

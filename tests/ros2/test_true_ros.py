@@ -1,0 +1,204 @@
+"""Against true ROS 2 nodes: our relay beside a base that has no dead-man, over DDS.
+
+Run where a Python with rclpy, nav_msgs and websockets is named by PONS_ROS2_PYTHON, or is the
+system's own; skipped aloud elsewhere. docs/ros2.md says how to make one.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from pons.robot_processes import free_port
+from tests.ros2.test_process import ROBOT, Bridge
+from wire import Scan, keys
+
+NEEDS = "import rclpy, nav_msgs, websockets"
+LIMIT_S = 20.0
+TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
+
+
+def python_with_ros() -> str | None:
+    for path in (os.environ.get("PONS_ROS2_PYTHON"), "/usr/bin/python3"):
+        if path is None or not Path(path).is_file():
+            continue
+        with suppress(OSError, subprocess.SubprocessError):
+            subprocess.run([path, "-c", NEEDS], check=True, capture_output=True, timeout=LIMIT_S)
+            return path
+    return None
+
+
+PYTHON = python_with_ros() or ""
+pytestmark = [
+    pytest.mark.e2e,
+    pytest.mark.timeout(90),
+    pytest.mark.skipif(
+        not PYTHON, reason="no Python with rclpy and websockets: name one in PONS_ROS2_PYTHON"
+    ),
+]
+
+
+class Graph:
+    """Hold the processes of one ROS domain."""
+
+    def __init__(self, home: Path, root: Path) -> None:
+        self.home, self.root, self.port = home, root, free_port()
+        self.environment = dict(os.environ, ROS_DOMAIN_ID=str(20 + self.port % 80))
+        self.processes: list[subprocess.Popen[str]] = []
+        self.twists: list[dict[str, float]] = []
+
+    def start(self, *words: str) -> subprocess.Popen[str]:
+        process = subprocess.Popen(
+            words, env=self.environment, cwd=self.root, text=True, stdout=subprocess.PIPE
+        )
+        self.processes.append(process)
+        return process
+
+    def base(self, kind: str) -> None:
+        process = self.start(PYTHON, "tests/ros2/ros_graph.py", "base", kind)
+        threading.Thread(target=self._read, args=(process,), daemon=True).start()
+
+    def bridge(self) -> None:
+        server = self.start(PYTHON, "tests/ros2/ros_graph.py", "bridge", str(self.port))
+        assert server.stdout is not None
+        assert server.stdout.readline() == "ready\n"
+
+    def relay(self) -> subprocess.Popen[str]:
+        given = ["--ros-args", "-p", "scan:=/scan"]
+        return self.start(PYTHON, "examples/ros2_relay/relay.py", *given)
+
+    def process(self, scan: str = "") -> subprocess.Popen[str]:
+        path = self.home / "robot.toml"
+        text = ROBOT.format(port=self.port)
+        if scan:
+            text = text.replace("[inputs]", f'scan = "{scan}"\n[lidar]\nkind = "ros2"\n[inputs]')
+        path.write_text(text)
+        words = ("--robot", str(path), "--home", str(self.home))
+        return self.start(sys.executable, "-m", "ros2", *words)
+
+    def close(self) -> None:
+        for process in self.processes:
+            process.kill()
+        for process in self.processes:
+            process.communicate(timeout=LIMIT_S)
+
+    def _read(self, process: subprocess.Popen[str]) -> None:
+        assert process.stdout is not None
+        with suppress(ValueError):  # closed beside us
+            for line in process.stdout:
+                self.twists.append(json.loads(line))
+
+
+@pytest.fixture
+def graph(tmp_path: Path, repository: Path) -> Iterator[Graph]:
+    made = Graph(tmp_path, repository)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def bridge(tmp_path: Path) -> Iterator[Bridge]:
+    made = Bridge(tmp_path)
+    yield made
+    made.close()
+
+
+def is_fast(graph: Graph) -> Callable[[], bool]:
+    return lambda: bool(graph.twists) and graph.twists[-1]["v"] > 0.05
+
+
+@pytest.mark.parametrize("kind", [TWIST, STAMPED])
+def test_a_base_of_either_twist_is_driven_and_stands_when_the_process_is_killed(
+    graph: Graph, bridge: Bridge, kind: str
+) -> None:
+    graph.bridge()
+    graph.base(kind)
+    process = graph.process()
+    bridge.until(lambda: bridge.code() == "ros2_no_relay")
+    assert bridge.state is None
+    graph.relay()
+    bridge.until(lambda: bridge.code() is None)
+    assert bridge.status is not None
+    assert bridge.status.cmd_vel == kind
+    bridge.until(is_fast(graph))
+    bridge.until(lambda: bridge.state is not None and bridge.state.left_radps > 0.5)
+    process.kill()
+    process.wait(LIMIT_S)
+    bridge.until(lambda: graph.twists[-1]["v"] == 0.0)
+    stood = len(graph.twists)
+    time.sleep(0.5)
+    assert all(one["v"] == 0.0 for one in graph.twists[stood:])
+
+
+def test_what_is_too_near_for_a_lidar_is_near_and_no_free_floor(
+    graph: Graph, bridge: Bridge
+) -> None:
+    graph.bridge()
+    graph.base(STAMPED)
+    graph.start(PYTHON, "tests/ros2/ros_graph.py", "lidar")
+    graph.relay()
+    graph.process(scan="/pons/scan")
+    scans = bridge.session.subscriber(keys.SCAN)
+    heard: list[Scan] = []
+
+    def has_heard() -> bool:
+        scan = scans.newest()
+        heard.extend([] if scan is None else [scan])
+        return bool(heard)
+
+    bridge.until(has_heard)
+    assert heard[0].ranges_m == (0.0, None, 1.5)
+
+
+def test_a_relay_that_is_ended_in_mid_drive_leaves_zeros_behind(
+    graph: Graph, bridge: Bridge
+) -> None:
+    graph.bridge()
+    graph.base(STAMPED)
+    graph.process()
+    relay = graph.relay()
+    bridge.until(is_fast(graph))
+    relay.terminate()
+    assert relay.wait(LIMIT_S) == 0
+    bridge.until(lambda: graph.twists[-1]["v"] == 0.0)
+    bridge.until(lambda: bridge.code() == "ros2_relay_silent")
+
+
+def test_a_base_without_a_dead_man_stands_when_its_relay_is_killed_in_mid_drive(
+    graph: Graph, bridge: Bridge
+) -> None:
+    graph.bridge()
+    graph.base(STAMPED)
+    graph.process()
+    relay = graph.relay()
+    bridge.until(is_fast(graph))
+    relay.kill()
+    bridge.until(lambda: graph.twists[-1]["v"] == 0.0)  # by zeros through the server
+    bridge.until(lambda: bridge.code() == "ros2_relay_silent")
+
+
+def test_a_relay_that_is_not_alone_on_cmd_vel_is_not_driven(graph: Graph, bridge: Bridge) -> None:
+    graph.bridge()
+    graph.base(TWIST)
+    graph.process()
+    graph.relay()
+    bridge.until(is_fast(graph))
+    other = graph.start(
+        PYTHON, "-c",
+        "import rclpy; from rclpy.node import Node; from geometry_msgs.msg import Twist\n"
+        "rclpy.init(); node = Node('nav2'); p = node.create_publisher(Twist, '/cmd_vel', 1)\n"
+        "rclpy.spin(node)",
+    )  # fmt: skip
+    bridge.until(lambda: bridge.code() == "ros2_cmd_vel_shared")
+    bridge.until(lambda: graph.twists[-1]["v"] == 0.0)
+    other.terminate()  # a killed one stays in the graph for 20 s, the lease of Fast DDS
+    bridge.until(is_fast(graph))

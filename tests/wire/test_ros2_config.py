@@ -1,0 +1,50 @@
+"""The part ros2 of robot.toml comes with its drive, lidar and gyro, or says what does not fit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from pons_assets import ROOT
+from wire import RobotDescription, load_robot
+
+URL = {"url": "ws://10.0.0.5:9090"}
+DRIVE, LIDAR, BLIND = {"kind": "ros2"}, {"kind": "ros2"}, {"imu": False}
+
+
+def test_the_preset_is_taken_and_its_defaults_are_those_of_the_page() -> None:
+    ros2 = load_robot(ROOT / "robots" / "ros2_diff_drive.toml").ros2
+    assert ros2 is not None
+    assert (ros2.command, ros2.state) == ("/pons/command", "/pons/state")
+    assert (ros2.cmd_vel, ros2.odom, ros2.scan_zero) == ("/cmd_vel", "/odom", "near")
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"drive": DRIVE}, "ros2.url is missing"),
+        ({"lidar": LIDAR}, "ros2.scan is missing"),
+        ({"ros2": URL, "inputs": BLIND}, "for drive.kind 'ros2', not for kind 'sim'"),
+        ({"drive": DRIVE, "ros2": URL}, "ros2.imu None and inputs.imu true do not fit"),
+        ({"drive": DRIVE, "ros2": URL | {"imu": "/imu"}, "inputs": BLIND}, "inputs.imu false"),
+        ({"drive": DRIVE, "ros2": URL, "lidar": LIDAR, "inputs": BLIND}, "ros2.scan None"),
+        ({"drive": DRIVE, "ros2": URL | {"scan": "/s"}, "inputs": BLIND}, "lidar.kind 'sim'"),
+        ({"drive": DRIVE | {"port": "/dev/x"}, "ros2": URL, "inputs": BLIND}, "drive.port is for"),
+        ({"drive": DRIVE, "ros2": {"url": "http://x"}, "inputs": BLIND}, "ros2.url"),
+        ({"drive": DRIVE, "ros2": {"url": "ws://x y"}, "inputs": BLIND}, "ros2.url"),
+        ({"drive": DRIVE, "ros2": URL | {"odom": "odom"}, "inputs": BLIND}, "ros2.odom"),
+        ({"drive": DRIVE, "ros2": URL | {"cmdvel": "/x"}, "inputs": BLIND}, "ros2.cmdvel"),
+    ],
+)
+def test_what_does_not_fit_is_refused_by_name(given: dict[str, Any], says: str) -> None:
+    with pytest.raises(ValidationError) as refused:
+        RobotDescription.model_validate(given)
+    assert says in str(refused.value)
+
+
+def test_a_base_without_lidar_and_gyro_of_ros_is_taken() -> None:
+    made = RobotDescription.model_validate({"drive": DRIVE, "ros2": URL, "inputs": BLIND})
+    assert not made.drive.virtual
+    assert made.ros2 is not None
