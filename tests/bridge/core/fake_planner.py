@@ -54,6 +54,8 @@ class FakeDrive:
     runs_on: bool = False
     """Ignores what it is told and keeps its speed."""
     never_times_out: bool = False
+    tells_time_out: bool = True
+    """False: it stops in silence and says nothing of it."""
 
     def tick(self, now_s: float) -> DriveState:
         late = self.heard_s is None or now_s - self.heard_s > 0.2
@@ -78,7 +80,7 @@ class FakeDrive:
             echo_boot=self.echo_boot,
             echo_seq=self.echo_seq,
             enabled=self.enabled and not timed_out,
-            timed_out=timed_out,
+            timed_out=timed_out if self.tells_time_out else None,
             left_rad=self.angles[0],
             right_rad=self.angles[1],
             left_radps=self.speeds[0],

@@ -9,7 +9,7 @@ import pytest
 from bridge.core.geometry.fence import build_fence
 from tests.bridge.core.fake_planner import MAP_ID, FakeDrive, FakePlanner
 from tests.bridge.core.scripted import World, config
-from wire import IDENTITY, HeldReason, Mode, Pose2, Waypoints
+from wire import IDENTITY, HeldReason, Mode, Pose2, RobotDescription, Waypoints
 
 
 def test_a_sentence_worth_of_motion_ends_reached_and_standing() -> None:
@@ -309,3 +309,30 @@ def test_what_has_not_arrived_is_waited_for_by_name() -> None:
     assert world.status.waiting_for == ("lidar", "lidar_baseline")
     world.lidar_silent = False
     world.until(Mode.DISARMED, 5.0)
+
+
+def test_a_base_that_does_not_tell_its_time_out_is_never_left_in_silence_and_slow() -> None:
+    ugv = RobotDescription.model_validate({"drive": {"kind": "waveshare", "port": "/dev/x"}})
+    world = World(core=config(ugv), drive=FakeDrive(tells_time_out=False), real_time=True)
+    while world.mode is not Mode.DISARMED:
+        assert world.tick().command is not None
+        assert world.ticks < 1_000
+    world.arm().drive_to((4.0, 0.0))
+    assert world.status is not None
+    assert world.status.drive.timed_out is None
+    assert 0.25 < world.sent.v_mps <= 0.3
+    tried = World(
+        core=replace(config(ugv), dead_man_s=0.3),
+        drive=FakeDrive(tells_time_out=False),
+        real_time=True,
+    )
+    tried.until(Mode.DISARMED)
+    assert tried.arm().drive_to((4.0, 0.0)).sent.v_mps > 0.3
+
+
+def test_a_drive_that_should_tell_its_time_out_and_does_not_is_never_armed() -> None:
+    world = World(drive=FakeDrive(tells_time_out=False))
+    world.run(5.0)
+    assert world.is_in(Mode.SELFTEST)
+    assert world.status is not None
+    assert "drive_echo" in world.status.waiting_for
