@@ -21,6 +21,8 @@ log = logging.getLogger("ros2")
 
 PERIOD_S = 0.002
 """A command waits so long at most. The transport's ring is asked; it wakes nobody."""
+LOOK_S = 0.02
+"""What is due to the graph, and what is wrong, is looked at so often."""
 STATE_S = 0.5
 FROZEN_S = 0.1
 DISTRUST_S = 0.1
@@ -41,7 +43,7 @@ class Ros2Node:
         self._connection = RosbridgeConnection(url, link, self._publish)
         self._turned_s = time.monotonic()
         self._distrusted_until_s = float("-inf")
-        self._said_s = float("-inf")
+        self._looked_s = self._said_s = float("-inf")
         self._code: str | None = STARTING
         self._seq = 0
 
@@ -71,10 +73,12 @@ class Ros2Node:
                 self._link.sent += int(await self._connection.send(frame))
             elif frame is not None:
                 self._link.unsent += 1
-        for frame in self._link.due(now_s):
-            await self._connection.send(frame)
-        await self._connection.drop_if_silent(now_s)
-        self._say(now_s)
+        if now_s - self._looked_s >= LOOK_S:
+            self._looked_s = now_s
+            for frame in self._link.due(now_s):
+                await self._connection.send(frame)
+            await self._connection.drop_if_silent(now_s)
+            self._say(now_s)
 
     def _publish(self, heard: LinkMessages) -> None:
         if heard.state is not None:

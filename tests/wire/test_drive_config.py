@@ -48,7 +48,7 @@ def test_a_dead_man_that_nothing_can_set_is_the_firmwares_own(kind: str) -> None
 
 @pytest.mark.parametrize("kind", sorted(DRIVE_KINDS))
 def test_only_a_drive_that_reports_its_dead_man_needs_no_trial(kind: str) -> None:
-    assert config_of(kind).reports_dead_man is (kind in {"sim", "pons_mcu"})
+    assert config_of(kind).reports_dead_man is (kind in {"sim", "pons_mcu", "ros2"})
 
 
 @given(st.floats(0.001, 0.1))

@@ -19,7 +19,7 @@ ROBOTS: dict[str, RobotDescription] = {
     robot.drive.kind: robot
     for robot in map(load_robot, sorted((CHECKOUT / "robots").glob("*.toml"), reverse=True))
 }
-KINDS = sorted(ROBOTS)
+KINDS = sorted(set(ROBOTS) & set(SERIAL_PROTOCOLS))
 BODY = cast("DriveState", EXAMPLES[DriveState])
 TICK_S = 0.01
 START_S = 4.0

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from bridge.drive.serial_drive import SERIAL_PROTOCOLS
 from pons.robot.trial_words import REFUSALS
 from pons.robot.wheel_trial import SPEED_RADPS, TrialRefusal, WheelFindings, WheelTrial
 from sim.twin.twin import FIRMWARES
@@ -39,7 +40,7 @@ def refused(wires: Wires, **more: Any) -> tuple[str, Stand]:
     return refusal.value.code, stand
 
 
-@pytest.mark.parametrize("kind", sorted(set(DRIVE_KINDS) - {"sim"}))
+@pytest.mark.parametrize("kind", sorted(SERIAL_PROTOCOLS))
 def test_a_good_base_passes_and_its_dead_man_is_measured(kind: str) -> None:
     stand = Stand(robot_of(kind))
     found = tried(stand)
