@@ -7,6 +7,7 @@ from planner.language.utterance import parse
 from planner.mission.activity import Thinking
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
+from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
     ask_anew,
@@ -165,7 +166,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
             said = Outcome(code=plan.code, message=told)
             turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
-            _walkable(turn, mission)
+            _walkable(turn, mission, event.unasked)
 
 
 def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
@@ -174,7 +175,7 @@ def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
     return say("goal.doubtful_stop", told=told, text=text)
 
 
-def _walkable(turn: Transaction, mission: Mission) -> None:
+def _walkable(turn: Transaction, mission: Mission, unasked: tuple[int, ...]) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
@@ -184,9 +185,12 @@ def _walkable(turn: Transaction, mission: Mission) -> None:
         finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
+    shall_i = ask_for_motion(turn.book.facts, (), mission.steps, unasked)
     if mission.doubtful_stop:
         said = Outcome(code=Code.CONFIRM, message=_ask_what_was_meant(turn.book, mission))
         turn.move_to(mission, BrainCause.NEEDS_YES, reason="doubtful_stop", outcome=said)
+    elif shall_i is not None:
+        turn.move_to(mission, BrainCause.NEEDS_YES, reason=UNASKED, outcome=shall_i)
     elif mission.confirm:
         turn.move_to(mission, BrainCause.NEEDS_YES)
     else:

@@ -1,4 +1,4 @@
-"""Find the names in a sentence, for the judge alone: plain text search, no grammar.
+"""Find the names in a sentence by plain text search, without a grammar.
 
 It shares no code with any brain, so that a brain's misreading can't hide in the judge's.
 """
@@ -97,6 +97,13 @@ def label_named(label: str, text: str) -> bool:
     return True
 
 
+def has_specific_words(label: str) -> bool:
+    """Tell whether a label says more than that somebody or something is meant."""
+    return any(
+        word not in _GENERIC and word not in _GENERIC_ZH for word in _WORD.findall(plain(label))
+    )
+
+
 _NUMBERS = {
     word: float(value)
     for value, word in enumerate(
@@ -130,4 +137,6 @@ def numbers_named(text: str) -> tuple[float, ...]:
     found += [_NUMBERS[word] for word in re.findall(r"[a-z]+", said) if word in _NUMBERS]
     for tens, ones in re.findall(r"([一二三四五六七八九]?)十([一二三四五六七八九]?)", said):
         found.append(10 * _ZH.get(tens, 1.0) + _ZH.get(ones, 0.0))
+    for whole, tenths in re.findall(r"([一二两三四五六七八九\d])米([一二三四五六七八九半])", said):
+        found.append(_ZH.get(whole, 0.0) + _ZH[tenths] / (1.0 if tenths == "半" else 10.0))
     return (*found, *(_ZH[char] for char in said if char in _ZH))
