@@ -76,6 +76,9 @@ class ThinkResult(Frozen):
     tokens: int = Field(default=0, ge=0)  # all that was billed
     prompt_tokens: int = Field(default=0, ge=0)  # of these, what was sent
     reply_tokens: int = Field(default=0, ge=0)  # and what was written
+    by_grammar: bool = False
+    """A program of ours read it in the person's words, or wrote it; no model had a hand in it. All
+    other plans are held to these words before they move anything."""
 
 
 class Brain(Protocol):

@@ -16,7 +16,7 @@ from functools import lru_cache
 from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
-from planner.brain.interface import OFFLINE, Brain, ThinkRequest, ThinkResult
+from planner.brain.interface import Brain, ThinkRequest, ThinkResult
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
@@ -137,12 +137,11 @@ def thinker(
 def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:
     """Return the steps of a model's plan that move the robot though nobody asked for it.
 
-    The grammar is spared: it plans nothing but what it has read. A model that an owner calls by the
-    grammar's name has a prompt, and is not. What people answered to an ``ask`` on the way, what was
-    seen and what a model wrote is nobody's order.
+    The grammar is spared: it plans nothing but what it has read. What people answered to an ``ask``
+    on the way, what was seen and what a model wrote is nobody's order.
     """
-    plan, brain = thought.plan, thought.brain
-    if not isinstance(plan, StepPlan) or (brain.name == OFFLINE and brain.prompt is None):
+    plan = thought.plan
+    if not isinstance(plan, StepPlan) or thought.by_grammar:
         return ()
     pairs = tuple((each.asked, each.answer) for each in request.exchanges)
     order = request.order if pairs else request.text

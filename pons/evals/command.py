@@ -47,6 +47,8 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
         parser.error("give a SUITE, --quick or --journal")
     try:
         suites = load(said.suite, said.data, said.site)
+        if said.guard:
+            return _guard(suites)
         brain, scored = asyncio.run(_score_suites(settings, suites, said.model, yes=said.yes))
     except (MissingSuite, BadMatcher, SiteError) as wrong:
         print(f"pons eval: {wrong}", file=sys.stderr)
@@ -82,6 +84,11 @@ def _parser() -> argparse.ArgumentParser:
         metavar="NAME@URL",
         help="ask a model: the owner's, or NAME, URL or NAME@URL; else the offline brain",
     )
+    parser.add_argument(
+        "--guard",
+        action="store_true",
+        help="measure the guard against motion nobody asked for on the suite: no brain is scored",
+    )
     parser.add_argument("--yes", action="store_true", help="a model elsewhere may be asked")
     parser.add_argument("--most", type=int, default=50, metavar="N", help="the newest sentences")
     parser.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
@@ -104,6 +111,15 @@ def _journal(settings: LaunchSettings, said: argparse.Namespace) -> int:
     options = command.JournalOptions(max(0, said.most), max(0, said.drives), said.json, said.yes)
     word = said.model or ""
     return command.run(settings, [said.journal], word, options, "pons eval --journal")
+
+
+def _guard(suites: tuple[Suite, ...]) -> int:
+    """Measure the guard: 0 nothing unasked is walked and little is asked in vain, 1 otherwise."""
+    from pons.evals.guard_score import score_guard, show
+
+    scores = [asyncio.run(score_guard(suite)) for suite in suites]
+    print("\n".join(map(show, scores)))
+    return REACHED if all(score.has_passed for score in scores) else MISSED
 
 
 async def _score_suites(

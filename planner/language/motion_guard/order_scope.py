@@ -22,7 +22,7 @@ _SPEAK = (
     r"\b(?:say|saying|tell|announce|inform|shout|whisper|repeat|remind|ask|greet|read|answer|reply"
     r"|know)\b"
 )
-_THEN = r"(?=[.;!?]|,? (?:and )?(?:then|come|go|return|drive|after)\b|$)"
+_THEN = r"(?=[.;!?]|,? (?:and )?then\b|(?:,| and) (?:come|go|return|drive|after)\b|$)"
 _SPEECH = re.compile(
     rf"{_SPEAK}[^.;!?\"“”「」『』]{{0,60}}?(?:[\"“「『][^\"”」』]*[\"”」』]?"
     rf"|(?:\bthat\b|\bwhether\b|\bif\b|: *[^ ]+).*?{_THEN}"
@@ -32,6 +32,9 @@ _SPEECH = re.compile(
     r"|(?<![听据])说(?!一声|一下|明|的).*?(?=[,，。；;!！]|然后|再|$)"
     r"|(?:告诉|转告|通知|提醒)(?![我我们]).*?(?=[,，。；;!！]|然后|再|$)"
 )
+
+_QUOTED = re.compile(r"[“\"「『][^”\"」』]*[”\"」』]?")
+_SPEAKS = re.compile(rf"{_SPEAK}|[说喊问念叫]|告诉|转告|通知|提醒|回答")
 
 _NO_DENIAL_ZH = re.compile(
     r"特别|别墅|分别|级别|性别|识别|类别|差别|不错|差不多|不锈钢|不好意思|对不起|了不起|不客气"
@@ -128,10 +131,17 @@ def read_scope(text: str) -> OrderScope:
     said = plain(text)[:MAX_READ]
     if any(_BARE_DENIAL.fullmatch(clause) for clause in _CLAUSE.split(said)[1:]):
         return OrderScope("", "", "", said)  # "the kitchen? Don't go there": nothing is to be done
-    speechless = _NO_ORDER.sub(_GAP, _SPEECH.sub(_GAP, said))
+    speechless = _NO_ORDER.sub(_GAP, _SPEECH.sub(_GAP, _unquote(said)))
     upon, excluded = _cut_denials(speechless)
     things, _ = _cut_denials(said)
     return OrderScope(_cut_conditions(upon), upon, things, excluded)
+
+
+def _unquote(said: str) -> str:
+    """Cut what is quoted after a word of speech, whatever stands in it."""
+    return _QUOTED.sub(
+        lambda found: _GAP if _SPEAKS.search(said, 0, found.start()) else found[0], said
+    )
 
 
 def _cut_denials(said: str) -> tuple[str, str]:

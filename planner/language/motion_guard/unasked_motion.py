@@ -86,6 +86,10 @@ _SEES = re.compile(
     r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe|around|show)\b"
     r"|[看瞧查找吗呢]|什么|谁|有没有|哪"
 )
+_SEES_ROUND = re.compile(
+    r"\b(?:look\w*|see|seen|watch|check\w*|inspect\w*|around|there|describe)\b|\bany(?:one|body)\b"
+    r"|[看瞧]|环顾|周围|四周|附近|有没有|有什么|有谁"
+)
 _NEARS = re.compile(
     r"\b(?:go|goes|approach|up to|walk|drive|come|near|next to|closer|meet|greet|tell|ask|say|bring"
     r"|guide|lead|take|deliver|move|head|to|follow|join|visit|reach|welcome|introduce)\b"
@@ -218,7 +222,8 @@ class _Judge:
 
     def _why_kind(self, step: Step, said: str) -> str:
         if isinstance(step, Look):
-            return "" if _SEES.search(said) else "no word of looking"
+            looks = _SEES if step.place is not None else _SEES_ROUND
+            return "" if looks.search(said) else "no word of looking"
         label = getattr(step, "object", None)
         if label is None:
             return unnamed_part(step, said)
