@@ -7,6 +7,7 @@ from planner.language.utterance import parse
 from planner.mission.activity import Thinking
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
+from planner.mission.follow_up import meaning_of
 from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
@@ -79,10 +80,12 @@ def submit(turn: Transaction, event: Submitted) -> None:
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
     turn.set(order=order)
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
+    meant = "" if event.local else meaning_of(turn.book, event.text, now_unix_s)
     mission = Mission(
         id=event.id,
         order=order,
         text=event.text,
+        meant=meant if meant != event.text else "",
         language=event.language,
         state=FIRST,
         confirm=event.confirm,
@@ -126,7 +129,7 @@ def _think(turn: Transaction, mission: Mission) -> None:
     room = spot_at(turn.book.facts, pose).room
     said = exchanges_of(mission)
     turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
-                       order=mission.text, exchanges=said))  # fmt: skip
+                       order=mission.order_text, exchanges=said))  # fmt: skip
 
 
 def take_plan(turn: Transaction, event: Planned) -> None:

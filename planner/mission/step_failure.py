@@ -153,7 +153,7 @@ def think(turn: Transaction, mission: Mission) -> None:
             room,
             list_observations(facts, mission),
             mission.replans,
-            order=mission.text,
+            order=mission.order_text,
             exchanges=exchanges_of(mission),
         )
     )

@@ -4,12 +4,15 @@ Pure, both languages, whole sentences only. The one door of this package.
 """
 
 from planner.language.commands.command import (
+    Again,
+    Also,
     CancelCommand,
     Doing,
     Faster,
     Forget,
     HereCommand,
     Intent,
+    OtherOne,
     PauseCommand,
     Remember,
     Replace,
@@ -20,12 +23,15 @@ from planner.language.commands.command import (
 from planner.language.commands.parser import intent_of
 
 __all__ = [
+    "Again",
+    "Also",
     "CancelCommand",
     "Doing",
     "Faster",
     "Forget",
     "HereCommand",
     "Intent",
+    "OtherOne",
     "PauseCommand",
     "Remember",
     "Replace",

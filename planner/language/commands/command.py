@@ -49,6 +49,26 @@ class Replace:
     now: bool
     """The person took the current goal back ("forget that, …"): it ends before anything is thought
     about. Otherwise ("… instead") it ends once the rest is understood."""
+    corrects: bool = False
+    """It is one ("no, the study") only where the rest is a place or an order, which the missions
+    know: "no, the dinner is ready" takes nothing back."""
+
+
+@dataclass(frozen=True, slots=True)
+class Also:
+    """Do the rest of the sentence right after the current goal."""
+
+    rest: str
+
+
+@dataclass(frozen=True, slots=True)
+class Again:
+    """Do the last goal once more."""
+
+
+@dataclass(frozen=True, slots=True)
+class OtherOne:
+    """Do the last goal with the other of two places that were spoken of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +99,9 @@ Intent = (
     | ResumeCommand
     | CancelCommand
     | Replace
+    | Also
+    | Again
+    | OtherOne
     | WhereCommand
     | Doing
     | Slower

@@ -6,6 +6,7 @@ It shares no code with any brain, so that a brain's misreading can't hide in the
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from functools import lru_cache
 
 from planner.language.folding import CHINESE, fold_words
@@ -80,6 +81,40 @@ def places_named(text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the ids of the places that a text names, in its order, with repetitions."""
     finder, owner = _finder(vocabulary)
     return tuple(owner[_tight(found[0])] for found in finder.finditer(plain(text)))
+
+
+@dataclass(frozen=True, slots=True)
+class NamedPlace:
+    """Hold where a text names a place: by its id, from ``start`` to ``end`` of the plain text."""
+
+    id: str
+    start: int
+    end: int
+
+
+def find_places(text: str, vocabulary: Vocabulary) -> tuple[NamedPlace, ...]:
+    """Return where a text, in plain writing, names places, in its order."""
+    finder, owner = _finder(vocabulary)
+    return tuple(
+        NamedPlace(owner[_tight(found[0])], found.start(), found.end())
+        for found in finder.finditer(plain(text))
+    )
+
+
+_AROUND = re.compile(
+    r"^(?:(?:to|in|into|at|the|my|our|your|在|那个|那)(?![a-z]) ?)+"
+    r"|(?:吧|呀|啊|哦|那边|那儿|那里|里| please| room)+$"
+)
+
+
+def place_alone(text: str, vocabulary: Vocabulary) -> str | None:
+    """Return the place whose name is all that a text says."""
+    said = plain(text).strip(" .,!。，！")
+    for tried in (said, _AROUND.sub("", said).strip()):
+        found = find_places(tried, vocabulary)
+        if len(found) == 1 and (found[0].start, found[0].end) == (0, len(tried)):
+            return found[0].id
+    return None
 
 
 def label_named(label: str, text: str) -> bool:
