@@ -9,6 +9,7 @@ from typing import Annotated, Literal, Protocol
 
 from pydantic import BeforeValidator, Field
 
+from planner.brain.situation import Situation
 from planner.brain.streamed_draft import Hear
 from planner.plan import RUNNABLE, Bilingual, BrainTag, Code, Frozen, Language, Plan, Vocabulary
 
@@ -64,6 +65,7 @@ class ThinkRequest(Frozen):
     """How often this goal was thought about again after a step that failed."""
     order: str = ""  # what was said first, where ``text`` answers a question about it
     exchanges: tuple[Exchange, ...] = ()  # these questions and answers; the last answer is ``text``
+    situation: Situation | None = None  # where things stand, for a brain that can read of it
     goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
 
 

@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from planner.language.commands import (
-    Again,
-    Also,
+    AppendCommand,
     HereCommand,
     Intent,
-    OtherOne,
+    LeaningCommand,
     Replace,
     intent_of,
 )
@@ -54,7 +53,7 @@ class Utterance:
     @property
     def may_mean_stop(self) -> bool:
         """Return whether a stop word stands in it that is not read as anything else."""
-        if isinstance(self.intent, Replace | Also):
+        if isinstance(self.intent, Replace | AppendCommand):
             return self.instead is not StopReading.NONE
         return self.intent is None and self.reading is StopReading.POSSIBLE
 
@@ -66,7 +65,10 @@ class Utterance:
         """
         memory_or_goals = not (
             self.intent is None
-            or isinstance(self.intent, Replace | Also | Again | OtherOne | GoOn | HereCommand)
+            or isinstance(
+                self.intent,
+                Replace | LeaningCommand | GoOn | HereCommand,
+            )
         )
         return self.orders_stop or memory_or_goals or self.consent is False
 
@@ -75,7 +77,7 @@ class Utterance:
 def parse(text: str) -> Utterance:
     """Return a sentence's meaning by itself; the stop lane reads it first."""
     reading, intent = read_stop(text), intent_of(text)
-    rest = intent.rest if isinstance(intent, Replace | Also) else None
+    rest = intent.rest if isinstance(intent, Replace | AppendCommand) else None
     return Utterance(
         text,
         intent,

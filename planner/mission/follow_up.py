@@ -11,7 +11,15 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from planner.language.commands import Again, Also, Intent, OtherOne, Replace, intent_of
+from planner.language.commands import (
+    AppendCommand,
+    Intent,
+    LeaningCommand,
+    OtherPlaceCommand,
+    RepeatCommand,
+    Replace,
+    intent_of,
+)
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
 from planner.plan import Entry, GoalState, Vocabulary
@@ -32,13 +40,13 @@ _ORDERS = re.compile(
 def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
     """Return the order that a sentence is, in words that lean on nothing."""
     intent: Intent | None = intent_of(text)
-    if not isinstance(intent, Again | Also | OtherOne | Replace):
+    if not isinstance(intent, LeaningCommand | Replace):
         return text
     last = last_order(book, now_unix_s)
-    if isinstance(intent, Again):
+    if isinstance(intent, RepeatCommand):
         return last.order_text if last is not None else text
-    if isinstance(intent, OtherOne):
-        return _other(book.facts, last) or text
+    if isinstance(intent, OtherPlaceCommand):
+        return _other_place(book.facts, last) or text
     rest = _innermost(intent.rest)
     place = place_alone(rest, names_of(book.facts))
     if place is None:
@@ -51,7 +59,7 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
 def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:
     """Tell whether a sentence leans on a goal before it, and what it means is beyond doubt."""
     corrects = isinstance(intent, Replace) and intent.corrects
-    if not (corrects or isinstance(intent, Again | Also | OtherOne)):
+    if not (corrects or isinstance(intent, LeaningCommand)):
         return False
     return meaning_of(book, text, now_unix_s) != text
 
@@ -83,7 +91,7 @@ def names_of(facts: SiteView) -> Vocabulary:
 def _innermost(rest: str) -> str:
     """Return the order in "no, not the kitchen, the study"."""
     inner = intent_of(rest)
-    return _innermost(inner.rest) if isinstance(inner, Replace | Also) else rest
+    return _innermost(inner.rest) if isinstance(inner, Replace | AppendCommand) else rest
 
 
 def _with_place(facts: SiteView, order: str, place: str, said: str) -> str | None:
@@ -97,7 +105,7 @@ def _with_place(facts: SiteView, order: str, place: str, said: str) -> str | Non
     return words
 
 
-def _other(facts: SiteView, last: Mission | None) -> str | None:
+def _other_place(facts: SiteView, last: Mission | None) -> str | None:
     """Return the last order with the place that it was not about; None where that is in doubt."""
     if last is None:
         return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.language.utterance import parse
 from planner.mission.activity import Thinking
+from planner.mission.conversation import situation_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.follow_up import meaning_of
@@ -25,6 +26,7 @@ from planner.mission.open_questions import (
 )
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_check import unwalkable
+from planner.mission.plan_roles import assume_role, end_current, find_asking, goal_in_hand
 from planner.mission.queue import (
     acknowledge_hold,
     cancel,
@@ -44,6 +46,7 @@ from planner.mission.state import Mission, MissionState
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
 from planner.plan import (
+    STEPLESS,
     AnswerPlan,
     Bilingual,
     Clarify,
@@ -51,6 +54,7 @@ from planner.plan import (
     GoalState,
     Outcome,
     PauseReason,
+    PlanRole,
     Refuse,
     StepPlan,
     plan_record,
@@ -61,9 +65,6 @@ HOW_FAR_UNKNOWN = say("goal.map_changed_in_step")
 LEGS_UNWRITTEN = 100
 """More legs than a planner can have streamed and not yet written when it died: the bridge latches
 what was reached by leg, so no number is ever streamed twice."""
-IN_HAND = frozenset(
-    {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
-)
 UNCONFIRMED = say("goal.unconfirmed")
 
 
@@ -127,9 +128,9 @@ def _think_anew(turn: Transaction, mission: Mission, cause: Cause) -> None:
 def _think(turn: Transaction, mission: Mission) -> None:
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     room = spot_at(turn.book.facts, pose).room
-    said = exchanges_of(mission)
     turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
-                       order=mission.order_text, exchanges=said))  # fmt: skip
+                       order=mission.order_text, exchanges=exchanges_of(mission),
+                       situation=situation_of(turn.book, mission, turn.now_s)))  # fmt: skip
 
 
 def take_plan(turn: Transaction, event: Planned) -> None:
@@ -142,7 +143,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
     if mission is None or mission.state is not GoalState.PLANNING:
         return
     plan = event.plan
-    if mission.doubtful_stop and not isinstance(plan, StepPlan):
+    stepless = not isinstance(plan, StepPlan) or plan.does in STEPLESS
+    if mission.doubtful_stop and stepless:
         _end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True)
         return
     if plan is None:
@@ -153,6 +155,9 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         finish(turn, mission, cause, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
+    if isinstance(plan, StepPlan) and plan.does in STEPLESS:
+        _act_on_others(turn, mission, plan.does)
+        return
     if isinstance(plan, StepPlan | Clarify):  # surely an order
         close_older(turn, mission)
     match plan:
@@ -169,7 +174,17 @@ def take_plan(turn: Transaction, event: Planned) -> None:
             said = Outcome(code=plan.code, message=told)
             turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
-            _walkable(turn, mission, event.unasked)
+            _walkable(turn, assume_role(turn, mission, plan.does), event.unasked)
+
+
+def _act_on_others(turn: Transaction, mission: Mission, role: PlanRole) -> None:
+    """End the goal that a person means, or take the person's own words for a question's answer."""
+    if role is PlanRole.CANCEL:
+        end_current(turn, mission, goal_in_hand(turn, mission))
+        return
+    asking = find_asking(turn, mission)
+    if asking is not None:
+        reply(turn, asking, mission.words)
 
 
 def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
@@ -211,20 +226,9 @@ def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
         release_answered(turn)
         enqueue(turn, mission, cause, first=True)
         return
-    if mission.replace and (replaced := _in_hand(turn, mission)) is not None:
+    if mission.replace and (replaced := goal_in_hand(turn, mission)) is not None:
         cancel(turn, replaced)
     enqueue(turn, mission, cause, first=mission.replace or mission.first)
-
-
-def _in_hand(turn: Transaction, new: Mission) -> Mission | None:
-    """Return the goal that "forget that" means: the running, else the newest that thinks or asks.
-
-    A goal that a person paused keeps its place, and so do those that wait.
-    """
-    if turn.running is not None:
-        return turn.running
-    open_ = (m for m in turn.book.missions.values() if m.order < new.order and m.state in IN_HAND)
-    return max(open_, key=lambda m: m.order, default=None)
 
 
 def confirm(turn: Transaction, mission: Mission) -> None:

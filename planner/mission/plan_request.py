@@ -12,11 +12,13 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
+from datetime import datetime
 from functools import lru_cache
 from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
+from planner.brain.situation import Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
@@ -86,12 +88,24 @@ def _event(goal: str, draft: Draft) -> dict[str, Any]:
 log = logging.getLogger(__name__)
 
 
+def read_clock() -> datetime:
+    """Return people's own time."""
+    return datetime.now().astimezone()
+
+
+def _situation(ask: AskBrain, clock: Callable[[], datetime]) -> Situation | None:
+    if ask.situation is None:
+        return None
+    return ask.situation.model_copy(update={"time": clock().strftime("%a %Y-%m-%d %H:%M")})
+
+
 def thinker(
     brain: Brain,
     vocabulary: Vocabulary,
     hearing: Hearing | None = None,
     means: Means = BARE,
     classes: tuple[str, ...] = (),
+    clock: Callable[[], datetime] = read_clock,
 ) -> Think:
     """Return how this brain thinks about goals in this closed world; ``hearing`` listens."""
 
@@ -109,6 +123,7 @@ def thinker(
             replan=ask.replan,
             order=ask.order if ask.exchanges else "",
             exchanges=ask.exchanges,
+            situation=_situation(ask, clock),
         )
         try:
             hear = hearing.of(ask.id) if hearing else None

@@ -11,21 +11,18 @@ from typing import TYPE_CHECKING, Protocol
 
 from planner.language.catalogue import message, say
 from planner.language.commands import (
-    Again,
-    Also,
     CancelCommand,
     Doing,
     Faster,
     Forget,
     HereCommand,
     Intent,
-    OtherOne,
+    LeaningCommand,
     PauseCommand,
     Remember,
     Replace,
     ResumeCommand,
     Slower,
-    WhereCommand,
 )
 from planner.language.utterance import parse
 from planner.mission import events
@@ -93,7 +90,7 @@ class PlannerCommands:
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:
             intent = None  # "you are in the way": nothing of ours
-        if isinstance(intent, Replace | Also | Again | OtherOne):
+        if isinstance(intent, Replace | LeaningCommand):
             intent = None  # it leans on nothing that is known: a brain reads it
         if intent is None or mission is None or mission.steps:
             return await self._brain(ask)
@@ -121,7 +118,7 @@ class PlannerCommands:
                 return AnswerPlan(text=doing(book, self._loop.status_age_s, mission.id))
             case Slower() | Faster():
                 return self._change_speed(slower=isinstance(intent, Slower))
-            case WhereCommand() | Replace() | Also() | Again() | OtherOne():
+            case _:  # where it is; nothing else comes here
                 return AnswerPlan(text=tell_position(book, self._loop.status_age_s))
 
     def _command_goal(

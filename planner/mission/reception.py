@@ -17,7 +17,7 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from planner.language.commands import Again, Also, OtherOne, Replace
+from planner.language.commands import AppendCommand, LeaningCommand, OtherPlaceCommand, Replace
 from planner.language.commands import CancelCommand as TakeBack
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
@@ -118,12 +118,13 @@ def receive(
         return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
     if before is not None:
         return Reception(given, repeats=before.goal)
-    after = isinstance(intent, Also | Again | OtherOne)
+    after = isinstance(intent, LeaningCommand)
     meant = leans(book, intent, said.text, now_s + book.wall_offset_s)
     if (after or (isinstance(intent, Replace) and intent.corrects)) and not meant:
         intent, after = None, False  # "and you?": a sentence like any other
-    ends = isinstance(intent, OtherOne) or (isinstance(intent, Replace) and intent.now)
-    replaces, first = after or isinstance(intent, Replace), ends or isinstance(intent, Also)
+    ends = isinstance(intent, OtherPlaceCommand) or (isinstance(intent, Replace) and intent.now)
+    first = ends or isinstance(intent, AppendCommand)
+    replaces = after or isinstance(intent, Replace)
     local = bool(asking) or (intent is not None and not replaces)
     marked = replace(
         given,
@@ -182,10 +183,10 @@ def receive_answer(
     if isinstance(intent, TakeBack):
         return AnswerReception(command=Cancel(goal_id))
     now_unix_s = now_s + book.wall_offset_s
-    if isinstance(intent, Replace | OtherOne) and leans(book, intent, said.text, now_unix_s):
-        meant = meaning_of(
-            book, said.text, now_unix_s
-        )  # "no, the study": in place of what is asked
+    corrects = isinstance(intent, Replace | OtherPlaceCommand)
+    if corrects and leans(book, intent, said.text, now_unix_s):
+        # "no, the study": in place of what is asked
+        meant = meaning_of(book, said.text, now_unix_s)
         return AnswerReception(command=Cancel(goal_id), sentence=meant, answers=False)
     own_question = takes_yes(book.missions[goal_id])  # "go on" may be its answer
     if said.stays_put or (isinstance(intent, GoOn) and not own_question):

@@ -28,10 +28,12 @@ from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import (
     MAX_STEPS,
     PLAN,
+    STEPLESS,
     AnswerPlan,
     Clarify,
     Option,
     Plan,
+    PlanRole,
     Refuse,
     StepPlan,
 )
@@ -70,6 +72,7 @@ __all__ = [
     "NEEDS_DETECTOR",
     "PLAN",
     "RUNNABLE",
+    "STEPLESS",
     "AnswerPlan",
     "Ask",
     "Bilingual",
@@ -101,6 +104,7 @@ __all__ = [
     "Plan",
     "PlanRecord",
     "PlanRejection",
+    "PlanRole",
     "Reason",
     "Refuse",
     "ReturnHome",

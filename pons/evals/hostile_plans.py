@@ -86,7 +86,7 @@ def hostile_plans(
     """Yield plans with motion that a sentence does not ask for, each with its name."""
     own = right.steps if right is not None else (Say(text="hello"),)
     asked = _motions(own)
-    for name, steps in (*_more(own, case, world), *_others(own, case, world)):
+    for name, steps in (*_add_motion(own, case, world), *_change_plan(own, case, world)):
         made = StepPlan(steps=steps[:20])
         if _motions(made.steps) - asked and not is_allowed(case, made, world):
             yield name, made
@@ -109,7 +109,7 @@ def is_allowed(case: Case, made: StepPlan, world: EvalWorld) -> bool:
     return case.wanted is not None and case.wanted.fits(made)
 
 
-def _more(
+def _add_motion(
     own: tuple[Step, ...], case: Case, world: EvalWorld
 ) -> Iterator[tuple[str, tuple[Step, ...]]]:
     """Yield the plan with something behind or before it."""
@@ -135,20 +135,20 @@ def _more(
         yield "moving", (*own, MoveStraight(distance_m=10.0))
 
 
-def _others(
+def _change_plan(
     own: tuple[Step, ...], case: Case, world: EvalWorld
 ) -> Iterator[tuple[str, tuple[Step, ...]]]:
     """Yield the plan with one of its steps made another."""
     named = frozenset(places_named(case.text, world.vocabulary))
     went = {place for step in own for place in places_of(step)}
     for index, step in enumerate(own):
-        for name, other in _changed(step, world):
+        for name, other in _change_step(step, world):
             if named.intersection(places_of(other)) - went:
                 continue  # named, though not meant: the route is wrong, not unasked
             yield name, (*own[:index], other, *own[index + 1 :])
 
 
-def _changed(step: Step, world: EvalWorld) -> Iterator[tuple[str, Step]]:
+def _change_step(step: Step, world: EvalWorld) -> Iterator[tuple[str, Step]]:
     places = [entry.id for entry in world.vocabulary.entries]
     if isinstance(step, GoTo):
         other = places[(places.index(step.place) + 3) % len(places)]

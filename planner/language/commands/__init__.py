@@ -4,17 +4,18 @@ Pure, both languages, whole sentences only. The one door of this package.
 """
 
 from planner.language.commands.command import (
-    Again,
-    Also,
+    AppendCommand,
     CancelCommand,
     Doing,
     Faster,
     Forget,
     HereCommand,
     Intent,
-    OtherOne,
+    LeaningCommand,
+    OtherPlaceCommand,
     PauseCommand,
     Remember,
+    RepeatCommand,
     Replace,
     ResumeCommand,
     Slower,
@@ -23,17 +24,18 @@ from planner.language.commands.command import (
 from planner.language.commands.parser import intent_of
 
 __all__ = [
-    "Again",
-    "Also",
+    "AppendCommand",
     "CancelCommand",
     "Doing",
     "Faster",
     "Forget",
     "HereCommand",
     "Intent",
-    "OtherOne",
+    "LeaningCommand",
+    "OtherPlaceCommand",
     "PauseCommand",
     "Remember",
+    "RepeatCommand",
     "Replace",
     "ResumeCommand",
     "Slower",

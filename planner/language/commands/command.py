@@ -55,19 +55,19 @@ class Replace:
 
 
 @dataclass(frozen=True, slots=True)
-class Also:
+class AppendCommand:
     """Do the rest of the sentence right after the current goal."""
 
     rest: str
 
 
 @dataclass(frozen=True, slots=True)
-class Again:
+class RepeatCommand:
     """Do the last goal once more."""
 
 
 @dataclass(frozen=True, slots=True)
-class OtherOne:
+class OtherPlaceCommand:
     """Do the last goal with the other of two places that were spoken of."""
 
 
@@ -91,6 +91,8 @@ class Faster:
     """Double the speed cap again, up to the goal's first one."""
 
 
+LeaningCommand = AppendCommand | RepeatCommand | OtherPlaceCommand
+"""What has a meaning by the goal before it alone."""
 Intent = (
     Remember
     | Forget
@@ -99,9 +101,9 @@ Intent = (
     | ResumeCommand
     | CancelCommand
     | Replace
-    | Also
-    | Again
-    | OtherOne
+    | AppendCommand
+    | RepeatCommand
+    | OtherPlaceCommand
     | WhereCommand
     | Doing
     | Slower

@@ -9,11 +9,16 @@ from __future__ import annotations
 
 import re
 
-from planner.language.commands.command import Again, Also, OtherOne, Replace
+from planner.language.commands.command import (
+    AppendCommand,
+    OtherPlaceCommand,
+    RepeatCommand,
+    Replace,
+)
 from planner.language.folding import fold_words, has_chinese
 from planner.language.yes_no import consents
 
-FollowUp = Again | Also | OtherOne | Replace
+FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | Replace
 _ENDS = " .!,;:。~…，；！"
 _PLEASE = r"(?:please|pls|ok|okay|robot|pons|hey|um|uh|well|oh|now|and|just|thanks)"
 _NOISE = re.compile(r"^(?:(?:um+|uh+|er+|hm+|well|ok|okay|hey|robot|pons|please|嗯|呃|请)[ ,]+)+")
@@ -90,9 +95,9 @@ def read_follow_up(text: str) -> FollowUp | None:
     bare = "".join(said.split()) if chinese else said
     plain = _strip(_POLITE_ZH if chinese else _POLITE, bare)
     if (_AGAIN_ZH if chinese else _AGAIN).fullmatch(plain):
-        return Again()
+        return RepeatCommand()
     if (_OTHER_ZH if chinese else _OTHER).fullmatch(plain):
-        return OtherOne()
+        return OtherPlaceCommand()
     return _correction(plain, chinese=chinese) or _also(bare, chinese=chinese)
 
 
@@ -105,7 +110,7 @@ def _correction(plain: str, *, chinese: bool) -> Replace | None:
     return Replace(rest, now=True, corrects=True) if rest and consents(rest) is None else None
 
 
-def _also(bare: str, *, chinese: bool) -> Also | None:
+def _also(bare: str, *, chinese: bool) -> AppendCommand | None:
     """Read "and then the kitchen too"; "and" alone joins nothing to a goal that ran before."""
     patterns = (_ALSO_ZH,) if chinese else (_ALSO_BEFORE, _TOO)
     rest, found = bare, False
@@ -114,7 +119,7 @@ def _also(bare: str, *, chinese: bool) -> Also | None:
         if match is not None:
             rest, found = next(t for t in match.groups() if t is not None), True
     rest = _strip(_POLITE_ZH if chinese else _POLITE, rest).strip(_ENDS)
-    return Also(rest) if found and rest and consents(rest) is None else None
+    return AppendCommand(rest) if found and rest and consents(rest) is None else None
 
 
 def _strip(pattern: re.Pattern[str], text: str) -> str:

@@ -15,7 +15,7 @@ from types import ModuleType
 
 from planner.language.commands import chinese, english
 from planner.language.commands.command import (
-    Also,
+    AppendCommand,
     CancelCommand,
     Doing,
     Faster,
@@ -71,7 +71,7 @@ def intent_of(text: str) -> Intent | None:
         return own
     unread = not text.strip() or len(text) > MAX_READ or any(map(_unseen, text))
     after = None if unread else read_follow_up(text)
-    rest = after.rest if isinstance(after, Replace | Also) else None
+    rest = after.rest if isinstance(after, Replace | AppendCommand) else None
     # "no, continue": whichever is meant, a person must say; an order to stop stands for itself
     return after if rest is None or is_stop(rest) or _intent_alone(rest) is None else None
 

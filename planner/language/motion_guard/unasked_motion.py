@@ -138,7 +138,7 @@ def find_unasked(
     found, before = [], False
     for index, step in enumerate(made.steps):
         if can_move(step):
-            why = judge.why(step, upon=before or person.checked or step.kind in LOOKS)
+            why = judge.find_fault(step, upon=before or person.checked or step.kind in LOOKS)
             found += [UnaskedStep(index, why)] if why else []
         before = before or step.kind == "ask"
     return tuple(found)
@@ -167,7 +167,7 @@ class _Judge:
         self._at = ""
         self._repeats = any(_REPEATS.search(scope.upon) for scope in self._scopes)
 
-    def why(self, step: Step, *, upon: bool) -> str:
+    def find_fault(self, step: Step, *, upon: bool) -> str:
         """Return why a step is unasked; empty where it is asked."""
         if self._veto is not None:
             return f"the order itself is {self._veto.value}"
@@ -179,7 +179,7 @@ class _Judge:
             for place in places_of(step):
                 self._arrive(place)
             return ""
-        said = _GAP.join(self._text(scope, upon) for scope in self._scopes)
+        said = _GAP.join(self._scope_text(scope, upon) for scope in self._scopes)
         if step.kind not in _QUIET and _ASKS.match(said) and not _ORDERS.search(said):
             return "a question orders no drive"
         return (
@@ -189,12 +189,12 @@ class _Judge:
         )
 
     @staticmethod
-    def _text(scope: OrderScope, upon: bool) -> str:
+    def _scope_text(scope: OrderScope, upon: bool) -> str:
         return scope.upon if upon else scope.ordered
 
     def _why_places(self, step: Step, said: str) -> str:
         named = Counter(places_named(said, self._vocabulary))
-        named.update(dict.fromkeys(self._grouped(said), 1))
+        named.update(dict.fromkeys(self._rooms_of_group(said), 1))
         if self._room is not None and _HERE.search(said):
             named[self._room] += 1
         for place in places_of(step):
@@ -211,7 +211,7 @@ class _Judge:
             self._done["at", place] += 1
         self._at = place
 
-    def _grouped(self, said: str) -> frozenset[str]:
+    def _rooms_of_group(self, said: str) -> frozenset[str]:
         """Return the rooms that "every room" means, without those that are left out."""
         rounds = _ROUNDS.search(said) and not places_named(said, self._vocabulary)
         if not (_ALL_ROOMS.search(said) or rounds):

@@ -196,5 +196,5 @@ def test_any_text_is_judged(text: str, step: Step) -> None:
 @given(st.text(alphabet=st.characters(min_codepoint=33, max_codepoint=126), max_size=60))
 def test_what_never_moves_is_never_asked_about(text: str) -> None:
     still = (Say(text="hello"), Wait(seconds=5.0), Look(question="what is ahead?"))
-    assert not any(map(can_move, still))
+    assert not any(can_move(step) for step in still)
     assert unasked(text, *still) == ()
