@@ -22,7 +22,8 @@ FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | Replace
 _ENDS = " .!,;:。~…，；！"
 _PLEASE = r"(?:please|pls|ok|okay|robot|pons|hey|um|uh|well|oh|now|and|just|thanks)"
 _NOISE = re.compile(r"^(?:(?:um+|uh+|er+|hm+|well|ok|okay|hey|robot|pons|please|嗯|呃|请)[ ,]+)+")
-_POLITE = re.compile(rf"(?:{_PLEASE}[ ,]+)+|(?:[ ,]+{_PLEASE})+$")
+_POLITE = re.compile(rf"(?:(?:{_PLEASE}|(?:can|could|would|will) you)[ ,]+)+|(?:[ ,]+{_PLEASE})+$")
+_POLITE_END = re.compile(rf"(?:(?<! as)[ ,]+{_PLEASE})+$")
 _POLITE_ZH = re.compile(r"^(?:请|麻烦你?|那个?|嗯|呃|好|机器人|,)+|(?:吧|呀|啊|哦|谢谢|,)+$")
 _OPEN_END = re.compile(
     r"\b(?:if|unless|when|whenever|until|otherwise|or|because|whether)\b|\?|[;:]"
@@ -55,7 +56,7 @@ _ALSO_BEFORE = re.compile(
 )
 _TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
 _ALSO_ZH = re.compile(
-    r"(?:然后|接着|之后|完了|还有|另外)[,]?(?:也|还|再)?(?P<rest>.+?)(?:也(?:去一下|去|要))?"
+    r"(?:然后|接着|之后|完了(?:以后|之后)?|还有|另外)[,]?(?:也|还|再)?(?P<rest>.+?)(?:也(?:去一下|去|要))?"
     r"|(?P<rest2>.{1,12}?)也(?:要)?(?:去一下|去一趟|去|看看|看一下|要)"
 )
 
@@ -98,7 +99,8 @@ def read_follow_up(text: str) -> FollowUp | None:
         return RepeatCommand()
     if (_OTHER_ZH if chinese else _OTHER).fullmatch(plain):
         return OtherPlaceCommand()
-    return _correction(plain, chinese=chinese) or _also(bare, chinese=chinese)
+    ends = _POLITE_ZH if chinese else _POLITE_END
+    return _correction(plain, chinese=chinese) or _also(_strip(ends, bare), chinese=chinese)
 
 
 def _correction(plain: str, *, chinese: bool) -> Replace | None:
