@@ -254,8 +254,8 @@ _STATES = re.compile(
     r"(?:some(?:body|one)|there|it|i|we|my|our|he|she|they|the)\b|好像|有人|我|听|刚才|他|她"
 )
 _ASKS = re.compile(
-    r"\s*(?:how|what|which|who|whose|why|when (?:is|are|do|does|did|will)|is|are|was|were|does|do (?:you|i|we)|has|have"
-    r"|did)\b|.*\?\s*$"
+    r"\s*(?:how|what|which|who|whose|why|when (?:is|are|do|does|did|will)|is|are|was|were|does"
+    r"|do (?:you|i|we)|has|have|did)\b|.*\?\s*$"
     r"|.*(?:多远|多大|多少|几个|哪个|什么|为什么|怎么|吗|呢|没有$)"
 )
 _QUIET = frozenset({"look", "find", "count", "go_to_object"})

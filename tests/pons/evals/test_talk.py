@@ -57,7 +57,7 @@ def test_what_a_person_would_be_asked_about_first_is_not_right(site: Site) -> No
 
 
 @pytest.mark.parametrize(
-    "line", ["tuned\tx\t\tyes\tbeside: go study", "tuned\tx\tgo =>  \ta\tkeeps"]
+    "line", ["tuned\tx\t\tyes\tbeside: go study", "tuned\tx\tgo => fly x\ta\tkeeps"]
 )
 def test_a_line_that_cannot_be_read_is_named(line: str) -> None:
     with pytest.raises(BadMatcher):
