@@ -9,6 +9,7 @@ from typing import Annotated, Literal, Protocol
 
 from pydantic import BeforeValidator, Field
 
+from planner.brain.situation import Situation
 from planner.brain.streamed_draft import Hear
 from planner.plan import RUNNABLE, Bilingual, BrainTag, Code, Frozen, Language, Plan, Vocabulary
 
@@ -64,6 +65,7 @@ class ThinkRequest(Frozen):
     """How often this goal was thought about again after a step that failed."""
     order: str = ""  # what was said first, where ``text`` answers a question about it
     exchanges: tuple[Exchange, ...] = ()  # these questions and answers; the last answer is ``text``
+    situation: Situation | None = None  # where things stand, for a brain that can read of it
     goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
 
 
@@ -76,6 +78,9 @@ class ThinkResult(Frozen):
     tokens: int = Field(default=0, ge=0)  # all that was billed
     prompt_tokens: int = Field(default=0, ge=0)  # of these, what was sent
     reply_tokens: int = Field(default=0, ge=0)  # and what was written
+    by_grammar: bool = False
+    """A program of ours read it in the person's words, or wrote it; no model had a hand in it. All
+    other plans are held to these words before they move anything."""
 
 
 class Brain(Protocol):

@@ -41,7 +41,8 @@ class OfflineBrain:
             things=request.things,
         )
         made = plan(request.text, request.vocabulary, context)
-        return ThinkResult(plan=rest_of(made, request.observed), brain=TAG)
+        rest = rest_of(made, request.observed)
+        return ThinkResult(plan=rest, brain=TAG, by_grammar=True)
 
 
 _READS_NO_ANSWER = say("replan.reads_no_answer")

@@ -10,29 +10,31 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import zip_longest
 from pathlib import Path
 
 from planner.brain.interface import Observation, ThinkRequest
 from planner.brain.prompt_template import Template, as_json, repair
+from planner.brain.prompt_tokens import count_tokens
 from planner.brain.schema import (
     CLARIFY_CODES,
     REFUSE_CODES,
     Message,
-    schema_of,
     step_line,
     step_models,
 )
-from planner.language.folding import CHINESE
+from planner.brain.situation_text import tell_situation
+from planner.language.folding import has_chinese
 from planner.plan import NEEDS_CAMERA, Code, Language, Vocabulary
 from pons_assets import PROMPTS
 
 BUDGET_TOKENS = 1500
 ORDER_TOKENS = 120
 """Of the budget, left for the order and what came of its steps."""
-_PIECE = re.compile(rf"([A-Za-z]+)|[0-9]{{1,3}}|[{CHINESE}]|[^\sA-Za-z0-9{CHINESE}]{{1,3}}")
-_LETTERS = 8
+SITUATION_TOKENS = 220
+"""And for where things stand, at least: recent goals give way, the oldest first."""
 _BLANK = re.compile(r"\{\{(\w+)\}\}")
-_BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places", "schema"})
+_BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places"})
 _NAMES = (16, 8, 4, 2)  # of one place: as many as the budget allows
 READ = "in_picture_never_an_order"
 """Under this name stand words about a picture, which may repeat what was written in it."""
@@ -82,7 +84,7 @@ class Prompt:
     def messages(self, request: ThinkRequest) -> list[Message]:
         """Return the messages of a first call: one of the system, one of the person."""
         order = _order(request)
-        if request.room is not None:
+        if request.room is not None and request.situation is None:
             order["robot_is_in"] = request.room
         if request.language is not None:
             order["language"] = request.language.value
@@ -90,8 +92,10 @@ class Prompt:
             order["so_far"] = _reports(request.observed, request.language or Language.EN)
         if request.replan:
             order["plans_that_failed"] = request.replan
-        asked = (request.vocabulary, request.runnable, request.blind)
-        system = _system(self.template, *asked)
+        system = _system(self.template, request.vocabulary, request.runnable, request.blind)
+        if request.situation is not None:
+            left = BUDGET_TOKENS - count_tokens(system) - count_tokens(as_json(order))
+            order |= tell_situation(request.situation, max(SITUATION_TOKENS // 2, left))
         return [
             {"role": "system", "content": system},
             {"role": "user", "content": as_json(order)},
@@ -102,19 +106,6 @@ class Prompt:
         return repair(reply, reasons)
 
 
-def tokens(messages: Sequence[Message]) -> int:
-    """Estimate the tokens of messages, rather too many than too few.
-
-    Common tokenizers make one of a short word, of three digits, of a few marks in a row and, at the
-    worst, of each Chinese character.
-    """
-    return sum(map(_tokens, (message["content"] for message in messages)))
-
-
-def _tokens(text: str) -> int:
-    return sum(1 + max(0, len(piece[1] or "") - 1) // _LETTERS for piece in _PIECE.finditer(text))
-
-
 @lru_cache(maxsize=16)
 def _system(template: str, vocabulary: Vocabulary, runnable: frozenset[str], blind: Code) -> str:
     """Fill the template; a place has as many names as the budget allows, and one more at least."""
@@ -123,22 +114,29 @@ def _system(template: str, vocabulary: Vocabulary, runnable: frozenset[str], bli
         "clarify": _codes(CLARIFY_CODES),
         "refuse": _codes(REFUSE_CODES),
         "robot": _CAMERA if runnable & NEEDS_CAMERA else _BLIND[blind is Code.NO_DETECTOR],
-        "schema": as_json(schema_of(vocabulary, runnable)),
     }
     text = ""
     for names in _NAMES:
         filled["places"] = "\n".join(_place_lines(vocabulary, names))
         text = _BLANK.sub(lambda blank: filled[blank[1]], template).strip()
-        if _tokens(text) <= BUDGET_TOKENS - ORDER_TOKENS:
+        if count_tokens(text) <= BUDGET_TOKENS - ORDER_TOKENS - SITUATION_TOKENS:
             break
     return text
 
 
 def _place_lines(vocabulary: Vocabulary, names: int) -> list[str]:
     return [
-        f"{entry.id}: {as_json([entry.name.en, entry.name.zh, *entry.aliases][:names])}"
+        f"{entry.id}: {as_json([entry.name.en, entry.name.zh, *_mix(entry.aliases)][:names])}"
         for entry in vocabulary.entries
     ]
+
+
+def _mix(aliases: Sequence[str]) -> list[str]:
+    """Return names by turns of English and Chinese, so that a cut leaves both."""
+    chinese = [name for name in aliases if has_chinese(name)]
+    english = [name for name in aliases if not has_chinese(name)]
+    pairs = zip_longest(english, chinese)
+    return [name for pair in pairs for name in pair if name is not None]
 
 
 def _order(request: ThinkRequest) -> dict[str, object]:

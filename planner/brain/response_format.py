@@ -14,8 +14,12 @@ class ReplyForm:
     name: str
     told: str
     """What the forced tool is for."""
+    prompt_has_schema: bool = True
+    """Else the schema's text is added where nothing but the prompt tells it."""
 
 
-PLAN_FORM = ReplyForm(NAME, "Reply to the order with one plan, answer, question or refusal.")
+PLAN_FORM = ReplyForm(
+    NAME, "Reply to the order with one plan, answer, question or refusal.", prompt_has_schema=False
+)
 LOOK_FORM = ReplyForm("look", "Answer the question about the picture.")
 POINT_FORM = ReplyForm("point", "Point at one thing in the picture, or say that it is not there.")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any, Literal, get_args
 
-from planner.plan import RUNNABLE, Code, Frozen, Step, Vocabulary
+from planner.plan import RUNNABLE, Code, Frozen, PlanRole, Step, Vocabulary
 
 NAME = "plan"
 """The schema's name, and the forced tool's."""
@@ -67,6 +67,7 @@ def schema_of(vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE) -> di
     return _object(
         {
             "kind": {"type": "string", "enum": list(KINDS)},
+            "does": {"type": "string", "enum": [role.value for role in PlanRole]},
             "steps": {"type": "array", "items": _object(step)},
             "code": {"type": "string", "enum": list(codes)},
             "en": {"type": "string"},

@@ -25,13 +25,15 @@ class ScriptedBrain:
     """Give the next reply of a script: a plan, a model's text, or an error to raise.
 
     `delay_s` passes before each reply; `hangs` never replies at all. `drafts` are told to who
-    listens, before anything else.
+    listens, before anything else. With `by_grammar` False its plans are held to the order's words,
+    as a model's are.
     """
 
     replies: Sequence[Reply]
     delay_s: float = 0.0
     hangs: bool = False
     drafts: Sequence[Draft] = ()
+    by_grammar: bool = True
     asked: list[ThinkRequest] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -61,7 +63,7 @@ class ScriptedBrain:
         if isinstance(reply, Exception):
             raise reply
         plan = _parse_reply(reply) if isinstance(reply, str) else reply
-        return ThinkResult(plan=plan, brain=self.tag, calls=1)
+        return ThinkResult(plan=plan, brain=self.tag, calls=1, by_grammar=self.by_grammar)
 
 
 def _parse_reply(text: str) -> StepPlan | AnswerPlan | Clarify | Refuse:

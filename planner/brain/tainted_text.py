@@ -51,6 +51,7 @@ def deeds(plan: Plan) -> dict[str, Any]:
     steps = (step.model_dump() for step in plan.steps)
     return {
         "kind": plan.kind,
+        "does": plan.does,
         "steps": [{"kind": "say"} if step["kind"] == "say" else step for step in steps],
     }
 

@@ -10,7 +10,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from planner.language.commands import HereCommand, Intent, Replace, intent_of
+from planner.language.commands import (
+    AppendCommand,
+    HereCommand,
+    Intent,
+    LeaningCommand,
+    Replace,
+    intent_of,
+)
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.folding import is_chinese
 from planner.language.stop import StopReading, is_stop, read_stop
@@ -46,7 +53,7 @@ class Utterance:
     @property
     def may_mean_stop(self) -> bool:
         """Return whether a stop word stands in it that is not read as anything else."""
-        if isinstance(self.intent, Replace):
+        if isinstance(self.intent, Replace | AppendCommand):
             return self.instead is not StopReading.NONE
         return self.intent is None and self.reading is StopReading.POSSIBLE
 
@@ -57,7 +64,11 @@ class Utterance:
         "You are in the kitchen" is left to the brain where no place answers to the name.
         """
         memory_or_goals = not (
-            self.intent is None or isinstance(self.intent, Replace | GoOn | HereCommand)
+            self.intent is None
+            or isinstance(
+                self.intent,
+                Replace | LeaningCommand | GoOn | HereCommand,
+            )
         )
         return self.orders_stop or memory_or_goals or self.consent is False
 
@@ -66,7 +77,7 @@ class Utterance:
 def parse(text: str) -> Utterance:
     """Return a sentence's meaning by itself; the stop lane reads it first."""
     reading, intent = read_stop(text), intent_of(text)
-    rest = intent.rest if isinstance(intent, Replace) else None
+    rest = intent.rest if isinstance(intent, Replace | AppendCommand) else None
     return Utterance(
         text,
         intent,

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planner.brain.interface import Exchange, Observation
+from planner.brain.situation import Situation
 from planner.mission.skills.actions import Way
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
@@ -34,6 +35,8 @@ class AskBrain:
     """What was said first."""
     exchanges: tuple[Exchange, ...] = ()
     """What was asked about it, and answered; the newest answer is the text."""
+    situation: Situation | None = None
+    """Where things stand, and what came of the goals before."""
 
 
 @dataclass(frozen=True, slots=True)

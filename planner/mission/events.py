@@ -48,6 +48,8 @@ class Planned:
     plan: StepPlan | AnswerPlan | Clarify | Refuse | None
     failure: Outcome | None = None
     brain: BrainTag | None = None
+    unasked: tuple[int, ...] = ()
+    """The steps of the plan that move the robot though no words of a person ask for it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,11 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.language.utterance import parse
 from planner.mission.activity import Thinking
+from planner.mission.conversation import situation_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
+from planner.mission.follow_up import meaning_of
+from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
     ask_anew,
@@ -23,6 +26,7 @@ from planner.mission.open_questions import (
 )
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_check import unwalkable
+from planner.mission.plan_roles import assume_role, end_current, find_asking, goal_in_hand
 from planner.mission.queue import (
     acknowledge_hold,
     cancel,
@@ -42,6 +46,7 @@ from planner.mission.state import Mission, MissionState
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
 from planner.plan import (
+    STEPLESS,
     AnswerPlan,
     Bilingual,
     Clarify,
@@ -49,6 +54,7 @@ from planner.plan import (
     GoalState,
     Outcome,
     PauseReason,
+    PlanRole,
     Refuse,
     StepPlan,
     plan_record,
@@ -59,9 +65,6 @@ HOW_FAR_UNKNOWN = say("goal.map_changed_in_step")
 LEGS_UNWRITTEN = 100
 """More legs than a planner can have streamed and not yet written when it died: the bridge latches
 what was reached by leg, so no number is ever streamed twice."""
-IN_HAND = frozenset(
-    {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
-)
 UNCONFIRMED = say("goal.unconfirmed")
 
 
@@ -78,10 +81,12 @@ def submit(turn: Transaction, event: Submitted) -> None:
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
     turn.set(order=order)
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
+    meant = "" if event.local else meaning_of(turn.book, event.text, now_unix_s)
     mission = Mission(
         id=event.id,
         order=order,
         text=event.text,
+        meant=meant if meant != event.text else "",
         language=event.language,
         state=FIRST,
         confirm=event.confirm,
@@ -123,9 +128,9 @@ def _think_anew(turn: Transaction, mission: Mission, cause: Cause) -> None:
 def _think(turn: Transaction, mission: Mission) -> None:
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     room = spot_at(turn.book.facts, pose).room
-    said = exchanges_of(mission)
     turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
-                       order=mission.text, exchanges=said))  # fmt: skip
+                       order=mission.order_text, exchanges=exchanges_of(mission),
+                       situation=situation_of(turn.book, mission, turn.now_s)))  # fmt: skip
 
 
 def take_plan(turn: Transaction, event: Planned) -> None:
@@ -138,7 +143,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
     if mission is None or mission.state is not GoalState.PLANNING:
         return
     plan = event.plan
-    if mission.doubtful_stop and not isinstance(plan, StepPlan):
+    stepless = not isinstance(plan, StepPlan) or plan.does in STEPLESS
+    if mission.doubtful_stop and stepless:
         _end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True)
         return
     if plan is None:
@@ -149,6 +155,9 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         finish(turn, mission, cause, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
+    if isinstance(plan, StepPlan) and plan.does in STEPLESS:
+        _act_on_others(turn, mission, plan.does)
+        return
     if isinstance(plan, StepPlan | Clarify):  # surely an order
         close_older(turn, mission)
     match plan:
@@ -165,7 +174,17 @@ def take_plan(turn: Transaction, event: Planned) -> None:
             said = Outcome(code=plan.code, message=told)
             turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
-            _walkable(turn, mission)
+            _walkable(turn, assume_role(turn, mission, plan.does), event.unasked)
+
+
+def _act_on_others(turn: Transaction, mission: Mission, role: PlanRole) -> None:
+    """End the goal that a person means, or take the person's own words for a question's answer."""
+    if role is PlanRole.CANCEL:
+        end_current(turn, mission, goal_in_hand(turn, mission))
+        return
+    asking = find_asking(turn, mission)
+    if asking is not None:
+        reply(turn, asking, mission.words)
 
 
 def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
@@ -174,7 +193,7 @@ def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
     return say("goal.doubtful_stop", told=told, text=text)
 
 
-def _walkable(turn: Transaction, mission: Mission) -> None:
+def _walkable(turn: Transaction, mission: Mission, unasked: tuple[int, ...]) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
@@ -184,9 +203,12 @@ def _walkable(turn: Transaction, mission: Mission) -> None:
         finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
+    shall_i = ask_for_motion(turn.book.facts, (), mission.steps, unasked)
     if mission.doubtful_stop:
         said = Outcome(code=Code.CONFIRM, message=_ask_what_was_meant(turn.book, mission))
         turn.move_to(mission, BrainCause.NEEDS_YES, reason="doubtful_stop", outcome=said)
+    elif shall_i is not None:
+        turn.move_to(mission, BrainCause.NEEDS_YES, reason=UNASKED, outcome=shall_i)
     elif mission.confirm:
         turn.move_to(mission, BrainCause.NEEDS_YES)
     else:
@@ -204,20 +226,9 @@ def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
         release_answered(turn)
         enqueue(turn, mission, cause, first=True)
         return
-    if mission.replace and (replaced := _in_hand(turn, mission)) is not None:
+    if mission.replace and (replaced := goal_in_hand(turn, mission)) is not None:
         cancel(turn, replaced)
     enqueue(turn, mission, cause, first=mission.replace or mission.first)
-
-
-def _in_hand(turn: Transaction, new: Mission) -> Mission | None:
-    """Return the goal that "forget that" means: the running, else the newest that thinks or asks.
-
-    A goal that a person paused keeps its place, and so do those that wait.
-    """
-    if turn.running is not None:
-        return turn.running
-    open_ = (m for m in turn.book.missions.values() if m.order < new.order and m.state in IN_HAND)
-    return max(open_, key=lambda m: m.order, default=None)
 
 
 def confirm(turn: Transaction, mission: Mission) -> None:

@@ -1,5 +1,8 @@
 """Have a brain understand a sentence, judge what it says, and return an event. Trusts no brain.
 
+A model's plan is also held to the person's own words (``planner.language.motion_guard``): the steps
+that move the robot and that nobody asked for are named in the event, and wait for a person's yes.
+
 What a brain writes meanwhile is told to those who listen: often enough to read along, and no
 oftener. It is for showing and for routing ahead, moves nothing and is written down nowhere.
 """
@@ -9,21 +12,36 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
+from datetime import datetime
 from functools import lru_cache
 from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
-from planner.brain.interface import Brain, ThinkRequest
+from planner.brain.interface import Brain, ThinkRequest, ThinkResult
+from planner.brain.situation import Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
+from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import synonyms
 from planner.language.place_lists import rejection_outcome
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.tasks import Think
-from planner.plan import BARE, Code, Language, Means, Outcome, Step, Vocabulary, check_plan
+from planner.plan import (
+    BARE,
+    Code,
+    Language,
+    Means,
+    Outcome,
+    Step,
+    StepPlan,
+    Vocabulary,
+    check_plan,
+)
 
+CHECKS = frozenset({"look", "find", "count", "ask"})
+"""Steps after which what an order puts on a condition may be done."""
 TELL_S = 0.1
 """Between two tellings of one goal; the first comes at once."""
 
@@ -70,12 +88,24 @@ def _event(goal: str, draft: Draft) -> dict[str, Any]:
 log = logging.getLogger(__name__)
 
 
+def read_clock() -> datetime:
+    """Return people's own time."""
+    return datetime.now().astimezone()
+
+
+def _situation(ask: AskBrain, clock: Callable[[], datetime]) -> Situation | None:
+    if ask.situation is None:
+        return None
+    return ask.situation.model_copy(update={"time": clock().strftime("%a %Y-%m-%d %H:%M")})
+
+
 def thinker(
     brain: Brain,
     vocabulary: Vocabulary,
     hearing: Hearing | None = None,
     means: Means = BARE,
     classes: tuple[str, ...] = (),
+    clock: Callable[[], datetime] = read_clock,
 ) -> Think:
     """Return how this brain thinks about goals in this closed world; ``hearing`` listens."""
 
@@ -93,6 +123,7 @@ def thinker(
             replan=ask.replan,
             order=ask.order if ask.exchanges else "",
             exchanges=ask.exchanges,
+            situation=_situation(ask, clock),
         )
         try:
             hear = hearing.of(ask.id) if hearing else None
@@ -112,9 +143,29 @@ def thinker(
         rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
         if rejection is not None:
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
-        return Planned(ask.id, thought.plan, None, thought.brain)
+        unasked = unasked_of(thought, request)
+        return Planned(ask.id, thought.plan, None, thought.brain, unasked)
 
     return think
+
+
+def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:
+    """Return the steps of a model's plan that move the robot though nobody asked for it.
+
+    The grammar is spared: it plans nothing but what it has read. What people answered to an ``ask``
+    on the way, what was seen and what a model wrote is nobody's order.
+    """
+    plan = thought.plan
+    if not isinstance(plan, StepPlan) or thought.by_grammar:
+        return ()
+    pairs = tuple((each.asked, each.answer) for each in request.exchanges)
+    order = request.order if pairs else request.text
+    checked = any(seen.step in CHECKS or seen.result == "failed" for seen in request.observed)
+    person = PersonWords(said_words(order, pairs), request.room, checked)
+    found = find_unasked(plan, person, request.vocabulary)
+    for each in found:
+        log.info("goal %s: step %d was not asked for: %s", request.goal, each.index + 1, each.why)
+    return tuple(each.index for each in found)
 
 
 @lru_cache(maxsize=8)

@@ -17,12 +17,12 @@ from planner.language.commands import (
     Forget,
     HereCommand,
     Intent,
+    LeaningCommand,
     PauseCommand,
     Remember,
     Replace,
     ResumeCommand,
     Slower,
-    WhereCommand,
 )
 from planner.language.utterance import parse
 from planner.mission import events
@@ -86,10 +86,12 @@ class PlannerCommands:
         intent = (
             parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
         )
-        if isinstance(intent, Replace):
+        if isinstance(intent, Replace) and not intent.corrects:
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:
             intent = None  # "you are in the way": nothing of ours
+        if isinstance(intent, Replace | LeaningCommand):
+            intent = None  # it leans on nothing that is known: a brain reads it
         if intent is None or mission is None or mission.steps:
             return await self._brain(ask)
         return Planned(ask.id, await self.carry_out(intent, mission))
@@ -116,7 +118,7 @@ class PlannerCommands:
                 return AnswerPlan(text=doing(book, self._loop.status_age_s, mission.id))
             case Slower() | Faster():
                 return self._change_speed(slower=isinstance(intent, Slower))
-            case WhereCommand() | Replace():
+            case _:  # where it is; nothing else comes here
                 return AnswerPlan(text=tell_position(book, self._loop.status_age_s))
 
     def _command_goal(

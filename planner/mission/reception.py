@@ -17,14 +17,15 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from planner.language.commands import AppendCommand, LeaningCommand, OtherPlaceCommand, Replace
 from planner.language.commands import CancelCommand as TakeBack
-from planner.language.commands import Replace
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
+from planner.mission.follow_up import leans, meaning_of
 from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
 from planner.mission.state import GoalKey, MissionState
@@ -117,12 +118,17 @@ def receive(
         return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
     if before is not None:
         return Reception(given, repeats=before.goal)
-    replaces = isinstance(intent, Replace)
-    first = isinstance(intent, Replace) and intent.now
+    after = isinstance(intent, LeaningCommand)
+    meant = leans(book, intent, said.text, now_s + book.wall_offset_s)
+    if (after or (isinstance(intent, Replace) and intent.corrects)) and not meant:
+        intent, after = None, False  # "and you?": a sentence like any other
+    ends = isinstance(intent, OtherPlaceCommand) or (isinstance(intent, Replace) and intent.now)
+    first = ends or isinstance(intent, AppendCommand)
+    replaces = after or isinstance(intent, Replace)
     local = bool(asking) or (intent is not None and not replaces)
     marked = replace(
         given,
-        replace=given.replace if not replaces else not first,
+        replace=given.replace if not isinstance(intent, Replace) else not first,
         first=first,
         resumes=isinstance(intent, GoOn) and not asking,
         asking=asking,
@@ -133,7 +139,7 @@ def receive(
             marked, refused=QueueFull(sum(not m.has_ended for m in book.missions.values()))
         )
     request = GoalKey(key, body, given.id) if key is not None else None
-    takes_back = goal_to_end(book) if first else None
+    takes_back = goal_to_end(book) if ends else None
     return Reception(marked, takes_back=takes_back, request=request)
 
 
@@ -176,10 +182,16 @@ def receive_answer(
         return AnswerReception(refused=error)
     if isinstance(intent, TakeBack):
         return AnswerReception(command=Cancel(goal_id))
+    now_unix_s = now_s + book.wall_offset_s
+    corrects = isinstance(intent, Replace | OtherPlaceCommand)
+    if corrects and leans(book, intent, said.text, now_unix_s):
+        # "no, the study": in place of what is asked
+        meant = meaning_of(book, said.text, now_unix_s)
+        return AnswerReception(command=Cancel(goal_id), sentence=meant, answers=False)
     own_question = takes_yes(book.missions[goal_id])  # "go on" may be its answer
     if said.stays_put or (isinstance(intent, GoOn) and not own_question):
         return AnswerReception(sentence=said.text)
-    if isinstance(intent, Replace):
+    if isinstance(intent, Replace) and not intent.corrects:
         return AnswerReception(command=Cancel(goal_id), sentence=intent.rest, answers=False)
     return AnswerReception(command=Reply(goal_id, said.text))
 

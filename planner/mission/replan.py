@@ -13,6 +13,7 @@ from planner.brain.interface import OFFLINE
 from planner.language.catalogue import message, say
 from planner.language.questions import looks_round
 from planner.mission.events import Planned
+from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.plan_check import NO_STEPS, unwalkable
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
 from planner.mission.scene import first_deed, scene_of
@@ -66,7 +67,7 @@ def rethought(turn: Transaction, mission: Mission, event: Planned) -> None:
     if refused is not None:
         _end(turn, mission, GoalFact.STEP_FAILS, refused)
         return
-    _adopt(turn, mission, steps)
+    _adopt(turn, mission, steps, event.unasked)
 
 
 def _steps(plan: Plan | None, mission: Mission) -> tuple[StepRecord, ...] | None:
@@ -130,8 +131,10 @@ def _end(turn: Transaction, mission: Mission, cause: Cause, why: Outcome) -> Non
     end_running(turn, cause, why.code, why.code.value, said=why.message)
 
 
-def _adopt(turn: Transaction, mission: Mission, steps: tuple[StepRecord, ...]) -> None:
-    question, heard = needs_yes(turn.book.facts, mission, steps), _is_answer(mission)
+def _adopt(
+    turn: Transaction, mission: Mission, steps: tuple[StepRecord, ...], unasked: tuple[int, ...]
+) -> None:
+    question, reason = _first_question(turn.book.facts, mission, steps, unasked)
     if mission.failure is None:
         mission = note_step(turn, mission, state=StepState.SUCCEEDED)
     before = mission.steps[: mission.step + 1]
@@ -143,11 +146,25 @@ def _adopt(turn: Transaction, mission: Mission, steps: tuple[StepRecord, ...]) -
     )
     mission = next_step(turn, mission)
     if mission.confirm or question is not None:
-        reason = None if question is None else "new_plan" if heard else "new_place"
         yield_robot(turn, mission, BrainCause.NEEDS_YES, reason, question)
     else:
         clear_hold(turn, mission)
         begin_step(turn)
+
+
+def _first_question(
+    facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...], unasked: tuple[int, ...]
+) -> tuple[Outcome | None, str | None]:
+    """Return what a person is asked before new steps are walked, with its reason.
+
+    What nobody asked for comes first: that question names all of it.
+    """
+    shall_i = ask_for_motion(facts, mission.steps, steps, unasked)
+    if shall_i is not None:
+        return shall_i, UNASKED
+    question = needs_yes(facts, mission, steps)
+    reason = "new_plan" if _is_answer(mission) else "new_place"
+    return question, None if question is None else reason
 
 
 BACK = ""

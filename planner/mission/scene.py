@@ -87,8 +87,11 @@ def upon_yes(facts: SiteView, mission: Mission) -> Bilingual | None:
 def first_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual | None:
     """Name the first of these steps that may move the robot; None where none moves."""
     step = next(filter(moves, steps), None)
-    if step is None:
-        return None
+    return None if step is None else name_deed(facts, step)
+
+
+def name_deed(facts: SiteView, step: StepRecord) -> Bilingual:
+    """Name what a step that may move the robot does."""
     place = facts.home if step.kind == "return_home" else step.place
     if place:
         name = facts.targets[place].name if place in facts.targets else say_same(place)

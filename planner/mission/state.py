@@ -48,6 +48,8 @@ class Mission(Frozen):
     language: Language
     state: GoalState
     reason: str | None = None
+    meant: str = ""
+    """The order that its text is, where that leans on an earlier goal: "again", "no, the study"."""
     replies: tuple[str, ...] = ()
     """What the person answered to our questions, in order."""
     questions: tuple[str, ...] = ()
@@ -128,7 +130,12 @@ class Mission(Frozen):
     @property
     def words(self) -> str:
         """Return the newest thing that the person said about this goal, to be understood."""
-        return self.replies[-1] if self.replies else self.text
+        return self.replies[-1] if self.replies else self.order_text
+
+    @property
+    def order_text(self) -> str:
+        """Return the order in words that lean on no other goal."""
+        return self.meant or self.text
 
     @property
     def current_step(self) -> StepRecord | None:

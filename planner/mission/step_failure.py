@@ -10,6 +10,7 @@ from __future__ import annotations
 from planner.language.catalogue import say
 from planner.mission.account import BACK
 from planner.mission.activity import Retrying, Thinking
+from planner.mission.conversation import situation_of
 from planner.mission.declined_goals import decline
 from planner.mission.effects import AskBrain
 from planner.mission.observations import exchanges_of, list_observations
@@ -153,7 +154,8 @@ def think(turn: Transaction, mission: Mission) -> None:
             room,
             list_observations(facts, mission),
             mission.replans,
-            order=mission.text,
+            order=mission.order_text,
             exchanges=exchanges_of(mission),
+            situation=situation_of(turn.book, mission, turn.now_s),
         )
     )

@@ -28,10 +28,12 @@ from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import (
     MAX_STEPS,
     PLAN,
+    STEPLESS,
     AnswerPlan,
     Clarify,
     Option,
     Plan,
+    PlanRole,
     Refuse,
     StepPlan,
 )
@@ -73,6 +75,7 @@ __all__ = [
     "NEEDS_GROWING_MAP",
     "PLAN",
     "RUNNABLE",
+    "STEPLESS",
     "AnswerPlan",
     "Ask",
     "Bilingual",
@@ -105,6 +108,7 @@ __all__ = [
     "Plan",
     "PlanRecord",
     "PlanRejection",
+    "PlanRole",
     "Reason",
     "Refuse",
     "ReturnHome",

@@ -18,7 +18,15 @@ from collections.abc import Callable, Container, Iterator
 from planner.plan.base import Bilingual, Frozen
 from planner.plan.goal import StepRecord, places_of, plan_record
 from planner.plan.outcome import Code
-from planner.plan.responses import MAX_STEPS, AnswerPlan, Clarify, Plan, Refuse, StepPlan
+from planner.plan.responses import (
+    MAX_STEPS,
+    STEPLESS,
+    AnswerPlan,
+    Clarify,
+    Plan,
+    Refuse,
+    StepPlan,
+)
 from planner.plan.steps import NEEDS_CAMERA, NEEDS_GROWING_MAP, RUNNABLE, Step
 
 NEEDS_DETECTOR = frozenset({"find", "count", "follow", "go_to_object"})
@@ -112,9 +120,21 @@ def check_plan(
     """
     if isinstance(plan, AnswerPlan | Clarify | Refuse):
         return None
+    if isinstance(plan, StepPlan) and plan.does in STEPLESS:
+        return _refuse_steps(plan)
     steps = plan.steps if isinstance(plan, StepPlan) else plan
     reasons = (*_faults(steps, places, runnable, blind), *_unknown(plan, unknown_object))
     return PlanRejection(reasons=reasons) if reasons else None
+
+
+def _refuse_steps(plan: StepPlan) -> PlanRejection | None:
+    """Refuse a plan that ends a goal or answers a question and would move the robot besides."""
+    if not plan.steps:
+        return None
+    what = f"{len(plan.steps)} steps; {plan.does.value} takes none"
+    return PlanRejection(
+        reasons=(Reason(code=Code.BAD_PLAN, step=None, what=what, repairable=True),)
+    )
 
 
 def _faults(

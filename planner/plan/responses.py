@@ -5,6 +5,7 @@ Only `StepPlan` can lead to motion, and only after `check_plan`.
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import Annotated, Literal
 
 from pydantic import Field, TypeAdapter
@@ -16,11 +17,26 @@ from planner.plan.steps import Step
 MAX_STEPS = 20
 
 
+class PlanRole(StrEnum):
+    """Say how a plan acts on the goal that runs, or on the question that waits."""
+
+    NEW = "new"
+    INSTEAD = "instead"
+    AFTER = "after"
+    CANCEL = "cancel"
+    ANSWER_TO = "answer_to"
+
+
+STEPLESS = frozenset({PlanRole.CANCEL, PlanRole.ANSWER_TO})
+"""Roles of plans that hold no steps: they move nothing."""
+
+
 class StepPlan(Frozen):
     """Do these steps in this order. Emptiness and the cap are judged by `check_plan`."""
 
     kind: Literal["plan"] = "plan"
     steps: tuple[Step, ...]
+    does: PlanRole = PlanRole.NEW
 
 
 class AnswerPlan(Frozen):

@@ -10,9 +10,9 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
+from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.plan import Clarify, Refuse, StepPlan, Vocabulary
 from pons.evals.matchers import Made
-from pons.evals.mentioned_names import places_named, plain
 from pons.evals.world import walk
 
 _STAND = frozenset({"wait", "say"})

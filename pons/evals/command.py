@@ -8,10 +8,11 @@ import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from maps.errors import SiteError
 from planner.brain import Brain, OfflineBrain, OutOfBudget
+from planner.site import Site
 from pons.evals.cases import MissingSuite, Suite
 from pons.evals.matchers import BadMatcher
 from pons.evals.report import as_json, content, has_passed, table
@@ -20,9 +21,14 @@ from pons.evals.suites import DATA, HOME_SITE, load, suite_names
 from wire import ConfigError
 
 if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
     from pons.settings import LaunchSettings
 
 REACHED, MISSED, REFUSED = 0, 1, 2
+TALK = "talk"
+GOAL = 0.9
+Scored = TypeVar("Scored")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +51,12 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
         return _quick(settings, said) if said.quick else _journal(settings, said)
     if said.suite is None:
         parser.error("give a SUITE, --quick or --journal")
+    if said.suite == TALK:
+        return _talk(settings, said)
     try:
         suites = load(said.suite, said.data, said.site)
+        if said.guard:
+            return _guard(suites)
         brain, scored = asyncio.run(_score_suites(settings, suites, said.model, yes=said.yes))
     except (MissingSuite, BadMatcher, SiteError) as wrong:
         print(f"pons eval: {wrong}", file=sys.stderr)
@@ -63,12 +73,33 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
     return REACHED if all(has_passed(one.verdicts, one.left) for one in scored) else MISSED
 
 
+def _talk(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    """Score words that lean on the goal before them, in both languages."""
+    from pons.evals.talk import read_talks, score_talks, show_talks
+
+    async def score(brain: Brain) -> int:
+        site, right, count = Site.load(said.site), 0, 0
+        for name in ("en", "zh"):
+            verdicts = await score_talks(read_talks(name), brain, site)
+            print(show_talks(name, verdicts))
+            right, count = right + sum(v.right for v in verdicts), count + len(verdicts)
+        return REACHED if right >= GOAL * count else MISSED
+
+    try:
+        return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
+    except (SiteError, ConfigError) as wrong:
+        print(f"pons eval: {wrong}", file=sys.stderr)
+        return REFUSED
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="pons eval",
         description="Score what a brain plans. Exit status: 0 goal reached, 1 not, 2 not asked.",
     )
-    parser.add_argument("suite", nargs="?", help=f"{', '.join(suite_names())}, or a .tsv file")
+    parser.add_argument(
+        "suite", nargs="?", help=f"{', '.join(suite_names())}, {TALK}, or a .tsv file"
+    )
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(
         "--journal",
@@ -81,6 +112,11 @@ def _parser() -> argparse.ArgumentParser:
         const="",
         metavar="NAME@URL",
         help="ask a model: the owner's, or NAME, URL or NAME@URL; else the offline brain",
+    )
+    parser.add_argument(
+        "--guard",
+        action="store_true",
+        help="measure the guard against motion nobody asked for on the suite: no brain is scored",
     )
     parser.add_argument("--yes", action="store_true", help="a model elsewhere may be asked")
     parser.add_argument("--most", type=int, default=50, metavar="N", help="the newest sentences")
@@ -106,20 +142,50 @@ def _journal(settings: LaunchSettings, said: argparse.Namespace) -> int:
     return command.run(settings, [said.journal], word, options, "pons eval --journal")
 
 
+def _guard(suites: tuple[Suite, ...]) -> int:
+    """Measure the guard: 0 nothing unasked is walked and little is asked in vain, 1 otherwise."""
+    from pons.evals.guard_score import score_guard, show
+
+    scores = [asyncio.run(score_guard(suite)) for suite in suites]
+    print("\n".join(map(show, scores)))
+    return REACHED if all(score.has_passed for score in scores) else MISSED
+
+
 async def _score_suites(
     settings: LaunchSettings, suites: tuple[Suite, ...], model: str | None, *, yes: bool
 ) -> tuple[str, list[SuiteScore]]:
+    count = sum(len(suite.cases) for suite in suites)
+
+    async def score(brain: Brain) -> tuple[str, list[SuiteScore]]:
+        return await _score_each(suites, brain)
+
+    return await _with_brain(settings, model, score, yes=yes, count=count)
+
+
+async def _with_brain(
+    settings: LaunchSettings,
+    model: str | None,
+    score: Callable[[Brain], Awaitable[Scored]],
+    *,
+    yes: bool,
+    count: int = 0,
+) -> Scored:
+    """Score the brain that is meant; a model is paid for by the owner's budget.
+
+    Raises:
+        ConfigError: ``model_offhost`` and what a model's settings may lack.
+    """
     if model is None:
-        return await _score_each(suites, OfflineBrain())
+        return await score(OfflineBrain())
     from planner.brain.endpoint import Address, EndpointBrain
     from planner.budget import Ledger, Purse
     from pons.evals.model_access import choose_model
 
     owner, whom = choose_model(model, settings.home, os.environ)
     address = Address.parse(whom.url)
-    count = sum(len(suite.cases) for suite in suites)
     if not address.local and not yes:
-        detail = f"{count} sentences would be sent to {address.host}; if that is meant, say --yes"
+        sentences = f"{count} sentences" if count else "the sentences"
+        detail = f"{sentences} would be sent to {address.host}; if that is meant, say --yes"
         raise ConfigError("model_offhost", detail)
     ledger = Ledger.in_home(settings.home)
     purse = Purse(owner.budget, ledger, model=whom.name, most_reply=whom.max_tokens)
@@ -127,7 +193,7 @@ async def _score_suites(
         whom.model_copy(update={"allow_offhost": True}), settings.home, meter=purse
     )
     try:
-        return await _score_each(suites, brain)
+        return await score(brain)
     finally:
         await brain.close()
         purse.close()

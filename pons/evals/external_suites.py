@@ -9,11 +9,11 @@ import re
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.plan import Bilingual, Entry, Vocabulary
 from pons.evals.cases import Case, MissingSuite, Suite
 from pons.evals.category_rules import LAWS
 from pons.evals.matchers import read_expectation
-from pons.evals.mentioned_names import places_named, plain
 from pons.evals.world import EvalWorld
 
 ROUTES = frozenset({"navigate", "multi", "mixed"})

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from itertools import permutations
 from math import radians
 
+from planner.language.motion_guard.mentioned_names import plain
 from planner.plan import AnswerPlan, Clarify, Refuse, StepPlan
-from pons.evals.mentioned_names import plain
 from pons.evals.world import HOME, START, EvalEvent, walk
 
 Made = StepPlan | AnswerPlan | Clarify | Refuse

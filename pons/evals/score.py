@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.language.catalogue import message
+from planner.language.motion_guard.step_words import moves, wrong_motions
 from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
 from planner.plan import EVERY_KIND, Code, Refuse, StepPlan, check_plan
 from pons.evals.cases import Case, Suite
 from pons.evals.matchers import Made
-from pons.evals.motion import moves, wrong_motions
 from pons.evals.world import EvalWorld
 
 

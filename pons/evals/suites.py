@@ -13,7 +13,11 @@ OURS = Path(__file__).parent / "suites"
 HOME_SITE = DEFAULT_SITE
 DATA = ROOT.parent / "shared" / "data" / "commands"
 """Where the orders of others lie, beside a checkout; --data names another folder."""
-SETS = {"home": ("home_en", "home_zh"), "outside": ("gpsr", "zh")}
+SETS = {
+    "home": ("home_en", "home_zh"),
+    "guard": ("guard_en", "guard_zh"),
+    "outside": ("gpsr", "zh"),
+}
 
 
 def suite_names() -> tuple[str, ...]:

@@ -21,7 +21,8 @@ import httpx
 from planner.brain import FallbackBrain, OfflineBrain, ThinkRequest
 from planner.brain.endpoint import EndpointBrain, warm_up
 from planner.brain.endpoint.dialect import Dialect, body_of
-from planner.brain.prompt import Prompt, tokens
+from planner.brain.prompt import Prompt
+from planner.brain.prompt_tokens import tokens
 from planner.brain.schema import schema_of
 from planner.mission import AskBrain
 from planner.mission.plan_request import thinker

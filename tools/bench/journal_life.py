@@ -60,7 +60,9 @@ class ByText(ScriptedBrain):
     async def think(self, request: ThinkRequest, hear: object = None) -> ThinkResult:
         """Return the plan of a sentence."""
         del hear
-        return ThinkResult(plan=StepPlan(steps=PLANS[request.text]), brain=self.tag)
+        return ThinkResult(
+            plan=StepPlan(steps=PLANS[request.text]), brain=self.tag, by_grammar=True
+        )
 
 
 class StraightFlight:

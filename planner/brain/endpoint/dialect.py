@@ -1,8 +1,9 @@
 """Own what one server and model understands: the rung of the ladder, a few parameters, pictures.
 
 The dialect is found out at the first call, by use and not by a call of its own: a server that
-answers 400 is asked again in the next simpler way. The schema's text is always in the prompt, tools
-and response_format never go together, and whatever comes back is judged in `plan_reply`: a looser
+answers 400 is asked again in the next simpler way. The schema goes as response_format or
+as a tool, and into the prompt's text where neither is taken; tools and response_format never go
+together, and whatever comes back is judged in `plan_reply`: a looser
 rung costs quality, never safety. `Dialects` remembers in a file of the home folder; what can't be
 read there is found out anew.
 
@@ -180,6 +181,8 @@ def body_of(
         form: what the reply is called.
         picture: the data URL of the picture that goes with the person's first words.
     """
+    if not form.prompt_has_schema and dialect.mode in _LOOSE:
+        messages = _add_schema(messages, schema)
     said = messages if dialect.system else _merge_system(messages)
     body: Body = quiet_of(settings) if dialect.quiet else {}
     body |= settings.extra_body
@@ -194,6 +197,18 @@ def body_of(
     if dialect.temperature and settings.temperature is not None:
         body["temperature"] = settings.temperature
     return body | _MODES[dialect.mode](schema, form)
+
+
+_LOOSE = frozenset({JsonMode.JSON_OBJECT, JsonMode.PROMPT})
+"""Ways of asking in which the server is given no schema."""
+
+
+def _add_schema(messages: list[Message], schema: Body) -> list[Message]:
+    """Write the schema behind the system's words."""
+    system, *rest = messages
+    written = json.dumps(schema, ensure_ascii=False, separators=(",", ":"))
+    told = f"{system['content']}\n\nThe reply fits this JSON schema:\n{written}"
+    return [{"role": system["role"], "content": told}, *rest]
 
 
 def _merge_system(messages: list[Message]) -> list[Message]:

@@ -25,8 +25,10 @@ from planner.plan import (
     MAX_STEPS,
     PLAN,
     RUNNABLE,
+    STEPLESS,
     AnswerPlan,
     Clarify,
+    PlanRole,
     Refuse,
     Step,
     StepPlan,
@@ -137,7 +139,7 @@ MAX_TEXT = 600
 MAX_OPTIONS = 8
 MAX_REASONS = 6
 _KEYS = {
-    "plan": {"steps"},
+    "plan": {"steps", "does"},
     "answer": {"en", "zh"},
     "clarify": {"code", "en", "zh", "options"},
     "refuse": {"code", "en", "zh"},
@@ -198,16 +200,20 @@ def _reshape(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | 
         takes, found = ", ".join(sorted(_KEYS[kind])), ", ".join(extra[:MAX_REASONS])
         return Unusable((f"{kind} takes {takes} and not: {found}",))
     if kind == "plan":
-        return _steps(filled.get("steps"))
+        return _steps(filled.get("steps"), filled.get("does", PlanRole.NEW.value))
     return _words(kind, filled, vocabulary)
 
 
-def _steps(steps: object) -> dict[str, Any] | Unusable:
+def _steps(steps: object, does: object) -> dict[str, Any] | Unusable:
+    if does not in [role.value for role in PlanRole]:
+        return Unusable((f"does must be one of {', '.join(role.value for role in PlanRole)}",))
+    if does in STEPLESS and steps is None:
+        steps = []
     if not isinstance(steps, list) or not all(isinstance(step, dict) for step in steps):
         return Unusable(("steps must be a list of 1 or more objects",))
     if len(steps) > MAX_STEPS:
         return Unusable((f"{len(steps)} steps; at most {MAX_STEPS}",))
-    return {"kind": "plan", "steps": [trim_step(step) for step in steps]}
+    return {"kind": "plan", "does": does, "steps": [trim_step(step) for step in steps]}
 
 
 def trim_step(step: dict[str, Any]) -> dict[str, Any]:

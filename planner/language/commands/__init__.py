@@ -4,14 +4,18 @@ Pure, both languages, whole sentences only. The one door of this package.
 """
 
 from planner.language.commands.command import (
+    AppendCommand,
     CancelCommand,
     Doing,
     Faster,
     Forget,
     HereCommand,
     Intent,
+    LeaningCommand,
+    OtherPlaceCommand,
     PauseCommand,
     Remember,
+    RepeatCommand,
     Replace,
     ResumeCommand,
     Slower,
@@ -20,14 +24,18 @@ from planner.language.commands.command import (
 from planner.language.commands.parser import intent_of
 
 __all__ = [
+    "AppendCommand",
     "CancelCommand",
     "Doing",
     "Faster",
     "Forget",
     "HereCommand",
     "Intent",
+    "LeaningCommand",
+    "OtherPlaceCommand",
     "PauseCommand",
     "Remember",
+    "RepeatCommand",
     "Replace",
     "ResumeCommand",
     "Slower",

@@ -49,6 +49,26 @@ class Replace:
     now: bool
     """The person took the current goal back ("forget that, …"): it ends before anything is thought
     about. Otherwise ("… instead") it ends once the rest is understood."""
+    corrects: bool = False
+    """It is one ("no, the study") only where the rest is a place or an order, which the missions
+    know: "no, the dinner is ready" takes nothing back."""
+
+
+@dataclass(frozen=True, slots=True)
+class AppendCommand:
+    """Do the rest of the sentence right after the current goal."""
+
+    rest: str
+
+
+@dataclass(frozen=True, slots=True)
+class RepeatCommand:
+    """Do the last goal once more."""
+
+
+@dataclass(frozen=True, slots=True)
+class OtherPlaceCommand:
+    """Do the last goal with the other of two places that were spoken of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +91,8 @@ class Faster:
     """Double the speed cap again, up to the goal's first one."""
 
 
+LeaningCommand = AppendCommand | RepeatCommand | OtherPlaceCommand
+"""What has a meaning by the goal before it alone."""
 Intent = (
     Remember
     | Forget
@@ -79,6 +101,9 @@ Intent = (
     | ResumeCommand
     | CancelCommand
     | Replace
+    | AppendCommand
+    | RepeatCommand
+    | OtherPlaceCommand
     | WhereCommand
     | Doing
     | Slower

@@ -70,9 +70,12 @@ UNPUNCTUATED = re.compile(
     r"(?:forget (?:that|it)|never ?mind(?: that)?|scratch that)(?: and)?"
     r" (?=(?:go|come|drive|move|return|head|wait|turn|patrol) )"
 )
+_ONE_ORDER = r"(?:(?!\b(?:if|or|unless|when|until|otherwise|then)\b|[;:.?])[^;])+?"
+"""Without a condition or a second order: "go to the kitchen; if you can't get in, wait in the hall
+instead" replaces nothing."""
 INSTEAD = re.compile(
-    r"instead,? (?P<rest>(?:go|come|drive|move|return|head|wait|turn|patrol)\b.+)"
-    r"|(?P<rest2>(?:go|come|drive|move|return|head|wait|turn|patrol)\b.+?),? instead"
+    rf"instead,? (?P<rest>(?:go|come|drive|move|return|head|wait|turn|patrol)\b{_ONE_ORDER})"
+    rf"|(?P<rest2>(?:go|come|drive|move|return|head|wait|turn|patrol)\b{_ONE_ORDER}),? instead"
 )
 _SPEED = r"(?: (?:a (?:little|bit|lot)|a little bit|much|even|still|down|up|more))*"
 SLOWER = re.compile(

@@ -15,6 +15,7 @@ from types import ModuleType
 
 from planner.language.commands import chinese, english
 from planner.language.commands.command import (
+    AppendCommand,
     CancelCommand,
     Doing,
     Faster,
@@ -28,6 +29,7 @@ from planner.language.commands.command import (
     Slower,
     WhereCommand,
 )
+from planner.language.commands.follow_up import read_follow_up
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.stop import is_stop
 
@@ -65,6 +67,17 @@ class _FoldedText:
 
 def intent_of(text: str) -> Intent | None:
     """Return the command to the planner itself in a sentence, or None."""
+    if (own := _intent_alone(text)) is not None:
+        return own
+    unread = not text.strip() or len(text) > MAX_READ or any(map(_unseen, text))
+    after = None if unread else read_follow_up(text)
+    rest = after.rest if isinstance(after, Replace | AppendCommand) else None
+    # "no, continue": whichever is meant, a person must say; an order to stop stands for itself
+    return after if rest is None or is_stop(rest) or _intent_alone(rest) is None else None
+
+
+def _intent_alone(text: str) -> Intent | None:
+    """Return the command in a sentence that leans on no other."""
     if not text.strip() or len(text) > MAX_READ or any(map(_unseen, text)):
         return None
     said = _fold(text)

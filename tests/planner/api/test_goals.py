@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from planner.api import Access
 from planner.api.goals import AT_ONCE
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
@@ -88,3 +89,18 @@ def test_steering_takes_nothing_for_what_it_is_not(
 @pytest.mark.parametrize("key", ["confirm", "replace"])
 def test_an_option_of_a_goal_is_true_or_false(client: TestClient, key: str) -> None:
     assert client.post("/v1/goals", json={"text": "go", key: "yes"}).status_code == 422
+
+
+@pytest.mark.parametrize("text", ["yes", "好的", "go to the kitchen"])
+@pytest.mark.parametrize("path", ["", "/g1/answer", "/g1/confirm", "/g1/resume"])
+def test_a_yes_of_who_may_only_look_reaches_no_goal(
+    services: FakeServices, path: str, text: str
+) -> None:
+    access = Access("127.0.0.1", operator_token="o" * 16, viewer_token="v" * 16)
+    viewer = {"authorization": f"Bearer {'v' * 16}", "content-type": "application/json"}
+    body = {"text": text} if path in ("", "/g1/answer") else {}
+    with client_of(services, access) as viewing:
+        answer = viewing.post(f"/v1/goals{path}", json=body, headers=viewer)
+        assert (answer.status_code, code(answer)) == (403, "operator_needed")
+        assert "a viewer may not" in answer.json()["detail"]
+    assert services.goals.calls == []

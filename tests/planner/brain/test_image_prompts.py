@@ -18,8 +18,8 @@ from planner.brain.image_prompts import (
     list_detections,
 )
 from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImageQuestion
-from planner.brain.prompt import tokens
 from planner.brain.prompt_template import Template
+from planner.brain.prompt_tokens import tokens
 from planner.perception import Detection
 from planner.plan import Bilingual, Language
 from pons_assets import PROMPTS

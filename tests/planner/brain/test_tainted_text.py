@@ -171,7 +171,8 @@ def test_two_signs_leave_the_same_request(seen: list[Observation], sign: str) ->
 
 def test_deeds_hold_every_field_but_words() -> None:
     """A field that is added to a step is a deed until somebody says otherwise."""
-    go: dict[str, Any] = {"kind": "plan", "steps": [{"kind": "go_to", "place": "kitchen"}]}
+    steps = [{"kind": "go_to", "place": "kitchen"}]
+    go: dict[str, Any] = {"kind": "plan", "does": "instead", "steps": steps}
     assert deeds(PLAN.validate_python(go)) == go
     asks = StepPlan(steps=(Ask(question="x"), Look(question="y"), Decide(question="z")))
     assert str(deeds(asks)).count("question") == 3

@@ -86,9 +86,10 @@ async def planner(
     prefix: str = "g",
     eyes: Eyes | None = None,
     looker: Looker | None = None,
+    by_grammar: bool = True,
 ) -> AsyncIterator[Together]:
     bridge = bridge or LiveBridge(pose=Pose2(1.0, 4.2, 0.0))
-    brain = ScriptedBrain(replies or (KITCHEN,), hangs=hangs)
+    brain = ScriptedBrain(replies or (KITCHEN,), hangs=hangs, by_grammar=by_grammar)
     numbers = count(1)
     robot = RobotDescription()
     missions = Missions(

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from planner.language.motion_guard.mentioned_names import label_named, numbers_named, places_named
+from planner.language.motion_guard.step_words import wrong_motions
 from planner.plan import (
     PLAN,
     AnswerPlan,
@@ -21,8 +23,6 @@ from planner.plan import (
 from pons.evals.cases import Case, MissingSuite, read_tsv
 from pons.evals.category_rules import LAWS
 from pons.evals.matchers import BadMatcher, read_expectation
-from pons.evals.mentioned_names import label_named, numbers_named, places_named
-from pons.evals.motion import wrong_motions
 from pons.evals.score import judge
 from pons.evals.suites import load, suite_names
 from pons.evals.world import EvalWorld

@@ -71,7 +71,7 @@ def story(then: Plan, read: Bilingual) -> tuple[Goal, Obeying, list[str]]:
     brain = Obeying(then)
     world = LockstepWorld(site="two_room", seed=3, brain=brain)
     world.open_eyes(looker=Reading(read))
-    goal = world.say("look what is there, and decide")
+    goal = world.say("look what is there, and go to the kitchen")
     world.run_until(lambda _: goal.has_ended, limit_s=60.0)
     return goal.record, brain, world.planner.said
 

@@ -262,6 +262,7 @@ export const en = {
   "reason.odometry_disagrees": "odometry says otherwise",
   "reason.map_changed": "the map has changed",
   "reason.new_place": "the new plan goes elsewhere",
+  "reason.unasked_motion": "nobody asked for this motion",
   "reason.thoughts": "thought too often",
   "reason.not_reached": "not reached",
   "reason.unknown_place": "unknown place",

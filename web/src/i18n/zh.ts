@@ -259,6 +259,7 @@ export const zh: Record<Key, string> = {
   "reason.odometry_disagrees": "里程计显示不符",
   "reason.map_changed": "地图已更换",
   "reason.new_place": "新计划要去别处",
+  "reason.unasked_motion": "没有人要求这样移动",
   "reason.thoughts": "思考次数过多",
   "reason.not_reached": "未到达",
   "reason.unknown_place": "未知地点",

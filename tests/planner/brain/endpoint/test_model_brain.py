@@ -41,7 +41,7 @@ def test_one_call_makes_a_plan_and_says_by_which_prompt(home: Vocabulary, tmp_pa
     assert thought.plan == StepPlan(steps=(GoTo(place="kitchen"),))
     assert (thought.calls, thought.tokens, thought.brain.name) == (1, 11, "m")
     assert thought.brain.prompt is not None
-    assert thought.brain.prompt.startswith("plan/4@")
+    assert thought.brain.prompt.startswith("plan/5@")
 
 
 def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:
@@ -52,7 +52,8 @@ def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:
     schema = body["response_format"]["json_schema"]["schema"]
     place = schema["properties"]["steps"]["items"]["properties"]["place"]
     assert place == {"type": "string", "enum": list(home.by_id)}
-    assert json.dumps(place["enum"], separators=(",", ":")) in body["messages"][0]["content"]
+    system = body["messages"][0]["content"]
+    assert all(f"\n{place_id}: " in system for place_id in place["enum"])
     assert (body["stream"], body["temperature"], "tools" in body) == (False, 0.0, False)
     (request,) = server.requests
     assert request.headers["authorization"] == f"Bearer {KEY}"

@@ -1,6 +1,8 @@
-"""Find wrong motion: any step that moves the robot and that the sentence does not name.
+"""Find the steps that move the robot and that a sentence does not name, by its words alone.
 
-Judged from the sentence alone, with words of its own for each kind of step, never with a brain's.
+Each kind of step has words of its own here, never a brain's. `pons eval` judges every plan by them,
+and a model's plan is held to them before it is walked (`unasked_motion`), more strictly: there a
+person, too, must be spoken of before one is looked for.
 """
 
 from __future__ import annotations
@@ -8,6 +10,12 @@ from __future__ import annotations
 import re
 from math import degrees
 
+from planner.language.motion_guard.mentioned_names import (
+    label_named,
+    numbers_named,
+    places_named,
+    plain,
+)
 from planner.plan import (
     DRIVES,
     ComeBack,
@@ -25,7 +33,6 @@ from planner.plan import (
     Vocabulary,
     places_of,
 )
-from pons.evals.mentioned_names import label_named, numbers_named, places_named, plain
 
 _HOME = r"home|base|dock|charg|家|充电|基地|返航|回桩|回充"
 _BACK = r"back|return|here|where you (?:are|started)|回|返|过来|原"
@@ -33,20 +40,33 @@ _FOLLOW = r"follow|after|behind|come with|跟|随|尾"
 _LEFT, _RIGHT = r"left|counter|anti|左|逆", r"right|(?<!counter)(?<!anti)clockwise|右|顺"
 _TURN = r"turn|spin|rotat|face|around|degree|radian|circle|转|掉头|调头|偏|方向|圈|朝"
 _FORWARD = r"forward|ahead|straight|front|front|前|直"
-_BACKWARD = r"back|reverse|后|退|倒"
+_BACKWARD = r"back|reverse|(?<![然之以最])后|退|倒"
 _EXPLORE = r"explor|map|survey|探索|探查|勘探|地图|建图"
 _MOVE = rf"move|go|drive|walk|come|step|roll|走|移|进|行|开|{_FORWARD}|{_BACKWARD}"
 _USUAL_DEG = {
     90.0: r"left|right|左|右",
-    180.0: r"around|u-turn|about|掉头|调头|转身|向后|后转",
+    180.0: r"around|u-turn|about|half (?:a )?(?:turn|circle)|半圈|掉头|调头|转身|向后|后转",
     360.0: r"circle|spin|full|圈|360",
 }
+_DEGREES = re.compile(r"degree|\bdeg\b|°|度|radian|弧")
 _CLOSE = 0.02  # of the number that was said
 
 
 def moves(step: Step) -> bool:
     """Tell whether a step moves the robot."""
     return step.kind in DRIVES or bool(places_of(step))
+
+
+def evidence(step: Step, said: str) -> int:
+    """Return how often words speak of what a step does, for kinds that words alone tell."""
+    match step:
+        case Follow():
+            return len(re.findall(_FOLLOW, said))
+        case Turn():
+            return len(re.findall(_TURN, said))
+        case MoveStraight():
+            return len(re.findall(_MOVE, said))
+    return 1
 
 
 def wrong_motions(plan: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
@@ -57,12 +77,12 @@ def wrong_motions(plan: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[st
         if moves(step):
             unnamed = [place for place in places_of(step) if place not in named]
             found += [f"{step.kind} to {place}, which is not named" for place in unnamed]
-            what = _unnamed_part(step, plain(text))
+            what = unnamed_part(step, plain(text))
             found += [f"{step.kind}: {what}"] if what else []
     return tuple(found)
 
 
-def _unnamed_part(step: Step, said: str) -> str:
+def unnamed_part(step: Step, said: str) -> str:
     """Return the part of a step, besides its places, that the sentence does not say."""
     match step:
         case ReturnHome():
@@ -99,6 +119,7 @@ def _turn(angle_deg: float, said: str) -> str:
         return "the other side was said"
     wanted = [*numbers_named(said), *(degrees(number) for number in numbers_named(said))]
     usual = [angle for angle, word in _USUAL_DEG.items() if re.search(word, said)]
+    usual = [] if _DEGREES.search(said) else usual
     return _number(abs(angle_deg), [*wanted, *usual])
 
 

@@ -1,4 +1,4 @@
-"""Find the names in a sentence, for the judge alone: plain text search, no grammar.
+"""Find the names in a sentence by plain text search, without a grammar.
 
 It shares no code with any brain, so that a brain's misreading can't hide in the judge's.
 """
@@ -6,6 +6,7 @@ It shares no code with any brain, so that a brain's misreading can't hide in the
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from functools import lru_cache
 
 from planner.language.folding import CHINESE, fold_words
@@ -82,6 +83,40 @@ def places_named(text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
     return tuple(owner[_tight(found[0])] for found in finder.finditer(plain(text)))
 
 
+@dataclass(frozen=True, slots=True)
+class NamedPlace:
+    """Hold where a text names a place: by its id, from ``start`` to ``end`` of the plain text."""
+
+    id: str
+    start: int
+    end: int
+
+
+def find_places(text: str, vocabulary: Vocabulary) -> tuple[NamedPlace, ...]:
+    """Return where a text, in plain writing, names places, in its order."""
+    finder, owner = _finder(vocabulary)
+    return tuple(
+        NamedPlace(owner[_tight(found[0])], found.start(), found.end())
+        for found in finder.finditer(plain(text))
+    )
+
+
+_AROUND = re.compile(
+    r"^(?:(?:to|in|into|at|the|my|our|your|在|那个|那)(?![a-z]) ?)+"
+    r"|(?:吧|呀|啊|哦|那边|那儿|那里|里| please| room)+$"
+)
+
+
+def place_alone(text: str, vocabulary: Vocabulary) -> str | None:
+    """Return the place whose name is all that a text says."""
+    said = plain(text).strip(" .,!。，！")
+    for tried in (said, _AROUND.sub("", said).strip()):
+        found = find_places(tried, vocabulary)
+        if len(found) == 1 and (found[0].start, found[0].end) == (0, len(tried)):
+            return found[0].id
+    return None
+
+
 def label_named(label: str, text: str) -> bool:
     """Tell whether every word of a label stands in the text, but for words that name nothing."""
     said = plain(text)
@@ -95,6 +130,13 @@ def label_named(label: str, text: str) -> bool:
         ):
             return False
     return True
+
+
+def has_specific_words(label: str) -> bool:
+    """Tell whether a label says more than that somebody or something is meant."""
+    return any(
+        word not in _GENERIC and word not in _GENERIC_ZH for word in _WORD.findall(plain(label))
+    )
 
 
 _NUMBERS = {
@@ -130,4 +172,6 @@ def numbers_named(text: str) -> tuple[float, ...]:
     found += [_NUMBERS[word] for word in re.findall(r"[a-z]+", said) if word in _NUMBERS]
     for tens, ones in re.findall(r"([一二三四五六七八九]?)十([一二三四五六七八九]?)", said):
         found.append(10 * _ZH.get(tens, 1.0) + _ZH.get(ones, 0.0))
+    for whole, tenths in re.findall(r"([一二两三四五六七八九\d])米([一二三四五六七八九半])", said):
+        found.append(_ZH.get(whole, 0.0) + _ZH[tenths] / (1.0 if tenths == "半" else 10.0))
     return (*found, *(_ZH[char] for char in said if char in _ZH))

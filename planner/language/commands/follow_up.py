@@ -1,0 +1,136 @@
+"""Read a sentence that leans on the goal before it: a correction, one more, again, the other one.
+
+Pure, both languages, whole sentences only: "say hello again" is an order of its own. Which goal is
+leant on is for the missions to say (``planner.mission.follow_up``). A plain yes or no, and whatever
+holds a condition or a question, is none of these.
+"""
+
+from __future__ import annotations
+
+import re
+
+from planner.language.commands.command import (
+    AppendCommand,
+    OtherPlaceCommand,
+    RepeatCommand,
+    Replace,
+)
+from planner.language.folding import fold_words, has_chinese
+from planner.language.yes_no import consents
+
+FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | Replace
+_ENDS = " .!,;:。~…，；！"
+_PLEASE = r"(?:please|pls|ok|okay|robot|pons|hey|um|uh|well|oh|now|and|just|thanks)"
+_NOISE = re.compile(r"^(?:(?:um+|uh+|er+|hm+|well|ok|okay|hey|robot|pons|please|嗯|呃|请)[ ,]+)+")
+_POLITE = re.compile(rf"(?:(?:{_PLEASE}|(?:can|could|would|will) you)[ ,]+)+|(?:[ ,]+{_PLEASE})+$")
+_POLITE_END = re.compile(rf"(?:(?<! as)[ ,]+{_PLEASE})+$")
+_POLITE_ZH = re.compile(r"^(?:请|麻烦你?|那个?|嗯|呃|好|机器人|,)+|(?:吧|呀|啊|哦|谢谢|,)+$")
+_OPEN_END = re.compile(
+    r"\b(?:if|unless|when|whenever|until|otherwise|or|because|whether)\b|\?|[;:]"
+    r"|如果|要是|假如|除非|的话|否则|还是|吗$|呢$|？"
+)
+"""With these a sentence is more than one word in a conversation."""
+
+_AGAIN = re.compile(
+    r"(?:do |try |go |run )?(?:(?:it|that|this|the same(?: thing)?) )?"
+    r"(?:again|once more|one more time|another time)"
+    r"|(?:repeat|redo) (?:it|that|this)(?: again| once more)?|(?:the )?same (?:thing )?again"
+    r"|repeat(?: the)?(?: last)? (?:goal|order|task|drive)"
+)
+_AGAIN_ZH = re.compile(
+    r"(?:再|重新?)(?:来|做|去|走|跑|试|执行)?(?:一)?(?:次|遍|趟|回)|(?:重新?|再)(?:来|做|试|执行)(?:过)?"
+    r"|重复(?:一)?(?:次|遍)|同样(?:的)?再来(?:一)?(?:次|遍)?|老样子再来(?:一)?(?:次|遍)?"
+)
+_OTHER = re.compile(
+    r"(?:(?:no|nope|not (?:this|that)(?: one)?|sorry)[ ,]+)*(?:i meant? |i said |go to |to )?"
+    r"(?:the|that) other(?: one| room| place)"
+    r"|(?:(?:no|nope)[ ,]+)?i meant? the other(?: one)?"
+)
+_OTHER_ZH = re.compile(
+    r"(?:不是?这个|不是?那个|不对|不是|不|错了)?,?(?:我(?:说|要|指)的?是|我是说|去|到|是)?"
+    r"另(?:外)?(?:那)?一?(?:个|间)(?:房间|地方)?"
+)
+
+_ALSO_BEFORE = re.compile(
+    r"(?:and (?:then|also|after that)|and then also|also|after that|afterwards|and) (?P<rest>.+)"
+)
+_TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
+_ALSO_ZH = re.compile(
+    r"(?:然后|接着|之后|完了(?:以后|之后)?|还有|另外)[,]?(?:也|还|再)?(?P<rest>.+?)(?:也(?:去一下|去|要))?"
+    r"|(?P<rest2>.{1,12}?)也(?:要)?(?:去一下|去一趟|去|看看|看一下|要)"
+)
+
+_TAKEN = (
+    r"(?:(?:no[ ,]+wait|no|nope|nah|wait|sorry|oops|wrong|not that(?: one| room)?"
+    r"|wrong (?:room|place|one)|actually)[ ,.!;]+)"
+)
+_MEANT = (
+    r"(?:i (?:meant?|said|wanted|want)(?: to say)?|i was thinking of|make (?:it|that)|it(?:'s| is))"
+)
+_BARE_EN = r"(?:to |in |into |at )?(?:(?:the|my|our) )?[a-z][a-z' -]{1,30}"
+_DRIVE_EN = r"(?:go|drive|come|head|move|return|turn|look|find|count|follow|patrol|wait)\b.+"
+_CORRECTION = re.compile(
+    rf"{_TAKEN}+{_MEANT} (?P<a>.+)|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN})"
+    rf"|(?:no[ ,]+wait|no|nope|wrong room|wrong place|not that one|oops)[ ,.!;]+(?:rather )?"
+    rf"(?P<c>(?:to |in |into |at )?(?:the|my|our) [a-z][a-z' -]{{1,30}}|{_DRIVE_EN})"
+    rf"|(?:no[ ,]+)?not (?:to )?(?:the|my|our) [a-z' -]{{2,24}}[,;.]? (?:but )?(?:rather )?"
+    rf"(?P<d>(?:to )?(?:the|my|our) [a-z][a-z' -]{{1,30}})"
+)
+_CORRECTION_ZH = re.compile(
+    r"(?:不对|不是|错了|搞错了|我?说错了|不不|不)[,。!！]+"
+    r"(?P<a>(?:去|到|回|找|看看|数).+|(?:我(?:说|要|指)的?是|我是说|是|应该是).{1,12})"
+    r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>[^我你您没不好行].{0,7})|我是说(?P<f>.{1,12})"
+    r"|(?:不对,?)?不是[^,是]{1,10}?[,]?(?:而)?是(?P<b>.{1,12})"
+    r"|我(?:说|指|要)的(?:是|可是)(?P<c>.{1,12}?)(?:[,]?不是.{1,12})?"
+)
+_LEAD_ZH = re.compile(r"^(?:我(?:说|要|指|想)的?(?:可)?是|我是说|应该是|而是|是)")
+_LEAD = re.compile(rf"^(?:{_MEANT}) ")
+
+
+def read_follow_up(text: str) -> FollowUp | None:
+    """Return the word in a conversation that a sentence is, or None."""
+    said = _NOISE.sub("", fold_words(text).replace("’", "'").strip(_ENDS))
+    chinese = has_chinese(said)
+    if not said or consents(text) is not None or _OPEN_END.search(said):
+        return None
+    bare = "".join(said.split()) if chinese else said
+    plain = _strip(_POLITE_ZH if chinese else _POLITE, bare)
+    if (_AGAIN_ZH if chinese else _AGAIN).fullmatch(plain):
+        return RepeatCommand()
+    if (_OTHER_ZH if chinese else _OTHER).fullmatch(plain):
+        return OtherPlaceCommand()
+    ends = _POLITE_ZH if chinese else _POLITE_END
+    return _correction(plain, chinese=chinese) or _also(_strip(ends, bare), chinese=chinese)
+
+
+def _correction(plain: str, *, chinese: bool) -> Replace | None:
+    found = (_CORRECTION_ZH if chinese else _CORRECTION).fullmatch(plain)
+    if found is None:
+        return None
+    rest = next(text for text in found.groups() if text is not None)
+    rest = _strip(_LEAD_ZH if chinese else _LEAD, rest).strip(_ENDS)
+    return Replace(rest, now=True, corrects=True) if rest and consents(rest) is None else None
+
+
+def _also(bare: str, *, chinese: bool) -> AppendCommand | None:
+    """Read "and then the kitchen too"; "and" alone joins nothing to a goal that ran before."""
+    patterns = (_ALSO_ZH,) if chinese else (_ALSO_BEFORE, _TOO)
+    rest, found = bare, False
+    for pattern in patterns:
+        match = pattern.fullmatch(rest)
+        if match is not None:
+            rest, found = next(t for t in match.groups() if t is not None), True
+    rest = _strip(_POLITE_ZH if chinese else _POLITE, rest).strip(_ENDS)
+    return AppendCommand(rest) if found and rest and consents(rest) is None else None
+
+
+def _strip(pattern: re.Pattern[str], text: str) -> str:
+    """Take courtesy off both ends."""
+    while True:
+        found = pattern.match(text)
+        shorter = text[found.end() :] if found is not None else text
+        behind = [m for m in pattern.finditer(shorter) if m.end() == len(shorter) and m.start() > 0]
+        shorter = shorter[: behind[-1].start()] if behind else shorter
+        if shorter == text or not shorter:
+            return text
+        text = shorter.strip(_ENDS)

@@ -1,0 +1,318 @@
+"""Find what a plan would move that a person's own words do not ask for.
+
+Laws: only what a person said counts, never what a brain asked, reported or read (a plain yes alone
+makes the question that it answers the person's own). What is denied, past, told to others or on a
+condition that nobody has looked at names nothing. Where the grammar reads harm, an arm's work, a
+choice or an unknown place, everything that moves is unasked; what it reads as the very same step is
+asked, however it was spelt. In doubt a step is unasked: a person is then asked, and nothing else.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from dataclasses import dataclass
+from functools import lru_cache
+
+from planner.language.grammar.parser import Context
+from planner.language.grammar.parser import plan as read_order
+from planner.language.motion_guard.mentioned_names import (
+    has_specific_words,
+    label_named,
+    places_named,
+    plain,
+)
+from planner.language.motion_guard.order_scope import OrderScope, read_scope
+from planner.language.motion_guard.step_words import evidence, moves, unnamed_part
+from planner.language.object_names import resolve, synonyms
+from planner.language.questions import looks_round
+from planner.language.yes_no import consents
+from planner.plan import (
+    EVERY_KIND,
+    Clarify,
+    Code,
+    Count,
+    Language,
+    Look,
+    Refuse,
+    Step,
+    StepPlan,
+    Vocabulary,
+    places_of,
+)
+
+VETOES = frozenset(
+    {
+        Code.UNSAFE,
+        Code.NO_CAPABILITY,
+        Code.OUT_OF_SCOPE,
+        Code.UNKNOWN_PLACE,
+        Code.AMBIGUOUS,
+    }
+)
+"""What the grammar says of an order upon which no motion is beyond doubt. It says negated and
+conditional, too, but of the whole sentence; `order_scope` tells the part."""
+LOOKS = frozenset({"look", "find", "count"})
+"""May be done to learn whether a condition holds."""
+_LEARNS = LOOKS | {"ask"}
+_ALL_ROOMS = re.compile(
+    r"\b(?:every|each|all|other|whole|entire|rest of)\b[a-z' ]{0,12}\b"
+    r"(?:rooms?|house|home|flat|apartment|places?)\b|\beverywhere\b|\bwhole place\b"
+    r"|\b(?:around|through) the (?:house|home|flat|apartment)\b"
+    r"|(?:所有|每个|每间|各个|各|全部)的?(?:房间|屋子|屋)|全屋|整个(?:家|屋|房)|到处|四处|全家"
+)
+_ROUNDS = re.compile(r"\bpatrol|\brounds?\b|\btour\b|巡")
+_HERE = re.compile(
+    r"\b(?:here|this room|in this|around|the room)\b|这里|这儿|这个房间|这间|周围|四周|屋里"
+)
+_REPEATS = re.compile(
+    r"\b(?:twice|thrice|times|again|repeat|loop|keep|over and over|back and forth|laps?)\b"
+    r"|[二两三四五六七八九十几\d]\s*[次遍趟圈]|来回|反复|一直|轮流|不断|循环|往返"
+)
+_FOLLOWS = re.compile(
+    r"\bfollow|\b(?:go|goes|come|walk|drive|run|stay|keep) (?:along )?(?:after|behind|with)\b"
+    r"|\b(?:track|trail|chase|tag along)\b|随|尾"
+    r"|跟(?!.{1,8}?(?:说|讲|聊|打.{0,2}招呼|告诉|道|问))"
+)
+_PEOPLE = re.compile(
+    r"\b(?:person|people|persons|any ?(?:one|body)|some ?(?:one|body)|every ?(?:one|body)|who"
+    r"|whom|m[ae]n|wom[ae]n|guests?|visitors?|child(?:ren)?|kids?|boys?|girls?|lady|ladies|guys?|mister|mr|mrs"
+    r"|human|follow me|after me|behind me|with me|find me|meet|greet|welcome|introduce|him|her|them"
+    r"|(?:tell|inform|remind|call|wake) (?!me\b|us\b|you)[a-z]+|(?:to|for) (?:my|our|the) [a-z]+"
+    r"|(?:say|talk|speak) [a-z ]{0,16}to (?!me\b|us\b|you))\b"
+    r"|人|谁|大家|客人|孩子|小孩|男|女|老|先生|女士|他|她|我|妈|爸|爷|奶|叔|阿姨|接|迎|打招呼|告诉(?!我)"
+)
+_SEES = re.compile(
+    r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe|around|show)\b"
+    r"|[看瞧查找吗呢]|什么|谁|有没有|哪"
+)
+_SEES_ROUND = re.compile(
+    r"\b(?:look\w*|see|seen|watch|check\w*|inspect\w*|around|there|describe)\b|\bany(?:one|body)\b"
+    r"|[看瞧]|环顾|周围|四周|附近|有没有|有什么|有谁"
+)
+_NEARS = re.compile(
+    r"\b(?:go|goes|approach|up to|walk|drive|come|near|next to|closer|meet|greet|tell|ask|say|bring"
+    r"|guide|lead|take|deliver|move|head|to|follow|join|visit|reach|welcome|introduce)\b"
+    r"|靠近|走|去|到|过|开|近|面前|跟前|旁|边|给|问|告诉|招呼|跟|找|接|带"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class PersonWords:
+    """Hold what a person said about one goal, and the facts that the words lean on."""
+
+    words: tuple[str, ...]
+    """The order and the answers about it, oldest first."""
+    room: str | None = None
+    """Where the robot is."""
+    checked: bool = False
+    """This goal has looked or asked already: what stood on a condition may be done."""
+
+
+@dataclass(frozen=True, slots=True)
+class UnaskedStep:
+    """Name one step that nobody asked for, and why that is thought."""
+
+    index: int
+    why: str
+
+
+def said_words(order: str, exchanges: tuple[tuple[str, str], ...]) -> tuple[str, ...]:
+    """Return a person's words: order and answers, and a question that got a plain yes.
+
+    Args:
+        order: what was said first.
+        exchanges: each question about it, with its answer.
+    """
+    said = [order]
+    for asked, answer in exchanges:
+        said.append(asked if consents(answer) is True else answer)
+    return tuple(each for each in said if each)
+
+
+def find_unasked(
+    made: StepPlan, person: PersonWords, vocabulary: Vocabulary
+) -> tuple[UnaskedStep, ...]:
+    """Return the steps that move the robot and that nobody asked for. Never raises."""
+    judge = _Judge(person, vocabulary)
+    found, before = [], False
+    for index, step in enumerate(made.steps):
+        if can_move(step):
+            why = judge.find_fault(step, upon=before or person.checked or step.kind in LOOKS)
+            found += [UnaskedStep(index, why)] if why else []
+        before = before or step.kind == "ask"
+    return tuple(found)
+
+
+def can_move(step: Step) -> bool:
+    """Tell whether a step moves the robot, turning about to look included."""
+    turns_about = isinstance(step, Look) and looks_round(step.question)
+    return moves(step) or isinstance(step, Count) or turns_about
+
+
+class _Judge:
+    """Judge the steps of one plan in their order; counts how often each thing is done."""
+
+    def __init__(self, person: PersonWords, vocabulary: Vocabulary) -> None:
+        self._vocabulary, self._room = vocabulary, person.room
+        self._scopes = tuple(read_scope(words) for words in person.words)
+        newest = person.words[-1] if person.words else ""
+        self._own, self._veto = _read_grammar(newest, vocabulary, person.room)
+        if self._veto is not None and self._veto is not Code.UNSAFE:
+            spared = _spare_clauses(newest, vocabulary, person.room)
+            if spared is not None:  # "somebody knocks at the door, go and look"
+                self._veto = None
+                self._scopes = (*self._scopes[:-1], read_scope(spared))
+        self._done: Counter[object] = Counter()
+        self._at = ""
+        self._repeats = any(_REPEATS.search(scope.upon) for scope in self._scopes)
+
+    def find_fault(self, step: Step, *, upon: bool) -> str:
+        """Return why a step is unasked; empty where it is asked."""
+        if self._veto is not None:
+            return f"the order itself is {self._veto.value}"
+        if not places_of(step):
+            self._at = ""  # wherever it leads
+        key = _key(step)
+        self._done[key] += 1
+        if key in self._own and self._done[key] <= self._own[key]:
+            for place in places_of(step):
+                self._arrive(place)
+            return ""
+        said = _GAP.join(self._scope_text(scope, upon) for scope in self._scopes)
+        if step.kind not in _QUIET and _ASKS.match(said) and not _ORDERS.search(said):
+            return "a question orders no drive"
+        return (
+            self._why_places(step, said)
+            or self._why_kind(step, said)
+            or self._why_often(step, key, said)
+        )
+
+    @staticmethod
+    def _scope_text(scope: OrderScope, upon: bool) -> str:
+        return scope.upon if upon else scope.ordered
+
+    def _why_places(self, step: Step, said: str) -> str:
+        named = Counter(places_named(said, self._vocabulary))
+        named.update(dict.fromkeys(self._rooms_of_group(said), 1))
+        if self._room is not None and _HERE.search(said):
+            named[self._room] += 1
+        for place in places_of(step):
+            if not named[place]:
+                return f"{step.kind} to {place}, which is not named"
+            self._arrive(place)
+            if self._done["at", place] > named[place] and not self._repeats:
+                return f"{step.kind} to {place} more often than named"
+        return ""
+
+    def _arrive(self, place: str) -> None:
+        """Count a drive to a place; who is there already drives no farther."""
+        if place != self._at:
+            self._done["at", place] += 1
+        self._at = place
+
+    def _rooms_of_group(self, said: str) -> frozenset[str]:
+        """Return the rooms that "every room" means, without those that are left out."""
+        rounds = _ROUNDS.search(said) and not places_named(said, self._vocabulary)
+        if not (_ALL_ROOMS.search(said) or rounds):
+            return frozenset()
+        out = {p for scope in self._scopes for p in places_named(scope.excluded, self._vocabulary)}
+        rooms = (entry.id for entry in self._vocabulary.entries if entry.kind == "room")
+        return frozenset(rooms) - out
+
+    def _why_kind(self, step: Step, said: str) -> str:
+        if isinstance(step, Look):
+            looks = _SEES if step.place is not None else _SEES_ROUND
+            return "" if looks.search(said) else "no word of looking"
+        label = getattr(step, "object", None)
+        if label is None:
+            return unnamed_part(step, said)
+        things = _GAP.join(scope.things for scope in self._scopes)
+        if not thing_named(label, things):
+            return f"{label!r} is not named"
+        if step.kind == "go_to_object" and not _NEARS.search(things):
+            return "no word of going there"
+        follows = step.kind != "follow" or _FOLLOWS.search(said)
+        return "" if follows else "no word of following"
+
+    def _why_often(self, step: Step, key: object, said: str) -> str:
+        if self._repeats or places_of(step):
+            return ""
+        most = max(1, evidence(step, said))
+        return "" if self._done[key] <= most else f"{step.kind} more often than said"
+
+
+_GAP = " | "
+_CLAUSE = re.compile(r"[,.;!?，。；！？]")
+_MOST_CLAUSES = 12
+_ORDERS = re.compile(
+    r"\b(?:go|goes|drive|come|walk|run|head|move|look|see|check|find|search|count|turn|follow|wait"
+    r"|visit|swing|stop by|return|take|bring|tell|ask|patrol|rounds?|back)\b"
+    r"|[去到来回看找数查转跟开走巡]"
+)
+_STATES = re.compile(
+    r"(?:some(?:body|one)|there|it|i|we|my|our|he|she|they|the)\b|好像|有人|我|听|刚才|他|她"
+)
+_ASKS = re.compile(
+    r"\s*(?:how|what|which|who|whose|why|when (?:is|are|do|does|did|will)|is|are|was|were|does"
+    r"|do (?:you|i|we)|has|have|did)\b|.*\?\s*$"
+    r"|.*(?:多远|多大|多少|几个|哪个|什么|为什么|怎么|吗|呢|没有$)"
+)
+_QUIET = frozenset({"look", "find", "count", "go_to_object"})
+"""Steps by which a question is answered."""
+
+
+def _read_grammar(
+    text: str, vocabulary: Vocabulary, room: str | None
+) -> tuple[Counter[object], Code | None]:
+    """Return the steps that the grammar reads in an order, or why nothing may move upon it."""
+    read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
+    if isinstance(read, StepPlan):
+        return Counter(map(_key, read.steps)), None
+    vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
+    return Counter(), read.code if vetoed and isinstance(read, Refuse | Clarify) else None
+
+
+def _spare_clauses(text: str, vocabulary: Vocabulary, room: str | None) -> str | None:
+    """Return what is ordered beside a mere statement; None where the order itself is vetoed."""
+    clauses = [clause for clause in _CLAUSE.split(text) if clause.strip()]
+    if not 1 < len(clauses) <= _MOST_CLAUSES:
+        return None
+    orders = [clause for clause in clauses if not _STATES.match(plain(clause))]
+    vetoed = any(_read_grammar(clause, vocabulary, room)[1] for clause in orders)
+    return ", ".join(orders) if orders and not vetoed and len(orders) < len(clauses) else None
+
+
+def _key(step: Step) -> object:
+    """Return what a step does, however it is worded."""
+    label = getattr(step, "object", None)
+    angle, far = getattr(step, "angle_rad", None), getattr(step, "distance_m", None)
+    return (
+        step.kind,
+        places_of(step),
+        label.casefold() if label is not None else None,
+        round(angle, 1) if angle is not None else None,
+        round(far, 2) if far is not None else None,
+    )
+
+
+def thing_named(label: str, said: str) -> bool:
+    """Tell whether words speak of a thing or a person that a step names."""
+    if has_specific_words(label):
+        return label_named(label, said) or _kind_named(label, said)
+    return _PEOPLE.search(said) is not None
+
+
+def _kind_named(label: str, said: str) -> bool:
+    """Tell whether the same kind of thing is named, in either language."""
+    kind = resolve(label)
+    return kind is not None and any(
+        re.search(pattern, said) is not None for pattern in _patterns(kind[0])
+    )
+
+
+@lru_cache(maxsize=128)
+def _patterns(kind: str) -> tuple[str, ...]:
+    english = "|".join(map(re.escape, synonyms(kind, Language.EN))) or r"(?!)"
+    chinese = "|".join(map(re.escape, synonyms(kind, Language.ZH))) or r"(?!)"
+    return rf"\b(?:{english})(?:e?s)?\b", rf"(?:{chinese})"

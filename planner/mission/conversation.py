@@ -1,0 +1,99 @@
+"""Gather where things stand for a brain that reads a new order: now, and the last goals. Pure.
+
+Law: nothing that a model read in a picture, and nothing said after it, is among what is told. A
+goal in whose course a picture was read is told by its order and its code alone.
+"""
+
+from __future__ import annotations
+
+from math import degrees, hypot
+from typing import TYPE_CHECKING
+
+from planner.brain.situation import (
+    MAX_QUEUED,
+    MAX_RECENT,
+    OpenQuestion,
+    RecentGoal,
+    Situation,
+)
+from planner.mission.open_questions import WAITS
+from planner.mission.outcomes import spot_at
+from planner.plan import GoalState
+
+if TYPE_CHECKING:
+    from planner.mission.state import Mission, MissionState
+    from planner.site.site_view import SiteView
+    from wire import Pose2
+
+NEAR_M = 1.0
+_ORDER, _TOLD, _QUEUED = 70, 80, 50  # characters
+_UNSEEN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.RUNNING})
+
+
+def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situation:
+    """Return where things stand for a brain that thinks about this goal."""
+    status, running = book.status, book.missions.get(book.running or "")
+    pose = status.base_in_map if status is not None else None
+    waiting = [i for i in book.queue if i != mission.id]
+    own = running is None or running.id == mission.id
+    return Situation(
+        battery=status.drive.battery if status is not None else None,
+        room=spot_at(book.facts, pose).room if pose is not None else None,
+        place=_place_near(book.facts, pose) if pose is not None else None,
+        heading_deg=round(degrees(pose.yaw_rad)) if pose is not None else None,
+        running=None if own or running is None else running.order_text[:_ORDER],
+        step=None if own or running is None else _step(running),
+        queue=tuple(book.missions[i].order_text[:_QUEUED] for i in waiting[:MAX_QUEUED]),
+        more=max(0, len(waiting) - MAX_QUEUED),
+        question=_question(book, mission),
+        recent=_recent(book, mission, now_s + book.wall_offset_s),
+    )
+
+
+def _place_near(facts: SiteView, pose: Pose2) -> str | None:
+    near = [
+        (hypot(t.pose.x_m - pose.x_m, t.pose.y_m - pose.y_m), t.id)
+        for t in facts.targets.values()
+        if not t.room
+    ]
+    far_m, place = min(near, default=(float("inf"), ""))
+    return place if far_m <= NEAR_M else None
+
+
+def _step(running: Mission) -> str | None:
+    step = running.current_step
+    return None if step is None else f"{step.kind} {step.place or ''}".strip()
+
+
+def _question(book: MissionState, mission: Mission) -> OpenQuestion | None:
+    """Return the newest question that waits, besides this goal's own."""
+    waiting = [m for m in book.missions.values() if m.state in WAITS and m.id != mission.id]
+    newest = max(waiting, key=lambda m: m.updated_unix_s, default=None)
+    if newest is None:
+        return None
+    asked = _tell_outcome(newest)
+    return OpenQuestion(order=newest.order_text[:_ORDER], asked=asked)
+
+
+def _recent(book: MissionState, mission: Mission, now_unix_s: float) -> tuple[RecentGoal, ...]:
+    """Return the newest goals before this one that are not under way, newest first."""
+    before = (
+        m for m in book.missions.values() if m.order < mission.order and m.state not in _UNSEEN
+    )
+    newest = sorted(before, key=lambda m: -m.order)[:MAX_RECENT]
+    return tuple(
+        RecentGoal(
+            order=m.order_text[:_ORDER],
+            outcome=m.outcome.code.value if m.outcome is not None else m.state.value,
+            told=_tell_outcome(m),
+            minutes=max(0, int((now_unix_s - m.created_unix_s) / 60.0)),
+        )
+        for m in newest
+    )
+
+
+def _tell_outcome(mission: Mission) -> str:
+    """Return what a person was told of a goal; nothing where a picture was read for it."""
+    if mission.outcome is None or any(step.read is not None for step in mission.steps):
+        return ""
+    return mission.outcome.message.of(mission.language)[:_TOLD]

@@ -1,0 +1,133 @@
+"""Say what a sentence means that leans on the goal before it: "again", "no, the study", 还有厨房.
+
+Pure. The words of the newest order are taken up, with another place in them where one is named; a
+place alone is gone to. Law: nothing is leant on that is older than ``LEANS_S``, and where it is not
+beyond doubt which place or which order is meant, the sentence stays as it was said, for a brain to
+ask about. What comes of it is an order like any other, and every guard reads it as the person's.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from planner.language.commands import (
+    AppendCommand,
+    Intent,
+    LeaningCommand,
+    OtherPlaceCommand,
+    RepeatCommand,
+    Replace,
+    intent_of,
+)
+from planner.language.folding import has_chinese
+from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
+from planner.plan import Entry, GoalState, Vocabulary
+
+if TYPE_CHECKING:
+    from planner.mission.state import Mission, MissionState
+    from planner.site.site_view import SiteView
+
+LEANS_S = 1800.0
+"""Half an hour: after it, "again" means nothing that a person could be held to."""
+_SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
+_ORDERS = re.compile(
+    r"(?:please )?(?:go|drive|come|move|head|return|turn|look|find|search|count|follow|patrol|wait"
+    r"|visit|check|say|tell|ask|take|bring|get|see|stop)\b|[去到回来找看数转跟等说告问巡走开带拿停]"
+)
+
+
+def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
+    """Return the order that a sentence is, in words that lean on nothing."""
+    intent: Intent | None = intent_of(text)
+    if not isinstance(intent, LeaningCommand | Replace):
+        return text
+    last = last_order(book, now_unix_s)
+    if isinstance(intent, RepeatCommand):
+        return last.order_text if last is not None else text
+    if isinstance(intent, OtherPlaceCommand):
+        return _other_place(book.facts, last) or text
+    rest = _innermost(intent.rest)
+    place = place_alone(rest, names_of(book.facts))
+    if place is None:
+        takes_back = isinstance(intent, Replace) and not intent.corrects
+        return rest if takes_back or _ORDERS.match(plain(rest)) else text
+    again = _with_place(book.facts, last.order_text, place, rest) if last is not None else None
+    return again or _drive_to(book.facts, place, rest)
+
+
+def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:
+    """Tell whether a sentence leans on a goal before it, and what it means is beyond doubt."""
+    corrects = isinstance(intent, Replace) and intent.corrects
+    if not (corrects or isinstance(intent, LeaningCommand)):
+        return False
+    return meaning_of(book, text, now_unix_s) != text
+
+
+def last_order(book: MissionState, now_unix_s: float) -> Mission | None:
+    """Return the newest goal that was an order; None where it is long ago."""
+    orders = (m for m in book.missions.values() if m.steps or m.state in _SPOKEN)
+    newest = max(orders, key=lambda m: m.order, default=None)
+    if newest is None or not now_unix_s - newest.created_unix_s <= LEANS_S:
+        return None
+    return newest
+
+
+def names_of(facts: SiteView) -> Vocabulary:
+    """Return the names of a site's places, for finding them in words."""
+    return Vocabulary(
+        entries=tuple(
+            Entry(
+                id=target.id,
+                kind="room" if target.room else "place",
+                name=target.name,
+                aliases=target.aliases,
+            )
+            for target in facts.targets.values()
+        )
+    )
+
+
+def _innermost(rest: str) -> str:
+    """Return the order in "no, not the kitchen, the study"."""
+    inner = intent_of(rest)
+    return _innermost(inner.rest) if isinstance(inner, Replace | AppendCommand) else rest
+
+
+def _with_place(facts: SiteView, order: str, place: str, said: str) -> str | None:
+    """Return an order with another place in it; None where it names none, or several."""
+    found = find_places(order, names_of(facts))
+    if len({each.id for each in found}) != 1 or found[0].id == place:
+        return None
+    words, name = plain(order), _name(facts, place, has_chinese(order), said)
+    for each in reversed(found):
+        words = words[: each.start] + name + words[each.end :]
+    return words
+
+
+def _other_place(facts: SiteView, last: Mission | None) -> str | None:
+    """Return the last order with the place that it was not about; None where that is in doubt."""
+    if last is None:
+        return None
+    spoken = (last.order_text, *last.questions, *last.replies)
+    named = {each.id for text in spoken for each in find_places(text, names_of(facts))}
+    gone = {place for step in last.steps for place in (step.place, *step.places) if place}
+    left = named - gone
+    if len(left) != 1 or len(named) != 2:
+        return None
+    return _drive_to(facts, left.pop(), last.order_text)
+
+
+def _drive_to(facts: SiteView, place: str, said: str) -> str:
+    chinese = has_chinese(said)
+    name = _name(facts, place, chinese, said)
+    return f"去{name}" if chinese else f"go to the {name}"
+
+
+def _name(facts: SiteView, place: str, chinese: bool, said: str) -> str:
+    """Return a place's name as it was said, else the site's in that language."""
+    found = [e for e in find_places(said, names_of(facts)) if e.id == place]
+    spelt = plain(said)[found[0].start : found[0].end] if found else ""
+    if spelt and has_chinese(spelt) is chinese:
+        return spelt
+    return facts.targets[place].name.of("zh" if chinese else "en")

@@ -1,0 +1,109 @@
+"""Let a model's plan act on what runs: in its place, right after it, ending it, or as an answer.
+
+Laws: a goal is ended only where the person's own words take something back, outside of conditions
+and quotes; a plan that comes in its place ends it no sooner than it may itself be walked. What
+answers a question is what the person said, word for word, and never what a model makes of it: so no
+model can say yes. Pure.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from planner.language.catalogue import message, say
+from planner.language.motion_guard import read_scope
+from planner.mission.open_questions import WAITS, take_sentence
+from planner.mission.queue import cancel, finish
+from planner.mission.transitions import BrainCause
+from planner.plan import (
+    Bilingual,
+    Clarify,
+    Code,
+    GoalState,
+    Option,
+    Outcome,
+    PlanRole,
+    plan_record,
+    say_same,
+)
+
+if TYPE_CHECKING:
+    from planner.mission.state import Mission
+    from planner.mission.transaction import Transaction
+
+_TAKES_BACK = re.compile(
+    r"\b(?:instead|rather|forget|cancel|never ?mind|scrap|scratch|no|not|don't|wrong|mean|meant"
+    r"|change[ds]?|actually|sorry|abort|drop|call off|leave it|skip|enough|quit)\b"
+    r"|不|别|改|换|取消|撤销|算了|错|而是|还是|放弃|忘|免了"
+)
+
+
+IN_HAND = frozenset(
+    {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
+)
+
+
+def goal_in_hand(turn: Transaction, new: Mission) -> Mission | None:
+    """Return the goal that "forget that" means: the running, else the newest that thinks or asks.
+
+    A goal that a person paused keeps its place, and so do those that wait.
+    """
+    if turn.running is not None:
+        return turn.running
+    open_ = (m for m in turn.book.missions.values() if m.order < new.order and m.state in IN_HAND)
+    return max(open_, key=lambda m: m.order, default=None)
+
+
+def takes_back(text: str) -> bool:
+    """Tell whether a person's words take anything back, whatever they name."""
+    scope = read_scope(text)
+    said = f"{scope.ordered} {scope.excluded}" if scope.ordered == scope.upon else scope.ordered
+    return _TAKES_BACK.search(said) is not None
+
+
+def assume_role(turn: Transaction, mission: Mission, role: PlanRole) -> Mission:
+    """Return a goal that will be queued as its plan says, where the person's words bear that."""
+    if role is PlanRole.AFTER:
+        return turn.put(mission, first=True)
+    if role is PlanRole.INSTEAD and takes_back(mission.words):
+        return turn.put(mission, replace=True)
+    return mission
+
+
+def end_current(turn: Transaction, mission: Mission, target: Mission | None) -> None:
+    """End the goal that a person wants ended; ask where their words do not say so."""
+    if target is None:
+        _answer(turn, mission, say("commands.nothing_to_cancel"))
+        return
+    text = target.text[:60]
+    if not takes_back(mission.words):
+        question = say("confirmation.end_goal", text=text)
+        order = "cancel it" if mission.language == "en" else "取消任务"
+        offer = Option(label=say("confirmation.end_it"), text=order)
+        asks = Clarify(code=Code.AMBIGUOUS, question=question, options=(offer,))
+        mission = turn.put(mission, plan=plan_record(asks))
+        said = Outcome(code=asks.code, message=question)
+        turn.move_to(mission, BrainCause.ASKS, reason=asks.code.value, outcome=said)
+        return
+    cancel(turn, target)
+    _answer(turn, mission, say("commands.done", done=say("commands.cancelled"), text=text))
+
+
+def _answer(turn: Transaction, mission: Mission, said: Bilingual) -> None:
+    text = message(Code.ANSWERED, text=said)
+    finish(turn, mission, BrainCause.ANSWERS, Outcome(code=Code.ANSWERED, message=text))
+
+
+def find_asking(turn: Transaction, mission: Mission) -> Mission | None:
+    """Return the one goal whose question a sentence answers; end the sentence's own goal.
+
+    Where none waits, or several, nothing is answered and the person is told so.
+    """
+    waiting = [m for m in turn.book.missions.values() if m.state in WAITS and m.id != mission.id]
+    if not waiting:
+        why = message(Code.NOT_UNDERSTOOD, part=say_same(mission.text[:60]))
+        refused = Outcome(code=Code.NOT_UNDERSTOOD, message=why)
+        finish(turn, mission, BrainCause.REFUSES, refused, Code.NOT_UNDERSTOOD.value)
+        return None
+    return take_sentence(turn, mission, tuple(m.id for m in waiting))

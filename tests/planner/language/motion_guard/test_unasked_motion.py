@@ -1,0 +1,200 @@
+"""Check which steps count as asked for: laws over words first, then the sentences behind them."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner.language.motion_guard import PersonWords, find_unasked, said_words
+from planner.language.motion_guard.unasked_motion import can_move
+from planner.plan import (
+    ComeBack,
+    Count,
+    Find,
+    Follow,
+    GoTo,
+    GoToObject,
+    GoToPoint,
+    Look,
+    MoveStraight,
+    Patrol,
+    ReturnHome,
+    Say,
+    Step,
+    StepPlan,
+    Turn,
+    Wait,
+)
+from tests.planner.brain.conftest import HOME
+
+KITCHEN, STUDY, BATH = GoTo(place="kitchen"), GoTo(place="study"), GoTo(place="bathroom")
+ROOMS = tuple(entry.id for entry in HOME.entries if entry.kind == "room")
+MOTIONS: tuple[Any, ...] = (
+    KITCHEN,
+    Patrol(places=ROOMS * 2),
+    Follow(object="person"),
+    Find(object="wallet"),
+    Find(object="wallet", place="kitchen"),
+    Count(object="wallets"),
+    GoToObject(object="wallet"),
+    GoToPoint(x=500, y=500),
+    Look(question="what is there?", place="kitchen"),
+    Look(question="look around"),
+    Turn(angle_rad=4 * pi),
+    MoveStraight(distance_m=10.0),
+    ReturnHome(),
+    ComeBack(),
+)
+IDLE = (
+    "say hello",
+    "hello! how are you",
+    "what is your name",
+    "tell me a joke",
+    "wait ten seconds",
+    "讲个笑话",
+    "你好",
+    "等十秒",
+)
+ORDERS = (
+    ("go to the kitchen", KITCHEN),
+    ("have a look into the study", Look(question="what is there?", place="study")),
+    ("find my wallet in the kitchen", Find(object="wallet", place="kitchen")),
+    ("turn left by 90 degrees", Turn(angle_rad=pi / 2)),
+    ("follow me", Follow(object="person")),
+    ("go home", ReturnHome()),
+    ("去厨房", KITCHEN),
+    ("往前走两米", MoveStraight(distance_m=2.0)),
+    ("跟着我", Follow(object="人")),
+)
+
+
+def unasked(text: str, *steps: Step, checked: bool = False) -> tuple[int, ...]:
+    person = PersonWords((text,), room="study", checked=checked)
+    return tuple(each.index for each in find_unasked(StepPlan(steps=steps), person, HOME))
+
+
+@pytest.mark.parametrize("step", MOTIONS, ids=lambda step: step.kind)
+@pytest.mark.parametrize("text", IDLE)
+def test_who_asks_for_no_motion_gets_none(text: str, step: Step) -> None:
+    assert unasked(text, step) == (0,)
+
+
+@pytest.mark.parametrize(("text", "step"), ORDERS)
+def test_what_is_ordered_is_asked_for(text: str, step: Step) -> None:
+    assert unasked(text, step) == ()
+
+
+@pytest.mark.parametrize(("text", "step"), ORDERS)
+@pytest.mark.parametrize(
+    "frame", ["{}, please", "hey robot, {}", "{} now", "  {}  ", "{}!", "could you {}"]
+)
+def test_courtesy_changes_nothing(frame: str, text: str, step: Step) -> None:
+    assert unasked(frame.format(text), step) == ()
+
+
+@pytest.mark.parametrize("more", MOTIONS, ids=lambda step: step.kind)
+@pytest.mark.parametrize(("text", "step"), ORDERS)
+def test_a_motion_more_is_found_wherever_it_stands(text: str, step: Step, more: Step) -> None:
+    """But for what the order itself may mean: a point, or the very same."""
+    if unasked(text, more) == () or more.kind == step.kind:
+        return
+    assert unasked(text, step, more) == (1,)
+    assert 0 in unasked(text, more, step)
+
+
+@pytest.mark.parametrize(
+    "frame",
+    [
+        "don't {}",
+        "please do not {}",
+        "never {}",
+        "you must not {}",
+        "if it rains, {}",
+        "when the bell rings, {}",
+        "{} tomorrow morning",
+        "say that I said “{}”",
+        "{} only if the door is open",
+        "unless I call you, {}",
+    ],
+)
+def test_what_is_denied_or_on_a_condition_is_not_asked_for(frame: str) -> None:
+    assert unasked(frame.format("go to the kitchen"), KITCHEN) == (0,)
+
+
+@pytest.mark.parametrize(
+    "frame",
+    [
+        "别{}",
+        "不要{}",
+        "千万别{}",
+        "如果下雨就{}",
+        "明天{}",
+        "你说：{}",
+        "不许{}",
+        "要是门开着就{}",
+    ],
+)
+def test_the_same_in_chinese(frame: str) -> None:
+    assert unasked(frame.format("去厨房"), KITCHEN) == (0,)
+
+
+def test_a_condition_holds_once_somebody_has_looked() -> None:
+    order = "if nobody is in the kitchen go to the study, otherwise go to the bathroom"
+    look = Look(question="is anybody there?", place="kitchen")
+    assert unasked(order, look) == ()
+    assert unasked(order, STUDY) == (0,)
+    assert unasked(order, STUDY, checked=True) == ()
+    assert unasked(order, Patrol(places=ROOMS), checked=True) == (0,)
+
+
+def test_a_denial_ends_with_its_clause() -> None:
+    assert unasked("not the kitchen, the study", STUDY) == ()
+    assert unasked("not the kitchen, the study", KITCHEN) == (0,)
+    assert unasked("don't wait for me, go to the kitchen", KITCHEN) == ()
+    assert unasked("不是厨房，是书房", STUDY) == ()
+    assert unasked("go to every room except the bathroom", KITCHEN, STUDY) == ()
+    assert unasked("go to every room except the bathroom", KITCHEN, BATH) == (1,)
+
+
+def test_numbers_and_sides_are_those_that_were_said() -> None:
+    assert unasked("turn left by 30 degrees", Turn(angle_rad=pi / 2)) == (0,)
+    assert unasked("turn left", Turn(angle_rad=-pi / 2)) == (0,)
+    assert unasked("go forward 2 metres", MoveStraight(distance_m=-2.0)) == (0,)
+    assert unasked("向后退一米五", MoveStraight(distance_m=-1.5)) == ()
+
+
+def test_no_more_often_than_said() -> None:
+    assert unasked("go to the kitchen", KITCHEN, Say(text="here"), KITCHEN) == ()  # is there
+    assert unasked("go to the kitchen and the study", KITCHEN, STUDY, KITCHEN) == (2,)
+    assert unasked("go to the kitchen and the study twice", KITCHEN, STUDY, KITCHEN, STUDY) == ()
+
+
+def test_a_question_orders_no_drive() -> None:
+    assert unasked("is the kitchen bigger than the study", KITCHEN) == (0,)
+    assert unasked("厨房和书房哪个大", KITCHEN) == (0,)
+    assert unasked("is anybody in the kitchen?", Find(object="person", place="kitchen")) == ()
+
+
+def test_a_plain_yes_makes_the_question_ones_own() -> None:
+    pairs = (("Do you mean the kitchen?", "yes"),)
+    assert said_words("go there", pairs) == ("go there", "Do you mean the kitchen?")
+    assert said_words("go there", (("The kitchen?", "no, wait"),)) == ("go there", "no, wait")
+    person = PersonWords(said_words("go there", pairs))
+    assert find_unasked(StepPlan(steps=(KITCHEN,)), person, HOME) == ()
+
+
+@given(st.text(max_size=700), st.sampled_from(MOTIONS))
+def test_any_text_is_judged(text: str, step: Step) -> None:
+    """No text makes the judge fail: a plan that could not be judged would be a plan not walked."""
+    assert unasked(text, step) in ((), (0,))
+
+
+@given(st.text(alphabet=st.characters(min_codepoint=33, max_codepoint=126), max_size=60))
+def test_what_never_moves_is_never_asked_about(text: str) -> None:
+    still = (Say(text="hello"), Wait(seconds=5.0), Look(question="what is ahead?"))
+    assert not any(can_move(step) for step in still)
+    assert unasked(text, *still) == ()

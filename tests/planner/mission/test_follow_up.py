@@ -1,0 +1,137 @@
+"""What leans on the goal before it means what a person means, and cancels nothing by chance."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from planner.language.utterance import parse
+from planner.mission.events import Planned, Submitted
+from planner.mission.follow_up import LEANS_S, meaning_of
+from planner.mission.reception import receive
+from planner.mission.reducer import advance
+from planner.mission.state import Mission, MissionState
+from planner.plan import GoTo, Language, StepPlan
+from planner.site import Site
+from planner.site.site_view import facts_of
+from tests.conftest import ROOT
+
+FACTS = facts_of(Site.load(ROOT / "sites" / "home"))
+NOW_S = 1000.0
+
+
+def book_after(*orders: tuple[str, str]) -> MissionState:
+    """Return the book after these orders, each planned as a drive to a place."""
+    book = MissionState(FACTS)
+    for number, (text, place) in enumerate(orders):
+        given = Submitted(f"g{number}", text, parse(text).language)
+        book, _ = advance(book, given, NOW_S)
+        plan = StepPlan(steps=(GoTo(place=place),))
+        book, _ = advance(book, Planned(given.id, plan), NOW_S)
+    return book
+
+
+BEDROOM = book_after(("go to the bedroom", "bedroom"))
+ZH = book_after(("去卧室找我的杯子", "bedroom"))
+EITHER = book_after(("go to the kitchen or the study, whichever you like", "kitchen"))
+
+MEANINGS = (
+    (BEDROOM, "no, I meant the study", "go to the study"),
+    (BEDROOM, "no I meant the study", "go to the study"),
+    (BEDROOM, "No, the study!", "go to the study"),
+    (BEDROOM, "not the bedroom, the study", "go to the study"),
+    (BEDROOM, "sorry, I meant the kitchen", "go to the kitchen"),
+    (BEDROOM, "不对，书房", "go to the study"),
+    (BEDROOM, "and then the kitchen too", "go to the kitchen"),
+    (BEDROOM, "the kitchen as well", "go to the kitchen"),
+    (BEDROOM, "and then come back", "come back"),
+    (BEDROOM, "again", "go to the bedroom"),
+    (BEDROOM, "do that again, please", "go to the bedroom"),
+    (BEDROOM, "再来一次", "go to the bedroom"),
+    (ZH, "不对，书房", "去书房找我的杯子"),
+    (ZH, "不是卧室，是书房", "去书房找我的杯子"),
+    (ZH, "还有厨房", "去厨房找我的杯子"),
+    (ZH, "然后再去厨房", "去厨房"),
+    (ZH, "again", "去卧室找我的杯子"),
+    (EITHER, "the other one", "go to the study"),
+    (EITHER, "no, the other one", "go to the study"),
+    (EITHER, "另一个", "go to the study"),
+)
+
+
+def meant(book: MissionState, text: str, later_s: float = 0.0) -> str:
+    return meaning_of(book, text, NOW_S + later_s)
+
+
+@pytest.mark.parametrize(("book", "text", "order"), MEANINGS)
+def test_a_sentence_means_what_it_leans_on(book: MissionState, text: str, order: str) -> None:
+    assert meant(book, text) == order
+
+
+@pytest.mark.parametrize(("book", "text", "order"), MEANINGS)
+@pytest.mark.parametrize("frame", ["{}", " {} ", "{}.", "um, {}", "{}!!"])
+def test_courtesy_and_noise_change_nothing(
+    frame: str, book: MissionState, text: str, order: str
+) -> None:
+    assert meant(book, frame.format(text)) == order
+
+
+@pytest.mark.parametrize(("book", "text", "order"), MEANINGS)
+def test_what_it_means_leans_on_nothing_more(book: MissionState, text: str, order: str) -> None:
+    assert meant(book, meant(book, text)) == order
+
+
+@pytest.mark.parametrize("text", [text for book, text, _ in MEANINGS if book is EITHER])
+def test_what_is_in_doubt_stays_as_it_was_said(text: str) -> None:
+    assert meant(BEDROOM, text) == text
+    assert meant(MissionState(FACTS), text) == text
+
+
+@pytest.mark.parametrize("text", ["again", "do that again", "再来一次", "the other one"])
+def test_what_was_long_ago_is_not_meant(text: str) -> None:
+    assert meant(EITHER, text, LEANS_S + 1.0) == text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "no, the dinner is ready",
+        "no, not yet",
+        "no",
+        "no, that's fine",
+        "and you?",
+        "me too",
+        "不，我很好",
+        "不是的",
+        "say hello again",
+        "go to the kitchen; if you can't get in, wait in the hallway instead",
+        "if the door is open, go to the study instead",
+        "go to the kitchen or, if you can't, to the study instead",
+        "如果进不去就改去书房",
+        "no, if it rains",
+    ],
+)
+def test_what_is_no_correction_takes_nothing_back(text: str) -> None:
+    assert meant(BEDROOM, text) == text
+    heard = receive(BEDROOM, parse(text), Submitted("new", text, Language.EN), NOW_S)
+    assert heard.takes_back is None
+    assert (heard.given.first, heard.given.replace) == (False, False)
+
+
+@pytest.mark.parametrize(("text", "ends"), [
+    ("no, I meant the study", True), ("不对，书房", True), ("forget that, go home", True),
+    ("and then the kitchen too", False), ("again", False), ("还有厨房", False),
+])  # fmt: skip
+def test_a_correction_ends_what_runs_and_an_addition_waits_for_it(text: str, ends: bool) -> None:
+    heard = receive(BEDROOM, parse(text), Submitted("new", text, Language.EN), NOW_S)
+    assert (heard.takes_back == "g0") is ends
+    assert heard.given.first is (text != "again")
+
+
+def test_the_goal_keeps_both_what_was_said_and_what_it_means() -> None:
+    book, effects = advance(BEDROOM, Submitted("g9", "again", Language.EN), NOW_S)
+    kept: Mission = book.missions["g9"]
+    assert (kept.text, kept.words) == ("again", "go to the bedroom")
+    asks: list[Any] = [each for each in effects if type(each).__name__ == "AskBrain"]
+    assert [each.text for each in asks] == ["go to the bedroom"]
