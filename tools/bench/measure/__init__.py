@@ -51,6 +51,7 @@ from tools.bench.measure import (
     voice,
     walls_and_people,
     wheel_tracking,
+    wrong_wires,
 )
 
 if TYPE_CHECKING:
@@ -87,6 +88,7 @@ ALL: tuple[Measure, ...] = cast(
         goals,
         mapping,
         drives,
+        wrong_wires,
         exploration,
         lidars,
         ros2_base,
