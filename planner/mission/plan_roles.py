@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
-from planner.language.motion_guard import read_scope
+from planner.language.motion_guard.order_scope import read_scope
 from planner.mission.open_questions import WAITS, take_sentence
 from planner.mission.queue import cancel, finish
 from planner.mission.transitions import BrainCause
