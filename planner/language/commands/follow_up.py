@@ -63,8 +63,8 @@ _ALSO_ZH = re.compile(
 )
 
 _TAKEN = (
-    r"(?:(?:no|nope|nah|wait|sorry|oops|wrong|not that(?: one| room)?"
-    r"|wrong (?:room|place|one)|actually)[ ,.!;]+)"
+    r"(?:(?:no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong|not that(?: one| room)?"
+    r"|actually)[ ,.!;]+)"
 )
 _MEANT = (
     r"(?:i (?:meant?|said|wanted|want)(?: to say)?|i was thinking of|make (?:it|that)|it(?:'s| is))"
