@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.language.catalogue import message, say
+from planner.language.catalogue import join, message, say
 from planner.language.utterance import parse
 from planner.mission.activity import Thinking
 from planner.mission.conversation import situation_of
@@ -22,6 +22,7 @@ from planner.mission.open_questions import (
     take_answer,
     take_no,
     take_sentence,
+    tell_offer,
     waiting_since,
 )
 from planner.mission.outcomes import spot_at
@@ -170,7 +171,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
             outcome = Outcome(code=plan.code, message=told)
             finish(turn, mission, BrainCause.REFUSES, outcome, plan.code.value)
         case Clarify():
-            told = go_on_told(turn.book, plan.question, turn.now_s)
+            told = go_on_told(turn.book, tell_offer(mission, plan.question), turn.now_s)
             said = Outcome(code=plan.code, message=told)
             turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
@@ -205,7 +206,10 @@ def _walkable(turn: Transaction, mission: Mission, unasked: tuple[int, ...]) -> 
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
     shall_i = ask_for_motion(turn.book.facts, (), mission.steps, unasked)
     if mission.doubtful_stop:
-        said = Outcome(code=Code.CONFIRM, message=_ask_what_was_meant(turn.book, mission))
+        asked = _ask_what_was_meant(turn.book, mission)
+        if shall_i is not None:  # a yes is a yes to all that is asked
+            asked = join((shall_i.message, asked))
+        said = Outcome(code=Code.CONFIRM, message=asked)
         turn.move_to(mission, BrainCause.NEEDS_YES, reason="doubtful_stop", outcome=said)
     elif shall_i is not None:
         turn.move_to(mission, BrainCause.NEEDS_YES, reason=UNASKED, outcome=shall_i)

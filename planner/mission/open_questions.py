@@ -64,6 +64,21 @@ def find_offer(mission: Mission) -> str | None:
     return only if only is not None and not is_stop(only) else None
 
 
+def tell_offer(mission: Mission, question: Bilingual) -> Bilingual:
+    """Return a model's question with the one order that a yes to it gives, where it hides that.
+
+    "Shall I say hello?" with “go to the bathroom” behind it would make a yes an order unheard.
+    """
+    plan, brain = mission.plan, mission.brain
+    model = brain is not None and brain.name != OFFLINE
+    if not model or plan is None or len(plan.options) != 1:
+        return question
+    order = plan.options[0].text
+    if order.casefold() in f"{question.en} {question.zh}".casefold():
+        return question
+    return say("question.offers", asked=question, order=order[:200])
+
+
 def asks_freely(mission: Mission) -> bool:
     """Tell whether a model asks about an order and offers none: it reads whatever is answered."""
     plan, brain = mission.plan, mission.brain

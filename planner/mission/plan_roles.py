@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
-from planner.language.motion_guard import read_scope
+from planner.language.motion_guard.order_scope import read_scope
 from planner.mission.open_questions import WAITS, take_sentence
 from planner.mission.queue import cancel, finish
 from planner.mission.transitions import BrainCause
@@ -32,10 +32,16 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission
     from planner.mission.transaction import Transaction
 
+_ENDS_IT = (
+    r"\b(?:forget|cancel|never ?mind|scrap|scratch|abort|drop|call off|leave it|skip|enough|quit"
+    r"|(?:don't|do not) (?:go|bother|need|look|do|drive))\b"
+    r"|取消|撤销|算了|放弃|忘了|免了|不用|不要|别"
+)
+_ENDS = re.compile(_ENDS_IT)
 _TAKES_BACK = re.compile(
-    r"\b(?:instead|rather|forget|cancel|never ?mind|scrap|scratch|no|not|don't|wrong|mean|meant"
-    r"|change[ds]?|actually|sorry|abort|drop|call off|leave it|skip|enough|quit)\b"
-    r"|不|别|改|换|取消|撤销|算了|错|而是|还是|放弃|忘|免了"
+    rf"(?:^|[,.;!|] *)(?:\w+ )?(?:no|nope|not)\b|\bnot (?:the|there|that|this)\b"
+    r"|\b(?:instead|rather|wrong|i meant?|changed? (?:my|the|of)|actually|sorry|make (?:it|that))\b"
+    rf"|不对|不是|不去|不不|^不|改|换|错|而是|还是去|{_ENDS_IT}"
 )
 
 
@@ -57,9 +63,18 @@ def goal_in_hand(turn: Transaction, new: Mission) -> Mission | None:
 
 def takes_back(text: str) -> bool:
     """Tell whether a person's words take anything back, whatever they name."""
+    return _TAKES_BACK.search(_unconditional(text)) is not None
+
+
+def ends_goal(text: str) -> bool:
+    """Tell whether a person's words end what is done, and nothing in its place."""
+    return _ENDS.search(_unconditional(text)) is not None
+
+
+def _unconditional(text: str) -> str:
+    """Return what a sentence says outside of conditions and quotes, denials included."""
     scope = read_scope(text)
-    said = f"{scope.ordered} {scope.excluded}" if scope.ordered == scope.upon else scope.ordered
-    return _TAKES_BACK.search(said) is not None
+    return f"{scope.ordered} | {scope.excluded}" if scope.ordered == scope.upon else scope.ordered
 
 
 def assume_role(turn: Transaction, mission: Mission, role: PlanRole) -> Mission:
@@ -77,7 +92,7 @@ def end_current(turn: Transaction, mission: Mission, target: Mission | None) -> 
         _answer(turn, mission, say("commands.nothing_to_cancel"))
         return
     text = target.text[:60]
-    if not takes_back(mission.words):
+    if not ends_goal(mission.words):
         question = say("confirmation.end_goal", text=text)
         order = "cancel it" if mission.language == "en" else "取消任务"
         offer = Option(label=say("confirmation.end_it"), text=order)

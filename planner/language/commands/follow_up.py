@@ -18,6 +18,8 @@ from planner.language.commands.command import (
 from planner.language.folding import fold_words, has_chinese
 from planner.language.yes_no import consents
 
+MAX_READ = 120
+"""Characters; a longer sentence is an order of its own."""
 FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | Replace
 _ENDS = " .!,;:。~…，；！"
 _PLEASE = r"(?:please|pls|ok|okay|robot|pons|hey|um|uh|well|oh|now|and|just|thanks)"
@@ -61,8 +63,8 @@ _ALSO_ZH = re.compile(
 )
 
 _TAKEN = (
-    r"(?:(?:no[ ,]+wait|no|nope|nah|wait|sorry|oops|wrong|not that(?: one| room)?"
-    r"|wrong (?:room|place|one)|actually)[ ,.!;]+)"
+    r"(?:(?:no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong|not that(?: one| room)?"
+    r"|actually)[ ,.!;]+)"
 )
 _MEANT = (
     r"(?:i (?:meant?|said|wanted|want)(?: to say)?|i was thinking of|make (?:it|that)|it(?:'s| is))"
@@ -70,7 +72,7 @@ _MEANT = (
 _BARE_EN = r"(?:to |in |into |at )?(?:(?:the|my|our) )?[a-z][a-z' -]{1,30}"
 _DRIVE_EN = r"(?:go|drive|come|head|move|return|turn|look|find|count|follow|patrol|wait)\b.+"
 _CORRECTION = re.compile(
-    rf"{_TAKEN}+{_MEANT} (?P<a>.+)|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN})"
+    rf"{_TAKEN}++{_MEANT} (?P<a>.+)|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN})"
     rf"|(?:no[ ,]+wait|no|nope|wrong room|wrong place|not that one|oops)[ ,.!;]+(?:rather )?"
     rf"(?P<c>(?:to |in |into |at )?(?:the|my|our) [a-z][a-z' -]{{1,30}}|{_DRIVE_EN})"
     rf"|(?:no[ ,]+)?not (?:to )?(?:the|my|our) [a-z' -]{{2,24}}[,;.]? (?:but )?(?:rather )?"
@@ -91,7 +93,7 @@ def read_follow_up(text: str) -> FollowUp | None:
     """Return the word in a conversation that a sentence is, or None."""
     said = _NOISE.sub("", fold_words(text).replace("’", "'").strip(_ENDS))
     chinese = has_chinese(said)
-    if not said or consents(text) is not None or _OPEN_END.search(said):
+    if not 0 < len(said) <= MAX_READ or consents(text) is not None or _OPEN_END.search(said):
         return None
     bare = "".join(said.split()) if chinese else said
     plain = _strip(_POLITE_ZH if chinese else _POLITE, bare)

@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from planner.language.motion_guard.mentioned_names import plain
 
-MAX_READ = 600
+MAX_READ = 400
 """Characters; what stands behind them asks for nothing."""
 _GAP = " | "
 """Stands in for what was cut, so that no words meet that were apart."""

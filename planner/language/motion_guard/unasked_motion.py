@@ -245,6 +245,8 @@ class _Judge:
 _GAP = " | "
 _CLAUSE = re.compile(r"[,.;!?，。；！？]")
 _MOST_CLAUSES = 12
+_GRAMMAR_READS = 300
+"""Characters; in a longer text the words alone judge."""
 _ORDERS = re.compile(
     r"\b(?:go|goes|drive|come|walk|run|head|move|look|see|check|find|search|count|turn|follow|wait"
     r"|visit|swing|stop by|return|take|bring|tell|ask|patrol|rounds?|back)\b"
@@ -266,6 +268,8 @@ def _read_grammar(
     text: str, vocabulary: Vocabulary, room: str | None
 ) -> tuple[Counter[object], Code | None]:
     """Return the steps that the grammar reads in an order, or why nothing may move upon it."""
+    if len(text) > _GRAMMAR_READS:
+        return Counter(), None
     read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
     if isinstance(read, StepPlan):
         return Counter(map(_key, read.steps)), None

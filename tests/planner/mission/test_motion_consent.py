@@ -10,15 +10,20 @@ import pytest
 
 from planner.brain import ScriptedBrain
 from planner.mission import AskBrain
+from planner.mission.events import Planned, Submitted
 from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.plan_request import thinker
 from planner.plan import (
     Ask,
+    BrainTag,
+    Clarify,
+    Code,
     Decide,
     Follow,
     GoTo,
     Language,
     MoveStraight,
+    Option,
     Patrol,
     ReturnHome,
     Say,
@@ -26,11 +31,13 @@ from planner.plan import (
     Turn,
     Wait,
     plan_record,
+    say_same,
 )
 from planner.site import Site
 from tests.planner.brain.conftest import HOME
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.live import SOFA, Together, planner, run
+from tests.planner.mission.lockstep import Together as Lockstep
 from tests.planner.mission.saying import ASKS, CANCELLED, CONFIRMS, SUCCEEDED, told
 
 HELLO = Say(text="hello")
@@ -166,3 +173,34 @@ def test_what_a_goal_was_allowed_before_is_not_asked_again() -> None:
     steps = plan_record(StepPlan(steps=(GoTo(place="kitchen"), ReturnHome()))).steps
     assert ask_for_motion(FACTS, steps, steps, (0, 1)) is None
     assert ask_for_motion(FACTS, steps[:1], steps, (0, 1)) is not None
+
+
+HIDES = Clarify(
+    code=Code.AMBIGUOUS,
+    question=say_same("Shall I say hello?"),
+    options=(Option(label=say_same("Yes"), text="go to the sofa"),),
+)
+
+
+def test_a_yes_is_to_an_order_that_was_told(tmp_path: Path, site: Site) -> None:
+    """A model's question that hides its offer is told with it, whatever its button says."""
+
+    async def story() -> None:
+        async with planner(tmp_path, site, HIDES, by_grammar=False) as world:
+            goal = await world.missions.submit(GREETING)
+            after = await world.reach(goal.id, ASKS)
+            assert "Yes means: “go to the sofa”" in told(after)[2]
+
+    run(story())
+
+
+def test_a_yes_to_a_doubtful_stop_is_no_yes_to_motion_unheard(world: Lockstep) -> None:
+    given = Submitted("g", "stop saying hello", Language.EN, doubtful_stop=True)
+    world.event(given)
+    roams = StepPlan(steps=(HELLO, GoTo(place="kitchen")))
+    world.event(Planned("g", roams, None, BrainTag(name="m", version="1"), (1,)))
+    mission = world.goal("g")
+    assert mission.state is CONFIRMS
+    assert mission.outcome is not None
+    assert "You did not ask for this" in mission.outcome.message.en
+    assert "Did you mean" in mission.outcome.message.en

@@ -163,6 +163,8 @@ def test_what_ends_or_answers_moves_nothing_besides(role: PlanRole) -> None:
     ("no, the other room", True), ("不对，我说的是另一间", True), ("forget it", True),
     ("don't go there, go home", True), ("go home", False), ("去厨房", False),
     ("if it is locked go to the hall instead", False), ("如果锁了就改去客厅", False),
+    ("is there no milk in the kitchen", False), ("what does that mean", False),
+    ("厨房里有没有人", False), ("hm, no, rather the sofa", True), ("还是去书房吧", True),
 ])  # fmt: skip
 def test_words_that_take_back(text: str, back: bool) -> None:
     assert takes_back(text) is back
