@@ -51,6 +51,8 @@ SAME_M = 0.5
 """Frontiers whose middles are nearer to each other than this are one."""
 STOOD_M = 0.3
 """From a spot nearer than this to one where the robot stood nothing new is seen."""
+SHUT_GAIN_M2 = 2.0
+"""More than a nook, behind which a home goes on."""
 BEAMS, NEAR_M = 180, 0.25
 MOST_VISITS, MOST_TRIES = 2, 2
 """A frontier is looked at so often, and asked for from one spot in vain so often."""
@@ -84,33 +86,46 @@ class FrontierMemory:
         self._target: Frontier | None = None
         self._asked_at: Point | None = None
         self._tries = 0
+        self._map: GridMap | None = None
         self._visits: list[tuple[Point, Point]] = []
         """Middle of each frontier that was looked at, and from where."""
 
-    def note_start(self, start: Point) -> None:
-        """Take where the robot is as it asks where to look, there or on its way."""
+    def forget(self) -> None:
+        """Begin anew: all was explored, and whoever asks again wants another look."""
+        self._target, self._tries = None, 0
+        self._visits.clear()
+
+    def note_start(self, start: Point, grid: GridMap) -> None:
+        """Take where the robot is as it asks where to look, there or on its way; and the map.
+
+        A map that is still the one of the last question shows nothing of what was seen since.
+        """
         target, before = self._target, self._asked_at
         stays = before is not None and _away_m(start, before) <= STOOD_M
         self._tries = self._tries + 1 if stays else 0
         self._asked_at = start
+        is_drawn, self._map = grid is not self._map, grid
         if target is None:
             return
-        arrived = _away_m(start, target.stand) <= STOOD_M
+        arrived = is_drawn and _away_m(start, target.stand) <= STOOD_M
         if arrived or self._tries >= MOST_TRIES:
             self._visits += [(target.middle, target.stand)] * (1 if arrived else MOST_VISITS)
             self._target, self._tries = None, 0
 
     def choose(self, frontiers: list[Frontier]) -> Frontier | None:
-        """Return the frontier to look at next; None: nothing is left, and all is forgotten."""
+        """Return the frontier to look at next; None: no way leads to one that is left."""
         best = min(
             (one for one in frontiers if not self.is_in_vain(one)),
             key=lambda one: one.score - (KEEP_M if self._is_target(one) else 0.0),
             default=None,
         )
-        if best is None:
-            self._visits.clear()
         self._target = best
         return best
+
+    def leaves_out(self, frontiers: list[Frontier]) -> bool:
+        """Tell whether frontiers that no way leads to show more than a nook, and were not seen."""
+        shut = (one for one in frontiers if one.gain_m2 >= SHUT_GAIN_M2)
+        return any(not self.is_in_vain(one) for one in shut)
 
     def is_in_vain(self, frontier: Frontier) -> bool:
         """Tell whether a look at a frontier shows nothing that was not seen before."""

@@ -183,14 +183,14 @@ class Router:
             joined = costmap.labels[cell[1], cell[0]] == part
             return field[floor.index(cell)] * step_m if joined else float("inf")
 
-        memory.note_start((request.start.x_m, request.start.y_m))
+        memory.note_start((request.start.x_m, request.start.y_m), grid)
         frontier = memory.choose(find_frontiers(grid, costmap, way_m))
-        if frontier is None and costmap is not self._mapped and not request.strict:
-            # Somebody in a door does not make what lies behind it explored.
-            mapped = replace(request, obstacles=(), strict=True)
-            left = self._explore(self._mapped, mapped, FrontierMemory(), began_s, clock)
-            if left.floor is not None and not left.floor.explored:
+        if frontier is None:
+            # Somebody in a door, on the map or not, does not make what lies behind it explored.
+            anywhere = find_frontiers(grid, self._mapped, lambda _: 0.0)
+            if memory.leaves_out(anywhere):
                 raise RouteFailure("no_route", "what is left lies behind what stands in the way")
+            memory.forget()
         report = FloorReport(known_m2(grid), explored=frontier is None)
         if frontier is None:
             here = RoutePoint(request.start.x_m, request.start.y_m, MIN_SPEED_MPS)

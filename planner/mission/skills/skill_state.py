@@ -211,6 +211,8 @@ class ExploreState(SkillStateBase):
     """The robot stands where it was to look from, and the map does not show yet what it saw."""
     shut_ways: int = 0
     """Ways to frontiers that were shut, one after the other."""
+    turns: int = 0
+    """Turns on the spot that are left of a look round."""
     looks: int = 0
     """Frontiers that were looked at."""
     known_m2: float = 0.0

@@ -11,7 +11,7 @@ from planner.mission.effects import AskRoute
 from planner.mission.events import Pause, Resume
 from planner.mission.exploration import AGAIN_S
 from planner.mission.skills import Way
-from planner.mission.skills.explore import DRAWN_S, MOST_SHUT
+from planner.mission.skills.explore import DRAWN_S, MOST_SHUT, TURNS
 from planner.navigation import FloorReport
 from planner.plan import Code, Explore, ReturnHome, StepPlan, StepState
 from tests.planner.mission.driving import PAUSED, RUNNING, SUCCEEDED
@@ -137,3 +137,22 @@ def test_where_no_map_is_made_it_is_refused_and_told_how_one_is() -> None:
     assert mission.outcome.code is Code.NOT_MAPPING
     assert "pons up --map NAME" in mission.outcome.message.en
     assert "pons up --map" in mission.outcome.message.zh
+
+
+def test_where_a_way_is_shut_it_looks_round_and_asks_again() -> None:
+    """Who stood in the corridor is gone once the robot has turned: then it goes on."""
+    world = Exploring(spots=[Pose2(2.0, 0.0, 0.0)], way=lambda _: "no_route")
+    goal = world.give(EXPLORE)
+    world.run(0.5)
+    assert len(world.asked) == 1
+    world.way = lambda _: None
+    for _ in range(200):
+        world.run(0.2)
+        if len(world.asked) > 1:
+            break
+    legs = {points.leg for points in world.bridge.waypoints}
+    assert len(legs) >= TURNS
+    world.run(8.0)
+    assert world.bridge.pose.x_m == pytest.approx(2.0, abs=0.1)
+    world.spots = []
+    assert world.run_until(goal, SUCCEEDED).steps[0].code is Code.EXPLORED

@@ -77,7 +77,7 @@ def test_an_open_door_is_looked_through_and_not_driven_through() -> None:
 
 def test_who_stands_in_the_door_does_not_make_what_lies_behind_it_explored() -> None:
     """The frontier is far down a corridor, and something shuts the corridor."""
-    corridor = sketched("#" * 24, *["." * 20 + "????"] * 6, "#" * 24, square_m=0.25)
+    corridor = sketched("#" * 32, *["." * 20 + "?" * 12] * 6, "#" * 32)
     here = Pose2(0.75, 1.0, 0.0)
     crate = tuple((2.0, 0.05 * at) for at in range(40))
     router = Router(corridor, RouteLimits())
@@ -132,6 +132,11 @@ def test_floor_is_counted_by_its_cells() -> None:
     assert known_m2(GridMap(2, 1, 0.05, 0.0, 0.0, bytes((FREE, UNKNOWN)))) == pytest.approx(0.0025)
 
 
+def a_map() -> GridMap:
+    """Return a map that was just drawn."""
+    return GridMap(1, 1, 0.05, 0.0, 0.0, bytes(1))
+
+
 def one(x_m: float, way_m: float, gain_m2: float = 0.0) -> Frontier:
     """Return a frontier at a place, looked at from a metre before it."""
     return Frontier((x_m, 0.0), 1.0, (0, 0), (x_m - 1.0, 0.0), way_m, gain_m2)
@@ -153,24 +158,44 @@ def test_the_choice_is_kept_unless_another_is_much_better() -> None:
 def test_where_the_robot_stood_it_does_not_look_again() -> None:
     memory, frontier = FrontierMemory(), one(5.0, 4.0)
     memory.choose([frontier])
-    memory.note_start(frontier.stand)
+    memory.note_start(frontier.stand, a_map())
     assert memory.choose([frontier]) is None
-    assert memory.choose([frontier]) == frontier, "told that all is explored, it forgets"
+    memory.forget()
+    assert memory.choose([frontier]) == frontier
+
+
+def test_a_look_counts_once_the_map_shows_it() -> None:
+    memory, frontier, before = FrontierMemory(), one(5.0, 4.0), a_map()
+    memory.note_start((0.0, 0.0), before)
+    memory.choose([frontier])
+    memory.note_start(frontier.stand, before)
+    assert memory.choose([frontier]) == frontier
+    memory.note_start(frontier.stand, a_map())
+    assert memory.choose([frontier]) is None
+
+
+def test_a_room_behind_what_stands_is_left_out_and_a_nook_is_not() -> None:
+    memory, room = FrontierMemory(), one(5.0, 4.0, gain_m2=3.0)
+    assert memory.leaves_out([room])
+    assert not memory.leaves_out([one(5.0, 4.0, gain_m2=1.0)])
+    memory.choose([room])
+    memory.note_start(room.stand, a_map())
+    assert not memory.leaves_out([room]), "it was looked at, and stays what it is"
 
 
 def test_a_frontier_that_is_never_reached_is_given_up() -> None:
     memory, frontier = FrontierMemory(), one(5.0, 4.0)
-    memory.note_start((0.0, 0.0))
+    memory.note_start((0.0, 0.0), a_map())
     for _ in range(MOST_TRIES):
         assert memory.choose([frontier]) == frontier
-        memory.note_start((0.0, 0.0))
+        memory.note_start((0.0, 0.0), a_map())
     assert memory.choose([frontier]) is None
 
 
 def test_a_robot_that_comes_nearer_asks_as_often_as_it_likes() -> None:
     memory, frontier = FrontierMemory(), one(9.0, 4.0)
     for at in range(3 * MOST_TRIES):
-        memory.note_start((0.5 * at, 1.0))
+        memory.note_start((0.5 * at, 1.0), a_map())
         assert memory.choose([frontier]) == frontier
 
 
@@ -179,7 +204,7 @@ def test_a_frontier_is_looked_at_from_other_sides_only_so_often() -> None:
     for at in range(MOST_VISITS):
         seen = replace(one(5.0, 4.0), stand=(4.0, float(at)))
         assert memory.choose([seen]) == seen
-        memory.note_start(seen.stand)
+        memory.note_start(seen.stand, a_map())
     assert memory.choose([replace(one(5.0, 4.0), stand=(4.0, 9.0))]) is None
 
 
