@@ -59,7 +59,7 @@ def test_a_taken_offer_is_its_order_with_the_question_beside_it() -> None:
     world.event(Reply(goal, "yes please"))
     assert world.asked[1].text == "go to the hall"
     assert world.asked[1].exchanges == (
-        Exchange(asked="To the hall, then?", answer="go to the hall"),
+        Exchange(asked="To the hall, then? Yes means: “go to the hall”.", answer="go to the hall"),
     )
     world.run_until(goal, SUCCEEDED)
 
