@@ -47,6 +47,9 @@ LANDMARKS = 8
 """Exact costs to so many cells bound the cost between any two: a search to a goal that nobody named
 then looks at little more than with exact costs to it (ADR 0040)."""
 
+PART_M2 = 0.3
+"""For the robot's middle: a part of the floor that is smaller leads nowhere."""
+
 MAX_OUTSIDE_M = 0.28
 """A horizon begins within 0.3 m of the robot, and inside the fence."""
 
@@ -187,8 +190,7 @@ class Router:
         frontier = memory.choose(find_frontiers(grid, costmap, way_m))
         if frontier is None:
             # Somebody in a door, on the map or not, does not make what lies behind it explored.
-            anywhere = find_frontiers(grid, self._mapped, lambda _: 0.0)
-            if memory.leaves_out(anywhere):
+            if memory.leaves_out(find_frontiers(grid, self._mapped, self._way_to_rooms())):
                 raise RouteFailure("no_route", "what is left lies behind what stands in the way")
             memory.forget()
         report = FloorReport(known_m2(grid), explored=frontier is None)
@@ -198,6 +200,16 @@ class Router:
         goal = Pose2(*frontier.stand, request.start.yaw_rad)
         found = self._find(costmap, replace(request, goal=goal, explore=False), began_s, clock)
         return replace(found, floor=report)
+
+    def _way_to_rooms(self) -> Callable[[Cell], float]:
+        """Return a price that is nothing on each part of the map where a robot could drive about.
+
+        Pockets between furniture, and floor seen through a gap in a wall, are no such parts.
+        """
+        labels = self._mapped.labels
+        cells = np.bincount(labels.ravel())
+        fewest = PART_M2 / self._site.grid.resolution_m**2
+        return lambda cell: 0.0 if cells[labels[cell[1], cell[0]]] >= fewest else float("inf")
 
     def _straight(
         self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
