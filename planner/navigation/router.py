@@ -190,7 +190,7 @@ class Router:
         frontier = memory.choose(find_frontiers(grid, costmap, way_m))
         if frontier is None:
             # Somebody in a door, on the map or not, does not make what lies behind it explored.
-            if memory.leaves_out(find_frontiers(grid, self._mapped, self._way_to_rooms())):
+            if memory.leaves_out(find_frontiers(grid, costmap, _way_elsewhere(costmap, start))):
                 raise RouteFailure("no_route", "what is left lies behind what stands in the way")
             memory.forget()
         report = FloorReport(known_m2(grid), explored=frontier is None)
@@ -200,16 +200,6 @@ class Router:
         goal = Pose2(*frontier.stand, request.start.yaw_rad)
         found = self._find(costmap, replace(request, goal=goal, explore=False), began_s, clock)
         return replace(found, floor=report)
-
-    def _way_to_rooms(self) -> Callable[[Cell], float]:
-        """Return a price that is nothing on each part of the map where a robot could drive about.
-
-        Pockets between furniture, and floor seen through a gap in a wall, are no such parts.
-        """
-        labels = self._mapped.labels
-        cells = np.bincount(labels.ravel())
-        fewest = PART_M2 / self._site.grid.resolution_m**2
-        return lambda cell: 0.0 if cells[labels[cell[1], cell[0]]] >= fewest else float("inf")
 
     def _straight(
         self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
@@ -272,6 +262,18 @@ class Router:
             RoutePoint(x_m, y_m, speed_mps)
             for (x_m, y_m), speed_mps in zip(line.tolist(), wanted.tolist(), strict=True)
         )
+
+
+def _way_elsewhere(costmap: Costmap, start: Cell) -> Callable[[Cell], float]:
+    """Return a price that is nothing on each part of the floor but the robot's own.
+
+    Pockets between furniture, and floor seen through a gap in a wall, are no such parts.
+    """
+    labels = costmap.labels
+    cells = np.bincount(labels.ravel())
+    cells[labels[start[1], start[0]]] = 0
+    fewest = PART_M2 / costmap.grid.resolution_m**2
+    return lambda cell: 0.0 if cells[labels[cell[1], cell[0]]] >= fewest else float("inf")
 
 
 def _smooth(costmap: Costmap, line: Line) -> Line:
