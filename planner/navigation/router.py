@@ -47,6 +47,9 @@ LANDMARKS = 8
 """Exact costs to so many cells bound the cost between any two: a search to a goal that nobody named
 then looks at little more than with exact costs to it (ADR 0040)."""
 
+PART_M2 = 0.3
+"""For the robot's middle: a part of the floor that is smaller leads nowhere."""
+
 MAX_OUTSIDE_M = 0.28
 """A horizon begins within 0.3 m of the robot, and inside the fence."""
 
@@ -187,8 +190,7 @@ class Router:
         frontier = memory.choose(find_frontiers(grid, costmap, way_m))
         if frontier is None:
             # Somebody in a door, on the map or not, does not make what lies behind it explored.
-            anywhere = find_frontiers(grid, self._mapped, lambda _: 0.0)
-            if memory.leaves_out(anywhere):
+            if memory.leaves_out(find_frontiers(grid, costmap, _way_elsewhere(costmap, start))):
                 raise RouteFailure("no_route", "what is left lies behind what stands in the way")
             memory.forget()
         report = FloorReport(known_m2(grid), explored=frontier is None)
@@ -260,6 +262,18 @@ class Router:
             RoutePoint(x_m, y_m, speed_mps)
             for (x_m, y_m), speed_mps in zip(line.tolist(), wanted.tolist(), strict=True)
         )
+
+
+def _way_elsewhere(costmap: Costmap, start: Cell) -> Callable[[Cell], float]:
+    """Return a price that is nothing on each part of the floor but the robot's own.
+
+    Pockets between furniture, and floor seen through a gap in a wall, are no such parts.
+    """
+    labels = costmap.labels
+    cells = np.bincount(labels.ravel())
+    cells[labels[start[1], start[0]]] = 0
+    fewest = PART_M2 / costmap.grid.resolution_m**2
+    return lambda cell: 0.0 if cells[labels[cell[1], cell[0]]] >= fewest else float("inf")
 
 
 def _smooth(costmap: Costmap, line: Line) -> Line:
