@@ -42,7 +42,7 @@ def children(
         wanted.append(("planner", [*common, *address_arguments(settings), *secured]))
     simulated = robot.drive.virtual or settings.twin
     if simulated:
-        more = [*_simulator(settings), *domain]
+        more = _simulator(settings)
         more += _drive_twin(settings, line) if plays_drive else []
         more += ["--lidar-twin", str(lidar_line)] if has_lidar else []
         more += ["--ros2-twin", ros2_port] if ros2_port else []
@@ -70,8 +70,9 @@ def children(
 
 def _simulator(settings: LaunchSettings) -> list[str]:
     """Return what says how the simulated robot differs from the described one."""
-    metal = ["--metal", str(settings.metal)] if settings.metal else []
-    return metal if settings.seed is None else [*metal, "--seed", str(settings.seed)]
+    said = ["--metal", str(settings.metal)] if settings.metal else []
+    said += ["--domain", settings.domain] if settings.domain else []
+    return said if settings.seed is None else [*said, "--seed", str(settings.seed)]
 
 
 def _drive_twin(settings: LaunchSettings, line: Path) -> list[str]:

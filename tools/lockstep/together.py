@@ -135,6 +135,10 @@ class LockstepWorld(World):
             self._planner.leave()
         self._planner = None
 
+    def kill_bridge(self) -> None:
+        """End the bridge at once; the base is on its own."""
+        self.bridge_lives = False
+
     def freeze_planner(self) -> None:
         """Hold the planner as SIGSTOP does."""
         self._frozen = True

@@ -53,6 +53,9 @@ class TooLong(Exception):
 class World:
     """Hold the parts of one world and turn them."""
 
+    bridge_lives = True
+    """False from its kill on: nothing is sent to the wheels any more."""
+
     mapping: MappingProcess | None = None
     """What makes the map, where one is made."""
     localizer: LocalizerProcess | None = None
@@ -180,7 +183,8 @@ class World:
             self.lidar.turn(now_s)
         if self._localizing and self.bus.tick % self.pace.localization_period == 0:
             self._localization.turn(now_s)
-        self.bridge.turn(now_s)
+        if self.bridge_lives:
+            self.bridge.turn(now_s)
         if self._planner is not None and not self._frozen:
             self._planner.turn(now_s)
             self._planner.look(self.sim, now_s)

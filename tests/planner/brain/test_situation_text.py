@@ -15,7 +15,7 @@ from planner.brain.prompt_template import as_json
 from planner.brain.prompt_tokens import count_tokens, tokens
 from planner.brain.situation import MAX_RECENT, OpenQuestion, RecentGoal, Situation
 from planner.brain.situation_text import tell_situation
-from planner.plan import EVERY_KIND, Language
+from planner.plan import EVERY_KIND, NEEDS_GROWING_MAP, Language
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from tests.conftest import ROOT
@@ -41,7 +41,7 @@ BUSY = Situation(
 def sent(situation: Situation | None, text: str = "no, I meant the other one") -> list[Any]:
     vocabulary = vocabulary_of(Site.load(ROOT / "sites" / "home"))
     asked = ThinkRequest(
-        text=text, vocabulary=vocabulary, room="study", runnable=EVERY_KIND,
+        text=text, vocabulary=vocabulary, room="study", runnable=EVERY_KIND - NEEDS_GROWING_MAP,
         language=Language.EN, situation=situation,
     )  # fmt: skip
     return Prompt.load().messages(asked)
