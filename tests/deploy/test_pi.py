@@ -142,6 +142,7 @@ def test_udev_takes_the_rules() -> None:
 
 
 @pytest.mark.e2e
+@pytest.mark.timeout(150)
 @pytest.mark.parametrize("version", ["3.11", "3.13"])
 def test_every_locked_package_has_a_wheel_for_arm(version: str, tmp_path: Path) -> None:
     """Raspberry Pi OS 12 brings Python 3.11, 13 brings 3.13; nothing is compiled there."""
