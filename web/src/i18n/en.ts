@@ -151,6 +151,9 @@ export const en = {
   "here.now_tracking": "Lidar and map agree.",
   "here.now_coasting": "The newest scans do not fit the map; it goes by its wheels.",
   "here.now_lost": "It does not know where it is.",
+  "match.label": "How well lidar and map agree",
+  "match.share": "{share} of what the lidar sees fits the map; {least} are needed.",
+  "match.guesses": "Places that it thinks of: {n}. The best fits {share}; {least} are needed.",
   "rooms.which": "Which rooms are these?",
   "rooms.how":
     "The map was cut at its doors; the numbers stand on the map. A named room can be driven to at once.",

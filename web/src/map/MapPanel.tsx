@@ -12,6 +12,7 @@ import { steady } from "../state/steady";
 import {
   about,
   age,
+  candidates,
   grid,
   isBusy,
   layers,
@@ -50,7 +51,10 @@ export function MapPanel() {
   return (
     <section class="map-panel" aria-label={t("map.label")}>
       <div ref={place} class="map" id="map" />
-      <Ages />
+      <div class="map-notes">
+        <Ages />
+        <WhyItBends />
+      </div>
       <LayerSwitches />
       <Growing />
       {choice.value && <Ask choice={choice.value} />}
@@ -92,6 +96,7 @@ function follow(view: MapView): (() => void)[] {
     effect(() => drawing.showPicked(picked.value)),
     effect(() => view.showPicking(picking.value || pointAsked.value !== null)),
     effect(() => drawing.showPath(path.value)),
+    effect(() => view.showGuesses(candidates.value)),
     effect(() => drawing.greyPath(!pageFresh.value)),
     effect(() => seen(() => drawing.showScan(isShown("scan") ? scanNow.value : []))),
     effect(() => seen(() => drawing.showLayers(layersNow.value))),
@@ -219,4 +224,15 @@ function Ages() {
   ].filter((text) => text !== null);
   if (!pageHeard.value || old.length === 0) return null;
   return <p class="map-ages">{old.join(" · ")}</p>;
+}
+
+/** Say why the way bends, or goes on towards something; the spot is marked on the map. */
+function WhyItBends() {
+  const doubt = path.value?.doubt;
+  if (!doubt || !pageFresh.value) return null;
+  return (
+    <p class="map-why" id="doubt" data-code={doubt.code} role="status">
+      {say(doubt.message)}
+    </p>
+  );
 }
