@@ -1,6 +1,14 @@
 import { describe, expect, it } from "vitest";
 import { percent } from "../src/panels/format";
-import { candidates, matchShare, path, poseLost, receive, shown } from "../src/state/store";
+import {
+  candidates,
+  matchShare,
+  path,
+  poseDoubtful,
+  poseLost,
+  receive,
+  shown,
+} from "../src/state/store";
 import type { Robot } from "../src/wire/types";
 import { robot } from "./examples";
 
@@ -29,6 +37,19 @@ describe("the match of lidar and map", () => {
   it("is written as a share of a hundred", () => {
     expect(percent(0.549)).toBe("55 %");
     expect(percent(-0.1)).toBe("0 %");
+  });
+});
+
+describe("a pose that scans do not confirm", () => {
+  it.each([
+    ["tracking", false],
+    ["coasting", true],
+    ["lost", true],
+    ["searching", true],
+    [null, false],
+  ] as const)("is doubtful while the localizer is %s: %s", (localizer, doubtful) => {
+    hear({ localizer });
+    expect(poseDoubtful.value).toBe(doubtful);
   });
 });
 

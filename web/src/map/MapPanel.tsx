@@ -20,6 +20,8 @@ import {
   pageHeard,
   path,
   places,
+  poseDoubtful,
+  poseLost,
   proposedRooms,
   scan,
   scanFresh,
@@ -53,6 +55,7 @@ export function MapPanel() {
       <div ref={place} class="map" id="map" />
       <div class="map-notes">
         <Ages />
+        <ByItsWheels />
         <WhyItBends />
       </div>
       <LayerSwitches />
@@ -103,6 +106,7 @@ function follow(view: MapView): (() => void)[] {
     effect(() => view.showRooms(isShown("rooms") ? nameless.value : [])),
     effect(() => drawing.greyScan(!scanFresh.value)),
     effect(() => seen(() => drawing.showRobot(poseNow.value))),
+    effect(() => drawing.doubtRobot(poseDoubtful.value)),
     effect(() => drawing.greyRobot(!poseFresh.value)),
   ];
 }
@@ -235,4 +239,10 @@ function WhyItBends() {
       {say(doubt.message)}
     </p>
   );
+}
+
+/** Say that the newest scans do not confirm what is drawn; the strip above says so of a lost pose. */
+function ByItsWheels() {
+  if (!pageFresh.value || !poseDoubtful.value || poseLost.value !== null) return null;
+  return <p class="map-why">{t("here.now_coasting")}</p>;
 }

@@ -196,6 +196,11 @@ export class Drawing {
     this.scan.setAttribute("d", dots(scan));
   }
 
+  /** Draw the robot hollow while scans do not confirm where it is. */
+  doubtRobot(doubtful: boolean): void {
+    this.robot.classList.toggle("doubtful", doubtful);
+  }
+
   greyRobot(stale: boolean): void {
     this.robot.classList.toggle("stale", stale);
   }

@@ -26,7 +26,6 @@ export function Guesses() {
       {t("match.guesses", {
         n: String(candidates.value.length),
         share: percent(best.score),
-        least: percent(ENOUGH),
       })}
     </span>
   );

@@ -43,6 +43,11 @@ export const poseLost = computed(() => {
   const state = shown.value?.localizer;
   return state === "searching" || state === "lost" ? state : null;
 });
+/** Scans do not confirm the pose that is drawn: it goes by its wheels, or nobody knows. */
+export const poseDoubtful = computed(() => {
+  const state = shown.value?.localizer ?? null;
+  return state !== null && state !== "tracking";
+});
 const NO_CANDIDATES: readonly Candidate[] = [];
 /** Where it might be, best first, while it looks for its pose. */
 export const candidates = steady(() =>
