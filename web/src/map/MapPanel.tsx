@@ -5,6 +5,7 @@ import { things } from "../eyes/sight";
 import { orderTo } from "../eyes/words";
 import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
+import { toTeaching } from "../panels/Tabs";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
 import { picked, picking, pointAsked } from "../state/picking";
@@ -71,13 +72,18 @@ function Growing() {
   if (!shown?.growing) return null;
   const known = new Cells(shown).floor;
   return (
-    <p class="growing">
-      {t("map.growing", {
-        area: known.toFixed(0),
-        keyframes: String(shown.growing.keyframes),
-        loops: String(shown.growing.loops),
-      })}
-    </p>
+    <div class="growing">
+      <span>
+        {t("map.growing", {
+          area: known.toFixed(0),
+          keyframes: String(shown.growing.keyframes),
+          loops: String(shown.growing.loops),
+        })}
+      </span>
+      <button type="button" id="which-room" onClick={toTeaching}>
+        {t("rooms.this")}
+      </button>
+    </div>
   );
 }
 

@@ -33,6 +33,8 @@ export const taught = signal<readonly Taught[]>([]);
 export const mostTaught = signal(0);
 export const proposedRooms = signal<readonly ProposedRoom[]>([]);
 export const grid = signal<Grid | null>(null);
+/** A home is being mapped. */
+export const isGrowing = computed(() => (grid.value?.growing ?? null) !== null);
 export const history = new History();
 
 /** The bridge's newest word, as it comes: to act upon and to draw. Panels read `shown`. */
