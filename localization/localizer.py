@@ -90,7 +90,7 @@ class Localizer:
         self.score = 0.0
         """Of the newest scan at the tracked pose."""
         self.candidates: tuple[Candidate, ...] = ()
-        """What the newest search found, best first."""
+        """What the newest search found, best first; none once a pose is lost, until one answers."""
         self._placed: PlacedBase | None = None
         self._trial: tuple[PlacedBase, PoseHint | None] | None = None
         self._accepted_score = 0.0
@@ -201,7 +201,7 @@ class Localizer:
         self._bad += 1
         self.state = LocalizerState.COASTING
         if self._bad >= BAD_SCANS or self._unseen_m() > UNSEEN_M:
-            self.state = LocalizerState.LOST
+            self.state, self.candidates = LocalizerState.LOST, ()
             self._search(cloud, carried, now_s)
 
     def _fit(

@@ -26,12 +26,14 @@ EDGE_M = 1.0
 """From the fence to the canvas' edge."""
 
 
-def canvas_site(radius_m: float, side_m: float = SIDE_M) -> NewSite:
+def canvas_site(radius_m: float, side_m: float = SIDE_M, mark: str = "") -> NewSite:
     """Return a site whose ``map`` begins where the robot stands, heading along x.
 
     Args:
         radius_m: of the robot's disc.
         side_m: of the square that may be mapped.
+        mark: one word that no other canvas bears; it makes the map_id another one, so that a place
+            taught on one canvas is none of another's.
     """
     count = round(side_m / RESOLUTION_M)
     origin_m = -0.5 * count * RESOLUTION_M
@@ -39,7 +41,7 @@ def canvas_site(radius_m: float, side_m: float = SIDE_M) -> NewSite:
     away_m = np.hypot(middle_m[None, :], middle_m[:, None])
     cells = np.where(away_m <= radius_m + FLOOR_M, FREE, UNKNOWN).astype(np.uint8)
     grid = GridMap(count, count, RESOLUTION_M, origin_m, origin_m, cells.tobytes())
-    text, picture = map_yaml(grid), map_picture(grid)
+    text, picture = map_yaml(grid) + (f"# {mark}\n".encode() if mark else b""), map_picture(grid)
     reach_m = -origin_m - EDGE_M
     square = ((-reach_m, -reach_m), (reach_m, -reach_m), (reach_m, reach_m), (-reach_m, reach_m))
     fence = FenceFile(version=1, map_id=map_id(text, picture), allowed=(square,))

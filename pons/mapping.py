@@ -11,6 +11,7 @@ import argparse
 import shutil
 import sys
 from pathlib import Path
+from secrets import token_hex
 from typing import TYPE_CHECKING
 
 from bridge.recording.recording_reader import BadRecording, read_motion
@@ -137,7 +138,7 @@ def prepare_canvas(settings: LaunchSettings, name: str, robot: RobotDescription)
     canvas = settings.home / "mapping" / name
     if (canvas / "map.yaml").is_file():
         return
-    made = canvas_site(robot.base.radius_m)
+    made = canvas_site(robot.base.radius_m, mark=f"{name}_{token_hex(8)}")
     known = settings.home / "sites" / name / KEYFRAMES_FILE
     if known.is_file():
         made.files[KEYFRAMES_FILE] = known.read_bytes()

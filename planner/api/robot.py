@@ -62,8 +62,15 @@ def robot_view(services: Services) -> dict[str, Any]:
         "map_id": services.site.map_id,
         "localization": _localization_kind(services),
         "localizer": services.robot.localizer.state if services.robot.localizer else None,
+        "match": match_view(services),
         "brain": mind_of(services.brain).model_dump(mode="json"),
     }
+
+
+def match_view(services: Services) -> dict[str, Any] | None:
+    """Return how well the newest scan fits the map, and where else it would while it searches."""
+    said = services.robot.localizer
+    return None if said is None else said.model_dump(mode="json", include={"score", "candidates"})
 
 
 def _localization_kind(services: Services) -> str:

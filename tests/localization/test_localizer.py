@@ -151,6 +151,15 @@ def test_carried_away_it_is_lost_within_half_a_second_and_found_within_two(drive
     assert drive.localizer.state is LocalizerState.TRACKING
 
 
+def test_what_an_older_search_found_is_no_candidate_once_it_is_lost(drive: Drive) -> None:
+    assert drive.localizer.candidates
+    drive.searching = False
+    drive.true = ELSEWHERE
+    drive.run(1.0)
+    assert drive.localizer.state is LocalizerState.LOST
+    assert drive.localizer.candidates == ()
+
+
 def test_every_displacement_is_declared_by_poor_words(drive: Drive) -> None:
     for there in (ELSEWHERE, START, Pose2(START.x_m + 0.25, START.y_m, START.yaw_rad)):
         drive.true = there

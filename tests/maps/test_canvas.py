@@ -39,6 +39,14 @@ def test_floor_is_where_the_robot_stands_and_nowhere_else(canvas: Site) -> None:
         assert canvas.grid.at(x_m, y_m) == kind, (x_m, y_m)
 
 
+def test_canvases_of_two_marks_are_two_maps(canvas: Site, tmp_path: Path) -> None:
+    for mark in ("attic_1", "attic_2"):
+        canvas_site(RADIUS_M, mark=mark).write(tmp_path / mark)
+    one, other = (Site.load(tmp_path / mark) for mark in ("attic_1", "attic_2"))
+    assert len({canvas.map_id, one.map_id, other.map_id}) == 3
+    assert one.grid == other.grid == canvas.grid
+
+
 def test_it_is_known_as_a_map_that_grows(canvas: Site) -> None:
     assert facts_of(canvas).grows
     whole = Site.load(Path(__file__).resolve().parents[2] / "sites" / "two_room")

@@ -186,6 +186,7 @@ def test_what_a_drive_has_kept_becomes_a_site_and_goes_on_another_day(
     before = (canvas / "map.yaml").read_bytes()
     mapping.prepare_canvas(settings, "attic", robot)
     assert (canvas / "map.yaml").read_bytes() == before
+    assert (again.parent / "map.yaml").read_bytes() != before, "a place taught here is none there"
 
 
 def test_a_canvas_with_spoilt_keyframes_is_refused(

@@ -79,6 +79,27 @@ describe("decode", () => {
       { seq: 1, kind: "path", path: { goal: "g", leg: 1, points: [["1", "2"]] } },
     ],
     [
+      "a doubt that stands nowhere",
+      {
+        seq: 1,
+        kind: "path",
+        path: {
+          goal: "g",
+          leg: 1,
+          points: [[1, 2]],
+          doubt: { code: "route_bent", x_m: 1, y_m: 1 },
+        },
+      },
+    ],
+    [
+      "a candidate without a place",
+      {
+        seq: 1,
+        kind: "robot",
+        robot: { ...robot, match: { score: 0.2, candidates: [{ pose: null, score: 1 }] } },
+      },
+    ],
+    [
       "a thing that is nowhere",
       { seq: 1, kind: "sight", sight: { ...sight, things: [{ ...cup, x_m: null }] } },
     ],

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { discs, dots, squares } from "../src/map/drawing";
+import { arrowheads, discs, dots, squares } from "../src/map/drawing";
 import { Cells, nameSpot } from "../src/map/cells";
 import { pixels, rgb, tinted } from "../src/map/raster";
 import { contains, middle, resolve, thingAt, unwound } from "../src/map/resolve";
@@ -154,5 +154,19 @@ describe("layers", () => {
   it("draw what moves with a line to where it will be in a second", () => {
     const mover = { number: 1, x_m: 2, y_m: 1, vx_mps: 0.5, vy_mps: -0.25, radius_m: 0.3 };
     expect(discs([mover])).toContain("M2 1l0.5 -0.25");
+  });
+});
+
+describe("where it might be", () => {
+  const guess = (yaw_rad: number) => ({ pose: { x_m: 1, y_m: 2, yaw_rad }, score: 0.5 });
+
+  it("is an arrowhead whose tip lies ahead of the place", () => {
+    expect(arrowheads([guess(0)])).toMatch(/^M1\.420 2\.000L/);
+    expect(arrowheads([guess(Math.PI / 2)])).toMatch(/^M1\.000 2\.420L/);
+  });
+
+  it("is drawn once for each candidate, and not at all without", () => {
+    expect(arrowheads([guess(0), guess(1), guess(2)]).match(/Z/g)).toHaveLength(3);
+    expect(arrowheads([])).toBe("");
   });
 });

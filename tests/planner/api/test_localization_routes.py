@@ -87,10 +87,13 @@ def test_a_robot_without_a_localizer_says_so(client: TestClient, services: FakeS
     answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
     assert (answer.status_code, answer.json()["code"]) == (503, "hint_no_localizer")
     assert client.get("/v1/localization").json() == {"localizer": None}
-    assert client.get("/v1/robot").json()["localizer"] is None
+    robot = client.get("/v1/robot").json()
+    assert (robot["localizer"], robot["match"]) == (None, None)
 
 
 def test_what_it_does_is_shown(client: TestClient) -> None:
     shown = client.get("/v1/localization").json()["localizer"]
     assert (shown["state"], len(shown["candidates"])) == ("lost", 1)
-    assert client.get("/v1/robot").json()["localizer"] == "lost"
+    robot = client.get("/v1/robot").json()
+    assert robot["localizer"] == "lost"
+    assert robot["match"] == {"score": shown["score"], "candidates": shown["candidates"]}

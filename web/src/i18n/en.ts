@@ -47,6 +47,8 @@ export const en = {
   "mode.ESTOPPED": "Protective stop",
   "mode.FAULT": "Fault",
   "mode.none": "Unknown",
+  "mode.lost": "Lost",
+  "mode.searching": "Where am I?",
 
   "held.stop": "Held by a stop. A goal that becomes a plan, or this button, lets it go on.",
   "held.teleop": "Held: it was steered by hand.",
@@ -151,6 +153,12 @@ export const en = {
   "here.now_tracking": "Lidar and map agree.",
   "here.now_coasting": "The newest scans do not fit the map; it goes by its wheels.",
   "here.now_lost": "It does not know where it is.",
+  "match.label": "How well lidar and map agree",
+  "match.share": "Match with the map: {share}. Below {least} it is not believed.",
+  "match.guesses": "Perhaps at one of {n} places; the best fits {share}.",
+  "rooms.this": "Which room is this?",
+  "rooms.this_how":
+    "Name where the robot stands, and it can be sent back there. The name holds while this map grows; the finished map asks for its rooms anew.",
   "rooms.which": "Which rooms are these?",
   "rooms.how":
     "The map was cut at its doors; the numbers stand on the map. A named room can be driven to at once.",

@@ -48,6 +48,8 @@ export const zh: Record<Key, string> = {
   "mode.ESTOPPED": "保护性停车",
   "mode.FAULT": "故障",
   "mode.none": "未知",
+  "mode.lost": "迷路了",
+  "mode.searching": "正在定位",
 
   "held.stop": "因停止而保持。新任务的计划被接受后，或按此按钮后可继续。",
   "held.teleop": "因手动操控而保持。",
@@ -149,6 +151,12 @@ export const zh: Record<Key, string> = {
   "here.now_tracking": "激光与地图吻合。",
   "here.now_coasting": "最近的扫描与地图不符，暂时按车轮推算。",
   "here.now_lost": "不知道自己在哪里。",
+  "match.label": "激光与地图的吻合程度",
+  "match.share": "与地图的吻合度：{share}。低于 {least} 就不采信。",
+  "match.guesses": "可能的位置有 {n} 处，最像的一处吻合 {share}。",
+  "rooms.this": "这是哪个房间？",
+  "rooms.this_how":
+    "给机器人所在的位置起个名字，就能让它再回到这里。名字在建图期间有效；地图完成后会重新询问各个房间。",
   "rooms.which": "这些是哪些房间？",
   "rooms.how": "地图按门分成了几块，编号标在地图上。起名之后马上就能去。",
   "rooms.number": "房间 {n}",

@@ -5,6 +5,7 @@ import { things } from "../eyes/sight";
 import { orderTo } from "../eyes/words";
 import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
+import { toTeaching } from "../panels/Tabs";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
 import { picked, picking, pointAsked } from "../state/picking";
@@ -12,6 +13,7 @@ import { steady } from "../state/steady";
 import {
   about,
   age,
+  candidates,
   grid,
   isBusy,
   layers,
@@ -19,6 +21,8 @@ import {
   pageHeard,
   path,
   places,
+  poseDoubtful,
+  poseLost,
   proposedRooms,
   scan,
   scanFresh,
@@ -50,7 +54,11 @@ export function MapPanel() {
   return (
     <section class="map-panel" aria-label={t("map.label")}>
       <div ref={place} class="map" id="map" />
-      <Ages />
+      <div class="map-notes">
+        <Ages />
+        <ByItsWheels />
+        <WhyItBends />
+      </div>
       <LayerSwitches />
       <Growing />
       {choice.value && <Ask choice={choice.value} />}
@@ -64,13 +72,18 @@ function Growing() {
   if (!shown?.growing) return null;
   const known = new Cells(shown).floor;
   return (
-    <p class="growing">
-      {t("map.growing", {
-        area: known.toFixed(0),
-        keyframes: String(shown.growing.keyframes),
-        loops: String(shown.growing.loops),
-      })}
-    </p>
+    <div class="growing">
+      <span>
+        {t("map.growing", {
+          area: known.toFixed(0),
+          keyframes: String(shown.growing.keyframes),
+          loops: String(shown.growing.loops),
+        })}
+      </span>
+      <button type="button" id="which-room" onClick={toTeaching}>
+        {t("rooms.this")}
+      </button>
+    </div>
   );
 }
 
@@ -92,12 +105,14 @@ function follow(view: MapView): (() => void)[] {
     effect(() => drawing.showPicked(picked.value)),
     effect(() => view.showPicking(picking.value || pointAsked.value !== null)),
     effect(() => drawing.showPath(path.value)),
+    effect(() => view.showGuesses(candidates.value)),
     effect(() => drawing.greyPath(!pageFresh.value)),
     effect(() => seen(() => drawing.showScan(isShown("scan") ? scanNow.value : []))),
     effect(() => seen(() => drawing.showLayers(layersNow.value))),
     effect(() => view.showRooms(isShown("rooms") ? nameless.value : [])),
     effect(() => drawing.greyScan(!scanFresh.value)),
     effect(() => seen(() => drawing.showRobot(poseNow.value))),
+    effect(() => drawing.doubtRobot(poseDoubtful.value)),
     effect(() => drawing.greyRobot(!poseFresh.value)),
   ];
 }
@@ -219,4 +234,21 @@ function Ages() {
   ].filter((text) => text !== null);
   if (!pageHeard.value || old.length === 0) return null;
   return <p class="map-ages">{old.join(" · ")}</p>;
+}
+
+/** Say why the way bends, or goes on towards something; the spot is marked on the map. */
+function WhyItBends() {
+  const doubt = path.value?.doubt;
+  if (!doubt || !pageFresh.value) return null;
+  return (
+    <p class="map-why" id="doubt" data-code={doubt.code} role="status">
+      {say(doubt.message)}
+    </p>
+  );
+}
+
+/** Say that the newest scans do not confirm what is drawn; the strip above says so of a lost pose. */
+function ByItsWheels() {
+  if (!pageFresh.value || !poseDoubtful.value || poseLost.value !== null) return null;
+  return <p class="map-why">{t("here.now_coasting")}</p>;
 }

@@ -3,7 +3,7 @@
  * Leaflet scales it; nothing here knows pixels. What moves has a layer of its own, so that a browser
  * paints nothing else for it.
  */
-import type { Grid, Layers, Mover, Path, Pose, ProposedRoom, Scan } from "../wire/types";
+import type { Candidate, Grid, Layers, Mover, Path, Pose, ProposedRoom, Scan } from "../wire/types";
 import { type Point, unwound } from "./resolve";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -51,6 +51,19 @@ export function discs(movers: readonly Mover[]): string {
     .join("");
 }
 
+const GUESS_M = 0.3;
+
+/** Return an arrowhead for each place where the robot might be, its tip to where it would look. */
+export function arrowheads(candidates: readonly Candidate[]): string {
+  return candidates
+    .map(({ pose: { x_m: x, y_m: y, yaw_rad: yaw } }) => {
+      const corner = (turn: number, away: number): string =>
+        `${(x + away * Math.cos(yaw + turn)).toFixed(3)} ${(y + away * Math.sin(yaw + turn)).toFixed(3)}`;
+      return `M${corner(0, 1.4 * GUESS_M)}L${corner(2.4, GUESS_M)}L${corner(-2.4, GUESS_M)}Z`;
+    })
+    .join("");
+}
+
 function make<K extends keyof SVGElementTagNameMap>(
   name: K,
   attributes: Record<string, string>,
@@ -74,6 +87,8 @@ export class Drawing {
   private readonly scan = make("path", { class: "scan" });
   private readonly path = make("path", { class: "way" });
   private readonly goal = make("circle", { class: "way-end", r: "0.14" });
+  private readonly doubt = make("circle", { class: "doubt", r: "0.22" });
+  private readonly guesses = make("path", { class: "guess" });
   private readonly picked = make("circle", { class: "picked", r: "0.2" });
   private readonly cells = make("path", { class: "obstacle" });
   private readonly suspicions = make("path", { class: "suspicion" });
@@ -86,7 +101,17 @@ export class Drawing {
   readonly layers: readonly SVGSVGElement[] = [
     layer("layer", this.scan),
     layer("layer", this.suspicions, this.cells, this.movers),
-    layer("drawing", this.zones, this.rooms, this.fence, this.path, this.goal, this.picked),
+    layer(
+      "drawing",
+      this.zones,
+      this.rooms,
+      this.fence,
+      this.path,
+      this.goal,
+      this.doubt,
+      this.guesses,
+      this.picked,
+    ),
     layer("layer", this.robot),
   ];
 
@@ -157,10 +182,23 @@ export class Drawing {
     this.goal.style.display = last ? "" : "none";
     this.goal.setAttribute("cx", String(last?.[0] ?? 0));
     this.goal.setAttribute("cy", String(last?.[1] ?? 0));
+    this.doubt.style.display = path?.doubt ? "" : "none";
+    this.doubt.setAttribute("cx", String(path?.doubt?.x_m ?? 0));
+    this.doubt.setAttribute("cy", String(path?.doubt?.y_m ?? 0));
+  }
+
+  /** Draw where the robot might be, while it looks for where it is. */
+  showGuesses(candidates: readonly Candidate[]): void {
+    this.guesses.setAttribute("d", arrowheads(candidates));
   }
 
   showScan(scan: Scan): void {
     this.scan.setAttribute("d", dots(scan));
+  }
+
+  /** Draw the robot hollow while scans do not confirm where it is. */
+  doubtRobot(doubtful: boolean): void {
+    this.robot.classList.toggle("doubtful", doubtful);
   }
 
   greyRobot(stale: boolean): void {

@@ -1,6 +1,7 @@
 /** Put the drawing, the map's picture and the names into Leaflet. Knows no signal and no goal. */
 import * as L from "leaflet";
-import type { Grid, Place, ProposedRoom, Thing } from "../wire/types";
+import type { Candidate, Grid, Place, Pose, ProposedRoom, Thing } from "../wire/types";
+import { percent } from "../panels/format";
 import { Cells, nameSpot } from "./cells";
 import { Drawing } from "./drawing";
 import { colour, picture, tinted } from "./raster";
@@ -15,6 +16,7 @@ export class MapView {
   private readonly map: L.Map;
   private readonly names = L.layerGroup();
   private readonly roomNumbers = L.layerGroup();
+  private readonly guesses = L.layerGroup();
   private readonly things = new Things();
   private image: L.ImageOverlay | null = null;
   private overlays: readonly L.SVGOverlay[] = [];
@@ -45,6 +47,7 @@ export class MapView {
     });
     this.names.addTo(this.map);
     this.roomNumbers.addTo(this.map);
+    this.guesses.addTo(this.map);
     this.things.layer.addTo(this.map);
     this.map.on("click", (event: L.LeafletMouseEvent) =>
       onClick({ x: event.latlng.lng, y: event.latlng.lat }),
@@ -91,27 +94,24 @@ export class MapView {
   showRooms(rooms: readonly ProposedRoom[]): void {
     this.drawing.showRooms(rooms);
     this.roomNumbers.clearLayers();
-    for (const { id, pose } of rooms) {
-      const label = document.createElement("span");
-      label.textContent = `${id.replace("room_", "")}?`;
-      const icon = L.divIcon({ html: label, className: "name name-proposed", iconSize: [0, 0] });
-      const marker = L.marker([pose.y_m, pose.x_m], { icon, interactive: false, keyboard: false });
-      marker.addTo(this.roomNumbers);
-    }
+    for (const { id, pose } of rooms)
+      write(`${id.replace("room_", "")}?`, "name name-proposed", pose).addTo(this.roomNumbers);
+  }
+
+  /** Draw where the robot might be, each with how well the scan fits there. */
+  showGuesses(candidates: readonly Candidate[]): void {
+    this.drawing.showGuesses(candidates);
+    this.guesses.clearLayers();
+    for (const { pose, score } of candidates)
+      write(percent(score), "name name-guess", pose).addTo(this.guesses);
   }
 
   private writeNames(): void {
     this.names.clearLayers();
     for (const place of this.places) {
       const { x, y } = nameSpot(place, this.places, this.cells);
-      const label = document.createElement("span");
-      label.textContent = this.nameOf(place); // as text: a name may hold anything
-      const icon = L.divIcon({
-        html: label,
-        className: `name name-${place.kind}`,
-        iconSize: [0, 0],
-      });
-      L.marker([y, x], { icon, interactive: false, keyboard: false }).addTo(this.names);
+      const at = { x_m: x, y_m: y };
+      write(this.nameOf(place), `name name-${place.kind}`, at).addTo(this.names);
     }
   }
 
@@ -156,6 +156,13 @@ export class MapView {
     this.image.setUrl(url);
     this.image.bringToBack();
   }
+}
+
+function write(text: string, className: string, at: Pick<Pose, "x_m" | "y_m">): L.Marker {
+  const label = document.createElement("span");
+  label.textContent = text; // as text: a name may hold anything
+  const icon = L.divIcon({ html: label, className, iconSize: [0, 0] });
+  return L.marker([at.y_m, at.x_m], { icon, interactive: false, keyboard: false });
 }
 
 function boundsOf(grid: Grid): L.LatLngBounds {

@@ -11,6 +11,7 @@ import {
 } from "../state/store";
 import { seconds } from "./format";
 import { Here } from "./Here";
+import { Guesses } from "./Match";
 
 export function Lost() {
   if (!pageHeard.value) return null; // nothing has been shown yet
@@ -25,6 +26,7 @@ function Whereabouts({ state }: { state: "searching" | "lost" }) {
   return (
     <div class="lost" id="pose-lost" data-state={state} role="status">
       <span>{t(`here.${state}`)}</span>
+      <Guesses />
       <Here />
     </div>
   );

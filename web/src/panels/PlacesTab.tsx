@@ -5,7 +5,14 @@ import { say, t, word } from "../i18n";
 import { forget, give, teach } from "../state/acts";
 import { forgetPick, picked, picking } from "../state/picking";
 import { steady } from "../state/steady";
-import { mostTaught, pageFresh, proposedRooms, shownStatus, taught } from "../state/store";
+import {
+  isGrowing,
+  mostTaught,
+  pageFresh,
+  proposedRooms,
+  shownStatus,
+  taught,
+} from "../state/store";
 import type { Pose, Taught } from "../wire/types";
 import { fixed } from "./format";
 
@@ -105,7 +112,8 @@ function Teach() {
   const named = english.value.trim() !== "" || chinese.value.trim() !== "";
   return (
     <section class="card" aria-labelledby="teach-title" id="teach">
-      <h2 id="teach-title">{t("places.teach")}</h2>
+      <h2 id="teach-title">{t(isGrowing.value ? "rooms.this" : "places.teach")}</h2>
+      {isGrowing.value && <p class="fine">{t("rooms.this_how")}</p>}
       <form
         onSubmit={(event) => {
           event.preventDefault();

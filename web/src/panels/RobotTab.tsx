@@ -17,6 +17,7 @@ import type { Status } from "../wire/types";
 import { Deliberate, KeyBox } from "./Deliberate";
 import { fixed, seconds } from "./format";
 import { Here } from "./Here";
+import { Match } from "./Match";
 import { mindWords } from "./MindLine";
 import { limitWords, nameOf } from "./steps";
 
@@ -60,6 +61,7 @@ export function RobotTab() {
         <section class="card" aria-labelledby="here-title" id="here">
           <h2 id="here-title">{t("here.title")}</h2>
           <p class="fine">{t(`here.now_${shown.value.localizer}`)}</p>
+          <Match />
           <Here />
         </section>
       )}

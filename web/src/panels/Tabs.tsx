@@ -27,6 +27,12 @@ export function toGoalBox(): void {
   requestAnimationFrame(() => document.getElementById("goal-text")?.focus());
 }
 
+/** Go to where places are taught, from whatever view is shown. */
+export function toTeaching(): void {
+  shown.value = "places";
+  requestAnimationFrame(() => document.getElementById("teach-en")?.focus());
+}
+
 export function Tabs() {
   const list = useRef<HTMLDivElement>(null);
   const View = TABS.find((tab) => tab.id === shown.value)?.View ?? DriveTab;

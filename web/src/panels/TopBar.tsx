@@ -8,6 +8,7 @@ import {
   open,
   pageFresh,
   pageHeard,
+  poseLost,
   shown,
   shownStatus,
 } from "../state/store";
@@ -55,13 +56,15 @@ export function TopBar() {
 
 function Mode() {
   const mode = modeNow.value;
+  const lost = bridgeFresh.value && mode === "HOLD" ? poseLost.value : null; // "Ready" would be untrue
+  const state = lost === null ? `mode-${mode}` : "bad";
   return (
     <span
-      class={`chip mode mode-${mode} ${bridgeFresh.value ? "" : "stale"}`}
+      class={`chip mode ${state} ${bridgeFresh.value ? "" : "stale"}`}
       id="mode"
       data-mode={mode}
     >
-      {word("mode", mode)}
+      {word("mode", lost ?? mode)}
     </span>
   );
 }

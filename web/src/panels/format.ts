@@ -8,6 +8,8 @@ export function fixed(value: number | null | undefined, digits: number, unit = "
   return unit ? `${shown} ${unit}` : shown;
 }
 
+export const percent = (share: number): string => `${Math.round(100 * Math.max(0, share))} %`;
+
 /** Write an age: tenths while it is young, then whole seconds, minutes, hours. */
 export function seconds(value: number | null): string {
   if (value === null || !Number.isFinite(value)) return "–";

@@ -1,7 +1,16 @@
 /** Hold the page's signals: the one place that components read and the socket writes. */
 import { batch, computed, signal } from "@preact/signals";
 import { decode } from "../wire/decode";
-import type { Goal, Grid, Objects, Place, ProposedRoom, Robot, Taught } from "../wire/types";
+import type {
+  Candidate,
+  Goal,
+  Grid,
+  Objects,
+  Place,
+  ProposedRoom,
+  Robot,
+  Taught,
+} from "../wire/types";
 import { busy, sorted } from "./goals";
 import { History } from "./history";
 import { advance, ageOf, connected, EMPTY, type Model, withGoal } from "./model";
@@ -24,6 +33,8 @@ export const taught = signal<readonly Taught[]>([]);
 export const mostTaught = signal(0);
 export const proposedRooms = signal<readonly ProposedRoom[]>([]);
 export const grid = signal<Grid | null>(null);
+/** A home is being mapped. */
+export const isGrowing = computed(() => (grid.value?.growing ?? null) !== null);
 export const history = new History();
 
 /** The bridge's newest word, as it comes: to act upon and to draw. Panels read `shown`. */
@@ -33,6 +44,21 @@ export const shownStatus = computed(() => shown.value?.status ?? null);
 export const poseLost = computed(() => {
   const state = shown.value?.localizer;
   return state === "searching" || state === "lost" ? state : null;
+});
+/** Scans do not confirm the pose that is drawn: it goes by its wheels, or nobody knows. */
+export const poseDoubtful = computed(() => {
+  const state = shown.value?.localizer ?? null;
+  return state !== null && state !== "tracking";
+});
+const NO_CANDIDATES: readonly Candidate[] = [];
+/** Where it might be, best first, while it looks for its pose. */
+export const candidates = steady(() =>
+  poseLost.value === null ? NO_CANDIDATES : (shown.value?.match?.candidates ?? NO_CANDIDATES),
+);
+/** How well lidar and map agree, in steps that do not tremble; null where nobody compares. */
+export const matchShare = computed(() => {
+  const match = shown.value?.match ?? null;
+  return match && Math.round(20 * Math.max(0, match.score)) / 20;
 });
 export const mind = steady(() => shown.value?.brain ?? null);
 export const goals = computed(() => model.value.goals);

@@ -89,6 +89,11 @@ const isTag = (value: unknown): boolean =>
   textOrNull(value.fallback_from) &&
   (value.fallback_message === null || words(value.fallback_message));
 
+const isCandidate = (value: unknown): boolean =>
+  bag(value) && pose(value.pose) && finite(value.score);
+const isMatch = (value: unknown): boolean =>
+  bag(value) && finite(value.score) && all(value.candidates, isCandidate);
+
 function isRobot(value: unknown): value is Robot {
   return (
     bag(value) &&
@@ -98,6 +103,7 @@ function isRobot(value: unknown): value is Robot {
     text(value.map_id) &&
     isMind(value.brain) &&
     textOrNull(value.localizer) &&
+    (value.match === null || isMatch(value.match)) &&
     bag(value.ages_s) &&
     Object.values(value.ages_s).every(finiteOrNull)
   );
@@ -162,9 +168,16 @@ function isUsage(value: unknown): value is Usage {
   );
 }
 
+const isDoubt = (value: unknown): boolean =>
+  bag(value) && text(value.code) && words(value.message) && finite(value.x_m) && finite(value.y_m);
+
 const isPath = (value: unknown): value is Path | null =>
   value === null ||
-  (bag(value) && text(value.goal) && finite(value.leg) && all(value.points, point));
+  (bag(value) &&
+    text(value.goal) &&
+    finite(value.leg) &&
+    all(value.points, point) &&
+    (value.doubt === null || isDoubt(value.doubt)));
 
 const isScan = (value: unknown): value is Scan => all(value, finite);
 const isMover = (value: unknown): boolean =>

@@ -79,6 +79,12 @@ export type Mind = {
   readonly last_error: { readonly code: string; readonly message: Bilingual } | null;
 };
 
+/** A place where a search found that a scan fits. */
+export type Candidate = { readonly pose: Pose; readonly score: number };
+
+/** How well the newest scan fits the map, -1 to 1; candidates, best first, while there is no pose. */
+export type Match = { readonly score: number; readonly candidates: readonly Candidate[] };
+
 export type Robot = {
   readonly status: Status | null;
   readonly room: string | null;
@@ -87,6 +93,7 @@ export type Robot = {
   readonly map_id: string;
   /** What the localizer does; null where none speaks. */
   readonly localizer: "searching" | "tracking" | "coasting" | "lost" | null;
+  readonly match: Match | null;
   readonly brain: Mind;
 };
 
@@ -212,10 +219,19 @@ export type About = {
   readonly limits: { readonly max_speed_mps: number; readonly max_turn_radps: number };
 };
 
+/** Why a way bends, or goes on towards something, and where that stands. */
+export type Doubt = {
+  readonly code: string;
+  readonly message: Bilingual;
+  readonly x_m: number;
+  readonly y_m: number;
+};
+
 export type Path = {
   readonly goal: string;
   readonly leg: number;
   readonly points: readonly (readonly [number, number])[];
+  readonly doubt: Doubt | null;
 };
 
 /** What was found in a picture: left, top, right, bottom in its pixels, y down. */
