@@ -7,6 +7,7 @@ loop on speed; what lies between a wheel and its radius is robot.toml's.
 
 from __future__ import annotations
 
+import logging
 import secrets
 from math import tau
 from typing import TYPE_CHECKING
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from bridge.drive.base import Braking
     from wire import DriveCommand
     from wire.drive_config import DriveConfig
+
+log = logging.getLogger("bridge.drive")
 
 _TURN_US = 1 << 32
 _SEQ = 1 << 32
@@ -50,6 +53,7 @@ class PonsMcuProtocol:
         self._time_us = WrappedCounter(_TURN_US)
         self._left, self._right = _TickCount(), _TickCount()
         self._mcu: int | None = None
+        self._tripped = False
 
     def begin(self) -> bytes:
         """Forget the unfinished frame and the controller's clock; it needs no greeting."""
@@ -84,6 +88,7 @@ class PonsMcuProtocol:
         if frame.boot != self._mcu:
             self._forget()
             self._mcu = frame.boot
+        self._note_trip(tripped=bool(frame.bits & pons_mcu.TRIPPED))
         rad = tau / self._ticks_per_turn
         bits = frame.bits
         return DriveState(
@@ -105,6 +110,15 @@ class PonsMcuProtocol:
             bumper_rear=bool(bits & pons_mcu.BUMPER_REAR),
             cliff=bool(bits & pons_mcu.CLIFF),
         )
+
+    def _note_trip(self, *, tripped: bool) -> None:
+        """Log once that the controller took the torque away itself; the rows name what follows."""
+        if tripped and not self._tripped:
+            log.warning(
+                "base_tripped: a wheel stood or turned the wrong way under power, or drew too much "
+                "current; arm anew once it is mended (docs/firmware.md)"
+            )
+        self._tripped = tripped
 
     def _name_of(self, number: int) -> str | None:
         """Return which bridge the controller obeys, by the name that the core knows it by."""

@@ -163,3 +163,13 @@ def test_a_command_on_the_line_is_no_state() -> None:
 def test_without_ticks_there_is_no_protocol() -> None:
     with pytest.raises(ValueError, match="ticks_per_turn"):
         PonsMcuProtocol(DriveConfig(), "b1")
+
+
+def test_a_controller_that_took_the_torque_away_is_told_once(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    protocol = PonsMcuProtocol(CONFIG, "b1")
+    tripped = replace(STATE, bits=pons_mcu.TRIPPED)
+    (first, *_) = heard(protocol, tripped, tripped, STATE, tripped)
+    assert not first.enabled
+    assert caplog.text.count("base_tripped") == 2
