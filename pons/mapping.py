@@ -22,14 +22,23 @@ from localization.mapping.occupancy import MapTooLarge
 from maps import LoadedMap, MapRecord, SiteError
 from maps.canvas import canvas_site
 from maps.new_site import new_site
+from planner.site.polygon import contains
+from planner.site.taught_place_errors import PlaceRefusal
+from planner.site.taught_places import MAX_KEPT, TaughtPlaces
 from pons.site import is_site_name
 from wire import ConfigError, load_robot
+from wire.fingerprint import map_id
+from wire.site_map import read_map_id
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from localization.mapping.map_builder import MapBuilder
     from maps.new_site import NewSite
+    from maps.room_proposals import RoomProposal
+    from planner.site.taught_places import TaughtPlace
     from pons.settings import LaunchSettings
-    from wire import RobotDescription
+    from wire import Pose2, RobotDescription
 
 EXIT_DONE, EXIT_REFUSED = 0, 3
 
@@ -62,14 +71,20 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
             source = "the drive"
         made = _site(builder, robot.base.radius_m)
         made.write(folder)
+        names = 0 if said.recordings else _carry_names(settings.home, said.name, made)
     except BadRecording as refused:
         print(f"refused: {refused}", file=sys.stderr)
+        return EXIT_REFUSED
+    except PlaceRefusal as refused:
+        print(f"refused: the site is made, its names could not be kept: {refused}", file=sys.stderr)
         return EXIT_REFUSED
     except ConfigError as refused:
         zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
         print(f"refused: {refused}{zh}", file=sys.stderr)
         return EXIT_REFUSED
     print(f"{folder}: of {source}, {len(builder.keyframes)} keyframes and {builder.loops} loops")
+    if names:
+        print(f"names given while it was mapped go with it: {names}")
     print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}), {len(made.rooms)} rooms proposed")
     print(f"look at it: pons site rooms {said.name}; pons site check {said.name}")
     return EXIT_DONE
@@ -115,6 +130,51 @@ def _read_canvas(canvas: Path, robot: RobotDescription) -> MapBuilder:
         raise SiteError("keyframes_malformed", f"{canvas}: {error}") from error
     _check_driven(builder, "the drive")
     return builder
+
+
+def carry_names(
+    taught: Sequence[TaughtPlace], canvas_id: str, site_id: str, rooms: Sequence[RoomProposal]
+) -> tuple[TaughtPlace, ...]:
+    """Return what was taught on a canvas as places of the site that was made of it.
+
+    A name that is alone in a proposed room is the room's; the others stay spots. Both lie where
+    they were given: a loop that closed later may have moved the walls beside them a little.
+
+    Args:
+        taught: all that was ever taught.
+        canvas_id: the canvas' map_id.
+        site_id: the new site's.
+        rooms: the rooms that the site proposes.
+    """
+    known = {place.id for place in taught if place.map_id == site_id}
+    named = [place for place in taught if place.map_id == canvas_id and place.id not in known]
+    homes = [_room_around(rooms, place.pose) for place in named]
+    return tuple(
+        place.model_copy(
+            update={
+                "map_id": site_id,
+                "polygon": room.polygon if room is not None and homes.count(room) == 1 else None,
+            }
+        )
+        for place, room in zip(named, homes, strict=True)
+    )
+
+
+def _carry_names(home: Path, name: str, made: NewSite) -> int:
+    """Keep the canvas' names as the site's; return how many."""
+    store = TaughtPlaces.in_home(home)
+    taught = store.load()
+    site_id = map_id(made.files["map.yaml"], made.files["map.pgm"])
+    carried = carry_names(taught, read_map_id(home / "mapping" / name), site_id, made.rooms)
+    carried = carried[: max(0, MAX_KEPT - len(taught))]
+    if carried:
+        store.save((*taught, *carried))
+    return len(carried)
+
+
+def _room_around(rooms: Sequence[RoomProposal], pose: Pose2) -> RoomProposal | None:
+    around = [room for room in rooms if contains(room.polygon, pose.x_m, pose.y_m)]
+    return min(around, key=lambda room: room.area_m2, default=None)
 
 
 def _check_driven(builder: MapBuilder, source: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from datetime import UTC, datetime
 from math import hypot
 from pathlib import Path
 
@@ -12,7 +13,10 @@ from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
 from bridge.recording.recording_reader import read_motion
 from localization.mapping.keyframes import read_keyframes
 from maps import FREE, SiteError, load_map
+from maps.room_proposals import RoomProposal
 from planner.site import Site
+from planner.site.places import Names
+from planner.site.taught_places import TaughtPlace, TaughtPlaces
 from pons import mapping
 from pons.settings import CHECKOUT, LaunchSettings
 from pons_assets import ROBOT_FILE
@@ -20,6 +24,7 @@ from tests.bridge.recorded import Taken, stream_of, written
 from tools.lockstep import LockstepWorld
 from tools.lockstep.bridge_process import Step
 from wire import Odometry, Pose2, Scan, compose, load_robot
+from wire.site_map import read_map_id
 
 Drive = tuple[Path, Pose2, Pose2, list[Taken]]
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
@@ -187,6 +192,63 @@ def test_what_a_drive_has_kept_becomes_a_site_and_goes_on_another_day(
     mapping.prepare_canvas(settings, "attic", robot)
     assert (canvas / "map.yaml").read_bytes() == before
     assert (again.parent / "map.yaml").read_bytes() != before, "a place taught here is none there"
+
+
+def taught(place_id: str, x_m: float, y_m: float, on: str) -> TaughtPlace:
+    return TaughtPlace(
+        id=place_id,
+        name=Names(en=place_id, zh=place_id),
+        pose=Pose2(x_m, y_m, 0.5),
+        map_id=on,
+        by="ada",
+        taught=datetime(2026, 11, 24, tzinfo=UTC),
+    )
+
+
+def square(room_id: str, x_m: float, side_m: float) -> RoomProposal:
+    corners = ((x_m, 0.0), (x_m + side_m, 0.0), (x_m + side_m, side_m), (x_m, side_m))
+    return RoomProposal(
+        id=room_id,
+        polygon=corners,
+        pose=Pose2(x_m + 0.5, 0.5, 0.0),
+        area_m2=side_m * side_m,
+        clearance_m=1.0,
+    )
+
+
+def test_a_name_alone_in_a_room_is_the_rooms_and_the_others_stay_spots() -> None:
+    canvas, site, other = "a" * 16, "b" * 16, "c" * 16
+    rooms = (square("room_1", 0.0, 3.0), square("room_2", 5.0, 3.0))
+    places = (
+        taught("study", 1.0, 1.0, canvas),
+        taught("sofa", 6.0, 1.0, canvas),
+        taught("lamp", 7.0, 2.0, canvas),
+        taught("shed", 20.0, 1.0, canvas),
+        taught("elsewhere", 1.0, 1.0, other),
+    )
+    carried = mapping.carry_names(places, canvas, site, rooms)
+    assert [place.id for place in carried] == ["study", "sofa", "lamp", "shed"]
+    assert {place.map_id for place in carried} == {site}
+    assert [place.polygon for place in carried] == [rooms[0].polygon, None, None, None]
+    assert [place.pose for place in carried] == [place.pose for place in places[:4]]
+    assert mapping.carry_names((*places, *carried), canvas, site, rooms) == ()
+
+
+def test_names_given_while_mapping_go_with_the_site(
+    drive: Drive, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mapping.prepare_canvas(settings, "attic", load_robot(settings.robot))
+    canvas = settings.home / "mapping" / "attic"
+    assert mapping.run(settings, ["other", str(drive[0])]) == 0
+    kept = settings.home / "sites" / "other" / "keyframes.npz"
+    (canvas / "keyframes.npz").write_bytes(kept.read_bytes())
+    store = TaughtPlaces.in_home(settings.home)
+    store.save((taught("study", 0.2, 0.0, read_map_id(canvas)),))
+    assert mapping.run(settings, ["attic"]) == 0
+    assert "while it was mapped go with it: 1" in capsys.readouterr().out
+    site = Site.load(settings.home / "sites" / "attic")
+    here = [place for place in store.load() if place.map_id == site.map_id]
+    assert [place.id for place in here] == ["study"]
 
 
 def test_a_canvas_with_spoilt_keyframes_is_refused(

@@ -158,7 +158,7 @@ export const en = {
   "match.guesses": "Perhaps at one of {n} places; the best fits {share}.",
   "rooms.this": "Which room is this?",
   "rooms.this_how":
-    "Name where the robot stands, and it can be sent back there. The name holds while this map grows; the finished map asks for its rooms anew.",
+    "Name where the robot stands, and it can be sent back there. The finished map keeps the name.",
   "rooms.which": "Which rooms are these?",
   "rooms.how":
     "The map was cut at its doors; the numbers stand on the map. A named room can be driven to at once.",

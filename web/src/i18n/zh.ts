@@ -155,8 +155,7 @@ export const zh: Record<Key, string> = {
   "match.share": "与地图的吻合度：{share}。低于 {least} 就不采信。",
   "match.guesses": "可能的位置有 {n} 处，最像的一处吻合 {share}。",
   "rooms.this": "这是哪个房间？",
-  "rooms.this_how":
-    "给机器人所在的位置起个名字，就能让它再回到这里。名字在建图期间有效；地图完成后会重新询问各个房间。",
+  "rooms.this_how": "给机器人所在的位置起个名字，就能让它再回到这里。地图完成后名字仍然保留。",
   "rooms.which": "这些是哪些房间？",
   "rooms.how": "地图按门分成了几块，编号标在地图上。起名之后马上就能去。",
   "rooms.number": "房间 {n}",
