@@ -54,8 +54,8 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
-	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py tests/e2e/test_wheel.py $(OWN) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m e2e tests/web $(WHOLE) $(ARGS)
+	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py $(OWN) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" tests/web tests/e2e/test_wheel.py $(WHOLE) $(ARGS)
 	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a flood takes what a second robot needs
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line
