@@ -2,6 +2,7 @@
 
 ``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
 and changes no setting. Needs no running robot; a port that a running one holds is named busy.
+``pons robot relay`` prints the node that a robot of ROS 2 runs (docs/ros2.md).
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from devices.port_listing import describe_port, find_modem_manager, list_ports
 from pons.robot.port_finder import question_ports
+from pons_assets import RELAY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -74,12 +76,16 @@ def parser() -> argparse.ArgumentParser:
         "--port", type=Path, action="append", metavar="PATH", help="this one alone, or several"
     )
     find.add_argument("--json", action="store_true")
+    acts.add_parser("relay", help="print the node that a robot of ROS 2 runs: > relay.py")
     return top
 
 
 def run(_settings: LaunchSettings, words: list[str]) -> int:
     """Be ``pons robot``; 0 where a device was recognised, 3 where none was."""
     said = parser().parse_args(words)
+    if said.act == "relay":
+        sys.stdout.write(RELAY.read_text("utf-8"))
+        return EXIT_FOUND
     entries = [describe_port(path) for path in said.port] if said.port else list_ports()
     if not said.json and entries:
         names = ", ".join(str(entry.path) for entry in entries)
