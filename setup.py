@@ -18,6 +18,7 @@ ASSETS = {
     "requirements.lock": "requirements.lock",
     "prompts": "prompts",
     "sites": "sites",
+    "examples/ros2_relay/relay.py": "ros2_relay.py",
     "web/dist": "page",
 }
 """What a checkout has, and its name in the wheel."""

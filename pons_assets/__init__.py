@@ -20,6 +20,8 @@ DEFAULT_SITE = SITES / "home"
 PROMPTS = ROOT / "prompts"
 PAGE = ROOT / "page" if IS_INSTALLED else ROOT / "web" / "dist"
 """The built page; a checkout has none before ``make page``."""
+RELAY = ROOT / ("ros2_relay.py" if IS_INSTALLED else "examples/ros2_relay/relay.py")
+"""The node that runs on a robot of ROS 2 (docs/ros2.md)."""
 LOCK = ROOT / "requirements.lock"
 """The versions, with hashes, that this version was tested with."""
 

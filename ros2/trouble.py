@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 STARTING = "ros2_starting"
 _LAUNCH = "ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
-_RELAY = "python3 examples/ros2_relay/relay.py"
+_RELAY = "pons robot relay > relay.py; python3 relay.py"
 CODES: dict[str, tuple[str, str]] = {
     STARTING: ("it was just reached: wait", "刚刚连上：请稍候"),
     "ros2_no_server": (

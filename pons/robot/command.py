@@ -3,6 +3,7 @@
 ``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
 and changes no setting. Needs no running robot; a port that a running one holds is named busy.
 ``pons robot try [--robot FILE]`` turns the wheels, off the ground (docs/robot-try.md).
+``pons robot relay`` prints the node that a robot of ROS 2 runs (docs/ros2.md).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from devices.port_listing import describe_port, find_modem_manager, list_ports
 from pons.robot.port_finder import question_ports
+from pons_assets import RELAY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -77,6 +79,7 @@ def parser() -> argparse.ArgumentParser:
     find.add_argument("--json", action="store_true")
     tried = acts.add_parser("try", help="turn the wheels, off the ground, and prove that they stop")
     tried.add_argument("--robot", type=Path, metavar="FILE", help="robot.toml (PONS_ROBOT)")
+    acts.add_parser("relay", help="print the node that a robot of ROS 2 runs: > relay.py")
     return top
 
 
@@ -87,6 +90,9 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         from pons.robot.trial_command import run_trial
 
         return run_trial(replace(settings, robot=said.robot) if said.robot else settings)
+    if said.act == "relay":
+        sys.stdout.write(RELAY.read_text("utf-8"))
+        return EXIT_FOUND
     entries = [describe_port(path) for path in said.port] if said.port else list_ports()
     if not said.json and entries:
         names = ", ".join(str(entry.path) for entry in entries)

@@ -57,7 +57,7 @@ def test_a_graph_that_lacks_something_is_named(types: dict[str, str], code: str,
 def test_the_refusal_of_a_bare_cmd_vel_says_how_to_start_the_relay() -> None:
     trouble = told(**{"pons/state": ""}).trouble(0.1)
     assert trouble is not None
-    assert "python3 examples/ros2_relay/relay.py" in trouble.detail
+    assert "pons robot relay > relay.py; python3 relay.py" in trouble.detail
     assert "no dead-man" in trouble.detail
 
 
