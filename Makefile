@@ -102,8 +102,8 @@ attack: $(ATTACK) ## attack the API, files and decoders; fails where a goal is m
 train: $(RUNTIME) ## draw homes, fit the default detector anew and score it (two hours; tools/train/README.md)
 	@exec nice -n 10 $(BIN)/python -m tools.train $(ARGS)
 
-lock: $(DEV) ## resolve the dependencies anew into requirements.lock and its companions
-	@scripts/lock.sh
+lock: $(DEV) ## resolve the dependencies into requirements.lock and its companions; ARGS=--upgrade takes the newest
+	@scripts/lock.sh $(ARGS)
 
 audit: $(DEV) ## ask for known vulnerabilities of the locked packages; says aloud when it can't
 	@scripts/audit.sh

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Resolve pyproject.toml anew into the lock files. Knows uv; installs nothing.
+# What is locked already stays, so that a new dependency moves no other one; with --upgrade all take their newest.
 # One lock serves Python 3.11 to 3.13 on every platform; it names no registry (docs/adr/0004).
 set -euo pipefail
 
 compile=(
   .venv/bin/uv pip compile --quiet --no-config --universal --python-version 3.11
   --generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --no-header
-  --upgrade
+  "$@"
 )
 "${compile[@]}" --extra install pyproject.toml --output-file requirements.lock
 .venv/bin/python -m scripts.locked_extra # the same versions for the wheel
