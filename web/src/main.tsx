@@ -13,7 +13,7 @@ import { render } from "preact";
 import { App } from "./app";
 import { startCamera } from "./eyes/Camera";
 import { startLanguage } from "./i18n";
-import { fetchGrid, fetchObjects, fetchPlaces } from "./net/api";
+import { fetchGrid, fetchObjects, fetchPlaces, fetchVoice } from "./net/api";
 import { EventSocket } from "./net/socket";
 import { startToken, tokenNeeded } from "./net/token";
 import {
@@ -34,6 +34,8 @@ import {
 import { startVisible } from "./state/visible";
 import { listen } from "./stop/keys";
 import { startStopper, stop } from "./stop/stopper";
+import { hush, startAloud } from "./talk/aloud";
+import { voice } from "./talk/Talk";
 import type { Known } from "./wire/types";
 
 const RETRY_MS = 2000;
@@ -51,11 +53,12 @@ const socket = new EventSocket({
   },
   heard: receive,
 });
-startStopper((message) => socket.send(message));
+startStopper((message) => socket.send(message), hush);
 listen(stop);
 startToken();
 startLanguage();
 startVisible();
+startAloud();
 startCamera();
 startClock();
 effect(() => {
@@ -103,7 +106,8 @@ async function load(): Promise<void> {
   if (loading) return;
   loading = true;
   try {
-    const [site, cells] = await Promise.all([fetchPlaces(), fetchGrid()]);
+    const [site, cells, heard] = await Promise.all([fetchPlaces(), fetchGrid(), fetchVoice()]);
+    voice.value = heard;
     learnPlaces(site);
     grid.value = cells;
     if (cells.growing) setTimeout(() => void regrow(), GROWN_MS);

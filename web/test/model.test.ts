@@ -63,7 +63,7 @@ describe("frames", () => {
     let model = begun();
     for (let n = 0; n < 400; n += 1) {
       model = advance(model, { seq: 2 + 2 * n, kind: "goal", goal: goal(`g${n}`) }, at(n));
-      model = advance(model, { seq: 3 + 2 * n, kind: "say", text: "hello" }, at(n));
+      model = advance(model, { seq: 3 + 2 * n, kind: "say", language: "en", text: "hello" }, at(n));
     }
     expect(model.goals).toHaveLength(MAX_GOALS);
     expect(model.log).toHaveLength(MAX_LOG);

@@ -1,5 +1,5 @@
 /** Ask the planner over HTTP. Every failure is an ApiError with a code; nothing is thrown raw. */
-import type { Bilingual, Goal, Grid, Known, Objects, Pose, Taught } from "../wire/types";
+import type { Bilingual, Goal, Grid, Known, Language, Objects, Pose, Taught } from "../wire/types";
 import type { OperatorProof } from "./proof";
 import { authorization, tokenNeeded } from "./token";
 
@@ -14,6 +14,7 @@ export class ApiError extends Error {
 }
 
 const TIMEOUT_MS = 8000;
+const HEARD_MS = 40_000; // the owner's recogniser may take 30 s, the built-in one answers then
 
 type Json = { readonly [key: string]: unknown };
 
@@ -22,11 +23,12 @@ export async function call(
   path: string,
   body?: object | ArrayBuffer,
   headers: Record<string, string> = {},
+  timeoutMs = TIMEOUT_MS,
 ): Promise<unknown> {
   const request: RequestInit = {
     method,
     headers: { "content-type": "application/json", ...authorization(), ...headers },
-    signal: AbortSignal.timeout(TIMEOUT_MS),
+    signal: AbortSignal.timeout(timeoutMs),
     cache: "no-store",
   };
   if (body instanceof ArrayBuffer) request.body = body;
@@ -73,16 +75,35 @@ export async function giveGoal(
   return (await call("POST", "/v1/goals", body, key)) as Goal;
 }
 
-export type Spoken = { readonly goal: Goal | null; readonly message: Bilingual | null };
+export type Spoken = {
+  readonly goal: Goal | null;
+  readonly message: Bilingual | null;
+  readonly trouble: string | null; // why another recogniser than the owner's heard it
+};
 
 /** Give a goal by a recording; none where no order was heard surely enough. */
 export async function giveSpoken(wav: ArrayBuffer): Promise<Spoken> {
   const headers = { "content-type": "audio/wav", "idempotency-key": newId("page") };
-  const heard = (await call("POST", "/v1/voice", wav, headers)) as {
+  const heard = (await call("POST", "/v1/voice", wav, headers, HEARD_MS)) as {
     goal: Goal | null;
     outcome: { message: Bilingual | null };
+    trouble: string | null;
   };
-  return { goal: heard.goal, message: heard.outcome.message };
+  return { goal: heard.goal, message: heard.outcome.message, trouble: heard.trouble };
+}
+
+export type Voice = {
+  readonly languages: readonly Language[];
+  readonly host: string | null;
+};
+
+export async function fetchVoice(): Promise<Voice> {
+  return (await call("GET", "/v1/voice")) as Voice;
+}
+
+/** Break off what the robot itself is saying. */
+export async function hushRobot(): Promise<void> {
+  await call("POST", "/v1/voice/hush");
 }
 
 export type GoalVerb = "cancel" | "pause" | "resume" | "confirm";

@@ -4,7 +4,7 @@ import { useRef } from "preact/hooks";
 import { say, t } from "../i18n";
 import { give, said } from "../state/acts";
 import { isBusy, places } from "../state/store";
-import { Talk } from "../talk/Talk";
+import { Aloud, Talk } from "../talk/Talk";
 
 const wide = matchMedia("(min-width: 821px)").matches; // a phone's view has no room for all names
 
@@ -64,6 +64,7 @@ export function GoalBox() {
         )}
       </form>
       <Talk />
+      <Aloud />
       <Names />
     </section>
   );

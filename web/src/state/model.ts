@@ -7,6 +7,7 @@ import type {
   Draft,
   Frame,
   Goal,
+  Language,
   Layers,
   Path,
   Robot,
@@ -29,6 +30,9 @@ export type LogEntry = {
   readonly text: string;
 };
 
+/** Words that the robot speaks; a new object each time. */
+export type Spoken = { readonly text: string; readonly language: Language };
+
 /** The planner's answer to a stop over the socket; a new object each time. */
 export type StopAnswer = { readonly confirmed: boolean };
 
@@ -50,6 +54,7 @@ export type Model = {
   readonly layers: Layers;
   readonly log: readonly LogEntry[]; // newest first
   readonly stopAnswer: StopAnswer | null;
+  readonly spoken: Spoken | null;
   readonly seq: number; // of the newest frame of this connection; 0 before the first
   readonly ignored: number; // frames that were none
   readonly gaps: number; // times that frames were missed
@@ -74,6 +79,7 @@ export const EMPTY: Model = {
   scanAt: null,
   log: [],
   stopAnswer: null,
+  spoken: null,
   seq: 0,
   ignored: 0,
   gaps: 0,
@@ -158,7 +164,10 @@ function take(model: Model, frame: Frame, now: Moment): Model {
     case "stopped":
       return { ...model, stopAnswer: { confirmed: frame.confirmed } };
     case "say":
-      return logged(model, "say", "say", frame.text, now);
+      return {
+        ...logged(model, "say", "say", frame.text, now),
+        spoken: { text: frame.text, language: frame.language },
+      };
     case "act":
       return frame.accepted ? model : logged(model, "act", frame.code, "", now);
     case "bridge":

@@ -76,6 +76,7 @@ export const scan = computed(() => model.value.scan);
 export const layers = computed(() => model.value.layers);
 export const log = computed(() => model.value.log);
 export const stopAnswer = computed(() => model.value.stopAnswer);
+export const spoken = computed(() => model.value.spoken);
 export const ignored = computed(() => model.value.ignored);
 export const gaps = computed(() => model.value.gaps);
 export const wantsSnapshot = computed(() => model.value.wantsSnapshot);

@@ -13,15 +13,18 @@ export const stopState = signal<StopState>(IDLE);
 
 type Send = (message: object) => boolean;
 let overSocket: Send = () => false;
+let breakOff: () => void = () => undefined;
 let posting: AbortController | null = null;
 
 /** Press Stop. Never throws, never waits. */
 export function stop(): void {
+  breakOff();
   take({ type: "pressed", held: freshHold() });
 }
 
-export function startStopper(send: Send): void {
+export function startStopper(send: Send, hush: () => void): void {
   overSocket = send;
+  breakOff = hush;
   setInterval(() => take({ type: "tick" }), TICK_MS);
   effect(() => {
     if (stopAnswer.value) take({ type: "answered", confirmed: stopAnswer.value.confirmed });

@@ -2,13 +2,16 @@
 import { signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { say, t } from "../i18n";
-import { giveSpoken } from "../net/api";
+import { giveSpoken, hushRobot, type Voice } from "../net/api";
 import { explain, tell } from "../state/acts";
 import { learn } from "../state/store";
+import { aloud, canSpeak, hush, setAloud } from "./aloud";
 import { CannotListen, deaf, record, type Recording } from "./recorder";
 
 type Phase = "idle" | "listening" | "hearing";
 
+/** What this robot hears; null until it told. */
+export const voice = signal<Voice | null>(null);
 const phase = signal<Phase>("idle");
 const LEAST_MS = 300; // a tap is no order
 
@@ -19,6 +22,8 @@ export function Talk() {
   const begin = (): void => {
     if (phase.value !== "idle") return;
     phase.value = "listening";
+    hush();
+    hushRobot().catch(() => undefined); // it may be mute, or gone; the recording tells
     beganMs.current = performance.now();
     recording.current = record();
     recording.current.catch((error: unknown) => {
@@ -72,8 +77,34 @@ export function Talk() {
         <Microphone />
         {t(`talk.${phase.value}`)}
       </button>
-      <span class="fine">{t("talk.english")}</span>
+      <span class="fine" id="talk-hears">
+        {hears()}
+      </span>
     </div>
+  );
+}
+
+/** Say which languages are heard, and where the sound goes if it leaves the robot. */
+function hears(): string {
+  const told = voice.value;
+  const both = told?.languages.includes("zh") ?? false;
+  const words = t(both ? "talk.both" : "talk.english");
+  return told?.host ? `${words} · ${t("talk.goes", { host: told.host })}` : words;
+}
+
+/** Switch on that answers are read aloud on this device; nothing where the browser has no voice. */
+export function Aloud() {
+  if (!canSpeak()) return null;
+  return (
+    <label class="aloud fine">
+      <input
+        type="checkbox"
+        id="aloud"
+        checked={aloud.value}
+        onChange={(event) => setAloud(event.currentTarget.checked)}
+      />
+      {t("talk.aloud")}
+    </label>
   );
 }
 
@@ -90,7 +121,7 @@ async function send(sound: ArrayBuffer): Promise<void> {
   const spoken = await giveSpoken(sound);
   if (spoken.goal) {
     learn(spoken.goal);
-    tell(t("goal.sent", { text: spoken.goal.text }));
+    tell(t(spoken.trouble ? "talk.instead" : "goal.sent", { text: spoken.goal.text }));
   } else if (spoken.message) {
     tell(say(spoken.message));
   }

@@ -276,7 +276,9 @@ export function decode(data: unknown): Frame | null {
     case "places":
       return finite(came.version) ? { seq, kind: "places", version: came.version } : null;
     case "say":
-      return text(change.text) ? { seq, kind: "say", text: change.text } : null;
+      return text(change.text)
+        ? { seq, kind: "say", text: change.text, language: change.language === "zh" ? "zh" : "en" }
+        : null;
     case "act":
       return text(change.code)
         ? { seq, kind: "act", accepted: change.accepted === true, code: change.code }

@@ -313,7 +313,7 @@ export type Frame = { readonly seq: number } & (
   | { readonly kind: "usage"; readonly usage: Usage }
   | { readonly kind: "sight"; readonly sight: Sight }
   | { readonly kind: "places"; readonly version: number }
-  | { readonly kind: "say"; readonly text: string }
+  | { readonly kind: "say"; readonly text: string; readonly language: Language }
   | { readonly kind: "act"; readonly accepted: boolean; readonly code: string }
   | { readonly kind: "bridge"; readonly event: BridgeEvent }
   | { readonly kind: "first_waypoint"; readonly seconds: number }
