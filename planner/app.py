@@ -18,11 +18,15 @@ from planner.mission import JournalSync, MissionJournal, Missions, Rules
 from planner.navigation import RouteLimits, RouteWorker
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of
+from planner.plan import Language
 from planner.robot_service import LinkedRobot
 from planner.settings import load_settings
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
+from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
-from planner.voice import VoiceWorker
+from planner.voice import Ears, Recogniser, VoiceAbilities, VoiceWorker
+from planner.voice.speech_engines import open_speech
+from planner.voice.transcription import open_caller
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -80,8 +84,11 @@ class Planner:
         self.memory = KnownPlaces(self.site, taught, radius_m=radius_m)
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
-        self.ears = VoiceWorker(self._list_spoken_names())
-        self.memory.listen(lambda: self.ears.know(self._list_spoken_names()))
+        self._grammar = VoiceWorker(self._list_spoken_names())
+        self.memory.listen(lambda: self._grammar.know(self._list_spoken_names()))
+        self._transcription = open_caller(self.settings.voice)
+        self.ears = self._join_ears()
+        self.speaker = open_speech(self.settings.speech)
         link = Link(WireBus(self._session), self.description)
         self.robot = LinkedRobot(link, self.description)
         self.detector = Opening(self.settings.vision, self.description)
@@ -103,6 +110,26 @@ class Planner:
         self.goals.show_scans(self._router)
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 
+    def _join_ears(self) -> Recogniser:
+        """Return what hears recordings: the grammar, and a server beside it where one is set."""
+        if self._transcription is None:
+            return self._grammar
+        log.info("recordings are heard by %s, too", self._transcription.host)
+        return Ears(self._grammar, self._transcription, "server", self.settings.voice.timeout_s)
+
+    @property
+    def voice(self) -> VoiceAbilities:
+        """Show what is heard and spoken."""
+        trouble, server = self.speaker.trouble, self._transcription
+        return VoiceAbilities(
+            languages=(Language.EN,) if server is None else tuple(Language),
+            recogniser="grammar" if server is None else "server",
+            host=None if server is None else server.host,
+            speaks=self.settings.speech.engine,
+            quiet=self.speaker.is_quiet,
+            trouble=None if trouble is None else trouble.code,
+        )
+
     def _list_spoken_names(self) -> list[str]:
         """Return the English names that may be said, the taught ones too."""
         return [name for place in self.memory.places for name in place.said_in_english]
@@ -122,8 +149,10 @@ class Planner:
         """Start the route process, then the missions; the detector's opens beside them."""
         self._opening = asyncio.create_task(self.detector.open(), name="open detector")
         await self._router.start()
-        self.ears.warm()
+        self._grammar.warm()
+        self.speaker.start()
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
+        self.goals.loop.hub.join(SpokenReplies(self.speaker))
         await self.eyes.start()
 
     async def close(self) -> None:
@@ -135,7 +164,10 @@ class Planner:
             await asyncio.gather(self._opening, return_exceptions=True)
         await self.detector.worker.close()
         await self._router.close()
-        await self.ears.close()
+        await self.speaker.close()
+        await self._grammar.close()
+        if self._transcription is not None:
+            await self._transcription.close()
         if self._model is not None:
             await self._model.close()
         self.budget.close()

@@ -78,13 +78,20 @@ def say_wav(settings: LaunchSettings, path: Path, *, wait: bool, replace: bool =
         spoken = call(settings, "POST", address, None, WAV_TIMEOUT_S, sent, sound)
     except (PlannerDown, PlannerProblem) as trouble:
         return _trouble(trouble)
-    print(f"heard {spoken['transcript']!r} (confidence {spoken['confidence']:.2f})")
+    print(_heard_line(spoken))
     goal = spoken["goal"]
     if goal is None:
         print(f"  {message(spoken['outcome'], 'en')}\n  {message(spoken['outcome'], 'zh')}")
         return EXIT["refused"]
     print(goal_line(goal), flush=True)
-    return _follow(settings, goal["id"], "en") if wait else 0
+    return _follow(settings, goal["id"], spoken["language"]) if wait else 0
+
+
+def _heard_line(spoken: dict[str, Any]) -> str:
+    """Say what was heard by which recogniser, and for which other one where that one failed."""
+    by = f"{spoken['recogniser']}, confidence {spoken['confidence']:.2f}"
+    instead = f", instead of {spoken['instead_of']}: {spoken['trouble']}"
+    return f"heard {spoken['transcript']!r} ({by}{instead if spoken['instead_of'] else ''})"
 
 
 def language_of(text: str) -> str:

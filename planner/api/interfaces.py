@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
     from planner.site import FenceProposals, KnownPlaces, Site
-    from planner.voice import Recogniser
+    from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
         Answer,
         FenceRequest,
@@ -193,6 +193,12 @@ class Services(Protocol):
 
     @property
     def ears(self) -> Recogniser: ...
+
+    @property
+    def speaker(self) -> SpeechSink: ...
+
+    @property
+    def voice(self) -> VoiceAbilities: ...
 
     @property
     def eyes(self) -> PerceptionView: ...

@@ -15,7 +15,14 @@ from planner.language.catalogue import say
 from planner.language.stop import StopReading
 from planner.language.utterance import parse
 from planner.plan import Bilingual, Goal, Language
-from planner.voice import BadSound, Recognition, VoiceFailure, read_wav
+from planner.voice import (
+    STOP_DOUBT,
+    BadSound,
+    Recognition,
+    VoiceAbilities,
+    VoiceFailure,
+    read_wav,
+)
 
 STATUS = {
     "not_wav": 415,
@@ -23,9 +30,6 @@ STATUS = {
     "audio_too_long": 413,
     "body_too_large": 413,
 }
-STOP_DOUBT = 0.2
-"""A stop heard with at least this confidence stops what moves, though no order would be believed.
-Of other sentences the built-in recogniser makes stops of up to 0.17 (docs/adr/0013)."""
 NOT_HEARD = say("voice.not_heard")
 NO_ANSWER_HEARD = say("voice.no_answer_heard")
 _BODY: dict[str, Any] = {
@@ -55,6 +59,13 @@ class VoiceResult(BaseModel):
 
     transcript: str
     confidence: float
+    language: Language
+    recogniser: str
+    """What heard it: ``grammar``, ``server`` or ``sherpa``."""
+    instead_of: str | None = None
+    """The recogniser that should have heard it and did not."""
+    trouble: str | None = None
+    """Stable code of why it did not."""
     understood: str | None = None
     """The text that became the goal; none where nothing was heard surely enough."""
     goal: Goal | None = None
@@ -73,37 +84,54 @@ def routes(services: Services) -> APIRouter:
         replace: Replace = False,
         idempotency_key: IdempotencyKey = None,
     ) -> VoiceResult:
-        """Give a goal by an English recording (WAV, 16-bit PCM, at most 15 s).
+        """Give a goal by a recording (WAV, 16-bit PCM, at most 15 s), in a language that is heard.
 
         202 with the goal, which waits for a yes where the order was heard but not quite surely; 200
         without one where none was heard: nothing new begins.
         """
+        services.speaker.hush()  # who speaks to it is not spoken over
         heard = await _recognise(services, await request.body())
         if not (heard.understood or _may_be_stop(services, heard)):
             response.status_code = 200
             told = NO_ANSWER_HEARD if services.goals.awaits_answer() else NOT_HEARD
             outcome = SpokenOutcome(code="not_heard", message=told)
-            return VoiceResult(
-                transcript=heard.transcript, confidence=heard.confidence, outcome=outcome
-            )
+            return VoiceResult(**_facts(heard), outcome=outcome)
         text = heard.transcript
         goal = await services.goals.submit(
             text,
-            language=Language.EN,
+            language=heard.language,
             confirm=confirm or not (heard.sure or parse(text).reading is StopReading.ORDER),
             replace=replace,
             idempotency_key=idempotency_key,
             act=act_behind(services.robot, parse(text), None),
         )
-        return VoiceResult(
-            transcript=text,
-            confidence=heard.confidence,
-            understood=text,
-            goal=goal,
-            outcome=SpokenOutcome(code="heard"),
-        )
+        outcome = SpokenOutcome(code="heard")
+        return VoiceResult(**_facts(heard), understood=text, goal=goal, outcome=outcome)
+
+    @router.get("/voice", operation_id="get_voice")
+    async def abilities() -> VoiceAbilities:
+        """Show which languages are heard and by what, and whether the robot itself speaks."""
+        return services.voice
+
+    @router.post("/voice/hush", operation_id="hush")
+    async def hush() -> VoiceAbilities:
+        """Break off what the robot is saying, as when somebody begins to speak to it."""
+        services.speaker.hush()
+        return services.voice
 
     return router
+
+
+def _facts(heard: Recognition) -> dict[str, Any]:
+    """Return what is told of every recording, whatever becomes of it."""
+    return {
+        "transcript": heard.transcript,
+        "confidence": heard.confidence,
+        "language": heard.language,
+        "recogniser": heard.by,
+        "instead_of": heard.instead_of,
+        "trouble": heard.trouble,
+    }
 
 
 def _may_be_stop(services: Services, heard: Recognition) -> bool:

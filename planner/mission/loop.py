@@ -337,7 +337,9 @@ class Loop:
             case ClearHold():
                 self.clear_hold(self._acts.pop(effect.id, None))
             case SayAloud():
-                self.hub.publish({"type": "say", "goal": effect.id, "text": effect.text})
+                language = self.book.missions[effect.id].language.value
+                said = {"goal": effect.id, "text": effect.text, "language": language}
+                self.hub.publish({"type": "say", **said})
             case GoalChange():
                 if effect.id in self.book.missions:
                     if self.book.missions[effect.id].has_ended:

@@ -18,6 +18,7 @@ from planner.outbound.address import Address, CallTarget, TargetResolver
 from planner.outbound.errors import CallFailure
 from planner.outbound.secret import Secret
 
+Transport = httpx.AsyncBaseTransport
 MAX_TOLD = 200
 """Characters of a server's own words in a failure."""
 _WHY = {
@@ -46,7 +47,7 @@ class Caller:
         *,
         timeout_s: float,
         connect_timeout_s: float = 3.0,
-        transport: httpx.AsyncBaseTransport | None = None,
+        transport: Transport | None = None,
     ) -> None:
         """Open nothing yet.
 

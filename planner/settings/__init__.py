@@ -13,6 +13,7 @@ from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
 from planner.settings.presets import PRESETS, JsonMode, Preset, PresetName, TokensField
 from planner.settings.vision import VisionSettings
+from planner.settings.voice import SpeechSettings, VoiceSettings
 
 __all__ = [
     "FILE",
@@ -29,8 +30,10 @@ __all__ = [
     "PresetName",
     "Price",
     "Settings",
+    "SpeechSettings",
     "TokensField",
     "VisionSettings",
+    "VoiceSettings",
     "find_exposed",
     "load_settings",
     "place_of",

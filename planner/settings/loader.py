@@ -21,6 +21,7 @@ from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
 from planner.settings.presets import known_as
 from planner.settings.vision import VisionSettings, with_environment
+from planner.settings.voice import SpeechSettings, VoiceSettings
 from wire import ConfigError
 
 log = logging.getLogger(__name__)
@@ -29,6 +30,7 @@ FILE = "settings.toml"
 MAX_BYTES = 16_000
 """A parser is busy for seconds with 64 kB of one dotted key."""
 MAX_KEY_BYTES = 8 * 1024
+_KEYED = ("model", "voice", "speech")
 _KEY_SOURCES = ("key", "key_env", "key_file")
 _YES = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
 
@@ -43,6 +45,8 @@ class Settings(BaseModel):
     budget: BudgetSettings = BudgetSettings()
     mission: MissionSettings = MissionSettings()
     vision: VisionSettings = VisionSettings()
+    voice: VoiceSettings = VoiceSettings()
+    speech: SpeechSettings = SpeechSettings()
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
@@ -50,7 +54,7 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
 
     Raises:
         ConfigError: ``settings_unreadable``, ``settings_malformed``, ``model_incomplete``,
-            ``model_key``, ``budget_contradictory``.
+            ``model_key``, ``voice_key``, ``speech_key``, ``budget_contradictory``.
     """
     tables = _tables(home / FILE)
     for sentence in find_exposed(home):
@@ -58,9 +62,19 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
     model = tables.pop("model", None)
     if model is not None and not isinstance(model, dict):
         raise ConfigError("settings_malformed", f"{FILE}: [model] must be a table")
-    chosen = _with_environment(_with_key(model, home, environment), environment)
+    chosen = _with_environment(
+        None if model is None else _with_key("model", model, home, environment), environment
+    )
     vision = with_environment(tables.pop("vision", {}), home, environment)
-    settings = _check({**tables, "model": chosen, "vision": vision})
+    spoken = {
+        name: _with_key(name, table, home, environment)
+        for name in ("voice", "speech")
+        if isinstance(table := tables.get(name), dict)
+    }
+    folder = spoken.get("voice", {}).get("folder")
+    if isinstance(folder, str):
+        spoken["voice"]["folder"] = home / folder
+    settings = _check({**tables, **spoken, "model": chosen, "vision": vision})
     _need_key(settings.model)
     return settings
 
@@ -71,12 +85,10 @@ def find_exposed(home: Path) -> list[str]:
     Raises:
         ConfigError: ``settings_unreadable``, ``settings_malformed``.
     """
-    model = _tables(home / FILE).get("model")
-    table = model if isinstance(model, dict) else {}
-    apart = table.get("key_file")
-    files = [(home / FILE, "key" in table)]
-    if isinstance(apart, str) and apart:
-        files.append((home / apart, True))
+    tables = [t for n in _KEYED if isinstance(t := _tables(home / FILE).get(n), dict)]
+    files = [(home / FILE, any("key" in table for table in tables))]
+    apart = (table.get("key_file") for table in tables)
+    files += [(home / name, True) for name in apart if isinstance(name, str) and name]
     return [text for path, keyed in files if (text := _exposure(path, keyed=keyed)) is not None]
 
 
@@ -122,41 +134,40 @@ def _tables(path: Path) -> dict[str, Any]:
 
 
 def _with_key(
-    model: dict[str, Any] | None, home: Path, environment: Mapping[str, str]
-) -> dict[str, Any] | None:
+    table: str, given: dict[str, Any], home: Path, environment: Mapping[str, str]
+) -> dict[str, Any]:
     """Put the key itself in the place of where it lies."""
-    if model is None:
-        return None
-    given = [name for name in _KEY_SOURCES if name in model]
-    if len(given) > 1:
-        raise ConfigError("model_key", f"{FILE}: give one of {', '.join(given)}, not all")
-    rest = {name: value for name, value in model.items() if name not in _KEY_SOURCES}
-    if not given:
+    code = f"{table}_key"
+    sources = [name for name in _KEY_SOURCES if name in given]
+    if len(sources) > 1:
+        raise ConfigError(code, f"{FILE}: give one of {', '.join(sources)}, not all")
+    rest = {name: value for name, value in given.items() if name not in _KEY_SOURCES}
+    if not sources:
         return rest
-    source, value = given[0], model[given[0]]
+    source, value = sources[0], given[sources[0]]
     if not isinstance(value, str) or not value:
-        raise ConfigError("model_key", f"{FILE}: {source} must be a text that is not empty")
+        raise ConfigError(code, f"{FILE}: {source} must be a text that is not empty")
     key = {"key": lambda: value, "key_env": lambda: environment.get(value, "")}.get(
-        source, lambda: _key_in(home / value)
+        source, lambda: _key_in(code, home / value)
     )()
-    return {**rest, "key": _clean_key(key, f"{FILE}: {source}")}
+    return {**rest, "key": _clean_key(code, key, f"{FILE}: {source}")}
 
 
-def _key_in(path: Path) -> str:
+def _key_in(code: str, path: Path) -> str:
     try:
         with path.open("rb") as file:
             return file.read(MAX_KEY_BYTES).decode("ascii", "replace")
     except OSError as error:
-        raise ConfigError("model_key", f"key_file {path}: {error.strerror}") from None
+        raise ConfigError(code, f"key_file {path}: {error.strerror}") from None
 
 
-def _clean_key(key: str, where: str) -> str:
+def _clean_key(code: str, key: str, where: str) -> str:
     """Return a key that can stand in a header. Its text is never part of an error."""
     key = key.strip()
     if not key:
-        raise ConfigError("model_key", f"{where} leads to no key")
+        raise ConfigError(code, f"{where} leads to no key")
     if not (key.isascii() and key.isprintable() and " " not in key):
-        raise ConfigError("model_key", f"{where}: a key is one word of plain ASCII")
+        raise ConfigError(code, f"{where}: a key is one word of plain ASCII")
     return key
 
 
@@ -175,7 +186,7 @@ def _with_environment(
     if name:
         chosen["name"] = name
     if key:
-        chosen["key"] = _clean_key(key, "PONS_MODEL_KEY")
+        chosen["key"] = _clean_key("model_key", key, "PONS_MODEL_KEY")
     for yes in ("allow_offhost", "allow_pictures_offhost"):
         said = environment.get(variable := f"PONS_MODEL_{yes.upper()}", "").lower()
         if said and said not in _YES:
@@ -255,6 +266,8 @@ _TABLES: dict[str, type[BaseModel]] = {
     "model": ModelSettings,
     "mission": MissionSettings,
     "vision": VisionSettings,
+    "voice": VoiceSettings,
+    "speech": SpeechSettings,
     "budget": BudgetSettings,
     "budget.goal": GoalLimits,
     "budget.day": DayLimits,

@@ -1,12 +1,14 @@
 """Define a recogniser: one recording in, a text with a confidence out. Knows no engine.
 
-Another recogniser (for Chinese, say) takes the place of the built-in one by this Protocol alone.
+Another recogniser takes the place of the built-in one, or stands beside it, by this Protocol alone.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
+
+from planner.plan import Language
 
 if TYPE_CHECKING:
     from planner.voice.wav import Sound
@@ -26,6 +28,13 @@ class Recognition:
     """0 to 1; from one half on, the recogniser believes itself."""
     understood: bool
     """Whether the transcript is a whole order, heard with enough confidence."""
+    language: Language = Language.EN
+    by: str = "grammar"
+    """The recogniser that heard it: ``grammar``, ``server`` or ``sherpa``."""
+    instead_of: str | None = None
+    """The recogniser that should have heard it and did not."""
+    trouble: str | None = None
+    """Stable code of why it did not."""
 
     @property
     def sure(self) -> bool:

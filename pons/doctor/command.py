@@ -16,6 +16,7 @@ from pons.doctor import (
     model_checks,
     path_checks,
     ros2_checks,
+    voice_checks,
 )
 from pons.doctor import jitter as late
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail
@@ -82,6 +83,8 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),
         run_check("recogniser", lambda: model_checks.recogniser(site)),
+        run_check("transcription", lambda: voice_checks.transcription(settings.home)),
+        run_check("speech", lambda: voice_checks.speech(settings.home)),
     ]
 
 

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import os
-import socket
 from pathlib import Path
 
-from planner.outbound import Address, refused_among
+from planner.outbound import Address
 from planner.settings import load_settings
 from planner.site import Site
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
+from pons.doctor.reach import trouble_reaching
 from wire import ConfigError
 
-CONNECT_S = 3.0
 _FIX_MODEL = BilingualWords(
     "start the model's server or mend [model] in settings.toml; until then the offline brain plans",
     "请启动模型服务或修正 settings.toml 的 [model]；在此期间由离线大脑回答",
@@ -32,22 +31,10 @@ def model(home: Path) -> HealthFinding:
         )
         return fail("model", BilingualWords(str(wrong), str(wrong)), fix)
     where = f"{chosen.name} at {address.host}:{address.port}"
-    trouble = _trouble(address)
+    trouble = trouble_reaching(address)
     if trouble is None:
         return ok("model", f"{where} can be reached", f"{where} 可以连接")
     return warn("model", BilingualWords(f"{where}: {trouble}", f"{where}：{trouble}"), _FIX_MODEL)
-
-
-def _trouble(address: Address) -> str | None:
-    try:
-        found = socket.getaddrinfo(address.host, address.port, type=socket.SOCK_STREAM)
-        refused = refused_among([str(one[4][0]) for one in found])
-        if refused is not None:
-            return f"leads to {refused}, which is never asked"
-        socket.create_connection((address.host, address.port), CONNECT_S).close()
-    except OSError as error:
-        return error.strerror or str(error)
-    return None
 
 
 def recogniser(site: Site | None) -> HealthFinding:

@@ -11,11 +11,11 @@ from collections.abc import Callable
 from typing import Any
 
 from fastapi import FastAPI, Request
-from starlette.responses import Response, StreamingResponse
+from starlette.responses import JSONResponse, Response, StreamingResponse
 
 from planner.brain import OfflineBrain, ThinkRequest
 from planner.plan import StepPlan
-from pons.mock_llm import pictures, streams
+from pons.mock_llm import pictures, streams, voices
 from pons.mock_llm.completion import bytes_of, completion
 from pons.mock_llm.error_replies import error, instead_of_a_reply
 from pons.mock_llm.fault_switches import Switches
@@ -71,6 +71,7 @@ def build(switches: Switches | None = None) -> FastAPI:
     mock, brain = Mock(switches or Switches()), OfflineBrain()
     app = FastAPI(title="pons mock-llm", docs_url=None, redoc_url=None, openapi_url=None)
     app.state.mock = mock
+    _add_voices(app, mock)
 
     @app.get("/mock")
     async def look() -> dict[str, Any]:
@@ -111,6 +112,38 @@ def build(switches: Switches | None = None) -> FastAPI:
     return app
 
 
+def _add_voices(app: FastAPI, mock: Mock) -> None:
+    """Add the routes of a server that hears and speaks."""
+
+    @app.post("/v1/audio/transcriptions")
+    async def transcribe(request: Request) -> Response:
+        fault = mock.next_fault()
+        raw = await _raw(request)
+        await asyncio.sleep(mock.switches.delay_s)
+        early = await instead_of_a_reply(fault, mock.switches, mock.ending, {}, request)
+        if early is not None:
+            return early
+        told = None if raw is None else voices.transcription(mock.switches, raw)
+        if told is None:
+            return error(400, "no WAV came with the request")
+        if fault == "garbage":
+            return Response(GARBAGE[mock.calls % len(GARBAGE)], media_type="application/json")
+        return JSONResponse(told)
+
+    @app.post("/v1/audio/speech")
+    async def speak(request: Request) -> Response:
+        fault = mock.next_fault()
+        body = await _body(request)
+        await asyncio.sleep(mock.switches.delay_s)
+        early = await instead_of_a_reply(fault, mock.switches, mock.ending, {}, request)
+        if early is not None:
+            return early
+        if body is None or not isinstance(body.get("input"), str):
+            return error(400, "the body is no JSON object with a text input")
+        sound = b"no sound" if fault == "garbage" else voices.tone(body["input"])
+        return Response(sound, media_type="audio/wav")
+
+
 async def obeying(brain: OfflineBrain, asked: ThinkRequest, told: list[str]) -> ThinkRequest:
     """Return the order that a planner follows which takes what it reads of pictures for orders."""
     for words in told:
@@ -121,12 +154,19 @@ async def obeying(brain: OfflineBrain, asked: ThinkRequest, told: list[str]) -> 
     return asked if vaguely is None else asked.model_copy(update={"text": vaguely})
 
 
-async def _body(request: Request) -> dict[str, Any] | None:
+async def _raw(request: Request) -> bytes | None:
     raw = bytearray()
     async for chunk in request.stream():
         raw += chunk
         if len(raw) > MAX_BODY:
             return None
+    return bytes(raw)
+
+
+async def _body(request: Request) -> dict[str, Any] | None:
+    raw = await _raw(request)
+    if raw is None:
+        return None
     try:
         body = json.loads(raw)
     except (ValueError, RecursionError):

@@ -22,6 +22,7 @@ def main(words: list[str]) -> int:
         "tokens_per_s": said.tokens_per_s,
         "status": said.status if said.status is not None else 500,
         "retry_after": said.retry_after,
+        "transcript": said.transcript,
     }
     try:
         switches = Switches.model_validate(chosen)
@@ -42,6 +43,12 @@ def _grammar() -> argparse.ArgumentParser:
     grammar.add_argument("--delay", type=float, default=0.0, metavar="S", help="before each reply")
     grammar.add_argument("--tokens-per-s", type=float, metavar="N", help="how fast it writes")
     grammar.add_argument("--times", type=int, metavar="N", help="calls until the fault is gone")
+    grammar.add_argument(
+        "--transcript",
+        default="go to the kitchen",
+        metavar="TEXT",
+        help="what recordings are heard as",
+    )
     grammar.add_argument("--retry-after", metavar="S", help="the header, with --status")
     faults = grammar.add_mutually_exclusive_group()
     faults.add_argument("--status", type=int, metavar="CODE", help=FAULTS["status"])

@@ -103,6 +103,10 @@ class Switches(BaseModel):
     status: int = Field(default=500, ge=400, le=599)
     retry_after: str | None = Field(default=None, max_length=100)
     """The header of that name, as it is."""
+    transcript: str = Field(default="go to the kitchen", max_length=20_000)
+    """What every recording is heard as."""
+    probability: float | None = Field(default=0.95, ge=0.0, le=1.0)
+    """How sure it says to be; None: it says nothing of it."""
 
     @field_validator("fault")
     @classmethod

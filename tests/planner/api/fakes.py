@@ -19,7 +19,7 @@ from planner.navigation import ObstacleReport
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
 from planner.site import FenceProposals, KnownPlaces, Site
-from planner.voice import Recognition, Sound, VoiceFailure
+from planner.voice import Recognition, Sound, VoiceAbilities, VoiceFailure
 from tests.wire.examples import STATUS
 from wire import (
     Answer,
@@ -200,6 +200,20 @@ class FakeEars:
         return self.heard
 
 
+class FakeSpeech:
+    """Count what would be said, and how often it was broken off."""
+
+    def __init__(self) -> None:
+        self.said: list[str] = []
+        self.hushed = 0
+
+    def say(self, text: str, language: Language) -> None:
+        self.said.append(text)
+
+    def hush(self) -> None:
+        self.hushed += 1
+
+
 class FakeBudget:
     """Show a meter that a test sets."""
 
@@ -268,6 +282,8 @@ class FakeServices:
         self.goals = FakeGoals()
         self.robot = FakeRobot(status)
         self.ears = FakeEars()
+        self.speaker = FakeSpeech()
+        self.voice = VoiceAbilities()
         self.budget = FakeBudget()
         self.eyes = FakeEyes()
         self.brain: Brain = OfflineBrain()

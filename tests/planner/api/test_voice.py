@@ -12,7 +12,7 @@ from planner.api import Access
 from planner.api.access import AccessError
 from planner.api.middleware import MAX_BODY_BYTES
 from planner.plan import Language
-from planner.voice import MAX_BYTES, Recognition, VoiceFailure
+from planner.voice import MAX_BYTES, Recognition, VoiceAbilities, VoiceFailure
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.planner.voice.speech import wav
@@ -89,6 +89,38 @@ def test_what_is_heard_but_not_surely_waits_for_a_yes(
         ("yes", True),
         ("stop", False),
     ]
+
+
+def test_a_chinese_recording_becomes_a_chinese_goal_and_who_heard_it_is_told(
+    client: TestClient, services: FakeServices
+) -> None:
+    services.ears.heard = Recognition("去厨房", 0.9, True, Language.ZH, "server")
+    body = client.post("/v1/voice", content=SECOND, headers=WAV).json()
+    assert (body["language"], body["recogniser"], body["trouble"]) == ("zh", "server", None)
+    assert services.goals.calls[0][:3] == ("submit", "去厨房", Language.ZH)
+    services.ears.heard = Recognition(
+        "go home", 0.9, True, instead_of="server", trouble="transcription_timeout"
+    )
+    body = client.post("/v1/voice", content=SECOND, headers=WAV).json()
+    told = (body["recogniser"], body["instead_of"], body["trouble"])
+    assert told == ("grammar", "server", "transcription_timeout")
+
+
+def test_who_speaks_to_the_robot_is_not_spoken_over(
+    client: TestClient, services: FakeServices
+) -> None:
+    assert client.post("/v1/voice/hush", json={}).status_code == 200
+    assert client.post("/v1/voice", content=SECOND, headers=WAV).status_code == 202
+    assert services.speaker.hushed == 2
+
+
+def test_a_page_learns_what_is_heard_and_spoken(client: TestClient, services: FakeServices) -> None:
+    assert client.get("/v1/voice").json() == {
+        "languages": ["en"], "recogniser": "grammar", "host": None,
+        "speaks": "none", "quiet": False, "trouble": None,
+    }  # fmt: skip
+    services.voice = VoiceAbilities(languages=tuple(Language), host="voices.example")
+    assert client.get("/v1/voice").json()["languages"] == ["en", "zh"]
 
 
 def test_a_yes_or_no_is_looked_for_while_a_question_waits_for_one(
