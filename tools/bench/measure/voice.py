@@ -112,7 +112,7 @@ def _listen(lab: BenchLab) -> dict[str, Any]:
         lab.say(f"order {number + 1}/{len(ORDERS) * len(speakers)}")
         text = form.format(a=next(names), b=next(names))
         heard = _hear(ears, text, voice, wpm)
-        meant, done = _steps(text, vocabulary), _steps(_text(heard), vocabulary)
+        meant, done = steps_of(text, vocabulary), steps_of(_text(heard), vocabulary)
         right += done == meant
         moves = bool(done) and done != STOPPED
         wrong += moves and done != meant and heard.sure
@@ -120,7 +120,7 @@ def _listen(lab: BenchLab) -> dict[str, Any]:
     for number, (form, (voice, wpm)) in enumerate(itertools.product(CHATTER, speakers)):
         lab.say(f"other sentence {number + 1}/{len(CHATTER) * len(speakers)}")
         heard = _hear(ears, form.format(a=next(names)), voice, wpm)
-        done = _steps(_text(heard), vocabulary)
+        done = steps_of(_text(heard), vocabulary)
         wrong += bool(done) and done != STOPPED and heard.sure
     count = len(speakers)
     return {
@@ -132,7 +132,7 @@ def _listen(lab: BenchLab) -> dict[str, Any]:
     }
 
 
-def _steps(text: str, vocabulary: Vocabulary) -> tuple[Step, ...] | str:
+def steps_of(text: str, vocabulary: Vocabulary) -> tuple[Step, ...] | str:
     """Return the steps that a text drives; none for what moves nothing."""
     if is_stop(text):
         return STOPPED
