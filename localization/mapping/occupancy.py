@@ -64,21 +64,39 @@ def draw_grid(
         text = f"{columns} x {rows} cells of {resolution_m} m; at most {LARGEST_CELLS}"
         raise MapTooLarge(text)
     origin_m = low * resolution_m
-    log_odds = np.zeros(rows * columns, np.float32)
-    for start, points_m in zip(starts, ends, strict=True):
-        _trace(log_odds, columns, (start - origin_m) / resolution_m,
-               (points_m - origin_m) / resolution_m, SHORT_OF_M / resolution_m)  # fmt: skip
+    corner_m = (float(origin_m[0]), float(origin_m[1]))
+    empty = GridMap(columns, rows, resolution_m, *corner_m, b"")
+    log_odds = trace_beams(keyframes, empty, lidar_m).ravel()
     cells = np.full(rows * columns, UNKNOWN, np.uint8)
     cells[log_odds < FREE_BELOW] = FREE
     cells[log_odds > OCCUPIED_ABOVE] = OCCUPIED
-    return GridMap(
-        columns, rows, resolution_m, float(origin_m[0]), float(origin_m[1]), cells.tobytes()
-    )
+    return GridMap(columns, rows, resolution_m, *corner_m, cells.tobytes())
+
+
+def trace_beams(
+    keyframes: Sequence[Keyframe], frame: GridMap, lidar_m: tuple[float, float] = (0.0, 0.0)
+) -> NDArray[np.float32]:
+    """Return what keyframes say of each cell of a map's frame, as log odds, shape (rows, columns).
+
+    Args:
+        keyframes: in the order in which they were seen.
+        frame: whose size, resolution and origin count; what lies outside it is left out.
+        lidar_m: where the lidar is in ``base``.
+    """
+    origin_m, size_m = np.array((frame.origin_x_m, frame.origin_y_m)), frame.resolution_m
+    shape = (frame.height, frame.width)
+    log_odds = np.zeros(shape[0] * shape[1], np.float32)
+    for keyframe in keyframes:
+        start = (_lidar_in_map(keyframe.pose, lidar_m) - origin_m) / size_m
+        ends = (keyframe.points_in_map() - origin_m) / size_m
+        _trace(log_odds, shape, start, ends, SHORT_OF_M / size_m)
+    return log_odds.reshape(shape)
 
 
 def _trace(
-    log_odds: NDArray[np.float32], columns: int, start: Floats, ends: Floats, short_of: float
-) -> None:
+    log_odds: NDArray[np.float32], shape: tuple[int, int], start: Floats, ends: Floats,
+    short_of: float,
+) -> None:  # fmt: skip
     """Count one scan, in units of cells: each cell once as hit, or else once as passed."""
     if not len(ends):
         return
@@ -87,16 +105,18 @@ def _trace(
     steps = np.arange(0.0, max(float(length.max()), 0.5), 0.5)
     beam, step = np.nonzero(steps[None, :] < length[:, None] - short_of)
     way = start + along[beam] * (steps[step] / length[beam])[:, None]
-    passed = np.unique(_cells(way, columns))
-    hit = np.unique(_cells(ends, columns))
+    passed = np.unique(_cells(way, shape))
+    hit = np.unique(_cells(ends, shape))
     passed = passed[~np.isin(passed, hit, assume_unique=True)]
     log_odds[hit] = np.minimum(log_odds[hit] + HIT, MOST)
     log_odds[passed] = np.maximum(log_odds[passed] + MISS, LEAST)
 
 
-def _cells(points: Floats, columns: int) -> NDArray[np.int64]:
+def _cells(points: Floats, shape: tuple[int, int]) -> NDArray[np.int64]:
+    """Return the numbers of the cells that points lie in; of points outside none."""
     index = np.floor(points).astype(np.int64)
-    return np.asarray(index[:, 1] * columns + index[:, 0])
+    inside = ((index >= 0) & (index < (shape[1], shape[0]))).all(axis=1)
+    return np.asarray(index[inside, 1] * shape[1] + index[inside, 0])
 
 
 def _lidar_in_map(pose: Floats, lidar_m: tuple[float, float]) -> Floats:
