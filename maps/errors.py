@@ -35,6 +35,7 @@ REASONS = MappingProxyType(
         "keyframes_malformed": "保存的关键帧已损坏",
         "map_of_two_runs": "录制来自不同的运行",
         "map_too_large": "地图过大",
+        "carmen_malformed": "不是可用的 CARMEN 日志",
         "drive_elsewhere": "这次行驶不在这张地图上",
         "recordings_none": "没有可用的录制",
         "mend_unknown": "没有这份地图修改提案",

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from bridge.recording.recording_reader import BadRecording, read_motion
 from bridge.recording.rotation import SUFFIX
 from localization.mapping.builder_process import load_builder
+from localization.mapping.carmen_log import CarmenError, read_carmen
 from localization.mapping.keyframes import KEYFRAMES_FILE
 from localization.mapping.map_replay import MapReplay
 from localization.mapping.occupancy import MapTooLarge
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from planner.site.taught_places import TaughtPlace
     from pons.settings import LaunchSettings
     from wire import Pose2, RobotDescription
+    from wire.lidar_config import LidarConfig
 
 EXIT_DONE, EXIT_REFUSED = 0, 3
 
@@ -88,7 +90,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         folder = _new_folder(settings.home / "sites", said.name)
         robot = load_robot(settings.robot)
         if said.recordings:
-            replay = _replay(said.recordings, MapReplay(robot.lidar))
+            replay = _replay(said.recordings, MapReplay(_lidar_of(said.recordings, robot)))
             builder, source = replay.builder, f"{replay.scans} scans"
         else:
             builder = _read_canvas(settings.home / "mapping" / said.name, robot)
@@ -128,7 +130,7 @@ def _mend(settings: LaunchSettings, said: argparse.Namespace) -> int:
     else:
         folder = mending.known_site(settings, name)
         files = said.recordings or newest_run(settings.home / "recordings")
-        replay = _replay(files, MapReplay(robot.lidar, closes_loops=False))
+        replay = _replay(files, MapReplay(_lidar_of(files, robot), closes_loops=False))
         drive = mending.place_drive(folder, replay.links, robot)
         mending.propose_mend(settings, name, drive, robot, said.without)
     return EXIT_DONE
@@ -163,12 +165,38 @@ def _new_folder(sites: Path, name: str) -> Path:
 
 def _replay(recordings: list[Path], replay: MapReplay) -> MapReplay:
     for path in recordings:
-        try:
-            replay.hear(read_motion(path))
-        except ValueError as error:
-            raise SiteError("map_of_two_runs", f"{path}: {error}") from error
+        if path.suffix == SUFFIX:
+            try:
+                replay.hear(read_motion(path))
+            except ValueError as error:
+                raise SiteError("map_of_two_runs", f"{path}: {error}") from error
+        else:
+            _replay_carmen(path, replay)
     _check_driven(len(replay.links), f"{replay.scans} scans")
     return replay
+
+
+def _replay_carmen(path: Path, replay: MapReplay) -> None:
+    try:
+        for scan in read_carmen(path):
+            replay.place_scan(scan.points_m, scan.laser_in_odom, scan.stamp_s)
+    except CarmenError as error:
+        text = f"{path}: {error}; recordings of the bridge end in {SUFFIX}"
+        raise SiteError("carmen_malformed", text) from error
+
+
+def _lidar_of(recordings: Sequence[Path], robot: RobotDescription) -> LidarConfig:
+    """Return where the lidar is on the robot that drove: a CARMEN log's base is its laser.
+
+    Raises:
+        SiteError: ``map_of_two_runs``: recordings of both kinds.
+    """
+    kinds = {path.suffix == SUFFIX for path in recordings}
+    if len(kinds) > 1:
+        raise SiteError("map_of_two_runs", "a recording of the bridge beside a CARMEN log")
+    if True in kinds:
+        return robot.lidar
+    return robot.lidar.model_copy(update={"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0})
 
 
 def _read_canvas(canvas: Path, robot: RobotDescription) -> MapBuilder:

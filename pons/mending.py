@@ -11,7 +11,7 @@ import errno
 import json
 import os
 import shutil
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
 from localization.distance_field import DistanceField
@@ -41,6 +41,7 @@ from pons.folder_swap import swap_folders, sync_folder
 from pons.home_lock import HomeLock, HomeTaken
 from pons.settings import site_of
 from pons_assets import SITES
+from wire import ConfigError
 from wire.fence import fence_text
 from wire.site_map import read_map_id
 
@@ -66,7 +67,21 @@ def known_site(settings: LaunchSettings, name: str) -> Path:
     folder = site_of(name, settings.home)
     if not (folder / "map.yaml").is_file():
         raise SiteError("site_missing", f"{name!r}; `pons site list` shows what there is")
+    _finish_killed(settings, folder)
     return folder
+
+
+def _finish_killed(settings: LaunchSettings, folder: Path) -> None:
+    """Set the old map aside where a kill came just after the folders had changed places."""
+    beside, where = _beside(folder), _kept(settings, folder)
+    try:
+        told = json.loads((where / LIST_FILE).read_bytes())
+        ids = (read_map_id(beside), read_map_id(folder))
+        if ids == (told["base"], told["id"]):
+            _set_aside(beside, folder)
+            shutil.rmtree(where, ignore_errors=True)
+    except (OSError, ValueError, KeyError, TypeError, ConfigError):
+        return  # no accept was cut off there
 
 
 def place_drive(
@@ -148,7 +163,7 @@ def accept_mend(settings: LaunchSettings, name: str, mend_id: str, robot: RobotD
     if told["id"] != mend_id:
         raise SiteError("mend_unknown", f"{mend_id!r}; the one that waits is {told['id']}")
     target = folder if folder.parent != SITES else settings.home / "sites" / folder.name
-    beside = target.with_name(f".{target.name}.mending")
+    beside = _beside(target)
     with _standing_robot(settings):
         try:
             shutil.rmtree(beside, ignore_errors=True)
@@ -245,6 +260,11 @@ def _put_in_place(beside: Path, target: Path) -> None:
         sync_folder(target.parent)
         return
     swap_folders(beside, target)
+    with suppress(OSError):  # the site is mended; what is left beside it, the next order tidies
+        _set_aside(beside, target)
+
+
+def _set_aside(beside: Path, target: Path) -> None:
     before = _before(target)
     shutil.rmtree(before, ignore_errors=True)
     beside.rename(before)
@@ -284,6 +304,10 @@ def _standing_robot(settings: LaunchSettings) -> Iterator[None]:
 
 def _kept(settings: LaunchSettings, folder: Path) -> Path:
     return settings.home / "mending" / folder.name
+
+
+def _beside(folder: Path) -> Path:
+    return folder.with_name(f".{folder.name}.mending")
 
 
 def _before(folder: Path) -> Path:

@@ -92,7 +92,17 @@ class MapReplay:
         cloud = deskew(scan, self._lidar, self._trail)
         at = self._trail.at(cloud.stamp_s)
         carried = np.array((at.x_m, at.y_m, at.yaw_rad))
-        link = self._tracker.use_scan(cloud.points_m, carried, cloud.stamp_s)
+        self.place_scan(cloud.points_m, carried, cloud.stamp_s)
+
+    def place_scan(self, points_m: Floats, carried: Floats, stamp_s: float) -> None:
+        """Place a scan whose pose by odometry is known.
+
+        Args:
+            points_m: returns in ``base``, of one instant, shape (n, 2).
+            carried: x, y, yaw by odometry.
+            stamp_s: the instant; it is kept with the keyframe and decides nothing.
+        """
+        link = self._tracker.use_scan(points_m, carried, stamp_s)
         self.scans += 1
         if link is None:
             return

@@ -1,13 +1,14 @@
 """Draw a map's cells from keyframes by tracing their beams, the newest word counting most.
 
 Each cell keeps log odds, bounded to both sides (Hornung et al. 2013): a wardrobe that was seen a
-hundred times is gone after a dozen beams went through its place. Pure numpy.
+hundred times is gone after a dozen beams went through its place. Numpy and OpenCV.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import cv2
 import numpy as np
 
 from maps import FREE, OCCUPIED, UNKNOWN, GridMap
@@ -30,6 +31,9 @@ FREE_BELOW = -0.3
 OCCUPIED_ABOVE = 0.3
 SHORT_OF_M = 0.075
 """Before its end a beam says nothing: it may graze the surface that it ends on."""
+BLUR_M = 0.10
+DENSE_SHARE = 0.25
+"""Of the keyframes that saw the densest cell within the blur; a wall's skirt is seen by fewer."""
 MARGIN_M = 0.5
 """Unknown cells around all that was seen."""
 LARGEST_CELLS = 64_000_000
@@ -69,8 +73,26 @@ def draw_grid(
     log_odds = trace_beams(keyframes, empty, lidar_m).ravel()
     cells = np.full(rows * columns, UNKNOWN, np.uint8)
     cells[log_odds < FREE_BELOW] = FREE
-    cells[log_odds > OCCUPIED_ABOVE] = OCCUPIED
+    cells[(log_odds > OCCUPIED_ABOVE) & _densest(ends, empty)] = OCCUPIED
     return GridMap(columns, rows, resolution_m, *corner_m, cells.tobytes())
+
+
+def _densest(ends: Sequence[Floats], frame: GridMap) -> NDArray[np.bool_]:
+    """Return whether each cell has its share of the returns around it, shape (cells,).
+
+    A lidar whose ranges err by 0.03 m sees some of a wall 0.1 m behind it, where no beam passes
+    to say that nothing is there. Such a cell is left unknown.
+    """
+    shape = (frame.height, frame.width)
+    origin_m = (frame.origin_x_m, frame.origin_y_m)
+    returns = np.zeros(shape[0] * shape[1], np.float32)
+    for points_m in ends:
+        hit = np.unique(_cells((points_m - origin_m) / frame.resolution_m, shape))
+        returns[hit] += 1.0  # each keyframe counts once
+    near = 2 * round(BLUR_M / frame.resolution_m) + 1
+    counts = returns.reshape(shape)
+    around = np.asarray(cv2.dilate(counts, np.ones((near, near), np.uint8)), np.float32)
+    return np.asarray(counts >= DENSE_SHARE * around).ravel()
 
 
 def trace_beams(
