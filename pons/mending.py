@@ -73,7 +73,7 @@ def known_site(settings: LaunchSettings, name: str) -> Path:
 
 def _finish_killed(settings: LaunchSettings, folder: Path) -> None:
     """Set the old map aside where a kill came just after the folders had changed places."""
-    beside, where = _beside(folder), _kept(settings, folder)
+    beside, where = _new_folder_beside(folder), _proposal_folder(settings, folder)
     try:
         told = json.loads((where / LIST_FILE).read_bytes())
         ids = (read_map_id(beside), read_map_id(folder))
@@ -124,11 +124,11 @@ def propose_mend(
     if not proposal.changes:
         print(f"{folder.name} is as its map says; nothing to mend\n与地图一致，无需修改")
         return
-    where = _kept(settings, folder)
+    where = _proposal_folder(settings, folder)
     keep(proposal, where, write_keyframes(keyframes, PoseGraph().table()))
     _print_changes(proposal, Site.load(folder))
     print(f"picture: {where / PICTURE} (red gone, blue new, green floor / 红：已不在，蓝：新出现)")
-    if not proposal.taken:
+    if not proposal.accepted_changes:
         print("all of it is left out; nothing would change")
         return
     print(f"nothing is changed yet. Take it: pons map {name} --accept {proposal.id}")
@@ -142,7 +142,7 @@ def kept_drive(settings: LaunchSettings, name: str) -> tuple[Keyframe, ...]:
         SiteError: ``mend_unknown``, ``mend_stale`` or ``keyframes_malformed``.
     """
     folder = known_site(settings, name)
-    path = _kept(settings, folder) / DRIVE_FILE
+    path = _proposal_folder(settings, folder) / DRIVE_FILE
     _read_list(settings, folder)
     try:
         return read_keyframes(path.read_bytes())[0]
@@ -159,11 +159,11 @@ def accept_mend(settings: LaunchSettings, name: str, mend_id: str, robot: RobotD
         PlaceRefusal: the names that were taught could not be kept.
     """
     folder = known_site(settings, name)
-    told, where = _read_list(settings, folder), _kept(settings, folder)
+    told, where = _read_list(settings, folder), _proposal_folder(settings, folder)
     if told["id"] != mend_id:
         raise SiteError("mend_unknown", f"{mend_id!r}; the one that waits is {told['id']}")
     target = folder if folder.parent != SITES else settings.home / "sites" / folder.name
-    beside = _beside(target)
+    beside = _new_folder_beside(target)
     with _standing_robot(settings):
         try:
             shutil.rmtree(beside, ignore_errors=True)
@@ -182,7 +182,7 @@ def accept_mend(settings: LaunchSettings, name: str, mend_id: str, robot: RobotD
     if carried:
         print(f"taught places that go with it: {carried}")
     print(f"a robot takes it at its next start: pons up --site {name}")
-    if (folder / DECLARATION).is_file() or (_before(folder) / DECLARATION).is_file():
+    if (folder / DECLARATION).is_file() or (_previous_folder(folder) / DECLARATION).is_file():
         print(f"{DECLARATION} is not taken over: simulated is from now on what the map shows")
     if target == folder:
         print(f"take it back: pons map {name} --undo")
@@ -195,7 +195,7 @@ def undo_mend(settings: LaunchSettings, name: str) -> None:
         SiteError: ``mend_unknown``, ``robot_running`` or ``site_unwritable``.
     """
     folder = known_site(settings, name)
-    before = _before(folder)
+    before = _previous_folder(folder)
     if not (before / "map.yaml").is_file():
         raise SiteError("mend_unknown", f"{folder} was not mended, or that was taken back already")
     with _standing_robot(settings):
@@ -265,7 +265,7 @@ def _put_in_place(beside: Path, target: Path) -> None:
 
 
 def _set_aside(beside: Path, target: Path) -> None:
-    before = _before(target)
+    before = _previous_folder(target)
     shutil.rmtree(before, ignore_errors=True)
     beside.rename(before)
 
@@ -302,15 +302,15 @@ def _standing_robot(settings: LaunchSettings) -> Iterator[None]:
         raise SiteError("robot_running", f"{text} ({error})") from error
 
 
-def _kept(settings: LaunchSettings, folder: Path) -> Path:
+def _proposal_folder(settings: LaunchSettings, folder: Path) -> Path:
     return settings.home / "mending" / folder.name
 
 
-def _beside(folder: Path) -> Path:
+def _new_folder_beside(folder: Path) -> Path:
     return folder.with_name(f".{folder.name}.mending")
 
 
-def _before(folder: Path) -> Path:
+def _previous_folder(folder: Path) -> Path:
     return folder.with_name(f".{folder.name}.before")
 
 
@@ -320,7 +320,7 @@ def _read_list(settings: LaunchSettings, folder: Path) -> dict[str, str]:
     Raises:
         SiteError: ``mend_unknown`` where none does, ``mend_stale`` where it is of another map.
     """
-    path = _kept(settings, folder) / LIST_FILE
+    path = _proposal_folder(settings, folder) / LIST_FILE
     try:
         told = json.loads(path.read_bytes())
         found = {"id": str(told["id"]), "base": str(told["base"])}

@@ -68,7 +68,7 @@ class AnchoredDrive:
 
 
 @dataclass(frozen=True, slots=True)
-class _Walk:
+class _PlacedChain:
     """Hold where keyframes are by chain and map, and which of them the map anchors."""
 
     poses: Floats
@@ -89,7 +89,7 @@ def place_on_map(
     Raises:
         DriveElsewhere: no keyframe is found for sure, or too few then agree with the map.
     """
-    best: _Walk | None = None
+    best: _PlacedChain | None = None
     for index, pose in _find_starts(links, field, lidar_m):
         walk = _walk(links, field, lidar_m, index, pose)
         if best is None or walk.agree.sum() > best.agree.sum():
@@ -130,10 +130,10 @@ def _walk(
     lidar_m: tuple[float, float],
     start: int,
     pose: Floats,
-) -> _Walk:
+) -> _PlacedChain:
     """Follow the chain both ways from a keyframe whose pose is known, by map where that agrees."""
     count = len(links)
-    walk = _Walk(np.zeros((count, 3)), np.zeros(count, np.bool_), np.zeros(count, np.bool_))
+    walk = _PlacedChain(np.zeros((count, 3)), np.zeros(count, np.bool_), np.zeros(count, np.bool_))
     window = WindowSearch.of_field(field)
     relations = [link.relation if link.relation is not None else np.zeros(3) for link in links]
     for order in (range(start, count), range(start - 1, -1, -1)):
@@ -178,7 +178,7 @@ def _align(
     return tried[best].poses[0], score, bool(tried[best].free_axis.any())
 
 
-def _settle(links: Sequence[KeyframeLink], walk: _Walk) -> Floats:
+def _settle(links: Sequence[KeyframeLink], walk: _PlacedChain) -> Floats:
     """Return where chain and anchors agree best, shape (n, 3). Node 0 of the graph is the map."""
     graph = PoseGraph()
     graph.add_first(np.zeros(3))

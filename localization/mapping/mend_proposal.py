@@ -56,7 +56,7 @@ class MendProposal:
     keyframes: tuple[Keyframe, ...]
 
     @property
-    def taken(self) -> tuple[MapChange, ...]:
+    def accepted_changes(self) -> tuple[MapChange, ...]:
         """Return the changes that are carried out."""
         numbered = enumerate(self.changes, 1)
         return tuple(change for number, change in numbered if number not in self.left_out)
@@ -64,7 +64,7 @@ class MendProposal:
     @property
     def grid(self) -> GridMap:
         """Return the mended map."""
-        return apply_changes(self.frame, self.taken)
+        return apply_changes(self.frame, self.accepted_changes)
 
     def map_files(self) -> dict[str, bytes]:
         """Return the mended map as a site's files."""
