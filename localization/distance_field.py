@@ -40,6 +40,7 @@ class DistanceField:
         free: NDArray[np.bool_],
         resolution_m: float,
         origin_m: tuple[float, float],
+        surface: NDArray[np.bool_] | None = None,
     ) -> None:
         """Compute the field.
 
@@ -48,6 +49,8 @@ class DistanceField:
             free: cells of known floor, same shape.
             resolution_m: side of a cell [m].
             origin_m: the lower left corner of cell (0, 0) in ``map`` [m].
+            surface: the cells that distances are measured to; what a lidar can see of ``occupied``
+                if left out.
         """
         self.resolution_m = resolution_m
         border = BORDER_CELLS
@@ -58,7 +61,8 @@ class DistanceField:
             origin_m[0] - border * resolution_m,
             origin_m[1] - border * resolution_m,
         )
-        self.distance_m = _distance_to(surface_cells(self.occupied), resolution_m)
+        lines = surface_cells(self.occupied) if surface is None else np.pad(surface, border)
+        self.distance_m = _distance_to(lines, resolution_m)
         self._flat = np.ascontiguousarray(self.distance_m, np.float64).ravel()
         self._occupied_flat = self.occupied.ravel()
 

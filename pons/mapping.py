@@ -1,8 +1,9 @@
-"""Make a site of a drive: ``pons map NAME [RECORDING...]``.
+"""Make a site of a drive, or mend one: ``pons map NAME [--mend] [RECORDING...]``.
 
 Without recordings the map is what ``pons up --map NAME`` has kept; with them it is built from the
 odometry and scans of one run of the bridge. Writes a site with a fence around what was seen and
-rooms as a proposal. Needs no running robot.
+rooms as a proposal. Needs no running robot. With ``--mend`` a site that was made before is compared
+with the drive instead (pons.mending).
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from secrets import token_hex
 from typing import TYPE_CHECKING
 
 from bridge.recording.recording_reader import BadRecording, read_motion
+from bridge.recording.rotation import SUFFIX
 from localization.mapping.builder_process import load_builder
+from localization.mapping.carmen_log import CarmenError, read_carmen
 from localization.mapping.keyframes import KEYFRAMES_FILE
 from localization.mapping.map_replay import MapReplay
 from localization.mapping.occupancy import MapTooLarge
@@ -39,6 +42,7 @@ if TYPE_CHECKING:
     from planner.site.taught_places import TaughtPlace
     from pons.settings import LaunchSettings
     from wire import Pose2, RobotDescription
+    from wire.lidar_config import LidarConfig
 
 EXIT_DONE, EXIT_REFUSED = 0, 3
 
@@ -54,17 +58,39 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument(
         "recordings", type=Path, nargs="*", metavar="FILE", help="of one run, in order"
     )
+    act = top.add_mutually_exclusive_group()
+    act.add_argument(
+        "--mend", action="store_true",
+        help="show what a drive says against the map of a site; without files, the newest run",
+    )  # fmt: skip
+    act.add_argument("--accept", metavar="ID", help="put a mended map in the site's place")
+    act.add_argument("--undo", action="store_true", help="take the last mended map back")
+    top.add_argument(
+        "--without",
+        type=_numbers,
+        metavar="N,N",
+        default=frozenset(),
+        help="with --mend: changes to leave out, by their numbers",
+    )
     return top
+
+
+def _numbers(text: str) -> frozenset[int]:
+    return frozenset(map(int, text.split(",")))
 
 
 def run(settings: LaunchSettings, words: list[str]) -> int:
     """Make the site; 0 done, 3 refused."""
-    said = parser().parse_args(words)
+    said = parser().parse_intermixed_args(words)  # files may follow --mend
     try:
+        if said.mend or said.accept or said.undo:
+            return _mend(settings, said)
+        if said.without:
+            raise SiteError("mend_change_unknown", "--without goes with --mend")
         folder = _new_folder(settings.home / "sites", said.name)
         robot = load_robot(settings.robot)
         if said.recordings:
-            replay = _replay(said.recordings, MapReplay(robot.lidar))
+            replay = _replay(said.recordings, MapReplay(_lidar_of(said.recordings, robot)))
             builder, source = replay.builder, f"{replay.scans} scans"
         else:
             builder = _read_canvas(settings.home / "mapping" / said.name, robot)
@@ -76,7 +102,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         print(f"refused: {refused}", file=sys.stderr)
         return EXIT_REFUSED
     except PlaceRefusal as refused:
-        print(f"refused: the site is made, its names could not be kept: {refused}", file=sys.stderr)
+        print(f"refused: its names could not be kept: {refused}", file=sys.stderr)
         return EXIT_REFUSED
     except ConfigError as refused:
         zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
@@ -88,6 +114,39 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
     print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}), {len(made.rooms)} rooms proposed")
     print(f"look at it: pons site rooms {said.name}; pons site check {said.name}")
     return EXIT_DONE
+
+
+def _mend(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    from pons import mending
+
+    robot, name = load_robot(settings.robot), said.name
+    if said.accept:
+        mending.accept_mend(settings, name, said.accept, robot)
+    elif said.undo:
+        mending.undo_mend(settings, name)
+    elif said.without and not said.recordings:  # the drive that is kept, with another answer
+        drive = mending.kept_drive(settings, name)
+        mending.propose_mend(settings, name, drive, robot, said.without)
+    else:
+        folder = mending.known_site(settings, name)
+        files = said.recordings or newest_run(settings.home / "recordings")
+        replay = _replay(files, MapReplay(_lidar_of(files, robot), closes_loops=False))
+        drive = mending.place_drive(folder, replay.links, robot)
+        mending.propose_mend(settings, name, drive, robot, said.without)
+    return EXIT_DONE
+
+
+def newest_run(folder: Path) -> list[Path]:
+    """Return the recordings of the run of the bridge that began last, in order.
+
+    Raises:
+        SiteError: ``recordings_none``.
+    """
+    found = sorted(folder.glob(f"*{SUFFIX}"))
+    if not found:
+        raise SiteError("recordings_none", f"{folder} holds none: drive through the home first")
+    boot = found[-1].name.split("-")[1:2]
+    return [path for path in found if path.name.split("-")[1:2] == boot]
 
 
 def _new_folder(sites: Path, name: str) -> Path:
@@ -106,12 +165,38 @@ def _new_folder(sites: Path, name: str) -> Path:
 
 def _replay(recordings: list[Path], replay: MapReplay) -> MapReplay:
     for path in recordings:
-        try:
-            replay.hear(read_motion(path))
-        except ValueError as error:
-            raise SiteError("map_of_two_runs", f"{path}: {error}") from error
-    _check_driven(replay.builder, f"{replay.scans} scans")
+        if path.suffix == SUFFIX:
+            try:
+                replay.hear(read_motion(path))
+            except ValueError as error:
+                raise SiteError("map_of_two_runs", f"{path}: {error}") from error
+        else:
+            _replay_carmen(path, replay)
+    _check_driven(len(replay.links), f"{replay.scans} scans")
     return replay
+
+
+def _replay_carmen(path: Path, replay: MapReplay) -> None:
+    try:
+        for scan in read_carmen(path):
+            replay.place_scan(scan.points_m, scan.laser_in_odom, scan.stamp_s)
+    except CarmenError as error:
+        text = f"{path}: {error}; recordings of the bridge end in {SUFFIX}"
+        raise SiteError("carmen_malformed", text) from error
+
+
+def _lidar_of(recordings: Sequence[Path], robot: RobotDescription) -> LidarConfig:
+    """Return where the lidar is on the robot that drove: a CARMEN log's base is its laser.
+
+    Raises:
+        SiteError: ``map_of_two_runs``: recordings of both kinds.
+    """
+    kinds = {path.suffix == SUFFIX for path in recordings}
+    if len(kinds) > 1:
+        raise SiteError("map_of_two_runs", "a recording of the bridge beside a CARMEN log")
+    if True in kinds:
+        return robot.lidar
+    return robot.lidar.model_copy(update={"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0})
 
 
 def _read_canvas(canvas: Path, robot: RobotDescription) -> MapBuilder:
@@ -128,7 +213,7 @@ def _read_canvas(canvas: Path, robot: RobotDescription) -> MapBuilder:
         builder = load_builder(canvas, (robot.lidar.x_m, robot.lidar.y_m))
     except ValueError as error:
         raise SiteError("keyframes_malformed", f"{canvas}: {error}") from error
-    _check_driven(builder, "the drive")
+    _check_driven(len(builder.keyframes), "the drive")
     return builder
 
 
@@ -177,8 +262,7 @@ def _room_around(rooms: Sequence[RoomProposal], pose: Pose2) -> RoomProposal | N
     return min(around, key=lambda room: room.area_m2, default=None)
 
 
-def _check_driven(builder: MapBuilder, source: str) -> None:
-    count = len(builder.keyframes)
+def _check_driven(count: int, source: str) -> None:
     if not count >= FEWEST_KEYFRAMES:
         text = f"{source} gave {count} keyframes, expected {FEWEST_KEYFRAMES}"
         raise SiteError("map_no_drive", f"{text}: drive at least a metre while it scans")

@@ -175,7 +175,8 @@ def _list(settings: LaunchSettings) -> int:
 
     for parent in (settings.home / "sites", SITES):
         for path in sorted(parent.glob("*/map.yaml")):
-            print(f"{path.parent.name:<24} {path.parent}")
+            if not path.parent.name.startswith("."):  # what a mend left beside it
+                print(f"{path.parent.name:<24} {path.parent}")
     return EXIT_DONE
 
 

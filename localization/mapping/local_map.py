@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import cv2
 import numpy as np
 
 from localization.correlative_search import WindowSearch
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 SKEW_RAD = 0.37
+CREST_SIGMA_CELLS = 1.5
+CREST_SHARE = 0.3
+"""Of the densest cell near by; less is the skirt of a wall."""
 PASSED_EVERY = 3
 """Of the returns, whose beams are followed: their share is a share still."""
 
@@ -53,16 +57,19 @@ class LocalMap:
                                    s * centre_m[0] - c * centre_m[1], -SKEW_RAD))  # fmt: skip
         cells = 2 * round(reach_m / resolution_m)
         corner_m = -0.5 * cells * resolution_m
-        occupied = np.zeros((cells, cells), np.bool_)
+        returns = np.zeros(cells * cells, np.float32)
         for keyframe in keyframes:
             pose = pose_after(self._from_map, keyframe.pose)
             x_m, y_m = to_map(pose[None], keyframe.points_m)
             column = np.floor((x_m[0] - corner_m) / resolution_m).astype(np.int64)
             row = np.floor((y_m[0] - corner_m) / resolution_m).astype(np.int64)
             inside = (column >= 0) & (column < cells) & (row >= 0) & (row < cells)
-            occupied[row[inside], column[inside]] = True
-        free = np.zeros_like(occupied)
-        self._field = DistanceField(occupied, free, resolution_m, (corner_m, corner_m))
+            np.add.at(returns, row[inside] * cells + column[inside], 1.0)
+        counts = returns.reshape(cells, cells)
+        occupied = counts > 0.0
+        self._field = DistanceField(
+            occupied, np.zeros_like(occupied), resolution_m, (corner_m, corner_m), crests(counts)
+        )
         self._window: WindowSearch | None = None
 
     def align(self, points_m: Floats, start: Floats) -> tuple[Floats, float, bool]:
@@ -90,3 +97,32 @@ class LocalMap:
         """Return the share of a scan's beams that would pass through what was seen."""
         poses = pose_after(self._from_map, pose)[None]
         return float(passed_share(self._field, points_m[::PASSED_EVERY], lidar_m, poses)[0])
+
+
+def crests(counts: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """Return the cells along which returns lie densest: of a blurred wall its middle line.
+
+    A lidar whose ranges err by 0.03 m spreads a wall over four cells; from within such a band
+    every edge is equally near, and nothing says where across it a scan belongs.
+
+    Args:
+        counts: returns in each cell, shape (rows, columns).
+    """
+    dense = np.asarray(cv2.GaussianBlur(counts, (0, 0), CREST_SIGMA_CELLS), np.float32)
+    around = np.asarray(cv2.dilate(dense, np.ones((5, 5), np.uint8)), np.float32)
+    wide = counts.shape[1]
+    inner = np.zeros(counts.shape, np.bool_)
+    inner[1:-1, 1:-1] = True
+    index = np.flatnonzero((counts > 0.0) & (dense >= CREST_SHARE * around) & inner)
+    flat = dense.ravel()
+    here = flat[index]
+    best, is_crest = np.zeros(len(index), np.float32), np.zeros(len(index), np.bool_)
+    for step, length2 in ((1, 1.0), (wide, 1.0), (wide + 1, 2.0), (wide - 1, 2.0)):
+        one, other = flat[index - step], flat[index + step]
+        bend = (2.0 * here - one - other) / length2
+        sharper = bend > best
+        best[sharper] = bend[sharper]
+        is_crest[sharper] = ((here >= one) & (here >= other))[sharper]
+    lines = np.zeros(counts.size, np.bool_)
+    lines[index[is_crest]] = True
+    return lines.reshape(counts.shape)

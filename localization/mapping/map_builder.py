@@ -10,12 +10,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from localization.mapping.keyframes import Keyframe, read_keyframes, write_keyframes
+from localization.mapping.keyframes import (
+    Keyframe,
+    pose_between,
+    read_keyframes,
+    write_keyframes,
+)
 from localization.mapping.loop_search import LoopSearch
 from localization.mapping.occupancy import draw_grid
 from localization.mapping.pose_graph import PoseGraph
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from localization.mapping.scan_tracker import KeyframeLink
@@ -28,6 +35,8 @@ AGREES_M, AGREES_RAD = 0.03, 0.01
 LOOP_EVERY = 4
 """Keyframes between two that loops are looked for from: 2 m. The cost of a step of the graph grows
 with the cube of its loops, and neighbours' loops say the same."""
+PLACED_SIGMA_M, PLACED_SIGMA_RAD = 0.02, 0.006
+"""Of a keyframe that was placed on the map itself."""
 
 
 class MapBuilder:
@@ -82,6 +91,17 @@ class MapBuilder:
             return False
         self.settle()
         return True
+
+    def append_placed(self, keyframes: Sequence[Keyframe]) -> None:
+        """Hang keyframes that lie in this map's frame already on the end of its chain."""
+        for keyframe in keyframes:
+            last = self._graph.poses[-1] if self._keyframes else None
+            if last is None:
+                self._graph.add_first(keyframe.pose)
+            else:
+                relation = pose_between(last, keyframe.pose)
+                self._graph.add_next(relation, PLACED_SIGMA_M, PLACED_SIGMA_RAD)
+            self._keyframes.append(keyframe)
 
     def settle(self) -> None:
         """Move all keyframes to where chain and loops agree best."""

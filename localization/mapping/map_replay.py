@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from localization.mapping.scan_tracker import KeyframeLink
     from wire import Scan
     from wire.lidar_config import LidarConfig
 
@@ -33,8 +34,17 @@ MOST_WAITING = 20
 class MapReplay:
     """Feed a drive to a tracker and a map builder."""
 
-    def __init__(self, lidar: LidarConfig) -> None:
+    def __init__(self, lidar: LidarConfig, *, closes_loops: bool = True) -> None:
+        """Begin a map at the drive's first scan.
+
+        Args:
+            lidar: where it is on the robot.
+            closes_loops: False where the chain of keyframes alone is wanted, for a map that stands.
+        """
         self.builder = MapBuilder((lidar.x_m, lidar.y_m))
+        self.links: list[KeyframeLink] = []
+        """The chain of keyframes, as the tracker made it."""
+        self._closes_loops = closes_loops
         self.scans = 0
         """How many were placed."""
         self._lidar = lidar
@@ -82,7 +92,20 @@ class MapReplay:
         cloud = deskew(scan, self._lidar, self._trail)
         at = self._trail.at(cloud.stamp_s)
         carried = np.array((at.x_m, at.y_m, at.yaw_rad))
-        link = self._tracker.use_scan(cloud.points_m, carried, cloud.stamp_s)
+        self.place_scan(cloud.points_m, carried, cloud.stamp_s)
+
+    def place_scan(self, points_m: Floats, carried: Floats, stamp_s: float) -> None:
+        """Place a scan whose pose by odometry is known.
+
+        Args:
+            points_m: returns in ``base``, of one instant, shape (n, 2).
+            carried: x, y, yaw by odometry.
+            stamp_s: the instant; it is kept with the keyframe and decides nothing.
+        """
+        link = self._tracker.use_scan(points_m, carried, stamp_s)
         self.scans += 1
-        if link is not None and self.builder.add(link):
+        if link is None:
+            return
+        self.links.append(link)
+        if self._closes_loops and self.builder.add(link):
             self._tracker.correct(self.builder.poses)

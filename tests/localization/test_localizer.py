@@ -16,7 +16,18 @@ from localization.localizer import (
 )
 from localization.quality import POOR_QUALITY
 from tests.localization.rooms import MAP_ID, ROOM, Boxes, cast, field_of, odometry_of, scan_of
-from wire import IDENTITY, STILL, Localization, Pose2, PoseHint, Twist2, between, compose, wrap
+from wire import (
+    IDENTITY,
+    STILL,
+    Localization,
+    Pose2,
+    PoseHint,
+    Scan,
+    Twist2,
+    between,
+    compose,
+    wrap,
+)
 from wire.lidar_config import LidarConfig
 
 FIELD = field_of(ROOM, 6.0, 4.0)
@@ -24,6 +35,7 @@ SEARCH = GlobalSearch(FIELD)
 START = Pose2(2.6, 1.7, 0.4)
 ELSEWHERE = Pose2(5.0, 3.1, -2.0)
 Way = Callable[[float], Pose2]
+Ranges = tuple[float | None, ...]
 
 
 def hint(hint_id: str, pose: Pose2, radius_m: float, *, any_heading: bool = False) -> PoseHint:
@@ -34,7 +46,7 @@ class Drive:
     """Be lidar, odometry and search process; one turn is 0.05 s, a scan comes with every other."""
 
     def __init__(self) -> None:
-        self.localizer = Localizer(FIELD, LidarConfig(), MAP_ID)
+        self.search, self.localizer = SEARCH, Localizer(FIELD, LidarConfig(), MAP_ID)
         self.now_s = 100.0
         self.turns = 0
         self.true = self.wheels = START
@@ -43,6 +55,13 @@ class Drive:
         self.blind = False
         self.searching = True
         self.said: list[Localization] = []
+        self.errors_m: list[float] = []
+        """Of each word that was said."""
+        self.yaw_rate_radps: float | None = None
+
+    def make_scan(self, ranges: Ranges) -> Scan:
+        """Return the scan of what a lidar measures; a worse lidar is a subclass."""
+        return scan_of(ranges, self.now_s, self.turns)
 
     def turn(self, step: Pose2 = IDENTITY, wheels: Pose2 | None = None) -> Localization | None:
         """Move by a step (wheels may say another) and let 0.05 s pass."""
@@ -54,7 +73,13 @@ class Drive:
         base_in_odom = between(START, self.wheels)
         localizer = self.localizer
         localizer.hear_odometry(
-            odometry_of(self.now_s, base_in_odom, odom_id=self.odom_id, twist=twist)
+            odometry_of(
+                self.now_s,
+                base_in_odom,
+                odom_id=self.odom_id,
+                twist=twist,
+                gyro_radps=self.yaw_rate_radps,
+            )
         )
         if self.turns % 2 == 0 and not self.blind:
             # A millimetre of noise: a lidar that repeats itself is taken for stuck.
@@ -62,7 +87,7 @@ class Drive:
                 None if r is None else round(r + 0.001 * ((self.turns + i) % 3 - 1), 3)
                 for i, r in enumerate(cast(self.boxes, self.true))
             )
-            localizer.hear_scan(scan_of(ranges, self.now_s, self.turns))
+            localizer.hear_scan(self.make_scan(ranges))
         localizer.work(self.now_s)
         request = localizer.search_request()
         if request is not None and self.searching:
@@ -71,11 +96,12 @@ class Drive:
             if near is not None:
                 at = (near.x_m, near.y_m, near.yaw_rad)
                 area = SearchArea(at, request.radius_m, request.any_heading, request.outline)
-            found = SEARCH.find(request.points_m, (0.0, 0.0), area)
+            found = self.search.find(request.points_m, (0.0, 0.0), area)
             localizer.hear_candidates(request.number, found)
         answer = localizer.answer(self.now_s)
         if answer is not None:
             self.said.append(answer)
+            self.errors_m.append(self.error_m())
         return answer
 
     def run(self, seconds: float, step: Pose2 = IDENTITY) -> None:

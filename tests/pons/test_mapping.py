@@ -3,65 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import UTC, datetime
 from math import hypot
 from pathlib import Path
 
 import pytest
 
-from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
 from bridge.recording.recording_reader import read_motion
 from localization.mapping.keyframes import read_keyframes
 from maps import FREE, SiteError, load_map
 from maps.room_proposals import RoomProposal
 from planner.site import Site
-from planner.site.places import Names
-from planner.site.taught_places import TaughtPlace, TaughtPlaces
+from planner.site.taught_places import TaughtPlaces
 from pons import mapping
 from pons.settings import CHECKOUT, LaunchSettings
-from pons_assets import ROBOT_FILE
 from tests.bridge.recorded import Taken, stream_of, written
+from tests.pons.drives import Drive, keep_ticks, taught
 from tools.lockstep import LockstepWorld
-from tools.lockstep.bridge_process import Step
 from wire import Odometry, Pose2, Scan, compose, load_robot
 from wire.site_map import read_map_id
 
-Drive = tuple[Path, Pose2, Pose2, list[Taken]]
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
 OFF_M = (-0.05, 0.0, 0.05)
-
-
-def _keeping(ticks: list[Taken]) -> Step:
-    """Return the bridge's step, and keep what a recorder would have been given."""
-
-    def kept(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: float) -> Decision:
-        decision = step(config, state, inbox, now_s)
-        ticks.append((state, inbox, now_s, decision))
-        return decision
-
-    return kept
-
-
-@pytest.fixture
-def settings(tmp_path: Path) -> LaunchSettings:
-    return LaunchSettings(
-        home=tmp_path / "home", robot=ROBOT_FILE, site=tmp_path, host="127.0.0.1", port=1
-    )
-
-
-@pytest.fixture(scope="module")
-def drive(tmp_path_factory: pytest.TempPathFactory) -> Drive:
-    """Drive through both rooms; return the recording, the first and the last true pose."""
-    ticks: list[Taken] = []
-
-    world = LockstepWorld(seed=4, step=_keeping(ticks))
-    start = world.truth
-    for room in ("kitchen", "living room"):
-        goal = world.say(f"go to the {room}")
-        while not goal.has_ended:
-            world.run(0.5)
-    (path,) = written(tmp_path_factory.mktemp("drive"), stream_of(world.bridge.config, ticks))
-    return path, start, world.truth, ticks
 
 
 def test_a_recording_gives_its_odometry_and_scans_back(drive: Drive) -> None:
@@ -131,7 +93,7 @@ def test_recordings_of_two_runs_do_not_join(
     drive: Drive, settings: LaunchSettings, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     ticks: list[Taken] = []
-    world = LockstepWorld(seed=5, step=_keeping(ticks))
+    world = LockstepWorld(seed=5, step=keep_ticks(ticks))
     world.run(3.0)
     renamed = [
         (state, inbox, now_s, replace(decision, odometry=_of_another_run(decision.odometry)))
@@ -192,17 +154,6 @@ def test_what_a_drive_has_kept_becomes_a_site_and_goes_on_another_day(
     mapping.prepare_canvas(settings, "attic", robot)
     assert (canvas / "map.yaml").read_bytes() == before
     assert (again.parent / "map.yaml").read_bytes() != before, "a place taught here is none there"
-
-
-def taught(place_id: str, x_m: float, y_m: float, on: str) -> TaughtPlace:
-    return TaughtPlace(
-        id=place_id,
-        name=Names(en=place_id, zh=place_id),
-        pose=Pose2(x_m, y_m, 0.5),
-        map_id=on,
-        by="ada",
-        taught=datetime(2026, 11, 24, tzinfo=UTC),
-    )
 
 
 def square(room_id: str, x_m: float, side_m: float) -> RoomProposal:

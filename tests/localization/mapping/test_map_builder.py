@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -16,7 +18,7 @@ from localization.mapping.keyframes import (
 from localization.mapping.map_builder import MapBuilder
 from localization.mapping.occupancy import MapTooLarge, draw_grid
 from localization.mapping.scan_tracker import ScanTracker
-from maps import FREE, OCCUPIED, UNKNOWN
+from maps import FREE, OCCUPIED, UNKNOWN, GridMap
 from tests.localization.rooms import ROOM, Boxes, cast, points_of
 from wire import Pose2
 
@@ -68,7 +70,13 @@ def room() -> tuple[MapBuilder, ScanTracker, Floats, Floats]:
 def at(builder: MapBuilder, x_m: float, y_m: float) -> int:
     """Return the map's cell at a point of the room."""
     point = pose_between(course(1)[0], np.array((x_m, y_m, 0.0)))
-    return builder.draw().at(float(point[0]), float(point[1]))
+    return drawn(builder, len(builder.keyframes)).at(float(point[0]), float(point[1]))
+
+
+@lru_cache
+def drawn(builder: MapBuilder, _keyframes: int) -> GridMap:
+    """Return the map's cells, traced once for all points that a test asks for."""
+    return builder.draw()
 
 
 def test_the_pose_holds_though_wheels_are_wrong(

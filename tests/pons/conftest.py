@@ -1,0 +1,35 @@
+"""One drive through both rooms, for all that makes or mends a map of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from pons.settings import LaunchSettings
+from pons_assets import ROBOT_FILE
+from tests.bridge.recorded import Taken, stream_of, written
+from tests.pons.drives import Drive, keep_ticks
+from tools.lockstep import LockstepWorld
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> LaunchSettings:
+    return LaunchSettings(
+        home=tmp_path / "home", robot=ROBOT_FILE, site=tmp_path, host="127.0.0.1", port=1
+    )
+
+
+@pytest.fixture(scope="session")
+def drive(tmp_path_factory: pytest.TempPathFactory) -> Drive:
+    """Drive through both rooms; return the recording, the first and the last true pose."""
+    ticks: list[Taken] = []
+
+    world = LockstepWorld(seed=4, step=keep_ticks(ticks))
+    start = world.truth
+    for room in ("kitchen", "living room"):
+        goal = world.say(f"go to the {room}")
+        while not goal.has_ended:
+            world.run(0.5)
+    (path,) = written(tmp_path_factory.mktemp("drive"), stream_of(world.bridge.config, ticks))
+    return path, start, world.truth, ticks
