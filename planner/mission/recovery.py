@@ -58,6 +58,9 @@ NEW_LADDER_M = 1.0
 """Once it has come so far, what stands in the way now is another matter."""
 MAX_LADDERS = 12
 """In one step: a busy home shuts a way often, but not for ever."""
+MAX_WALKER_LADDERS = 3
+"""In one step, in a row, before somebody who walked up: people go on in the end, and who waits for
+them is met again further on."""
 MAX_GIVEN_WAY = 3
 """In one step."""
 WALKER_S = 1.0
@@ -116,6 +119,8 @@ class RecoveryRecord(Frozen):
     shut: tuple[ShutWay, ...] = ()
     newest: ShutWay | None = None
     """What stood in the way last."""
+    climbed_again: int = 0
+    """Times that the ladder was begun anew before somebody who walked up."""
     given_way: int = 0
     """Times that the robot stood aside."""
     approaches: int = 0
@@ -167,6 +172,21 @@ def begin_ladder(record: RecoveryRecord, robot_xy_m: tuple[float, float]) -> Rec
     return record.model_copy(
         update={"rung": 0, "ladders": record.ladders + 1, "began_at": robot_xy_m}
     )
+
+
+def climb_again(record: RecoveryRecord) -> RecoveryRecord | None:
+    """Return the record at the ladder's foot, where giving up would be too soon; else None."""
+    walked = record.newest is not None and record.newest.moves
+    if not walked or record.climbed_again + 1 >= MAX_WALKER_LADDERS:
+        return None
+    spent = record.ladders >= MAX_LADDERS or not record.metres <= MAX_RECOVERY_M
+    update = {
+        "rung": 0,
+        "ladders": record.ladders + 1,
+        "climbed_again": record.climbed_again + 1,
+        "given_way": 0,
+    }
+    return None if spent else record.model_copy(update=update)
 
 
 def note_obstruction(
