@@ -147,6 +147,23 @@ def rung_of(record: RecoveryRecord) -> LadderRung:
     return LADDER[-1] if spent else LADDER[min(record.rung, len(LADDER) - 1)]
 
 
+def rung_after(record: RecoveryRecord) -> int:
+    """Return the place of the rung after the next one; what can't help is left out.
+
+    Way is given to who walks alone, and looking round finds out nothing about a person.
+    """
+    walked = record.newest is not None and record.newest.moves
+    place = record.rung + 1
+    while place < len(LADDER) - 1:
+        recovery = LADDER[place].recovery
+        gives = recovery is Recovery.GIVE_WAY and not can_give_way(record)
+        looks = recovery is Recovery.LOOK and walked
+        if not (gives or looks):
+            break
+        place += 1
+    return place
+
+
 def wait_s(record: RecoveryRecord) -> float:
     """Return how long the rung that is next waits [s]."""
     rung = rung_of(record)

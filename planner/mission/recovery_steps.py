@@ -30,6 +30,7 @@ from planner.mission.recovery import (
     is_same,
     note_obstruction,
     note_open,
+    rung_after,
     rung_of,
     wait_s,
 )
@@ -102,7 +103,7 @@ def next_rung(turn: Transaction) -> None:
     mission = turn.running
     if mission is not None:
         record = mission.recovery
-        turn.put(mission, recovery=record.model_copy(update={"rung": record.rung + 1}))
+        turn.put(mission, recovery=record.model_copy(update={"rung": rung_after(record)}))
         turn.change(rung_since_s=None)
 
 
@@ -151,8 +152,6 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
             ask_route(turn, detour=True)
         case Recovery.GIVE_WAY:
             _give_way(turn, mission, leg, rung)
-        case Recovery.LOOK if mission.recovery.newest is not None and mission.recovery.newest.moves:
-            next_rung(turn)  # there is nothing to be found out about a person
         case Recovery.LOOK:
             _turn_to_look(turn, leg, rung, 0, pose.yaw_rad)
         case Recovery.BACK_OFF:
@@ -177,11 +176,19 @@ def _give_up(turn: Transaction, mission: Mission, leg: Driving) -> None:
     _begin_rung(turn)
 
 
+def _skip_rung(turn: Transaction, leg: Driving) -> None:
+    """Leave a rung out; a leg that streams nothing begins the next one itself."""
+    if leg.leg is None:
+        climb_on(turn)
+    else:
+        next_rung(turn)
+
+
 def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRung) -> None:
     """Stand aside for somebody who walked up; a thing that never moved is not given way to."""
     record = mission.recovery
     if not can_give_way(record) or record.newest is None:
-        next_rung(turn)
+        _skip_rung(turn, leg)
         return
     update = {"given_way": record.given_way + 1}
     turn.put(mission, recovery=record.model_copy(update=update))
