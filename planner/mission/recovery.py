@@ -45,14 +45,14 @@ LADDER = (
     LadderRung(Recovery.WAIT, seconds=3.0),  # most people have gone on by then
     LadderRung(Recovery.GIVE_WAY, seconds=14.0),  # to somebody who walks; else left out
     LadderRung(Recovery.REROUTE, seconds=5.0),
-    LadderRung(Recovery.WAIT, seconds=6.0),
+    LadderRung(Recovery.WAIT, seconds=3.0),
     LadderRung(Recovery.LOOK, seconds=3.0, turns_rad=(pi / 2, -pi / 2)),
     LadderRung(Recovery.BACK_OFF, seconds=5.0, metres=0.3, speed_mps=0.1),
     LadderRung(Recovery.OTHER_WAY, seconds=5.0),
     LadderRung(Recovery.WAIT, seconds=3.0),  # the other way is shut, too
     LadderRung(Recovery.GIVE_UP),
 )
-"""25 s from standing before something to giving up, of which the robot moves in 10."""
+"""Before a thing 20 s from standing to giving up, of which the robot moves in 10."""
 
 NEW_LADDER_M = 1.0
 """Once it has come so far, what stands in the way now is another matter."""

@@ -47,7 +47,7 @@ def keep_right(costmap: Costmap, line: Line, reach_m: float) -> Line:
         return line
     along_m = lengths_m(line)
     right = _right_of(line)
-    room_m = _bounded(_room_m(costmap, line, right), along_m, min(reach_m, float(along_m[-1])))
+    room_m = _limit_slope(_room_m(costmap, line, right), along_m, min(reach_m, float(along_m[-1])))
     for share in SHARES:
         shifted = evenly(line + share * room_m[:, None] * right)
         if is_free(costmap, shifted):
@@ -76,7 +76,7 @@ def _room_m(costmap: Costmap, line: Line, right: NDArray[np.float64]) -> NDArray
     return np.asarray(np.maximum(lasting.min(axis=1) - SPARE_M, 0.0), np.float64)
 
 
-def _bounded(
+def _limit_slope(
     room_m: NDArray[np.float64], along_m: NDArray[np.float64], reach_m: float
 ) -> NDArray[np.float64]:
     """Return the shift that begins and ends at nothing and changes no faster than the slope."""
