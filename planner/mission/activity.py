@@ -41,6 +41,8 @@ class Manoeuvre:
     """Of the rung's turns."""
     heading_rad: float = 0.0
     """The robot's in ``map``, when the rung began."""
+    stays: bool = False
+    """It stands where somebody can pass already: its own way goes on once that is free."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +56,8 @@ class RouteDoubt:
     since_s: float
     seen_s: float
     code: str
-    """``route_doubted``, ``route_kept``, ``route_kept_shorter`` or ``route_bent``."""
+    """``route_doubted``, ``route_kept``, ``route_kept_shorter``, ``route_bent`` or
+    ``route_keeps_right``."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,6 +99,8 @@ class Driving(_StepActivity):
     """It is to lead round what the lidar sees."""
     ticket_doubted: bool = False
     """It is to lead round what the route search remembers; without one the leg goes on."""
+    ticket_keeps_right: bool = False
+    """It is to leave room for somebody who comes; without one the leg goes on."""
     ticket_explores: bool = False
     """It is to say whether to look from elsewhere; without an answer the leg goes on."""
     explore_asked_s: float = float("-inf")
@@ -103,6 +108,10 @@ class Driving(_StepActivity):
     doubt: RouteDoubt | None = None
     doubt_asked_s: float = float("-inf")
     """When a way round was searched last because of a doubt."""
+    right_asked_s: float = float("-inf")
+    """When a way on the right was searched last."""
+    met_s: float = float("-inf")
+    """When somebody was last seen to come towards the robot."""
     bends: int = 0
     """Ways taken because the one before was doubted."""
     leg: int | None = None

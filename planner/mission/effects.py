@@ -72,6 +72,8 @@ class AskRoute:
     """The fastest that this way may be driven; None: as the route says."""
     doubted: bool = False
     """Only a way round everything that is remembered helps."""
+    keep_right_m: float = 0.0
+    """So far leave room on the left, for somebody who comes."""
 
 
 @dataclass(frozen=True, slots=True)

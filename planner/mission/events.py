@@ -79,6 +79,18 @@ class RouteDoubted:
 
 
 @dataclass(frozen=True, slots=True)
+class Oncoming:
+    """Somebody comes towards the robot on the way of the leg that is streamed."""
+
+    id: str
+    leg: int
+    at_m: tuple[float, float]
+    """Where they are on it, in ``map``."""
+    far_m: float
+    """Along it, from the robot to there."""
+
+
+@dataclass(frozen=True, slots=True)
 class Seen:
     """The bridge spoke. ``off_path``: the robot is too far from the path that is streamed."""
 
@@ -212,6 +224,7 @@ Event = (
     | Planned
     | Routed
     | RouteDoubted
+    | Oncoming
     | Seen
     | Surveyed
     | Sighted

@@ -12,6 +12,7 @@ of the step any more: what odometry counted stands.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import cos, sin
 
 from planner.language.catalogue import say
@@ -40,7 +41,12 @@ DETOUR_MOST_S = 30.0
 
 
 def ask_route(
-    turn: Transaction, *, detour: bool, doubted: bool = False, explores: bool = False
+    turn: Transaction,
+    *,
+    detour: bool,
+    doubted: bool = False,
+    explores: bool = False,
+    keep_right_m: float = 0.0,
 ) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
     mission, leg, status = turn.running, turn.driving, turn.book.status
@@ -60,14 +66,14 @@ def ask_route(
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
     turn.set(tickets=ticket)
     turn.change(ticket=ticket, ticket_detour=detour, ticket_doubted=doubted)
-    turn.change(ticket_explores=explores)
+    turn.change(ticket_explores=explores, ticket_keeps_right=keep_right_m > 0.0)
     turn.change(retry_s=None, route_when_standing=False)
     shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way in _ROUND else ()
     seen = detour or way is Way.STRAIGHT or bool(shut)
     heading = leg.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
     ask = AskRoute(mission.id, ticket, start, goal, heading, seen, way, shut, speed_mps, doubted)
-    turn.emit(ask)
+    turn.emit(replace(ask, keep_right_m=keep_right_m))
 
 
 def take_short(turn: Transaction, leg: Driving, short_m: float) -> None:

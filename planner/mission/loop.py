@@ -56,8 +56,8 @@ if TYPE_CHECKING:
     from wire import CameraConfig
 
 TICK_S = 0.1
-AHEAD_M = 3.0
-"""Of the way, held against each scan: what closes it farther off may be gone until then."""
+AHEAD_M = 6.0
+"""Of the way, on which somebody who comes is seen."""
 STATUS_NEWS_S = 0.2
 """Statuses are told to listeners at 5 Hz, and at once when mode, epoch or hold change."""
 

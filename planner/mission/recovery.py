@@ -45,19 +45,22 @@ LADDER = (
     LadderRung(Recovery.WAIT, seconds=3.0),  # most people have gone on by then
     LadderRung(Recovery.GIVE_WAY, seconds=14.0),  # to somebody who walks; else left out
     LadderRung(Recovery.REROUTE, seconds=5.0),
-    LadderRung(Recovery.WAIT, seconds=6.0),
+    LadderRung(Recovery.WAIT, seconds=3.0),
     LadderRung(Recovery.LOOK, seconds=3.0, turns_rad=(pi / 2, -pi / 2)),
     LadderRung(Recovery.BACK_OFF, seconds=5.0, metres=0.3, speed_mps=0.1),
     LadderRung(Recovery.OTHER_WAY, seconds=5.0),
     LadderRung(Recovery.WAIT, seconds=3.0),  # the other way is shut, too
     LadderRung(Recovery.GIVE_UP),
 )
-"""25 s from standing before something to giving up, of which the robot moves in 10."""
+"""Before a thing 20 s from standing to giving up, of which the robot moves in 10."""
 
 NEW_LADDER_M = 1.0
 """Once it has come so far, what stands in the way now is another matter."""
 MAX_LADDERS = 12
 """In one step: a busy home shuts a way often, but not for ever."""
+MAX_WALKER_LADDERS = 3
+"""In one step, in a row, before somebody who walked up: people go on in the end, and who waits for
+them is met again further on."""
 MAX_GIVEN_WAY = 3
 """In one step."""
 WALKER_S = 1.0
@@ -116,6 +119,8 @@ class RecoveryRecord(Frozen):
     shut: tuple[ShutWay, ...] = ()
     newest: ShutWay | None = None
     """What stood in the way last."""
+    climbed_again: int = 0
+    """Times that the ladder was begun anew before somebody who walked up."""
     given_way: int = 0
     """Times that the robot stood aside."""
     approaches: int = 0
@@ -140,6 +145,23 @@ def rung_of(record: RecoveryRecord) -> LadderRung:
     """Return the rung that is next; beyond the last one, or past a bound, that is to give up."""
     spent = record.ladders > MAX_LADDERS or not record.metres <= MAX_RECOVERY_M
     return LADDER[-1] if spent else LADDER[min(record.rung, len(LADDER) - 1)]
+
+
+def rung_after(record: RecoveryRecord) -> int:
+    """Return the place of the rung after the next one; what can't help is left out.
+
+    Way is given to who walks alone, and looking round finds out nothing about a person.
+    """
+    walked = record.newest is not None and record.newest.moves
+    place = record.rung + 1
+    while place < len(LADDER) - 1:
+        recovery = LADDER[place].recovery
+        gives = recovery is Recovery.GIVE_WAY and not can_give_way(record)
+        looks = recovery is Recovery.LOOK and walked
+        if not (gives or looks):
+            break
+        place += 1
+    return place
 
 
 def wait_s(record: RecoveryRecord) -> float:
@@ -167,6 +189,21 @@ def begin_ladder(record: RecoveryRecord, robot_xy_m: tuple[float, float]) -> Rec
     return record.model_copy(
         update={"rung": 0, "ladders": record.ladders + 1, "began_at": robot_xy_m}
     )
+
+
+def climb_again(record: RecoveryRecord) -> RecoveryRecord | None:
+    """Return the record at the ladder's foot, where giving up would be too soon; else None."""
+    walked = record.newest is not None and record.newest.moves
+    if not walked or record.climbed_again + 1 >= MAX_WALKER_LADDERS:
+        return None
+    spent = record.ladders >= MAX_LADDERS or not record.metres <= MAX_RECOVERY_M
+    update = {
+        "rung": 0,
+        "ladders": record.ladders + 1,
+        "climbed_again": record.climbed_again + 1,
+        "given_way": 0,
+    }
+    return None if spent else record.model_copy(update=update)
 
 
 def note_obstruction(

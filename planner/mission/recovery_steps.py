@@ -1,4 +1,4 @@
-"""Climb the recovery ladder while the running leg is blocked, and take the routes that come of it.
+"""Climb the recovery ladder while the running leg is blocked.
 
 The table and its bounds stand in ``recovery``. Only a leg by route recovers: a straight way and a
 spin go on or end. Every rung is written into the step's record before it is carried out, so that a
@@ -13,11 +13,10 @@ from math import cos, sin
 from planner.mission.account import place_name
 from planner.mission.activity import Driving, Manoeuvre
 from planner.mission.bridge_status import standing
-from planner.mission.events import Routed, Surveyed
-from planner.mission.exploration import take_better_viewpoint, take_viewpoint
-from planner.mission.legs import ask_route, detour_failed, new_leg, take_short
+from planner.mission.events import Surveyed
+from planner.mission.legs import ask_route
 from planner.mission.obstruction_text import tell_obstruction
-from planner.mission.occupied_goal import give_up_goal, look_for_room, wait_beside
+from planner.mission.occupied_goal import look_for_room
 from planner.mission.queue import note_step
 from planner.mission.recovery import (
     LADDER,
@@ -27,13 +26,14 @@ from planner.mission.recovery import (
     Recovery,
     begin_ladder,
     can_give_way,
+    climb_again,
     is_same,
     note_obstruction,
     note_open,
+    rung_after,
     rung_of,
     wait_s,
 )
-from planner.mission.route_doubts import take_doubted
 from planner.mission.skills import Fail, Way
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
@@ -41,15 +41,6 @@ from planner.mission.transaction import Transaction
 from planner.plan import Code
 from wire import Pose2, Status, wrap
 
-SHORT_M = 0.05
-"""A straight way that ends so near to its goal is whole."""
-MOVED_M = 0.2
-"""A route that ends farther from its goal than this ends elsewhere."""
-OCCUPIED = "goal_occupied"
-"""The route search's code where something not on the map leaves no floor beside the goal."""
-MAX_APPROACHES = 2
-TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
-MAX_ROUTES = 5
 RETRY_S = 1.0
 
 
@@ -112,7 +103,7 @@ def next_rung(turn: Transaction) -> None:
     mission = turn.running
     if mission is not None:
         record = mission.recovery
-        turn.put(mission, recovery=record.model_copy(update={"rung": record.rung + 1}))
+        turn.put(mission, recovery=record.model_copy(update={"rung": rung_after(record)}))
         turn.change(rung_since_s=None)
 
 
@@ -129,7 +120,7 @@ def _begin_rung(turn: Transaction) -> float:
     return turn.now_s
 
 
-def _climb_on(turn: Transaction) -> None:
+def climb_on(turn: Transaction) -> None:
     """Begin the next rung at once, for a leg that streams nothing and so is never called blocked.
 
     A wait ends with a new search; the last one, before giving up, would wait for nothing.
@@ -149,7 +140,7 @@ def _climb_on(turn: Transaction) -> None:
     elif rung is LADDER[-2]:
         _do_rung(turn, LADDER[-1], pose)
     else:
-        turn.change(retry_s=turn.now_s + rung.seconds)
+        turn.change(retry_s=turn.now_s + min(RETRY_S, rung.seconds))
 
 
 def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
@@ -171,14 +162,33 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
             )
             _manoeuvre(turn, leg, rung, back, Way.STRAIGHT)
         case _:
-            fail_step(turn, _way_shut(turn, mission))
+            _give_up(turn, mission, leg)
+
+
+def _give_up(turn: Transaction, mission: Mission, leg: Driving) -> None:
+    """Fail the step; before somebody who walked up, only once the ladder was climbed thrice."""
+    again = climb_again(mission.recovery)
+    if again is None:
+        fail_step(turn, way_shut(turn, mission))
+        return
+    turn.put(mission, recovery=again)
+    turn.change(rung_since_s=None, retry_s=turn.now_s + RETRY_S if leg.leg is None else None)
+    _begin_rung(turn)
+
+
+def _skip_rung(turn: Transaction, leg: Driving) -> None:
+    """Leave a rung out; a leg that streams nothing begins the next one itself."""
+    if leg.leg is None:
+        climb_on(turn)
+    else:
+        next_rung(turn)
 
 
 def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRung) -> None:
     """Stand aside for somebody who walked up; a thing that never moved is not given way to."""
     record = mission.recovery
     if not can_give_way(record) or record.newest is None:
-        next_rung(turn)
+        _skip_rung(turn, leg)
         return
     update = {"given_way": record.given_way + 1}
     turn.put(mission, recovery=record.model_copy(update=update))
@@ -215,6 +225,13 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
     own, told, mission = leg.manoeuvre, status.leg, turn.running
     if own is None or mission is None:
         return
+    if own.stays:
+        if not status.blocked:
+            turn.change(manoeuvre=None, rung_since_s=None)
+        elif turn.now_s >= own.until_s:
+            turn.change(manoeuvre=None)
+            next_rung(turn)
+        return
     reached = (
         told is not None
         and (told.mission, told.leg) == (mission.id, leg.leg)
@@ -232,10 +249,10 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
     if own.part + 1 < len(own.rung.turns_rad):
         _turn_to_look(turn, leg, own.rung, own.part + 1, own.heading_rad)
         return
-    _end_manoeuvre(turn, leg, own)
+    end_manoeuvre(turn, leg, own)
 
 
-def _end_manoeuvre(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
+def end_manoeuvre(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
     """Stand, and go on with the next rung: the leg's own path was lost with the manoeuvre."""
     mission = turn.running
     if mission is None:
@@ -244,85 +261,16 @@ def _end_manoeuvre(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
     record = mission.recovery.model_copy(update={"metres": round(gone_m, 3)})
     turn.put(mission, recovery=record)
     turn.change(manoeuvre=None, leg=None, ticket=None, blocked_since_s=None)
-    _climb_on(turn)
+    climb_on(turn)
 
 
-def _way_shut(turn: Transaction, mission: Mission) -> Fail:
+def way_shut(turn: Transaction, mission: Mission) -> Fail:
     """Return the failure of a way that was given up, naming what stands in it where it was seen."""
     newest, facts = mission.recovery.newest, turn.book.facts
     if newest is None:
         return Fail(Code.BLOCKED, "blocked")
     name = place_name(facts, mission, mission.current_step)
     return Fail(Code.BLOCKED, "blocked", tell_obstruction(facts, newest, name))
-
-
-# Routes ------------------------------------------------------------------------------------------
-
-
-def on_routed(turn: Transaction, routed: Routed) -> None:
-    """Take the route that was asked for; any other is forgotten."""
-    mission, leg = turn.running, turn.driving
-    if mission is None or leg is None or (mission.id, leg.ticket) != (routed.id, routed.ticket):
-        return
-    failure, short_m = routed.failure, routed.short_m
-    turn.change(ticket=None)
-    leg = turn.driving or leg
-    if leg.ticket_doubted or leg.ticket_explores:
-        take = take_doubted if leg.ticket_doubted else take_better_viewpoint
-        take(turn, mission, leg, routed)
-    elif leg.manoeuvre is not None and failure is not None:
-        _end_manoeuvre(turn, leg, leg.manoeuvre)
-    elif leg.manoeuvre is not None:
-        new_leg(turn, mission)
-    elif failure is None and leg.way is Way.STRAIGHT and not short_m <= SHORT_M:
-        take_short(turn, leg, short_m)
-    elif failure is None:
-        _take_route(turn, mission, leg, routed)
-    elif leg.way is not Way.ROUTE and leg.ticket_detour:
-        detour_failed(turn, leg)
-    elif failure == OCCUPIED and leg.way is Way.ROUTE:
-        wait_beside(turn, mission, leg)
-    elif leg.ticket_detour:
-        _no_way_round(turn, mission, leg, failure)
-    elif failure in TRANSIENT and leg.routes < MAX_ROUTES:
-        turn.change(routes=leg.routes + 1, retry_s=turn.now_s + RETRY_S)
-    elif mission.recovery.shut and failure == "no_route":
-        fail_step(turn, _way_shut(turn, mission))
-    else:
-        fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
-
-
-def _take_route(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
-    """Stream a route; one round something that ends short of its goal moves the goal, once."""
-    if leg.way is Way.EXPLORE:
-        take_viewpoint(turn, mission, leg, routed)
-        return
-    short_m, end_m = routed.short_m, routed.end_m
-    moved = leg.way is Way.ROUTE and leg.ticket_detour and short_m > MOVED_M and end_m is not None
-    if not moved:
-        new_leg(turn, mission)
-        if leg.ticket_detour:
-            next_rung(turn)
-        return
-    record = mission.recovery
-    if record.approaches + 1 >= MAX_APPROACHES or end_m is None:
-        give_up_goal(turn, mission, leg)
-        return
-    update = {"approaches": record.approaches + 1, "goal": _xy(leg.goal), "goal_moved": end_m}
-    mission = turn.put(mission, recovery=record.model_copy(update=update))
-    new_leg(turn, mission)
-    turn.change(rung_since_s=None, occupied_since_s=None)
-
-
-def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: str) -> None:
-    """Go on up the ladder; a search that only broke is tried again."""
-    if failure in TRANSIENT and leg.routes < MAX_ROUTES:
-        turn.change(routes=leg.routes + 1, rung_since_s=turn.now_s)
-        turn.change(retry_s=turn.now_s + RETRY_S if leg.leg is None else None)
-    elif leg.leg is None:
-        _climb_on(turn)
-    else:
-        next_rung(turn)
 
 
 def _xy(pose: Pose2) -> tuple[float, float]:

@@ -19,6 +19,7 @@ from planner.mission.events import (
     Journalled,
     Known,
     Move,
+    Oncoming,
     Pause,
     Planned,
     Reply,
@@ -44,12 +45,13 @@ from planner.mission.goal_lifecycle import (
     submit,
     take_plan,
 )
+from planner.mission.leg_routes import on_routed
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import on_sight, on_told
 from planner.mission.places_changed import on_known
 from planner.mission.queue import cancel, reorder
-from planner.mission.recovery_steps import on_routed, on_survey
-from planner.mission.route_doubts import on_doubted
+from planner.mission.recovery_steps import on_survey
+from planner.mission.route_doubts import on_doubted, on_oncoming
 from planner.mission.speed_cap import change_speed
 from planner.mission.state import MissionState
 from planner.mission.status_monitor import on_status, on_tick
@@ -115,6 +117,7 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
     | Planned
     | Routed
     | RouteDoubted
+    | Oncoming
     | Seen
     | Surveyed
     | Sighted
@@ -140,6 +143,8 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
             on_routed(turn, event)
         case RouteDoubted():
             on_doubted(turn, event)
+        case Oncoming():
+            on_oncoming(turn, event)
         case Surveyed():
             on_survey(turn, event)
         case Planned():

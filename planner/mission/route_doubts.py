@@ -17,16 +17,19 @@ from planner.mission.legs import ask_route, new_leg
 from planner.mission.skills import Way
 
 if TYPE_CHECKING:
-    from planner.mission.events import Routed, RouteDoubted
+    from planner.mission.events import Oncoming, Routed, RouteDoubted
     from planner.mission.state import Mission, MissionState
     from planner.mission.transaction import Transaction
 
-DOUBTED, KEPT, KEPT_SHORTER, BENT = (
+DOUBTED, KEPT, KEPT_SHORTER, BENT, RIGHT = (
     "route_doubted",
     "route_kept",
     "route_kept_shorter",
     "route_bent",
+    "route_keeps_right",
 )
+_TAKEN = (BENT, RIGHT)
+"""A way was taken because of it: it is told as long as that is driven."""
 SETTLE_S = 0.5
 """By then somebody who walks is known to walk, and closes no way."""
 PERIOD_S = 1.0
@@ -41,6 +44,11 @@ PATIENCE_S = 3.0
 """Before a longer one is taken: most people have gone on by then, and the robot drives on."""
 SHORT_M = 0.2
 """A way round that ends farther from its goal than this leads elsewhere."""
+MEETING_S = 2.0
+"""Somebody who was not seen to come for so long, and then comes, is met anew."""
+MET_SHARE, PASSED_M = 0.5, 1.0
+"""Of the way to somebody who comes, what the robot drives until they meet, at most: it slows down
+on the right. So far beyond they have passed."""
 MAX_BENDS = 12
 """In one leg. After that the ladder of recovery alone finds other ways."""
 
@@ -53,7 +61,7 @@ def on_doubted(turn: Transaction, event: RouteDoubted) -> None:
     if leg.way is not Way.ROUTE or leg.manoeuvre is not None:
         return
     doubt, now_s = leg.doubt, turn.now_s
-    lasts = doubt is not None and doubt.leg == event.leg and doubt.code != BENT
+    lasts = doubt is not None and doubt.leg == event.leg and doubt.code not in _TAKEN
     if doubt is None or not lasts or not now_s - doubt.seen_s <= LASTS_S:
         doubt = RouteDoubt(event.leg, event.at_m, now_s, now_s, DOUBTED)
     turn.change(doubt=replace(doubt, at_m=event.at_m, seen_s=now_s))
@@ -64,17 +72,37 @@ def on_doubted(turn: Transaction, event: RouteDoubted) -> None:
         ask_route(turn, detour=False, doubted=True)
 
 
+def on_oncoming(turn: Transaction, event: Oncoming) -> None:
+    """Have a way on the right searched for somebody who comes, once for each meeting."""
+    mission, leg, now_s = turn.running, turn.driving, turn.now_s
+    if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
+        return
+    if leg.way is not Way.ROUTE or leg.manoeuvre is not None:
+        return
+    keeps_right = leg.doubt is not None and (leg.doubt.leg, leg.doubt.code) == (leg.leg, RIGHT)
+    is_known = keeps_right and now_s - leg.met_s <= MEETING_S
+    turn.change(met_s=now_s)
+    if is_known or now_s - leg.right_asked_s < PERIOD_S or not _may_search(turn, leg):
+        return
+    turn.change(doubt=RouteDoubt(event.leg, event.at_m, now_s, now_s, DOUBTED), right_asked_s=now_s)
+    reach_m = MET_SHARE * event.far_m + PASSED_M
+    ask_route(turn, detour=False, doubted=True, keep_right_m=reach_m)
+
+
 def take_doubted(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
     """Take the way that was searched because of a doubt, or keep the leg's own."""
     doubt = leg.doubt
     if doubt is None or leg.leg is None:
         return
     whole = routed.failure is None and routed.short_m <= SHORT_M
+    if leg.ticket_keeps_right and not whole:
+        return
     small = leg.left_m is not None and routed.length_m - leg.left_m <= SMALL_BEND_M
     if whole and (small or turn.now_s - doubt.since_s >= PATIENCE_S):
         new_leg(turn, mission)
         taken = turn.driving or leg
-        bent = replace(doubt, leg=taken.leg or doubt.leg, code=BENT)
+        code = RIGHT if leg.ticket_keeps_right else BENT
+        bent = replace(doubt, leg=taken.leg or doubt.leg, code=code)
         turn.change(doubt=bent, bends=leg.bends + 1)
     else:
         turn.change(doubt=replace(doubt, code=KEPT_SHORTER if whole else KEPT))
@@ -85,7 +113,7 @@ def standing_doubt(book: MissionState) -> RouteDoubt | None:
     leg = book.activity
     if not isinstance(leg, Driving) or leg.doubt is None or leg.doubt.leg != leg.leg:
         return None
-    lasts = leg.doubt.code == BENT or book.status_s - leg.doubt.seen_s <= LASTS_S
+    lasts = leg.doubt.code in _TAKEN or book.status_s - leg.doubt.seen_s <= LASTS_S
     return leg.doubt if lasts else None
 
 

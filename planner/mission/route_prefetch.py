@@ -111,7 +111,9 @@ class RouteAhead:
 
 
 def _is_same(ahead: RouteRequest, asked: RouteRequest) -> bool:
-    plain = not (asked.obstacles or asked.straight or asked.aside or asked.strict)
+    plain = not (
+        asked.obstacles or asked.straight or asked.aside or asked.strict or asked.keep_right_m
+    )
     return plain and ahead.goal == asked.goal and _near(ahead.start, asked.start)
 
 

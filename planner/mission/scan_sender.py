@@ -12,8 +12,9 @@ from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING, Protocol
 
-from planner.mission.events import RouteDoubted
+from planner.mission.events import Oncoming, RouteDoubted
 from planner.navigation import RouteFailure, ScanObservation
+from planner.navigation.oncoming import find_oncoming
 from planner.perception.pose_buffer import Poses
 from wire import Pose2
 
@@ -33,6 +34,8 @@ Point = tuple[float, float]
 
 PERIOD_S = 0.2
 FRESH_S = 0.3
+DOUBTS_M = 3.0
+"""Of the way, held against each scan: what closes it farther off may be gone until then."""
 
 
 class ScanObserver(Protocol):
@@ -98,19 +101,21 @@ class ScanSender:
             range_min_m=scan.range_min_m,
             ranges_m=scan.ranges_m,
             at_s=now_s,
-            ahead=self._way.points if self._way is not None else (),
+            ahead=_first_metres(self._way.points) if self._way is not None else (),
         )
 
     def _was_shown(self, scan: Scan) -> bool:
         newest = self.shown
         return newest is not None and (scan.boot_id, scan.seq) == (newest.boot_id, newest.seq)
 
-    async def show(self, seen: ScanObservation, doubt: Callable[[RouteDoubted], None]) -> None:
+    async def show(
+        self, seen: ScanObservation, tell: Callable[[RouteDoubted | Oncoming], None]
+    ) -> None:
         """Bring a scan to the search and keep its report; a failure is told by its next route.
 
         Args:
             seen: as :meth:`due` returned it.
-            doubt: is told where the way that came with it is closed.
+            tell: is told where the way that came with it is closed, and who comes on it.
         """
         way = self._way
         try:
@@ -121,8 +126,13 @@ class ScanSender:
         finally:
             self._busy = False
         far_m = self.report.blocked_ahead_m
-        if way is not None and far_m is not None and way.points:
-            doubt(RouteDoubted(way.mission, way.leg, _point_along(way.points, far_m)))
+        if way is None or not way.points:
+            return
+        if far_m is not None:
+            tell(RouteDoubted(way.mission, way.leg, _point_along(way.points, far_m)))
+        met = find_oncoming(way.points, self.report.movers)
+        if met is not None:
+            tell(Oncoming(way.mission, way.leg, met.at_m, met.far_m))
 
 
 def _point_along(way: tuple[Point, ...], far_m: float) -> Point:
@@ -133,6 +143,16 @@ def _point_along(way: tuple[Point, ...], far_m: float) -> Point:
             return before
         gone_m += dist(before, point)
     return way[-1]
+
+
+def _first_metres(way: tuple[Point, ...]) -> tuple[Point, ...]:
+    """Return the points of a way within the first three metres."""
+    gone_m = 0.0
+    for count, (before, point) in enumerate(pairwise(way), 1):
+        gone_m += dist(before, point)
+        if gone_m > DOUBTS_M:
+            return way[:count]
+    return way
 
 
 def _middle_s(scan: Scan) -> float:

@@ -142,6 +142,7 @@ class MissionTasks:
                 aside=ask.way is Way.ASIDE,
                 explore=ask.way is Way.EXPLORE,
                 strict=ask.doubted,
+                keep_right_m=ask.keep_right_m,
             )
             result = await self._router.route(request)
         except RouteFailure as failure:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from planner.navigation.costmap import Costmap
 from planner.navigation.raster import distance_m
 from planner.navigation.route import RouteFailure
+from planner.navigation.smoothing import sample
 
 Point = tuple[float, float]
 
@@ -23,10 +24,12 @@ REACH_M = 1.2
 STEP_M = 0.05
 ROOM_M = 0.08
 """Kept from every wall: nearer, an error of the pose lets the gate shut the way out."""
-HUGS_M = 0.25
+HUGS_M = 0.14
 """A bay is at a wall: farther from it than this, beside the disc, nothing is gained."""
-PERSON_M = (0.36, 0.33, 0.30)
+PERSON_M = (0.36, 0.32, 0.30)
 """Half of the lane that a person needs: 0.25 m, and some room; the most that there is."""
+ENOUGH_M = 0.32
+"""A robot that leaves so much already stays where it is: it blocks nobody."""
 WINDOW_M = 2.5
 BEYOND_M = 1.3
 """So far on the other side of the robot a person has passed."""
@@ -43,6 +46,8 @@ def find_bay(mapped: Costmap, costmap: Costmap, robot: Point, person: Point) -> 
         robot: its centre now [m].
         person: the middle of the side that was seen [m].
 
+    Returns the robot's own place where that will do.
+
     Raises:
         RouteFailure: ``no_route``: there is none within 1.2 m.
     """
@@ -50,6 +55,8 @@ def find_bay(mapped: Costmap, costmap: Costmap, robot: Point, person: Point) -> 
     if not away_m > 0.0:
         raise RouteFailure("no_route", "the person stands where the robot does")
     towards = ((person[0] - robot[0]) / away_m, (person[1] - robot[1]) / away_m)
+    if _leaves_lane(mapped, robot, robot, towards, ENOUGH_M):
+        return robot
     column, row = costmap.grid.cell_of(*robot)
     part = int(costmap.labels[row, column]) if costmap.grid.contains(*robot) else 0
     bays = []
@@ -61,13 +68,19 @@ def find_bay(mapped: Costmap, costmap: Costmap, robot: Point, person: Point) -> 
         joined = label != 0 and (part in (0, label))
         hugs = ROOM_M <= mapped.clearance_m[row, column] - mapped.radius_m <= HUGS_M
         nearer = hypot(person[0] - x_m, person[1] - y_m) < away_m - 0.05
-        if joined and hugs and not nearer:
+        if joined and hugs and not nearer and _leads_straight(mapped, robot, (x_m, y_m)):
             bays.append((x_m, y_m))
     for lane_m in PERSON_M:
         for bay in bays:
             if _leaves_lane(mapped, bay, robot, towards, lane_m):
                 return bay
     raise RouteFailure("no_route", f"no bay within {REACH_M} m")
+
+
+def _leads_straight(mapped: Costmap, robot: Point, bay: Point) -> bool:
+    """Tell whether no wall is between: what lies behind one is reached by driving round it."""
+    line = sample(np.asarray(robot), np.asarray(bay))
+    return bool((mapped.clearance_at(line) >= mapped.radius_m).all())
 
 
 def _candidates(robot: Point, towards: Point) -> list[Point]:

@@ -26,7 +26,8 @@ def read_request(frame: Frame) -> RouteRequest:
     start, goal = Pose2(**head["start"]), Pose2(**head["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in head["obstacles"])
     kinds = {name: bool(head[name]) for name in ("straight", "aside", "strict", "explore")}
-    return RouteRequest(start, goal, obstacles, **kinds)
+    right_m = float(head["keep_right_m"])
+    return RouteRequest(start, goal, obstacles, keep_right_m=right_m, **kinds)
 
 
 def result_frame(result: RouteResult) -> Frame:

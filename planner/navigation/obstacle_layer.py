@@ -27,6 +27,8 @@ Points = NDArray[np.float64]
 
 MARK_M = 4.0
 """Farther away a pose error of 0.5 degrees already moves a point by a cell."""
+SEE_M = 6.0
+"""What moves is followed from so far away: half a metre more or less means nothing there."""
 CLEAR_M = 3.0
 """So far a beam that did not return clears: black cloth returns nothing either."""
 CLEARED_BY = 2
@@ -87,7 +89,8 @@ class ObstacleLayer:
         points, ends = _points_and_ends(view)
         lidar_xy_m = (view.lidar_in_map.x_m, view.lidar_in_map.y_m)
         news = mapped.find_unexplained(points, lidar_xy_m)
-        self._mark_and_clear(mapped.grid, _leave_out(news, movers), ends, lidar_xy_m)
+        near = news[np.hypot(*(news - lidar_xy_m).T) <= MARK_M]
+        self._mark_and_clear(mapped.grid, _leave_out(near, movers), ends, lidar_xy_m)
         return news
 
     @property
@@ -163,13 +166,13 @@ class ObstacleLayer:
 
 
 def _points_and_ends(view: ScanView) -> tuple[Points, Points]:
-    """Return where beams returned within MARK_M, and the outline of what all beams saw free."""
+    """Return where beams returned within SEE_M, and the outline of what all beams saw free."""
     lidar = view.lidar_in_map
     ranges = view.ranges_m
     angles = lidar.yaw_rad + view.first_rad + view.step_rad * np.arange(len(ranges))
     directions = np.column_stack([np.cos(angles), np.sin(angles)])
     origin = np.array([lidar.x_m, lidar.y_m])
-    returned = (ranges >= view.range_min_m) & (ranges <= MARK_M)
+    returned = (ranges >= view.range_min_m) & (ranges <= SEE_M)
     points = origin + ranges[returned, None] * directions[returned]
     free_m = np.where(ranges <= MARK_M, ranges, np.where(np.isnan(ranges), CLEAR_M, MARK_M))
     ends = origin + free_m[:, None] * directions

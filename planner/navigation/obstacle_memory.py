@@ -25,6 +25,10 @@ MAX_CELLS = 4_000
 """Of a layer, told to people: 10 m2 at 0.05 m."""
 MAX_ESCAPE_M = 0.5
 """A way that begins too near to something is no closed way, where it is open after this."""
+NEAR_MOVER_M = 1.5
+"""From the robot's middle: who walks nearer than this is in its way all the same."""
+MOVER_ROOM_M = 0.25
+"""Beside a mover's disc, for how far it has gone since it was seen."""
 JUMP_M, FASTEST_MPS = 0.3, 2.0
 """A robot that is farther away than it can have driven was found elsewhere: what it saw before lies
 in wrong places."""
@@ -61,6 +65,27 @@ class ObstacleMemory:
         )
         news = self._layer.observe(mapped, view, self._tracker.expected_points(seen.at_s))
         self._tracker.update(news, seen.at_s)
+
+    def leave_movers_out(
+        self, points: tuple[tuple[float, float], ...]
+    ) -> tuple[tuple[float, float], ...]:
+        """Return the points [m] that are no mover's, or of one that is near the robot now.
+
+        Who walks some metres away will be elsewhere by the time the robot is there.
+        """
+        if self._seen is None or not points:
+            return points
+        here = self._seen.base_in_map
+        discs = [
+            (mover.x_m, mover.y_m, mover.radius_m + MOVER_ROOM_M)
+            for mover in self._tracker.movers
+            if hypot(mover.x_m - here.x_m, mover.y_m - here.y_m) >= NEAR_MOVER_M
+        ]
+        return tuple(
+            (x_m, y_m)
+            for x_m, y_m in points
+            if not any(hypot(x_m - x, y_m - y) <= far_m for x, y, far_m in discs)
+        )
 
     def costmap(self, mapped: Costmap) -> Costmap:
         """Return the map with what the obstacle layer holds now."""

@@ -65,6 +65,7 @@ class RouteRequest:
     straight: bool = False  # go straight, as far as floor is free, backwards if the goal is behind
     aside: bool = False  # go where somebody who stands at the goal can walk past
     strict: bool = False  # fail, where the only way leads through what is remembered
+    keep_right_m: float = 0.0  # so far leave room on the left, for somebody who comes
     explore: bool = False  # go where the map's next frontier is seen from; the goal means nothing
 
 

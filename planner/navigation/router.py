@@ -19,6 +19,7 @@ from planner.navigation.bay import find_bay
 from planner.navigation.coarse_search import SearchFloor, floor_of
 from planner.navigation.costmap import Costmap, static_costmap
 from planner.navigation.frontier import FrontierMemory, find_frontiers, known_m2
+from planner.navigation.keep_right import keep_right
 from planner.navigation.obstacle_memory import ObstacleMemory
 from planner.navigation.route import (
     MIN_SPEED_MPS,
@@ -125,7 +126,8 @@ class Router:
         _check(request)
         start_m = (request.start.x_m, request.start.y_m)
         layered = self._mapped if memory is None else memory.costmap(self._mapped)
-        costmap = layered.with_obstacles(request.obstacles, start_m)
+        seen = request.obstacles if memory is None else memory.leave_movers_out(request.obstacles)
+        costmap = layered.with_obstacles(seen, start_m)
         if request.straight:
             return self._straight(costmap, request, began_s, clock)
         if request.explore:
@@ -133,6 +135,9 @@ class Router:
         if request.aside:
             person_m = (request.goal.x_m, request.goal.y_m)
             bay_m = find_bay(self._mapped, costmap, start_m, person_m)
+            if bay_m == start_m:
+                here = RoutePoint(*bay_m, MIN_SPEED_MPS)
+                return RouteResult((here,), 0.0, 0.0, False, clock() - began_s)
             aside = replace(request, goal=Pose2(*bay_m, request.start.yaw_rad), aside=False)
             return self._find(costmap, aside, began_s, clock)
         try:
@@ -142,7 +147,7 @@ class Router:
             if memory is None or not has_hope or failure.code not in _CLOSED:
                 raise
         # No way by what is remembered: then perhaps it is gone, and worth a look.
-        hopeful = memory.hopeful_costmap(self._mapped).with_obstacles(request.obstacles, start_m)
+        hopeful = memory.hopeful_costmap(self._mapped).with_obstacles(seen, start_m)
         try:
             return self._find(hopeful, request, began_s, clock)
         except RouteFailure as failure:
@@ -157,6 +162,8 @@ class Router:
     ) -> RouteResult:
         ends = choose_ends(costmap, self._site, request, self._mapped)
         line = self._line(costmap, request, ends)
+        if request.keep_right_m > 0.0:
+            line = keep_right(costmap, line, request.keep_right_m)
         return RouteResult(
             points=self._points(costmap, line),
             length_m=float(np.hypot(*np.diff(line, axis=0).T).sum()),

@@ -19,6 +19,7 @@ from planner.mission.effects import (
 )
 from planner.mission.engine import Engine, Output
 from planner.mission.events import Event, Planned, Restarted, Submitted
+from planner.mission.skills import Way
 from planner.mission.state import Mission, MissionState
 from planner.navigation import RoutePoint
 from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
@@ -26,7 +27,7 @@ from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, strai
 from wire import Pose2
 
 Reply = Callable[[AskBrain], Planned | None]
-Way = Callable[[AskRoute], str | None]
+WayAnswer = Callable[[AskRoute], str | None]
 """Return the code of a failure, or None for a straight way."""
 
 
@@ -49,11 +50,13 @@ class Together:
     planner_id: str = "p1"
     disk: bool = True
     """Entries are safe at once; False: not before ``sync``."""
-    way: Way = lambda ask: None
+    way: WayAnswer = lambda ask: None
     ends: Pose2 | None = None
     """Where every way ends, whatever its goal."""
     aside_m: float = 0.0
     """So far to the left leads every way that was asked for because another is doubted."""
+    stays_aside: bool = False
+    """A way aside ends where the robot stands: it can be passed there."""
     now_s: float = 100.0
     disk_entries: list[Journal] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
@@ -121,6 +124,8 @@ class Together:
     def lay(self, ask: AskRoute) -> tuple[RoutePoint, ...]:
         """Return a straight way, or one with a bend in its middle."""
         goal = self.ends or ask.goal
+        if ask.way is Way.ASIDE and self.stays_aside:
+            return (RoutePoint(ask.start.x_m, ask.start.y_m, 0.05),)
         if not (ask.doubted and self.aside_m):
             return straight(ask.start, goal)
         middle_m = ((ask.start.x_m + goal.x_m) / 2, (ask.start.y_m + goal.y_m) / 2)

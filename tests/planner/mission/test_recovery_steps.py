@@ -8,7 +8,7 @@ from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute
 from planner.mission.events import Pause, Resume, Surveyed
 from planner.mission.occupied_goal import OCCUPIED_S
-from planner.mission.recovery import LADDER, Recovery
+from planner.mission.recovery import LADDER, MAX_WALKER_LADDERS, Recovery
 from planner.mission.skills import Way
 from planner.navigation.obstruction import Obstruction
 from planner.plan import Code, GoTo, StepPlan
@@ -17,20 +17,21 @@ from tests.planner.mission.lockstep import Together
 from wire import Pose2
 
 CRATE = Obstruction((2.5, -0.25), (2.5, 0.25))
-NAMES = [rung.recovery.value for rung in LADDER]
+NAMES = [rung.recovery.value for rung in LADDER if rung.recovery is not Recovery.GIVE_WAY]
+"""Before a thing: way is given to people alone."""
 
 
 def told(world: Together, goal: str) -> tuple[str, ...]:
     return world.goal(goal).steps[0].recoveries
 
 
-def shut(world: Together, seen: Obstruction | None = CRATE) -> str:
+def shut(world: Together, seen: Obstruction | None = CRATE, *, moves: bool = False) -> str:
     """Return a goal whose way is shut, and that no way leads round."""
     world.way = lambda ask: "no_route" if ask.obstacles and ask.way is Way.ROUTE else None
     goal = driving(world)
     world.bridge.blocked = True
     world.run(1.0)
-    world.event(Surveyed(seen, local_offset_s=3600.0))
+    world.event(Surveyed(seen, moves, local_offset_s=3600.0))
     return goal
 
 
@@ -223,3 +224,62 @@ def test_a_manoeuvre_asks_for_its_own_way_alone(world: Together) -> None:
     world.run_until(goal, FAILED, limit_s=60.0)
     assert all(isinstance(ask, AskRoute) for ask in world.routes)
     assert all(not ask.shut for ask in world.routes if ask.way is not Way.ROUTE)
+
+
+def walked_up(world: Together) -> str:
+    """Return a goal whose way is shut by somebody who walked up."""
+    return shut(world, moves=True)
+
+
+def test_before_somebody_who_walked_up_the_ladder_is_climbed_thrice(world: Together) -> None:
+    goal = walked_up(world)
+    began_s = world.now_s
+    mission = world.run_until(goal, FAILED, limit_s=120.0)
+    tried = mission.steps[0].recoveries
+    assert tried.count(Recovery.OTHER_WAY.value) == MAX_WALKER_LADDERS
+    assert Recovery.LOOK.value not in tried, "there is nothing to be found out about a person"
+    assert 40.0 <= world.now_s - began_s <= 100.0
+
+
+def test_who_leaves_on_the_second_ladder_lets_the_robot_arrive(world: Together) -> None:
+    goal = walked_up(world)
+    world.run(35.0)
+    assert world.goal(goal).state is RUNNING
+    world.bridge.blocked = False
+    world.way = lambda ask: None
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_a_robot_that_can_be_passed_stays_on_its_way_and_goes_on_at_once(world: Together) -> None:
+    """The way aside ends where the robot stands: its own way is streamed on."""
+    goal = walked_up(world)
+    world.way = lambda ask: "no_route" if ask.obstacles and ask.way is Way.ROUTE else None
+    world.stays_aside = True
+    while Recovery.GIVE_WAY.value not in told(world, goal):
+        world.run(0.1)
+    world.run(1.0)
+    leg = world.book.activity
+    assert isinstance(leg, Driving)
+    assert leg.manoeuvre is not None
+    assert leg.manoeuvre.stays
+    assert world.bridge.waypoints[-1].points
+    world.bridge.blocked = False
+    world.run(0.3)
+    leg = world.book.activity
+    assert isinstance(leg, Driving)
+    assert leg.manoeuvre is None
+    world.run_until(goal, SUCCEEDED)
+    assert world.goal(goal).leg == 1
+
+
+def test_a_wait_without_a_way_searches_again_each_second(world: Together) -> None:
+    goal = shut(world)
+    world.run(4.5)
+    leg = world.book.activity
+    assert isinstance(leg, Driving)
+    before = len(world.routes)
+    world.run(3.0)
+    assert len(world.routes) - before <= 4
+    world.way = lambda ask: None
+    world.bridge.blocked = False
+    world.run_until(goal, SUCCEEDED, limit_s=30.0)

@@ -22,6 +22,7 @@ from planner.mission.route_doubts import (
     MAX_BENDS,
     PATIENCE_S,
     PERIOD_S,
+    RIGHT,
     SETTLE_S,
 )
 from tests.laws import at_least
@@ -194,7 +195,7 @@ def test_without_a_pose_nothing_is_searched(doubts: Doubts) -> None:
     assert not doubts.asked
 
 
-@pytest.mark.parametrize("code", [DOUBTED, KEPT, KEPT_SHORTER, BENT])
+@pytest.mark.parametrize("code", [DOUBTED, KEPT, KEPT_SHORTER, BENT, RIGHT])
 def test_each_code_is_told_with_its_spot_in_both_languages(code: str) -> None:
     said = tell_doubt(FACTS, RouteDoubt(1, (0.2, 0.1), 0.0, 0.0, code))
     assert "in the hall" in said.en

@@ -11,7 +11,7 @@ import pytest
 
 from planner.bridge_client import Aged
 from planner.mission.engine import WayAhead
-from planner.mission.events import RouteDoubted
+from planner.mission.events import Oncoming, RouteDoubted
 from planner.mission.scan_sender import FRESH_S, PERIOD_S, ScanSender
 from planner.navigation import ObstacleReport, RouteFailure, ScanObservation
 from tests.planner.perception.test_pose_buffer import moved, placed
@@ -72,7 +72,7 @@ class Showing:
     way: WayAhead | None = WAY
     now_s: float = 50.0
     link: FakeLink = field(default_factory=FakeLink)
-    doubts: list[RouteDoubted] = field(default_factory=list)
+    doubts: list[RouteDoubted | Oncoming] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.sender = ScanSender(

@@ -37,6 +37,25 @@ def test_where_nobody_could_pass_there_is_no_bay() -> None:
         )
 
 
+def test_a_robot_that_leaves_a_lane_already_stays_where_it_is() -> None:
+    """The corridor is 1.5 m wide; at 0.4 m from one wall the robot leaves 0.8 m."""
+    site = drawn(*corridor(6))
+    way = Router(site, LIMITS).route(
+        RouteRequest(Pose2(5.0, 0.65, 0.0), Pose2(4.0, 1.0, 0.0), aside=True)
+    )
+    assert [(p.x_m, p.y_m) for p in way.points] == [(5.0, 0.65)]
+    assert way.length_m == 0.0
+
+
+def test_a_spot_behind_a_wall_is_no_bay() -> None:
+    """A room beside the corridor is joined to it by a door 4 m away: nobody drives there."""
+    rows = ["#" * 40, *("." * 40 for _ in range(3)), "." * 4 + "#" * 36]
+    site = drawn(*rows, *("." * 40 for _ in range(4)), "#" * 40)
+    costmap = static_costmap(site, LIMITS.radius_m)
+    with pytest.raises(RouteFailure, match="no_route"):
+        find_bay(costmap, costmap, (5.0, 0.75), (4.0, 0.75))
+
+
 def test_the_way_aside_ends_in_the_bay() -> None:
     site = drawn(*corridor(6))
     way = Router(site, LIMITS).route(

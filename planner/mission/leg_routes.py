@@ -1,0 +1,128 @@
+"""Take the routes that a leg asked for: its way, a way round, a manoeuvre, or the code of none.
+
+Which rung asks for which stands in ``recovery_steps``. A route that nobody waits for any more is
+forgotten.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from planner.mission.activity import Driving, Manoeuvre
+from planner.mission.events import Routed
+from planner.mission.exploration import take_better_viewpoint, take_viewpoint
+from planner.mission.legs import detour_failed, new_leg, take_short
+from planner.mission.occupied_goal import give_up_goal, wait_beside
+from planner.mission.recovery import PASSING_S, Recovery, rung_of
+from planner.mission.recovery_steps import climb_on, end_manoeuvre, next_rung, way_shut
+from planner.mission.route_doubts import take_doubted
+from planner.mission.skills import Fail, Way
+from planner.mission.state import Mission
+from planner.mission.step_failure import fail_step
+from planner.mission.transaction import Transaction
+from planner.plan import Code
+
+SHORT_M = 0.05
+"""A straight way that ends so near to its goal is whole."""
+MOVED_M = 0.2
+"""A route that ends farther from its goal than this ends elsewhere."""
+OCCUPIED = "goal_occupied"
+"""The route search's code where something not on the map leaves no floor beside the goal."""
+MAX_APPROACHES = 2
+TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
+MAX_ROUTES = 5
+RETRY_S = 1.0
+
+
+def on_routed(turn: Transaction, routed: Routed) -> None:
+    """Take the route that was asked for; any other is forgotten."""
+    mission, leg = turn.running, turn.driving
+    if mission is None or leg is None or (mission.id, leg.ticket) != (routed.id, routed.ticket):
+        return
+    failure, short_m = routed.failure, routed.short_m
+    turn.change(ticket=None)
+    leg = turn.driving or leg
+    if leg.ticket_doubted or leg.ticket_explores:
+        take = take_doubted if leg.ticket_doubted else take_better_viewpoint
+        take(turn, mission, leg, routed)
+    elif leg.manoeuvre is not None:
+        _take_manoeuvre(turn, mission, leg, leg.manoeuvre, routed)
+    elif failure is None and leg.way is Way.STRAIGHT and not short_m <= SHORT_M:
+        take_short(turn, leg, short_m)
+    elif failure is None:
+        _take_route(turn, mission, leg, routed)
+    elif leg.way is not Way.ROUTE and leg.ticket_detour:
+        detour_failed(turn, leg)
+    elif failure == OCCUPIED and leg.way is Way.ROUTE:
+        wait_beside(turn, mission, leg)
+    elif leg.ticket_detour:
+        _no_way_round(turn, mission, leg, failure)
+    elif failure in TRANSIENT and leg.routes < MAX_ROUTES:
+        turn.change(routes=leg.routes + 1, retry_s=turn.now_s + RETRY_S)
+    elif mission.recovery.shut and failure == "no_route":
+        fail_step(turn, way_shut(turn, mission))
+    else:
+        fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
+
+
+def _take_manoeuvre(
+    turn: Transaction, mission: Mission, leg: Driving, own: Manoeuvre, routed: Routed
+) -> None:
+    if routed.failure is not None:
+        end_manoeuvre(turn, leg, own)
+    elif own.way is Way.ASIDE and not routed.length_m > 0.0:
+        _stay_aside(turn, leg, own)
+    else:
+        new_leg(turn, mission)
+
+
+def _stay_aside(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
+    """Stand where it is, where somebody can pass; a leg that is streamed goes on by itself."""
+    until_s = min(own.until_s, turn.now_s + PASSING_S)
+    turn.change(manoeuvre=replace(own, part=1, until_s=until_s, stays=leg.leg is not None))
+
+
+def _take_route(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
+    """Stream a route; one round something that ends short of its goal moves the goal, once."""
+    if leg.way is Way.EXPLORE:
+        take_viewpoint(turn, mission, leg, routed)
+        return
+    short_m, end_m = routed.short_m, routed.end_m
+    moved = leg.way is Way.ROUTE and leg.ticket_detour and short_m > MOVED_M and end_m is not None
+    if not moved:
+        new_leg(turn, mission)
+        if leg.ticket_detour:
+            next_rung(turn)
+        return
+    record = mission.recovery
+    if record.approaches + 1 >= MAX_APPROACHES or end_m is None:
+        give_up_goal(turn, mission, leg)
+        return
+    update = {
+        "approaches": record.approaches + 1,
+        "goal": (leg.goal.x_m, leg.goal.y_m),
+        "goal_moved": end_m,
+    }
+    mission = turn.put(mission, recovery=record.model_copy(update=update))
+    new_leg(turn, mission)
+    turn.change(rung_since_s=None, occupied_since_s=None)
+
+
+def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: str) -> None:
+    """Go on up the ladder; a search that only broke is tried again."""
+    if failure in TRANSIENT and leg.routes < MAX_ROUTES:
+        turn.change(routes=leg.routes + 1, rung_since_s=turn.now_s)
+        turn.change(retry_s=turn.now_s + RETRY_S if leg.leg is None else None)
+    elif leg.leg is None and _waits_on(turn, mission, leg):
+        turn.change(retry_s=turn.now_s + RETRY_S)
+    elif leg.leg is None:
+        climb_on(turn)
+    else:
+        next_rung(turn)
+
+
+def _waits_on(turn: Transaction, mission: Mission, leg: Driving) -> bool:
+    """Tell whether the wait that is in hand goes on: what stands there may leave any moment."""
+    rung, since_s = rung_of(mission.recovery), leg.rung_since_s
+    waits = rung.recovery is Recovery.WAIT and since_s is not None
+    return waits and since_s is not None and turn.now_s - since_s < rung.seconds

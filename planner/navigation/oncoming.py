@@ -1,0 +1,64 @@
+"""Find who comes towards the robot on its own way. Pure: points of the way and discs that move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import hypot
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from planner.navigation.route import Mover
+
+Point = tuple[float, float]
+
+BESIDE_M = 0.9
+"""Farther from the way than this somebody walks past in a lane of their own."""
+NEAREST_M = 0.9
+"""From the robot's middle along the way: who is nearer is met already, and the bridge judges it."""
+TOWARDS_MPS = 0.25
+MOSTLY = 0.7
+"""Of a mover's speed, the share that leads towards the robot: the rest is crossing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Encounter:
+    """Say where on the way somebody is who comes."""
+
+    far_m: float
+    """Along the way."""
+    at_m: Point
+    """In ``map``."""
+
+
+def find_oncoming(way: Sequence[Point], movers: Sequence[Mover]) -> Encounter | None:
+    """Return where the nearest who comes towards the robot is on its way; None: nobody does.
+
+    Args:
+        way: points of the way ahead, from the robot on [m].
+        movers: what moves, in ``map``.
+    """
+    met = [found for mover in movers if (found := _meeting(way, mover)) is not None]
+    return min(met, key=lambda one: one.far_m) if met else None
+
+
+def _meeting(way: Sequence[Point], mover: Mover) -> Encounter | None:
+    """Return where a mover is on the way, if it comes along it."""
+    best: tuple[float, float, Point, Point] | None = None
+    gone_m = 0.0
+    for (ax, ay), (bx, by) in pairwise(way):
+        long_m = hypot(bx - ax, by - ay)
+        away_m = hypot(mover.x_m - ax, mover.y_m - ay)
+        if long_m > 0.0 and (best is None or away_m < best[0]):
+            best = (away_m, gone_m, (ax, ay), ((bx - ax) / long_m, (by - ay) / long_m))
+        gone_m += long_m
+    if best is None:
+        return None
+    away_m, along_m, point, (ex, ey) = best
+    against_mps = -(mover.vx_mps * ex + mover.vy_mps * ey)
+    speed_mps = hypot(mover.vx_mps, mover.vy_mps)
+    comes = against_mps >= TOWARDS_MPS and against_mps >= MOSTLY * speed_mps
+    on_way = away_m <= BESIDE_M and along_m >= NEAREST_M
+    return Encounter(along_m, point) if comes and on_way else None
