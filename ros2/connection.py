@@ -16,13 +16,16 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import WebSocketException
 
 from processes.backoff import Backoff
+from ros2 import rosbridge
 from ros2.rosbridge import MOST_BYTES
 from ros2.trouble import Ros2Trouble
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros2.base_link import BaseLink, LinkMessages
+    from ros2.base_link import LinkMessages
+    from ros2.operations import Request
+    from ros2.transport import Listener
 
 log = logging.getLogger("ros2")
 
@@ -36,7 +39,7 @@ PORTS = {"ws": 80, "wss": 443}
 class RosbridgeConnection:
     """Dial one server for as long as the process lives."""
 
-    def __init__(self, url: str, link: BaseLink, publish: Callable[[LinkMessages], None]) -> None:
+    def __init__(self, url: str, link: Listener, publish: Callable[[LinkMessages], None]) -> None:
         self._url, self._link, self._publish = url, link, publish
         self._socket: ClientConnection | None = None
         self._heard_s = 0.0
@@ -61,13 +64,13 @@ class RosbridgeConnection:
         opened = self._socket
         return opened is not None and opened.transport.get_write_buffer_size() == 0
 
-    async def send(self, frame: str) -> bool:
-        """Send a frame; False where there is no connection."""
+    async def send(self, request: Request) -> bool:
+        """Send a request; False where there is no connection."""
         opened = self._socket
         if opened is None:
             return False
         try:
-            await opened.send(frame)
+            await opened.send(rosbridge.write(request))
         except WebSocketException:
             return False
         return True
@@ -99,7 +102,7 @@ class RosbridgeConnection:
             async for frame in opened:
                 now_s = time.monotonic()
                 self._heard_s = now_s
-                self._publish(self._link.hear(frame, now_s))
+                self._publish(self._link.hear(rosbridge.read(frame), now_s))
 
 
 def _dial(url: str) -> socket.socket:

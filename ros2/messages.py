@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import atan2, hypot, pi, remainder
 from typing import Literal
 
-from ros2.rosbridge import Message
+from ros2.operations import Message
 from wire.bounded_types import MAX_BEAMS
 
 SLOWEST_BEAM_S = 0.01
