@@ -8,7 +8,6 @@ gives no drive state, and without one the bridge stands.
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -34,6 +33,7 @@ from ros2.relay import STRING, RelayCommand, decode_state, encode_command
 from ros2.relay_watch import SILENT_S, RelayWatch
 from ros2.ros_clock import OLDEST_S
 from ros2.sensor_messages import SensorMessages
+from ros2.transport import NOTHING_MADE, LinkMessages
 from ros2.trouble import STARTING, Ros2Trouble
 from ros2.virtual_wheels import VirtualWheels
 from wire import DriveState, Ros2Status
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from ros2.operations import Answer, Message, Request
-    from wire import DriveCommand, Imu, RobotDescription, Scan
+    from wire import DriveCommand, RobotDescription
     from wire.ros2_config import Ros2Config
 
 log = logging.getLogger("ros2")
@@ -57,18 +57,6 @@ YOUNG_S = 3.0
 IMU_EVERY_MS = 20
 """A server in Python writes each message field by field."""
 WORDS_S = 5.0
-
-
-@dataclass(frozen=True, slots=True)
-class LinkMessages:
-    """Hold the messages of the wire that one answer makes; None for each that it does not."""
-
-    state: DriveState | None = None
-    scan: Scan | None = None
-    imu: Imu | None = None
-
-
-NOTHING = LinkMessages()
 
 
 class BaseLink:
@@ -146,7 +134,7 @@ class BaseLink:
             log.warning("rosbridge says: %s", said.text)
         elif isinstance(said, UnreadableMessage) and said.topic in self._key_of:
             self._refuse(said.topic, said.reason, now_s)
-        return NOTHING
+        return NOTHING_MADE
 
     def encode(self, command: DriveCommand, now_s: float) -> Publish | None:
         """Return what sends a command; None where nobody may be moved by it."""
@@ -263,33 +251,33 @@ class BaseLink:
     def _hear_topic(self, said: TopicMessage, now_s: float) -> LinkMessages:
         reader = self._readers.get(said.topic)
         if reader is None or self._closed is not None:
-            return NOTHING
+            return NOTHING_MADE
         try:
             heard = reader(said.message, now_s)
         except (Unreadable, ValidationError) as why:  # finite, and beyond what the wire carries
             self._refuse(said.topic, str(why), now_s)
-            return NOTHING
+            return NOTHING_MADE
         self._topics[self._key_of[said.topic]].note(now_s)
         return heard
 
     def _hear_relay(self, message: Message, now_s: float) -> LinkMessages:
         self._relay.hear(decode_state(message), now_s)
-        return NOTHING
+        return NOTHING_MADE
 
     def _hear_odometry(self, message: Message, now_s: float) -> LinkMessages:
         pose = messages.read_odometry(message)
         relay = self._relay.state
         if relay is None:
-            return NOTHING
+            return NOTHING_MADE
         stamp_s = self._relay.clock.date(pose.stamp_s, now_s)
         if 0.0 <= self._odom_stamp_s - pose.stamp_s <= OLDEST_S:
-            return NOTHING  # overtaken on its way
+            return NOTHING_MADE  # overtaken on its way
         self._odom_stamp_s = pose.stamp_s
         boot_id = self._live(pose, relay.relay)
         self._seq += 1
         wheels = self._wheels.turn(pose)
         if self._refuse_relay(now_s) is not None or self._relay_silent_s(now_s) > SILENT_S:
-            return NOTHING
+            return NOTHING_MADE
         return LinkMessages(
             state=DriveState(
                 boot_id=boot_id,
@@ -324,7 +312,7 @@ class BaseLink:
     def _hear_scan(self, message: Message, now_s: float) -> LinkMessages:
         reading = messages.read_scan(message, self._ros2.scan_zero)
         if self._relay.state is None:
-            return NOTHING
+            return NOTHING_MADE
         return LinkMessages(
             scan=self._sensors.scan(reading, self._relay.clock.date(reading.stamp_s, now_s))
         )
@@ -332,7 +320,7 @@ class BaseLink:
     def _hear_imu(self, message: Message, now_s: float) -> LinkMessages:
         reading = messages.read_imu(message)
         if self._relay.state is None:
-            return NOTHING
+            return NOTHING_MADE
         return LinkMessages(
             imu=self._sensors.imu(reading, self._relay.clock.date(reading.stamp_s, now_s))
         )

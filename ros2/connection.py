@@ -17,15 +17,14 @@ from websockets.exceptions import WebSocketException
 
 from processes.backoff import Backoff
 from ros2 import rosbridge
-from ros2.rosbridge import MOST_BYTES
+from ros2.transport import MOST_BYTES
 from ros2.trouble import Ros2Trouble
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros2.base_link import LinkMessages
     from ros2.operations import Request
-    from ros2.transport import Listener
+    from ros2.transport import LinkMessages, Listener
 
 log = logging.getLogger("ros2")
 
@@ -39,7 +38,14 @@ PORTS = {"ws": 80, "wss": 443}
 class RosbridgeConnection:
     """Dial one server for as long as the process lives."""
 
-    def __init__(self, url: str, link: Listener, publish: Callable[[LinkMessages], None]) -> None:
+    def __init__(
+        self,
+        url: str,
+        link: Listener,
+        publish: Callable[[LinkMessages], None],
+        most_bytes: int = MOST_BYTES,
+    ) -> None:
+        self._most_bytes = most_bytes
         self._url, self._link, self._publish = url, link, publish
         self._socket: ClientConnection | None = None
         self._heard_s = 0.0
@@ -89,7 +95,7 @@ class RosbridgeConnection:
             self._url,
             sock=raw,  # ours: no proxy of the environment stands between a base and its bridge
             compression=None,
-            max_size=MOST_BYTES,
+            max_size=self._most_bytes,
             open_timeout=DIAL_S,
             close_timeout=0.5,
             ping_interval=None,  # the graph is asked instead, which proves more

@@ -22,10 +22,9 @@ else:
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from ros2.base_link import LinkMessages
     from ros2.dds_entities import DdsDomain, RawReader, RawWriter
     from ros2.operations import Subscribe
-    from ros2.transport import Listener
+    from ros2.transport import LinkMessages, Listener
     from wire.ros2_config import Ros2Config
 
 _PREFIX = "rt"

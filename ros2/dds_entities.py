@@ -91,7 +91,7 @@ class DdsDomain:
             if keeps
             else Policy.Reliability.BestEffort,
             Policy.Durability.TransientLocal if keeps else Policy.Durability.Volatile,
-            Policy.History.KeepLast(1),
+            Policy.History.KeepLast(_MOST if keeps else 1),
         )
         return RawReader(DataReader(self._participant, self._topic(topic, kind), qos))
 

@@ -14,7 +14,8 @@ from wire import keys
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros2.base_link import BaseLink, LinkMessages
+    from ros2.base_link import BaseLink
+    from ros2.transport import LinkMessages
     from wire.ros2_config import Ros2Config
     from wire.session import Session
 

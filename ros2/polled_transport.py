@@ -27,9 +27,8 @@ from ros2.trouble import Ros2Trouble
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from ros2.base_link import LinkMessages
     from ros2.operations import Request
-    from ros2.transport import Listener
+    from ros2.transport import LinkMessages, Listener
     from wire.ros2_config import Ros2Config
 
 PERIOD_S = 0.001

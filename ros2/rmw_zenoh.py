@@ -23,9 +23,8 @@ from ros2.polled_transport import PolledTransport, Unreachable
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from ros2.base_link import LinkMessages
     from ros2.operations import Subscribe
-    from ros2.transport import Listener
+    from ros2.transport import LinkMessages, Listener
     from wire.ros2_config import Ros2Config
 
 DIAL_S = 3.0

@@ -22,8 +22,6 @@ from ros2.operations import (
     TopicType,
 )
 
-MOST_BYTES = 1 << 20
-"""A scan of 4 000 beams has 80 kB; a server that sends more sends something else."""
 TYPE_SERVICE = "/rosapi/topic_type"
 
 

@@ -2,15 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros2.base_link import LinkMessages
     from ros2.operations import Answer, Request
     from ros2.trouble import Ros2Trouble
+    from wire import DriveState, Imu, Scan
     from wire.ros2_config import Ros2Config
+
+MOST_BYTES = 1 << 20
+"""A scan of 4 000 beams has 80 kB as JSON; a server that sends more sends something else."""
+
+
+@dataclass(frozen=True, slots=True)
+class LinkMessages:
+    """Hold the messages of the wire that one answer makes; None for each that it does not."""
+
+    state: DriveState | None = None
+    scan: Scan | None = None
+    imu: Imu | None = None
+
+
+NOTHING_MADE = LinkMessages()
 
 
 class Listener(Protocol):
@@ -43,7 +59,10 @@ class Transport(Protocol):
 
 
 def open_transport(
-    ros2: Ros2Config, listener: Listener, publish: Callable[[LinkMessages], None]
+    ros2: Ros2Config,
+    listener: Listener,
+    publish: Callable[[LinkMessages], None],
+    most_bytes: int = MOST_BYTES,
 ) -> Transport:
     """Return the transport that ``ros2.transport`` names; it dials when it is served."""
     if ros2.transport == "dds":
@@ -56,4 +75,4 @@ def open_transport(
         return ZenohTransport(ros2, listener, publish)
     from ros2.connection import RosbridgeConnection
 
-    return RosbridgeConnection(ros2.peer, listener, publish)
+    return RosbridgeConnection(ros2.peer, listener, publish, most_bytes)

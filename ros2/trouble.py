@@ -69,6 +69,14 @@ CODES: dict[str, tuple[str, str]] = {
         "name the topic of the expected type",
         "请填写类型正确的话题",
     ),
+    "ros2_not_configured": (
+        "add the part ros2; robots/ros2_diff_drive.toml shows one",
+        "请添加 ros2 部分；可参考 robots/ros2_diff_drive.toml",
+    ),
+    "ros2_no_mounting": (
+        "start robot_state_publisher or a static_transform_publisher that says where it sits",
+        "请启动 robot_state_publisher 或 static_transform_publisher 以说明其安装位置",
+    ),
     "ros2_unreadable": (
         "look at it with `ros2 topic echo`; what is null or not a number moves nothing",
         "请用 `ros2 topic echo` 查看；空值或非数字不会驱动机器人",

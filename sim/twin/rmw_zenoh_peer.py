@@ -123,6 +123,7 @@ def _open(mode: str, listen: str = "", connect: str = "") -> zenoh.Session:
         "mode": mode,
         "listen/endpoints": [listen] if listen else [],
         "connect/endpoints": [connect] if connect else [],
+        "timestamping": {"enabled": True},
         "connect/timeout_ms": -1,
         "connect/exit_on_failure": False,
         "scouting/multicast/enabled": False,

@@ -2,8 +2,9 @@
 
 ``base`` drives for ever by the last twist that it got, as a base without a dead-man does, and says
 odometry at 50 Hz, and each twist as a line of JSON on stdout. ``lidar`` says three beams: too near
-to measure (minus infinity), no return, 1.5 m. ``bridge`` speaks rosbridge's protocol for the topics
-that Pons uses, on true publishers and subscriptions. Knows nothing of Pons.
+to measure (minus infinity), no return, 1.5 m. ``map`` says a map once and keeps it. ``bridge``
+speaks rosbridge's protocol for the topics that Pons uses, on true publishers and subscriptions.
+Knows nothing of Pons.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ from typing import Any
 
 import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
-from nav_msgs.msg import Odometry
+from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
-from rclpy.qos import qos_profile_sensor_data
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 
@@ -28,10 +29,12 @@ KINDS = {
     "geometry_msgs/msg/Twist": Twist,
     "geometry_msgs/msg/TwistStamped": TwistStamped,
     "nav_msgs/msg/Odometry": Odometry,
+    "nav_msgs/msg/OccupancyGrid": OccupancyGrid,
     "sensor_msgs/msg/LaserScan": LaserScan,
     "std_msgs/msg/String": String,
 }
 PERIOD_S = 0.02
+KEPT = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Base(Node):
@@ -77,6 +80,22 @@ class Lidar(Node):
         self.scans.publish(scan)
 
 
+class Map(Node):
+    """Say a map once, and keep it for those who come late: 60 by 40 cells with walls around."""
+
+    def __init__(self) -> None:
+        super().__init__("map_server")
+        grid = OccupancyGrid()
+        grid.header.frame_id = "map"
+        grid.info.resolution, grid.info.width, grid.info.height = 0.1, 60, 40
+        grid.info.origin.position.x, grid.info.origin.orientation.w = -3.0, 1.0
+        walls = [100 if x in (0, 59) or y in (0, 39) else 0 for y in range(40) for x in range(60)]
+        walls[20 * 60 + 55] = -1
+        grid.data = walls
+        self.maps = self.create_publisher(OccupancyGrid, "/map", KEPT)
+        self.maps.publish(grid)
+
+
 class Bridge(Node):
     """Speak rosbridge to one client at a time."""
 
@@ -97,9 +116,12 @@ class Bridge(Node):
             self.destroy_publisher(self.said.pop(topic))
         elif operation == "subscribe" and topic not in self.heard:
             kind = KINDS[raw["type"]]
+            infos = self.get_publishers_info_by_topic(topic)
+            kept = any(one.qos_profile.durability == KEPT.durability for one in infos)
             self.heard[topic] = self.create_subscription(
-                kind, topic, lambda message: self.tell(topic, message), qos_profile_sensor_data
-            )
+                kind, topic, lambda message: self.tell(topic, message),
+                KEPT if kept else qos_profile_sensor_data,  # as rosbridge_suite does
+            )  # fmt: skip
         elif operation == "call_service":
             asked = raw["args"]["topic"]
             known = dict(self.get_topic_names_and_types())
@@ -158,6 +180,9 @@ def main(arguments: list[str]) -> None:
         return
     if arguments[0] == "lidar":
         rclpy.spin(Lidar())
+        return
+    if arguments[0] == "map":
+        rclpy.spin(Map())
         return
     bridge = Bridge()
     threading.Thread(target=rclpy.spin, args=(bridge,), daemon=True).start()

@@ -11,10 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ros2 import BaseLink
-from ros2.base_link import ASK_S, NOTHING, YOUNG_S
+from ros2.base_link import ASK_S, YOUNG_S
 from ros2.graph import GraphCheck
 from ros2.operations import ServerWords
 from ros2.relay_watch import SILENT_S
+from ros2.transport import NOTHING_MADE
 from ros2.trouble import STARTING, Ros2Trouble
 from tests.ros2.frames import (
     TYPES,
@@ -177,7 +178,7 @@ def test_a_message_that_cannot_be_used_is_named_and_makes_nothing(
     topic: str, message: dict[str, Any], code: str
 ) -> None:
     link = driven(10.0)
-    assert link.hear(on_topic(topic, message), 10.1) == NOTHING
+    assert link.hear(on_topic(topic, message), 10.1) == NOTHING_MADE
     assert link.unreadable == 1
     trouble = link.judge(10.11)
     assert trouble is not None
@@ -247,7 +248,7 @@ def test_scan_and_gyro_are_left_out_where_robot_toml_names_none() -> None:
     link = opened(10.0, scan=None, imu=None)
     topics = {one.get("topic") for one in as_operations(link.due(10.0))}
     assert topics == {"/pons/command", STATE, "/odom"}
-    assert link.hear(on_topic("/scan", scan(10.0)), 10.0) == NOTHING
+    assert link.hear(on_topic("/scan", scan(10.0)), 10.0) == NOTHING_MADE
 
 
 def test_the_status_says_types_rates_and_counts() -> None:
@@ -283,8 +284,8 @@ def test_what_is_beyond_the_wire_is_refused_and_ends_nothing(
     link = driven(10.0)
     states(link, 10.0)
     heard = link.hear(on_topic(topic, message), 10.1)
-    assert heard == NOTHING or (heard.state is not None and heard.state.left_rad == 0.0)
-    assert link.unreadable == (heard == NOTHING)
+    assert heard == NOTHING_MADE or (heard.state is not None and heard.state.left_rad == 0.0)
+    assert link.unreadable == (heard == NOTHING_MADE)
 
 
 @pytest.mark.parametrize("angle_rad", [-1e9, -7.0, 7.0, 20.0, 1e9])
@@ -303,7 +304,7 @@ JSON = st.recursive(
 
 @given(st.sampled_from([*TYPES, "/other"]), st.dictionaries(st.text(max_size=8), JSON))
 def test_no_message_raises_whatever_it_holds(topic: str, message: dict[str, Any]) -> None:
-    assert driven(10.0).hear(on_topic(topic, message), 10.1) == NOTHING
+    assert driven(10.0).hear(on_topic(topic, message), 10.1) == NOTHING_MADE
 
 
 @given(

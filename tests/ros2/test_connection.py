@@ -9,8 +9,7 @@ from collections.abc import Callable
 import pytest
 
 from pons.robot_processes import free_port
-from ros2 import BaseLink
-from ros2.base_link import LinkMessages
+from ros2 import BaseLink, LinkMessages
 from ros2.connection import SILENT_S, RosbridgeConnection
 from ros2.operations import AskType
 from sim.twin.rosbridge_server import RosbridgeServer

@@ -17,8 +17,7 @@ import pytest
 
 pytest.importorskip("cyclonedds", reason="the extra dds is not installed (x86_64 alone)")
 
-from ros2 import BaseLink
-from ros2.base_link import LinkMessages
+from ros2 import BaseLink, LinkMessages
 from ros2.dds import DdsTransport
 from tests.ros2.frames import TYPES, command, robot
 from tests.ros2.graph_peers import DdsPeer, PeerBase

@@ -5,6 +5,7 @@ No true rmw_zenoh was ever at the other end: what is held here is its documented
 
 from __future__ import annotations
 
+import asyncio
 import subprocess
 import sys
 import time
@@ -12,13 +13,18 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import zenoh
+import zenoh.ext
 
 from pons.robot_processes import free_port
+from ros2.topic_request import WantedTopic, collect
 from sim.twin.rmw_zenoh_peer import RmwZenohPeer
 from tests.ros2.frames import TYPES
 from tests.ros2.graph_peers import HEARD, PeerBase
+from tests.ros2.test_cdr import GOLDEN
 from tests.ros2.test_process import LIMIT_S, Bridge
 from wire import Scan, keys
+from wire.ros2_config import Ros2Config
 
 pytestmark = pytest.mark.e2e
 
@@ -144,3 +150,19 @@ def test_the_base_stands_by_its_dead_man_when_the_process_is_killed_in_mid_drive
     bridge.until(base.stands)
     time.sleep(0.3)
     assert base.stands()
+
+
+def test_a_map_that_was_said_before_anybody_listened_is_heard(port: int) -> None:
+    kind = "nav_msgs/msg/OccupancyGrid"
+    peer = RmwZenohPeer(port, {"/map": kind}, ["/map"], DOMAIN)
+    keeper = zenoh.ext.declare_advanced_publisher(
+        peer._session, peer._key("/map", kind), cache=zenoh.ext.CacheConfig(max_samples=1)
+    )
+    keeper.put(bytes.fromhex(GOLDEN[kind]["hex"]))
+    ros2 = Ros2Config.model_validate(
+        {"transport": "zenoh", "router": f"tcp/127.0.0.1:{port}", "domain": DOMAIN}
+    )
+    wanted = WantedTopic("/map", kind, keeps=True)
+    heard = asyncio.run(collect(ros2, [wanted], lambda each: bool(each["/map"]), LIMIT_S))
+    peer.close()
+    assert list(heard["/map"][0]["data"]) == GOLDEN[kind]["message"]["data"]

@@ -19,7 +19,10 @@ from pathlib import Path
 
 import pytest
 
+from maps import OCCUPIED, UNKNOWN, load_map
+from pons import site
 from pons.robot_processes import free_port
+from pons.settings import LaunchSettings
 from tests.ros2.test_process import ROBOT, Bridge
 from wire import Scan, keys
 
@@ -90,6 +93,11 @@ class Graph:
         return self.start(PYTHON, "examples/ros2_relay/relay.py", *given)
 
     def process(self, scan: str = "") -> subprocess.Popen[str]:
+        words = ("--robot", str(self.describe(scan)), "--home", str(self.home))
+        return self.start(sys.executable, "-m", "ros2", *words)
+
+    def describe(self, scan: str = "") -> Path:
+        """Write the robot.toml that reaches this graph."""
         path = self.home / "robot.toml"
         text = ROBOT.format(port=self.port)
         if self.way == "dds":
@@ -98,8 +106,7 @@ class Graph:
         if scan:
             text = text.replace("[inputs]", f'scan = "{scan}"\n[lidar]\nkind = "ros2"\n[inputs]')
         path.write_text(text)
-        words = ("--robot", str(path), "--home", str(self.home))
-        return self.start(sys.executable, "-m", "ros2", *words)
+        return path
 
     def close(self) -> None:
         for process in self.processes:
@@ -228,3 +235,22 @@ def test_a_relay_that_is_not_alone_on_cmd_vel_is_not_driven(
     bridge.until(lambda: graph.twists[-1]["v"] == 0.0)
     other.terminate()  # a killed one stays in the graph for 20 s, the lease of Fast DDS
     bridge.until(is_fast(graph))
+
+
+@by_each
+def test_a_map_that_was_said_before_becomes_a_site(
+    graph: Graph, tmp_path: Path, way: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    graph.reach(way)
+    graph.start(PYTHON, "tests/ros2/ros_graph.py", "map")
+    robot = graph.describe()
+    settings = LaunchSettings(tmp_path, robot, tmp_path, "127.0.0.1", 1)
+    assert site.run(settings, ["import", "ros2:/map", "mapped"]) == 0, capsys.readouterr().err
+    made = load_map(tmp_path / "sites" / "mapped" / "map.yaml").grid
+    assert (made.width, made.height, made.resolution_m) == (60, 40, 0.1)
+    assert made.cells.count(bytes([OCCUPIED])) == 2 * 60 + 2 * 38
+    assert made.cells.count(bytes([UNKNOWN])) == 1
+    assert site.run(settings, ["import", "ros2:/odom", "other"]) == 3
+    refused = capsys.readouterr().err
+    assert "ros2_topic_missing" in refused
+    assert "请启动发布它的节点" in refused
