@@ -16,7 +16,7 @@ from ros2.graph import LASER_SCAN
 from ros2.messages import Unreadable
 from ros2.mounting import NoMounting, find_mounting
 from ros2.occupancy import map_files
-from ros2.topic_request import NotReceived, WantedTopic, collect
+from ros2.topic_request import TopicFailure, WantedTopic, collect
 from ros2.trouble import CODES, Ros2Trouble
 from wire import ConfigError
 
@@ -34,7 +34,7 @@ FRAMES_S = 8.0
 EXIT_FOUND, EXIT_REFUSED = 0, 3
 
 
-class TopicRefused(ConfigError):
+class TopicRefusal(ConfigError):
     """Refuse what a ROS 2 graph gave, or did not give; says the cure in both languages."""
 
     def __init__(self, trouble: Ros2Trouble) -> None:
@@ -46,7 +46,7 @@ def load_topic_map(robot: RobotDescription, topic: str) -> LoadedMap:
     """Return the map that a topic says, read as every map is.
 
     Raises:
-        TopicRefused: no such map came; with a code of ``ros2.trouble``.
+        TopicRefusal: no such map came; with a code of ``ros2.trouble``.
         SiteError: the map is none that Pons drives on.
     """
     wanted = WantedTopic(topic, OCCUPANCY_GRID, keeps=True)
@@ -54,7 +54,7 @@ def load_topic_map(robot: RobotDescription, topic: str) -> LoadedMap:
     try:
         files = map_files(message)
     except Unreadable as why:
-        raise TopicRefused(Ros2Trouble("ros2_unreadable", f"{topic}: {why}")) from None
+        raise TopicRefusal(Ros2Trouble("ros2_unreadable", f"{topic}: {why}")) from None
     with tempfile.TemporaryDirectory(prefix="pons-map-") as folder:
         path = Path(folder) / "map.yaml"
         path.write_text(files.yaml, "utf-8")
@@ -66,7 +66,7 @@ def print_mounting(robot: RobotDescription) -> int:
     """Print where the lidar sits, as a part of robot.toml; 0 found, 3 refused."""
     try:
         found, frame = _find_lidar(robot)
-    except TopicRefused as refused:
+    except TopicRefusal as refused:
         print(f"refused: {refused}\n{refused.cure_zh}", file=sys.stderr)
         return EXIT_REFUSED
     print(f"# {frame} in {found.base}, {found.z_m:.2f} m above it")
@@ -82,7 +82,7 @@ def _find_lidar(robot: RobotDescription) -> tuple[SensorMounting, str]:
     ros2 = _ros2_of(robot)
     if ros2.scan is None:
         found = "robot.toml names no ros2.scan, whose frame is asked for"
-        raise TopicRefused(Ros2Trouble("ros2_topic_missing", found))
+        raise TopicRefusal(Ros2Trouble("ros2_topic_missing", found))
     (scan,) = _collect(ros2, [WantedTopic(ros2.scan, LASER_SCAN)], FRAMES_S)[ros2.scan][-1:]
     header = scan.get("header")
     frame = str(header.get("frame_id", "")) if isinstance(header, dict) else ""
@@ -100,10 +100,10 @@ def _find_lidar(robot: RobotDescription) -> tuple[SensorMounting, str]:
     try:
         asyncio.run(collect(ros2, [wanted], leads_home, FRAMES_S))
         return find_mounting(heard, frame), frame
-    except NotReceived as why:
+    except TopicFailure as why:
         if heard:
             return _explain(heard, frame)
-        raise TopicRefused(why.trouble) from None
+        raise TopicRefusal(why.trouble) from None
 
 
 def _explain(heard: list[Message], frame: str) -> tuple[SensorMounting, str]:
@@ -112,13 +112,13 @@ def _explain(heard: list[Message], frame: str) -> tuple[SensorMounting, str]:
         return find_mounting(heard, frame), frame
     except (NoMounting, Unreadable) as why:
         code = "ros2_unreadable" if isinstance(why, Unreadable) else "ros2_no_mounting"
-        raise TopicRefused(Ros2Trouble(code, f"{TF_STATIC}, {frame!r}: {why}")) from None
+        raise TopicRefusal(Ros2Trouble(code, f"{TF_STATIC}, {frame!r}: {why}")) from None
 
 
 def _ros2_of(robot: RobotDescription) -> Ros2Config:
     if robot.ros2 is None:
         found = "robot.toml has no part ros2, which says how the robot is reached"
-        raise TopicRefused(Ros2Trouble("ros2_not_configured", found))
+        raise TopicRefusal(Ros2Trouble("ros2_not_configured", found))
     return robot.ros2
 
 
@@ -128,5 +128,5 @@ def _collect(
     """Return at least one message of each topic."""
     try:
         return asyncio.run(collect(ros2, wanted, lambda heard: all(heard.values()), limit_s))
-    except NotReceived as why:
-        raise TopicRefused(why.trouble) from None
+    except TopicFailure as why:
+        raise TopicRefusal(why.trouble) from None

@@ -103,11 +103,11 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
 
 def _chinese(refused: ConfigError) -> str:
     """Return the line in Chinese below a refusal; empty where there is none."""
-    from pons.ros2_topics import TopicRefused
+    from pons.ros2_topics import TopicRefusal
 
     if isinstance(refused, SiteError):
         return f"\n{refused.message['zh']}"
-    return f"\n{refused.cure_zh}" if isinstance(refused, TopicRefused) else ""
+    return f"\n{refused.cure_zh}" if isinstance(refused, TopicRefusal) else ""
 
 
 def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ros2.operations import Request
-    from ros2.transport import LinkMessages, Listener
+    from ros2.transport import GraphListener, LinkMessages
 
 log = logging.getLogger("ros2")
 
@@ -41,7 +41,7 @@ class RosbridgeConnection:
     def __init__(
         self,
         url: str,
-        link: Listener,
+        link: GraphListener,
         publish: Callable[[LinkMessages], None],
         most_bytes: int = MOST_BYTES,
     ) -> None:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from ros2.dds_entities import DdsDomain, RawReader, RawWriter
     from ros2.operations import Subscribe
-    from ros2.transport import LinkMessages, Listener
+    from ros2.transport import GraphListener, LinkMessages
     from wire.ros2_config import Ros2Config
 
 _PREFIX = "rt"
@@ -35,7 +35,7 @@ class DdsTransport(PolledTransport):
     """Be one participant of a domain."""
 
     def __init__(
-        self, ros2: Ros2Config, listener: Listener, publish: Callable[[LinkMessages], None]
+        self, ros2: Ros2Config, listener: GraphListener, publish: Callable[[LinkMessages], None]
     ) -> None:
         super().__init__(ros2, listener, publish)
         self._domain: DdsDomain | None = None

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from ros2.operations import Request
-    from ros2.transport import LinkMessages, Listener
+    from ros2.transport import GraphListener, LinkMessages
     from wire.ros2_config import Ros2Config
 
 PERIOD_S = 0.001
@@ -48,7 +48,7 @@ class PolledTransport(ABC):
     """Join a graph, take what comes, and join it anew when it was lost."""
 
     def __init__(
-        self, ros2: Ros2Config, listener: Listener, publish: Callable[[LinkMessages], None]
+        self, ros2: Ros2Config, listener: GraphListener, publish: Callable[[LinkMessages], None]
     ) -> None:
         self._ros2, self._listener, self._publish = ros2, listener, publish
         self._graph = GraphEndpoints()

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from ros2.operations import Subscribe
-    from ros2.transport import LinkMessages, Listener
+    from ros2.transport import GraphListener, LinkMessages
     from wire.ros2_config import Ros2Config
 
 DIAL_S = 3.0
@@ -37,7 +37,7 @@ class ZenohTransport(PolledTransport):
     """Be one node of a domain."""
 
     def __init__(
-        self, ros2: Ros2Config, listener: Listener, publish: Callable[[LinkMessages], None]
+        self, ros2: Ros2Config, listener: GraphListener, publish: Callable[[LinkMessages], None]
     ) -> None:
         super().__init__(ros2, listener, publish)
         self._session: zenoh.Session | None = None

@@ -38,7 +38,7 @@ MOST_BYTES = 256 << 20
 """A map of 64 million cells as JSON."""
 
 
-class NotReceived(Exception):
+class TopicFailure(Exception):
     """Raised where a topic gave nothing that can be used; carries what people are told."""
 
     def __init__(self, trouble: Ros2Trouble) -> None:
@@ -141,7 +141,7 @@ async def collect(
     """Return what each topic said until it was enough.
 
     Raises:
-        NotReceived: it was not enough within ``limit_s``; says why.
+        TopicFailure: it was not enough within ``limit_s``; says why.
     """
     request = TopicRequest(ros2, wanted)
     transport = open_transport(ros2, request, lambda _: None, MOST_BYTES)
@@ -154,7 +154,7 @@ async def collect(
             is_late = now_s - began_s > limit_s
             if is_late or (now_s - began_s > ANSWER_S and trouble and trouble.code != SILENT):
                 topics = ", ".join(request.messages)
-                raise NotReceived(trouble or Ros2Trouble(SILENT, f"{topics} said not enough"))
+                raise TopicFailure(trouble or Ros2Trouble(SILENT, f"{topics} said not enough"))
             if serving.done():
                 serving.result()
             for one in request.due(now_s):

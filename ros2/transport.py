@@ -29,7 +29,7 @@ class LinkMessages:
 NOTHING_MADE = LinkMessages()
 
 
-class Listener(Protocol):
+class GraphListener(Protocol):
     """Hear what a transport does: a base's link, or whoever asks for one topic."""
 
     def open(self, now_s: float) -> None:
@@ -60,7 +60,7 @@ class Transport(Protocol):
 
 def open_transport(
     ros2: Ros2Config,
-    listener: Listener,
+    listener: GraphListener,
     publish: Callable[[LinkMessages], None],
     most_bytes: int = MOST_BYTES,
 ) -> Transport:

@@ -18,7 +18,7 @@ from ros2.operations import (
     TopicType,
     UnreadableMessage,
 )
-from ros2.topic_request import NotReceived, TopicRequest, WantedTopic, collect
+from ros2.topic_request import TopicFailure, TopicRequest, WantedTopic, collect
 from ros2.trouble import Ros2Trouble
 from sim.twin.rosbridge_server import RosbridgeServer
 from wire.ros2_config import Ros2Config
@@ -113,9 +113,9 @@ def test_a_message_longer_than_any_scan_comes_through_a_server(server: Rosbridge
 def test_a_server_that_is_not_there_and_a_map_that_never_comes_are_told(
     server: RosbridgeServer,
 ) -> None:
-    with pytest.raises(NotReceived) as nobody:
+    with pytest.raises(TopicFailure) as nobody:
         collected(free_port(), 0.3)
     assert nobody.value.trouble.code == "ros2_no_server"
-    with pytest.raises(NotReceived) as silent:
+    with pytest.raises(TopicFailure) as silent:
         collected(server.port, 0.5)
     assert silent.value.trouble.code == "ros2_topic_silent"
