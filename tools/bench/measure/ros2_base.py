@@ -137,7 +137,7 @@ def _make_resting_state(now_s: float) -> DriveState:
     )  # fmt: skip
 
 
-class _Commander:
+class Commander:
     """Say commands as the bridge does, at 100 Hz, and hear the states."""
 
     def __init__(self, home: Path) -> None:
@@ -198,7 +198,7 @@ def _line(lab: BenchLab, way: str) -> dict[str, Any]:
         robot = open_session(Party.ROBOT, "r1", home)
         stack.callback(robot.close)
         heard = robot.subscriber(keys.DRIVE_COMMAND)
-        commander = _Commander(home)
+        commander = Commander(home)
         stack.callback(commander.session.close)
         commander.until_obeyed()
         commander.echo_ms.clear()
@@ -237,7 +237,7 @@ def _break_before_relay(lab: BenchLab, way: str, fault: str) -> dict[str, float]
         watch.start()
         stack.callback(watch.end)
         process = stack.enter_context(_process(home, way, "ros2", "--port", str(port)))
-        commander = _Commander(home)
+        commander = Commander(home)
         stack.callback(commander.session.close)
         commander.until_obeyed()
         for _ in range(100):
@@ -259,7 +259,7 @@ def _kill_before_body(lab: BenchLab) -> dict[str, float]:
     with lab.folder() as home, ExitStack() as stack:
         stack.enter_context(_process(home, "rosbridge", "sim", "--ros2-twin", str(port)))
         process = stack.enter_context(_process(home, "rosbridge", "ros2", "--port", str(port)))
-        commander = _Commander(home)
+        commander = Commander(home)
         stack.callback(commander.session.close)
         judge = open_session(Party.JUDGE, "r1", home)
         stack.callback(judge.close)
