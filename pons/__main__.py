@@ -19,6 +19,7 @@ EVAL = "eval"
 SITE = "site"
 MAP = "map"
 ROBOT = "robot"
+NAV2 = "nav2"
 _APART = {
     CONFORMANCE: "play broken brains at a simulated bridge",
     EVAL: "score what a brain plans, on sentences",
@@ -26,6 +27,7 @@ _APART = {
     SITE: "make a site of a map, name its rooms, check it",
     MAP: "make a site of the recordings of a drive",
     ROBOT: "find out what is plugged in, for robot.toml",
+    NAV2: "let Nav2 drive through the bridge, in the planner's place",
 }
 """They read their own words."""
 LONGEST_FAULT_S = 3600.0
@@ -222,6 +224,11 @@ def main(arguments: list[str] | None = None) -> int:
             from pons import robot
 
             return robot.run(settings, words[1:])
+        if words[:1] == [NAV2]:  # likewise
+            from ros2.nav2 import main as nav2
+
+            given = ["--robot", str(settings.robot), "--home", str(settings.home)]
+            return nav2([*given, *words[1:]])
         return _dispatch(settings, parser().parse_args(words))
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)

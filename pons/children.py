@@ -83,5 +83,5 @@ def _drive_twin(settings: LaunchSettings, line: Path) -> list[str]:
 
 def _ros2(common: list[str], port: str | None, logs: Path) -> Child:
     """Return the process that speaks to a ROS 2 base, at its twin's port where that plays it."""
-    url = ["--url", f"ws://127.0.0.1:{port}"] if port else []
-    return Child("ros2", ["ros2", *common, *url], logs / "ros2.log")
+    at_port = ["--port", port] if port else []
+    return Child("ros2", ["ros2", *common, *at_port], logs / "ros2.log")

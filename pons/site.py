@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from wire import RobotDescription
 
 EXIT_DONE, EXIT_FOUND, EXIT_USAGE, EXIT_REFUSED = 0, 1, 2, 3
+SCHEME = "ros2:"
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 
 
@@ -38,7 +39,9 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(prog="pons site", description=__doc__)
     acts = top.add_subparsers(dest="act", required=True, metavar="ACT")
     made = acts.add_parser("import", help="make a site of a Nav2 map, or of a picture")
-    made.add_argument("map", type=Path, help="map.yaml, or a PGM or PNG with --resolution")
+    made.add_argument(
+        "map", help="map.yaml, a PGM or PNG with --resolution, or ros2:/map of a ROS 2 robot"
+    )
     made.add_argument("name", help="of the site: small letters, digits, _")
     made.add_argument("--resolution", type=float, metavar="M", help="of a picture: metres a pixel")
     made.add_argument(
@@ -94,22 +97,31 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
             return _print_fence_with_masks(settings, folder, said)
         return _name_room(folder, said.room, said.english, said.zh or said.english)
     except ConfigError as refused:
-        zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
-        print(f"refused: {refused}{zh}", file=sys.stderr)
+        print(f"refused: {refused}{_chinese(refused)}", file=sys.stderr)
         return EXIT_REFUSED
+
+
+def _chinese(refused: ConfigError) -> str:
+    """Return the line in Chinese below a refusal; empty where there is none."""
+    from pons.ros2_topics import TopicRefusal
+
+    if isinstance(refused, SiteError):
+        return f"\n{refused.message['zh']}"
+    return f"\n{refused.cure_zh}" if isinstance(refused, TopicRefusal) else ""
 
 
 def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     if not is_site_name(said.name):
         text = f"got {said.name!r}; expected a small letter, then letters, digits or _"
         raise SiteError("site_name_malformed", text)
-    is_yaml = said.map.suffix in (".yaml", ".yml")
+    is_topic = said.map.startswith(SCHEME)
+    is_yaml = is_topic or Path(said.map).suffix in (".yaml", ".yml")
     if is_yaml == (said.resolution is not None):
         told = "a map.yaml says its resolution" if is_yaml else "a picture needs --resolution"
         print(f"resolution_once: {told}", file=sys.stderr)
         return EXIT_USAGE
-    loaded = _load(said)
     robot = load_robot(settings.robot)
+    loaded = _load_topic(said, robot) if is_topic else _load(said)
     start = None if said.start is None else _pose(said.start)
     made = new_site(loaded, robot.base.radius_m, start, _masks(said, loaded.grid, robot))
     folder = settings.home / "sites" / said.name
@@ -131,12 +143,13 @@ def is_site_name(name: str) -> bool:
 
 def _load(said: argparse.Namespace) -> LoadedMap:
     frees = said.unknown == "free"
+    path = Path(said.map)
     if said.resolution is None:
-        loaded = load_map(said.map, frees_saved_unknown=frees)
+        loaded = load_map(path, frees_saved_unknown=frees)
     else:
         x_m, y_m, yaw_deg = said.origin
         at = (x_m, y_m, radians(yaw_deg))
-        loaded = load_picture(said.map, said.resolution, at, frees_saved_unknown=frees)
+        loaded = load_picture(path, said.resolution, at, frees_saved_unknown=frees)
     share = loaded.kept_unknown / max(1, len(loaded.grid.cells))
     if share >= ASK_FROM_SHARE and said.unknown is None:
         from planner.language.catalogue import say
@@ -148,6 +161,12 @@ def _load(said: argparse.Namespace) -> LoadedMap:
         )  # fmt: skip
         raise SiteError("map_unknown_word", told.en, told.zh)
     return loaded
+
+
+def _load_topic(said: argparse.Namespace, robot: RobotDescription) -> LoadedMap:
+    from pons.ros2_topics import load_topic_map
+
+    return load_topic_map(robot, said.map.removeprefix(SCHEME))
 
 
 def _masks(said: argparse.Namespace, grid: GridMap, robot: RobotDescription) -> list[MaskAreas]:

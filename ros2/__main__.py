@@ -1,7 +1,8 @@
 """Drive robot.toml's ROS 2 base: ``python -m ros2 --robot robot.toml [--home DIR]``.
 
-It dials ``ros2.url``, holds the graph against robot.toml, and says on ``ros2/state`` how it goes
-(docs/ros2.md). A server, base or relay that is missing is waited for; the robot stands meanwhile.
+It reaches the robot by ``ros2.transport``, holds the graph against robot.toml, and says on
+``ros2/state`` how it goes (docs/ros2.md). A server, base or relay that is missing is waited for;
+the robot stands meanwhile.
 Exit status: 0 left when asked, 1 its home can't be written at present, 2 refused.
 """
 
@@ -17,6 +18,7 @@ import signal
 import sys
 import threading
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from processes.priority import set_fifo
 from ros2.base_link import BaseLink
@@ -24,6 +26,9 @@ from ros2.node import Ros2Node
 from wire import ConfigError, load_robot
 from wire.keys import Party
 from wire.session import open_session
+
+if TYPE_CHECKING:
+    from wire.ros2_config import Ros2Config
 
 log = logging.getLogger("ros2")
 
@@ -36,7 +41,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--robot", type=Path, required=True, help="robot.toml")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
     parser.add_argument("--site", type=Path, help="taken as every process's, and not used")
-    parser.add_argument("--url", help="in place of ros2.url: a twin's")
+    parser.add_argument("--port", type=int, help="of a twin's server or router on this computer")
     return parser.parse_args(arguments)
 
 
@@ -50,16 +55,24 @@ def _serve(options: argparse.Namespace) -> None:
         raise ConfigError(
             "ros2_not_configured", f"{options.robot} has no part ros2; docs/ros2.md shows one"
         )
-    url = options.url or ros2.url
-    robot = robot.model_copy(update={"ros2": ros2.model_copy(update={"url": url})})
+    if options.port is not None:
+        ros2 = at_port(ros2, options.port)
+        robot = robot.model_copy(update={"ros2": ros2})
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROS2, robot.id, home) as session:
-        node = Ros2Node(BaseLink(robot, f"ros2-{secrets.token_hex(4)}"), url, session)
+        node = Ros2Node(BaseLink(robot, f"ros2-{secrets.token_hex(4)}"), ros2, session)
         gc.collect()
         gc.freeze()
-        log.info("dialling %s", url)
+        log.info("dialling %s", ros2.peer)
         asyncio.run(node.run(stopped.is_set))
+
+
+def at_port(ros2: Ros2Config, port: int) -> Ros2Config:
+    """Return how a twin is reached: by rosbridge too where robot.toml says DDS."""
+    if ros2.transport == "zenoh":
+        return ros2.model_copy(update={"router": f"tcp/127.0.0.1:{port}"})
+    return ros2.model_copy(update={"transport": "rosbridge", "url": f"ws://127.0.0.1:{port}"})
 
 
 def main(arguments: list[str] | None = None) -> int:

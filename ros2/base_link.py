@@ -1,28 +1,39 @@
-"""Join a rosbridge connection to the wire: frames in, messages of the wire out, and back.
+"""Join a transport to the wire: what ROS says in, messages of the wire out, and back.
 
-Told frames and the time; knows no socket, no clock and no thread. What it cannot stand for (a graph
-that is not as robot.toml says, a relay that is silent or not alone, a message with holes) gives no
-drive state, and without one the bridge stands.
+Told messages and the time; knows no socket, no clock and no thread. What it cannot stand for (a
+graph that is not as robot.toml says, a relay that is silent or not alone, a message with holes)
+gives no drive state, and without one the bridge stands.
 """
 
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
-from ros2 import graph, messages, rosbridge
+from ros2 import graph, messages
 from ros2.arrivals import TopicArrivals
 from ros2.graph import GraphCheck
 from ros2.last_resort import LastResort
 from ros2.messages import Unreadable
-from ros2.relay import STRING, RelayCommand, RelayState, decode_state, encode_command
-from ros2.ros_clock import OLDEST_S, RosClock
-from ros2.rosbridge import NoAnswer, ServerWords, TopicMessage, TopicType, plain_type
+from ros2.operations import (
+    Advertise,
+    AskType,
+    NoAnswer,
+    Publish,
+    ServerWords,
+    Subscribe,
+    TopicMessage,
+    TopicType,
+    UnreadableMessage,
+)
+from ros2.relay import STRING, RelayCommand, decode_state, encode_command
+from ros2.relay_watch import SILENT_S, RelayWatch
+from ros2.ros_clock import OLDEST_S
 from ros2.sensor_messages import SensorMessages
+from ros2.transport import NOTHING_MADE, LinkMessages
 from ros2.trouble import STARTING, Ros2Trouble
 from ros2.virtual_wheels import VirtualWheels
 from wire import DriveState, Ros2Status
@@ -30,8 +41,8 @@ from wire import DriveState, Ros2Status
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from ros2.rosbridge import Message
-    from wire import DriveCommand, Imu, RobotDescription, Scan
+    from ros2.operations import Answer, Message, Request
+    from wire import DriveCommand, RobotDescription
     from wire.ros2_config import Ros2Config
 
 log = logging.getLogger("ros2")
@@ -39,7 +50,6 @@ log = logging.getLogger("ros2")
 ASK_S = 2.0
 """The graph is asked so often while something is missing. Not while the relay speaks, which looks
 at the graph itself: some versions of rosbridge take no command while a service answers."""
-SILENT_S = 0.5
 SCAN_SILENT_S = 1.0
 SLOWEST_ODOM_HZ = 20.0
 """A state may be 80 ms old before the bridge holds (ENC_STALE)."""
@@ -47,18 +57,6 @@ YOUNG_S = 3.0
 IMU_EVERY_MS = 20
 """A server in Python writes each message field by field."""
 WORDS_S = 5.0
-
-
-@dataclass(frozen=True, slots=True)
-class LinkMessages:
-    """Hold the messages of the wire that one frame makes; None for each that it does not."""
-
-    state: DriveState | None = None
-    scan: Scan | None = None
-    imu: Imu | None = None
-
-
-NOTHING = LinkMessages()
 
 
 class BaseLink:
@@ -74,11 +72,13 @@ class BaseLink:
         )
         self._boot_id, self._lives, self._life_of = boot_id, 0, ""
         self._graph = GraphCheck(self._ros2)
-        self._closed: Ros2Trouble | None = Ros2Trouble(STARTING, f"{self._ros2.url}: not dialled")
+        self._closed: Ros2Trouble | None = Ros2Trouble(
+            STARTING, f"{self._ros2.peer}: not reached yet"
+        )
         self._subscribed_s: float | None = None
         self._asked_s = -inf
-        self._relay: RelayState | None = None
-        self._clock, self._last_resort = RosClock(), LastResort(self._ros2.cmd_vel)
+        self._relay = RelayWatch(self._ros2.cmd_vel, self._ros2.state)
+        self._last_resort = LastResort(self._ros2.cmd_vel)
         self._odom_stamp_s = -inf
         self._words: tuple[float, str] | None = None
         self._topics = {need.key: TopicArrivals() for need in self._graph.needs}
@@ -98,33 +98,33 @@ class BaseLink:
         """Begin anew on a connection that was just made; nothing on it is known yet."""
         self._closed = None
         self._graph.begin(now_s)
-        self._subscribed_s, self._asked_s, self._relay, self._words = None, -inf, None, None
-        self._clock.reset()
+        self._subscribed_s, self._asked_s, self._words = None, -inf, None
+        self._relay.forget()
         self._last_resort.begin()
         self.reached += 1
 
     def close(self, trouble: Ros2Trouble) -> None:
         """Note that there is no connection now, and why."""
-        self._closed, self._relay = trouble, None
+        self._closed = trouble
+        self._relay.forget()
 
-    def due(self, now_s: float) -> list[str]:
+    def due(self, now_s: float) -> list[Request]:
         """Return the operations that are due: questions to the graph, then what it allows."""
         if self._closed is not None:
             return []
-        frames = []
+        wanted: list[Request] = []
         if now_s - self._asked_s >= ASK_S and not self._is_driven(now_s):
             self._asked_s = now_s
-            frames += [rosbridge.ask_type(need.topic) for need in self._graph.needs]
+            wanted += [AskType(need.topic) for need in self._graph.needs]
         if self._graph.is_sound and self._subscribed_s is None:
             self._subscribed_s = now_s
-            frames += self._subscriptions()
-        silent = self._relay is not None and self._relay_silent_s(now_s) > SILENT_S
+            wanted += self._subscriptions()
+        silent = self._relay.state is not None and self._relay_silent_s(now_s) > SILENT_S
         kind = self._graph.kind_of(self._ros2.cmd_vel)
-        return frames + self._last_resort.due(kind, now_s, silent=silent)
+        return wanted + self._last_resort.due(kind, now_s, silent=silent)
 
-    def hear(self, frame: str | bytes, now_s: float) -> LinkMessages:
-        """Take one frame of the server; return what it makes."""
-        said = rosbridge.read(frame)
+    def hear(self, said: Answer | None, now_s: float) -> LinkMessages:
+        """Take one answer of the transport; return what it makes."""
         if isinstance(said, TopicMessage):
             return self._hear_topic(said, now_s)
         if isinstance(said, TopicType | NoAnswer):
@@ -132,17 +132,19 @@ class BaseLink:
         elif isinstance(said, ServerWords) and said.level == "error":
             self._words = now_s, said.text
             log.warning("rosbridge says: %s", said.text)
-        return NOTHING
+        elif isinstance(said, UnreadableMessage) and said.topic in self._key_of:
+            self._refuse(said.topic, said.reason, now_s)
+        return NOTHING_MADE
 
-    def encode(self, command: DriveCommand, now_s: float) -> str | None:
-        """Return the operation of a command; None where nobody may be moved by it."""
-        relay = self._relay
-        if relay is None or self._refuse_relay(relay, now_s) is not None:
+    def encode(self, command: DriveCommand, now_s: float) -> Publish | None:
+        """Return what sends a command; None where nobody may be moved by it."""
+        relay = self._relay.state
+        if relay is None or self._refuse_relay(now_s) is not None:
             self.unsent += 1
             return None
         v_mps, w_radps = self._wheels.twist(command.left_radps, command.right_radps)
         words = RelayCommand(command, relay.relay, relay.t, self._ttl_s, v_mps, w_radps)
-        return rosbridge.publish(self._ros2.command, encode_command(words))
+        return Publish(self._ros2.command, encode_command(words))
 
     def judge(self, now_s: float) -> Ros2Trouble | None:
         """Return what is wrong now; None where nothing is."""
@@ -170,18 +172,18 @@ class BaseLink:
     def _rates_hz(self, now_s: float) -> dict[str, float]:
         return {key: round(topic.rate_hz(now_s), 1) for key, topic in self._topics.items()}
 
-    def _subscriptions(self) -> list[str]:
+    def _subscriptions(self) -> list[Request]:
         ros2 = self._ros2
-        frames = [
-            rosbridge.advertise(ros2.command, STRING),
-            rosbridge.subscribe(ros2.state, STRING),
-            rosbridge.subscribe(ros2.odom, graph.ODOMETRY),
+        wanted: list[Request] = [
+            Advertise(ros2.command, STRING),
+            Subscribe(ros2.state, STRING),
+            Subscribe(ros2.odom, graph.ODOMETRY),
         ]
         if ros2.scan is not None:
-            frames.append(rosbridge.subscribe(ros2.scan, graph.LASER_SCAN))
+            wanted.append(Subscribe(ros2.scan, graph.LASER_SCAN))
         if ros2.imu is not None:
-            frames.append(rosbridge.subscribe(ros2.imu, graph.IMU, IMU_EVERY_MS))
-        return frames
+            wanted.append(Subscribe(ros2.imu, graph.IMU, IMU_EVERY_MS))
+        return wanted
 
     def _troubles(self, now_s: float) -> Iterator[Ros2Trouble]:
         """Yield all that is wrong, what must be mended first before the rest."""
@@ -191,19 +193,18 @@ class BaseLink:
         wrong = self._graph.trouble(now_s)
         since_s = self._subscribed_s
         if wrong is not None or since_s is None:
-            yield wrong or Ros2Trouble(STARTING, f"{self._ros2.url}: not subscribed yet")
+            yield wrong or Ros2Trouble(STARTING, f"{self._ros2.peer}: not subscribed yet")
             return
         if self._words is not None and now_s - self._words[0] <= WORDS_S:
             yield Ros2Trouble("ros2_server_refuses", f"rosbridge says: {self._words[1]}")
         young = now_s - since_s < YOUNG_S
         silent_s = self._topics["relay"].silent_s(since_s, now_s)
-        if self._relay is None or silent_s > SILENT_S:
-            code = STARTING if young and self._relay is None else "ros2_relay_silent"
+        if self._relay.state is None or silent_s > SILENT_S:
+            code = STARTING if young and self._relay.state is None else "ros2_relay_silent"
             yield Ros2Trouble(code, f"{self._ros2.state} says nothing for {silent_s:.1f} s")
-        if self._relay is not None:
-            refused = self._refuse_relay(self._relay, now_s)
-            if refused is not None:
-                yield refused
+        refused = self._refuse_relay(now_s)
+        if refused is not None:
+            yield refused
         for need in self._graph.needs:
             topic = self._topics[need.key]
             if topic.is_refused(now_s):
@@ -228,72 +229,55 @@ class BaseLink:
 
     def _is_driven(self, now_s: float) -> bool:
         """Return whether the relay speaks and may be driven by."""
-        relay = self._relay
         return (
-            relay is not None
+            self._relay.state is not None
             and self._relay_silent_s(now_s) <= SILENT_S
-            and self._refuse_relay(relay, now_s) is None
+            and self._refuse_relay(now_s) is None
         )
 
     def _relay_silent_s(self, now_s: float) -> float:
         return self._topics["relay"].silent_s(-inf, now_s)
 
-    def _refuse_relay(self, relay: RelayState, now_s: float) -> Ros2Trouble | None:
-        """Return why this relay may not be driven by, or its words not be believed."""
-        ros2 = self._ros2
+    def _refuse_relay(self, now_s: float) -> Ros2Trouble | None:
+        """Return why nobody may be driven by this graph and its relay."""
         if not self._graph.is_sound:
             return self._graph.trouble(now_s)
-        if relay.others > 0:
-            return Ros2Trouble(
-                "ros2_cmd_vel_shared", f"{relay.others} more publish on {ros2.cmd_vel}"
-            )
-        if not relay.cmd_vel:
-            return Ros2Trouble("ros2_no_base", f"the relay finds nobody on {ros2.cmd_vel}")
-        kind = self._graph.kind_of(ros2.cmd_vel)
-        if kind and plain_type(kind) != plain_type(relay.cmd_vel):
-            found = f"rosapi says that {ros2.cmd_vel} is {kind}, the relay publishes"
-            return Ros2Trouble("ros2_relay_disagrees", f"{found} {relay.cmd_vel}")
-        return None
+        return self._relay.refusal(self._graph.kind_of(self._ros2.cmd_vel), now_s)
+
+    def _refuse(self, topic: str, why: str, now_s: float) -> None:
+        self.unreadable += 1
+        self._topics[self._key_of[topic]].refuse(why[:200], now_s)
 
     def _hear_topic(self, said: TopicMessage, now_s: float) -> LinkMessages:
         reader = self._readers.get(said.topic)
         if reader is None or self._closed is not None:
-            return NOTHING
-        topic = self._topics[self._key_of[said.topic]]
+            return NOTHING_MADE
         try:
             heard = reader(said.message, now_s)
         except (Unreadable, ValidationError) as why:  # finite, and beyond what the wire carries
-            self.unreadable += 1
-            topic.refuse(str(why)[:200], now_s)
-            return NOTHING
-        topic.note(now_s)
+            self._refuse(said.topic, str(why), now_s)
+            return NOTHING_MADE
+        self._topics[self._key_of[said.topic]].note(now_s)
         return heard
 
     def _hear_relay(self, message: Message, now_s: float) -> LinkMessages:
-        state, last = decode_state(message), self._relay
-        if last is not None and state.relay == last.relay and state.seq <= last.seq:
-            return NOTHING
-        if last is None or state.relay != last.relay:
-            log.info("relay %s on %s", state.relay, self._ros2.state)
-            self._clock.reset()
-        self._clock.note(state.ros, now_s)
-        self._relay = state
-        return NOTHING
+        self._relay.hear(decode_state(message), now_s)
+        return NOTHING_MADE
 
     def _hear_odometry(self, message: Message, now_s: float) -> LinkMessages:
         pose = messages.read_odometry(message)
-        relay = self._relay
+        relay = self._relay.state
         if relay is None:
-            return NOTHING
-        stamp_s = self._clock.date(pose.stamp_s, now_s)
+            return NOTHING_MADE
+        stamp_s = self._relay.clock.date(pose.stamp_s, now_s)
         if 0.0 <= self._odom_stamp_s - pose.stamp_s <= OLDEST_S:
-            return NOTHING  # overtaken on its way
+            return NOTHING_MADE  # overtaken on its way
         self._odom_stamp_s = pose.stamp_s
         boot_id = self._live(pose, relay.relay)
         self._seq += 1
         wheels = self._wheels.turn(pose)
-        if self._refuse_relay(relay, now_s) is not None or self._relay_silent_s(now_s) > SILENT_S:
-            return NOTHING
+        if self._refuse_relay(now_s) is not None or self._relay_silent_s(now_s) > SILENT_S:
+            return NOTHING_MADE
         return LinkMessages(
             state=DriveState(
                 boot_id=boot_id,
@@ -327,16 +311,16 @@ class BaseLink:
 
     def _hear_scan(self, message: Message, now_s: float) -> LinkMessages:
         reading = messages.read_scan(message, self._ros2.scan_zero)
-        if self._relay is None:
-            return NOTHING
+        if self._relay.state is None:
+            return NOTHING_MADE
         return LinkMessages(
-            scan=self._sensors.scan(reading, self._clock.date(reading.stamp_s, now_s))
+            scan=self._sensors.scan(reading, self._relay.clock.date(reading.stamp_s, now_s))
         )
 
     def _hear_imu(self, message: Message, now_s: float) -> LinkMessages:
         reading = messages.read_imu(message)
-        if self._relay is None:
-            return NOTHING
+        if self._relay.state is None:
+            return NOTHING_MADE
         return LinkMessages(
-            imu=self._sensors.imu(reading, self._clock.date(reading.stamp_s, now_s))
+            imu=self._sensors.imu(reading, self._relay.clock.date(reading.stamp_s, now_s))
         )

@@ -16,13 +16,15 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import WebSocketException
 
 from processes.backoff import Backoff
-from ros2.rosbridge import MOST_BYTES
+from ros2 import rosbridge
+from ros2.transport import MOST_BYTES
 from ros2.trouble import Ros2Trouble
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros2.base_link import BaseLink, LinkMessages
+    from ros2.operations import Request
+    from ros2.transport import GraphListener, LinkMessages
 
 log = logging.getLogger("ros2")
 
@@ -36,7 +38,14 @@ PORTS = {"ws": 80, "wss": 443}
 class RosbridgeConnection:
     """Dial one server for as long as the process lives."""
 
-    def __init__(self, url: str, link: BaseLink, publish: Callable[[LinkMessages], None]) -> None:
+    def __init__(
+        self,
+        url: str,
+        link: GraphListener,
+        publish: Callable[[LinkMessages], None],
+        most_bytes: int = MOST_BYTES,
+    ) -> None:
+        self._most_bytes = most_bytes
         self._url, self._link, self._publish = url, link, publish
         self._socket: ClientConnection | None = None
         self._heard_s = 0.0
@@ -61,13 +70,13 @@ class RosbridgeConnection:
         opened = self._socket
         return opened is not None and opened.transport.get_write_buffer_size() == 0
 
-    async def send(self, frame: str) -> bool:
-        """Send a frame; False where there is no connection."""
+    async def send(self, request: Request) -> bool:
+        """Send a request; False where there is no connection."""
         opened = self._socket
         if opened is None:
             return False
         try:
-            await opened.send(frame)
+            await opened.send(rosbridge.write(request))
         except WebSocketException:
             return False
         return True
@@ -86,7 +95,7 @@ class RosbridgeConnection:
             self._url,
             sock=raw,  # ours: no proxy of the environment stands between a base and its bridge
             compression=None,
-            max_size=MOST_BYTES,
+            max_size=self._most_bytes,
             open_timeout=DIAL_S,
             close_timeout=0.5,
             ping_interval=None,  # the graph is asked instead, which proves more
@@ -99,7 +108,7 @@ class RosbridgeConnection:
             async for frame in opened:
                 now_s = time.monotonic()
                 self._heard_s = now_s
-                self._publish(self._link.hear(frame, now_s))
+                self._publish(self._link.hear(rosbridge.read(frame), now_s))
 
 
 def _dial(url: str) -> socket.socket:

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ros2.operations import NoAnswer, TopicType, plain_type
 from ros2.relay import STRING
-from ros2.rosbridge import NoAnswer, TopicType, plain_type
 from ros2.trouble import STARTING, Ros2Trouble
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ ODOMETRY = "nav_msgs/msg/Odometry"
 LASER_SCAN = "sensor_msgs/msg/LaserScan"
 IMU = "sensor_msgs/msg/Imu"
 ANSWER_S = 3.0
+TWO = "ros2_two_robots"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +56,7 @@ class GraphCheck:
     """Collect the answers of one connection."""
 
     def __init__(self, ros2: Ros2Config) -> None:
-        self._url = ros2.url
+        self._peer, self._has_server = ros2.peer, ros2.transport == "rosbridge"
         self.needs = needs_of(ros2)
         self._asked_s: float | None = None
         self._answers: dict[str, TopicType | NoAnswer] = {}
@@ -74,7 +75,10 @@ class GraphCheck:
         found = [self._judge(need) for need in self.needs]
         if all(trouble is None for trouble in found):
             self.is_sound = True
-        elif any(trouble and trouble.code == need.other for trouble, need in self._pairs(found)):
+        elif any(
+            trouble and trouble.code in (need.other, TWO)
+            for trouble, need in zip(found, self.needs, strict=True)
+        ):
             self.is_sound = False
 
     def kind_of(self, topic: str) -> str:
@@ -90,28 +94,27 @@ class GraphCheck:
         for need in self.needs:
             answer = self._answers.get(need.topic)
             if answer is None and late:
-                return Ros2Trouble(
-                    "ros2_no_rosapi",
-                    f"{self._url} did not answer /rosapi/topic_type within {ANSWER_S:g} s",
-                )
+                return self._silence()
             if answer is None:
-                return Ros2Trouble(STARTING, f"{self._url}: the graph was not heard yet")
+                return Ros2Trouble(STARTING, f"{self._peer}: the graph was not heard yet")
             trouble = self._judge(need)
             if trouble is not None:
                 return trouble
         return None
 
-    def _pairs(
-        self, found: list[Ros2Trouble | None]
-    ) -> list[tuple[Ros2Trouble | None, RequiredTopic]]:
-        return list(zip(found, self.needs, strict=True))
+    def _silence(self) -> Ros2Trouble:
+        if self._has_server:
+            found = f"{self._peer} did not answer /rosapi/topic_type within {ANSWER_S:g} s"
+            return Ros2Trouble("ros2_no_rosapi", found)
+        found = f"{self._peer}: no ROS 2 node was found within {ANSWER_S:g} s"
+        return Ros2Trouble("ros2_no_peer", found)
 
     def _judge(self, need: RequiredTopic) -> Ros2Trouble | None:
         answer = self._answers.get(need.topic)
         if not isinstance(answer, TopicType):
             why = "no answer yet" if answer is None else answer.reason
             return Ros2Trouble(
-                "ros2_no_rosapi", f"{self._url}: /rosapi/topic_type of {need.topic}: {why}"
+                "ros2_no_rosapi", f"{self._peer}: /rosapi/topic_type of {need.topic}: {why}"
             )
         if not answer.kind:
             return Ros2Trouble(need.missing, self._absent(need))
@@ -119,6 +122,9 @@ class GraphCheck:
             expected = " or ".join(need.kinds)
             found = f"ros2.{need.key} {need.topic} is {answer.kind}, expected {expected}"
             return Ros2Trouble(need.other, found)
+        if need.key != "cmd_vel" and answer.publishers is not None and answer.publishers > 1:
+            found = f"{answer.publishers} publish on {need.topic}, expected one"
+            return Ros2Trouble(TWO, found)
         return None
 
     def _absent(self, need: RequiredTopic) -> str:

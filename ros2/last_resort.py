@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ros2 import rosbridge
 from ros2.graph import TWIST_STAMPED
+from ros2.operations import Advertise, Publish, Unadvertise, plain_type
 
 if TYPE_CHECKING:
-    from ros2.rosbridge import Message
+    from ros2.operations import Message, Request
 
 EVERY_S = 0.1
 _STILL = dict.fromkeys("xyz", 0.0)
@@ -30,7 +30,7 @@ class LastResort:
         """Forget what was advertised: the connection is new."""
         self._sent_s = None
 
-    def due(self, kind: str, now_s: float, *, silent: bool) -> list[str]:
+    def due(self, kind: str, now_s: float, *, silent: bool) -> list[Request]:
         """Return the operations that are due.
 
         Args:
@@ -40,17 +40,17 @@ class LastResort:
         """
         if not silent:
             ended, self._sent_s = self._sent_s is not None, None
-            return [rosbridge.unadvertise(self._topic)] if ended else []
+            return [Unadvertise(self._topic)] if ended else []
         if not kind or (self._sent_s is not None and now_s - self._sent_s < EVERY_S):
             return []
-        frames = [] if self._sent_s is not None else [rosbridge.advertise(self._topic, kind)]
+        first: list[Request] = [] if self._sent_s is not None else [Advertise(self._topic, kind)]
         self._sent_s = now_s
-        return [*frames, rosbridge.publish(self._topic, _zeros(kind))]
+        return [*first, Publish(self._topic, _zeros(kind))]
 
 
 def _zeros(kind: str) -> Message:
-    """Return a twist of zeros; rosbridge itself writes the time into a header that has none."""
+    """Return a twist of zeros; rosbridge writes the time into a header that has none, others 0."""
     twist: Message = {"linear": _STILL, "angular": _STILL}
-    if rosbridge.plain_type(kind) == rosbridge.plain_type(TWIST_STAMPED):
+    if plain_type(kind) == plain_type(TWIST_STAMPED):
         return {"header": {"frame_id": "base_link"}, "twist": twist}
     return twist

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import atan2, hypot, pi, remainder
 from typing import Literal
 
-from ros2.rosbridge import Message
+from ros2.operations import Message
 from wire.bounded_types import MAX_BEAMS
 
 SLOWEST_BEAM_S = 0.01
@@ -72,7 +72,7 @@ def read_odometry(message: Message) -> OdometryReading:
     if not abs(length - 1.0) <= _UNIT:
         raise Unreadable(f"pose.pose.orientation has length {length:.3g}, expected 1")
     return OdometryReading(
-        stamp_s=_stamp(message),
+        stamp_s=stamp_of(message),
         x_m=_number(message, "pose", "pose", "position", "x"),
         y_m=_number(message, "pose", "pose", "position", "y"),
         yaw_rad=atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)),
@@ -88,7 +88,7 @@ def read_imu(message: Message) -> ImuReading:
         Unreadable: a field is missing or not finite.
     """
     return ImuReading(
-        stamp_s=_stamp(message),
+        stamp_s=stamp_of(message),
         yaw_rate_radps=_number(message, "angular_velocity", "z"),
         accel_x_mps2=_number(message, "linear_acceleration", "x"),
         accel_y_mps2=_number(message, "linear_acceleration", "y"),
@@ -119,7 +119,7 @@ def read_scan(message: Message, zero: Literal["near", "nothing"] = "near") -> Sc
         ranges.reverse()
     each = -(-len(ranges) // MAX_BEAMS)
     return ScanReading(
-        stamp_s=_stamp(message),
+        stamp_s=stamp_of(message),
         angle_min_rad=remainder(first_rad + abs(step_rad) * (each - 1) / 2.0, 2.0 * pi),
         angle_increment_rad=abs(step_rad) * each,
         time_increment_s=min(max(_number(message, "time_increment") * each, 0.0), SLOWEST_BEAM_S),
@@ -150,7 +150,12 @@ def _range(value: object, most_m: float, zero: str) -> float | None:
     return round(value, 4) if value <= most_m else None  # and not-a-number is no return
 
 
-def _stamp(message: Message) -> float:
+def stamp_of(message: Message) -> float:
+    """Return a message's stamp [s] on the robot's ROS clock.
+
+    Raises:
+        Unreadable: it has none.
+    """
     header = message.get("header")
     stamp = header.get("stamp") if isinstance(header, dict) else None
     if not isinstance(stamp, dict):

@@ -1,4 +1,4 @@
-"""Run one ROS 2 base as a process: commands from the wire to the server, and back what it says."""
+"""Run one ROS 2 base as a process: commands from the wire to its graph, and back what it says."""
 
 from __future__ import annotations
 
@@ -7,14 +7,16 @@ import logging
 import time
 from typing import TYPE_CHECKING
 
-from ros2.connection import RosbridgeConnection
+from ros2.transport import open_transport
 from ros2.trouble import STARTING
 from wire import keys
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ros2.base_link import BaseLink, LinkMessages
+    from ros2.base_link import BaseLink
+    from ros2.transport import LinkMessages
+    from wire.ros2_config import Ros2Config
     from wire.session import Session
 
 log = logging.getLogger("ros2")
@@ -31,16 +33,16 @@ how old it is, and the relay has stopped the base by then."""
 
 
 class Ros2Node:
-    """Connect one base's link to the wire and to its server."""
+    """Connect one base's link to the wire and to its transport."""
 
-    def __init__(self, link: BaseLink, url: str, session: Session) -> None:
+    def __init__(self, link: BaseLink, ros2: Ros2Config, session: Session) -> None:
         self._link = link
         self._commands = session.subscriber(keys.DRIVE_COMMAND)
         self._drive = session.publisher(keys.DRIVE_STATE)
         self._scan = session.publisher(keys.SCAN)
         self._imu = session.publisher(keys.IMU)
         self._state = session.publisher(keys.ROS2_STATE)
-        self._connection = RosbridgeConnection(url, link, self._publish)
+        self._transport = open_transport(ros2, link, self._publish)
         self._turned_s = time.monotonic()
         self._distrusted_until_s = float("-inf")
         self._looked_s = self._said_s = float("-inf")
@@ -49,7 +51,7 @@ class Ros2Node:
 
     async def run(self, stopped: Callable[[], bool]) -> None:
         """Serve until told to stop."""
-        reading = asyncio.create_task(self._connection.serve())
+        reading = asyncio.create_task(self._transport.serve())
         try:
             while not stopped() and not reading.done():
                 await self.turn(time.monotonic())
@@ -68,16 +70,16 @@ class Ros2Node:
             self._distrusted_until_s = now_s + DISTRUST_S
         command = self._commands.newest()
         if command is not None and now_s >= self._distrusted_until_s:
-            frame = self._link.encode(command, now_s)
-            if frame is not None and self._connection.has_room():
-                self._link.sent += int(await self._connection.send(frame))
-            elif frame is not None:
+            words = self._link.encode(command, now_s)
+            if words is not None and self._transport.has_room():
+                self._link.sent += int(await self._transport.send(words))
+            elif words is not None:
                 self._link.unsent += 1
         if now_s - self._looked_s >= LOOK_S:
             self._looked_s = now_s
-            for frame in self._link.due(now_s):
-                await self._connection.send(frame)
-            await self._connection.drop_if_silent(now_s)
+            for request in self._link.due(now_s):
+                await self._transport.send(request)
+            await self._transport.drop_if_silent(now_s)
             self._say(now_s)
 
     def _publish(self, heard: LinkMessages) -> None:

@@ -18,7 +18,7 @@ from wire.base import Record
 from wire.bounded_types import Count, Name, Seconds, Text
 
 if TYPE_CHECKING:
-    from ros2.rosbridge import Message
+    from ros2.operations import Message
     from wire import DriveCommand
 
 STRING = "std_msgs/msg/String"

@@ -21,6 +21,22 @@ CODES: dict[str, tuple[str, str]] = {
         "is this rosbridge_server, with rosapi beside it, as its launch file starts both?",
         "请确认这是 rosbridge_server，且 rosapi 已随其启动文件一同运行",
     ),
+    "ros2_no_peer": (
+        "start the robot's nodes; ros2.domain must be their ROS_DOMAIN_ID, on a network they share",
+        "请启动机器人的节点；ros2.domain 必须与其 ROS_DOMAIN_ID 相同，且双方在同一网络中",
+    ),
+    "ros2_no_router": (
+        "start `ros2 run rmw_zenoh_cpp rmw_zenohd` on the robot, and look at ros2.router",
+        "请在机器人上运行 `ros2 run rmw_zenoh_cpp rmw_zenohd`，并检查 ros2.router",
+    ),
+    "ros2_no_dds": (
+        "pip install 'pons-robot[dds]' (x86_64), or another ros2.transport; look at ros2.interface",
+        "请安装 'pons-robot[dds]'（x86_64）或改用其他 ros2.transport，并检查 ros2.interface",
+    ),
+    "ros2_two_robots": (
+        "one robot a domain: end the other (a killed one counts for 20 s) or change ROS_DOMAIN_ID",
+        "每个域只能有一个机器人：请关闭另一个（被强制结束的仍计入 20 秒）或修改 ROS_DOMAIN_ID",
+    ),
     "ros2_no_base": (
         "start the base's own driver, or name its topic in ros2.cmd_vel",
         "请启动底盘自己的驱动，或在 ros2.cmd_vel 中写它的话题",
@@ -38,8 +54,8 @@ CODES: dict[str, tuple[str, str]] = {
         f"中继节点曾经在线；请查看它的终端并重新运行 `{_RELAY}`",
     ),
     "ros2_relay_disagrees": (
-        "relay and rosapi must see one graph: the same ROS_DOMAIN_ID, and one type on ros2.cmd_vel",
-        "中继节点与 rosapi 必须看到同一个图：相同的 ROS_DOMAIN_ID，且 ros2.cmd_vel 只有一种类型",
+        "relay and Pons must see one graph: the same ROS_DOMAIN_ID, and one type on ros2.cmd_vel",
+        "中继节点与 Pons 必须看到同一个图：相同的 ROS_DOMAIN_ID，且 ros2.cmd_vel 只有一种类型",
     ),
     "ros2_cmd_vel_shared": (
         "the relay must be alone there: end the other (Nav2, a joystick), or name another topic",
@@ -52,6 +68,14 @@ CODES: dict[str, tuple[str, str]] = {
     "ros2_topic_type": (
         "name the topic of the expected type",
         "请填写类型正确的话题",
+    ),
+    "ros2_not_configured": (
+        "add the part ros2; robots/ros2_diff_drive.toml shows one",
+        "请添加 ros2 部分；可参考 robots/ros2_diff_drive.toml",
+    ),
+    "ros2_no_mounting": (
+        "start robot_state_publisher or a static_transform_publisher that says where it sits",
+        "请启动 robot_state_publisher 或 static_transform_publisher 以说明其安装位置",
     ),
     "ros2_unreadable": (
         "look at it with `ros2 topic echo`; what is null or not a number moves nothing",

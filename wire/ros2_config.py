@@ -1,4 +1,4 @@
-"""Describe how a ROS 2 base is reached: the rosbridge server, and its topics (docs/ros2.md)."""
+"""Describe how a ROS 2 base is reached: by which transport, and its topics (docs/ros2.md)."""
 
 from __future__ import annotations
 
@@ -16,10 +16,20 @@ Topic = Annotated[str, Field(pattern=r"^/[A-Za-z][A-Za-z0-9_/]{0,126}$")]
 
 
 class Ros2Config(Record):
-    """Name the server and the topics of a base that ROS 2 drives."""
+    """Name the way to a base that ROS 2 drives, and its topics."""
 
-    url: Annotated[str, Field(pattern=r"^wss?://[A-Za-z0-9_.:\[\]/-]{1,200}$")]
-    """Of rosbridge_websocket, port 9090 as it comes."""
+    transport: Literal["rosbridge", "dds", "zenoh"] = "rosbridge"
+    """A websocket to rosbridge_server; DDS itself, by Cyclone DDS; or rmw_zenoh's own keys."""
+    url: Annotated[str, Field(pattern=r"^wss?://[A-Za-z0-9_.:\[\]/-]{1,200}$")] | None = None
+    """Of rosbridge_websocket, port 9090 as it comes; for that transport alone."""
+    router: Annotated[str, Field(pattern=r"^(tcp|tls)/[A-Za-z0-9_.:\[\]-]{1,200}$")] = (
+        "tcp/127.0.0.1:7447"
+    )
+    """Of rmw_zenohd, for transport "zenoh"."""
+    domain: Annotated[int, Field(ge=0, le=232)] = 0
+    """The robot's ROS_DOMAIN_ID, for transports "dds" and "zenoh"."""
+    interface: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.:-]{1,15}$")] | None = None
+    """The network interface that DDS speaks on; None: whichever Cyclone DDS takes."""
     relay: Topic = "/pons"
     """Below which our relay node hears ``command`` and says ``state`` (examples/ros2_relay)."""
     cmd_vel: Topic = "/cmd_vel"
@@ -32,6 +42,15 @@ class Ros2Config(Record):
     """What a range of 0 means: too near to measure, or, as some drivers have it, no return."""
     imu: Topic | None = None
     """sensor_msgs/Imu, its z axis up."""
+
+    @property
+    def peer(self) -> str:
+        """Return how people are told whom this dials."""
+        if self.transport == "rosbridge":
+            return self.url or "ros2.url"
+        if self.transport == "zenoh":
+            return f"{self.router}, domain {self.domain}"
+        return f"DDS domain {self.domain}" + (f" on {self.interface}" if self.interface else "")
 
     @property
     def command(self) -> str:
@@ -55,12 +74,13 @@ def wrong_ros2(ros2: Ros2Config | None, drive: str, lidar: str, *, has_imu: bool
     """
     if ros2 is None:
         if drive == ROS2:
-            yield "ros2.url is missing: drive.kind 'ros2' is reached through a rosbridge server"
+            yield "ros2.url is missing: drive.kind 'ros2' needs the part ros2 (docs/ros2.md)"
         if lidar == ROS2:
             yield "ros2.scan is missing: lidar.kind 'ros2' is read from that topic"
         return
     if drive != ROS2:
         yield f"the part ros2 is for drive.kind 'ros2', not for kind {drive!r}"
+    yield from _wrong_way(ros2)
     if (lidar == ROS2) != (ros2.scan is not None):
         yield f"ros2.scan {ros2.scan!r} and lidar.kind {lidar!r} do not fit: it is for kind 'ros2'"
     if has_imu != (ros2.imu is not None):
@@ -68,3 +88,16 @@ def wrong_ros2(ros2: Ros2Config | None, drive: str, lidar: str, *, has_imu: bool
             f"ros2.imu {ros2.imu!r} and inputs.imu {str(has_imu).lower()} do not fit: name the "
             "topic, or say inputs.imu = false (at most 0.3 m/s then)"
         )
+
+
+_KEYS_OF = {"url": ("rosbridge",), "router": ("zenoh",), "domain": ("dds", "zenoh"),
+            "interface": ("dds",)}  # fmt: skip
+
+
+def _wrong_way(ros2: Ros2Config) -> Iterator[str]:
+    """Yield what a transport lacks, and keys that only another has."""
+    if ros2.transport == "rosbridge" and ros2.url is None:
+        yield "ros2.url is missing: ros2.transport 'rosbridge' dials ws://HOST:9090"
+    for key, transports in _KEYS_OF.items():
+        if key in ros2.model_fields_set and ros2.transport not in transports:
+            yield f"ros2.{key} is for transport {' and '.join(transports)}, not {ros2.transport!r}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok
 from ros2 import BaseLink
-from ros2.connection import RosbridgeConnection
+from ros2.transport import open_transport
 from ros2.trouble import CODES, STARTING, Ros2Trouble
 from wire import keys
 from wire.doors import ROS2_COPY_DOOR
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 HEAR_S = 2.0
 ASK_S = 6.0
 PERIOD_S = 0.01
+_NOBODY = ("ros2_no_server", "ros2_no_router", "ros2_no_dds")
 
 
 def ros2(home: Path, robot: RobotDescription) -> HealthFinding:
@@ -34,7 +35,7 @@ def ros2(home: Path, robot: RobotDescription) -> HealthFinding:
         return ok("ros2", "not used", "未使用")
     if is_listening(Endpoints(home).socket(ROS2_COPY_DOOR)):
         return _hear_process(home, robot, config)
-    trouble = asyncio.run(_ask_server(robot, config))
+    trouble = asyncio.run(_ask_graph(robot, config))
     return _describe(config, trouble.code if trouble else None, trouble.found if trouble else "")
 
 
@@ -56,20 +57,20 @@ def _hear_process(home: Path, robot: RobotDescription, config: Ros2Config) -> He
     return _describe(config, status.code, status.detail)
 
 
-async def _ask_server(robot: RobotDescription, config: Ros2Config) -> Ros2Trouble | None:
+async def _ask_graph(robot: RobotDescription, config: Ros2Config) -> Ros2Trouble | None:
     """Dial the server as the process would, and listen for some seconds."""
     link = BaseLink(robot, "doctor")
-    connection = RosbridgeConnection(config.url, link, lambda _: None)
+    connection = open_transport(config, link, lambda _: None)
     reading = asyncio.create_task(connection.serve())
     end_s = time.monotonic() + ASK_S
-    trouble: Ros2Trouble | None = Ros2Trouble(STARTING, f"{config.url}: not dialled")
+    trouble: Ros2Trouble | None = Ros2Trouble(STARTING, f"{config.peer}: not dialled")
     while trouble is not None and time.monotonic() < end_s:
         await asyncio.sleep(PERIOD_S)
         now_s = time.monotonic()
-        for frame in link.due(now_s):
-            await connection.send(frame)
+        for request in link.due(now_s):
+            await connection.send(request)
         trouble = link.judge(now_s)
-        if trouble is not None and trouble.code == "ros2_no_server":
+        if trouble is not None and trouble.code in _NOBODY:
             break
     reading.cancel()
     await asyncio.gather(reading, return_exceptions=True)
@@ -78,7 +79,7 @@ async def _ask_server(robot: RobotDescription, config: Ros2Config) -> Ros2Troubl
 
 def _describe(config: Ros2Config, code: str | None, found: str) -> HealthFinding:
     if code is None:
-        return ok("ros2", f"{config.url} and its base are heard", f"{config.url}：底盘正常")
+        return ok("ros2", f"{config.peer} and its base are heard", f"{config.peer}：底盘正常")
     words = f"{code}: {found.split(';', 1)[0]}"
     english, chinese = CODES.get(code, ("see docs/ros2.md", "请查看 docs/ros2.md"))
     return fail("ros2", BilingualWords(words, words), BilingualWords(english, chinese))

@@ -3,7 +3,8 @@
 ``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
 and changes no setting. Needs no running robot; a port that a running one holds is named busy.
 ``pons robot try [--robot FILE]`` turns the wheels, off the ground (docs/robot-try.md).
-``pons robot relay`` prints the node that a robot of ROS 2 runs (docs/ros2.md).
+``pons robot relay`` prints the node that a robot of ROS 2 runs, ``pons robot mount`` where its
+lidar sits (docs/ros2.md).
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Final
 from devices.port_listing import describe_port, find_modem_manager, list_ports
 from pons.robot.port_finder import question_ports
 from pons_assets import RELAY
+from wire import load_robot
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -80,6 +82,7 @@ def parser() -> argparse.ArgumentParser:
     tried = acts.add_parser("try", help="turn the wheels, off the ground, and prove that they stop")
     tried.add_argument("--robot", type=Path, metavar="FILE", help="robot.toml (PONS_ROBOT)")
     acts.add_parser("relay", help="print the node that a robot of ROS 2 runs: > relay.py")
+    acts.add_parser("mount", help="print where a ROS 2 robot's lidar sits, by its /tf_static")
     return top
 
 
@@ -93,6 +96,10 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
     if said.act == "relay":
         sys.stdout.write(RELAY.read_text("utf-8"))
         return EXIT_FOUND
+    if said.act == "mount":
+        from pons.ros2_topics import print_mounting
+
+        return print_mounting(load_robot(settings.robot))
     entries = [describe_port(path) for path in said.port] if said.port else list_ports()
     if not said.json and entries:
         names = ", ".join(str(entry.path) for entry in entries)

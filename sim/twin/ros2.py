@@ -1,4 +1,4 @@
-"""Play a ROS 2 robot with the simulated body: rosbridge server, relay, base, lidar and gyro.
+"""Play a ROS 2 robot with the simulated body: server or router, relay, base, lidar and gyro.
 
 Everything between the bridge and the frames of the socket is what runs with a real one. The base
 takes a twist and says odometry, as a diff_drive_controller does.
@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import cos, sin
 from typing import TYPE_CHECKING, Any
 
+from sim.twin.rmw_zenoh_peer import RmwZenohPeer
 from sim.twin.ros2_relay import RelayFirmware
 from sim.twin.rosbridge_server import RosbridgeServer
 from wire import ConfigError, DriveCommand
@@ -49,7 +50,11 @@ class Ros2Twin:
             types[ros2.scan] = "sensor_msgs/msg/LaserScan"
         if ros2.imu is not None:
             types[ros2.imu] = "sensor_msgs/msg/Imu"
-        self.server = RosbridgeServer(port, types)
+        self.server: RosbridgeServer | RmwZenohPeer
+        if ros2.transport == "zenoh":
+            self.server = RmwZenohPeer(port, types, (ros2.cmd_vel, ros2.command), ros2.domain)
+        else:  # DDS is no matter of a port: there the twin speaks rosbridge
+            self.server = RosbridgeServer(port, types)
         self.relay = RelayFirmware(TWIST_STAMPED)
         self._x_m = self._y_m = self._yaw_rad = 0.0
         self._wheels: tuple[float, float] | None = None

@@ -1,4 +1,4 @@
-"""Make what a rosbridge server sends, and a robot that listens to it."""
+"""Make what a graph says, and a robot that listens to it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import json
 from math import cos, sin
 from typing import Any
 
-from ros2 import BaseLink
+from ros2 import BaseLink, rosbridge
+from ros2.operations import Request, TopicMessage, TopicType
 from wire import DriveCommand, RobotDescription
 
 ROS_S = 1_800_000_000.0
@@ -22,26 +23,29 @@ TYPES = {
 
 def robot(**ros2: object) -> RobotDescription:
     part = {"url": "ws://127.0.0.1:9090", "scan": "/scan", "imu": "/imu"} | ros2
-    lidar = {"kind": "ros2"} if part["scan"] else {}
+    part = {key: value for key, value in part.items() if value is not None}
+    lidar = {"kind": "ros2"} if "scan" in part else {}
     return RobotDescription.model_validate(
         {
             "drive": {"kind": "ros2"},
             "lidar": lidar,
-            "inputs": {"imu": part["imu"] is not None},
+            "inputs": {"imu": "imu" in part},
             "ros2": part,
         }
     )
 
 
-def on_topic(topic: str, message: dict[str, Any]) -> str:
-    return json.dumps({"op": "publish", "topic": topic, "msg": message})
+def on_topic(topic: str, message: dict[str, Any]) -> TopicMessage:
+    return TopicMessage(topic, message)
 
 
-def graph_answer(topic: str, kind: str) -> str:
-    values = {"type": kind}
-    return json.dumps(
-        {"op": "service_response", "id": f"type:{topic}", "values": values, "result": True}
-    )
+def graph_answer(topic: str, kind: str) -> TopicType:
+    return TopicType(topic, kind)
+
+
+def as_operations(requests: list[Request]) -> list[dict[str, Any]]:
+    """Return requests as rosbridge writes them."""
+    return [json.loads(rosbridge.write(one)) for one in requests]
 
 
 def header(at_s: float) -> dict[str, Any]:

@@ -2,8 +2,10 @@
 
 ``base`` drives for ever by the last twist that it got, as a base without a dead-man does, and says
 odometry at 50 Hz, and each twist as a line of JSON on stdout. ``lidar`` says three beams: too near
-to measure (minus infinity), no return, 1.5 m. ``bridge`` speaks rosbridge's protocol for the topics
-that Pons uses, on true publishers and subscriptions. Knows nothing of Pons.
+to measure (minus infinity), no return, 1.5 m. ``map`` says a map once and keeps it. ``body``
+drives a simulated body behind the twin's server, and says what it senses. ``bridge``
+speaks rosbridge's protocol for the topics that Pons uses, on true publishers and subscriptions.
+Knows nothing of Pons.
 """
 
 from __future__ import annotations
@@ -14,24 +16,27 @@ import math
 import sys
 import threading
 import time
-from typing import Any
+from typing import Any, ClassVar
 
 import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
-from nav_msgs.msg import Odometry
+from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
-from rclpy.qos import qos_profile_sensor_data
-from sensor_msgs.msg import LaserScan
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import String
 
 KINDS = {
     "geometry_msgs/msg/Twist": Twist,
     "geometry_msgs/msg/TwistStamped": TwistStamped,
     "nav_msgs/msg/Odometry": Odometry,
+    "nav_msgs/msg/OccupancyGrid": OccupancyGrid,
+    "sensor_msgs/msg/Imu": Imu,
     "sensor_msgs/msg/LaserScan": LaserScan,
     "std_msgs/msg/String": String,
 }
 PERIOD_S = 0.02
+KEPT = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Base(Node):
@@ -75,6 +80,94 @@ class Lidar(Node):
         scan.header.stamp = self.get_clock().now().to_msg()
         scan.ranges = [-math.inf, math.inf, 1.5]
         self.scans.publish(scan)
+        print("scan", flush=True)
+
+
+class Body(Node):
+    """Be the driver of a base whose wheels, lidar and gyro a simulator plays (sim.twin).
+
+    What moves it is cmd_vel alone, by the last twist; the simulator's own relay is its firmware.
+    """
+
+    SENSED: ClassVar = {"/odom": Odometry, "/scan": LaserScan, "/imu": Imu}
+
+    def __init__(self, port: int) -> None:
+        super().__init__("body")
+        self.v = self.w = 0.0
+        self.seq, self.ahead_s = 0, math.inf
+        self.port = port
+        self.says = {
+            topic: self.create_publisher(
+                kind, topic, qos_profile_sensor_data if topic == "/scan" else 10
+            )
+            for topic, kind in self.SENSED.items()
+        }
+        self.create_subscription(TwistStamped, "/cmd_vel", self.hear, 10)
+        threading.Thread(target=self.serve, daemon=True).start()
+
+    def hear(self, message: Any) -> None:
+        self.v, self.w = message.twist.linear.x, message.twist.angular.z
+
+    def serve(self) -> None:
+        from websockets.sync.client import connect
+
+        with connect(f"ws://127.0.0.1:{self.port}", compression=None, max_size=None) as socket:
+            for topic in ("/pons/state", *self.SENSED):
+                socket.send(json.dumps({"op": "subscribe", "topic": topic}))
+            for frame in socket:
+                said = json.loads(frame)
+                if said.get("topic") == "/pons/state":
+                    socket.send(self.command(json.loads(said["msg"]["data"])))
+                elif said.get("topic") in self.says:
+                    self.say(said["topic"], said["msg"])
+
+    def command(self, state: dict[str, Any]) -> str:
+        """Return what the simulator's firmware is to do; note how far our clock is ahead of it."""
+        self.ahead_s = min(self.ahead_s, self.get_clock().now().nanoseconds * 1e-9 - state["ros"])
+        self.seq += 1
+        words = {
+            "boot": "body", "seq": self.seq, "relay": state["relay"], "seen": state["t"],
+            "ttl": 0.5, "on": True, "v": self.v, "w": self.w,
+        }  # fmt: skip
+        message = {"data": json.dumps(words)}
+        return json.dumps({"op": "publish", "topic": "/pons/command", "msg": message})
+
+    def say(self, topic: str, raw: dict[str, Any]) -> None:
+        if math.isfinite(self.ahead_s):
+            message = self.SENSED[topic]()
+            fill(message, raw)
+            stamp = raw["header"]["stamp"]
+            stamp_s = stamp["sec"] + stamp["nanosec"] * 1e-9 + self.ahead_s
+            message.header.stamp.sec = int(stamp_s)
+            message.header.stamp.nanosec = int((stamp_s % 1.0) * 1e9)
+            self.says[topic].publish(message)
+
+
+def fill(message: Any, raw: dict[str, Any]) -> None:
+    """Put JSON into a message; null is no return."""
+    for name, value in raw.items():
+        if isinstance(value, dict):
+            fill(getattr(message, name), value)
+        elif isinstance(value, list):
+            setattr(message, name, [math.inf if one is None else float(one) for one in value])
+        elif name not in ("sec", "nanosec"):
+            setattr(message, name, value)
+
+
+class Map(Node):
+    """Say a map once, and keep it for those who come late: 60 by 40 cells with walls around."""
+
+    def __init__(self) -> None:
+        super().__init__("map_server")
+        grid = OccupancyGrid()
+        grid.header.frame_id = "map"
+        grid.info.resolution, grid.info.width, grid.info.height = 0.1, 60, 40
+        grid.info.origin.position.x, grid.info.origin.orientation.w = -3.0, 1.0
+        walls = [100 if x in (0, 59) or y in (0, 39) else 0 for y in range(40) for x in range(60)]
+        walls[20 * 60 + 55] = -1
+        grid.data = walls
+        self.maps = self.create_publisher(OccupancyGrid, "/map", KEPT)
+        self.maps.publish(grid)
 
 
 class Bridge(Node):
@@ -97,9 +190,12 @@ class Bridge(Node):
             self.destroy_publisher(self.said.pop(topic))
         elif operation == "subscribe" and topic not in self.heard:
             kind = KINDS[raw["type"]]
+            infos = self.get_publishers_info_by_topic(topic)
+            kept = any(one.qos_profile.durability == KEPT.durability for one in infos)
             self.heard[topic] = self.create_subscription(
-                kind, topic, lambda message: self.tell(topic, message), qos_profile_sensor_data
-            )
+                kind, topic, lambda message: self.tell(topic, message),
+                KEPT if kept else qos_profile_sensor_data,  # as rosbridge_suite does
+            )  # fmt: skip
         elif operation == "call_service":
             asked = raw["args"]["topic"]
             known = dict(self.get_topic_names_and_types())
@@ -158,6 +254,12 @@ def main(arguments: list[str]) -> None:
         return
     if arguments[0] == "lidar":
         rclpy.spin(Lidar())
+        return
+    if arguments[0] == "body":
+        rclpy.spin(Body(int(arguments[1])))
+        return
+    if arguments[0] == "map":
+        rclpy.spin(Map())
         return
     bridge = Bridge()
     threading.Thread(target=rclpy.spin, args=(bridge,), daemon=True).start()

@@ -11,11 +11,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ros2 import BaseLink
-from ros2.base_link import ASK_S, NOTHING, SILENT_S, YOUNG_S
+from ros2.base_link import ASK_S, YOUNG_S
 from ros2.graph import GraphCheck
+from ros2.operations import ServerWords
+from ros2.relay_watch import SILENT_S
+from ros2.transport import NOTHING_MADE
 from ros2.trouble import STARTING, Ros2Trouble
 from tests.ros2.frames import (
     TYPES,
+    as_operations,
     command,
     driven,
     graph_answer,
@@ -58,12 +62,12 @@ def test_nothing_is_advertised_or_subscribed_before_the_graph_has_answered() -> 
     link = BaseLink(robot(), "r")
     assert link.due(0.0) == [], "not connected"
     link.open(0.0)
-    asked = [json.loads(frame) for frame in link.due(0.0)]
+    asked = as_operations(link.due(0.0))
     assert {one["op"] for one in asked} == {"call_service"}
     assert {one["args"]["topic"] for one in asked} == set(TYPES)
     for topic, kind in TYPES.items():
         link.hear(graph_answer(topic, kind), 0.1)
-    sent = [json.loads(frame) for frame in link.due(0.1)]
+    sent = as_operations(link.due(0.1))
     assert [(one["op"], one["topic"]) for one in sent] == [
         ("advertise", "/pons/command"), ("subscribe", STATE), ("subscribe", "/odom"),
         ("subscribe", "/scan"), ("subscribe", "/imu"),
@@ -77,15 +81,16 @@ def test_the_graph_is_asked_while_something_is_missing_and_not_in_mid_drive() ->
     keep_saying(link, 10.01, 15.0)
     assert link.due(15.0) == []
     link.hear(on_topic(STATE, relay_state(15.0, 900, cmd_vel="")), 15.0)
-    asked = [json.loads(frame)["op"] for frame in link.due(15.01)]
+    asked = [one["op"] for one in as_operations(link.due(15.01))]
     assert asked == ["call_service"] * len(TYPES)
 
 
 def test_a_command_goes_to_the_relay_that_spoke_with_the_time_that_it_said() -> None:
     link = driven(10.0)
-    frame = json.loads(link.encode(command(5, left=1.0, right=2.0), 10.01) or "{}")
-    assert (frame["op"], frame["topic"]) == ("publish", "/pons/command")
-    said = json.loads(frame["msg"]["data"])
+    words = link.encode(command(5, left=1.0, right=2.0), 10.01)
+    assert words is not None
+    assert words.topic == "/pons/command"
+    said = json.loads(words.message["data"])
     assert (said["relay"], said["seen"], said["ttl"]) == ("relay-1", 17.0, 0.2)
     assert (said["boot"], said["seq"]) == ("boot1", 5)
     assert (said["v"], said["w"]) == (pytest.approx(0.15), pytest.approx(0.2))
@@ -147,14 +152,15 @@ def test_a_relay_that_falls_silent_takes_the_states_along() -> None:
 
 def test_while_the_relay_is_silent_zeros_go_straight_to_the_base() -> None:
     link = driven(10.0)
-    assert [f for f in link.due(10.0 + SILENT_S) if "cmd_vel" in f and "publish" in f] == []
-    sent = [json.loads(frame) for frame in link.due(10.1 + SILENT_S)]
+    asked = as_operations(link.due(10.0 + SILENT_S))
+    assert [one for one in asked if one["op"] == "publish"] == []
+    sent = as_operations(link.due(10.1 + SILENT_S))
     assert [(one["op"], one["topic"]) for one in sent] == [
         ("advertise", "/cmd_vel"), ("publish", "/cmd_vel"),
     ]  # fmt: skip
     assert sent[0]["type"] == TYPES["/cmd_vel"]
     link.hear(on_topic(STATE, relay_state(10.7, 2)), 10.7)
-    assert [json.loads(frame)["op"] for frame in link.due(10.7)] == ["unadvertise"]
+    assert [one["op"] for one in as_operations(link.due(10.7))] == ["unadvertise"]
 
 
 @pytest.mark.parametrize(
@@ -172,7 +178,7 @@ def test_a_message_that_cannot_be_used_is_named_and_makes_nothing(
     topic: str, message: dict[str, Any], code: str
 ) -> None:
     link = driven(10.0)
-    assert link.hear(on_topic(topic, message), 10.1) == NOTHING
+    assert link.hear(on_topic(topic, message), 10.1) == NOTHING_MADE
     assert link.unreadable == 1
     trouble = link.judge(10.11)
     assert trouble is not None
@@ -184,8 +190,8 @@ def test_odometry_that_jumps_or_a_relay_that_began_anew_is_a_drive_that_began_an
     (first,) = states(link, 10.0)
     (jumped,) = states(link, 10.02, x_m=3.0)
     assert jumped.boot_id != first.boot_id
-    link.hear(on_topic(STATE, relay_state(10.03, 1, relay="relay-2")), 10.03)
-    (anew,) = states(link, 10.04, x_m=3.0)
+    link.hear(on_topic(STATE, relay_state(10.6, 1, relay="relay-2")), 10.6)
+    (anew,) = states(link, 10.61, x_m=3.0)
     assert len({first.boot_id, jumped.boot_id, anew.boot_id}) == 3
     assert anew.seq > jumped.seq
 
@@ -219,7 +225,7 @@ def test_a_topic_that_says_nothing_is_named() -> None:
 
 def test_what_the_server_refuses_is_passed_on_for_a_while() -> None:
     link = driven(10.0)
-    link.hear(json.dumps({"op": "status", "level": "error", "msg": "no match found"}), 10.1)
+    link.hear(ServerWords("error", "no match found"), 10.1)
     trouble = link.judge(10.2)
     assert trouble is not None
     assert (trouble.code, "no match" in trouble.found) == ("ros2_server_refuses", True)
@@ -240,9 +246,9 @@ def test_a_connection_that_ends_ends_everything_until_the_graph_has_answered_ane
 
 def test_scan_and_gyro_are_left_out_where_robot_toml_names_none() -> None:
     link = opened(10.0, scan=None, imu=None)
-    topics = {json.loads(frame).get("topic") for frame in link.due(10.0)}
+    topics = {one.get("topic") for one in as_operations(link.due(10.0))}
     assert topics == {"/pons/command", STATE, "/odom"}
-    assert link.hear(on_topic("/scan", scan(10.0)), 10.0) == NOTHING
+    assert link.hear(on_topic("/scan", scan(10.0)), 10.0) == NOTHING_MADE
 
 
 def test_the_status_says_types_rates_and_counts() -> None:
@@ -278,8 +284,8 @@ def test_what_is_beyond_the_wire_is_refused_and_ends_nothing(
     link = driven(10.0)
     states(link, 10.0)
     heard = link.hear(on_topic(topic, message), 10.1)
-    assert heard == NOTHING or (heard.state is not None and heard.state.left_rad == 0.0)
-    assert link.unreadable == (heard == NOTHING)
+    assert heard == NOTHING_MADE or (heard.state is not None and heard.state.left_rad == 0.0)
+    assert link.unreadable == (heard == NOTHING_MADE)
 
 
 @pytest.mark.parametrize("angle_rad", [-1e9, -7.0, 7.0, 20.0, 1e9])
@@ -298,7 +304,7 @@ JSON = st.recursive(
 
 @given(st.sampled_from([*TYPES, "/other"]), st.dictionaries(st.text(max_size=8), JSON))
 def test_no_message_raises_whatever_it_holds(topic: str, message: dict[str, Any]) -> None:
-    assert driven(10.0).hear(on_topic(topic, message), 10.1) == NOTHING
+    assert driven(10.0).hear(on_topic(topic, message), 10.1) == NOTHING_MADE
 
 
 @given(

@@ -9,9 +9,9 @@ from collections.abc import Callable
 import pytest
 
 from pons.robot_processes import free_port
-from ros2 import BaseLink
-from ros2.base_link import LinkMessages
+from ros2 import BaseLink, LinkMessages
 from ros2.connection import SILENT_S, RosbridgeConnection
+from ros2.operations import AskType
 from sim.twin.rosbridge_server import RosbridgeServer
 from tests.ros2.frames import TYPES, robot
 
@@ -41,7 +41,7 @@ def test_without_a_server_nothing_is_sent_and_it_is_dialled_for_ever() -> None:
         serving = asyncio.create_task(made.serve())
         await until(lambda: code_of(link) == "ros2_no_server")
         assert not made.has_room()
-        assert not await made.send("{}")
+        assert not await made.send(AskType("/odom"))
         await made.drop_if_silent(1e9)
         assert not serving.done()
         serving.cancel()

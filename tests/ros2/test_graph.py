@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros2.graph import ANSWER_S, GraphCheck
-from ros2.rosbridge import NoAnswer, TopicType
+from ros2.operations import NoAnswer, TopicType
 from ros2.trouble import CODES, STARTING
 from tests.ros2.frames import TYPES, robot
 from wire.ros2_config import Ros2Config

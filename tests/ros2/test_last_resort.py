@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
 from ros2.graph import TWIST, TWIST_STAMPED
 from ros2.last_resort import EVERY_S, LastResort
+from tests.ros2.frames import as_operations
 
 STILL = {"x": 0.0, "y": 0.0, "z": 0.0}
 
 
 def sent(resort: LastResort, now_s: float, *, silent: bool, kind: str = TWIST) -> list[str]:
-    frames = [json.loads(frame) for frame in resort.due(kind, now_s, silent=silent)]
+    frames = as_operations(resort.due(kind, now_s, silent=silent))
     assert {frame["topic"] for frame in frames} <= {"/cmd_vel"}
     return [frame["op"] for frame in frames]
 
@@ -38,7 +37,7 @@ def test_without_a_type_nobody_can_be_told_and_a_new_connection_is_told_anew() -
 
 @pytest.mark.parametrize("kind", [TWIST, "geometry_msgs/TwistStamped", TWIST_STAMPED])
 def test_all_that_goes_this_way_is_zero(kind: str) -> None:
-    said = json.loads(LastResort("/cmd_vel").due(kind, 1.0, silent=True)[1])["msg"]
+    said = as_operations(LastResort("/cmd_vel").due(kind, 1.0, silent=True))[1]["msg"]
     assert said.get("twist", said) == {"linear": STILL, "angular": STILL}
     assert ("header" in said) == (kind != TWIST)
     assert "stamp" not in said.get("header", {})

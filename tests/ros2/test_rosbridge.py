@@ -9,29 +9,42 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ros2 import rosbridge
-from ros2.rosbridge import NoAnswer, ServerWords, TopicMessage, TopicType
+from ros2.operations import (
+    Advertise,
+    Answer,
+    AskType,
+    NoAnswer,
+    Publish,
+    ServerWords,
+    Subscribe,
+    TopicMessage,
+    TopicType,
+    Unadvertise,
+    plain_type,
+)
 
 
 def test_what_is_sent_has_the_members_that_the_protocol_names() -> None:
-    assert json.loads(rosbridge.advertise("/a", "p/msg/T")) == {
+    assert json.loads(rosbridge.write(Advertise("/a", "p/msg/T"))) == {
         "op": "advertise", "topic": "/a", "type": "p/msg/T"
     }  # fmt: skip
-    assert json.loads(rosbridge.publish("/a", {"x": 1})) == {
+    assert json.loads(rosbridge.write(Publish("/a", {"x": 1}))) == {
         "op": "publish", "topic": "/a", "msg": {"x": 1}
     }  # fmt: skip
-    assert json.loads(rosbridge.subscribe("/a", "p/msg/T", 10)) == {
+    assert json.loads(rosbridge.write(Subscribe("/a", "p/msg/T", 10))) == {
         "op": "subscribe", "topic": "/a", "type": "p/msg/T", "throttle_rate": 10,
         "queue_length": 1,
     }  # fmt: skip
-    assert json.loads(rosbridge.ask_type("/a")) == {
+    assert json.loads(rosbridge.write(AskType("/a"))) == {
         "op": "call_service", "id": "type:/a", "service": "/rosapi/topic_type",
         "args": {"topic": "/a"},
     }  # fmt: skip
+    assert json.loads(rosbridge.write(Unadvertise("/a"))) == {"op": "unadvertise", "topic": "/a"}
 
 
 def test_a_number_that_json_lacks_is_not_sent() -> None:
     with pytest.raises(ValueError, match="JSON compliant"):
-        rosbridge.publish("/a", {"x": float("nan")})
+        rosbridge.write(Publish("/a", {"x": float("nan")}))
 
 
 @pytest.mark.parametrize(
@@ -57,7 +70,7 @@ def test_a_number_that_json_lacks_is_not_sent() -> None:
         (7, None),
     ],
 )  # fmt: skip
-def test_what_comes_is_read_or_is_nothing(frame: object, expected: rosbridge.Operation) -> None:
+def test_what_comes_is_read_or_is_nothing(frame: object, expected: Answer | None) -> None:
     assert rosbridge.read(json.dumps(frame)) == expected
 
 
@@ -71,4 +84,4 @@ def test_a_deep_nest_is_nothing() -> None:
 
 
 def test_types_are_compared_with_and_without_msg() -> None:
-    assert rosbridge.plain_type("p/msg/T") == rosbridge.plain_type("p/T") == "p/T"
+    assert plain_type("p/msg/T") == plain_type("p/T") == "p/T"

@@ -1,4 +1,4 @@
-"""Against true ROS 2 nodes: our relay beside a base that has no dead-man, over DDS.
+"""Against true ROS 2 nodes: our relay beside a base that has no dead-man, by rosbridge and by DDS.
 
 Run where a Python with rclpy, nav_msgs and websockets is named by PONS_ROS2_PYTHON, or is the
 system's own; skipped aloud elsewhere. docs/ros2.md says how to make one.
@@ -6,6 +6,7 @@ system's own; skipped aloud elsewhere. docs/ros2.md says how to make one.
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 import subprocess
@@ -18,12 +19,20 @@ from pathlib import Path
 
 import pytest
 
+from maps import OCCUPIED, UNKNOWN, load_map
+from pons import site
 from pons.robot_processes import free_port
+from pons.settings import LaunchSettings
 from tests.ros2.test_process import ROBOT, Bridge
 from wire import Scan, keys
 
 NEEDS = "import rclpy, nav_msgs, websockets"
 LIMIT_S = 20.0
+HAS_DDS = importlib.util.find_spec("cyclonedds") is not None
+BY_DDS = pytest.param(
+    "dds", marks=pytest.mark.skipif(not HAS_DDS, reason="cyclonedds is not installed (extra dds)")
+)
+by_each = pytest.mark.parametrize("way", ["rosbridge", BY_DDS])
 TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 
 
@@ -52,7 +61,8 @@ class Graph:
 
     def __init__(self, home: Path, root: Path) -> None:
         self.home, self.root, self.port = home, root, free_port()
-        self.environment = dict(os.environ, ROS_DOMAIN_ID=str(20 + self.port % 80))
+        self.domain, self.way = 20 + self.port % 80, "rosbridge"
+        self.environment = dict(os.environ, ROS_DOMAIN_ID=str(self.domain))
         self.processes: list[subprocess.Popen[str]] = []
         self.twists: list[dict[str, float]] = []
 
@@ -67,6 +77,12 @@ class Graph:
         process = self.start(PYTHON, "tests/ros2/ros_graph.py", "base", kind)
         threading.Thread(target=self._read, args=(process,), daemon=True).start()
 
+    def reach(self, way: str) -> None:
+        """Start what the way needs on the robot: DDS needs nothing."""
+        self.way = way
+        if way == "rosbridge":
+            self.bridge()
+
     def bridge(self) -> None:
         server = self.start(PYTHON, "tests/ros2/ros_graph.py", "bridge", str(self.port))
         assert server.stdout is not None
@@ -77,13 +93,20 @@ class Graph:
         return self.start(PYTHON, "examples/ros2_relay/relay.py", *given)
 
     def process(self, scan: str = "") -> subprocess.Popen[str]:
+        words = ("--robot", str(self.describe(scan)), "--home", str(self.home))
+        return self.start(sys.executable, "-m", "ros2", *words)
+
+    def describe(self, scan: str = "") -> Path:
+        """Write the robot.toml that reaches this graph."""
         path = self.home / "robot.toml"
         text = ROBOT.format(port=self.port)
+        if self.way == "dds":
+            dds = f'transport = "dds"\ndomain = {self.domain}\ninterface = "lo"'
+            text = text.replace(f'url = "ws://127.0.0.1:{self.port}"', dds)
         if scan:
             text = text.replace("[inputs]", f'scan = "{scan}"\n[lidar]\nkind = "ros2"\n[inputs]')
         path.write_text(text)
-        words = ("--robot", str(path), "--home", str(self.home))
-        return self.start(sys.executable, "-m", "ros2", *words)
+        return path
 
     def close(self) -> None:
         for process in self.processes:
@@ -116,11 +139,12 @@ def is_fast(graph: Graph) -> Callable[[], bool]:
     return lambda: bool(graph.twists) and graph.twists[-1]["v"] > 0.05
 
 
+@by_each
 @pytest.mark.parametrize("kind", [TWIST, STAMPED])
 def test_a_base_of_either_twist_is_driven_and_stands_when_the_process_is_killed(
-    graph: Graph, bridge: Bridge, kind: str
+    graph: Graph, bridge: Bridge, kind: str, way: str
 ) -> None:
-    graph.bridge()
+    graph.reach(way)
     graph.base(kind)
     process = graph.process()
     bridge.until(lambda: bridge.code() == "ros2_no_relay")
@@ -139,14 +163,18 @@ def test_a_base_of_either_twist_is_driven_and_stands_when_the_process_is_killed(
     assert all(one["v"] == 0.0 for one in graph.twists[stood:])
 
 
+@pytest.mark.parametrize(
+    ("way", "topic"),
+    [("rosbridge", "/pons/scan"), pytest.param("dds", "/scan", marks=BY_DDS.marks)],
+)
 def test_what_is_too_near_for_a_lidar_is_near_and_no_free_floor(
-    graph: Graph, bridge: Bridge
+    graph: Graph, bridge: Bridge, way: str, topic: str
 ) -> None:
-    graph.bridge()
+    graph.reach(way)
     graph.base(STAMPED)
     graph.start(PYTHON, "tests/ros2/ros_graph.py", "lidar")
     graph.relay()
-    graph.process(scan="/pons/scan")
+    graph.process(scan=topic)
     scans = bridge.session.subscriber(keys.SCAN)
     heard: list[Scan] = []
 
@@ -159,10 +187,11 @@ def test_what_is_too_near_for_a_lidar_is_near_and_no_free_floor(
     assert heard[0].ranges_m == (0.0, None, 1.5)
 
 
+@by_each
 def test_a_relay_that_is_ended_in_mid_drive_leaves_zeros_behind(
-    graph: Graph, bridge: Bridge
+    graph: Graph, bridge: Bridge, way: str
 ) -> None:
-    graph.bridge()
+    graph.reach(way)
     graph.base(STAMPED)
     graph.process()
     relay = graph.relay()
@@ -173,10 +202,11 @@ def test_a_relay_that_is_ended_in_mid_drive_leaves_zeros_behind(
     bridge.until(lambda: bridge.code() == "ros2_relay_silent")
 
 
+@by_each
 def test_a_base_without_a_dead_man_stands_when_its_relay_is_killed_in_mid_drive(
-    graph: Graph, bridge: Bridge
+    graph: Graph, bridge: Bridge, way: str
 ) -> None:
-    graph.bridge()
+    graph.reach(way)
     graph.base(STAMPED)
     graph.process()
     relay = graph.relay()
@@ -186,8 +216,11 @@ def test_a_base_without_a_dead_man_stands_when_its_relay_is_killed_in_mid_drive(
     bridge.until(lambda: bridge.code() == "ros2_relay_silent")
 
 
-def test_a_relay_that_is_not_alone_on_cmd_vel_is_not_driven(graph: Graph, bridge: Bridge) -> None:
-    graph.bridge()
+@by_each
+def test_a_relay_that_is_not_alone_on_cmd_vel_is_not_driven(
+    graph: Graph, bridge: Bridge, way: str
+) -> None:
+    graph.reach(way)
     graph.base(TWIST)
     graph.process()
     graph.relay()
@@ -202,3 +235,22 @@ def test_a_relay_that_is_not_alone_on_cmd_vel_is_not_driven(graph: Graph, bridge
     bridge.until(lambda: graph.twists[-1]["v"] == 0.0)
     other.terminate()  # a killed one stays in the graph for 20 s, the lease of Fast DDS
     bridge.until(is_fast(graph))
+
+
+@by_each
+def test_a_map_that_was_said_before_becomes_a_site(
+    graph: Graph, tmp_path: Path, way: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    graph.reach(way)
+    graph.start(PYTHON, "tests/ros2/ros_graph.py", "map")
+    robot = graph.describe()
+    settings = LaunchSettings(tmp_path, robot, tmp_path, "127.0.0.1", 1)
+    assert site.run(settings, ["import", "ros2:/map", "mapped"]) == 0, capsys.readouterr().err
+    made = load_map(tmp_path / "sites" / "mapped" / "map.yaml").grid
+    assert (made.width, made.height, made.resolution_m) == (60, 40, 0.1)
+    assert made.cells.count(bytes([OCCUPIED])) == 2 * 60 + 2 * 38
+    assert made.cells.count(bytes([UNKNOWN])) == 1
+    assert site.run(settings, ["import", "ros2:/odom", "other"]) == 3
+    refused = capsys.readouterr().err
+    assert "ros2_topic_missing" in refused
+    assert "请启动发布它的节点" in refused

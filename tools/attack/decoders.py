@@ -222,7 +222,7 @@ def _yaml(folder: Path) -> Reader:
 
 def _rosbridge(_folder: Path) -> Reader:
     """Hear a server's frame on a base that is driven; what comes of it the wire must carry."""
-    from ros2 import BaseLink
+    from ros2 import BaseLink, rosbridge
     from ros2.graph import needs_of
     from wire import decode, encode, keys, load_robot
 
@@ -238,8 +238,8 @@ def _rosbridge(_folder: Path) -> Reader:
         link = BaseLink(robot, "attacked")
         link.open(1.0)
         for frame in heard_before:
-            link.hear(frame, 1.0)
-        heard = link.hear(data, 1.01)
+            link.hear(rosbridge.read(frame), 1.0)
+        heard = link.hear(rosbridge.read(data), 1.01)
         link.judge(1.02)
         for made, again in (
             (heard.state, partial(decode, keys.DRIVE_STATE)),

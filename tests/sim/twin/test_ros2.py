@@ -9,6 +9,7 @@ import pytest
 from ros2.messages import read_imu, read_odometry, read_scan
 from ros2.relay import RelayCommand, decode_state, encode_command
 from sim.twin.ros2 import EPOCH_S, Ros2Twin
+from sim.twin.rosbridge_server import RosbridgeServer
 from tests.ros2.frames import robot
 from wire import ConfigError, DriveCommand, DriveState, Imu, RobotDescription, Scan
 
@@ -44,9 +45,14 @@ def order(twin: Published, seq: int, now_s: float) -> str:
     return str(encode_command(words)["data"])
 
 
+def say(twin: Published, text: str) -> None:
+    assert isinstance(twin.server, RosbridgeServer)
+    twin.server._heard.append(("/pons/command", {"data": text}))
+
+
 def test_a_twist_turns_the_wheels_until_its_end(twin: Published) -> None:
     assert not twin.command(10.0).enable
-    twin.server._heard.append(("/pons/command", {"data": order(twin, 1, 10.0)}))
+    say(twin, order(twin, 1, 10.0))
     command = twin.command(10.01)
     assert command.enable
     assert command.left_radps == pytest.approx((0.3 - 0.4 * 0.25) / 0.1)
@@ -56,7 +62,7 @@ def test_a_twist_turns_the_wheels_until_its_end(twin: Published) -> None:
 
 
 def test_what_came_while_it_was_frozen_counts_for_nothing(twin: Published) -> None:
-    twin.server._heard.append(("/pons/command", {"data": order(twin, 1, 10.0)}))
+    say(twin, order(twin, 1, 10.0))
     twin.discard()
     assert not twin.command(10.01).enable
 

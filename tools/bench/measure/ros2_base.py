@@ -1,9 +1,9 @@
 """Measure the way to a ROS 2 base: commands delivered, what it adds, what a killed process costs.
 
-The process under test is the shipped one. Line: a rosbridge server and relay of the twin in this
-process note when each command is obeyed; beside it, the same commands as the simulator would get
-them. Kills: SIGKILL in mid-drive at 0.3 m/s; the relay's end is when its twist is zero, the body's
-is when the simulated robot stands.
+The process under test is the shipped one. Line: a rosbridge server, or zenoh's router, with the
+twin's relay in this process notes when each command is obeyed; beside it, the same commands as the
+simulator would get them. Kills: SIGKILL in mid-drive at 0.3 m/s; the relay's end is when its twist
+is zero, the body's is when the simulated robot stands.
 """
 
 from __future__ import annotations
@@ -35,7 +35,11 @@ if TYPE_CHECKING:
 NAME = "ros2"
 TITLE = "ROS 2 base: commands delivered, what the way adds, kills of the process in mid-drive"
 LONG_ONLY = True
-ROBOT = CHECKOUT / "robots" / "ros2_diff_drive.toml"
+ROBOTS = {
+    "rosbridge": CHECKOUT / "robots" / "ros2_diff_drive.toml",
+    "zenoh": CHECKOUT / "robots" / "ros2_zenoh.toml",
+}
+"""By transport; ``ros2_true`` measures DDS, whose peers are true nodes."""
 SITE = CHECKOUT / "sites" / "home"
 COMMANDS, KILLS = 1_000, 20
 TICK_S = 0.01
@@ -46,28 +50,39 @@ START_S = 20.0
 
 def measure(lab: BenchLab) -> list[ReportRow]:
     """Measure the line, then kill the process behind a relay alone, then behind a body."""
-    runs = list(lab.slices("line", lab.count(1, 3), lambda _: _line(lab)))
-    timeout_s = load_robot(ROBOT).drive.timeout_s
-    relays = {fault: _zeros_ms(lab, fault) for fault in ("killed", "frozen", "cut")}
+    rows = [row for way in ROBOTS for row in _measure_way(lab, way)]
     bodies = list(lab.slices("body", lab.count(3, KILLS), lambda _: _kill_before_body(lab)))
-    within = f"<= {1000 * timeout_s + 50:.0f}"
-    delivered = ", ".join(f"{run['delivered']} of {run['sent']}" for run in runs)
     return [
-        ReportRow("commands that the relay obeyed", "", "all", value=delivered),
-        row_of("bridge to relay", "ms", "", _join_samples(runs, "ros2_ms")),
-        row_of("bridge to the simulator's drive", "ms", "", _join_samples(runs, "wire_ms")),
-        row_of(
-            "bridge to relay and back, as states say", "ms", "< 100", _join_samples(runs, "echo_ms")
-        ),
-        *(row_of(f"{fault}: relay at zero", "ms", within, ms) for fault, ms in relays.items()),
-        row_of("killed: body stands", "ms", "", [run["stands_ms"] for run in bodies]),
-        row_of("killed: path", "m", "", [run["path_m"] for run in bodies]),
+        *rows,
+        row_of("rosbridge, killed: body stands", "ms", "", [run["stands_ms"] for run in bodies]),
+        row_of("rosbridge, killed: path", "m", "", [run["path_m"] for run in bodies]),
     ]
 
 
-def _zeros_ms(lab: BenchLab, fault: str) -> list[float]:
-    take = partial(_break_before_relay, lab, fault)
-    runs = lab.slices(fault, lab.count(3, KILLS), lambda _: take())
+def _measure_way(lab: BenchLab, way: str) -> list[ReportRow]:
+    take_line = partial(_line, lab, way)
+    runs = list(lab.slices(f"line.{way}", lab.count(1, 3), lambda _: take_line()))
+    within = f"<= {1000 * load_robot(ROBOTS[way]).drive.timeout_s + 50:.0f}"
+    relays = {fault: _zeros_ms(lab, way, fault) for fault in ("killed", "frozen", "cut")}
+    delivered = ", ".join(f"{run['delivered']} of {run['sent']}" for run in runs)
+    to_relay, to_drive, back = (
+        _join_samples(runs, name) for name in ("ros2_ms", "wire_ms", "echo_ms")
+    )
+    return [
+        ReportRow(f"{way}: commands that the relay obeyed", "", "all", value=delivered),
+        row_of(f"{way}: bridge to relay", "ms", "", to_relay),
+        row_of(f"{way}: bridge to the simulator's drive", "ms", "", to_drive),
+        row_of(f"{way}: bridge to relay and back, as states say", "ms", "< 100", back),
+        *(
+            row_of(f"{way}, {fault}: relay at zero", "ms", within, ms)
+            for fault, ms in relays.items()
+        ),
+    ]
+
+
+def _zeros_ms(lab: BenchLab, way: str, fault: str) -> list[float]:
+    take = partial(_break_before_relay, lab, way, fault)
+    runs = lab.slices(f"{fault}.{way}", lab.count(3, KILLS), lambda _: take())
     return [run["zero_ms"] for run in runs]
 
 
@@ -78,9 +93,9 @@ def _join_samples(runs: list[dict[str, Any]], name: str) -> list[float]:
 class _RelayWatch(threading.Thread):
     """Run the twin's server and relay without a body, and note when each command counts."""
 
-    def __init__(self, port: int) -> None:
+    def __init__(self, port: int, way: str) -> None:
         super().__init__(daemon=True)
-        self.twin = Ros2Twin(load_robot(ROBOT), port)
+        self.twin = Ros2Twin(load_robot(ROBOTS[way]), port)
         self.obeyed_s: dict[int, float] = {}
         self.zeros_s: list[float] = []
         """When the twist fell to zero."""
@@ -122,7 +137,7 @@ def _make_resting_state(now_s: float) -> DriveState:
     )  # fmt: skip
 
 
-class _Commander:
+class Commander:
     """Say commands as the bridge does, at 100 Hz, and hear the states."""
 
     def __init__(self, home: Path) -> None:
@@ -159,8 +174,8 @@ class _Commander:
 
 
 @contextmanager
-def _process(home: Path, *words: str) -> Iterator[subprocess.Popen[bytes]]:
-    common = ("--home", str(home), "--robot", str(ROBOT), "--site", str(SITE))
+def _process(home: Path, way: str, *words: str) -> Iterator[subprocess.Popen[bytes]]:
+    common = ("--home", str(home), "--robot", str(ROBOTS[way]), "--site", str(SITE))
     with (home / f"{words[0]}.log").open("ab") as log:
         process = subprocess.Popen(
             child_command(words[0], *common, *words[1:]), cwd=CHECKOUT, stdout=log, stderr=log
@@ -172,18 +187,18 @@ def _process(home: Path, *words: str) -> Iterator[subprocess.Popen[bytes]]:
         process.wait()
 
 
-def _line(lab: BenchLab) -> dict[str, Any]:
+def _line(lab: BenchLab, way: str) -> dict[str, Any]:
     """Send a thousand commands; note when relay and simulator would have them."""
     port = free_port()
     with lab.folder() as home, ExitStack() as stack:
-        watch = _RelayWatch(port)
+        watch = _RelayWatch(port, way)
         watch.start()
         stack.callback(watch.end)
-        stack.enter_context(_process(home, "ros2", "--url", f"ws://127.0.0.1:{port}"))
+        stack.enter_context(_process(home, way, "ros2", "--port", str(port)))
         robot = open_session(Party.ROBOT, "r1", home)
         stack.callback(robot.close)
         heard = robot.subscriber(keys.DRIVE_COMMAND)
-        commander = _Commander(home)
+        commander = Commander(home)
         stack.callback(commander.session.close)
         commander.until_obeyed()
         commander.echo_ms.clear()
@@ -214,15 +229,15 @@ def _line(lab: BenchLab) -> dict[str, Any]:
     }
 
 
-def _break_before_relay(lab: BenchLab, fault: str) -> dict[str, float]:
+def _break_before_relay(lab: BenchLab, way: str, fault: str) -> dict[str, float]:
     """Kill or freeze the process, or cut its connection, in mid-drive."""
     port = free_port()
     with lab.folder() as home, ExitStack() as stack:
-        watch = _RelayWatch(port)
+        watch = _RelayWatch(port, way)
         watch.start()
         stack.callback(watch.end)
-        process = stack.enter_context(_process(home, "ros2", "--url", f"ws://127.0.0.1:{port}"))
-        commander = _Commander(home)
+        process = stack.enter_context(_process(home, way, "ros2", "--port", str(port)))
+        commander = Commander(home)
         stack.callback(commander.session.close)
         commander.until_obeyed()
         for _ in range(100):
@@ -242,9 +257,9 @@ def _break_before_relay(lab: BenchLab, fault: str) -> dict[str, float]:
 def _kill_before_body(lab: BenchLab) -> dict[str, float]:
     port = free_port()
     with lab.folder() as home, ExitStack() as stack:
-        stack.enter_context(_process(home, "sim", "--ros2-twin", str(port)))
-        process = stack.enter_context(_process(home, "ros2", "--url", f"ws://127.0.0.1:{port}"))
-        commander = _Commander(home)
+        stack.enter_context(_process(home, "rosbridge", "sim", "--ros2-twin", str(port)))
+        process = stack.enter_context(_process(home, "rosbridge", "ros2", "--port", str(port)))
+        commander = Commander(home)
         stack.callback(commander.session.close)
         judge = open_session(Party.JUDGE, "r1", home)
         stack.callback(judge.close)

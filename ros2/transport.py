@@ -1,0 +1,78 @@
+"""Say what each way to a ROS 2 robot must do, and open the one that robot.toml names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ros2.operations import Answer, Request
+    from ros2.trouble import Ros2Trouble
+    from wire import DriveState, Imu, Scan
+    from wire.ros2_config import Ros2Config
+
+MOST_BYTES = 1 << 20
+"""A scan of 4 000 beams has 80 kB as JSON; a server that sends more sends something else."""
+
+
+@dataclass(frozen=True, slots=True)
+class LinkMessages:
+    """Hold the messages of the wire that one answer makes; None for each that it does not."""
+
+    state: DriveState | None = None
+    scan: Scan | None = None
+    imu: Imu | None = None
+
+
+NOTHING_MADE = LinkMessages()
+
+
+class GraphListener(Protocol):
+    """Hear what a transport does: a base's link, or whoever asks for one topic."""
+
+    def open(self, now_s: float) -> None:
+        """Begin anew on a connection that was just made."""
+
+    def close(self, trouble: Ros2Trouble) -> None:
+        """Note that there is no connection now, and why."""
+
+    def hear(self, said: Answer | None, now_s: float) -> LinkMessages:
+        """Take one answer; return what it makes."""
+
+
+class Transport(Protocol):
+    """Carry requests to a ROS 2 graph, and its answers back. Waits for nobody."""
+
+    async def serve(self) -> None:
+        """Reach the graph and hear it for as long as the process lives."""
+
+    def has_room(self) -> bool:
+        """Return whether what is sent now leaves now."""
+
+    async def send(self, request: Request) -> bool:
+        """Carry out a request; False where there is no connection."""
+
+    async def drop_if_silent(self, now_s: float) -> None:
+        """End a connection at whose other end nobody is left."""
+
+
+def open_transport(
+    ros2: Ros2Config,
+    listener: GraphListener,
+    publish: Callable[[LinkMessages], None],
+    most_bytes: int = MOST_BYTES,
+) -> Transport:
+    """Return the transport that ``ros2.transport`` names; it dials when it is served."""
+    if ros2.transport == "dds":
+        from ros2.dds import DdsTransport
+
+        return DdsTransport(ros2, listener, publish)
+    if ros2.transport == "zenoh":
+        from ros2.rmw_zenoh import ZenohTransport
+
+        return ZenohTransport(ros2, listener, publish)
+    from ros2.connection import RosbridgeConnection
+
+    return RosbridgeConnection(ros2.peer, listener, publish, most_bytes)
