@@ -17,6 +17,7 @@ from wire.base import Record
 from wire.drive_config import DriveConfig
 from wire.errors import ConfigError
 from wire.fingerprint import fingerprint
+from wire.imu_config import ImuConfig
 from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
@@ -152,6 +153,7 @@ class RobotDescription(Record):
     drive: DriveConfig = DriveConfig()
     lidar: LidarConfig = LidarConfig()
     camera: CameraConfig = CameraConfig()
+    imu: ImuConfig = ImuConfig()
     realtime: RealTime = RealTime()
     inputs: Inputs = Inputs()
     recording: Recording = Recording()
@@ -197,7 +199,7 @@ class RobotDescription(Record):
     def valid_trial(self) -> TrialRecord | None:
         """Return the trial; None where there was none, or one of another wiring."""
         trial = self.trial
-        if trial is None or trial.wiring != wiring_of(self.drive, self.lidar):
+        if trial is None or trial.wiring != wiring_of(self):
             return None
         return trial
 

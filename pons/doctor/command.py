@@ -77,6 +77,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         described,
         run_check("drive", lambda: drive_checks.drive(robot)),
         run_check("trial", lambda: drive_checks.trial(robot)),
+        run_check("gyro", lambda: drive_checks.gyro(robot)),
         run_check("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
         run_check("ros2", lambda: ros2_checks.ros2(settings.home, robot)),
         sited,
