@@ -56,7 +56,7 @@ class SimNode:
         self._imu = session.publisher(keys.IMU)
         self._scan = session.publisher(keys.SCAN)
         self._truth = session.publisher(keys.SIM_TRUTH)
-        draws = robot.robot.camera.kind == "sim"
+        draws = robot.robot.camera.kind == "sim" or robot.robot.camera.is_real
         self._scene = session.publisher(keys.SIM_SCENE) if draws else None
         self._ticks = 0
         self._distrust = 0

@@ -8,12 +8,13 @@ a value that somebody wrote wrongly.
 from __future__ import annotations
 
 import tomllib
-from math import hypot, pi
+from math import hypot
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from wire.base import Record
+from wire.camera_config import CameraConfig
 from wire.drive_config import DriveConfig
 from wire.errors import ConfigError
 from wire.fingerprint import fingerprint
@@ -65,39 +66,6 @@ class Limits(Record):
     def _hardest_is_hardest(self) -> Limits:
         if not self.hardest_decel_mps2 >= self.max_decel_mps2:
             raise ValueError("hardest_decel_mps2 must not be below max_decel_mps2")
-        return self
-
-
-class CameraConfig(Record):
-    """Place the camera on the robot and state its picture.
-
-    REP-103: x forward, y left, z up from the floor under ``base``; a positive pitch looks down.
-    """
-
-    kind: Literal["sim", "node", "none"] = "sim"
-    """``sim``: the simulator draws; ``node``: a process of its own speaks for a real camera;
-    ``none``: there is none, and what needs one is refused."""
-    x_m: float = Field(default=0.15, ge=-2.0, le=2.0)
-    y_m: float = Field(default=0.0, ge=-2.0, le=2.0)
-    z_m: float = Field(default=1.0, ge=0.02, le=3.0)
-    yaw_rad: float = Field(default=0.0, ge=-pi, le=pi)
-    pitch_rad: float = Field(default=0.2, ge=-1.4, le=1.4)
-    width_px: int = Field(default=320, ge=32, le=4096)
-    height_px: int = Field(default=240, ge=32, le=4096)
-    fov_rad: float = Field(default=1.2, ge=0.2, le=2.6)
-    """Horizontally. A real camera's own header counts; the simulated one is built after this."""
-    rate_hz: float = Field(default=10.0, ge=0.5, le=60.0)
-    depth_min_m: float = Field(default=0.2, ge=0.0, le=2.0)
-    """Depth outside these is no measurement."""
-    depth_max_m: float = Field(default=8.0, ge=0.5, le=100.0)
-
-    @model_validator(mode="after")
-    def _depth_has_a_range(self) -> CameraConfig:
-        if not self.depth_min_m < self.depth_max_m:
-            raise ValueError(
-                f"camera.depth_min_m {self.depth_min_m} must be less than depth_max_m "
-                f"{self.depth_max_m}"
-            )
         return self
 
 
