@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 MOST_BYTES = 16_000
 """Ours has 3 000. A parser is busy for seconds with 64 kB of one dotted key."""
+MOST_SKID = 2.5
+"""Track that counts over distance of the wheels; four wheels on carpet come to 2."""
 HIDDEN_BEYOND_M = OBSTACLE_MARGIN_M
 """What comes so near the robot's disc stops it."""
 RobotId = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,31}$")]
@@ -41,6 +43,9 @@ class Base(Record):
 
     wheel_radius_m: float = Field(default=0.1, ge=0.01, le=1.0)
     wheel_separation_m: float = Field(default=0.5, ge=0.05, le=3.0)
+    wheels_apart_m: float | None = Field(default=None, ge=0.05, le=3.0)
+    """Of a base that skids in turns (four wheels and more, tracks): how far apart they stand;
+    ``wheel_separation_m`` is then the track that counts, which `pons calibrate --track` finds."""
     radius_m: float = Field(default=0.30, ge=0.05, le=3.0)
     """The disc that holds the whole robot, centred on ``base``."""
 
@@ -174,8 +179,14 @@ class RobotDescription(Record):
 
 def _misfits(base: Base, lidar: LidarConfig) -> Iterator[str]:
     """Yield the parts that reach out of the disc that is kept clear of obstacles [m]."""
-    half_m, offset_m = base.wheel_separation_m / 2, hypot(lidar.x_m, lidar.y_m)
+    apart_m = base.wheels_apart_m or base.wheel_separation_m
+    half_m, offset_m = apart_m / 2, hypot(lidar.x_m, lidar.y_m)
     stops_m = base.radius_m + HIDDEN_BEYOND_M
+    if not apart_m <= base.wheel_separation_m <= MOST_SKID * apart_m:
+        yield (
+            f"base.wheel_separation_m {base.wheel_separation_m} must be 1 to {MOST_SKID:g} times "
+            f"wheels_apart_m {apart_m}: wheels that skid turn the robot less, never more"
+        )
     if not base.radius_m >= half_m:
         yield (
             f"base.radius_m {base.radius_m} must be at least {half_m:g}, half of "
