@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
     from bridge.core.decision import Decision
     from bridge.core.inbox import FenceDone
-    from wire import OpKind
+    from wire import Imu, OpKind
     from wire.keys import Key
     from wire.session import Session, Subscriber
 
@@ -92,10 +92,14 @@ class BridgeLink:
         real_time: bool,
         recorder_ok: bool,
         chance: str,
+        imu: Imu | None = None,
         fence_done: FenceDone | None = None,
         recorder_says: str = "",
     ) -> Inbox:
-        """Drain one tick's arrivals into an inbox, stops first."""
+        """Drain one tick's arrivals into an inbox, stops first.
+
+        ``imu`` is what the drive's own gyro said; where it has none, the key's newest counts.
+        """
         took = _TickDrain()
         stops = self._stops(took)
         ops = self._operator(took)
@@ -111,7 +115,7 @@ class BridgeLink:
             waypoints=took.take_all(WAYPOINTS, self._waypoints),
             drive=took.sort_out(DRIVE_STATE, drive),
             scan=took.take_newest(SCAN, self._scan),
-            imu=took.take_newest(IMU, self._imu),
+            imu=imu or took.take_newest(IMU, self._imu),
             estop_link=took.take_newest(ESTOP_LINK, self._estop_link),
             fences=self._fences(took),
             fence_done=fence_done,

@@ -104,6 +104,7 @@ class BridgeNode:
         return parts.link.drain(
             parts.drive.read(),
             facts,
+            imu=parts.drive.take_imu(),
             fence_done=parts.desk.take(),
             real_time=self._real_time,
             recorder_ok=not unrecorded,

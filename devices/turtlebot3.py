@@ -12,6 +12,7 @@ from struct import Struct
 from typing import Final
 
 from devices.dynamixel import PING, READ, STATUS, WRITE, DynamixelReader, encode_frame
+from devices.inertial import InertialReading
 from devices.port_probe import PortAnswer, PortProbe
 
 BAUD: Final = 1_000_000
@@ -37,6 +38,9 @@ _MILLIS: Final = Struct("<I")
 _WHEELS: Final = Struct("<iiii")
 _TWIST: Final = Struct("<iiiiii")
 _BATTERY: Final = Struct("<iI")
+_INERTIAL: Final = Struct("<ffffff")
+"""Gyro [rad/s] and accelerometer [m/s2]."""
+_AT_INERTIAL: Final = 60
 _AT_MILLIS, _AT_STATUS, _AT_BUMPERS, _AT_BATTERY, _AT_WHEELS, _AT_TORQUE = 10, 18, 28, 42, 128, 149
 _MOST_STEPS: Final = 1_000
 _READ: Final = Struct("<HH")
@@ -64,6 +68,8 @@ class OpenCrTable:
     right_step: int
     left_ticks: int
     right_ticks: int
+    inertial: InertialReading
+    """In the board's axes, as it came: any float."""
     torque: bool
     linear_cmps: int
     """As commanded last."""
@@ -99,6 +105,7 @@ def decode_table(parameters: bytes) -> OpenCrTable | None:
         return None
     left_step, right_step, left_ticks, right_ticks = _WHEELS.unpack_from(table, _AT_WHEELS)
     linear, _, _, _, _, angular = _TWIST.unpack_from(table, COMMAND)
+    gx, gy, gz, ax, ay, az = _INERTIAL.unpack_from(table, _AT_INERTIAL)
     centivolts, share = _BATTERY.unpack_from(table, _AT_BATTERY)
     status = table[_AT_STATUS]
     return OpenCrTable(
@@ -114,6 +121,7 @@ def decode_table(parameters: bytes) -> OpenCrTable | None:
         right_step=right_step,
         left_ticks=left_ticks,
         right_ticks=right_ticks,
+        inertial=InertialReading((gx, gy, gz), (ax, ay, az)),
         torque=table[_AT_TORQUE] != 0,
         linear_cmps=linear,
         angular_cradps=angular,

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from math import isfinite
+from math import isfinite, radians
 from typing import TYPE_CHECKING, Any, Final, TypeGuard
 
+from devices.inertial import InertialReading, mps2_of
 from devices.port_probe import PortAnswer, PortProbe
 
 if TYPE_CHECKING:
@@ -31,6 +32,10 @@ FASTEST_MPS: Final = 2.0
 """A command beyond is ignored without a word."""
 _POSSIBLE_MPS: Final = 4.0
 _POSSIBLE_CM: Final = 1e8
+_RAW: Final = 32_768.0
+_RADPS_A_STEP: Final = radians(1.0 / 16.4)
+_MPS2_A_STEP: Final = mps2_of(1.0 / 8192.0)
+"""Its chip is set to 2 000 degrees a second and to 4 g."""
 START_WORDS: Final = ("Device connected!", "UGV started.")
 """What a base prints while it starts."""
 
@@ -46,6 +51,8 @@ class UgvReport:
     is_old: bool
     """It tells ways, but in metres: its firmware is older than 0.96."""
     volts: float | None
+    inertial: InertialReading | None
+    """In its board's axes; None where it tells none."""
     size: int
     """Bytes of the line, which took their time to come."""
 
@@ -171,7 +178,20 @@ def _report(said: dict[str, Any], size: int) -> UgvReport | None:
         ways_cm=(left_cm, right_cm) if _is_whole(left_cm) and _is_whole(right_cm) else None,
         is_old=any(type(way) is float for way in ways),
         volts=None if hundredths is None else hundredths / 100.0,
+        inertial=_inertial(said),
         size=size,
+    )
+
+
+def _inertial(said: dict[str, Any]) -> InertialReading | None:
+    """Return what its IMU says; a value that no 16 bits hold makes it none."""
+    raw = [_number(said.get(key), _RAW) for key in ("gx", "gy", "gz", "ax", "ay", "az")]
+    gx, gy, gz, ax, ay, az = raw
+    if gx is None or gy is None or gz is None or ax is None or ay is None or az is None:
+        return None
+    return InertialReading(
+        (gx * _RADPS_A_STEP, gy * _RADPS_A_STEP, gz * _RADPS_A_STEP),
+        (ax * _MPS2_A_STEP, ay * _MPS2_A_STEP, az * _MPS2_A_STEP),
     )
 
 

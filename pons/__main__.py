@@ -161,6 +161,9 @@ def _calibrate(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
         metavar="M",
         help="a person measures each run by tape; without numbers it asks after each",
     )
+    word.add_argument(
+        "--track", action="store_true", help="only the track that counts in turns, by the gyro"
+    )
     word.add_argument("--shuttles", type=int, default=3, choices=range(2, 11), metavar="N")
     word.add_argument(
         "--patience",
@@ -315,6 +318,7 @@ def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
             shuttles=said.shuttles,
             patience_s=said.patience,
             yes=said.yes,
+            track=said.track,
         )
     if said.word == "fence":
         from pons import fence

@@ -62,8 +62,11 @@ def children(
     for child in found:
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())
-    if simulated and robot.camera.kind == "sim":
+    if simulated and (robot.camera.kind == "sim" or robot.camera.is_real):
         arguments = ["sim.camera", *world, *domain]
+        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
+    elif robot.camera.is_real:
+        arguments = ["sensors.camera", *common]
         found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
     return found
 

@@ -222,15 +222,21 @@ def check(settings: LaunchSettings) -> RobotDescription:
         from pons.mapping import prepare_canvas
 
         prepare_canvas(settings, settings.mapping, robot)
-    if settings.twin and robot.drive.virtual and robot.lidar.is_simulated:
+    real = not robot.lidar.is_simulated or robot.camera.is_real
+    if settings.twin and robot.drive.virtual and not real:
         raise CannotStart(
             "twin_needless: drive.kind and lidar.kind 'sim' are simulated as they are; --twin "
-            "plays a base or a lidar of metal"
+            "plays a base, a lidar or a camera of metal"
         )
     if robot.drive.virtual and not robot.lidar.is_simulated and not settings.twin:
         raise CannotStart(
             f"lidar_of_another_world: lidar.kind {robot.lidar.kind!r} sees real walls, drive.kind "
             "'sim' drives among simulated ones; add --twin, or make both real"
+        )
+    if robot.drive.virtual and robot.camera.is_real and not settings.twin:
+        raise CannotStart(
+            f"camera_of_another_world: camera.kind {robot.camera.kind!r} sees a real room, "
+            "drive.kind 'sim' drives in a simulated one; add --twin, or make both real"
         )
     try:
         (settings.home / "logs").mkdir(parents=True, exist_ok=True)

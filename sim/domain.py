@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
+from sim.true_parameters import true_base
 from wire import ConfigError
 from wire.robot import explain
 
@@ -92,7 +93,7 @@ class Domain:
     def hardware(self, believed: Base, hardware: Hardware) -> Hardware:
         """Return the hardware with what the domain says of it."""
         radius_m = hardware.wheel_radius_m or believed.wheel_radius_m
-        track_m = hardware.wheel_separation_m or believed.wheel_separation_m
+        track_m = true_base(believed, hardware).wheel_separation_m
         told: dict[str, float | None] = {
             "lidar_sweep_s": self.lidar_sweep_s,
             "lidar_noise_m": self.lidar_noise_m,

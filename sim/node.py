@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sim.messages import Report
     from sim.robot import SimRobot
     from sim.twin import DriveTwin, LidarTwin, Ros2Twin
-    from wire import SimControl
+    from wire import Imu, SimControl
     from wire.session import Session
 
 log = logging.getLogger("sim")
@@ -48,6 +48,7 @@ class SimNode:
         self._robot = robot
         self._twin: DriveTwin | Ros2Twin | None = twin or ros2
         self._ros2 = ros2
+        self._base_gyro = twin if twin is not None and twin.has_gyro else None
         self._lidar = lidar
         self._commands = session.subscriber(keys.DRIVE_COMMAND)
         self._controls = session.subscriber(keys.SIM_CONTROL)
@@ -55,7 +56,7 @@ class SimNode:
         self._imu = session.publisher(keys.IMU)
         self._scan = session.publisher(keys.SCAN)
         self._truth = session.publisher(keys.SIM_TRUTH)
-        draws = robot.robot.camera.kind == "sim"
+        draws = robot.robot.camera.kind == "sim" or robot.robot.camera.is_real
         self._scene = session.publisher(keys.SIM_SCENE) if draws else None
         self._ticks = 0
         self._distrust = 0
@@ -105,16 +106,25 @@ class SimNode:
             log.warning("sim/control refused: %s", refusal)
 
     def _say(self, report: Report, now_s: float) -> None:
+        if report.imu is not None:
+            self._hear_imu(report.imu)
         if report.drive is not None and self._twin is not None:
             self._twin.report(report.drive, now_s)
         elif report.drive is not None:
             self._drive.put(report.drive)
-        if report.imu is not None:
-            (self._imu.put if self._ros2 is None else self._ros2.hear_imu)(report.imu)
         if report.scan is not None:
             (self._scan.put if self._ros2 is None else self._ros2.hear_scan)(report.scan)
         if report.truth is not None:
             self._truth.put(report.truth)
+
+    def _hear_imu(self, imu: Imu) -> None:
+        """Say what the gyro reads, or let a twin's base say it."""
+        if self._ros2 is not None:
+            self._ros2.hear_imu(imu)
+        elif self._base_gyro is not None:
+            self._base_gyro.feel(imu)
+        else:
+            self._imu.put(imu)
 
     def _show(self, now_s: float) -> None:
         """Publish the scene for the simulated camera."""

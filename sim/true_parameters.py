@@ -26,6 +26,11 @@ _FILE = TypeAdapter(Hardware)
 KNOWN = tuple(field.name for field in fields(Hardware))
 
 
+SKID_TIMES = 1.6
+"""A base that skids turns as if its wheels stood so many times as far apart as they do. Two wheels
+there stand for four: what skidding costs in turns is modelled, its jerks are not."""
+
+
 def load_metal(path: Path) -> Hardware:
     """Return the hardware that a file describes; the rest keeps its defaults.
 
@@ -53,6 +58,8 @@ def load_metal(path: Path) -> Hardware:
 def true_base(believed: Base, hardware: Hardware) -> Base:
     """Return the geometry that the physics has: the hardware's own where it says so."""
     radius_m, separation_m = hardware.wheel_radius_m, hardware.wheel_separation_m
+    if separation_m is None and believed.wheels_apart_m is not None:
+        separation_m = SKID_TIMES * believed.wheels_apart_m
     return believed.model_copy(
         update={
             "wheel_radius_m": believed.wheel_radius_m if radius_m is None else radius_m,

@@ -6,6 +6,7 @@ only place that knows the transport.
 
 from wire.base import Record
 from wire.bounded_types import MAX_POINTS, PROTOCOL, STATUS_RING
+from wire.camera_config import CameraConfig
 from wire.codec import Image, decode, encode
 from wire.commands import (
     EstopLink,
@@ -46,8 +47,9 @@ from wire.operator_hmac import (
     sign_fence,
     signed_request,
 )
-from wire.robot import CameraConfig, RobotDescription, load_robot
+from wire.robot import RobotDescription, load_robot
 from wire.sensors import (
+    CameraStatus,
     DriveCommand,
     DriveState,
     HintCode,
@@ -96,6 +98,7 @@ __all__ = [
     "Answer",
     "BrakingReport",
     "CameraConfig",
+    "CameraStatus",
     "ConfigError",
     "DecodeFailure",
     "DriveCommand",

@@ -118,7 +118,7 @@ HINT_DOOR = Door(
 CAMERA_DOOR = Door(
     "camera", Party.CAMERA, (Party.PLANNER, Party.JUDGE),
     (),
-    _keys(keys.CAMERA_COLOR, keys.CAMERA_DEPTH),
+    _keys(keys.CAMERA_COLOR, keys.CAMERA_DEPTH, keys.CAMERA_STATE),
     "pictures; it hears nothing",
 )  # fmt: skip
 

@@ -39,19 +39,21 @@ class DriveKind:
     """Silence after which its firmware stops by itself, where a setting can't change that."""
     reports_dead_man: bool = True
     """It tells in each state whether its dead-man has fired, so that the self test can prove it."""
+    has_gyro: bool = False
+    """Its states bring the rate of turn."""
 
 
 DRIVE_KINDS: Mapping[str, DriveKind] = {
     "sim": DriveKind((), (), 0.01),
     "pons_mcu": DriveKind(("port", "ticks_per_turn"), ("baud", *_BATTERY_KEYS), 0.01),
     "waveshare": DriveKind(
-        ("port",), ("baud", *_BATTERY_KEYS), 0.06, reports_dead_man=False
+        ("port",), ("baud", *_BATTERY_KEYS), 0.06, reports_dead_man=False, has_gyro=True
     ),  # 20 Hz at most, and the turn of its loop
     "arduino": DriveKind(
         ("port", "ticks_per_turn"), ("baud",), 0.04, dead_man_s=2.0, reports_dead_man=False
     ),  # asked at 50 Hz, through adapters that wait 16 ms
     "turtlebot3": DriveKind(
-        ("port",), (), 0.04, dead_man_s=0.5, reports_dead_man=False
+        ("port",), (), 0.04, dead_man_s=0.5, reports_dead_man=False, has_gyro=True
     ),  # asked at 50 Hz for a table that is filled at 50 Hz
     "ros2": DriveKind((), (), 0.05),  # ros2_odom_slow says so where a base is slower
 }

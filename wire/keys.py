@@ -19,6 +19,7 @@ from wire.commands import (
     Waypoints,
 )
 from wire.sensors import (
+    CameraStatus,
     DriveCommand,
     DriveState,
     ImageHeader,
@@ -171,6 +172,8 @@ CAMERA_COLOR = _from(_C, "camera/color", ImageHeader, frozenset({_P, _J}), "10 H
                      "JPEG, header attached", max_bytes=IMAGE)  # fmt: skip
 CAMERA_DEPTH = _from(_C, "camera/depth", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "16-bit PNG in millimetres, header attached", max_bytes=IMAGE)  # fmt: skip
+CAMERA_STATE = _from(_C, "camera/state", CameraStatus, frozenset({_P, _J}), "2 Hz and on change",
+                     "what a real camera gives")  # fmt: skip
 SIM_TRUTH = _from(_R, "sim/truth", SimTruth, frozenset({_L, _J}), "50 Hz",
                   "where the simulated robot really is", ring=SEQUENCED)  # fmt: skip
 SIM_SCENE = _from(_R, "sim/scene", SimScene, frozenset({_C, _J}), "25 Hz where a camera is",
@@ -184,5 +187,5 @@ COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
     *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
     LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, ROS2_STATE,
-    CAMERA_COLOR, CAMERA_DEPTH, SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
+    CAMERA_COLOR, CAMERA_DEPTH, CAMERA_STATE, SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
 )  # fmt: skip

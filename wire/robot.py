@@ -8,15 +8,17 @@ a value that somebody wrote wrongly.
 from __future__ import annotations
 
 import tomllib
-from math import hypot, pi
+from math import hypot
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from wire.base import Record
+from wire.camera_config import CameraConfig
 from wire.drive_config import DriveConfig
 from wire.errors import ConfigError
 from wire.fingerprint import fingerprint
+from wire.imu_config import ImuConfig
 from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
@@ -29,6 +31,8 @@ if TYPE_CHECKING:
 
 MOST_BYTES = 16_000
 """Ours has 3 000. A parser is busy for seconds with 64 kB of one dotted key."""
+MOST_SKID = 2.5
+"""Track that counts over distance of the wheels; four wheels on carpet come to 2."""
 HIDDEN_BEYOND_M = OBSTACLE_MARGIN_M
 """What comes so near the robot's disc stops it."""
 RobotId = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,31}$")]
@@ -39,6 +43,9 @@ class Base(Record):
 
     wheel_radius_m: float = Field(default=0.1, ge=0.01, le=1.0)
     wheel_separation_m: float = Field(default=0.5, ge=0.05, le=3.0)
+    wheels_apart_m: float | None = Field(default=None, ge=0.05, le=3.0)
+    """Of a base that skids in turns (four wheels and more, tracks): how far apart they stand;
+    ``wheel_separation_m`` is then the track that counts, which `pons calibrate --track` finds."""
     radius_m: float = Field(default=0.30, ge=0.05, le=3.0)
     """The disc that holds the whole robot, centred on ``base``."""
 
@@ -64,39 +71,6 @@ class Limits(Record):
     def _hardest_is_hardest(self) -> Limits:
         if not self.hardest_decel_mps2 >= self.max_decel_mps2:
             raise ValueError("hardest_decel_mps2 must not be below max_decel_mps2")
-        return self
-
-
-class CameraConfig(Record):
-    """Place the camera on the robot and state its picture.
-
-    REP-103: x forward, y left, z up from the floor under ``base``; a positive pitch looks down.
-    """
-
-    kind: Literal["sim", "node", "none"] = "sim"
-    """``sim``: the simulator draws; ``node``: a process of its own speaks for a real camera;
-    ``none``: there is none, and what needs one is refused."""
-    x_m: float = Field(default=0.15, ge=-2.0, le=2.0)
-    y_m: float = Field(default=0.0, ge=-2.0, le=2.0)
-    z_m: float = Field(default=1.0, ge=0.02, le=3.0)
-    yaw_rad: float = Field(default=0.0, ge=-pi, le=pi)
-    pitch_rad: float = Field(default=0.2, ge=-1.4, le=1.4)
-    width_px: int = Field(default=320, ge=32, le=4096)
-    height_px: int = Field(default=240, ge=32, le=4096)
-    fov_rad: float = Field(default=1.2, ge=0.2, le=2.6)
-    """Horizontally. A real camera's own header counts; the simulated one is built after this."""
-    rate_hz: float = Field(default=10.0, ge=0.5, le=60.0)
-    depth_min_m: float = Field(default=0.2, ge=0.0, le=2.0)
-    """Depth outside these is no measurement."""
-    depth_max_m: float = Field(default=8.0, ge=0.5, le=100.0)
-
-    @model_validator(mode="after")
-    def _depth_has_a_range(self) -> CameraConfig:
-        if not self.depth_min_m < self.depth_max_m:
-            raise ValueError(
-                f"camera.depth_min_m {self.depth_min_m} must be less than depth_max_m "
-                f"{self.depth_max_m}"
-            )
         return self
 
 
@@ -152,6 +126,7 @@ class RobotDescription(Record):
     drive: DriveConfig = DriveConfig()
     lidar: LidarConfig = LidarConfig()
     camera: CameraConfig = CameraConfig()
+    imu: ImuConfig = ImuConfig()
     realtime: RealTime = RealTime()
     inputs: Inputs = Inputs()
     recording: Recording = Recording()
@@ -197,15 +172,21 @@ class RobotDescription(Record):
     def valid_trial(self) -> TrialRecord | None:
         """Return the trial; None where there was none, or one of another wiring."""
         trial = self.trial
-        if trial is None or trial.wiring != wiring_of(self.drive, self.lidar):
+        if trial is None or trial.wiring != wiring_of(self):
             return None
         return trial
 
 
 def _misfits(base: Base, lidar: LidarConfig) -> Iterator[str]:
     """Yield the parts that reach out of the disc that is kept clear of obstacles [m]."""
-    half_m, offset_m = base.wheel_separation_m / 2, hypot(lidar.x_m, lidar.y_m)
+    apart_m = base.wheels_apart_m or base.wheel_separation_m
+    half_m, offset_m = apart_m / 2, hypot(lidar.x_m, lidar.y_m)
     stops_m = base.radius_m + HIDDEN_BEYOND_M
+    if not apart_m <= base.wheel_separation_m <= MOST_SKID * apart_m:
+        yield (
+            f"base.wheel_separation_m {base.wheel_separation_m} must be 1 to {MOST_SKID:g} times "
+            f"wheels_apart_m {apart_m}: wheels that skid turn the robot less, never more"
+        )
     if not base.radius_m >= half_m:
         yield (
             f"base.radius_m {base.radius_m} must be at least {half_m:g}, half of "

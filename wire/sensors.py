@@ -111,6 +111,29 @@ class LidarStatus(Record):
     """How often the port was opened."""
 
 
+class CameraStatus(Record):
+    """Say what a camera's own process gets of it, for people; nobody drives by it."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    model: Name
+    """Kind of robot.toml."""
+    code: Code | None
+    """What is wrong, None where nothing is; docs/sensors.md lists them."""
+    detail: Text = ""
+    """What came, what was expected and what cures it; empty where nothing is wrong."""
+    rate_hz: Annotated[float, Field(ge=0.0, le=1_000.0)]
+    """Pictures a second that the camera gave, of the last seconds."""
+    width: Annotated[int, Field(ge=0, le=8192)]
+    """Of its newest picture; 0 before the first."""
+    height: Annotated[int, Field(ge=0, le=8192)]
+    sent: Count
+    """Pictures since the process began; none is packed that nobody listens for."""
+    opened: Count
+    """How often the camera was opened."""
+
+
 class Ros2Status(Record):
     """Say how well a ROS 2 base is heard, for people; the bridge needs none of it."""
 

@@ -14,8 +14,7 @@ from wire.base import Record
 from wire.fingerprint import fingerprint
 
 if TYPE_CHECKING:
-    from wire.drive_config import DriveConfig
-    from wire.lidar_config import LidarConfig
+    from wire.robot import RobotDescription
 
 _DRIVE = {"kind", "port", "baud", "ticks_per_turn", "timeout_s"}
 _LIDAR = {"kind", "model", "port", "upside_down", "yaw_rad"}
@@ -31,11 +30,20 @@ class TrialRecord(Record):
     """From the last command until the wheels stood, the longest of all trials."""
     brake_s: Annotated[float, Field(ge=0.0, le=60.0)]
     """Of that, from the first loss of speed until they stood."""
+    gyro: bool = False
+    """The gyro turned left when a person turned the robot left; false: it was not tried."""
 
 
-def wiring_of(drive: DriveConfig, lidar: LidarConfig) -> str:
-    """Return the fingerprint of what a trial proves: which wheels and lidar are on which line."""
-    return fingerprint(
-        drive.model_dump_json(include=_DRIVE).encode(),
-        lidar.model_dump_json(include=_LIDAR).encode(),
-    )
+def wiring_of(robot: RobotDescription) -> str:
+    """Return the fingerprint of what a trial proves: which wheels, lidar and gyro hang where.
+
+    A gyro that sits as it comes adds nothing, so that trials from before there were gyros hold.
+    """
+    parts = [
+        robot.drive.model_dump_json(include=_DRIVE).encode(),
+        robot.lidar.model_dump_json(include=_LIDAR).encode(),
+    ]
+    imu = robot.imu.model_dump_json(exclude_defaults=True)
+    if imu != "{}":
+        parts.append(imu.encode())
+    return fingerprint(*parts)

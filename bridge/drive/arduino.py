@@ -71,6 +71,7 @@ class ArduinoProtocol:
     baud = ros_arduino.BAUD
     """A command with its question of 14 bytes and 26 bytes of answers 50 times a second: 7 and 13
     kbaud of 57."""
+    gyro = None
     braking: Braking = "brake"
     """L298 with its enables high and both inputs low, as the firmware leaves them at 0."""
 

@@ -1,10 +1,10 @@
-"""Define the interface of a drive: three methods and three facts about its metal."""
+"""Define the interface of a drive: four methods and three facts about its metal."""
 
 from __future__ import annotations
 
 from typing import Literal, Protocol
 
-from wire import ConfigError, DecodeFailure, DriveCommand, DriveState
+from wire import ConfigError, DecodeFailure, DriveCommand, DriveState, Imu
 
 Braking = Literal["brake", "coast"]
 """What the wheels do without torque: short or brake, or roll on. Decides what CUT0 is worth; who
@@ -21,6 +21,9 @@ class Drive(Protocol):
 
     def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         """Return the states since the last call, oldest first, at most the 4 newest."""
+
+    def take_imu(self) -> Imu | None:
+        """Return what the drive's own gyro said in the states last read, once; None if none."""
 
     def write(self, command: DriveCommand | None) -> None:
         """Send one command; None sends nothing, which SELFTEST needs to see the time-out work."""

@@ -37,6 +37,7 @@ class PonsMcuProtocol:
     kind = "pons_mcu"
     baud = 115_200
     """29 bytes to the controller and 47 from it, 100 times a second: 29 and 47 kbaud."""
+    gyro = None
     braking: Braking = "brake"
 
     def __init__(self, config: DriveConfig, boot: str) -> None:

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from bridge.drive.base import Braking
-    from wire import DecodeFailure, DriveState, RobotDescription
+    from bridge.drive.base_gyro import BaseGyro
+    from wire import DecodeFailure, DriveState, Imu, RobotDescription
 
 _KEPT = 4
 """More than four readings at once are a stall's; the newest say all that counts."""
@@ -41,6 +42,10 @@ class SerialProtocol(Protocol):
     baud: int
     """What the base speaks unless robot.toml says otherwise."""
     braking: Braking
+
+    @property
+    def gyro(self) -> BaseGyro | None:
+        """Return what the base's own gyro says; None where it has none."""
 
     def begin(self) -> bytes:
         """Forget the unfinished; return what the base must be told whenever its port opens."""
@@ -111,6 +116,16 @@ class SerialDrive:
                 break
             found += self._protocol.decode(data, self._clock())
         return tuple(found[-_KEPT:])
+
+    @property
+    def gyro(self) -> BaseGyro | None:
+        """Return what the base's own gyro says; None where it has none."""
+        return self._protocol.gyro
+
+    def take_imu(self) -> Imu | None:
+        """Return what the base's own gyro said in the states last read, once."""
+        gyro = self._protocol.gyro
+        return None if gyro is None else gyro.take()
 
     def write(self, command: DriveCommand | None) -> None:
         """Send one command; None sends nothing."""

@@ -14,6 +14,7 @@ from wire.keys import DRIVE_COMMAND, DRIVE_STATE
 
 if TYPE_CHECKING:
     from bridge.drive.base import Braking
+    from wire import Imu
     from wire.session import Session
 
 _PARSED = 4
@@ -40,6 +41,9 @@ class SimDrive:
     def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         payloads = self._states.drain_bytes()
         return tuple([decode(DRIVE_STATE, payload) for payload in payloads[-_PARSED:]])
+
+    def take_imu(self) -> Imu | None:
+        return None  # it comes by a key of its own
 
     def write(self, command: DriveCommand | None) -> None:
         if command is None:

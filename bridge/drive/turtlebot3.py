@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from math import tau
 from typing import TYPE_CHECKING, NamedTuple
 
+from bridge.drive.base_gyro import BaseGyro
 from bridge.drive.readings import WheelCount, limit_radps
 from devices import turtlebot3
 from devices.clock import SensorClock, WrappedCounter
@@ -78,6 +79,7 @@ class Turtlebot3Protocol:
     def __init__(self, robot: RobotDescription, boot: str) -> None:
         self._separation_m = robot.base.wheel_separation_m
         """Until the board has told its model."""
+        self.gyro = BaseGyro(robot)
         self._boot = boot
         self._reader = DynamixelReader()
         self._seq, self._starts = 0, 0
@@ -153,7 +155,7 @@ class Turtlebot3Protocol:
         self._note_echo(table)
         self._seq += 1
         echo, rad = self._board.echo, tau / TICKS_PER_TURN
-        return DriveState(
+        state = DriveState(
             boot_id=f"opencr-{self._starts}",
             seq=self._seq,
             stamp_s=stamp_s,
@@ -171,6 +173,8 @@ class Turtlebot3Protocol:
             bumper_rear=table.bumpers[1],
             cliff=False,
         )
+        self.gyro.note(table.inertial, state)
+        return state
 
     def _note_echo(self, table: OpenCrTable) -> None:
         """Note which command the table shows: the newest with its beat, if its twist is there too.

@@ -15,6 +15,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from bridge.drive.base_gyro import BaseGyro
 from bridge.drive.readings import charge_of, limit_radps
 from devices import waveshare
 from devices.waveshare import UgvEcho, UgvReader, UgvReport, UgvSetting, UgvText
@@ -107,6 +108,7 @@ class WaveshareProtocol:
 
     def __init__(self, robot: RobotDescription, boot: str) -> None:
         self._config, self._radius_m = robot.drive, robot.base.wheel_radius_m
+        self.gyro = BaseGyro(robot)
         self._boot = boot
         self._name = secrets.token_hex(2)
         """Stands for ``boot`` in the tag."""
@@ -214,7 +216,7 @@ class WaveshareProtocol:
         left_m = self._base.left.advance(report.left_mps, ways_cm[0], stamp_s)
         right_m = self._base.right.advance(report.right_mps, ways_cm[1], stamp_s)
         self._seq += 1
-        return DriveState(
+        state = DriveState(
             boot_id=f"ugv-{self._name}-{self._starts}",
             seq=self._seq,
             stamp_s=stamp_s,
@@ -232,6 +234,8 @@ class WaveshareProtocol:
             bumper_rear=False,
             cliff=False,
         )
+        self.gyro.note(report.inertial, state)
+        return state
 
     def _note_echo(self, echo: UgvEcho) -> None:
         """Note which command the base printed back; a tag of another shape is nobody's.

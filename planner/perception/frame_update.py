@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from planner.perception.pose_buffer import Stance
     from planner.perception.snapshot import Detection
     from planner.site.site import Site
-    from wire.robot import CameraConfig
+    from wire.camera_config import CameraConfig
 
 
 @dataclass(frozen=True, slots=True)

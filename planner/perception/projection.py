@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from planner.perception.pose_buffer import Stance
     from planner.perception.snapshot import Detection
     from wire import ImageHeader
-    from wire.robot import CameraConfig
+    from wire.camera_config import CameraConfig
 
 FARTHEST_M = 10.0
 FLOOR_FARTHEST_M = 5.0

@@ -11,6 +11,7 @@ import time
 from typing import TYPE_CHECKING
 
 from pons.calibrate.errors import CalibrationRefusal
+from pons.calibrate.gyro_track import find_track
 from pons.calibrate.procedure import CalibrationPlan, calibrate
 from pons.calibrate.reference import MEASURED
 from pons.calibrate.robot_toml import difference, edit_values, replace
@@ -39,6 +40,7 @@ def run(
     shuttles: int,
     patience_s: float,
     yes: bool,
+    track: bool = False,
 ) -> int:
     """Calibrate; 0 written or nothing to change, 3 refused, 130 interrupted."""
     signal.signal(signal.SIGTERM, _interrupt)
@@ -49,7 +51,8 @@ def run(
         stamp = time.gmtime()
         kind = MEASURED if measured_m is not None else reference
         asked = CalibrationPlan(kind, shuttles, patience_s=patience_s)
-        found = _measure(settings, asked, measured_m or [], time.strftime("%FT%TZ", stamp))
+        when = time.strftime("%FT%TZ", stamp)
+        found = _measure(settings, asked, measured_m or [], when, track=track)
         return _write(settings, text, found, time.strftime("%Y%m%dT%H%M%SZ", stamp), yes=yes)
     except CalibrationRefusal as refused:
         print("\n".join(refused.lines()), file=sys.stderr)
@@ -67,7 +70,12 @@ def _interrupt(_number: int, _frame: FrameType | None) -> None:
 
 
 def _measure(
-    settings: LaunchSettings, plan: CalibrationPlan, typed: list[float], when: str
+    settings: LaunchSettings,
+    plan: CalibrationPlan,
+    typed: list[float],
+    when: str,
+    *,
+    track: bool,
 ) -> list[CalibrationFinding]:
     robot = load_robot(settings.robot)
     metres = _metres(typed)
@@ -76,6 +84,8 @@ def _measure(
         open_session(Party.JUDGE, robot.id, settings.home) as judge,
     ):
         rig = CalibrationRig(operator, judge, time.monotonic, lambda: time.sleep(PUMP_S))
+        if track:
+            return find_track(rig, robot, plan, when, _say)
         return calibrate(rig, robot, plan, when, _say, lambda: next(metres))
 
 

@@ -43,6 +43,18 @@ WORDS: dict[str, tuple[str, str]] = {
         "No lidar scan arrives, or too few beams come back to judge the room.",
         "没有激光雷达数据，或回波太少，无法判断空间。",
     ),
+    "no_gyro": (
+        "There is no gyro to compare with; [imu] and inputs.imu of robot.toml name one.",
+        "没有可供比较的陀螺仪；请在 robot.toml 的 [imu] 和 inputs.imu 中配置。",
+    ),
+    "gyro_stands": (
+        "The wheels turned and the gyro did not: do they slip, or is its chip dead?",
+        "轮子转了而陀螺仪没有变化：是打滑，还是传感器损坏？",
+    ),
+    "gyro_backwards": (
+        "Wheels and gyro turn opposite ways; `pons robot try` tells which of them is wrong.",
+        "轮子与陀螺仪方向相反；pons robot try 会指出哪一个有误。",
+    ),
     "no_room": (
         "There is too little room; carry the robot to a clear floor.",
         "空间不足；请把机器人移到空旷的地面。",

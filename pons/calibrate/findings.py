@@ -122,7 +122,7 @@ def findings(
     """
     base, limits, drive = robot.base, robot.limits, robot.drive
     radius_m = radius_of(straights, robot)
-    apart_m = _close("wheel_separation_m", separations_m, SEPARATION_SPREAD)
+    apart_m = close("wheel_separation_m", separations_m, SEPARATION_SPREAD)
     dead = [run.dead_zone_radps for run in straights]
     dead_zone = _near("dead_zone_radps", dead, DEAD_ZONE_SPREAD_RADPS)
     response = [run.response_s for run in straights]
@@ -131,7 +131,7 @@ def findings(
     lags = [run.lag_s for run in straights]
     _near("lag_s", lags, LAG_SPREAD_S)
     braking = [run.braking_radps2 * radius_m for run in straights]
-    _close("max_decel_mps2", braking, BRAKING_SPREAD)
+    close("max_decel_mps2", braking, BRAKING_SPREAD)
     kp, ki_per_s = gains(response_s, median(run.transport_s for run in straights))
     gain = ", ".join(
         f"{side} {median(run.gains[wheel] for run in straights):.3f}"
@@ -157,7 +157,7 @@ def findings(
         CalibrationFinding("drive", "ki_per_s", drive.ki_per_s, ki_per_s, seen.by_rule(response_s)),
     ]  # fmt: skip
     _plausible("base.wheel_separation_m", apart_m, base.wheel_separation_m)
-    _check_limits(robot, found)
+    check_limits(robot, found)
     return found
 
 
@@ -167,7 +167,7 @@ def radius_of(straights: Sequence[StraightRun], robot: RobotDescription) -> floa
     Raises:
         CalibrationRefusal: ``spread_too_wide`` or ``out_of_bounds``.
     """
-    radius_m = _close("base.wheel_radius_m", [run.radius_m for run in straights], RADIUS_SPREAD)
+    radius_m = close("base.wheel_radius_m", [run.radius_m for run in straights], RADIUS_SPREAD)
     _plausible("base.wheel_radius_m", radius_m, robot.base.wheel_radius_m)
     return radius_m
 
@@ -204,7 +204,7 @@ class _Evidence:
         return f"calibrated {self.when}: derived from a motor of {response_s:.3f} s and its delay"
 
 
-def _close(name: str, values: Sequence[float], share: float) -> float:
+def close(name: str, values: Sequence[float], share: float) -> float:
     """Return the median of values that lie together, by share of it."""
     middle = median(values)
     if not (all(isfinite(one) for one in values) and _spread(values) <= share * middle):
@@ -240,7 +240,7 @@ def _plausible(name: str, value: float, was: float) -> None:
         raise CalibrationRefusal("out_of_bounds", text)
 
 
-def _check_limits(robot: RobotDescription, found: Sequence[CalibrationFinding]) -> None:
+def check_limits(robot: RobotDescription, found: Sequence[CalibrationFinding]) -> None:
     """See that robot.toml may hold all of it."""
     told = robot.model_dump()
     for one in found:

@@ -84,7 +84,7 @@ def calibrate(
     for count in range(2 * plan.shuttles):
         metres = run_m if count % 2 == 0 else -run_m
         straights.append(
-            _retry_lost(rig, plan, say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
+            retry_lost(rig, plan, say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
         )
         say(f"run {count + 1}/{2 * plan.shuttles}: {_run_line(straights[-1])}")
     radius_m = radius_of(straights, robot)  # before the turns, which a wrong one would spoil
@@ -92,7 +92,7 @@ def calibrate(
     for count in range(plan.turns):
         angle = ROUND_RAD if count % 2 == 0 else -ROUND_RAD
         separations.append(
-            _retry_lost(rig, plan, say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
+            retry_lost(rig, plan, say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
         )
         say(f"turn {count + 1}/{plan.turns}: separation {separations[-1]:.4f} m")
     by = SPOKEN[reference]
@@ -125,7 +125,7 @@ def _face_the_way(
     A turn by a robot.toml that is wrong ends some degrees off: each look chooses anew.
     """
     for _ in range(TURNS):
-        way = _retry_lost(rig, plan, say, lambda: _turn_nearer(rig, robot, say))
+        way = retry_lost(rig, plan, say, lambda: _turn_nearer(rig, robot, say))
         if not way.turns_rad:
             return way.run_m
     return best_way(_points(rig, robot), robot.base.radius_m, (0.0,)).run_m
@@ -185,7 +185,7 @@ def _turn(
     return separation_m(run, turned, radius_m)
 
 
-def _retry_lost(
+def retry_lost(
     rig: CalibrationRig, plan: CalibrationPlan, say: Callable[[str], None], take: Callable[[], R]
 ) -> R:
     """Take a run; one that was lost is taken again, a few times.

@@ -13,8 +13,18 @@ from typing import TYPE_CHECKING
 from pons.calibrate.errors import CalibrationRefusal, RunLost
 from pons.calibrate.reference import SCANS, WallLook
 from pons.calibrate.track import DriveTrack
-from wire import DriveCommand, DriveState, Mode, RowReport, Scan, SimTruth, Status, Velocity
-from wire.keys import DRIVE_COMMAND, DRIVE_STATE, SCAN, SIM_TRUTH, STATUS, TELEOP
+from wire import (
+    DriveCommand,
+    DriveState,
+    Mode,
+    Odometry,
+    RowReport,
+    Scan,
+    SimTruth,
+    Status,
+    Velocity,
+)
+from wire.keys import DRIVE_COMMAND, DRIVE_STATE, ODOM, SCAN, SIM_TRUTH, STATUS, TELEOP
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,6 +64,7 @@ class CalibrationRig:
         self._clock, self._wait = clock, wait
         self._mouth = operator.publisher(TELEOP)
         self._status = operator.subscriber(STATUS)
+        self._odometry = operator.subscriber(ODOM)
         self._commands = judge.subscriber(DRIVE_COMMAND)
         self._states = judge.subscriber(DRIVE_STATE)
         self._scan = judge.subscriber(SCAN)
@@ -63,6 +74,9 @@ class CalibrationRig:
         self.truth: SimTruth | None = None
         self.scans: deque[Scan] = deque(maxlen=SCANS)
         self.track: DriveTrack | None = None
+        self.odometry: list[Odometry] | None = None
+        """Where what the bridge reckons is kept; None keeps nothing."""
+        self._yaw_rad = 0.0
         self._heard_s = clock()
         self._said_s = 0.0
         self._seq = 0
@@ -82,6 +96,7 @@ class CalibrationRig:
         if status is not None:
             self.status, self._heard_s = status, now_s
         self._hear()
+        self._hear_odometry()
         if self._wish is not None and now_s - self._said_s >= PERIOD_S - 1e-9:
             self._said_s = now_s
             self._say(*self._wish)
@@ -107,6 +122,13 @@ class CalibrationRig:
                 if track is not None:
                     track.hear_truth(truth)
 
+    def _hear_odometry(self) -> None:
+        for odometry in self._odometry.drain().items:
+            if isinstance(odometry, Odometry):
+                self._yaw_rad = odometry.base_in_odom.yaw_rad
+                if self.odometry is not None:
+                    self.odometry.append(odometry)
+
     def _say(self, v_mps: float, w_radps: float, dead_man: bool) -> None:
         if self.status is None:
             return
@@ -125,8 +147,8 @@ class CalibrationRig:
 
     # What a person does with a stick --------------------------------------------------------------
 
-    def listen(self) -> Status:
-        """Wait for the first words of bridge, drive and lidar.
+    def listen(self, *, needs_senses: bool = True) -> Status:
+        """Wait for the first words of the bridge and, where they are needed, of drive and lidar.
 
         Raises:
             CalibrationRefusal: ``no_bridge``, ``no_drive`` or ``no_lidar``.
@@ -134,11 +156,12 @@ class CalibrationRig:
         self._until(lambda: self.status is not None, FIRST_S)
         if self.status is None:
             raise CalibrationRefusal("no_bridge")
-        self._until(lambda: self.state is not None and len(self.scans) > 0, FIRST_S)
-        if self.state is None:
-            raise CalibrationRefusal("no_drive")
-        if not self.scans:
-            raise CalibrationRefusal("no_lidar", "no scan arrived")
+        if needs_senses:
+            self._until(lambda: self.state is not None and len(self.scans) > 0, FIRST_S)
+            if self.state is None:
+                raise CalibrationRefusal("no_drive")
+            if not self.scans:
+                raise CalibrationRefusal("no_lidar", "no scan arrived")
         self._until(lambda: not self._is_mode({Mode.TELEOP, Mode.STOPPING}), PASSES_S)
         return self.status
 
@@ -194,7 +217,9 @@ class CalibrationRig:
 
     def _angles(self) -> tuple[float, float]:
         state = self.state
-        return (state.left_rad, state.right_rad) if state is not None else (0.0, 0.0)
+        if state is None:  # a drive in the bridge itself says nothing here; its odometry turns
+            return self._yaw_rad, 0.0
+        return state.left_rad, state.right_rad
 
     def let_go(self) -> None:
         """Release the dead-man and wait until the robot stands. Never raises for the robot."""
@@ -202,6 +227,10 @@ class CalibrationRig:
         self._until(lambda: not self.is_driving() and self.stands(), STAND_S)
         self._for(STANDS_S)
         self._wish = None
+
+    def stand(self, seconds: float) -> None:
+        """Let time pass, asking for nothing."""
+        self._for(seconds)
 
     def settle(self, patience_s: float) -> bool:
         """Wait for the drive's rows to clear, then for a person to arm; tell whether one did.

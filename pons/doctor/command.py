@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from pons.doctor import (
     board_checks,
+    camera_checks,
     drive_checks,
     host_checks,
     lidar_checks,
@@ -78,7 +79,9 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         described,
         run_check("drive", lambda: drive_checks.drive(robot)),
         run_check("trial", lambda: drive_checks.trial(robot)),
+        run_check("gyro", lambda: drive_checks.gyro(robot)),
         run_check("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
+        run_check("camera", lambda: camera_checks.camera(settings.home, robot)),
         run_check("ros2", lambda: ros2_checks.ros2(settings.home, robot)),
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),

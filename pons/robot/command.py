@@ -1,4 +1,4 @@
-"""Name every serial port and what answers on it, and print a ready part of robot.toml.
+"""Name every serial port, what answers on it, and every camera; print a part of robot.toml.
 
 ``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
 and changes no setting. Needs no running robot; a port that a running one holds is named busy.
@@ -16,6 +16,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from devices.camera_listing import list_cameras
 from devices.port_listing import describe_port, find_modem_manager, list_ports
 from pons.robot.port_finder import question_ports
 from pons_assets import RELAY
@@ -24,11 +25,13 @@ from wire import load_robot
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from devices.camera_listing import CameraEntry
     from devices.port_listing import SerialPortEntry
     from pons.robot.port_finder import PortFinding
     from pons.settings import LaunchSettings
 
 EXIT_FOUND, EXIT_NOTHING = 0, 3
+HEAD: Final = "# for robot.toml:"
 CODES: Final[dict[str, tuple[str, str]]] = {
     "port_busy": (
         "held by {detail}: end it, and run this again",
@@ -61,6 +64,10 @@ CODES: Final[dict[str, tuple[str, str]]] = {
     "port_modem_manager": (
         "ModemManager runs and questions new ports: deploy/pi/70-pons.rules keeps it away",
         "ModemManager 正在运行并会询问新端口：请安装 deploy/pi/70-pons.rules",
+    ),
+    "camera_forbidden": (
+        "you may not open it: sudo usermod -a -G video $USER, and log in anew",
+        "无权打开：sudo usermod -a -G video $USER，然后重新登录",
     ),
     "port_none": (
         "no serial port is here: plug the base or the lidar in, or name one by --port",
@@ -105,14 +112,22 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         names = ", ".join(str(entry.path) for entry in entries)
         print(f"listening at {names} …", file=sys.stderr, flush=True)
     found = question_ports(entries)
+    cameras = [] if said.port else list_cameras()
     has_modem_manager = bool(entries) and find_modem_manager() is not None
     if said.json:
-        content = {"ports": [_record(one) for one in found], "modem_manager": has_modem_manager}
+        content = {
+            "ports": [_record(one) for one in found],
+            "modem_manager": has_modem_manager,
+            "cameras": [_camera_record(one) for one in cameras],
+        }
         print(json.dumps(content, ensure_ascii=False, indent=1))
     else:
         lines = list(describe(found, has_modem_manager=has_modem_manager))
-        print("\n".join([*lines, *robot_part(found)]))
-    return EXIT_FOUND if any(one.answer for one in found) else EXIT_NOTHING
+        lines += describe_cameras(cameras)
+        parts = list(robot_part(found))
+        head = [] if parts or not cameras else ["", HEAD]
+        print("\n".join([*lines, *parts, *head, *camera_part(cameras)]))
+    return EXIT_FOUND if cameras or any(one.answer for one in found) else EXIT_NOTHING
 
 
 def describe(found: Sequence[PortFinding], *, has_modem_manager: bool = False) -> Iterator[str]:
@@ -140,7 +155,7 @@ def robot_part(found: Sequence[PortFinding]) -> Iterator[str]:
         again = "# " if one.part in seen else ""
         if not seen:
             yield ""
-            yield "# for robot.toml:"
+            yield HEAD
         if again:
             yield f"# a second {one.part}; robot.toml has one:"
         seen.add(one.part)
@@ -150,6 +165,38 @@ def robot_part(found: Sequence[PortFinding]) -> Iterator[str]:
             yield f"{again}{key} = {json.dumps(value)}"
         for key, where in one.answer.missing.items():
             yield f"# {key} =     # {where}"
+
+
+def describe_cameras(cameras: Sequence[CameraEntry]) -> Iterator[str]:
+    """Yield the lines about cameras, for a terminal."""
+    for one in cameras:
+        yield f"{one.path}  {_printable(one.name)}"
+        if one.is_permitted:
+            yield f"  camera uvc: {one.lasting}"
+        else:
+            yield from _explain("camera_forbidden")
+
+
+def camera_part(cameras: Sequence[CameraEntry]) -> Iterator[str]:
+    """Yield what robot.toml should say of the cameras; all but the first are commented."""
+    for number, one in enumerate(cameras):
+        again = "# " if number else ""
+        if number == 1:
+            yield "# a second camera; robot.toml has one:"
+        yield f"{again}[camera]"
+        yield f'{again}kind = "uvc"'
+        yield f"{again}device = {json.dumps(str(one.lasting))}"
+        if not number:
+            yield "# x_m, z_m, pitch_rad, fov_rad =     # where it sits, how wide it sees"
+
+
+def _camera_record(one: CameraEntry) -> dict[str, Any]:
+    return {
+        "path": str(one.path),
+        "lasting": str(one.lasting),
+        "name": one.name,
+        "code": "camera_found" if one.is_permitted else "camera_forbidden",
+    }
 
 
 def _explain(code: str, detail: str = "") -> Iterator[str]:

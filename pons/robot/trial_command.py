@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from bridge.drive import open_serial_drive, require_brakes
 from devices import LastingPort, PortTrouble
 from pons.calibrate.robot_toml import replace
+from pons.robot.gyro_trial import try_gyro
 from pons.robot.lidar_trial import try_lidar
 from pons.robot.trial_words import PROMPTS, REFUSALS
 from pons.robot.wheel_trial import TrialRefusal, WheelTrial
@@ -27,6 +28,8 @@ from wire.ros2_config import ROS2
 from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
+    from bridge.drive import SerialDrive
+    from pons.robot.gyro_trial import Timed
     from pons.robot.wheel_trial import WheelFindings
     from pons.settings import LaunchSettings
     from wire import RobotDescription, Scan
@@ -53,15 +56,17 @@ def run_trial(settings: LaunchSettings) -> int:
         person.ask_and_wait("wheels_up")
         if person.answer.strip() != LIFTED:
             raise TrialRefusal("not_lifted")
-        found = _try_wheels(robot, person)
+        found, turned_rad = _try_base(robot, person)
         print(
             f"wheels: {found.report_hz:.0f} states a second; without a command they stand after "
             f"{found.dead_man_s:.2f} s, {found.brake_s:.2f} s of it braking",
             flush=True,
         )
+        if turned_rad is not None:
+            print(f"gyro: turned left by {turned_rad:.2f} rad", flush=True)
         if not robot.lidar.is_simulated:
             _try_lidar(robot, person)
-        _write(settings.robot, before, robot, found)
+        _write(settings.robot, before, robot, found, gyro=turned_rad is not None)
     except TrialRefusal as refused:
         print("\n".join(refusal_lines(refused)), file=sys.stderr)
         return EXIT_REFUSED
@@ -92,8 +97,12 @@ def set_trial(text: str, record: TrialRecord) -> str:
             kept.append(line)
     while kept and not kept[-1].strip():
         kept.pop()
-    values = [f"{key} = {value!r}" for key, value in record.model_dump().items()]
+    values = [f"{key} = {_toml_of(value)}" for key, value in record.model_dump().items()]
     return "\n".join([*kept, "", "[trial]", "# written by pons robot try", *values]) + "\n"
+
+
+def _toml_of(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool) else repr(value)
 
 
 class _WallPace:
@@ -138,12 +147,36 @@ class TerminalPerson:
             time.sleep(TICK_S)
 
 
-def _try_wheels(robot: RobotDescription, person: TerminalPerson) -> WheelFindings:
+class BaseGyroSource:
+    """Be the gyro of a base that says nothing of itself unless it is asked."""
+
+    def __init__(self, drive: SerialDrive) -> None:
+        self._drive = drive
+
+    def readings(self) -> list[Timed]:
+        """Ask and read; no command goes with it."""
+        gyro = self._drive.gyro
+        if gyro is None:
+            return []
+        self._drive.ask()
+        self._drive.read()
+        heard = list(gyro.heard)
+        gyro.heard.clear()
+        return heard
+
+
+def _try_base(
+    robot: RobotDescription, person: TerminalPerson
+) -> tuple[WheelFindings, float | None]:
+    """Try wheels and, where robot.toml counts on it, the base's own gyro."""
     boot = secrets.token_hex(6)
     drive = open_serial_drive(robot, boot, for_trial=True)
     try:
         require_brakes(drive)
-        return WheelTrial(drive, robot, _WallPace(), person, boot).run()
+        found = WheelTrial(drive, robot, _WallPace(), person, boot).run()
+        if not robot.inputs.imu or robot.imu.is_on_i2c:
+            return found, None
+        return found, try_gyro(robot.imu, BaseGyroSource(drive), _WallPace(), person)
     finally:
         drive.close()
 
@@ -182,12 +215,15 @@ def _newest_scan(reader: LidarReader) -> Scan:
     raise TrialRefusal("lidar_silent", said or f"none within {SCANS_WITHIN_S:g} s")
 
 
-def _write(path: Path, before: str, robot: RobotDescription, found: WheelFindings) -> None:
+def _write(
+    path: Path, before: str, robot: RobotDescription, found: WheelFindings, *, gyro: bool
+) -> None:
     record = TrialRecord(
         date=time.strftime("%Y-%m-%d", time.gmtime()),
-        wiring=wiring_of(robot.drive, robot.lidar),
+        wiring=wiring_of(robot),
         dead_man_s=round(found.dead_man_s, 3),
         brake_s=round(found.brake_s, 3),
+        gyro=gyro,
     )
     stamp = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
     kept = replace(path, before, set_trial(before, record), stamp)

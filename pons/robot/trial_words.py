@@ -17,6 +17,10 @@ PROMPTS: Final[dict[str, tuple[str, str]]] = {
         "Turn the RIGHT wheel FORWARD by hand, three whole turns, then Enter",
         "请用手把右轮向前转三整圈，然后回车",
     ),
+    "gyro_left": (
+        "Turn the whole robot a QUARTER to the LEFT, level, on its stand or lifted, then Enter",
+        "请把整个机器人水平地向左转四分之一圈（可连支架或抬起），然后回车",
+    ),
     "lidar_clear": (
         "Step away from the robot, so that nothing moves around it, then Enter",
         "请离开机器人，保证周围没有东西移动，然后回车",
@@ -124,6 +128,26 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
     "coasts": (
         "the wheels roll on without torque: short the motors, or fit a brake",
         "失去扭矩后轮子继续滑行：请短接电机或安装制动",
+    ),
+    "gyro_silent": (
+        "the gyro says nothing: inputs.imu = false, where the robot has none (at most 0.3 m/s)",
+        "陀螺仪没有数据：若没有陀螺仪，请设置 inputs.imu = false（最高 0.3 m/s）",
+    ),
+    "gyro_shakes": (
+        "the gyro turns while the robot stands: let it stand still; is it fixed to the robot?",
+        "机器人静止时陀螺仪仍在转动：请保持静止，并检查其固定",
+    ),
+    "gyro_none": (
+        "the gyro saw no quarter turn: turn the whole robot, not a wheel; does its chip live?",
+        "陀螺仪没有检测到四分之一圈：请转动整个机器人，并检查传感器",
+    ),
+    "gyro_backwards": (
+        "the gyro turns the other way: set imu.up to the axis that is named",
+        "陀螺仪方向相反：请把 imu.up 设为所示的轴",
+    ),
+    "gyro_axis": (
+        "another axis of the gyro turned: hold the robot level, or set imu.up and imu.forward",
+        "转动的是陀螺仪的另一轴：请保持水平，或设置 imu.up 与 imu.forward",
     ),
     "lidar_silent": (
         "the lidar gives no whole scan: pons doctor says more",

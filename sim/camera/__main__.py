@@ -1,5 +1,6 @@
 """Start the simulated camera: ``python -m sim.camera --site sites/home [--robot robot.toml]``.
 
+A camera of metal is drawn too where the simulator plays the robot (``pons up --twin``).
 It draws what ``python -m sim`` says on sim/scene, and waits for it without end.
 """
 
@@ -47,9 +48,10 @@ def _serve(options: argparse.Namespace) -> None:
     with contextlib.suppress(AttributeError, OSError):  # no Unix
         os.nice(NICE)
     robot = load_robot(options.robot) if options.robot else RobotDescription()
-    if robot.camera.kind != "sim":
+    if robot.camera.kind != "sim" and not robot.camera.is_real:
         raise ConfigError(
-            "camera_not_simulated", f"camera.kind is {robot.camera.kind!r}; this one draws 'sim'"
+            "camera_not_simulated",
+            f"camera.kind is {robot.camera.kind!r}; it draws 'sim', or for a real one",
         )
     drawn = load_home(options.site)
     if options.domain:

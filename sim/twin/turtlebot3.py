@@ -12,7 +12,7 @@ from math import floor, pi, tau
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from wire import DriveState, RobotDescription
+    from wire import DriveState, Imu, RobotDescription
 
 HEARTBEAT_S = 0.5
 _FILL_S = 0.02
@@ -53,6 +53,7 @@ class Turtlebot3Firmware:
         self._began_s: float | None = None
         self._filled_s = 0.0
         self._zero: tuple[float, float] | None = None
+        self._felt: Imu | None = None
 
     def hear(self, data: bytes, now_s: float) -> None:
         """Take the bytes that arrived."""
@@ -91,6 +92,10 @@ class Turtlebot3Firmware:
         )
         return left, right, self._table[149] != 0
 
+    def feel(self, imu: Imu) -> None:
+        """Take what the body's gyro reads now."""
+        self._felt = imu
+
     def say(self, body: DriveState, now_s: float) -> bytes:
         """Return the answers; fill the table every 20 ms."""
         if self._zero is None:
@@ -106,6 +111,11 @@ class Turtlebot3Firmware:
         began_s = self._began_s or 0.0
         struct.pack_into("<II", table, 10, floor((now_s - began_s) * 1e3) % _WRAP,
                          floor((now_s - began_s) * 1e6) % _WRAP)  # fmt: skip
+        if (felt := self._felt) is not None:
+            struct.pack_into(
+                "<ffffff", table, 60, 0.0, 0.0, felt.yaw_rate_radps,
+                felt.accel_x_mps2, felt.accel_y_mps2, 9.8,
+            )  # fmt: skip
         table[28], table[29] = bool(body.bumper_front), bool(body.bumper_rear)
         struct.pack_into("<iI", table, 42, round(1050 + 180 * charge), round(charge * 10_000))
         struct.pack_into(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from sim.twin.arduino import ArduinoFirmware
 from sim.twin.line import TwinLine
@@ -20,7 +20,7 @@ from wire import ConfigError, DriveCommand
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from wire import DriveState, RobotDescription
+    from wire import DriveState, Imu, RobotDescription
 
 _FASTEST_RADPS = 1000.0
 
@@ -36,6 +36,14 @@ class Firmware(Protocol):
 
     def say(self, body: DriveState, now_s: float) -> bytes:
         """Return what is due to the host now, given what the body's sensors read."""
+
+
+@runtime_checkable
+class GyroFirmware(Protocol):
+    """Act as a base that reports a gyro of its own."""
+
+    def feel(self, imu: Imu) -> None:
+        """Take what the body's gyro reads now."""
 
 
 class FarEnd(Protocol):
@@ -98,6 +106,16 @@ class DriveTwin:
             right_radps=_possible(right_radps),
             enable=torque,
         )
+
+    @property
+    def has_gyro(self) -> bool:
+        """Return whether the base itself tells what its gyro reads."""
+        return isinstance(self.firmware, GyroFirmware)
+
+    def feel(self, imu: Imu) -> None:
+        """Let the base's gyro read the body; it goes out with the next report."""
+        if isinstance(self.firmware, GyroFirmware):
+            self.firmware.feel(imu)
 
     def report(self, body: DriveState, now_s: float) -> None:
         """Tell the host what the body's sensors read."""

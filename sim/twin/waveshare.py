@@ -8,11 +8,11 @@ heartbeat without telling anybody.
 from __future__ import annotations
 
 import json
-from math import trunc
+from math import degrees, trunc
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from wire import DriveState, RobotDescription
+    from wire import DriveState, Imu, RobotDescription
 
 START_S = 1.5
 """The real one needs about eight; it says nothing of its wheels meanwhile, and hears nothing."""
@@ -22,6 +22,9 @@ _REPORT_S = 0.05
 _DEFAULT_HEARTBEAT_MS = 3000
 _FASTEST_MPS = 2.0
 _LONGEST = 1024
+_G_MPS2 = 9.80665
+_GYRO_OFFSET = 30
+"""Steps that its gyro says standing: 1.8 degrees a second."""
 _EMPTY_V, _FULL_V = 9.6, 12.6
 """Three lithium cells, where robot.toml names no voltages."""
 
@@ -45,6 +48,7 @@ class WaveshareFirmware:
         self._started = False
         self._reported_s = 0.0
         self._zero: tuple[float, float] | None = None
+        self._felt: Imu | None = None
 
     def hear(self, data: bytes, now_s: float) -> None:
         """Take the bytes that arrived; while it starts, none."""
@@ -62,6 +66,10 @@ class WaveshareFirmware:
             self._left_mps = self._right_mps = 0.0
         left_radps, right_radps = self._left_mps / self._radius_m, self._right_mps / self._radius_m
         return left_radps, right_radps, left_radps != 0.0 or right_radps != 0.0
+
+    def feel(self, imu: Imu) -> None:
+        """Take what the body's gyro reads now."""
+        self._felt = imu
 
     def say(self, body: DriveState, now_s: float) -> bytes:
         """Return what it printed back, and every 50 ms its report."""
@@ -119,15 +127,25 @@ class WaveshareFirmware:
             self._delay_s = abs(value) / 1000.0
 
     def _report(self, body: DriveState, left_rad: float, right_rad: float) -> dict[str, Any]:
+        felt = self._felt
+        yaw_radps, ax_mps2, ay_mps2 = (
+            (felt.yaw_rate_radps, felt.accel_x_mps2, felt.accel_y_mps2) if felt else (0.0,) * 3
+        )
         charge = 1.0 if body.battery is None else body.battery
         volts = self._empty_v + charge * (self._full_v - self._empty_v)
         return {
             "T": 1001,
             "L": round(body.left_radps * self._radius_m, 5),
             "R": round(body.right_radps * self._radius_m, 5),
-            "ax": 12, "ay": -40, "az": 8192, "gx": 0, "gy": 0, "gz": 1,
+            "ax": _raw(ax_mps2 / _G_MPS2 * 8192), "ay": _raw(ay_mps2 / _G_MPS2 * 8192), "az": 8192,
+            "gx": 0, "gy": 0, "gz": _raw(degrees(yaw_radps) * 16.4) + _GYRO_OFFSET,
             "mx": 100, "my": -20, "mz": 7,
             "odl": trunc((body.left_rad - left_rad) * self._radius_m * 100.0),
             "odr": trunc((body.right_rad - right_rad) * self._radius_m * 100.0),
             "v": round(volts * 100.0),
         }  # fmt: skip
+
+
+def _raw(steps: float) -> int:
+    """Return what 16 bits hold of it."""
+    return min(max(round(steps), -32_768), 32_767)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from typing import cast
 
 import pytest
 
@@ -14,7 +15,8 @@ from bridge.core.state_motion import Learnt
 from bridge.node import EXIT_BROKEN, EXIT_LEFT, BridgeNode, Parts
 from bridge.realtime import Pacer, PacerTick
 from tests.bridge.ground import FakeClock, core_config
-from wire import DecodeFailure, DriveCommand, DriveState
+from tests.wire.examples import EXAMPLES
+from wire import DecodeFailure, DriveCommand, DriveState, Imu
 
 CONFIG = core_config()
 
@@ -31,10 +33,14 @@ class Diary:
         self.slack_s: list[float] = []
         self.gaps = 3
         self.trouble = ""
+        self.imu = cast("Imu", EXAMPLES[Imu])
 
     def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         self.words.append("read")
         return ()
+
+    def take_imu(self) -> Imu | None:
+        return self.imu
 
     def write(self, command: DriveCommand | None) -> None:
         self.words.append("write")
@@ -48,6 +54,7 @@ class Diary:
         drive: tuple[DriveState | DecodeFailure, ...],
         loop: LoopFacts,
         *,
+        imu: Imu | None,
         fence_done: None,
         real_time: bool,
         recorder_ok: bool,
@@ -65,6 +72,7 @@ class Diary:
             )
         )
         assert drive == ()
+        assert imu is self.imu, "the drive's own gyro is passed on"
         return self.inboxes[-1]
 
     def publish(self, decision: Decision) -> None:

@@ -100,6 +100,20 @@ def test_the_lidars_service_is_as_hardened_and_opens_serial_ports_alone() -> Non
     assert lidar["Install"]["WantedBy"] == ["pons.target"]
 
 
+def test_the_service_of_a_camera_of_metal_opens_video_alone() -> None:
+    camera, other = (unit(UNITS / f"pons-{name}.service") for name in ("uvc", "camera"))
+    own = {"ExecStart", "SupplementaryGroups", "MemoryMax", "DevicePolicy", "DeviceAllow"}
+    kept = {name: value for name, value in other["Service"].items() if name not in own}
+    kept.pop("PrivateDevices")
+    assert {n: v for n, v in camera["Service"].items() if n not in own} == kept
+    assert camera["Service"]["User"] == ["pons-camera"], "the door's folder is that user's"
+    assert camera["Service"]["DevicePolicy"] == ["closed"]
+    allowed = ["char-video4linux rw", "char-media rw", "char-usb_device rw"]
+    assert camera["Service"]["DeviceAllow"] == allowed
+    assert "python -m sensors.camera --home /var/lib/pons" in camera["Service"]["ExecStart"][0]
+    assert camera["Install"]["WantedBy"] == ["pons.target"]
+
+
 def test_the_service_of_a_ros2_base_is_hardened_as_one_that_has_no_devices() -> None:
     ros2, other = (unit(UNITS / f"pons-{name}.service") for name in ("ros2", "localization"))
     own = {"ExecStart", "User", "MemoryMax"}

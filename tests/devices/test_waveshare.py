@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from math import radians
 
 import pytest
 from hypothesis import given
@@ -31,7 +32,18 @@ OLD = b'{"T":1001,"L":0,"R":0,"odl":0.4375,"odr":1.5,"v":11.1}\r\n'
 
 def test_a_report_is_read() -> None:
     (line,) = UgvReader().read(REPORT)
-    assert line == UgvReport(0.25, -0.125, (153, -7), False, 11.87, len(REPORT))
+    assert isinstance(line, UgvReport)
+    assert line.inertial is not None
+    assert line.inertial.gyro_radps == pytest.approx((0.0, 0.0, radians(1 / 16.4)))
+    assert line.inertial.accel_mps2 == pytest.approx((0.01437, -0.04788, 9.80665), abs=1e-5)
+    assert line == UgvReport(0.25, -0.125, (153, -7), False, 11.87, line.inertial, len(REPORT))
+
+
+@pytest.mark.parametrize("spoilt", [b'"x"', b"40000", b"null", b"1e400", b"true"])
+def test_a_gyro_that_says_what_16_bits_do_not_hold_is_none(spoilt: bytes) -> None:
+    (line,) = UgvReader().read(REPORT.replace(b'"gz":1', b'"gz":' + spoilt))
+    assert isinstance(line, UgvReport)
+    assert line.inertial is None
 
 
 def test_bases_that_count_nothing_or_in_metres_are_told_apart() -> None:

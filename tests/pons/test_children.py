@@ -69,6 +69,24 @@ def test_a_robot_of_metal_has_what_its_file_names_and_a_twin_what_it_plays(
         assert ("--lidar-twin" in found["sim"]) == bool(lidar)
 
 
+@pytest.mark.parametrize("kind", ["uvc", "stream", "realsense", "node", "none"])
+@pytest.mark.parametrize("twin", [False, True])
+def test_a_camera_of_metal_has_its_process_and_where_a_twin_plays_is_drawn(
+    tmp_path: Path, kind: str, twin: bool
+) -> None:
+    keys = {"uvc": {"device": "/dev/video0"}, "stream": {"url": "rtsp://10.0.0.9/1"}}
+    robot = RobotDescription.model_validate(
+        {"drive": MCU, "camera": {"kind": kind, **keys.get(kind, {})}}
+    )
+    settings = LaunchSettings(
+        tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
+    )
+    found = {child.name: child.arguments for child in children(settings, robot)}
+    assert ("camera" in found) == robot.camera.is_real
+    if robot.camera.is_real:
+        assert found["camera"][0] == ("sim.camera" if twin else "sensors.camera")
+
+
 ROS2 = {"url": "ws://10.0.0.5:9090", "scan": "/scan", "imu": "/imu"}
 
 
@@ -102,6 +120,7 @@ def test_a_base_of_ros2_has_its_process_and_its_twin_a_server_that_this_dials(
     ("text", "twin", "code"),
     [
         ("", True, "twin_needless"),
+        ('[camera]\nkind = "uvc"\ndevice = "/dev/video0"\n', False, "camera_of_another_world"),
         ('[lidar]\nkind = "ld19"\nport = "/dev/y"\n', False, "lidar_of_another_world"),
     ],
 )

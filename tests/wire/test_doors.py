@@ -85,7 +85,7 @@ def test_who_is_only_looked_at_hears_nothing() -> None:
     assert hint.dialled_by == (Party.PLANNER,), "nobody else says where the robot is"
     doors = doors_of(Party.PLANNER)
     camera = next(door for door in doors if door.inward(Party.PLANNER, CAMERA_COLOR.path))
-    assert {key.path for key in camera.says} == {"camera/color", "camera/depth"}
+    assert {key.path for key in camera.says} == {"camera/color", "camera/depth", "camera/state"}
 
 
 def test_the_longest_socket_leaves_room_for_a_home() -> None:

@@ -22,9 +22,7 @@ def robot(
 
 
 def record(of: RobotDescription) -> TrialRecord:
-    return TrialRecord(
-        date="2026-11-24", wiring=wiring_of(of.drive, of.lidar), dead_man_s=0.25, brake_s=0.05
-    )
+    return TrialRecord(date="2026-11-24", wiring=wiring_of(of), dead_man_s=0.25, brake_s=0.05)
 
 
 def test_a_robot_that_nobody_tried_has_none() -> None:

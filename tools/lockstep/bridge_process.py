@@ -56,7 +56,12 @@ class BridgeProcess:
             f"{self.state.tick:016x}"  # foretold by all, so that runs repeat: nobody signs here
         )
         inbox = self._link.drain(
-            self._drive.read(), ON_TIME, real_time=True, recorder_ok=True, chance=chance
+            self._drive.read(),
+            ON_TIME,
+            real_time=True,
+            recorder_ok=True,
+            chance=chance,
+            imu=self._drive.take_imu(),
         )
         decision = self._step(self.config, self.state, inbox, now_s)
         self._drive.write(decision.command)

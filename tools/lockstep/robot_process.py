@@ -35,12 +35,14 @@ class RobotProcess:
         self._say(self.robot.tick(now_s), now_s)
 
     def _say(self, report: Report, now_s: float) -> None:
+        if report.imu is not None and self._base is not None and self._base.twin.has_gyro:
+            self._base.twin.feel(report.imu)
+        elif report.imu is not None:
+            self._imu.put(report.imu)
         if report.drive is not None and self._base is not None:
             self._base.twin.report(report.drive, now_s)
         elif report.drive is not None:
             self._drive.put(report.drive)
-        if report.imu is not None:
-            self._imu.put(report.imu)
         if report.scan is not None:
             self._scan.put(report.scan)
         if report.truth is not None:

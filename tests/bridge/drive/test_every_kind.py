@@ -12,8 +12,10 @@ import pytest
 from bridge.drive.serial_drive import SERIAL_PROTOCOLS
 from pons.settings import CHECKOUT
 from sim.twin import FIRMWARES
+from sim.twin.twin import GyroFirmware
 from tests.wire.examples import EXAMPLES
-from wire import DriveCommand, DriveState, RobotDescription, load_robot
+from wire import DriveCommand, DriveState, Imu, RobotDescription, load_robot
+from wire.drive_config import DRIVE_KINDS
 
 ROBOTS: dict[str, RobotDescription] = {
     robot.drive.kind: robot
@@ -21,6 +23,7 @@ ROBOTS: dict[str, RobotDescription] = {
 }
 KINDS = sorted(set(ROBOTS) & set(SERIAL_PROTOCOLS))
 BODY = cast("DriveState", EXAMPLES[DriveState])
+GYRO = cast("Imu", EXAMPLES[Imu])
 TICK_S = 0.01
 START_S = 4.0
 STEP_RADPS = 0.32
@@ -57,6 +60,10 @@ class Road:
                 "left_radps": left_radps, "right_radps": right_radps,
             }
         )  # fmt: skip
+        if isinstance(self.firmware, GyroFirmware):
+            turning = (right_radps - left_radps) * self.robot.base.wheel_radius_m
+            yaw_radps = turning / self.robot.base.wheel_separation_m
+            self.firmware.feel(GYRO.model_copy(update={"yaw_rate_radps": yaw_radps}))
         for state in self.protocol.decode(self.firmware.say(body, self.now_s), self.now_s):
             self.states.append(state)
             self.heard_s = self.now_s
@@ -64,6 +71,29 @@ class Road:
     def run(self, seconds: float, left: float = 0.0, right: float = 0.0) -> None:
         for _ in range(round(seconds / TICK_S)):
             self.tick(left, right)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_gyro_of_its_own_says_what_the_wheels_do(kind: str) -> None:
+    road = started(kind)
+    gyro = road.protocol.gyro
+    assert (gyro is not None) == DRIVE_KINDS[kind].has_gyro
+    if gyro is None:
+        return
+    standing = gyro.take()
+    assert standing is not None
+    assert standing.yaw_rate_radps == pytest.approx(0.0, abs=0.002), "its offset was learnt"
+    assert gyro.take() is None, "a reading counts once"
+    road.run(1.0, -2.0, 2.0)
+    turning, state = gyro.take(), road.states[-1]
+    assert turning is not None
+    by_wheels = (state.right_radps - state.left_radps) * road.robot.base.wheel_radius_m
+    assert turning.yaw_rate_radps == pytest.approx(
+        by_wheels / road.robot.base.wheel_separation_m, abs=0.02
+    )
+    assert turning.stamp_s == state.stamp_s
+    assert turning.boot_id == state.boot_id
+    assert turning.seq > standing.seq
 
 
 def started(kind: str) -> Road:

@@ -154,7 +154,7 @@ def test_metal_that_nobody_tried_is_not_opened(tmp_path: Path) -> None:
 def test_metal_that_was_tried_is_opened(tmp_path: Path) -> None:
     (tmp_path / "metal").write_text("")
     described = robot(tmp_path / "metal")
-    wiring = wiring_of(described.drive, described.lidar)
+    wiring = wiring_of(described)
     record = TrialRecord(date="2026-11-24", wiring=wiring, dead_man_s=0.2, brake_s=0.0)
     with pytest.raises(ConfigError) as refused:
         open_serial_drive(described.model_copy(update={"trial": record}), "b1")

@@ -27,7 +27,7 @@ def test_one_that_reports_seldom_is_said_to_cost_distance(monkeypatch: pytest.Mo
 def test_metal_that_nobody_tried_fails_with_its_cure() -> None:
     drive = {"kind": "pons_mcu", "port": "/dev/x", "ticks_per_turn": 400}
     new = RobotDescription.model_validate({"drive": drive})
-    wiring = wiring_of(new.drive, new.lidar)
+    wiring = wiring_of(new)
     record = TrialRecord(date="2026-11-24", wiring=wiring, dead_man_s=0.25, brake_s=0.0)
     known = new.model_copy(update={"trial": record})
     other = known.model_copy(update={"drive": new.drive.model_copy(update={"port": "/dev/z"})})

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import tau
+from math import pi, tau
 from typing import Literal
 
 from bridge.drive import SerialDrive
 from bridge.drive.serial_drive import SERIAL_PROTOCOLS
-from sim.twin.twin import FIRMWARES
+from sim.twin.twin import FIRMWARES, GyroFirmware
 from tests.wire.examples import EXAMPLES
 from tools.lockstep.drive_process import BaseEnd
 from tools.lockstep.serial_line import SerialLine
-from wire import DriveState, RobotDescription
+from wire import DriveCommand, DriveState, Imu, RobotDescription
 
 TICK_S = 0.01
 LAG_S = 0.03
@@ -68,6 +68,8 @@ class Stand:
         self._live_s = START_S
         self._integral = [0.0, 0.0]
         self._todo: list[tuple[int, float]] = []
+        self._turns_left = False
+        self._seq = 0
 
     def now_s(self) -> float:
         """Return the time [s]."""
@@ -77,6 +79,7 @@ class Stand:
         """Begin to do what a person is asked to do; it takes two seconds."""
         self.asked.append(code)
         self._todo = [self.hand.get(code, (0, 0.0))] * HAND_TICKS
+        self._turns_left = code == "gyro_left"
 
     def has_answered(self) -> bool:
         """Tell whether it is done."""
@@ -95,9 +98,25 @@ class Stand:
         elif self.wires.deaf or self.time_s - self._live_s <= self.wires.late_s:
             told = self._last
         self._turn(told)
+        if isinstance(self.firmware, GyroFirmware):
+            self.firmware.feel(self._gyro())
         data = self.firmware.say(self._body(), self.time_s)
         if data:
             self.end.write(data)
+
+    def command_zero(self) -> None:
+        """Tell the base to stand, as whoever drives it does."""
+        self._seq += 1
+        self.drive.write(
+            DriveCommand(boot="trial", seq=self._seq, left_radps=0.0, right_radps=0.0, enable=False)
+        )
+
+    def _gyro(self) -> Imu:
+        """Read what a hand that turns the whole robot a quarter to the left does to it."""
+        radps = pi / 2 / (HAND_TICKS * TICK_S) if self._todo and self._turns_left else 0.0
+        imu = EXAMPLES[Imu]
+        assert isinstance(imu, Imu)
+        return imu.model_copy(update={"yaw_rate_radps": radps})
 
     def _turn(self, told: tuple[float, float, bool]) -> None:
         """Regulate each wheel by the encoder that its controller reads, as a base does."""

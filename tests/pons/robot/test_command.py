@@ -10,10 +10,11 @@ from typing import cast
 
 import pytest
 
+from devices.camera_listing import CameraEntry
 from devices.port_listing import UsbIdentity
 from devices.port_probe import PortAnswer
 from pons.__main__ import main
-from pons.robot.command import CODES, describe, robot_part
+from pons.robot.command import CODES, camera_part, describe, describe_cameras, robot_part
 from pons.robot.port_finder import PortFinding
 from pons_assets import RELAY
 from tests.pons.robot.twin_ports import PlayedController, PlayedLidar, entry, played
@@ -51,6 +52,19 @@ def test_a_second_device_of_a_part_is_commented_out() -> None:
     assert content == {
         "lidar": {"kind": "rplidar", "port": "/dev/serial/by-id/usb-x", "model": "a1"}
     }
+
+
+def test_cameras_are_named_and_the_first_is_a_part_of_robot_toml() -> None:
+    first = CameraEntry(Path("/dev/video0"), Path("/dev/v4l/by-id/usb-x"), "Webcam\x1b[2J", True)
+    second = CameraEntry(Path("/dev/video2"), Path("/dev/video2"), "Other", False)
+    lines = list(describe_cameras([first, second]))
+    assert lines[:3] == [
+        "/dev/video0  Webcam?[2J", "  camera uvc: /dev/v4l/by-id/usb-x", "/dev/video2  Other",
+    ]  # fmt: skip
+    assert lines[3].startswith("  camera_forbidden: ")
+    robot = RobotDescription.model_validate(tomllib.loads("\n".join(camera_part([first, second]))))
+    assert (robot.camera.kind, robot.camera.device) == ("uvc", "/dev/v4l/by-id/usb-x")
+    assert list(camera_part([])) == []
 
 
 def test_nothing_found_is_no_part_and_says_what_to_do() -> None:

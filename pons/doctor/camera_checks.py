@@ -1,0 +1,100 @@
+"""Check the camera: ask its running process, or open it oneself for some seconds."""
+
+from __future__ import annotations
+
+import time
+from functools import partial
+from typing import TYPE_CHECKING
+
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
+from sensors.camera.health import CODES, STARTING, CameraHealth, CameraVerdict
+from wire import keys
+from wire.doors import CAMERA_DOOR
+from wire.keys import Party
+from wire.session import open_session
+from wire.sockets import Endpoints, is_listening
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from wire import CameraStatus, RobotDescription
+
+HEAR_S = 1.5
+READ_S = 8.0
+PERIOD_S = 0.05
+
+
+def camera(home: Path, robot: RobotDescription) -> HealthFinding:
+    """Look how well the camera is read."""
+    config = robot.camera
+    if config.kind == "none":
+        return ok("camera", "none", "无")
+    if config.kind == "node":
+        return ok("camera", "another program's", "由其他程序提供")
+    if config.kind == "sim":
+        if robot.drive.virtual:
+            return ok("camera", "simulated", "模拟")
+        return warn(
+            "camera",
+            BilingualWords(
+                f"camera.kind is 'sim' beside drive.kind {robot.drive.kind!r}: nothing draws",
+                f"drive.kind 为 {robot.drive.kind!r}，而 camera.kind 为 'sim'：没有画面",
+            ),
+            BilingualWords(
+                'name the camera, or kind = "none" (docs/sensors.md)',
+                '请填写摄像头，或 kind = "none"（docs/sensors.md）',
+            ),
+        )
+    if is_listening(Endpoints(home).socket(CAMERA_DOOR)):
+        return _hear_process(home, robot)
+    return _open_camera(robot)
+
+
+def _hear_process(home: Path, robot: RobotDescription) -> HealthFinding:
+    """Report what the running process says."""
+    status: CameraStatus | None = None
+    with open_session(Party.JUDGE, robot.id, home) as session:
+        heard = session.subscriber(keys.CAMERA_STATE)
+        end_s = time.monotonic() + HEAR_S
+        while status is None and time.monotonic() < end_s:
+            time.sleep(0.02)
+            status = heard.newest()
+    if status is None:
+        return fail(
+            "camera",
+            BilingualWords("its process runs and says nothing", "其进程在运行，但没有任何消息"),
+            BilingualWords("see logs/camera.log", "请查看 logs/camera.log"),
+        )
+    if status.code is not None:
+        return _wrong(CameraVerdict(status.code, status.detail))
+    said = f"{status.model}, {status.width} x {status.height}, {status.rate_hz:.1f} pictures/s"
+    return ok("camera", said, f"{status.model}，{status.width} x {status.height}")
+
+
+def _open_camera(robot: RobotDescription) -> HealthFinding:
+    """Open the camera for some seconds, as the process would."""
+    from sensors.camera.grabber import CameraGrabber
+    from sensors.camera.source import open_source
+
+    config = robot.camera
+    grabber = CameraGrabber(partial(open_source, config))
+    health = CameraHealth(config)
+    verdict: CameraVerdict | None = CameraVerdict(STARTING, "not read yet")
+    end_s = time.monotonic() + READ_S
+    try:
+        while verdict is not None and verdict.code == STARTING and time.monotonic() < end_s:
+            time.sleep(PERIOD_S)
+            verdict = health.judge(grabber, time.monotonic())
+    finally:
+        grabber.close()
+    if verdict is not None:
+        return _wrong(verdict)
+    width, height = grabber.size
+    said = f"{config.kind}, {width} x {height}"
+    return ok("camera", f"{said} is read", f"{said}：读取正常")
+
+
+def _wrong(verdict: CameraVerdict) -> HealthFinding:
+    english, chinese = CODES.get(verdict.code, ("see docs/sensors.md",) * 2)
+    found = f"{verdict.code}: {verdict.detail}"
+    return warn("camera", BilingualWords(found, found), BilingualWords(english, chinese))

@@ -1,0 +1,139 @@
+"""The camera's process says pictures of a film and of a network camera that comes and goes."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from sensors.camera.__main__ import main
+from tests.sensors.camera.films import HEIGHT, TOP, WIDTH, film, network_camera
+from wire import CameraStatus, Image, keys
+from wire.keys import Party
+from wire.session import open_session
+
+LIMIT_S = 30.0
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "robot.toml"
+    path.write_text(f"[camera]\n{text}\n")
+    return path
+
+
+class Eyes:
+    """Look at one camera as a judge does."""
+
+    def __init__(self, home: Path) -> None:
+        self.session = open_session(Party.JUDGE, "r1", home)
+        self._color = self.session.image_subscriber(keys.CAMERA_COLOR)
+        self._state = self.session.subscriber(keys.CAMERA_STATE)
+        self.images: list[Image] = []
+        self.state: CameraStatus | None = None
+
+    def until(self, done: Callable[[], bool]) -> None:
+        end_s = time.monotonic() + LIMIT_S
+        while not done():
+            assert time.monotonic() < end_s, f"{len(self.images)} pictures, {self.state}"
+            time.sleep(0.02)
+            newest = self._color.newest()
+            if isinstance(newest, Image):
+                self.images.append(newest)
+            self.state = self._state.newest() or self.state
+
+    def code(self) -> str | None:
+        return self.state.code if self.state else "nothing"
+
+
+@pytest.fixture
+def eyes(tmp_path: Path) -> Iterator[Eyes]:
+    found = Eyes(tmp_path)
+    yield found
+    found.session.close()
+
+
+@pytest.fixture
+def started(tmp_path: Path) -> Iterator[Callable[[str], subprocess.Popen[str]]]:
+    processes: list[subprocess.Popen[str]] = []
+
+    def start(text: str) -> subprocess.Popen[str]:
+        words = ["--robot", str(written(tmp_path, text)), "--home", str(tmp_path)]
+        command = [sys.executable, "-m", "sensors.camera", *words]
+        processes.append(subprocess.Popen(command, stderr=subprocess.PIPE, text=True))
+        return processes[-1]
+
+    yield start
+    for process in processes:
+        process.kill()
+        process.communicate(timeout=LIMIT_S)
+
+
+@pytest.mark.e2e
+def test_it_shows_a_film_and_leaves_when_asked(
+    tmp_path: Path, eyes: Eyes, started: Callable[[str], subprocess.Popen[str]]
+) -> None:
+    path = film(tmp_path / "rooms.avi")
+    process = started(f'kind = "stream"\nurl = "file://{path}"\nrate_hz = 10.0\ndelay_s = 0.05')
+    eyes.until(lambda: len(eyes.images) >= 10)
+    eyes.until(lambda: eyes.code() is None)
+    assert eyes.state is not None
+    assert (eyes.state.width, eyes.state.height, eyes.state.opened) == (WIDTH, HEIGHT, 1)
+    headers = [image.header for image in eyes.images]
+    assert all(header.boot_id == headers[0].boot_id for header in headers)
+    assert sorted({header.seq for header in headers}) == [header.seq for header in headers]
+    assert 0.0 < time.monotonic() - headers[-1].stamp_s < 2.0
+    color = cv2.imdecode(np.frombuffer(eyes.images[-1].data, np.uint8), cv2.IMREAD_COLOR)
+    assert color is not None
+    assert color.shape == (HEIGHT, WIDTH, 3)
+    assert np.abs(color[5, 5].astype(int) - TOP).max() < 40
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(LIMIT_S) == 0
+
+
+@pytest.mark.e2e
+def test_a_network_camera_comes_and_goes_and_its_password_stays_secret(
+    eyes: Eyes, started: Callable[[str], subprocess.Popen[str]]
+) -> None:
+    with ExitStack() as stack:
+        port = stack.enter_context(network_camera())
+        url = f"http://me:secret@127.0.0.1:{port}/video.mjpg"
+        process = started(f'kind = "stream"\nurl = "{url}"')
+        eyes.until(lambda: len(eyes.images) >= 3 and eyes.code() is None)
+    eyes.until(lambda: eyes.code() in {"camera_gone", "camera_unreachable"})
+    before = len(eyes.images)
+    with network_camera(port):
+        eyes.until(lambda: len(eyes.images) >= before + 3 and eyes.code() is None)
+    assert eyes.state is not None
+    assert eyes.state.opened >= 2
+    process.send_signal(signal.SIGTERM)
+    _, said = process.communicate(timeout=LIMIT_S)
+    assert process.returncode == 0
+    assert "secret" not in said
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ('kind = "sim"', "camera_not_real"),
+        ('kind = "none"', "camera_not_real"),
+        ('kind = "realsense"', "camera_library_missing"),
+        ('kind = "uvc"', "camera.device is missing"),
+        ('kind = "stream"\nurl = "ftp://x"', "robot_toml_invalid"),
+        ('kind = "uvc"\ndevice = "/dev/video0"\nurl = "http://x"', "camera.url is for"),
+        ('kind = "uvc"\ndevice = "/dev/video0"\nfourcc = "MJ"', "robot_toml_invalid"),
+    ],
+)
+def test_what_waiting_will_not_mend_refuses_the_start(
+    tmp_path: Path, text: str, code: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["--robot", str(written(tmp_path, text)), "--home", str(tmp_path)]
+    assert main(words) == 2
+    assert code in capsys.readouterr().err
