@@ -21,6 +21,7 @@ from planner.mission.events import (
     Move,
     Pause,
     Planned,
+    Recalled,
     Reply,
     Restarted,
     Resume,
@@ -44,6 +45,7 @@ from planner.mission.goal_lifecycle import (
     submit,
     take_plan,
 )
+from planner.mission.memory_answers import on_recalled
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import on_sight, on_told
 from planner.mission.places_changed import on_known
@@ -119,6 +121,7 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
     | Surveyed
     | Sighted
     | Told
+    | Recalled
     | Journalled
     | Stopped
     | Restarted
@@ -132,6 +135,8 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
             on_sight(turn, event.sight, event.classes)
         case Told():
             on_told(turn, event.id, event.ticket, event.answer)
+        case Recalled():
+            on_recalled(turn, event)
         case Tick():
             on_tick(turn)
         case Journalled():

@@ -16,6 +16,8 @@ from planner.plan.vocabulary import PlaceId
 
 Words = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=500)]
 Label = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
+Span = Literal["hour", "today", "morning", "afternoon", "evening", "night", "yesterday", "week"]
+"""A time that people ask about, by the day and the clock of the home."""
 
 
 class GoTo(Frozen):
@@ -132,6 +134,16 @@ class Look(Frozen):
     place: PlaceId | None = None
 
 
+class Recall(Frozen):
+    """Tell from memory what was seen or told, or with deeds what you did; drives nothing."""
+
+    kind: Literal["recall"] = "recall"
+    object: Label | None = None
+    place: PlaceId | None = None
+    when: Span | None = None
+    deeds: bool = False
+
+
 class Follow(Frozen):
     """Follow a person at a distance."""
 
@@ -156,17 +168,20 @@ Step = Annotated[
     | Find
     | Count
     | Look
-    | Follow,
+    | Follow
+    | Recall,
     Field(discriminator="kind"),
 ]
 _MODELS: tuple[type[Frozen], ...] = get_args(get_args(Step)[0])
 
 RUNNABLE = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
-    | {"wait", "say", "ask", "decide"}
+    | {"wait", "say", "ask", "decide", "recall"}
 )  # what a mission can walk without eyes; `Means` says what else a robot can
 NEEDS_GROWING_MAP = frozenset({"explore"})
 NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
+STANDS = frozenset({"recall"})
+"""What names a place and drives nowhere."""
 EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
 """What a plan may hold at all; a robot's own `runnable` is a part of it."""
 DRIVES = frozenset(
