@@ -121,8 +121,6 @@ def _describe_field(name: str, shape: dict[str, Any]) -> str:
     """Name a field's content in a word."""
     if name in _PLACES:
         return "[id,…]" if _type(shape) == "array" else "id"
-    if choices := _choices(shape):
-        return f'"{"|".join(choices)}"'
     if _type(shape) == "boolean":
         return "true"
     if _type(shape) == "string":

@@ -153,12 +153,14 @@ class MemoryStore:
         self, query: MemoryQuery, now_unix_s: float, match: str | None, *, fits: bool
     ) -> tuple[Memo, ...]:
         where, values = _conditions(query, self.limits, now_unix_s)
-        if match is not None:
-            where.append("id IN (SELECT rowid FROM memory_terms WHERE memory_terms MATCH ?)")
-            values.append(match)
+        table = "memory"
+        if match is not None:  # the join's order is ours: the index of words goes first
+            table = "memory_terms CROSS JOIN memory ON memory.id = memory_terms.rowid"
+            where.insert(0, "memory_terms MATCH ?")
+            values.insert(0, match)
         limit = max(0, min(query.limit, MOST_FOUND))
         rows = self._database.read(
-            f"SELECT {_COLUMNS} FROM memory WHERE {' AND '.join(where)}"
+            f"SELECT {_COLUMNS} FROM {table} WHERE {' AND '.join(where)}"
             " ORDER BY last_s DESC, id DESC LIMIT ?",
             (*values, limit),
         )
@@ -244,11 +246,14 @@ def _conditions(
     query: MemoryQuery, limits: MemoryLimits, now_unix_s: float
 ) -> tuple[list[str], list[Any]]:
     """Return the tests of a question besides its words; nothing that is too old passes."""
-    aged = [f"(kind = '{kind}' AND last_s > ?)" for kind in query.kinds if kind in KINDS]
-    where = [f"({' OR '.join(aged) or '0'})"]
-    values: list[Any] = [now_unix_s - limits.age_s(k) for k in query.kinds if k in KINDS]
+    kinds = [kind for kind in KINDS if kind in query.kinds]
+    oldest = {kind: now_unix_s - limits.age_s(kind) for kind in kinds}
+    # A plus keeps SQLite from any index but that of time, which ends early with the newest.
+    aged = [f"(+kind = '{kind}' AND last_s > ?)" for kind in kinds]
+    where = ["last_s > ?", f"({' OR '.join(aged) or '0'})"]
+    values: list[Any] = [min(oldest.values(), default=now_unix_s), *oldest.values()]
     if query.place is not None:
-        where.append("room = ?")
+        where.append("+room = ?")
         values.append(query.place)
     if query.since_unix_s is not None:
         where.append("last_s >= ?")

@@ -21,14 +21,14 @@ Span = Literal["hour", "today", "morning", "afternoon", "evening", "night", "yes
 
 
 class GoTo(Frozen):
-    """Drive to a room or place of the vocabulary."""
+    """Drive to a room or place."""
 
     kind: Literal["go_to"] = "go_to"
     place: PlaceId
 
 
 class ComeBack(Frozen):
-    """Drive back to the pose at which this goal was accepted."""
+    """Drive back to where this goal was given."""
 
     kind: Literal["come_back"] = "come_back"
 
@@ -61,7 +61,7 @@ class Ask(Frozen):
 
 
 class Decide(Frozen):
-    """Think again with what was seen and heard until here."""
+    """Think again with what was seen and heard."""
 
     kind: Literal["decide"] = "decide"
     question: Words
@@ -75,14 +75,14 @@ class Turn(Frozen):
 
 
 class MoveStraight(Frozen):
-    """Drive straight by a distance [m] along the heading, backwards where negative."""
+    """Drive straight by a distance [m], backwards where negative."""
 
     kind: Literal["move"] = "move"
     distance_m: float = Field(ge=-10.0, le=10.0)
 
 
 class Patrol(Frozen):
-    """Drive to places one after the other, not looking."""
+    """Drive to places in turn, not looking."""
 
     kind: Literal["patrol"] = "patrol"
     places: Annotated[tuple[PlaceId, ...], Field(min_length=1, max_length=20)]
@@ -103,7 +103,7 @@ class GoToObject(Frozen):
 
 
 class GoToPoint(Frozen):
-    """Drive to what lies at a point of the picture (x right, y down, each 0 to 1000)."""
+    """Drive to what lies at a point of the picture (x right, y down)."""
 
     kind: Literal["go_to_point"] = "go_to_point"
     x: int = Field(ge=0, le=1000)
@@ -111,7 +111,7 @@ class GoToPoint(Frozen):
 
 
 class Find(Frozen):
-    """Look for an object or a person, in a place where one is named."""
+    """Look for an object or person, in a place where named."""
 
     kind: Literal["find"] = "find"
     object: Label
@@ -119,7 +119,7 @@ class Find(Frozen):
 
 
 class Count(Frozen):
-    """Count objects or people, in a place where one is named."""
+    """Count objects or people, in a place where named."""
 
     kind: Literal["count"] = "count"
     object: Label
@@ -135,7 +135,7 @@ class Look(Frozen):
 
 
 class Recall(Frozen):
-    """Tell from memory what was seen or told, or with deeds what you did; drives nothing."""
+    """Tell what was seen or told; with deeds, what you did."""
 
     kind: Literal["recall"] = "recall"
     object: Label | None = None
