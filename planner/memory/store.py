@@ -250,14 +250,13 @@ def _conditions(
     oldest = {kind: now_unix_s - limits.age_s(kind) for kind in kinds}
     # A plus keeps SQLite from any index but that of time, which ends early with the newest.
     aged = [f"(+kind = '{kind}' AND last_s > ?)" for kind in kinds]
-    where = ["last_s > ?", f"({' OR '.join(aged) or '0'})"]
-    values: list[Any] = [min(oldest.values(), default=now_unix_s), *oldest.values()]
+    where = ["last_s >= ?", f"({' OR '.join(aged) or '0'})"]
+    since = query.since_unix_s if query.since_unix_s is not None else float("-inf")
+    first = max(min(oldest.values(), default=now_unix_s), since)
+    values: list[Any] = [first, *oldest.values()]
     if query.place is not None:
         where.append("+room = ?")
         values.append(query.place)
-    if query.since_unix_s is not None:
-        where.append("last_s >= ?")
-        values.append(query.since_unix_s)
     if query.until_unix_s is not None:
         where.append("first_s <= ?")
         values.append(query.until_unix_s)

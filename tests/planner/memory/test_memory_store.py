@@ -1,4 +1,4 @@
-"""Laws of memory: forgotten stays forgotten, newest first, bounded, and words find what they name."""
+"""Laws of memory: forgotten stays forgotten, newest first, bounded; words find what they name."""
 
 from __future__ import annotations
 
