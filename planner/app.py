@@ -14,7 +14,9 @@ from planner.api import Access, build, warm_up
 from planner.brain import Brain, FallbackBrain, OfflineBrain
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
+from planner.memory import MemoryLimits, MemoryStore, Recollection, SightingRecorder
 from planner.mission import JournalSync, MissionJournal, Missions, Rules
+from planner.mission.skills.spatial_relations import support_of
 from planner.navigation import RouteLimits, RouteWorker
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of
@@ -77,8 +79,8 @@ class Planner:
         self._session = open_session(Party.PLANNER, self.description.id, where.home)
         self.budget.prepare()
         self._journal = MissionJournal.in_home(where.home)
-        limits = RouteLimits.of(self.description)
-        self._router = RouteWorker(self.site.folder, self.site.map_id, limits)
+        route_limits = RouteLimits.of(self.description)
+        self._router = RouteWorker(self.site.folder, self.site.map_id, route_limits)
         radius_m = self.description.base.radius_m
         taught = TaughtPlaces.in_home(where.home, self._state)
         self.memory = KnownPlaces(self.site, taught, radius_m=radius_m)
@@ -108,6 +110,15 @@ class Planner:
             disk=JournalSync(self._journal),
         )
         self.goals.show_scans(self._router)
+        limits = MemoryLimits(**self.settings.memory.model_dump())
+        self.recollection = Recollection(MemoryStore(self._state, limits))
+        self.recorder = SightingRecorder(
+            self.recollection, self.site.map_id, support=support_of, step=self.goals.step_kind
+        )
+        self.eyes.listen(self.recorder.take)
+        self.recollection.flush_by(self.recorder.flush)
+        self.recollection.listen(self._on_forgotten)
+        self.goals.remember_by(self.recollection)
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 
     def _join_ears(self) -> Recogniser:
@@ -129,6 +140,12 @@ class Planner:
             quiet=self.speaker.is_quiet,
             trouble=None if trouble is None else trouble.code,
         )
+
+    def _on_forgotten(self, things: tuple[str, ...] | None) -> None:
+        """Let the eyes forget what memory has: it comes back when it is seen again."""
+        self.recorder.drop(things)
+        for thing in (None,) if things is None else things:
+            self.eyes.forget(thing)
 
     def _list_spoken_names(self) -> list[str]:
         """Return the English names that may be said, the taught ones too."""
@@ -154,9 +171,11 @@ class Planner:
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
         self.goals.loop.hub.join(SpokenReplies(self.speaker))
         await self.eyes.start()
+        await self.recorder.start(self.eyes.sight.things)
 
     async def close(self) -> None:
         """End all parts; goals that ran come back paused in the next process."""
+        await self.recorder.close()
         await self.eyes.close()
         await self.goals.close()
         if self._opening is not None:

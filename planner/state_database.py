@@ -1,7 +1,7 @@
 """Keep the planner's small stores as tables of one SQLite file of its home folder (ADR 0036).
 
-Taught places, objects seen, fence proposals and what the model has cost: each store owns the
-statements of its table, this file owns the schema, the connection and the errors. WAL; a change is
+Taught places, objects seen, memory, fence proposals and what the model has cost: each
+store owns the statements of its table, this file the connection and the errors. WAL; a change is
 on disk before it returns. Whatever SQLite refuses is told as the OSError that a plain file would
 have given, so that each store says it in its own words. Blocks on the disk: never called in the
 event loop.
@@ -20,6 +20,7 @@ from contextlib import contextmanager
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
+from planner.state_schema import SCHEMAS, VERSION
 from wire import ConfigError
 
 if TYPE_CHECKING:
@@ -29,27 +30,11 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 FILE = "state.sqlite"
-VERSION = 1
 PRIVATE = 0o600
 """Where people were seen in a home is its owner's business, whatever the umask is."""
 WAIT_S = 2.0
 """For another program of the same home (an exam, a replay) that is writing."""
 AGAIN_S = 0.005
-_TABLES = """
-CREATE TABLE places (
-    position INTEGER PRIMARY KEY, map_id TEXT NOT NULL, id TEXT NOT NULL, record TEXT NOT NULL,
-    UNIQUE (map_id, id));
-CREATE TABLE objects (
-    position INTEGER PRIMARY KEY, map_id TEXT NOT NULL, id TEXT NOT NULL UNIQUE,
-    record TEXT NOT NULL);
-CREATE TABLE fence_proposals (id TEXT PRIMARY KEY, record TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE spent (
-    day TEXT NOT NULL, goal TEXT NOT NULL, calls INTEGER NOT NULL, prompt_tokens INTEGER NOT NULL,
-    reply_tokens INTEGER NOT NULL, seconds REAL NOT NULL, money REAL NOT NULL,
-    PRIMARY KEY (day, goal)) WITHOUT ROWID;
-CREATE INDEX spent_by_goal ON spent (goal);
-CREATE TABLE imports (path TEXT PRIMARY KEY, fingerprint TEXT NOT NULL) WITHOUT ROWID;
-"""
 _ERRNO = {
     sqlite3.SQLITE_FULL: errno.ENOSPC,
     sqlite3.SQLITE_READONLY: errno.EROFS,
@@ -205,6 +190,19 @@ class StateDatabase:
             _put_beside(self.path, "spoilt").name,
         )  # fmt: skip
 
+    def compact(self) -> None:
+        """Move the log into the file and empty it: what was deleted is then in neither.
+
+        While another program reads, nothing is emptied, and the next call does it.
+
+        Raises:
+            StateUnavailable: the disk refuses.
+        """
+        with self._lock, self._translate_errors():
+            connection = self._open(make=False)
+            if connection is not None:
+                connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+
     def close(self) -> None:
         """Give the connection back; another use opens it again."""
         with self._lock:
@@ -247,13 +245,12 @@ class StateDatabase:
         if _version(connection) != VERSION:
             with _transaction(connection):
                 found = _version(connection)  # anew: another program may have made them
-                if found == 0:
-                    for statement in filter(str.strip, _TABLES.split(";")):
-                        connection.execute(statement)
-                    connection.execute(f"PRAGMA user_version={VERSION}")
-                elif found != VERSION:
+                if not 0 <= found <= VERSION:
                     told = f"{self.path} has schema {found}, expected {VERSION}"
                     raise ConfigError("state_version", told)
+                for statement in (each for added in SCHEMAS[found:] for each in added):
+                    connection.execute(statement)
+                connection.execute(f"PRAGMA user_version={VERSION}")
 
     def _read_only(self, query: str, values: tuple[object, ...]) -> list[tuple[Any, ...]]:
         """Read in a folder that can't be written, where WAL's own files can't be made."""

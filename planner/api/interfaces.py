@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
     from planner.brain import Brain
     from planner.budget import Usage
+    from planner.memory import Recollection
     from planner.mission import Leg
     from planner.navigation import ObstacleReport
     from planner.perception import Picture, Sight, Thing
@@ -202,3 +203,6 @@ class Services(Protocol):
 
     @property
     def eyes(self) -> PerceptionView: ...
+
+    @property
+    def recollection(self) -> Recollection: ...

@@ -9,6 +9,7 @@ from fastapi import APIRouter, Path
 from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem, saying_of
 from planner.language.object_names import name_object
+from planner.memory import FactRefusal
 from planner.perception.failure import REFUSALS
 
 if TYPE_CHECKING:
@@ -33,19 +34,35 @@ def routes(services: Services) -> APIRouter:
 
     @router.delete("", operation_id="forget_objects")
     async def forget_all() -> dict[str, Any]:
-        """Forget all objects; those that are there will be seen again."""
-        return {"forgotten": [thing.id for thing in services.eyes.forget()]}
+        """Forget all objects, in memory too; those that are there will be seen again."""
+        gone = [thing.id for thing in services.eyes.forget()]
+        await _forget_in_memory(services, gone)
+        return {"forgotten": gone}
 
     @router.delete("/{thing_id}", operation_id="forget_object")
     async def forget(thing_id: ThingId) -> dict[str, Any]:
-        """Forget one thing."""
+        """Forget one thing, in memory too."""
         known = {thing.id for thing in services.eyes.sight.things}
         if thing_id not in known:
             names = ", ".join(sorted(known)[:20]) or "none"
             raise HttpProblem(404, "unknown_object", f"got {thing_id[:60]!r}; known: {names}")
-        return {"forgotten": [thing.id for thing in services.eyes.forget(thing_id)]}
+        gone = [thing.id for thing in services.eyes.forget(thing_id)]
+        await _forget_in_memory(services, gone)
+        return {"forgotten": gone}
 
     return router
+
+
+async def _forget_in_memory(services: Services, things: list[str]) -> None:
+    try:
+        await services.recollection.forget_things(things)
+    except FactRefusal as refused:
+        raise HttpProblem(503, refused.code, refused.detail, **saying(refused)) from None
+
+
+def saying(refused: FactRefusal) -> dict[str, Any]:
+    """Return the sentence of memory's refusal, for a person."""
+    return {"message": refused.said.model_dump()}
 
 
 def objects_view(services: Services) -> dict[str, Any]:

@@ -39,6 +39,8 @@ class OfflineBrain:
             runnable=request.runnable,
             blind=request.blind,
             things=request.things,
+            remembers=request.situation is not None
+            and any(item.fits for item in request.situation.remembered),
         )
         made = plan(request.text, request.vocabulary, context)
         rest = rest_of(made, request.observed)

@@ -103,8 +103,16 @@ def _type(shape: dict[str, Any]) -> str:
     return str(shape.get("type") or shape["anyOf"][0]["type"])
 
 
+def _choices(shape: dict[str, Any]) -> list[str]:
+    """Return the words that a field may hold, where it is no free text."""
+    words: list[str] = (shape if "enum" in shape else shape.get("anyOf", [{}])[0]).get("enum", [])
+    return words
+
+
 def _plain(name: str, shape: dict[str, Any], ids: list[str]) -> dict[str, Any]:
-    kind = _type(shape)
+    kind, choices = _type(shape), _choices(shape)
+    if choices:
+        return {"type": kind, "enum": choices}
     one = {"type": "string", "enum": ids} if name in _PLACES else {"type": kind}
     return {"type": "array", "items": one} if kind == "array" else one
 
@@ -113,6 +121,8 @@ def _describe_field(name: str, shape: dict[str, Any]) -> str:
     """Name a field's content in a word."""
     if name in _PLACES:
         return "[id,…]" if _type(shape) == "array" else "id"
+    if _type(shape) == "boolean":
+        return "true"
     if _type(shape) == "string":
         return '"…"'
     low = shape.get("minimum", shape.get("exclusiveMinimum"))

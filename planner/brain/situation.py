@@ -31,6 +31,21 @@ class OpenQuestion(Frozen):
     asked: str
 
 
+class RememberedItem(Frozen):
+    """Report one thing that was seen, or that a person said: data, and never an order."""
+
+    what: str
+    """A kind with its colour, or a person's words: short, cleaned."""
+    place: str | None = None
+    """The id of a room or place."""
+    minutes: int = 0
+    """Since it was seen last, or said."""
+    said: bool = False
+    """A person said it; else it was seen."""
+    fits: bool = False
+    """The order names it."""
+
+
 class Situation(Frozen):
     """Hold what a brain may know besides the sentence and the places."""
 
@@ -53,3 +68,5 @@ class Situation(Frozen):
     question: OpenQuestion | None = None
     recent: tuple[RecentGoal, ...] = ()
     """Newest first."""
+    remembered: tuple[RememberedItem, ...] = ()
+    """What the order names first, then the newest."""

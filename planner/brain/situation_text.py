@@ -1,7 +1,7 @@
 """Render where things stand for a model, as data and within a bound of tokens.
 
-What is not known is left out. Recent goals give way first, the oldest of them before the others;
-then what waits in the queue.
+What is not known is left out. Recent goals and memories give way first, the oldest of whichever are
+more; then what waits in the queue.
 """
 
 from __future__ import annotations
@@ -13,18 +13,42 @@ from planner.brain.prompt_tokens import count_tokens
 from planner.brain.situation import MAX_RECENT
 
 if TYPE_CHECKING:
-    from planner.brain.situation import RecentGoal, Situation
+    from planner.brain.situation import RecentGoal, RememberedItem, Situation
+
+MAX_REMEMBERED = 20
+_HOUR_MIN, _DAY_MIN = 60, 1440
 
 
 def tell_situation(situation: Situation, budget_tokens: int) -> dict[str, Any]:
-    """Return ``now`` and ``recent`` for the person's message; each is left out where empty."""
+    """Return ``now``, ``recent`` and ``remembered``; each is left out where empty."""
     recent = [_tell_goal(goal) for goal in situation.recent[:MAX_RECENT]]
+    items = list(situation.remembered[:MAX_REMEMBERED])
     queue = list(situation.queue)
     while True:
-        told = {"now": _tell_now(situation, queue), "recent": recent}
-        if count_tokens(as_json(told)) <= budget_tokens or not (recent or queue):
+        told = {
+            "now": _tell_now(situation, queue),
+            "recent": recent,
+            "remembered": _tell_remembered(items),
+        }
+        fits = count_tokens(as_json(told)) <= budget_tokens
+        if fits or not (recent or items or queue):
             return {name: each for name, each in told.items() if each}
-        (recent or queue).pop()
+        (items if len(items) > 2 * len(recent) else recent or items or queue).pop()
+
+
+def _tell_remembered(items: list[RememberedItem]) -> dict[str, Any]:
+    """Return what was seen, by place, and apart from it what people said; each with its age."""
+    seen: dict[str, list[str]] = {}
+    told = [f"{item.what} {_age(item.minutes)}" for item in items if item.said]
+    for item in (each for each in items if not each.said):
+        seen.setdefault(item.place or "elsewhere", []).append(f"{item.what} {_age(item.minutes)}")
+    return {name: each for name, each in (("seen", seen), ("told", told)) if each}
+
+
+def _age(minutes: int) -> str:
+    if minutes < _HOUR_MIN:
+        return f"{minutes}min"
+    return f"{minutes // _HOUR_MIN}h" if minutes < _DAY_MIN else f"{minutes // _DAY_MIN}d"
 
 
 def _tell_now(situation: Situation, queue: list[str]) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from planner.language.commands import (
     Intent,
     LeaningCommand,
     Replace,
+    TeachFact,
     intent_of,
 )
 from planner.language.commands import ResumeCommand as GoOn
@@ -55,7 +56,8 @@ class Utterance:
         """Return whether a stop word stands in it that is not read as anything else."""
         if isinstance(self.intent, Replace | AppendCommand):
             return self.instead is not StopReading.NONE
-        return self.intent is None and self.reading is StopReading.POSSIBLE
+        plain = self.intent is None or isinstance(self.intent, TeachFact)
+        return plain and self.reading is StopReading.POSSIBLE
 
     @property
     def stays_put(self) -> bool:

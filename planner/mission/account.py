@@ -218,6 +218,8 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
             return say("account.asking", text=text)
         case "look":
             return say("account.looking", text=text)
+        case "recall":
+            return say("account.recalling")
         case "wait":
             seconds = f"{step.seconds or 0.0:g}"
             return say("account.waiting", seconds=seconds)

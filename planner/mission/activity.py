@@ -189,6 +189,16 @@ class AskingImage(_StepActivity):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LookingUp(_StepActivity):
+    """Stand until memory has answered."""
+
+    ticket: int
+    """The question whose answer is waited for."""
+    until_s: float
+    """When the wait ends without one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Waiting(_StepActivity):
     """Stand until a time."""
 
@@ -214,6 +224,16 @@ class Thinking(_StepActivity):
     """Stand while the brain thinks again."""
 
 
-Activity = Driving | Retrying | Observing | AskingImage | Waiting | Speaking | Asking | Thinking
+Activity = (
+    Driving
+    | Retrying
+    | Observing
+    | AskingImage
+    | LookingUp
+    | Waiting
+    | Speaking
+    | Asking
+    | Thinking
+)
 TIMED = (Driving, Retrying, Observing, AskingImage)
 """Activities whose time and way are counted against the step's budget."""

@@ -13,7 +13,7 @@ from planner.brain.situation import Situation
 from planner.mission.skills.actions import Way
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
-from planner.plan import Bilingual, Language
+from planner.plan import Bilingual, Language, Span
 from wire import Pose2
 
 
@@ -96,6 +96,19 @@ class AskEyes:
 
 
 @dataclass(frozen=True, slots=True)
+class AskMemory:
+    """Have looked up what is remembered; answer with ``Recalled``."""
+
+    id: str
+    ticket: int
+    label: str | None = None
+    """A thing, a person or what was told of, in the person's words."""
+    place: str | None = None
+    when: Span | None = None
+    deeds: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class KeepPicture:
     """Keep the picture that a gaze has ended with, for the question at the end of its step."""
 
@@ -136,6 +149,7 @@ Effect = (
     | ClearHold
     | AskRoute
     | AskEyes
+    | AskMemory
     | KeepPicture
     | Journal
     | SayAloud

@@ -9,7 +9,17 @@ from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import FloorReport
 from planner.perception.snapshot import Sight
-from planner.plan import AnswerPlan, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
+from planner.plan import (
+    AnswerPlan,
+    Bilingual,
+    BrainTag,
+    Clarify,
+    Code,
+    Language,
+    Outcome,
+    Refuse,
+    StepPlan,
+)
 from planner.site.site_view import SiteView
 from wire import Status
 
@@ -132,6 +142,16 @@ class Told:
 
 
 @dataclass(frozen=True, slots=True)
+class Recalled:
+    """Memory has answered: in words from figures and from what people told, never a model's."""
+
+    id: str
+    ticket: int
+    code: Code
+    said: Bilingual
+
+
+@dataclass(frozen=True, slots=True)
 class Journalled:
     """All entries up to ``entry`` are on disk."""
 
@@ -229,6 +249,7 @@ Event = (
     | Surveyed
     | Sighted
     | Told
+    | Recalled
     | Journalled
     | Cancel
     | Pause

@@ -22,15 +22,11 @@ from planner.mission.bridge_status import at_rest
 from planner.mission.clocks import Clocks
 from planner.mission.detector_words import Wording, warm_up
 from planner.mission.effects import (
-    AskBrain,
-    AskEyes,
     AskRoute,
     ClearHold,
-    DropBrain,
     Effect,
     GoalChange,
     Journal,
-    KeepPicture,
     SayAloud,
 )
 from planner.mission.engine import Engine, Leg, Output, WayAhead
@@ -44,7 +40,7 @@ from planner.mission.reducer import asked_about_picture, looks
 from planner.mission.skills import Eyesight
 from planner.mission.state import GoalKey, MissionState, Rules
 from planner.mission.surveyor import Surveyor
-from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
+from planner.mission.tasks import Answers, MissionTasks, Recaller, RouteService, Think
 from planner.navigation import RouteResult
 from wire import OpRequest, Status, Waypoints
 
@@ -138,7 +134,7 @@ class Loop:
         return self._engine.way_ahead(AHEAD_M)
 
     async def start(
-        self, think: Think, router: RouteService, *, freeze: bool, rounds: bool
+        self, think: Think, router: RouteService, *, freeze: bool, rounds: bool, recall: Recaller
     ) -> tuple[GoalKey, ...]:
         """Take up the journal and begin; return the idempotency keys it kept.
 
@@ -147,6 +143,7 @@ class Loop:
             router: finds ways.
             freeze: take the garbage collector over.
             rounds: turn the rounds; else whoever owns the clock calls ``hear`` and ``tick``.
+            recall: asks memory.
 
         Raises:
             ConfigError: the journal holds what this version can't read.
@@ -154,9 +151,10 @@ class Loop:
         kept = await self._disk.open(self._on_safe)
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
         answers = Answers(
-            self.event, self._on_routed, self._link.obstacles, self.event, self._break
+            *(self.event, self._on_routed, self._link.obstacles, self.event, self._break),
+            recalled=self.event,
         )
-        self._helpers = MissionTasks(think, router, answers, self._door)
+        self._helpers = MissionTasks(think, router, answers, self._door, recall)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
         self.event(Restarted(kept.missions, kept.queue, offset_s))
         if freeze:
@@ -331,9 +329,6 @@ class Loop:
             case Journal():
                 self._disk.write(effect, self._key_now)
                 self._key_now = None
-            case AskBrain() | AskRoute() | AskEyes() | KeepPicture() | DropBrain():
-                if self._helpers is not None:
-                    self._helpers.help(effect)
             case ClearHold():
                 self.clear_hold(self._acts.pop(effect.id, None))
             case SayAloud():
@@ -346,3 +341,6 @@ class Loop:
                         self._acts.pop(effect.id, None)
                     goal = goal_of(self.book, self.book.missions[effect.id]).model_dump(mode="json")
                     self.hub.publish({"type": "goal", "goal": goal})
+            case _:
+                if self._helpers is not None:
+                    self._helpers.help(effect)

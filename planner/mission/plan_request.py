@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from datetime import datetime
 from functools import lru_cache
 from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
-from planner.brain.situation import Situation
+from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
@@ -40,8 +40,10 @@ from planner.plan import (
     check_plan,
 )
 
-CHECKS = frozenset({"look", "find", "count", "ask"})
+CHECKS = frozenset({"look", "find", "count", "ask", "recall"})
 """Steps after which what an order puts on a condition may be done."""
+Remember = Callable[[AskBrain, Vocabulary], Awaitable[tuple[RememberedItem, ...]]]
+"""Choose what a brain is shown of memory."""
 TELL_S = 0.1
 """Between two tellings of one goal; the first comes at once."""
 
@@ -93,10 +95,19 @@ def read_clock() -> datetime:
     return datetime.now().astimezone()
 
 
-def _situation(ask: AskBrain, clock: Callable[[], datetime]) -> Situation | None:
+async def remember_nothing(ask: AskBrain, vocabulary: Vocabulary) -> tuple[RememberedItem, ...]:
+    """Return what a robot without memory remembers."""
+    del ask, vocabulary
+    return ()
+
+
+def _situation(
+    ask: AskBrain, clock: Callable[[], datetime], remembered: tuple[RememberedItem, ...]
+) -> Situation | None:
     if ask.situation is None:
         return None
-    return ask.situation.model_copy(update={"time": clock().strftime("%a %Y-%m-%d %H:%M")})
+    time_told = clock().strftime("%a %Y-%m-%d %H:%M")
+    return ask.situation.model_copy(update={"time": time_told, "remembered": remembered})
 
 
 def thinker(
@@ -106,10 +117,12 @@ def thinker(
     means: Means = BARE,
     classes: tuple[str, ...] = (),
     clock: Callable[[], datetime] = read_clock,
+    remember: Remember = remember_nothing,
 ) -> Think:
     """Return how this brain thinks about goals in this closed world; ``hearing`` listens."""
 
     async def think(ask: AskBrain) -> Planned:
+        remembered = await remember(ask, vocabulary)
         request = ThinkRequest(
             text=ask.text,
             vocabulary=vocabulary,
@@ -123,7 +136,7 @@ def thinker(
             replan=ask.replan,
             order=ask.order if ask.exchanges else "",
             exchanges=ask.exchanges,
-            situation=_situation(ask, clock),
+            situation=_situation(ask, clock, remembered),
         )
         try:
             hear = hearing.of(ask.id) if hearing else None

@@ -15,6 +15,7 @@ from planner.language.commands import (
     Doing,
     Faster,
     Forget,
+    ForgetFacts,
     HereCommand,
     Intent,
     LeaningCommand,
@@ -23,11 +24,14 @@ from planner.language.commands import (
     Replace,
     ResumeCommand,
     Slower,
+    TeachFact,
+    read_statement,
 )
 from planner.language.utterance import parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
+from planner.mission.fact_commands import FactCommands
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_position
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse
@@ -41,6 +45,7 @@ if TYPE_CHECKING:
 
     from planner.mission.events import Command
     from planner.mission.loop import Loop
+    from planner.mission.memory_lookup import MemoryLookup
     from planner.mission.state import Mission
     from planner.mission.tasks import Think
     from planner.site.known_places import KnownPlaces
@@ -69,6 +74,7 @@ class PlannerCommands:
         memory: KnownPlaces,
         loop: Loop,
         link: HintLink,
+        lookup: MemoryLookup | None = None,
     ) -> None:
         """Take what it needs of the missions.
 
@@ -77,8 +83,10 @@ class PlannerCommands:
             memory: the places.
             loop: where everything stands now, and who obeys commands.
             link: brings localization a person's word on where the robot is.
+            lookup: what was seen and told.
         """
         self._brain, self._memory, self._loop, self._link = think, memory, loop, link
+        self._facts = FactCommands(lookup, memory, loop)
 
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
@@ -90,6 +98,10 @@ class PlannerCommands:
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:
             intent = None  # "you are in the way": nothing of ours
+        if isinstance(intent, ForgetFacts) and self._place(intent.about) is not None:
+            intent = None  # "forget about the kitchen": a drive may be meant
+        if intent is None and mission is not None and not (mission.replies or mission.steps):
+            intent = read_statement(ask.text)
         if isinstance(intent, Replace | LeaningCommand):
             intent = None  # it leans on nothing that is known: a brain reads it
         if intent is None or mission is None or mission.steps:
@@ -104,6 +116,8 @@ class PlannerCommands:
                 return await self._remember(name)
             case Forget(name):
                 return await self._forget(name)
+            case TeachFact() | ForgetFacts():
+                return await self._facts.carry_out(intent)
             case HereCommand(name):
                 return await self._hint(name)
             case PauseCommand():

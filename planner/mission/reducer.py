@@ -22,6 +22,7 @@ from planner.mission.events import (
     Oncoming,
     Pause,
     Planned,
+    Recalled,
     Reply,
     Restarted,
     Resume,
@@ -46,6 +47,7 @@ from planner.mission.goal_lifecycle import (
     take_plan,
 )
 from planner.mission.leg_routes import on_routed
+from planner.mission.memory_answers import on_recalled
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import on_sight, on_told
 from planner.mission.places_changed import on_known
@@ -122,6 +124,7 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
     | Surveyed
     | Sighted
     | Told
+    | Recalled
     | Journalled
     | Stopped
     | Restarted
@@ -135,6 +138,8 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
             on_sight(turn, event.sight, event.classes)
         case Told():
             on_told(turn, event.id, event.ticket, event.answer)
+        case Recalled():
+            on_recalled(turn, event)
         case Tick():
             on_tick(turn)
         case Journalled():

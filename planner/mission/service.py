@@ -20,11 +20,7 @@ from planner.mission.api_view import goal_of
 from planner.mission.clocks import Clocks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
-from planner.mission.errors import (
-    JournalDown,
-    NothingToResume,
-    UnknownGoal,
-)
+from planner.mission.errors import JournalDown, NothingToResume, UnknownGoal
 from planner.mission.events import (
     Cancel,
     Command,
@@ -40,6 +36,7 @@ from planner.mission.events import (
 )
 from planner.mission.journal_sync import Disk
 from planner.mission.loop import Loop
+from planner.mission.memory_lookup import MemoryLookup
 from planner.mission.place_survey import RobotSurvey
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
@@ -62,6 +59,7 @@ from planner.site import KnownPlaces, Site
 from wire import OpRequest, RobotDescription
 
 if TYPE_CHECKING:
+    from planner.memory import Recollection
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
     from planner.mission.state import GoalKey
@@ -95,9 +93,16 @@ class Missions:
         clock = self._clocks.monotonic
         self._router, self._repeats = RouteAhead(router, self.loop, clock), Repeats()
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
-        self._think = PlannerCommands(self._ask_brain, self.memory, self.loop, link).think
+        self._lookup = MemoryLookup(self.loop, self._clocks.wall)
+        self._think = PlannerCommands(
+            self._ask_brain, self.memory, self.loop, link, self._lookup
+        ).think
         self.obstacles: ScanSender | None = None
         self.memory.listen(self._on_places)
+
+    def remember_by(self, recollection: Recollection) -> None:
+        """Answer from this memory, and keep in it what people say."""
+        self._lookup.recollection = recollection
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
         """See with these eyes, and ask this model about their pictures."""
@@ -110,8 +115,6 @@ class Missions:
             self.link, lidar, map_id, observer, self.loop.way_ahead, self._clocks.monotonic
         )
         self.loop.show_scans(self.obstacles)
-
-    # Life ---------------------------------------------------------------------------------------
 
     async def start(
         self, *, freeze: bool = False, rules: Rules | None = None, rounds: bool = True
@@ -127,15 +130,15 @@ class Missions:
             ConfigError: the journal holds what this version can't read.
         """
         self.loop.rule(rules or Rules())
-        kept = await self.loop.start(self._think, self._router, freeze=freeze, rounds=rounds)
+        kept = await self.loop.start(
+            self._think, self._router, freeze=freeze, rounds=rounds, recall=self._lookup.answer
+        )
         self._repeats = Repeats(kept)
 
     async def close(self) -> None:
         """End everything; a running goal comes back paused in the next process."""
         await self.loop.close()
         await self._router.close()
-
-    # Goals --------------------------------------------------------------------------------------
 
     async def submit(
         self,
@@ -265,8 +268,6 @@ class Missions:
         self.loop.event(Stopped(source))
         return await saying
 
-    # What is told --------------------------------------------------------------------------------
-
     @property
     def failure(self) -> BaseException | None:
         """Return the error that ended the mission loop, if one did: the process should end then."""
@@ -318,8 +319,6 @@ class Missions:
             "status": status.model_dump(mode="json") if status is not None else None,
         }
 
-    # Inside -------------------------------------------------------------------------------------
-
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
         self.loop.event(dataclasses.replace(given, echoed=result.is_echoed))
@@ -332,7 +331,14 @@ class Missions:
 
     async def _ask_brain(self, ask: AskBrain) -> Planned:
         eyes = (self._hearing, self.loop.book.means, self.loop.book.eyes.classes)
-        return await thinker(self._brain, self.memory.vocabulary, *eyes)(ask)
+        remember = self._lookup.find_relevant
+        return await thinker(self._brain, self.memory.vocabulary, *eyes, remember=remember)(ask)
+
+    def step_kind(self) -> str:
+        """Return the kind of the step that is under way; empty where none is."""
+        running = self.loop.book.missions.get(self.loop.book.running or "")
+        step = running.current_step if running is not None else None
+        return step.kind if step is not None else ""
 
     def _on_places(self) -> None:
         self.loop.event(Known(self.memory.facts))

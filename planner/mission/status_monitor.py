@@ -26,6 +26,7 @@ from planner.mission.legs import (
     hand_steers,
     settle_amounts,
 )
+from planner.mission.memory_answers import end_lookup_if_due
 from planner.mission.open_questions import end_unanswered
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import end_gaze_if_due, on_standing, stand_while_blind
@@ -82,6 +83,7 @@ def on_tick(turn: Transaction) -> None:
         return
     end_wait_if_due(turn)
     end_gaze_if_due(turn)
+    end_lookup_if_due(turn)
 
 
 def _measure(

@@ -12,13 +12,14 @@ from planner.mission.activity import (
     Asking,
     AskingImage,
     Driving,
+    LookingUp,
     Observing,
     Retrying,
     Speaking,
     Waiting,
 )
 from planner.mission.bridge_status import cannot_move, standing
-from planner.mission.effects import AskEyes, SayAloud
+from planner.mission.effects import AskEyes, AskMemory, SayAloud
 from planner.mission.legs import abandon_route, ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import (
     ended_outcome,
@@ -41,6 +42,7 @@ from planner.mission.skills import (
     Fail,
     Finish,
     ImageAnswer,
+    LookUp,
     Observe,
     Question,
     Retry,
@@ -103,13 +105,8 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
             _inquire(turn, mission, act)
         case Retry():
             _later(turn, mission, act)
-        case Stand():
-            note_step(turn, mission, state=StepState.RUNNING, reason=None)
-            until_s = turn.now_s + act.seconds
-            turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
-        case Speak():
-            note_step(turn, mission, state=StepState.RUNNING, reason=None)
-            turn.set(activity=Speaking(record=turn.next_entry))
+        case Stand() | Speak() | LookUp():
+            _stay(turn, mission, act)
         case Question():
             _ask(turn, mission, act)
         case Think():
@@ -179,6 +176,23 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
         now=act.now,
     )
     turn.emit(ask)
+
+
+def _stay(turn: Transaction, mission: Mission, act: Stand | Speak | LookUp) -> None:
+    """Wait, say words, or have memory asked what the step asks: its answer has the ticket."""
+    mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    if isinstance(act, Stand):
+        until_s = turn.now_s + act.seconds
+        turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
+        return
+    if isinstance(act, Speak):
+        turn.set(activity=Speaking(record=turn.next_entry))
+        return
+    step, ticket = mission.steps[mission.step], turn.book.tickets + 1
+    until_s = turn.now_s + act.seconds
+    looking = LookingUp(record=turn.next_entry, ticket=ticket, until_s=until_s)
+    turn.set(tickets=ticket, activity=looking)
+    turn.emit(AskMemory(mission.id, ticket, step.object, step.place, step.when, step.deeds))
 
 
 def _result(act: Finish) -> dict[str, object]:

@@ -8,20 +8,40 @@ from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from planner.language.catalogue import message
-from planner.mission.effects import AskBrain, AskEyes, AskRoute, DropBrain, KeepPicture
-from planner.mission.events import Planned, Told
+from planner.language.catalogue import message, say
+from planner.mission.effects import (
+    AskBrain,
+    AskEyes,
+    AskMemory,
+    AskRoute,
+    DropBrain,
+    KeepPicture,
+)
+from planner.mission.events import Planned, Recalled, Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Way
 from planner.mission.skills.perception import ImageAnswer
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.navigation.obstruction import points_of
-from planner.plan import Code, Outcome
+from planner.plan import Bilingual, Code, Outcome
 
 log = logging.getLogger(__name__)
 
+Recaller = Callable[[AskMemory], Awaitable[Recalled]]
+"""Look up what is remembered."""
 Think = Callable[[AskBrain], Awaitable[Planned]]
 """Understand a sentence. Cancelled at once when nobody waits for the answer any more."""
+
+
+async def recall_nothing(ask: AskMemory) -> Recalled:
+    """Answer for a robot without memory: nothing is remembered."""
+    code = Code.NOT_REMEMBERED
+    return Recalled(ask.id, ask.ticket, code, message(code, what=what_of(ask)))
+
+
+def what_of(ask: AskMemory) -> Bilingual:
+    """Name what was asked for, as the person did."""
+    return say("memory.asked", what=ask.label) if ask.label else say("memory.anything")
 
 
 class RouteService(Protocol):
@@ -41,6 +61,7 @@ class Answers:
     told: Callable[[Told], None]
     broken: Callable[[BaseException], None]
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
+    recalled: Callable[[Recalled], None] = lambda _: None
 
 
 class MissionTasks:
@@ -52,8 +73,9 @@ class MissionTasks:
         router: RouteService,
         answers: Answers,
         eyes: EyeDoor | None = None,
+        recall: Recaller = recall_nothing,
     ) -> None:
-        self._think = think
+        self._think, self._recall = think, recall
         self._eyes = eyes or EyeDoor(None)
         self._router = router
         self._answers = answers
@@ -61,7 +83,9 @@ class MissionTasks:
         self._inquiries: dict[int, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    def help(self, ask: AskBrain | AskRoute | AskEyes | KeepPicture | DropBrain) -> None:
+    def help(
+        self, ask: AskBrain | AskRoute | AskEyes | AskMemory | KeepPicture | DropBrain
+    ) -> None:
         """Start to think, to search or to ask about pictures; keep one; stop thinking."""
         match ask:
             case AskBrain():
@@ -74,6 +98,8 @@ class MissionTasks:
                 self.spawn(self._search(ask))
             case KeepPicture():
                 self._eyes.keep(ask)
+            case AskMemory():
+                self.spawn(self._look_up(ask))
             case AskEyes():
                 self._inquiries[ask.ticket] = self._start(self._inquire(ask))
 
@@ -131,6 +157,16 @@ class MissionTasks:
         if self._inquiries.get(ask.ticket) is asyncio.current_task():
             del self._inquiries[ask.ticket]
             self._answers.told(told)
+
+    async def _look_up(self, ask: AskMemory) -> None:
+        try:
+            answer = await self._recall(ask)
+        except Exception:
+            # As with a brain: its fault must not end the planner.
+            log.exception("memory failed on goal %s", ask.id)
+            code = Code.MEMORY_UNAVAILABLE
+            answer = Recalled(ask.id, ask.ticket, code, message(code))
+        self._answers.recalled(answer)
 
     async def _search(self, ask: AskRoute) -> None:
         obstacles = self._answers.obstacles() if ask.obstacles else ()

@@ -12,7 +12,7 @@ from pydantic import AwareDatetime, Field
 from planner.plan.base import Bilingual, Frozen, Language
 from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
-from planner.plan.steps import Step
+from planner.plan.steps import Span, Step
 
 
 class GoalState(StrEnum):
@@ -85,6 +85,8 @@ class StepRecord(Frozen):
     seconds: float | None = None
     angle_rad: float | None = None
     distance_m: float | None = None
+    when: Span | None = None  # a time that is asked about
+    deeds: bool = False  # what the robot did is asked about
     state: StepState = StepState.PENDING
     reached: Spot | None = None
     residual_m: float | None = None  # distance left to the goal when the bridge said "reached"

@@ -39,6 +39,7 @@ class Code(StrEnum):
     MODEL_UNAVAILABLE = "model_unavailable"
     NOT_ARMED = "not_armed"
     PLACE_NOT_KEPT = "place_not_kept"
+    NOT_KEPT = "not_kept"
     # On the way.
     CONFIRM = "confirm"
     ASKED = "asked"
@@ -64,6 +65,9 @@ class Code(StrEnum):
     FOLLOWED = "followed"
     EXPLORED = "explored"
     PARTLY_EXPLORED = "partly_explored"
+    RECALLED = "recalled"
+    NOT_REMEMBERED = "not_remembered"
+    MEMORY_UNAVAILABLE = "memory_unavailable"
     DONE = "done"
     ANSWERED = "answered"
     CANCELLED = "cancelled"

@@ -16,17 +16,19 @@ from planner.plan.vocabulary import PlaceId
 
 Words = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=500)]
 Label = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
+Span = Literal["hour", "today", "morning", "afternoon", "evening", "night", "yesterday", "week"]
+"""A time that people ask about, by the day and the clock of the home."""
 
 
 class GoTo(Frozen):
-    """Drive to a room or place of the vocabulary."""
+    """Drive to a room or place."""
 
     kind: Literal["go_to"] = "go_to"
     place: PlaceId
 
 
 class ComeBack(Frozen):
-    """Drive back to the pose at which this goal was accepted."""
+    """Drive back to where this goal was given."""
 
     kind: Literal["come_back"] = "come_back"
 
@@ -59,7 +61,7 @@ class Ask(Frozen):
 
 
 class Decide(Frozen):
-    """Think again with what was seen and heard until here."""
+    """Think again with what was seen and heard."""
 
     kind: Literal["decide"] = "decide"
     question: Words
@@ -73,14 +75,14 @@ class Turn(Frozen):
 
 
 class MoveStraight(Frozen):
-    """Drive straight by a distance [m] along the heading, backwards where negative."""
+    """Drive straight by a distance [m], backwards where negative."""
 
     kind: Literal["move"] = "move"
     distance_m: float = Field(ge=-10.0, le=10.0)
 
 
 class Patrol(Frozen):
-    """Drive to places one after the other, not looking."""
+    """Drive to places in turn, not looking."""
 
     kind: Literal["patrol"] = "patrol"
     places: Annotated[tuple[PlaceId, ...], Field(min_length=1, max_length=20)]
@@ -101,7 +103,7 @@ class GoToObject(Frozen):
 
 
 class GoToPoint(Frozen):
-    """Drive to what lies at a point of the picture (x right, y down, each 0 to 1000)."""
+    """Drive to what lies at a point of the picture (x right, y down)."""
 
     kind: Literal["go_to_point"] = "go_to_point"
     x: int = Field(ge=0, le=1000)
@@ -109,7 +111,7 @@ class GoToPoint(Frozen):
 
 
 class Find(Frozen):
-    """Look for an object or a person, in a place where one is named."""
+    """Look for an object or person, in a place where named."""
 
     kind: Literal["find"] = "find"
     object: Label
@@ -117,7 +119,7 @@ class Find(Frozen):
 
 
 class Count(Frozen):
-    """Count objects or people, in a place where one is named."""
+    """Count objects or people, in a place where named."""
 
     kind: Literal["count"] = "count"
     object: Label
@@ -130,6 +132,16 @@ class Look(Frozen):
     kind: Literal["look"] = "look"
     question: Words
     place: PlaceId | None = None
+
+
+class Recall(Frozen):
+    """Tell what was seen or told; with deeds, what you did."""
+
+    kind: Literal["recall"] = "recall"
+    object: Label | None = None
+    place: PlaceId | None = None
+    when: Span | None = None
+    deeds: bool = False
 
 
 class Follow(Frozen):
@@ -156,17 +168,20 @@ Step = Annotated[
     | Find
     | Count
     | Look
-    | Follow,
+    | Follow
+    | Recall,
     Field(discriminator="kind"),
 ]
 _MODELS: tuple[type[Frozen], ...] = get_args(get_args(Step)[0])
 
 RUNNABLE = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
-    | {"wait", "say", "ask", "decide"}
+    | {"wait", "say", "ask", "decide", "recall"}
 )  # what a mission can walk without eyes; `Means` says what else a robot can
 NEEDS_GROWING_MAP = frozenset({"explore"})
 NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
+STANDS = frozenset({"recall"})
+"""What names a place and drives nowhere."""
 EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
 """What a plan may hold at all; a robot's own `runnable` is a part of it."""
 DRIVES = frozenset(

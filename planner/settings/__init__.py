@@ -9,6 +9,7 @@ from planner.settings.loader import (
     place_of,
     same_place,
 )
+from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
 from planner.settings.presets import PRESETS, JsonMode, Preset, PresetName, TokensField
@@ -24,6 +25,7 @@ __all__ = [
     "GoalLimits",
     "JsonMode",
     "Limits",
+    "MemorySettings",
     "MissionSettings",
     "ModelSettings",
     "Preset",

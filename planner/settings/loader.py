@@ -17,6 +17,7 @@ from urllib.parse import urlsplit
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price, contradiction
+from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
 from planner.settings.presets import known_as
@@ -44,6 +45,7 @@ class Settings(BaseModel):
     """None: the offline brain alone."""
     budget: BudgetSettings = BudgetSettings()
     mission: MissionSettings = MissionSettings()
+    memory: MemorySettings = MemorySettings()
     vision: VisionSettings = VisionSettings()
     voice: VoiceSettings = VoiceSettings()
     speech: SpeechSettings = SpeechSettings()
@@ -265,6 +267,7 @@ _TABLES: dict[str, type[BaseModel]] = {
     "": Settings,
     "model": ModelSettings,
     "mission": MissionSettings,
+    "memory": MemorySettings,
     "vision": VisionSettings,
     "voice": VoiceSettings,
     "speech": SpeechSettings,

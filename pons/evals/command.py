@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 REACHED, MISSED, REFUSED = 0, 1, 2
-TALK = "talk"
+TALK, MEMORY = "talk", "memory"
 GOAL = 0.9
 Scored = TypeVar("Scored")
 
@@ -51,7 +51,7 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
         return _quick(settings, said) if said.quick else _journal(settings, said)
     if said.suite is None:
         parser.error("give a SUITE, --quick or --journal")
-    if said.suite == TALK:
+    if said.suite in (TALK, MEMORY):
         return _talk(settings, said)
     try:
         suites = load(said.suite, said.data, said.site)
@@ -74,16 +74,25 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
 
 
 def _talk(settings: LaunchSettings, said: argparse.Namespace) -> int:
-    """Score words that lean on the goal before them, in both languages."""
+    """Score words that lean on the goal before them, or on memory, in both languages."""
+    from pons.evals.memory_score import read_memory_cases, score_memory, show_memory
     from pons.evals.talk import read_talks, score_talks, show_talks
+    from pons.evals.world import site_world
 
     async def score(brain: Brain) -> int:
-        site, right, count = Site.load(said.site), 0, 0
+        site, right, asked = Site.load(said.site), 0, 0
         for name in ("en", "zh"):
-            verdicts = await score_talks(read_talks(name), brain, site)
-            print(show_talks(name, verdicts))
-            right, count = right + sum(v.right for v in verdicts), count + len(verdicts)
-        return REACHED if right >= GOAL * count else MISSED
+            if said.suite == TALK:
+                talks = await score_talks(read_talks(name), brain, site)
+                print(show_talks(name, talks))
+                verdicts = [each.right for each in talks]
+            else:
+                world = site_world(said.site, room="study")
+                answers = await score_memory(read_memory_cases(name), brain, world)
+                print(show_memory(name, answers))
+                verdicts = [each.right and not each.moves_wrongly for each in answers]
+            right, asked = right + sum(verdicts), asked + len(verdicts)
+        return REACHED if right >= GOAL * asked else MISSED
 
     try:
         return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
@@ -98,7 +107,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Score what a brain plans. Exit status: 0 goal reached, 1 not, 2 not asked.",
     )
     parser.add_argument(
-        "suite", nargs="?", help=f"{', '.join(suite_names())}, {TALK}, or a .tsv file"
+        "suite", nargs="?", help=f"{', '.join(suite_names())}, {TALK}, {MEMORY}, or a .tsv file"
     )
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(

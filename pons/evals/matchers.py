@@ -21,7 +21,7 @@ CLOSE = 0.02
 _STILL = frozenset({"clarify", "refuse", "still", "answer"})
 _KINDS = frozenset(
     {"go", "back", "home", "wait", "say", "ask", "turn", "move", "find", "count", "look"}
-    | {"follow", "decide", "approach"}
+    | {"follow", "decide", "approach", "recall"}
 )
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from planner.plan import ComeBack, Patrol, ReturnHome, StepPlan, Vocabulary, places_of
+from planner.plan import STANDS, ComeBack, Patrol, ReturnHome, StepPlan, Vocabulary, places_of
 from planner.site.site import Site
 from planner.site.site_view import vocabulary_of
 
@@ -56,7 +56,7 @@ def walk(plan: StepPlan) -> tuple[EvalEvent, ...]:
         if isinstance(step, ComeBack | ReturnHome):
             trace.arrive(START if isinstance(step, ComeBack) else HOME)
             continue
-        for place in places_of(step):
+        for place in places_of(step) if step.kind not in STANDS else ():
             trace.arrive(place)
         if step.kind not in ("go_to", Patrol.model_fields["kind"].default):
             _act(trace, step.kind, step.model_dump())

@@ -9,6 +9,7 @@ from planner.language.commands.command import (
     Doing,
     Faster,
     Forget,
+    ForgetFacts,
     HereCommand,
     Intent,
     LeaningCommand,
@@ -19,8 +20,10 @@ from planner.language.commands.command import (
     Replace,
     ResumeCommand,
     Slower,
+    TeachFact,
     WhereCommand,
 )
+from planner.language.commands.facts import read_statement
 from planner.language.commands.parser import intent_of
 
 __all__ = [
@@ -29,6 +32,7 @@ __all__ = [
     "Doing",
     "Faster",
     "Forget",
+    "ForgetFacts",
     "HereCommand",
     "Intent",
     "LeaningCommand",
@@ -39,6 +43,8 @@ __all__ = [
     "Replace",
     "ResumeCommand",
     "Slower",
+    "TeachFact",
     "WhereCommand",
     "intent_of",
+    "read_statement",
 ]

@@ -20,6 +20,27 @@ class Forget:
 
 
 @dataclass(frozen=True, slots=True)
+class TeachFact:
+    """Remember what a person says, word for word."""
+
+    words: str
+    here: bool = False
+    """It speaks of the room that the robot is in: "this is Anna's room"."""
+
+
+@dataclass(frozen=True, slots=True)
+class ForgetFacts:
+    """Forget what is remembered: about some words, or all of a kind."""
+
+    about: str = ""
+    """Empty: everything of these kinds."""
+    told: bool = True
+    """What people said is meant."""
+    seen: bool = True
+    """What was seen is meant."""
+
+
+@dataclass(frozen=True, slots=True)
 class HereCommand:
     """Tell the robot in which room or at which place it is."""
 
@@ -96,6 +117,8 @@ LeaningCommand = AppendCommand | RepeatCommand | OtherPlaceCommand
 Intent = (
     Remember
     | Forget
+    | TeachFact
+    | ForgetFacts
     | HereCommand
     | PauseCommand
     | ResumeCommand

@@ -119,6 +119,62 @@ HERE = re.compile(
     r"(?: now| right now)?"
 )
 
+_THIS_IS = (
+    r"this is (?!(?:called|named|it|that|not|a|an|what|where|how|why|enough|good|great|fine"
+    r"|wrong)\b)"
+    r"(?:the |my |our )?[a-z' ]{2,40}(?:room|bedroom|office|bed|desk|chair|seat|place|corner"
+    r"|spot|table|shelf)"
+)
+_ORDERS = (
+    r"(?:to|me|it|him|her|them|us|this|that|these|here|where|who|what|how|when|why|which|if|whether"
+    r"|as|for|about|you|everything|anything|nothing|something|please)\b"
+)
+_NOUN = r"(?:(?:the|my|our|your|his|her|their|a|an) )?[a-z0-9' ]{2,40}?"
+_SAYS = (
+    r"(?:is|are|was|were|has|have|had|will|can|can't|cannot|does|doesn't|don't|likes?|loves?"
+    r"|hates?|needs?"
+    r"|takes?|comes?|lives?|sleeps?|works?|eats?|belongs?|goes|arrives?|leaves?|means?|must"
+    r"|should|may|isn't"
+    r"|aren't|wants?|keeps?|uses?|opens?|closes?|starts?|ends?)"
+)
+_KEEP = (
+    r"(?:remember|note|keep in mind|bear in mind|memori[sz]e|make a note|take a note|write down"
+    r"|(?:don't|do not|never) forget)"
+)
+TEACH = re.compile(
+    rf"{_KEEP}(?: that|:| this:| the following:|,)+ (?P<a>(?!to\b).{{4,}})"
+    rf"|{_KEEP} (?P<b>(?!{_ORDERS}){_NOUN} {_SAYS}\b.*)|(?P<c>{_THIS_IS})|{_KEEP} (?P<d>{_THIS_IS})"
+)
+"""What is to be remembered, word for word."""
+THIS_IS = re.compile(r"this is .*")
+_ABOUT = r"(?P<{}>[^,;:.!?]{{2,60}})"
+_DROP = r"(?:forget|delete|erase|remove|drop)"
+_I_SAID = r"(?:i|we)(?:'ve| have)? (?:ever )?(?:said|told you|taught you)"
+FORGET_TOLD = re.compile(
+    rf"{_DROP}(?: about)? (?:what|everything|all|anything)(?: that)? {_I_SAID}(?: (?:to you"
+    rf" )?about {_ABOUT.format('a')})?"
+)
+FORGET_SEEN = re.compile(
+    rf"{_DROP}(?: about)? (?:what|everything|all|anything)(?: that)? you(?:'ve| have)? (?:ever"
+    rf" )?(?:saw|seen)"
+    rf"(?: of {_ABOUT.format('a')})?"
+)
+FORGET_ALL = re.compile(
+    rf"{_DROP} (?:everything|all)(?: that)?(?: you (?:know|remember|have remembered))?"
+    rf"|(?:{_DROP}|clear|wipe) (?:all (?:of )?)?your (?:whole |entire )?(?:memory|memories)"
+)
+FORGET_ABOUT = re.compile(
+    rf"{_DROP} (?:everything |all |that |the thing |that thing |what you (?:know|remember)"
+    rf" )?(?:about|of) {_ABOUT.format('a')}"
+)
+STATEMENT = re.compile(
+    r"(?:the|my|our|[a-z]+'s) [a-z0-9' ]{2,40}? (?:is|are) (?:still |now |always |usually "
+    r"|lying |kept |stored )?"
+    r"(?:in|on|at|under|behind|near|next to|beside|inside|on top of) "
+    r"(?:the|my|our|your|[a-z]+'s) [a-z0-9' ]{2,40}"
+)
+"""A flat statement of where something is; said as an order of its own it is worth remembering."""
+
 DETERMINER = re.compile(r"(?:the|my|our) ")
 NO_NAME = re.compile(
     r"(?:an?|you|i|we|it|he|she|they|if|when|while|as|soon|well|long|what|who|where|how|which|why"

@@ -29,6 +29,7 @@ from planner.language.commands.command import (
     Slower,
     WhereCommand,
 )
+from planner.language.commands.facts import read_fact_order
 from planner.language.commands.follow_up import read_follow_up
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.stop import is_stop
@@ -98,7 +99,12 @@ def _read(said: _FoldedText, grammar: ModuleType) -> Intent | None:
     simple = _simple(said.folded, grammar, asks=asks)
     if simple is not None or asks:
         return simple
-    return _read_lesson(said, grammar) or _replacing(said, grammar) or _slowing(said, grammar)
+    return (
+        _read_lesson(said, grammar)
+        or read_fact_order(said, grammar)
+        or _replacing(said, grammar)
+        or _slowing(said, grammar)
+    )
 
 
 def _slowing(said: _FoldedText, grammar: ModuleType) -> Intent | None:

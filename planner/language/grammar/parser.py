@@ -39,6 +39,7 @@ from planner.language.grammar.sentence_text import (
 )
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
 from planner.language.grammar.zh.orders import CHINESE
+from planner.language.recall import read_recall
 from planner.language.stop import StopReading
 from planner.language.utterance import parse
 from planner.plan import (
@@ -75,6 +76,7 @@ class Context(Frozen):
     runnable: frozenset[str] = RUNNABLE  # kinds of steps the robot can do
     blind: Code = Code.NO_CAMERA  # what is said of looking where it can't
     things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
+    remembers: bool = False  # something that the sentence names is remembered
 
 
 NOWHERE = Context()
@@ -90,6 +92,10 @@ def plan(
     # The stop lane comes first; should a stop get here, it stays a stop.
     if parse(text).reading is StopReading.ORDER:
         return Refuse(code=Code.STOPPED, reason=message(Code.STOPPED))
+    recalled = read_recall(text, vocabulary, context.room)
+    asks = recalled is not None and (context.remembers or not recalled.present)
+    if recalled is not None and asks and "recall" in context.runnable:
+        return StepPlan(steps=(recalled.step,))
     apart, quotes = take_quotes(text)
     said = normalise(apart)
     sentence = _Sentence(text, apart, quotes)

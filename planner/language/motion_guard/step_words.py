@@ -18,6 +18,7 @@ from planner.language.motion_guard.mentioned_names import (
 )
 from planner.plan import (
     DRIVES,
+    STANDS,
     ComeBack,
     Count,
     Explore,
@@ -54,7 +55,7 @@ _CLOSE = 0.02  # of the number that was said
 
 def moves(step: Step) -> bool:
     """Tell whether a step moves the robot."""
-    return step.kind in DRIVES or bool(places_of(step))
+    return step.kind in DRIVES or (step.kind not in STANDS and bool(places_of(step)))
 
 
 def evidence(step: Step, said: str) -> int:

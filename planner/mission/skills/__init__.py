@@ -14,6 +14,7 @@ from planner.mission.skills.actions import (
     DriveLeg,
     Fail,
     Finish,
+    LookUp,
     Observe,
     Question,
     Retry,
@@ -37,6 +38,7 @@ from planner.mission.skills.go_to_point import go_to_point
 from planner.mission.skills.look import look
 from planner.mission.skills.move import move, no_room
 from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
+from planner.mission.skills.recall import recall
 from planner.mission.skills.say import say
 from planner.mission.skills.skill_state import STATES, SkillState, SkillStateBase, begin_state
 from planner.mission.skills.turn import turn
@@ -62,6 +64,7 @@ SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProx
         "follow": follow,
         "go_to_object": go_to_object,
         "go_to_point": go_to_point,
+        "recall": recall,
     }
 )
 
@@ -94,6 +97,7 @@ __all__ = [
     "Fail",
     "Finish",
     "ImageAnswer",
+    "LookUp",
     "Observe",
     "Question",
     "Retry",

@@ -167,6 +167,13 @@ class Question:
 
 
 @dataclass(frozen=True, slots=True)
+class LookUp:
+    """Look up what is remembered, standing; the step ends with it."""
+
+    seconds: float = 5.0
+
+
+@dataclass(frozen=True, slots=True)
 class Think:
     """Have the brain think again with the sights and answers so far."""
 
@@ -214,5 +221,16 @@ class Fail:
 
 
 SkillAction = (
-    DriveLeg | Stand | Observe | AskImage | Speak | Question | Think | Retry | Finish | Skip | Fail
+    DriveLeg
+    | Stand
+    | Observe
+    | AskImage
+    | LookUp
+    | Speak
+    | Question
+    | Think
+    | Retry
+    | Finish
+    | Skip
+    | Fail
 )

@@ -62,6 +62,14 @@ def on_floor(thing: Thing) -> bool | None:
     return thing.z_m <= max(kind.height_m, LOW_M)
 
 
+def support_of(thing: Thing, things: tuple[Thing, ...]) -> str | None:
+    """Return the class of what a thing stands on, the nearest; None where that is not known."""
+    on = [by for by in things if judge_relation(thing, Relation.ON, by) is True]
+    nearest = min(on, key=lambda by: hypot(thing.x_m - by.x_m, thing.y_m - by.y_m), default=None)
+    large = nearest is not None and kind_of(nearest.label).reach_m >= FURNITURE_M
+    return nearest.label if nearest is not None and large else None
+
+
 def name_related(what: Bilingual, relation: Relation, by: Bilingual) -> Bilingual:
     """Return a thing's name with its neighbour's: ``cup on the table``, ``桌子上的杯子``."""
     return say(f"related.{relation.value}", what=what, by=by)

@@ -13,12 +13,14 @@ from typing import Any
 from planner.brain import Brain, OfflineBrain
 from planner.budget import Amounts, BudgetLimits, Usage
 from planner.language.stop import is_stop
+from planner.memory import MemoryStore, Recollection
 from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.navigation import ObstacleReport
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
 from planner.site import FenceProposals, KnownPlaces, Site
+from planner.state_database import StateDatabase
 from planner.voice import Recognition, Sound, VoiceAbilities, VoiceFailure
 from tests.wire.examples import STATUS
 from wire import (
@@ -289,4 +291,5 @@ class FakeServices:
         self.brain: Brain = OfflineBrain()
         self.site = two_room()
         self.memory = KnownPlaces(self.site)
+        self.recollection = Recollection(MemoryStore(StateDatabase(Path("/nowhere"))))
         self.fences = FenceProposals.in_home(Path("/nowhere"))

@@ -68,6 +68,7 @@ STEPS: list[dict[str, Any]] = [
     {"kind": "look", "question": "what do you see?"},
     {"kind": "follow", "object": "the person"},
     {"kind": "explore"},
+    {"kind": "recall", "object": "red cup", "place": "kitchen", "when": "morning"},
 ]
 KINDS = [cls.model_fields["kind"].default for cls in get_args(get_args(Step)[0])]
 

@@ -1,5 +1,15 @@
 /** Ask the planner over HTTP. Every failure is an ApiError with a code; nothing is thrown raw. */
-import type { Bilingual, Goal, Grid, Known, Language, Objects, Pose, Taught } from "../wire/types";
+import type {
+  Bilingual,
+  Goal,
+  Grid,
+  Known,
+  Language,
+  Memories,
+  Objects,
+  Pose,
+  Taught,
+} from "../wire/types";
 import type { OperatorProof } from "./proof";
 import { authorization, tokenNeeded } from "./token";
 
@@ -187,4 +197,22 @@ export async function fetchPicture(): Promise<Blob> {
   });
   if (answer.ok) return answer.blob();
   throw refusal(answer, {});
+}
+
+/** Return what is remembered, the newest first; of a search what fits, or what comes nearest. */
+export async function listMemories(words: string, limit: number): Promise<Memories> {
+  const asked = new URLSearchParams({ limit: String(limit), ...(words ? { q: words } : {}) });
+  return (await call("GET", `/v1/memory?${asked}`)) as Memories;
+}
+
+export async function teachFact(text: string): Promise<void> {
+  await call("POST", "/v1/memory/facts", { text, source: "page" });
+}
+
+export async function forgetMemory(id: number): Promise<number> {
+  return ((await call("DELETE", `/v1/memory/${id}`)) as { forgotten: number }).forgotten;
+}
+
+export async function forgetMemories(): Promise<number> {
+  return ((await call("DELETE", "/v1/memory")) as { forgotten: number }).forgotten;
 }

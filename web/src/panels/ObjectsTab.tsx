@@ -4,11 +4,21 @@ import { colourClass } from "../map/things";
 import { t } from "../i18n";
 import { forgetThing, give } from "../state/acts";
 import { pageFresh } from "../state/store";
+import { RememberedPanel } from "./RememberedPanel";
 import { blind, blindWords, type Row, rows } from "../eyes/sight";
 
 const doubted = signal<string | null>(null); // whose forgetting is being asked about
 
 export function ObjectsTab() {
+  return (
+    <>
+      <Seen />
+      <RememberedPanel />
+    </>
+  );
+}
+
+function Seen() {
   return (
     <section
       class={`card ${pageFresh.value ? "" : "stale"}`}

@@ -43,7 +43,7 @@ export function explain(error: unknown): string {
 }
 
 /** Run a request; tell its failure. Return whether it went well. */
-async function attempt(request: () => Promise<Goal | undefined>): Promise<boolean> {
+export async function attempt(request: () => Promise<Goal | undefined>): Promise<boolean> {
   try {
     const goal = await request();
     if (goal) learn(goal);

@@ -396,3 +396,18 @@ export type Grid = {
     readonly speed_zones: readonly { readonly polygon: Outline; readonly max_speed_mps: number }[];
   };
 };
+
+/** One thing remembered: seen between two times, or told at one. */
+export type Memory = {
+  readonly id: number;
+  readonly kind: "thing" | "person" | "fact";
+  readonly words: string | null;
+  readonly name: Bilingual | null;
+  readonly on: Bilingual | null;
+  readonly room: string | null;
+  readonly first_unix_s: number;
+  readonly last_unix_s: number;
+  readonly fits: boolean;
+};
+
+export type Memories = { readonly memories: readonly Memory[] };

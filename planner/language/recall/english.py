@@ -1,0 +1,96 @@
+"""Own the English questions about before. Whole sentences, never a part of one.
+
+Matched against normalised words whose place names are marks, without courtesy, time and question
+mark; ``what`` is a thing, a person or what was told of.
+"""
+
+from __future__ import annotations
+
+import re
+
+from planner.language.grammar.lexicon import MARK
+
+LEAD = re.compile(
+    r"(?:(?:please|hey|hi|ok|okay|robot|pons|so|well|and)[ ,]+)*"
+    r"(?:(?:can|could|would|will) you (?:please )?)?"
+    r"(?:(?:please )?(?:tell|remind) (?:me|us)[ ,]+(?:again )?|do you (?:happen to )?know )?"
+)
+REMEMBERS = re.compile(r"(?:do|can|could) you (?:still )?(?:remember|recall) |remember (?=wh)")
+TAIL = re.compile(r"(?:[ ,]+(?:please|now|thanks|thank you|again|at all|robot|pons))+$")
+SPANS = (
+    ("hour", r"(?:with)?in the (?:last|past) (?:half )?hour|just now|a moment ago|a minute ago"),
+    ("morning", r"(?:earlier )?this morning"),
+    ("afternoon", r"(?:earlier )?this afternoon"),
+    ("evening", r"(?:earlier )?this evening|tonight"),
+    ("night", r"last night|yesterday (?:evening|night)|during the night"),
+    ("yesterday", r"(?:since )?yesterday(?: (?:morning|afternoon))?|the day before"),
+    ("today", r"(?:earlier )?today|so far today"),
+    ("week", r"this week|(?:in )?the (?:last|past) (?:few days|week)|lately|recently"),
+)
+_THE = r"(?:the |a |an |my |our |your |any |some )?"
+PLACE = re.compile(
+    rf"(?: (?:right |over )?(?:in|inside|into|at|on|near|to|around|by)"
+    rf" {_THE}(?P<at>{MARK})(?: room)?| (?:in )?(?P<here>here|this room))$"
+)
+_SEE = r"(?:see|notice|spot|find|meet|come across)"
+_SEEN = r"(?:seen|noticed|spotted|found|met)"
+_WHEN = r"(?:when|where|how long ago|at what time|in which room)"
+_WHAT = r"(?P<what>[^,;:.!?]{1,60}?)"
+_LAST = r"(?: (?:last|the last time|for the last time|most recently))?"
+_SOMEBODY = r"(?:some|any)(?:one|body)(?: else)?|people|a person|persons|guests|visitors"
+THING = re.compile(
+    rf"(?:{_WHEN} )?did you (?:last |ever |also )*{_SEE} {_WHAT}{_LAST}"
+    rf"|{_WHEN} (?:have|had) you (?:last |ever )*{_SEEN} {_WHAT.replace('what', 'b')}{_LAST}"
+    rf"|{_WHEN} was the last time (?:that )?you saw {_WHAT.replace('what', 'c')}"
+    rf"|where (?:was|were) {_WHAT.replace('what', 'd')}{_LAST}"
+    rf"|{_WHEN} you (?:last )?saw {_WHAT.replace('what', 'e')}{_LAST}"
+    rf"|where {_WHAT.replace('what', 'f')} (?:was|were)"
+    rf"|(?:have|had) you ever {_SEEN} {_WHAT.replace('what', 'g')}"
+    rf"|when (?:was|were) {_WHAT.replace('what', 'h')} (?:last )?{_SEEN}"
+)
+NOW = re.compile(
+    rf"where (?:is|are|can i find) {_WHAT}|where {_WHAT.replace('what', 'b')} (?:is|are)"
+    rf"|where (?:did|have) (?:i|we) (?:leave|put|left) {_WHAT.replace('what', 'c')}"
+    rf"|where (?:i|we) (?:left|put|have left|have put) {_WHAT.replace('what', 'd')}"
+    rf"|(?:have|had) you {_SEEN} {_WHAT.replace('what', 'e')}"
+)
+"""Asked of now: answered from memory where it knows something, else it is offered to look."""
+ANYTHING = re.compile(
+    rf"what (?:all )?(?:did you {_SEE}|have you {_SEEN}|(?:was|were)(?: there)?|you saw|you"
+    rf" have {_SEEN}"
+    r"|was going on|happened)"
+)
+PERSON = re.compile(
+    rf"(?:when|how long ago) (?:was|were|did you see) (?:there )?(?:{_SOMEBODY})(?: there)?"
+    rf"|(?:was|were) (?:there )?(?:{_SOMEBODY})(?: there)?|(?:has|have) (?:{_SOMEBODY}) been(?:"
+    rf" there)?"
+    rf"|did (?:{_SOMEBODY}) (?:come|go|walk|enter|stop|pass|visit)(?: in| by| past| through)?"
+    r"|who (?:all )?(?:was|were|came|went|walked|has been|have been)(?: there| in| by)?"
+    r"|who (?:did you|have you) (?:see|seen|meet|met|find|found)|who you (?:saw|have seen|met)"
+)
+ENTERS = re.compile(
+    rf"who entered(?: {_THE}(?P<at>{MARK}))?|did (?:{_SOMEBODY}) enter {_THE}(?P<at2>{MARK})"
+)
+DEEDS = re.compile(
+    r"what (?:all )?(?:did you do|have you (?:done|been doing|been up to)|were you (?:doing|up to))"
+    r"|what you (?:did|have done|were doing|have been doing)"
+    r"|where (?:all )?(?:did you (?:go|drive)|have you been|were you)|where you (?:went|were"
+    r"|have been)"
+    r"|how (?:did you spend|was) your (?:day|time)"
+)
+TOLD = re.compile(
+    rf"what (?:did|have) (?:i|we) (?:tell you|told you|say|said|teach you|taught you)(?: about"
+    rf" {_WHAT})?"
+    rf"|what (?:i|we) (?:told you|said|taught you)(?: about {_WHAT.replace('what', 'b')})?"
+    rf"|what (?:do you|you) (?:still )?(?:remember|know) about {_WHAT.replace('what', 'c')}"
+    rf"|what you (?:remember|know) about {_WHAT.replace('what', 'd')}"
+    rf"|what (?:do you|you) (?:still )?remember"
+    rf"|(?:do you remember|remember) anything about {_WHAT.replace('what', 'e')}"
+)
+ARTICLE = re.compile(r"^(?:(?:the|a|an|my|our|your|any|some|this|that)\s+)+")
+SOMEBODY = re.compile(rf"(?:{_SOMEBODY}|anybody|the people)")
+NOTHING = re.compile(
+    r"(?:it|that|this|them|him|her|me|you|us|there|here|one|something|anything|everything|what|who)"
+    r"|.*\b(?:and|then|or|if|please|go|drive|come|find|tell)\b.*"
+)
+"""What is no thing to ask about, or is an order besides."""

@@ -1,0 +1,79 @@
+"""Tell what the robot did: the goals of a time, each with how it ended. Pure.
+
+Law: what a model said of a picture, or wrote after it, is not among it.
+"""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+from planner.language.catalogue import join, message, say
+from planner.plan import Code, GoalState, say_same
+
+if TYPE_CHECKING:
+    from planner.mission.spans import Bounds
+    from planner.mission.state import Mission, MissionState
+    from planner.plan import Bilingual, Span
+
+MOST_TOLD = 6
+_ORDER, _TOLD = 60, 90  # characters
+_NO_DEEDS = frozenset({"recall", "decide", "say", "ask"})
+_UNBEGUN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.REFUSED})
+
+
+def find_deeds(book: MissionState, asking: str, bounds: Bounds) -> tuple[Mission, ...]:
+    """Return the goals of a time for which something was done, oldest first.
+
+    Args:
+        book: all goals at hand.
+        asking: the goal that asks.
+        bounds: since and until [s], by the wall clock.
+    """
+    since, until = bounds
+    found = [
+        mission
+        for mission in book.missions.values()
+        if mission.id != asking
+        and mission.state not in _UNBEGUN
+        and any(step.kind not in _NO_DEEDS for step in mission.steps)
+        and (since is None or mission.updated_unix_s >= since)
+        and (until is None or mission.created_unix_s <= until)
+    ]
+    return tuple(sorted(found, key=lambda m: m.order))
+
+
+def tell_deeds(deeds: tuple[Mission, ...], when: Span | None, now: datetime) -> Bilingual:
+    """Return the newest deeds in their order, and how many there were before."""
+    span = say(f"memory.span_{when}") if when else say("memory.span_ever")
+    if not deeds:
+        return message(Code.NOT_REMEMBERED, what=say("memory.deeds_of", span=span))
+    told = [_tell(mission, now) for mission in deeds[-MOST_TOLD:]]
+    more = len(deeds) - len(told)
+    head = say(
+        "memory.deeds_more" if more else "memory.deeds", span=span, count=len(deeds), more=more
+    )
+    return join((head, *told))
+
+
+def _tell(mission: Mission, now: datetime) -> Bilingual:
+    at = datetime.fromtimestamp(mission.created_unix_s).astimezone()
+    clock = f"{at:%H:%M}" if at.date() == now.date() else f"{at:%Y-%m-%d %H:%M}"
+    text = mission.order_text[:_ORDER]
+    return say("memory.deed", at=clock, text=text, result=_result(mission))
+
+
+def _result(mission: Mission) -> Bilingual:
+    """Return how a goal ended; where a picture was read for it, its state alone."""
+    read = any(step.read is not None for step in mission.steps)
+    if mission.outcome is None or read or not mission.has_ended:
+        return say(f"memory.state_{mission.state.value}")
+    told = mission.outcome.message
+    if max(len(told.en), len(told.zh)) <= _TOLD:
+        return told
+    cut = say_same("…")
+    return say(
+        "memory.cut",
+        text=told.model_copy(update={"en": told.en[:_TOLD], "zh": told.zh[:_TOLD]}),
+        cut=cut,
+    )
