@@ -1,15 +1,16 @@
 """Own the closed vocabulary of steps: what a plan may ask of the robot, and nothing else.
 
 No step carries map coordinates or a speed; a place is an id of the vocabulary. Lengths are metres,
-angles radians (counter-clockwise positive), times seconds.
+angles radians (counter-clockwise positive), times seconds. Steps that hold steps (``if``, ``try``,
+``repeat``) are bounded by ``planner.plan.check``: how deep, how many, how long.
 """
 
 from __future__ import annotations
 
 from math import pi
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal, Self, get_args
 
-from pydantic import Field, StringConstraints
+from pydantic import Field, StringConstraints, model_validator
 
 from planner.plan.base import Frozen
 from planner.plan.vocabulary import PlaceId
@@ -139,6 +140,74 @@ class Follow(Frozen):
     object: Label
 
 
+ClockHour = Annotated[str, StringConstraints(pattern=r"^(?:[01]\d|2[0-3]):[0-5]\d$")]
+MAX_ROUNDS = 20
+MAX_LOOP_S = 3600.0
+MAX_PATIENCE_S = 600.0
+
+
+class ClockTime(Frozen):
+    """Ask people's clock: is it that late already, and not yet that late (HH:MM)?"""
+
+    kind: Literal["clock"] = "clock"
+    after: ClockHour | None = None
+    before: ClockHour | None = None
+
+    @model_validator(mode="after")
+    def _has_a_time(self) -> Self:
+        if self.after is None and self.before is None:
+            raise ValueError("clock needs after or before, as HH:MM")
+        return self
+
+
+Condition = Annotated[Look | Find | Ask | ClockTime, Field(discriminator="kind")]
+"""What may be asked before steps are chosen. A kind that answers by other means, as from memory,
+joins here, in ``CONDITIONS`` and with its own judgement in ``mission/skills/conditions.py``."""
+
+
+class If(Frozen):
+    """Do then where the condition holds, else otherwise; both are written before any look."""
+
+    kind: Literal["if"] = "if"
+    when: Condition
+    then: Annotated[tuple[Step, ...], Field(min_length=1)]
+    otherwise: tuple[Step, ...] = ()
+
+
+class Attempt(Frozen):
+    """Do steps; where one of them fails, do on_failure in place of the rest of them."""
+
+    kind: Literal["try"] = "try"
+    steps: Annotated[tuple[Step, ...], Field(min_length=1)]
+    on_failure: Annotated[tuple[Step, ...], Field(min_length=1)]
+
+
+class Repeat(Frozen):
+    """Do steps so many times, or until something holds, or for so many seconds."""
+
+    kind: Literal["repeat"] = "repeat"
+    steps: Annotated[tuple[Step, ...], Field(min_length=1)]
+    times: int = Field(default=MAX_ROUNDS, ge=1, le=MAX_ROUNDS)
+    until: Condition | None = None
+    seconds: float = Field(default=MAX_LOOP_S, gt=0.0, le=MAX_LOOP_S)
+
+
+class WaitFor(Frozen):
+    """Stand until a person or thing is seen, a word is said, or it is HH:MM."""
+
+    kind: Literal["wait_for"] = "wait_for"
+    object: Label | None = None
+    word: Label | None = None
+    time: ClockHour | None = None
+    seconds: float = Field(default=MAX_PATIENCE_S, gt=0.0, le=MAX_PATIENCE_S)
+
+    @model_validator(mode="after")
+    def _waits_for_one(self) -> Self:
+        if sum(each is not None for each in (self.object, self.word, self.time)) != 1:
+            raise ValueError("wait_for needs one of object, word and time")
+        return self
+
+
 Step = Annotated[
     GoTo
     | ComeBack
@@ -156,19 +225,28 @@ Step = Annotated[
     | Find
     | Count
     | Look
-    | Follow,
+    | Follow
+    | WaitFor
+    | If
+    | Attempt
+    | Repeat,
     Field(discriminator="kind"),
 ]
+for _model in (If, Attempt, Repeat):
+    _model.model_rebuild()
 _MODELS: tuple[type[Frozen], ...] = get_args(get_args(Step)[0])
 
 RUNNABLE = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
-    | {"wait", "say", "ask", "decide"}
+    | {"wait", "say", "ask", "decide", "wait_for", "if", "try", "repeat"}
 )  # what a mission can walk without eyes; `Means` says what else a robot can
 NEEDS_GROWING_MAP = frozenset({"explore"})
 NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
 EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
 """What a plan may hold at all; a robot's own `runnable` is a part of it."""
+CONTROL = frozenset({"if", "try", "repeat"})
+"""They hold steps and do nothing by themselves."""
+CONDITIONS = frozenset({"look", "find", "ask", "clock"})
 DRIVES = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol", "explore"}
     | {"go_to_object", "go_to_point", "find", "follow"}
