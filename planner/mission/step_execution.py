@@ -77,7 +77,7 @@ def start_next(turn: Transaction) -> None:
 def _look_anew(turn: Transaction, mission: Mission) -> None:
     """Begin a look that branches hang on again after a pause or a crash.
 
-    What was seen before may be forgotten, or have left: half a look is no proof that nobody is there.
+    What was seen before may be forgotten, or have left: half a look proves nothing.
     """
     step = mission.current_step
     begun = step is not None and step.state is StepState.RUNNING
@@ -129,11 +129,7 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
         case Retry():
             _later(turn, mission, act)
         case Stand():
-            if act.state is not None:
-                mission = turn.put(mission, skill_state=act.state)
-            note_step(turn, mission, state=StepState.RUNNING, reason=None)
-            until_s = turn.now_s + act.seconds
-            turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
+            _stand(turn, mission, act)
         case Speak():
             note_step(turn, mission, state=StepState.RUNNING, reason=None)
             turn.set(activity=Speaking(record=turn.next_entry))
@@ -147,6 +143,13 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
             finish_step(turn, StepState.SKIPPED, reason=act.reason)
         case Fail():
             fail_step(turn, act)
+
+
+def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
+    mission = turn.put(mission, skill_state=act.state or mission.skill_state)
+    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    until_s = turn.now_s + act.seconds
+    turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
 
 
 def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:

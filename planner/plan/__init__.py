@@ -3,6 +3,7 @@
 from planner.plan.base import Bilingual, Frozen, Language, say_same
 from planner.plan.check import (
     BARE,
+    MAX_DEPTH,
     NEEDS_DETECTOR,
     Means,
     PlanRejection,
@@ -91,6 +92,7 @@ __all__ = [
     "ENDED",
     "EVERY_KIND",
     "JUDGED",
+    "MAX_DEPTH",
     "MAX_STEPS",
     "NEEDS_CAMERA",
     "NEEDS_DETECTOR",

@@ -20,20 +20,20 @@ Label = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, ma
 
 
 class GoTo(Frozen):
-    """Drive to a room or place of the vocabulary."""
+    """Drive to a room or place."""
 
     kind: Literal["go_to"] = "go_to"
     place: PlaceId
 
 
 class ComeBack(Frozen):
-    """Drive back to the pose at which this goal was accepted."""
+    """Drive back to where this goal was given."""
 
     kind: Literal["come_back"] = "come_back"
 
 
 class ReturnHome(Frozen):
-    """Drive to the site's home."""
+    """Drive home."""
 
     kind: Literal["return_home"] = "return_home"
 
@@ -46,35 +46,35 @@ class Wait(Frozen):
 
 
 class Say(Frozen):
-    """Say words: people read them on the page."""
+    """Say words to people."""
 
     kind: Literal["say"] = "say"
     text: Words
 
 
 class Ask(Frozen):
-    """Ask the person a question and wait for the answer."""
+    """Ask the person and wait for the answer."""
 
     kind: Literal["ask"] = "ask"
     question: Words
 
 
 class Decide(Frozen):
-    """Think again with what was seen and heard until here."""
+    """Think again with what was seen and heard."""
 
     kind: Literal["decide"] = "decide"
     question: Words
 
 
 class Turn(Frozen):
-    """Turn on the spot by an angle [rad], counter-clockwise positive."""
+    """Turn on the spot [rad], left positive."""
 
     kind: Literal["turn"] = "turn"
     angle_rad: float = Field(ge=-4 * pi, le=4 * pi)
 
 
 class MoveStraight(Frozen):
-    """Drive straight by a distance [m] along the heading, backwards where negative."""
+    """Drive straight [m], backwards where negative."""
 
     kind: Literal["move"] = "move"
     distance_m: float = Field(ge=-10.0, le=10.0)
@@ -94,7 +94,7 @@ class Explore(Frozen):
 
 
 class GoToObject(Frozen):
-    """Drive up to an object that was seen."""
+    """Drive up to an object."""
 
     kind: Literal["go_to_object"] = "go_to_object"
     object: Label
@@ -110,7 +110,7 @@ class GoToPoint(Frozen):
 
 
 class Find(Frozen):
-    """Look for an object or a person, in a place where one is named."""
+    """Look for an object or a person."""
 
     kind: Literal["find"] = "find"
     object: Label
@@ -118,7 +118,7 @@ class Find(Frozen):
 
 
 class Count(Frozen):
-    """Count objects or people, in a place where one is named."""
+    """Count objects or people."""
 
     kind: Literal["count"] = "count"
     object: Label
@@ -126,7 +126,7 @@ class Count(Frozen):
 
 
 class Look(Frozen):
-    """Look and answer a question about what is seen."""
+    """Answer a question about what is seen."""
 
     kind: Literal["look"] = "look"
     question: Words
@@ -166,7 +166,7 @@ joins here, in ``CONDITIONS`` and with its own judgement in ``mission/skills/con
 
 
 class If(Frozen):
-    """Do then where the condition holds, else otherwise; both are written before any look."""
+    """Do then where the condition holds, else otherwise."""
 
     kind: Literal["if"] = "if"
     when: Condition
@@ -175,7 +175,7 @@ class If(Frozen):
 
 
 class Attempt(Frozen):
-    """Do steps; where one of them fails, do on_failure in place of the rest of them."""
+    """Do steps; where one fails, do on_failure instead."""
 
     kind: Literal["try"] = "try"
     steps: Annotated[tuple[Step, ...], Field(min_length=1)]
@@ -183,7 +183,7 @@ class Attempt(Frozen):
 
 
 class Repeat(Frozen):
-    """Do steps so many times, or until something holds, or for so many seconds."""
+    """Do steps so many times, or until the condition holds."""
 
     kind: Literal["repeat"] = "repeat"
     steps: Annotated[tuple[Step, ...], Field(min_length=1)]
@@ -193,7 +193,7 @@ class Repeat(Frozen):
 
 
 class WaitFor(Frozen):
-    """Stand until a person or thing is seen, a word is said, or it is HH:MM."""
+    """Stand until one of these is there."""
 
     kind: Literal["wait_for"] = "wait_for"
     object: Label | None = None
