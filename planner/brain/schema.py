@@ -1,8 +1,9 @@
 """Own the shape in which a model replies: one flat object, and its plain JSON schema per request.
 
-Flat but for the steps that others hold, which stand one deep, because servers turn a schema into a grammar and few of them know `$ref`, `oneOf`, `const` or
-patterns. Steps and their fields come from the plan's own models, so that a step which becomes
-runnable is offered at once. What the schema can't say is judged by `endpoint.judge`.
+Flat but for the steps that others hold, which stand one deep: servers turn a schema into a grammar,
+and few of them know `$ref`, `oneOf`, `const` or patterns. Steps and their fields come from the
+plan's own models, so that a step which becomes runnable is offered at once. What the schema can't
+say is judged by `endpoint.judge`.
 """
 
 from __future__ import annotations
@@ -79,14 +80,16 @@ def schema_of(vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE) -> di
         models = {k: m for k, m in models.items() if not _PLACES & _fields(m).keys()}
     held = _step_object({k: m for k, m in models.items() if k not in CONTROL}, ids, {})
     asked = {k: m for k, m in models.items() if k in CONDITIONS} | {"clock": ClockTime}
-    parts = dict.fromkeys(_HOLDS_STEPS, {"type": "array", "items": held})
-    parts |= dict.fromkeys(_HOLDS_CONDITION, _step_object(asked, ids, {}))
+    condition = _step_object(asked, ids, {})
+    parts: dict[str, Any] = {name: {"type": "array", "items": held} for name in _HOLDS_STEPS}
+    parts |= dict.fromkeys(_HOLDS_CONDITION, condition)
     step = _step_object(models, ids, parts)
     codes = dict.fromkeys(code.value for code in (*CLARIFY_CODES, *REFUSE_CODES))
     return _object(
         {
             "kind": {"type": "string", "enum": list(KINDS)},
             "does": {"type": "string", "enum": [role.value for role in PlanRole]},
+            "pace": {"type": "string", "enum": ["slow"]},
             "steps": {"type": "array", "items": step},
             "code": {"type": "string", "enum": list(codes)},
             "en": {"type": "string"},

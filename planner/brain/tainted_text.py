@@ -49,7 +49,7 @@ def deeds(plan: Plan) -> dict[str, Any]:
     if not isinstance(plan, StepPlan):
         return plan.model_dump()
     steps = [_without_words(step.model_dump()) for step in plan.steps]
-    return {"kind": plan.kind, "does": plan.does, "steps": steps}
+    return {"kind": plan.kind, "does": plan.does, "pace": plan.pace, "steps": steps}
 
 
 def _without_words(value: Any) -> Any:

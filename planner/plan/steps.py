@@ -19,6 +19,9 @@ Words = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, ma
 Label = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
 
 
+MAX_FOLLOW_S = 300.0
+
+
 class GoTo(Frozen):
     """Drive to a room or place."""
 
@@ -138,6 +141,7 @@ class Follow(Frozen):
 
     kind: Literal["follow"] = "follow"
     object: Label
+    seconds: float | None = Field(default=None, gt=0.0, le=MAX_FOLLOW_S)
 
 
 ClockHour = Annotated[str, StringConstraints(pattern=r"^(?:[01]\d|2[0-3]):[0-5]\d$")]
@@ -170,8 +174,14 @@ class If(Frozen):
 
     kind: Literal["if"] = "if"
     when: Condition
-    then: Annotated[tuple[Step, ...], Field(min_length=1)]
+    then: tuple[Step, ...] = ()
     otherwise: tuple[Step, ...] = ()
+
+    @model_validator(mode="after")
+    def _does_something(self) -> Self:
+        if not self.then and not self.otherwise:
+            raise ValueError("if needs steps in then or in otherwise")
+        return self
 
 
 class Attempt(Frozen):

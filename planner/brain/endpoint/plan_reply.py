@@ -141,7 +141,7 @@ MAX_TEXT = 600
 MAX_OPTIONS = 8
 MAX_REASONS = 6
 _KEYS = {
-    "plan": {"steps", "does"},
+    "plan": {"steps", "does", "pace"},
     "answer": {"en", "zh"},
     "clarify": {"code", "en", "zh", "options"},
     "refuse": {"code", "en", "zh"},
@@ -202,7 +202,9 @@ def _reshape(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | 
         takes, found = ", ".join(sorted(_KEYS[kind])), ", ".join(extra[:MAX_REASONS])
         return Unusable((f"{kind} takes {takes} and not: {found}",))
     if kind == "plan":
-        return _steps(filled.get("steps"), filled.get("does", PlanRole.NEW.value))
+        shaped = _steps(filled.get("steps"), filled.get("does", PlanRole.NEW.value))
+        paced = isinstance(shaped, dict) and "pace" in filled
+        return {**shaped, "pace": filled["pace"]} if paced and isinstance(shaped, dict) else shaped
     return _words(kind, filled, vocabulary)
 
 
