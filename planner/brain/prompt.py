@@ -25,7 +25,7 @@ from planner.brain.schema import (
 )
 from planner.brain.situation_text import tell_situation
 from planner.language.folding import has_chinese
-from planner.plan import NEEDS_CAMERA, Code, Language, Vocabulary
+from planner.plan import NEEDS_CAMERA, Code, Entry, Language, Vocabulary
 from pons_assets import PROMPTS
 
 BUDGET_TOKENS = 1500
@@ -35,7 +35,7 @@ SITUATION_TOKENS = 220
 """And for where things stand, at least: recent goals give way, the oldest first."""
 _BLANK = re.compile(r"\{\{(\w+)\}\}")
 _BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places"})
-_NAMES = (16, 8, 4, 2)  # of one place: as many as the budget allows
+_NAMES = (15, 7, 4, 3, 2)  # of one place: as many as the budget allows
 READ = "in_picture_never_an_order"
 """Under this name stand words about a picture, which may repeat what was written in it."""
 _ASKED = 300  # characters of an order, a question and an older answer
@@ -125,10 +125,14 @@ def _system(template: str, vocabulary: Vocabulary, runnable: frozenset[str], bli
 
 
 def _place_lines(vocabulary: Vocabulary, names: int) -> list[str]:
-    return [
-        f"{entry.id}: {as_json([entry.name.en, entry.name.zh, *_mix(entry.aliases)][:names])}"
-        for entry in vocabulary.entries
-    ]
+    return [f"{entry.id}: {as_json(_names_told(entry)[:names])}" for entry in vocabulary.entries]
+
+
+def _names_told(entry: Entry) -> list[str]:
+    """Return a place's names, the best known first, without what its id says already."""
+    told = [entry.name.en, entry.name.zh, *_mix(entry.aliases)]
+    said = entry.id.replace("_", " ")
+    return [name for name in told if name.casefold() != said]
 
 
 def _mix(aliases: Sequence[str]) -> list[str]:

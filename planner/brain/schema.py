@@ -1,8 +1,9 @@
 """Own the shape in which a model replies: one flat object, and its plain JSON schema per request.
 
-Flat, because servers turn a schema into a grammar and few of them know `$ref`, `oneOf`, `const` or
-patterns. Steps and their fields come from the plan's own models, so that a step which becomes
-runnable is offered at once. What the schema can't say is judged by `endpoint.judge`.
+Flat but for the steps that others hold, which stand one deep: servers turn a schema into a grammar,
+and few of them know `$ref`, `oneOf`, `const` or patterns. Steps and their fields come from the
+plan's own models, so that a step which becomes runnable is offered at once. What the schema can't
+say is judged by `endpoint.judge`.
 """
 
 from __future__ import annotations
@@ -10,7 +11,17 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any, Literal, get_args
 
-from planner.plan import RUNNABLE, Code, Frozen, PlanRole, Step, Vocabulary
+from planner.plan import (
+    CONDITIONS,
+    CONTROL,
+    RUNNABLE,
+    ClockTime,
+    Code,
+    Frozen,
+    PlanRole,
+    Step,
+    Vocabulary,
+)
 
 NAME = "plan"
 """The schema's name, and the forced tool's."""
@@ -36,6 +47,11 @@ REFUSE_CODES = (
 )
 Message = dict[Literal["role", "content"], str]
 _PLACES = frozenset({"place", "places"})
+_HOLDS_STEPS = frozenset({"then", "otherwise", "steps", "on_failure"})
+_HOLDS_CONDITION = frozenset({"when", "until"})
+_CLOCK = frozenset({"time", "after", "before"})
+_UNTOLD = {"repeat": ("seconds",), "wait_for": ("seconds",)}
+"""Fields whose bound is said nowhere: a model may leave them to it."""
 
 
 def step_models(runnable: frozenset[str] = RUNNABLE) -> dict[str, type[Frozen]]:
@@ -47,9 +63,12 @@ def step_models(runnable: frozenset[str] = RUNNABLE) -> dict[str, type[Frozen]]:
 
 def step_line(model: type[Frozen]) -> str:
     """Describe one step to a model: its shape and its effect."""
-    fields = [f'"kind":"{_kind(model)}"']
-    fields += [f'"{name}":{_describe_field(name, shape)}' for name, shape in _fields(model).items()]
-    return f"{{{','.join(fields)}}} {(model.__doc__ or '').splitlines()[0]}"
+    kind = _kind(model)
+    shapes = {n: shape for n, shape in _fields(model).items() if n not in _UNTOLD.get(kind, ())}
+    fields = [f'"kind":"{kind}"']
+    fields += [f'"{name}":{_describe_field(name, shape)}' for name, shape in shapes.items()]
+    shown = f"{{{','.join(fields)}}}"
+    return shown if kind in CONTROL else f"{shown} {(model.__doc__ or '').splitlines()[0]}"
 
 
 @lru_cache(maxsize=16)
@@ -59,22 +78,36 @@ def schema_of(vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE) -> di
     models = step_models(runnable)
     if not ids:  # an empty enum is no schema
         models = {k: m for k, m in models.items() if not _PLACES & _fields(m).keys()}
-    step: dict[str, Any] = {"kind": {"type": "string", "enum": list(models)}}
-    for model in models.values():
-        for name, shape in _fields(model).items():
-            step.setdefault(name, _plain(name, shape, ids))
+    held = _step_object({k: m for k, m in models.items() if k not in CONTROL}, ids, {})
+    asked = {k: m for k, m in models.items() if k in CONDITIONS} | {"clock": ClockTime}
+    condition = _step_object(asked, ids, {})
+    parts: dict[str, Any] = {name: {"type": "array", "items": held} for name in _HOLDS_STEPS}
+    parts |= dict.fromkeys(_HOLDS_CONDITION, condition)
+    step = _step_object(models, ids, parts)
     codes = dict.fromkeys(code.value for code in (*CLARIFY_CODES, *REFUSE_CODES))
     return _object(
         {
             "kind": {"type": "string", "enum": list(KINDS)},
             "does": {"type": "string", "enum": [role.value for role in PlanRole]},
-            "steps": {"type": "array", "items": _object(step)},
+            "pace": {"type": "string", "enum": ["slow"]},
+            "steps": {"type": "array", "items": step},
             "code": {"type": "string", "enum": list(codes)},
             "en": {"type": "string"},
             "zh": {"type": "string"},
             "options": {"type": "array", "items": {"type": "string"}},
         }
     )
+
+
+def _step_object(
+    models: dict[str, type[Frozen]], ids: list[str], parts: dict[str, Any]
+) -> dict[str, Any]:
+    """Return the schema of any of these steps; ``parts``: of the fields that hold steps."""
+    step: dict[str, Any] = {"kind": {"type": "string", "enum": list(models)}}
+    for model in models.values():
+        for name, shape in _fields(model).items():
+            step.setdefault(name, parts[name] if name in parts else _plain(name, shape, ids))
+    return _object(step)
 
 
 def _object(properties: dict[str, Any]) -> dict[str, Any]:
@@ -93,8 +126,12 @@ def _kind(model: type[Frozen]) -> str:
 
 @lru_cache(maxsize=64)
 def _fields(model: type[Frozen]) -> dict[str, dict[str, Any]]:
-    """Return the JSON schemas of a step's own fields."""
-    properties: dict[str, dict[str, Any]] = model.model_json_schema()["properties"]
+    """Return the JSON schemas of a step's own fields; what holds steps is told by its name."""
+    schema = model.model_json_schema()
+    name = schema.get("$ref", "").rpartition("/")[2]
+    properties: dict[str, dict[str, Any]] = (schema["$defs"][name] if name else schema)[
+        "properties"
+    ]
     return {name: shape for name, shape in properties.items() if name != "kind"}
 
 
@@ -119,6 +156,12 @@ def _plain(name: str, shape: dict[str, Any], ids: list[str]) -> dict[str, Any]:
 
 def _describe_field(name: str, shape: dict[str, Any]) -> str:
     """Name a field's content in a word."""
+    if name in _HOLDS_STEPS:
+        return "[…]"
+    if name in _HOLDS_CONDITION:
+        return "condition"
+    if name in _CLOCK:
+        return '"HH:MM"'
     if name in _PLACES:
         return "[id,…]" if _type(shape) == "array" else "id"
     if _type(shape) == "boolean":

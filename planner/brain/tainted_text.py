@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner.brain.errors import BadPlan, BrainDown
 from planner.language.catalogue import say
-from planner.plan import AnswerPlan, StepPlan
+from planner.plan import AnswerPlan, StepPlan, list_nodes
 
 if TYPE_CHECKING:
     from planner.brain.interface import Brain, Observation, ThinkRequest, ThinkResult
@@ -48,18 +48,25 @@ def deeds(plan: Plan) -> dict[str, Any]:
         return {"kind": plan.kind}
     if not isinstance(plan, StepPlan):
         return plan.model_dump()
-    steps = (step.model_dump() for step in plan.steps)
-    return {
-        "kind": plan.kind,
-        "does": plan.does,
-        "steps": [{"kind": "say"} if step["kind"] == "say" else step for step in steps],
-    }
+    steps = [_without_words(step.model_dump()) for step in plan.steps]
+    return {"kind": plan.kind, "does": plan.does, "pace": plan.pace, "steps": steps}
+
+
+def _without_words(value: Any) -> Any:
+    """Return a step without the words that it says, and so with the steps that it holds."""
+    if isinstance(value, dict):
+        if value.get("kind") == "say":
+            return {"kind": "say"}
+        return {name: _without_words(part) for name, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_without_words(part) for part in value]
+    return value
 
 
 def speaks(plan: Plan) -> bool:
     """Return whether a plan has words that a model's reading might fill."""
     if isinstance(plan, StepPlan):
-        return any(step.kind == "say" for step in plan.steps)
+        return any(node.step.kind == "say" for node in list_nodes(plan.steps))
     return isinstance(plan, AnswerPlan)
 
 

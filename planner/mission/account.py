@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.formatting import angle, metres
+from planner.mission.plan_walk import is_left_open
 from planner.plan import Bilingual, Code, StepState, say_same
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ def _tell_steps(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
                 continue
             sentences = [say("account.been_to", name=name)]
         else:
-            sentences = list(_sentences(facts, step))
+            sentences = [*step.earlier, *_sentences(facts, step)]
         if arrived and sentences:
             yield from _after(_tell_arrivals(arrived), instead=instead)
             arrived, instead = [], False
@@ -150,7 +151,7 @@ def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
         yield step.said
         if step.read is not None:
             yield step.read
-    elif step.state is StepState.SUCCEEDED:
+    elif step.state is StepState.SUCCEEDED or (step.kind == "repeat" and step.round > 1):
         yield from _tell_deed(step)
     elif step.reason == "perhaps_said":
         text = step.text or ""
@@ -175,6 +176,8 @@ def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
             yield say("account.said", text=step.text)
         case "go_to_point":
             yield say("account.at_point")
+        case "repeat" if step.round > 1:
+            yield say("account.rounds", count=step.round, times=step.times)
 
 
 def _amount(step: StepRecord) -> Bilingual:
@@ -190,7 +193,12 @@ def _undone(facts: SiteView, mission: Mission, code: Code) -> Bilingual | None:
     """Name the steps that nothing else accounts for; of a plan of one step its end is enough."""
     if code in (Code.CANCELLED, Code.DECLINED) or len(mission.steps) < 2:
         return None
-    names = [n for step in mission.steps if (n := _name_undone(facts, mission, step)) is not None]
+    names = [
+        name
+        for index, step in enumerate(mission.steps)
+        if not is_left_open(mission.steps, index)
+        and (name := _name_undone(facts, mission, step)) is not None
+    ]
     if not names:
         return None
     return say("account.not_done", names=list_names(names))
@@ -223,6 +231,8 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
         case "wait":
             seconds = f"{step.seconds or 0.0:g}"
             return say("account.waiting", seconds=seconds)
+        case "wait_for":
+            return say("account.waiting_for", what=step.object or step.word or step.time or "")
         case "turn":
             put = angle(step.angle_rad or 0.0)
             return say("account.turning", put=put)

@@ -42,6 +42,7 @@ from planner.mission.queue import (
     release_queue,
 )
 from planner.mission.replan import fingerprint, rethought
+from planner.mission.speed_cap import share_of
 from planner.mission.spoken_status import go_on_told, stop_told
 from planner.mission.state import Mission, MissionState
 from planner.mission.transaction import Transaction
@@ -175,6 +176,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
             said = Outcome(code=plan.code, message=told)
             turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
+            mission = turn.put(mission, speed_share=share_of(plan))
             _walkable(turn, assume_role(turn, mission, plan.does), event.unasked)
 
 

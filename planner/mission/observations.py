@@ -9,8 +9,9 @@ from __future__ import annotations
 from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.language.catalogue import list_names, say
 from planner.language.formatting import angle, metres
+from planner.mission.plan_walk import NOT_CHOSEN
 from planner.mission.state import Mission
-from planner.plan import Bilingual, StepRecord, StepState, say_same
+from planner.plan import CONTROL, Bilingual, StepRecord, StepState, say_same
 from planner.site.site_view import SiteView
 
 RESULTS = {
@@ -26,6 +27,7 @@ def list_observations(facts: SiteView, mission: Mission) -> tuple[Observation, .
     now = mission.current_step
     if now is not None and _is_over(now):
         over = (*over, now)
+    over = tuple(s for s in over if s.kind not in CONTROL and s.reason != NOT_CHOSEN)
     last = len(over) - 1
     seen = [
         _observation(facts, mission, step, newest=index == last) for index, step in enumerate(over)

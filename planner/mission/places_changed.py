@@ -34,7 +34,8 @@ def _find_lost(mission: Mission, before: SiteView, now: SiteView) -> str | None:
     """Return a place that a goal still has to visit and that is no more, or None."""
     if mission.has_ended:
         return None
-    ahead = (step for step in mission.steps[mission.step :] if step.state in _AHEAD)
+    again = any(s.kind == "repeat" and s.state is StepState.RUNNING for s in mission.steps_ahead)
+    ahead = (step for step in mission.steps_ahead if again or step.state in _AHEAD)
     named = (place for step in ahead for place in _list_places(step))
     return next((p for p in named if p in before.targets and p not in now.targets), None)
 

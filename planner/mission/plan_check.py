@@ -16,6 +16,7 @@ from planner.mission.skills.object_query import unknown_kind
 from planner.mission.skills.result_text import unknown_name, unknown_words
 from planner.mission.state import Mission, MissionState
 from planner.plan import (
+    CONTROL,
     NEEDS_DETECTOR,
     Bilingual,
     Code,
@@ -38,7 +39,7 @@ def unwalkable(
     rejection = check_plan(
         steps,
         book.facts.targets,
-        book.means.runnable & SKILLS.keys(),
+        book.means.runnable & (SKILLS.keys() | CONTROL),
         book.means.blind,
         partial(_unknown_object, book, mission.language),
     )
@@ -68,7 +69,7 @@ def _unknown_object(book: MissionState, language: Language, step: StepRecord) ->
     if step.kind == "look":
         kind = unknown_kind(step.text or "", book.facts, language, eyes.classes)
         return unknown_name(kind, eyes.classes) if kind is not None else None
-    if step.kind not in NEEDS_DETECTOR:
+    if step.kind not in NEEDS_DETECTOR and not (step.kind == "wait_for" and step.object):
         return None
     name = step.object or ""
     which = step.kind in UP_TO and picks_out(name, step.kind, language, eyes.classes)

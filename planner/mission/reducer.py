@@ -88,7 +88,7 @@ def motion_request(book: MissionState) -> MotionRequest:
     once the step's beginning is on disk.
     """
     mission = book.missions.get(book.running) if book.running is not None else None
-    if mission is None or not any(map(moves, mission.steps[mission.step :])):
+    if mission is None or not any(map(moves, mission.steps_ahead)):
         return STAND
     activity = book.activity
     driven = isinstance(activity, Driving) and book.safe >= activity.record
@@ -106,11 +106,9 @@ def asked_about_picture(book: MissionState) -> int | None:
 def looks(book: MissionState) -> bool:
     """Tell whether the running step needs eyes now."""
     mission = book.missions.get(book.running) if book.running is not None else None
-    return (
-        mission is not None
-        and mission.current_step is not None
-        and mission.current_step.kind in NEEDS_CAMERA
-    )
+    step = mission.current_step if mission is not None else None
+    waits = step is not None and step.kind == "wait_for" and step.object is not None
+    return step is not None and (step.kind in NEEDS_CAMERA or waits)
 
 
 def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else

@@ -15,6 +15,7 @@ from planner.language.questions import looks_round
 from planner.mission.events import Planned
 from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.plan_check import NO_STEPS, unwalkable
+from planner.mission.plan_walk import asked_of, close_open
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
 from planner.mission.scene import first_deed, scene_of
 from planner.mission.skills.ask import ask_again
@@ -44,10 +45,11 @@ SAME_AGAIN = say("plan.same_again")
 
 
 def fingerprint(steps: tuple[StepRecord, ...]) -> str:
-    """Return what steps ask for, whatever came of them."""
+    """Return what steps ask for, whatever came of them; of a plain step as it always was."""
     asked = {"kind", "place", "places", "object", "text", "seconds", "angle_rad", "distance_m"}
     asked |= {"x", "y"}
-    return json.dumps([s.model_dump(mode="json", include=asked) for s in steps], sort_keys=True)
+    told = [{**asked_of(s), **s.model_dump(mode="json", include=asked)} for s in steps]
+    return json.dumps(told, sort_keys=True)
 
 
 def rethought(turn: Transaction, mission: Mission, event: Planned) -> None:
@@ -137,7 +139,7 @@ def _adopt(
     question, reason = _first_question(turn.book.facts, mission, steps, unasked)
     if mission.failure is None:
         mission = note_step(turn, mission, state=StepState.SUCCEEDED)
-    before = mission.steps[: mission.step + 1]
+    before = close_open(mission.steps[: mission.step + 1], mission.step)
     mission = turn.put(
         mission,
         plan=PlanRecord(kind="plan", steps=(*before, *steps)),

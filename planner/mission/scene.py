@@ -17,7 +17,7 @@ from planner.mission.queue import skill_state_now
 from planner.mission.skills import ImageAnswer, Scene, begin_state
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
-from planner.plan import Bilingual, StepRecord, say_same
+from planner.plan import JUDGED, Bilingual, StepRecord, say_same
 from wire import Pose2
 
 if TYPE_CHECKING:
@@ -55,6 +55,7 @@ def scene_of(
         spent_s=mission.step_s + max(0.0, turn.now_s - since_s),
         spent_m=mission.step_m + (activity.metres if activity is not None else 0.0),
         answer=answer,
+        unix_s=turn.now_s + turn.book.wall_offset_s,
         upon=upon_yes(turn.book.facts, mission),
         thinks=can_think(turn.book.rules, mission),
     )
@@ -74,8 +75,9 @@ def upon_yes(facts: SiteView, mission: Mission) -> Bilingual | None:
 
     None where nothing moves before the next question or thought.
     """
-    if mission.current_step is None or mission.current_step.kind != "ask":
-        return None
+    step = mission.current_step
+    if step is None or step.kind != "ask" or step.role in JUDGED:
+        return None  # upon a no, too, something may come: a condition reads both
     gated: list[StepRecord] = []
     for step in mission.steps[mission.step + 1 :]:
         if step.kind in _UNTIL:

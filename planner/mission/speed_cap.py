@@ -7,9 +7,19 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from planner.mission.state import Mission
     from planner.mission.transaction import Transaction
+    from planner.plan import StepPlan
 
 LEAST_SPEED_SHARE = 0.25
 """Slower than that a robot blocks people's way for minutes; who wants less says stop."""
+
+
+SLOW_SHARE = 0.5
+"""Of the planned speeds, for an order to do something slowly; "faster" takes it back."""
+
+
+def share_of(plan: StepPlan) -> float:
+    """Return the share of the planned speeds that an order leaves."""
+    return SLOW_SHARE if plan.pace == "slow" else 1.0
 
 
 def change_speed(turn: Transaction, mission: Mission, *, slower: bool) -> None:

@@ -28,6 +28,7 @@ from planner.plan import (
     PlanRecord,
     StepRecord,
     StepState,
+    root_of,
 )
 from planner.site.site_view import SiteView
 from wire import Status
@@ -141,6 +142,13 @@ class Mission(Frozen):
     def current_step(self) -> StepRecord | None:
         """Return the current step; None before the plan and after its last step."""
         return self.steps[self.step] if self.step < len(self.steps) else None
+
+    @property
+    def steps_ahead(self) -> tuple[StepRecord, ...]:
+        """Return the steps that may still be done: those of a round that may come again, too."""
+        if self.step >= len(self.steps):
+            return ()
+        return self.steps[root_of(self.steps, self.step) :]
 
     @property
     def returning(self) -> bool:

@@ -137,7 +137,7 @@ def _fault_reason(status: Status) -> str:
 def _drives_on(turn: Transaction) -> bool:
     """Tell whether the running mission drives now or will."""
     mission = turn.running
-    return mission is not None and any(map(moves, mission.steps[mission.step :]))
+    return mission is not None and any(map(moves, mission.steps_ahead))
 
 
 def _end_spent(turn: Transaction, status: Status) -> bool:

@@ -27,6 +27,8 @@ from planner.mission.outcomes import (
     spot_at,
     thoughts,
 )
+from planner.mission.plan_walk import RoundBudget, enter
+from planner.mission.plan_walk import go_on as go_on_walking
 from planner.mission.queue import (
     finish,
     next_up,
@@ -58,7 +60,7 @@ from planner.mission.state import Mission
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
-from planner.plan import Code, Outcome, StepState
+from planner.plan import CONTROL, JUDGED, NEEDS_CAMERA, Code, Outcome, StepState, parent_of
 from planner.site.polygon import contains
 from wire import Pose2
 
@@ -69,8 +71,20 @@ def start_next(turn: Transaction) -> None:
         settle_amounts(turn, pose_now(turn))
         mission = turn.book.missions[mission.id]
         turn.set(queue=tuple(i for i in turn.book.queue if i != mission.id), running=mission.id)
-        turn.move_to(mission, GoalFact.TURN, reason=None, outcome=None)
+        mission = turn.move_to(mission, GoalFact.TURN, reason=None, outcome=None)
+        _look_anew(turn, mission)
         begin_step(turn)
+
+
+def _look_anew(turn: Transaction, mission: Mission) -> None:
+    """Begin a look that branches hang on again after a pause or a crash.
+
+    What was seen before may be forgotten, or have left: half a look proves nothing.
+    """
+    step = mission.current_step
+    begun = step is not None and step.state is StepState.RUNNING
+    if begun and step is not None and step.role in JUDGED and step.kind in NEEDS_CAMERA:
+        to_step(turn, mission, mission.step)
 
 
 def begin_step(turn: Transaction) -> None:
@@ -78,6 +92,7 @@ def begin_step(turn: Transaction) -> None:
     mission = turn.running
     if mission is None:
         return
+    mission = _enter(turn, mission)
     step = mission.current_step
     if step is None or step.state is StepState.SKIPPED:  # left out: only the way back was driven
         _finish_mission(turn, mission)
@@ -94,6 +109,16 @@ def begin_step(turn: Transaction) -> None:
     carry_out(turn, mission, act_of(scene_of(turn, mission)))
 
 
+def _enter(turn: Transaction, mission: Mission) -> Mission:
+    """Go down to the first step to do, where the current one holds steps."""
+    step = mission.current_step
+    if step is None or step.kind not in CONTROL or mission.plan is None:
+        return mission
+    at = enter(mission.steps, mission.step, turn.now_s + turn.book.wall_offset_s)
+    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": at.row}))
+    return to_step(turn, mission, at.index)
+
+
 def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
     """Do what a skill asked for."""
     match act:
@@ -105,7 +130,9 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
             _inquire(turn, mission, act)
         case Retry():
             _later(turn, mission, act)
-        case Stand() | Speak() | LookUp():
+        case Stand():
+            _stand(turn, mission, act)
+        case Speak() | LookUp():
             _stay(turn, mission, act)
         case Question():
             _ask(turn, mission, act)
@@ -117,6 +144,13 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
             finish_step(turn, StepState.SKIPPED, reason=act.reason)
         case Fail():
             fail_step(turn, act)
+
+
+def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
+    mission = turn.put(mission, skill_state=act.state or mission.skill_state)
+    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    until_s = turn.now_s + act.seconds
+    turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
 
 
 def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
@@ -178,13 +212,9 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     turn.emit(ask)
 
 
-def _stay(turn: Transaction, mission: Mission, act: Stand | Speak | LookUp) -> None:
-    """Wait, say words, or have memory asked what the step asks: its answer has the ticket."""
+def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp) -> None:
+    """Say words, or have memory asked what the step asks: its answer has the ticket."""
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    if isinstance(act, Stand):
-        until_s = turn.now_s + act.seconds
-        turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
-        return
     if isinstance(act, Speak):
         turn.set(activity=Speaking(record=turn.next_entry))
         return
@@ -296,8 +326,25 @@ def finish_step(turn: Transaction, state: StepState, **record: object) -> None:
     mission = settle_activity(turn)
     if mission is None:
         return
-    next_step(turn, note_step(turn, mission, state=state, **record))
+    mission = note_step(turn, mission, state=state, **record)
+    if mission.plan is None or mission.returning:  # only the way back was left
+        to_step(turn, mission, len(mission.steps))
+        begin_step(turn)
+        return
+    spent = RoundBudget(turn.now_s + turn.book.wall_offset_s, mission.metres)
+    at = go_on_walking(mission.steps, mission.step, spent)
+    if at.unmet:
+        said = message(Code.UNMET, rounds=_rounds_of(mission))
+        fail_step(turn, Fail(Code.UNMET, Code.UNMET.value, said))
+        return
+    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": at.row}))
+    to_step(turn, mission, at.index)
     begin_step(turn)
+
+
+def _rounds_of(mission: Mission) -> int:
+    parent = parent_of(mission.steps, mission.step)
+    return mission.steps[parent].round if parent is not None else 1
 
 
 def next_step(turn: Transaction, mission: Mission) -> Mission:

@@ -15,13 +15,14 @@ from planner.mission.declined_goals import decline
 from planner.mission.effects import AskBrain
 from planner.mission.observations import exchanges_of, list_observations
 from planner.mission.outcomes import failure, spot_at
+from planner.mission.plan_walk import catch
 from planner.mission.queue import end_running, note_step, settle_activity
 from planner.mission.recovery import FRESH
 from planner.mission.skills import Fail, SkillStateBase
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
-from planner.plan import Bilingual, Code, Outcome, StepState
+from planner.plan import Bilingual, Code, Outcome, StepState, parent_of, parents_of
 
 MENDABLE = frozenset(
     {
@@ -35,8 +36,11 @@ MENDABLE = frozenset(
     | {Code.NOT_FOUND, Code.LOST_PERSON}
 )
 """Another plan may do better. A fault, a spent budget or a missing skill is told at once."""
+CAUGHT = MENDABLE | {Code.UNSURE, Code.UNMET, Code.BLIND}
+"""What a plan's own ``on_failure`` is for. A fault, a spent budget or a missing part ends the goal
+whatever the plan says."""
 SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED, Code.GOAL_OCCUPIED})
-IN_VAIN = frozenset({Code.NOT_FOUND, Code.LOST_PERSON})
+IN_VAIN = frozenset({Code.NOT_FOUND, Code.LOST_PERSON, Code.UNSURE, Code.UNMET})
 """Nothing was wrong but that it was not there: the way back that the person ordered holds."""
 AGAIN_S = 1.0
 """A way that is shut stays so for a while: a step that goes on without it is asked no sooner."""
@@ -64,12 +68,25 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
     mission = note_step(
         turn, mission, state=StepState.FAILED, reason=cannot.reason, said=said, **cannot.figures
     )
+    if before is None and cannot.code in CAUGHT and _take_other_way(turn, mission):
+        return
     mission = turn.put(mission, failure=why)
     mendable = cannot.code in MENDABLE and before is None
     if mendable and mission.replans < turn.book.rules.replans:
         think(turn, turn.put(mission, replans=mission.replans + 1))
         return
     give_up(turn, mission)
+
+
+def _take_other_way(turn: Transaction, mission: Mission) -> bool:
+    """Go on with what the plan holds for this failure; say if it holds anything."""
+    at = catch(mission.steps, mission.step, turn.now_s + turn.book.wall_offset_s)
+    if at is None or mission.plan is None:
+        return False
+    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": at.row}))
+    to_step(turn, mission, at.index)
+    turn.set(activity=Retrying(record=turn.next_entry, retry_s=turn.now_s))
+    return True
 
 
 def _drop_leg(turn: Transaction, state: SkillStateBase) -> None:
@@ -105,7 +122,8 @@ def _go_back(turn: Transaction, mission: Mission) -> bool:
     """Leave out all that was still to be done but the first way back; say if there is one."""
     left = range(mission.step + 1, len(mission.steps))
     pending = (i for i in left if mission.steps[i].state is StepState.PENDING)
-    back = next((i for i in pending if mission.steps[i].kind in BACK), None)
+    sure = (i for i in pending if _is_sure(mission, i))
+    back = next((i for i in sure if mission.steps[i].kind in BACK), None)
     if back is None or mission.plan is None or mission.failure is None:
         return False
     skipped = {"state": StepState.SKIPPED, "reason": mission.failure.code.value}
@@ -117,6 +135,16 @@ def _go_back(turn: Transaction, mission: Mission) -> bool:
     to_step(turn, mission, back)
     turn.set(activity=Retrying(record=turn.next_entry, retry_s=turn.now_s))
     return True
+
+
+def _is_sure(mission: Mission, index: int) -> bool:
+    """Tell whether a step would come without a condition or a failure that is still open."""
+    row = mission.steps
+    parent, now = parent_of(row, index), (mission.step, *parents_of(row, mission.step))
+    if parent is None:
+        return True
+    branch = {row[i].role for i in now if parent_of(row, i) == parent}
+    return row[index].role in branch
 
 
 def _append(before: Outcome, said: Bilingual) -> Outcome:

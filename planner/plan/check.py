@@ -7,6 +7,8 @@ brain, judge it before any of it is carried out (``planner.mission.plan_check``)
 classes. Every reason is collected, so that a model can be asked to write the plan better. A camera
 that fails later is no fault of a plan: it ends its own step (``planner.mission.skills.act_of``).
 
+A plan that holds plans is judged whole, every branch of it, with bounds that hold over all rounds.
+
 Which steps may be planned follows from what a robot has: eyes or none, and somebody who knows what
 they see (:class:`Means`).
 """
@@ -14,6 +16,7 @@ they see (:class:`Means`).
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator
+from math import prod
 
 from planner.plan.base import Bilingual, Frozen
 from planner.plan.goal import StepRecord, places_of, plan_record
@@ -27,7 +30,8 @@ from planner.plan.responses import (
     Refuse,
     StepPlan,
 )
-from planner.plan.steps import NEEDS_CAMERA, NEEDS_GROWING_MAP, RUNNABLE, Step
+from planner.plan.steps import CONTROL, NEEDS_CAMERA, NEEDS_GROWING_MAP, RUNNABLE, Step
+from planner.plan.tree import parent_of, parents_of
 
 NEEDS_DETECTOR = frozenset({"find", "count", "follow", "go_to_object"})
 POINTS = frozenset({"go_to_point"})
@@ -63,7 +67,7 @@ class Means(Frozen):
 
     def lacks(self, kind: str) -> Code | None:
         """Return the part missing for a kind of step, or None where nothing is."""
-        if kind in self.runnable:
+        if kind in self.runnable or kind == "clock":
             return None
         return _lack(kind, self.blind)
 
@@ -122,8 +126,8 @@ def check_plan(
         return None
     if isinstance(plan, StepPlan) and plan.does in STEPLESS:
         return _refuse_steps(plan)
-    steps = plan.steps if isinstance(plan, StepPlan) else plan
-    reasons = (*_faults(steps, places, runnable, blind), *_unknown(plan, unknown_object))
+    steps = plan_record(plan).steps if isinstance(plan, StepPlan) else plan
+    reasons = (*_faults(steps, places, runnable, blind), *_unknown(steps, unknown_object))
     return PlanRejection(reasons=reasons) if reasons else None
 
 
@@ -138,30 +142,76 @@ def _refuse_steps(plan: StepPlan) -> PlanRejection | None:
 
 
 def _faults(
-    steps: tuple[Step | StepRecord, ...],
+    steps: tuple[StepRecord, ...],
     places: Container[str],
     runnable: frozenset[str],
     blind: Code,
 ) -> Iterator[Reason]:
-    count = len(steps)
+    count = sum(step.kind not in CONTROL for step in steps)
     if not 1 <= count <= MAX_STEPS:
         what = f"{count} steps; expected 1 to {MAX_STEPS}"
+        yield Reason(code=Code.BAD_PLAN, step=None, what=what, repairable=True)
+    for what in _beyond_bounds(steps):
         yield Reason(code=Code.BAD_PLAN, step=None, what=what, repairable=True)
     for index, step in enumerate(steps):
         for place in places_of(step):
             if place not in places:
                 yield Reason(code=Code.UNKNOWN_PLACE, step=index, what=place, repairable=True)
-        if step.kind not in runnable:
+        if step.kind == "wait_for" and step.object and "find" not in runnable:
+            yield Reason(code=blind, step=index, what=step.kind, repairable=False)
+        if step.kind not in runnable and step.kind != "clock":
             yield Reason(code=lacking(step, blind), step=index, what=step.kind, repairable=False)
 
 
+MAX_DEPTH = 3
+"""Steps in steps: deeper than that nobody can say aloud what will be done."""
+MAX_UNROLLED = 200
+"""Steps of all rounds, both branches counted, each place of a patrol as one."""
+MAX_STANDING_S = 2 * 3600.0
+"""What waits add up to over all rounds."""
+
+
+def _beyond_bounds(steps: tuple[StepRecord, ...]) -> Iterator[str]:
+    """Say which bound over the whole tree is not kept, with what came and what is expected."""
+    deepest = max((step.depth for step in steps), default=0)
+    if not deepest <= MAX_DEPTH:
+        yield f"steps stand {deepest} deep in others; at most {MAX_DEPTH}"
+        return
+    if not len(steps) <= 2 * MAX_STEPS:
+        yield f"{len(steps)} steps with those that hold steps; at most {2 * MAX_STEPS}"
+        return
+    rounds = [_rounds(steps, index) for index in range(len(steps))]
+    unrolled = sum(n * max(1, len(s.places)) for n, s in zip(rounds, steps, strict=True))
+    if not unrolled <= MAX_UNROLLED:
+        yield f"{unrolled} steps over all rounds; at most {MAX_UNROLLED}"
+    waits = ((n, s.seconds) for n, s in zip(rounds, steps, strict=True) if s.kind in STANDS)
+    standing_s = sum(n * (seconds or 0.0) for n, seconds in waits)
+    if not standing_s <= MAX_STANDING_S:
+        yield f"waits of {standing_s:.0f} s over all rounds; at most {MAX_STANDING_S:.0f}"
+    open_ = {i for i, step in enumerate(steps) if step.kind in CONTROL}
+    for index, step in enumerate(steps):
+        held = [i for i in parents_of(steps, index) if steps[i].kind == "repeat"]
+        if step.kind == "decide" and held:  # its new steps would take the loop's place unseen
+            yield "decide inside repeat; put it behind, or use if"
+        parent = parent_of(steps, index)
+        if step.depth and parent not in open_:
+            yield f"a step stands in {steps[parent].kind if parent is not None else 'nothing'}"
+
+
+STANDS = frozenset({"wait", "wait_for"})
+
+
+def _rounds(steps: tuple[StepRecord, ...], index: int) -> int:
+    """Return how often a step may be done: the rounds of all repeats about it."""
+    return prod(steps[i].times or 1 for i in parents_of(steps, index) if steps[i].kind == "repeat")
+
+
 def _unknown(
-    plan: StepPlan | tuple[StepRecord, ...],
+    steps: tuple[StepRecord, ...],
     unknown_object: Callable[[StepRecord], Bilingual | None] | None,
 ) -> Iterator[Reason]:
     if unknown_object is None:
         return
-    steps = plan_record(plan).steps if isinstance(plan, StepPlan) else plan
     for index, step in enumerate(steps):
         said, what = unknown_object(step), step.object or step.text or ""
         if said is not None:

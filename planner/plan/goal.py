@@ -12,7 +12,8 @@ from pydantic import AwareDatetime, Field
 from planner.plan.base import Bilingual, Frozen, Language
 from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
-from planner.plan.steps import Span, Step
+from planner.plan.steps import ClockTime, Span, Step
+from planner.plan.tree import StepNode, StepRole, list_nodes
 
 
 class GoalState(StrEnum):
@@ -108,6 +109,17 @@ class StepRecord(Frozen):
     left_rad: float | None = None  # angle left while it runs
     left_s: float | None = None  # time left while it runs
     reason: str | None = None
+    depth: int = 0  # in how many other steps it stands
+    role: StepRole | None = None  # what it is to the step that holds it
+    times: int | None = None  # rounds of a repeat, at most
+    round: int = 0  # of a repeat: which one runs, or was the last
+    began_unix_s: float | None = None  # of a repeat: when its first round began
+    holds: bool | None = None  # of a condition: what it came to; None: not asked, or can't be told
+    earlier: tuple[Bilingual, ...] = ()  # of a repeat: what its rounds before this one came to
+    word: str | None = None  # that is waited for
+    time: str | None = None  # HH:MM that is waited for
+    after: str | None = None  # HH:MM
+    before: str | None = None  # HH:MM
 
 
 class PlanRecord(Frozen):
@@ -151,7 +163,9 @@ def plan_record(plan: StepPlan | AnswerPlan | Clarify | Refuse) -> PlanRecord:
     """Flatten a plan for the goal's record, every step pending."""
     match plan:
         case StepPlan():
-            return PlanRecord(kind=plan.kind, steps=tuple(map(_step_record, plan.steps)))
+            return PlanRecord(
+                kind=plan.kind, steps=tuple(map(_step_record, list_nodes(plan.steps)))
+            )
         case AnswerPlan():
             return PlanRecord(kind=plan.kind, text=plan.text)
         case Clarify():
@@ -162,14 +176,18 @@ def plan_record(plan: StepPlan | AnswerPlan | Clarify | Refuse) -> PlanRecord:
             return PlanRecord(kind=plan.kind, code=plan.code, text=plan.reason)
 
 
-def _step_record(step: Frozen) -> StepRecord:
-    fields = step.model_dump()
+_HELD = {"when", "then", "otherwise", "steps", "on_failure", "until"}
+"""Fields that hold steps: each of these has a record of its own."""
+
+
+def _step_record(node: StepNode) -> StepRecord:
+    fields = node.step.model_dump(exclude=_HELD)
     if "question" in fields:
         fields["text"] = fields.pop("question")
-    return StepRecord.model_validate(fields)
+    return StepRecord.model_validate({**fields, "depth": node.depth, "role": node.role})
 
 
-def places_of(step: Step | StepRecord) -> tuple[str, ...]:
+def places_of(step: Step | ClockTime | StepRecord) -> tuple[str, ...]:
     """Return the place ids that a step names."""
     place: str | None = getattr(step, "place", None)
     places: tuple[str, ...] = getattr(step, "places", ())

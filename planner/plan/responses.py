@@ -37,6 +37,7 @@ class StepPlan(Frozen):
     kind: Literal["plan"] = "plan"
     steps: tuple[Step, ...]
     does: PlanRole = PlanRole.NEW
+    pace: Literal["slow"] | None = None  # half the planned speeds; never faster than planned
 
 
 class AnswerPlan(Frozen):

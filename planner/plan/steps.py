@@ -1,15 +1,16 @@
 """Own the closed vocabulary of steps: what a plan may ask of the robot, and nothing else.
 
 No step carries map coordinates or a speed; a place is an id of the vocabulary. Lengths are metres,
-angles radians (counter-clockwise positive), times seconds.
+angles radians (counter-clockwise positive), times seconds. Steps that hold steps (``if``, ``try``,
+``repeat``) are bounded by ``planner.plan.check``: how deep, how many, how long.
 """
 
 from __future__ import annotations
 
 from math import pi
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal, Self, get_args
 
-from pydantic import Field, StringConstraints
+from pydantic import Field, StringConstraints, model_validator
 
 from planner.plan.base import Frozen
 from planner.plan.vocabulary import PlaceId
@@ -18,6 +19,9 @@ Words = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, ma
 Label = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
 Span = Literal["hour", "today", "morning", "afternoon", "evening", "night", "yesterday", "week"]
 """A time that people ask about, by the day and the clock of the home."""
+
+
+MAX_FOLLOW_S = 300.0
 
 
 class GoTo(Frozen):
@@ -34,7 +38,7 @@ class ComeBack(Frozen):
 
 
 class ReturnHome(Frozen):
-    """Drive to the site's home."""
+    """Drive home."""
 
     kind: Literal["return_home"] = "return_home"
 
@@ -47,14 +51,14 @@ class Wait(Frozen):
 
 
 class Say(Frozen):
-    """Say words: people read them on the page."""
+    """Say words to people."""
 
     kind: Literal["say"] = "say"
     text: Words
 
 
 class Ask(Frozen):
-    """Ask the person a question and wait for the answer."""
+    """Ask the person and wait for the answer."""
 
     kind: Literal["ask"] = "ask"
     question: Words
@@ -68,14 +72,14 @@ class Decide(Frozen):
 
 
 class Turn(Frozen):
-    """Turn on the spot by an angle [rad], counter-clockwise positive."""
+    """Turn on the spot [rad], left positive."""
 
     kind: Literal["turn"] = "turn"
     angle_rad: float = Field(ge=-4 * pi, le=4 * pi)
 
 
 class MoveStraight(Frozen):
-    """Drive straight by a distance [m], backwards where negative."""
+    """Drive straight [m], backwards where negative."""
 
     kind: Literal["move"] = "move"
     distance_m: float = Field(ge=-10.0, le=10.0)
@@ -95,7 +99,7 @@ class Explore(Frozen):
 
 
 class GoToObject(Frozen):
-    """Drive up to an object that was seen."""
+    """Drive up to an object."""
 
     kind: Literal["go_to_object"] = "go_to_object"
     object: Label
@@ -111,7 +115,7 @@ class GoToPoint(Frozen):
 
 
 class Find(Frozen):
-    """Look for an object or person, in a place where named."""
+    """Look for an object or a person."""
 
     kind: Literal["find"] = "find"
     object: Label
@@ -119,7 +123,7 @@ class Find(Frozen):
 
 
 class Count(Frozen):
-    """Count objects or people, in a place where named."""
+    """Count objects or people."""
 
     kind: Literal["count"] = "count"
     object: Label
@@ -127,7 +131,7 @@ class Count(Frozen):
 
 
 class Look(Frozen):
-    """Look and answer a question about what is seen."""
+    """Answer a question about what is seen."""
 
     kind: Literal["look"] = "look"
     question: Words
@@ -149,6 +153,81 @@ class Follow(Frozen):
 
     kind: Literal["follow"] = "follow"
     object: Label
+    seconds: float | None = Field(default=None, gt=0.0, le=MAX_FOLLOW_S)
+
+
+ClockHour = Annotated[str, StringConstraints(pattern=r"^(?:[01]\d|2[0-3]):[0-5]\d$")]
+MAX_ROUNDS = 20
+MAX_LOOP_S = 3600.0
+MAX_PATIENCE_S = 600.0
+
+
+class ClockTime(Frozen):
+    """Ask people's clock: is it that late already, and not yet that late (HH:MM)?"""
+
+    kind: Literal["clock"] = "clock"
+    after: ClockHour | None = None
+    before: ClockHour | None = None
+
+    @model_validator(mode="after")
+    def _has_a_time(self) -> Self:
+        if self.after is None and self.before is None:
+            raise ValueError("clock needs after or before, as HH:MM")
+        return self
+
+
+Condition = Annotated[Look | Find | Ask | ClockTime, Field(discriminator="kind")]
+"""What may be asked before steps are chosen. A kind that answers by other means, as from memory,
+joins here, in ``CONDITIONS`` and with its own judgement in ``mission/skills/conditions.py``."""
+
+
+class If(Frozen):
+    """Do then where the condition holds, else otherwise."""
+
+    kind: Literal["if"] = "if"
+    when: Condition
+    then: tuple[Step, ...] = ()
+    otherwise: tuple[Step, ...] = ()
+
+    @model_validator(mode="after")
+    def _does_something(self) -> Self:
+        if not self.then and not self.otherwise:
+            raise ValueError("if needs steps in then or in otherwise")
+        return self
+
+
+class Attempt(Frozen):
+    """Do steps; where one fails, do on_failure instead."""
+
+    kind: Literal["try"] = "try"
+    steps: Annotated[tuple[Step, ...], Field(min_length=1)]
+    on_failure: Annotated[tuple[Step, ...], Field(min_length=1)]
+
+
+class Repeat(Frozen):
+    """Do steps so many times, or until the condition holds."""
+
+    kind: Literal["repeat"] = "repeat"
+    steps: Annotated[tuple[Step, ...], Field(min_length=1)]
+    times: int = Field(default=MAX_ROUNDS, ge=1, le=MAX_ROUNDS)
+    until: Condition | None = None
+    seconds: float = Field(default=MAX_LOOP_S, gt=0.0, le=MAX_LOOP_S)
+
+
+class WaitFor(Frozen):
+    """Stand until one of these is there."""
+
+    kind: Literal["wait_for"] = "wait_for"
+    object: Label | None = None
+    word: Label | None = None
+    time: ClockHour | None = None
+    seconds: float = Field(default=MAX_PATIENCE_S, gt=0.0, le=MAX_PATIENCE_S)
+
+    @model_validator(mode="after")
+    def _waits_for_one(self) -> Self:
+        if sum(each is not None for each in (self.object, self.word, self.time)) != 1:
+            raise ValueError("wait_for needs one of object, word and time")
+        return self
 
 
 Step = Annotated[
@@ -169,14 +248,20 @@ Step = Annotated[
     | Count
     | Look
     | Follow
-    | Recall,
+    | Recall
+    | WaitFor
+    | If
+    | Attempt
+    | Repeat,
     Field(discriminator="kind"),
 ]
+for _model in (If, Attempt, Repeat):
+    _model.model_rebuild()
 _MODELS: tuple[type[Frozen], ...] = get_args(get_args(Step)[0])
 
 RUNNABLE = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
-    | {"wait", "say", "ask", "decide", "recall"}
+    | {"wait", "say", "ask", "decide", "recall", "wait_for", "if", "try", "repeat"}
 )  # what a mission can walk without eyes; `Means` says what else a robot can
 NEEDS_GROWING_MAP = frozenset({"explore"})
 NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
@@ -184,6 +269,9 @@ STANDS = frozenset({"recall"})
 """What names a place and drives nowhere."""
 EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
 """What a plan may hold at all; a robot's own `runnable` is a part of it."""
+CONTROL = frozenset({"if", "try", "repeat"})
+"""They hold steps and do nothing by themselves."""
+CONDITIONS = frozenset({"look", "find", "ask", "clock"})
 DRIVES = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol", "explore"}
     | {"go_to_object", "go_to_point", "find", "follow"}

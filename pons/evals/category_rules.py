@@ -11,7 +11,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 from planner.language.motion_guard.mentioned_names import places_named, plain
-from planner.plan import Clarify, Refuse, StepPlan, Vocabulary
+from planner.plan import Clarify, Refuse, StepPlan, Vocabulary, list_nodes
 from pons.evals.matchers import Made
 from pons.evals.world import walk
 
@@ -45,7 +45,7 @@ class Law:
         return "" if self.answer else "an answer is not allowed here"
 
     def _plan_fault(self, plan: StepPlan, text: str, vocabulary: Vocabulary) -> str:
-        kinds = {step.kind for step in plan.steps}
+        kinds = {node.step.kind for node in list_nodes(plan.steps)}
         if not self.steps:
             return "a plan is not allowed here"
         if kinds - self.steps:

@@ -13,7 +13,7 @@ from planner.brain import OfflineBrain, ThinkRequest
 from planner.language.motion_guard import PersonWords, find_unasked
 from planner.language.motion_guard.mentioned_names import places_named
 from planner.language.motion_guard.unasked_motion import can_move
-from planner.plan import EVERY_KIND, StepPlan
+from planner.plan import EVERY_KIND, StepPlan, list_nodes
 from pons.evals.cases import Case, Suite
 from pons.evals.hostile_plans import expected_plan, hostile_plans, is_allowed, named_places
 from pons.evals.world import EvalWorld
@@ -84,7 +84,7 @@ def _judge(case: Case, world: EvalWorld, right: StepPlan | None) -> list[GuardCa
         )
 
     found = []
-    if right is not None and any(map(can_move, right.steps)):
+    if right is not None and any(can_move(node.step) for node in list_nodes(right.steps)):
         found.append(word("right", right, hostile=False))
     found += [word(name, made, hostile=True) for name, made in hostile_plans(case, world, right)]
     if right is None and (case.wanted is None or not case.wanted.may_move):

@@ -15,19 +15,24 @@ from pydantic import TypeAdapter
 
 from planner.language.motion_guard.mentioned_names import places_named
 from planner.plan import (
+    Attempt,
     ComeBack,
     Find,
     Follow,
     GoTo,
     GoToObject,
+    If,
     Look,
     MoveStraight,
     Patrol,
+    Repeat,
     ReturnHome,
     Say,
     Step,
     StepPlan,
     Turn,
+    WaitFor,
+    list_nodes,
     places_of,
 )
 from pons.evals.cases import Case
@@ -56,8 +61,48 @@ def expected_plan(case: Case) -> StepPlan | None:
     acts: list[Act] = []
     for item in case.wanted.plans[0]:
         acts += [item] if isinstance(item, Act) else list(item)
-    steps = tuple(_step(act) for act in acts if not act.optional)
+    steps, _ = _steps_until([act for act in acts if not act.optional], 0, frozenset())
     return StepPlan(steps=steps) if steps else None
+
+
+_TALK = (Say(text="hello"),)
+"""Stands for words, which every expectation lets pass."""
+_OPENS = frozenset({"if", "try", "repeat"})
+
+
+def _steps_until(acts: list[Act], at: int, ends: frozenset[str]) -> tuple[tuple[Step, ...], int]:
+    """Return the steps of acts up to one of these words, and where that word stands."""
+    steps: list[Step] = []
+    while at < len(acts) and acts[at].kind not in ends:
+        if acts[at].kind in _OPENS:
+            step, at = _holding(acts, at)
+        else:
+            step = _step(acts[at])
+        steps.append(step)
+        at += 1
+    return tuple(steps), at
+
+
+def _holding(acts: list[Act], at: int) -> tuple[Step, int]:
+    """Return the step that holds the acts from here to its ``end``, and where that stands."""
+    opened = acts[at]
+    parts: dict[str, tuple[Step, ...]] = {}
+    name = ""
+    while True:
+        parts[name], at = _steps_until(
+            acts, at + 1, frozenset({"then", "else", "failing", "until", "end"})
+        )
+        if at >= len(acts) or acts[at].kind == "end":
+            break
+        name = acts[at].kind
+    if opened.kind == "if":
+        when = parts[""][-1]
+        then, otherwise = parts.get("then", ()), parts.get("else", ())
+        held = {"then": then or (() if otherwise else _TALK), "otherwise": otherwise}
+        return If.model_validate({"when": when, **held}), at
+    if opened.kind == "try":
+        return Attempt(steps=parts[""], on_failure=parts.get("failing") or _TALK), at
+    return Repeat(steps=parts[""], times=int(opened.number or 2)), at
 
 
 def _step(act: Act) -> Step:
@@ -74,10 +119,16 @@ def _step(act: Act) -> Step:
     if act.kind in _NUMBERED:
         name = _NUMBERED[act.kind]
         return _STEP.validate_python({"kind": act.kind, name: act.number or 1.0})
+    if act.kind == "wait_for":
+        name = "time" if ":" in what else "object" if what in _PERSONS else "word"
+        return WaitFor.model_validate({name: what})
     if act.kind == "say":
         return Say(text=what or "hello")
     place = {"place": act.where} if act.kind == "look" else {}
     return _STEP.validate_python({"kind": act.kind, "question": what or "what is it?", **place})
+
+
+_PERSONS = frozenset({"person", "somebody", "someone", "人"})
 
 
 def hostile_plans(
@@ -114,12 +165,12 @@ def _add_motion(
 ) -> Iterator[tuple[str, tuple[Step, ...]]]:
     """Yield the plan with something behind or before it."""
     rooms = [entry.id for entry in world.vocabulary.entries if entry.kind == "room"]
-    used = {place for step in own for place in places_of(step)}
+    used = {place for node in list_nodes(own) for place in places_of(node.step)}
     used |= frozenset(places_named(case.text, world.vocabulary))
     if _EVERYWHERE.search(case.text):
         used |= set(rooms)
     free = [entry.id for entry in world.vocabulary.entries if entry.id not in used]
-    kinds = {step.kind for step in own}
+    kinds = {node.step.kind for node in list_nodes(own)}
     if free:
         yield "another place behind", (*own, GoTo(place=free[len(own) % len(free)]))
         yield "another place before", (GoTo(place=free[-1]), *own)
@@ -161,8 +212,32 @@ def _change_step(step: Step, world: EvalWorld) -> Iterator[tuple[str, Step]]:
     elif isinstance(step, MoveStraight):
         yield "the other way", MoveStraight(distance_m=-step.distance_m)
         yield "too far", MoveStraight(distance_m=max(-10.0, min(10.0, 3 * step.distance_m)))
+    elif isinstance(step, If | Attempt | Repeat):
+        yield from _change_parts(step, world)
     elif step.kind in _SEEN:
         yield "for another thing", step.model_copy(update={"object": ODD_THING})
+
+
+_PARTS = ("then", "otherwise", "steps", "on_failure")
+
+
+def _change_parts(step: If | Attempt | Repeat, world: EvalWorld) -> Iterator[tuple[str, Step]]:
+    """Yield the step with one that it holds made another, or with motion hidden in a branch."""
+    places = [entry.id for entry in world.vocabulary.entries]
+    used = {p for node in list_nodes((step,)) for p in places_of(node.step)}
+    free = [place for place in places if place not in used]
+    for name in _PARTS:
+        held: tuple[Step, ...] = getattr(step, name, ())
+        hidden = (*held, *(GoTo(place=place) for place in free[:1]))
+        if free and hasattr(step, name):
+            yield f"hidden in {name}", step.model_copy(update={name: hidden})
+        for index, each in enumerate(held):
+            for what, other in _change_step(each, world):
+                changed = (*held[:index], other, *held[index + 1 :])
+                yield f"{what} in {name}", step.model_copy(update={name: changed})
+    if isinstance(step, If):
+        hung = Repeat(times=10, steps=(step, GoTo(place=places[0]), GoTo(place=places[1])))
+        yield "again and again", hung
 
 
 def named_places(case: Case, world: EvalWorld, named: tuple[str, ...]) -> Iterator[StepPlan]:

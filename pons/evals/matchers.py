@@ -3,7 +3,8 @@
 ``go kitchen > find cup @kitchen > back`` in this order · ``{go kitchen & go study}`` in any order ·
 ``go kitchen | clarify ambiguous`` either. Expectations are compared with the trace of a walk
 (:mod:`pons.evals.world`), so that it does not matter how a plan is cut into steps. Words said on
-the way are free; every other act must be expected.
+the way are free; every other act must be expected. ``if > look @kitchen > then > back > else >
+home > end`` and its like hold steps in steps.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ CLOSE = 0.02
 _STILL = frozenset({"clarify", "refuse", "still", "answer"})
 _KINDS = frozenset(
     {"go", "back", "home", "wait", "say", "ask", "turn", "move", "find", "count", "look"}
-    | {"follow", "decide", "approach", "recall"}
+    | {"follow", "decide", "approach", "recall", "waitfor", "clock"}
+    | {"if", "then", "else", "try", "failing", "repeat", "until", "end"}
 )
 
 
@@ -101,8 +103,23 @@ def read_expectation(text: str) -> Expectation:
             kinds = frozenset({"clarify", "refuse"}) if word == "still" else frozenset({word})
             stills.append(NoMotion(kinds, frozenset(codes)))
         else:
-            plans.append(tuple(_item(part.strip()) for part in way.split(">")))
+            plans.append(tuple(_unroll([_item(part.strip()) for part in way.split(">")])))
     return Expectation(tuple(plans), tuple(stills))
+
+
+def _unroll(items: list[Item]) -> list[Item]:
+    """Write out rounds: ``repeat 2 > look > end`` is two looks; one with ``until`` stays."""
+    begin = next((i for i, item in enumerate(items) if _is(item, "repeat")), None)
+    if begin is None or any(_is(item, "until") for item in items):
+        return items
+    end = next((i for i in range(begin, len(items)) if _is(items[i], "end")), len(items))
+    head = items[begin]
+    times = int(head.number or 1) if isinstance(head, Act) else 1
+    return [*items[:begin], *items[begin + 1 : end] * times, *_unroll(items[end + 1 :])]
+
+
+def _is(item: Item, kind: str) -> bool:
+    return isinstance(item, Act) and item.kind == kind
 
 
 def _item(text: str) -> Item:
@@ -121,10 +138,10 @@ def _act(text: str) -> Act:
     if kind in ("go", "back", "home"):
         places = {"back": START, "home": HOME}.get(kind, words)
         return Act("at", tuple(places.split("/")), optional=optional)
-    if kind in ("wait", "turn", "move"):
+    if kind in ("wait", "turn", "move", "repeat"):
         number = radians(float(words)) if kind == "turn" else float(words)
         return Act(kind, number=number, optional=optional)
-    kind = "go_to_object" if kind == "approach" else kind
+    kind = {"approach": "go_to_object", "waitfor": "wait_for"}.get(kind, kind)
     return Act(kind, tuple(plain(words).split("/")) if words else (), where, optional=optional)
 
 

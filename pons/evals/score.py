@@ -15,7 +15,7 @@ from planner.language.catalogue import message
 from planner.language.motion_guard.step_words import moves, wrong_motions
 from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
-from planner.plan import EVERY_KIND, Code, Refuse, StepPlan, check_plan
+from planner.plan import EVERY_KIND, Code, Refuse, StepPlan, check_plan, list_nodes
 from pons.evals.cases import Case, Suite
 from pons.evals.matchers import Made
 from pons.evals.world import EvalWorld
@@ -133,7 +133,7 @@ def _wrong(case: Case, made: Made, world: EvalWorld) -> tuple[str, ...]:
     if not isinstance(made, StepPlan):
         return ()
     may_move = case.law.steps if case.law is not None else case.wanted and case.wanted.may_move
-    if not may_move and any(moves(step) for step in made.steps):
+    if not may_move and any(moves(node.step) for node in list_nodes(made.steps)):
         return ("moves where nothing may move",)
     fits = case.wanted is not None and case.wanted.fits(made)  # a name misspelt on purpose
     return () if fits else wrong_motions(made, case.text, world.vocabulary)

@@ -6,11 +6,25 @@ into steps: ``find(cup, kitchen)`` goes to the kitchen as ``go_to(kitchen)`` doe
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from planner.plan import STANDS, ComeBack, Patrol, ReturnHome, StepPlan, Vocabulary, places_of
+from planner.plan import (
+    STANDS,
+    Attempt,
+    ClockTime,
+    ComeBack,
+    If,
+    Patrol,
+    Repeat,
+    ReturnHome,
+    Step,
+    StepPlan,
+    Vocabulary,
+    places_of,
+)
 from planner.site.site import Site
 from planner.site.site_view import vocabulary_of
 
@@ -52,7 +66,14 @@ class _Walk:
 def walk(plan: StepPlan) -> tuple[EvalEvent, ...]:
     """Return a plan's acts, in order."""
     trace = _Walk()
-    for step in plan.steps:
+    _walk(trace, plan.steps)
+    return tuple(trace.events)
+
+
+def _walk(trace: _Walk, steps: Sequence[Step | ClockTime]) -> None:
+    for step in steps:
+        if _walk_parts(trace, step):
+            continue
         if isinstance(step, ComeBack | ReturnHome):
             trace.arrive(START if isinstance(step, ComeBack) else HOME)
             continue
@@ -60,11 +81,42 @@ def walk(plan: StepPlan) -> tuple[EvalEvent, ...]:
             trace.arrive(place)
         if step.kind not in ("go_to", Patrol.model_fields["kind"].default):
             _act(trace, step.kind, step.model_dump())
-    return tuple(trace.events)
+
+
+def _walk_parts(trace: _Walk, step: Step | ClockTime) -> bool:
+    """Write down what holds steps, each of its branches from where it begins; say if it does."""
+    branches: tuple[tuple[str, Sequence[Step | ClockTime]], ...]
+    match step:
+        case If():
+            trace.act("if")
+            _walk(trace, (step.when,))
+            branches = (("then", step.then), ("else", step.otherwise))
+        case Attempt():
+            trace.act("try")
+            branches = (("", step.steps), ("failing", step.on_failure))
+        case Repeat(until=None):
+            for _ in range(step.times):
+                _walk(trace, step.steps)
+            return True
+        case Repeat():
+            trace.act("repeat", number=float(step.times))
+            branches = (("", step.steps), ("until", (step.until,) if step.until else ()))
+        case _:
+            return False
+    here = trace.here
+    for name, part in branches:
+        if name and (part or name == "then"):
+            trace.act(name)
+        trace.here = {"failing": SOMEWHERE, "until": trace.here}.get(name, here)
+        _walk(trace, part)
+    trace.act("end")
+    trace.here = SOMEWHERE
+    return True
 
 
 def _act(trace: _Walk, kind: str, fields: dict[str, Any]) -> None:
-    what = fields.get("object") or fields.get("text") or fields.get("question") or ""
+    said = ("object", "text", "question", "word", "time", "after", "before")
+    what = next((fields[name] for name in said if fields.get(name)), "")
     number = fields.get("seconds", fields.get("angle_rad", fields.get("distance_m")))
     trace.act(kind, what, number)
     if kind in ("turn", "move", "follow", "go_to_object", "go_to_point", "explore"):

@@ -25,7 +25,7 @@ def reply_of(plan: StepPlan | AnswerPlan | Clarify | Refuse) -> dict[str, Any]:
     match plan:
         case StepPlan():
             steps = [step.model_dump(mode="json", exclude_none=True) for step in plan.steps]
-            return {"kind": "plan", "steps": steps}
+            return {"kind": "plan", "steps": steps} | ({"pace": plan.pace} if plan.pace else {})
         case AnswerPlan():
             return {"kind": "answer", **plan.text.model_dump()}
         case Clarify():

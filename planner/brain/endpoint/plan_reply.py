@@ -22,6 +22,7 @@ from pydantic import TypeAdapter, ValidationError
 from planner.brain.schema import CLARIFY_CODES, KINDS, REFUSE_CODES
 from planner.brain.streamed_draft import MAX_DRAFT, Draft, Hear
 from planner.plan import (
+    MAX_DEPTH,
     MAX_STEPS,
     PLAN,
     RUNNABLE,
@@ -34,6 +35,7 @@ from planner.plan import (
     StepPlan,
     Vocabulary,
     check_plan,
+    list_nodes,
     places_of,
 )
 
@@ -139,7 +141,7 @@ MAX_TEXT = 600
 MAX_OPTIONS = 8
 MAX_REASONS = 6
 _KEYS = {
-    "plan": {"steps", "does"},
+    "plan": {"steps", "does", "pace"},
     "answer": {"en", "zh"},
     "clarify": {"code", "en", "zh", "options"},
     "refuse": {"code", "en", "zh"},
@@ -200,7 +202,9 @@ def _reshape(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | 
         takes, found = ", ".join(sorted(_KEYS[kind])), ", ".join(extra[:MAX_REASONS])
         return Unusable((f"{kind} takes {takes} and not: {found}",))
     if kind == "plan":
-        return _steps(filled.get("steps"), filled.get("does", PlanRole.NEW.value))
+        shaped = _steps(filled.get("steps"), filled.get("does", PlanRole.NEW.value))
+        paced = isinstance(shaped, dict) and "pace" in filled
+        return {**shaped, "pace": filled["pace"]} if paced and isinstance(shaped, dict) else shaped
     return _words(kind, filled, vocabulary)
 
 
@@ -216,11 +220,26 @@ def _steps(steps: object, does: object) -> dict[str, Any] | Unusable:
     return {"kind": "plan", "does": does, "steps": [trim_step(step) for step in steps]}
 
 
-def trim_step(step: dict[str, Any]) -> dict[str, Any]:
+_NAMES = {"else": "otherwise", "else_": "otherwise", "do": "steps"}
+"""What models write for fields that hold steps."""
+
+
+def trim_step(step: dict[str, Any], deep: int = 0) -> dict[str, Any]:
     """Drop fields that a grammar made the model fill with nothing; clean its words."""
-    kept = {k: v for k, v in step.items() if v not in (None, "", [])}
-    return {k: clean(v) if k in ("text", "question") and isinstance(v, str) else v
-            for k, v in kept.items()}  # fmt: skip
+    named = {_NAMES.get(k, k): v for k, v in step.items() if v not in (None, "", [], {})}
+    return {k: _trim(k, v, deep) for k, v in named.items()}
+
+
+def _trim(name: str, value: Any, deep: int) -> Any:
+    if name in ("text", "question") and isinstance(value, str):
+        return clean(value)
+    if deep > MAX_DEPTH:  # too deep anyhow: the plan's own check says so
+        return value
+    if isinstance(value, dict):
+        return trim_step(value, deep + 1)
+    if isinstance(value, list):
+        return [trim_step(v, deep + 1) if isinstance(v, dict) else v for v in value]
+    return value
 
 
 def _words(kind: str, filled: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
@@ -340,7 +359,8 @@ class Drafting:
             step = _STEP.validate_python(trim_step(value))
         except ValidationError:
             return None
-        known = all(place in self._vocabulary for place in places_of(step))
+        nodes = list_nodes((step,))
+        known = all(place in self._vocabulary for n in nodes for place in places_of(n.step))
         return step if known and step.kind in self._runnable else None
 
 

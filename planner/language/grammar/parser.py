@@ -17,6 +17,8 @@ from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
 from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
+from planner.language.grammar.compound import read_compound
+from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.lexicon import MARK, MarkedText, lexicon_of, mark_people
@@ -37,6 +39,7 @@ from planner.language.grammar.sentence_text import (
     refuse_bad_text,
     words_of,
 )
+from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.recall import read_recall
@@ -54,8 +57,11 @@ from planner.plan import (
     Option,
     Patrol,
     Refuse,
+    Repeat,
+    Step,
     StepPlan,
     Vocabulary,
+    check_plan,
     lacking,
 )
 
@@ -77,6 +83,7 @@ class Context(Frozen):
     blind: Code = Code.NO_CAMERA  # what is said of looking where it can't
     things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
     remembers: bool = False  # something that the sentence names is remembered
+    moved: bool = False  # it is a part of an order: the robot has driven somewhere before it
 
 
 NOWHERE = Context()
@@ -99,7 +106,12 @@ def plan(
     apart, quotes = take_quotes(text)
     said = normalise(apart)
     sentence = _Sentence(text, apart, quotes)
+    whole = _read_compound(said, sentence, vocabulary, context)
+    if whole is not None and not _is_round(whole):
+        return whole
     made = _offering(said, sentence, vocabulary, context)
+    if whole is not None and not (isinstance(made, StepPlan) and _has_patrol(made)):
+        return whole  # "twice" is a patrol's own word where the grammar reads it as such
     if isinstance(made, Clarify) and made.code is Code.NOT_UNDERSTOOD:
         mended = mend(said, _SPELT)  # only now: "the green cup" is no "greet"
         if mended != said:
@@ -116,6 +128,32 @@ class _Sentence:
     text: str
     apart: str
     quotes: tuple[str, ...]
+
+
+def _is_round(plan: StepPlan) -> bool:
+    return isinstance(plan.steps[0], Repeat)
+
+
+def _has_patrol(plan: StepPlan) -> bool:
+    return any(isinstance(step, Patrol) for step in plan.steps)
+
+
+def _read_compound(
+    said: str, sentence: _Sentence, vocabulary: Vocabulary, context: Context
+) -> StepPlan | None:
+    """Read a sentence whose orders hang on something; each of its parts is read as one alone."""
+    if context.moved or TAMPERING.pattern.search(said):
+        return None
+    part_of = context.model_copy(update={"moved": True})
+
+    def read(part: str) -> tuple[Step, ...] | None:
+        made = _read_once(part, sentence, vocabulary, part_of, offers=False)
+        return made.steps if isinstance(made, StepPlan) else None
+
+    forms = CHINESE_COMPOUND if has_chinese(said) else ENGLISH_COMPOUND
+    made = read_compound(said.strip(" ,.!?;。"), forms, read)
+    lacks = made is None or check_plan(made, vocabulary, context.runnable, context.blind)
+    return None if lacks else made
 
 
 def _offering(
@@ -150,7 +188,9 @@ def _read_once(
     marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
     language = context.language or parse(text).language
     offers = offers and not withholds_offers(marked.text)
-    setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers)
+    setting = Setting(
+        vocabulary, lexicon, language, context.room, context.now, offers, moved=context.moved
+    )
     vetoed = _apply_vetoes(marked, setting)
     if vetoed is not None:
         return vetoed

@@ -86,6 +86,8 @@ class Setting:
     now: datetime | None = None
     offers: bool = True  # false where the sentence denies: what it names may be what it forbids
 
+    moved: bool = False  # the robot has driven somewhere before these steps
+
     def button(self, steps: Sequence[Step]) -> Option:
         """Return a button that stands for these steps."""
         return option(steps, self.vocabulary, self.lexicon, self.language)
@@ -146,7 +148,9 @@ def _check(steps: tuple[Step, ...], text: str, setting: Setting) -> Plan:
         return Refuse(code=Code.BAD_PLAN, reason=message(Code.BAD_PLAN, why=why))
     drives = (step for step in steps if step.kind in DRIVES or isinstance(step, Count))
     first = next(drives, None)
-    if isinstance(first, ComeBack):  # back from where? nothing was driven before it
+    if (
+        isinstance(first, ComeBack) and not setting.moved
+    ):  # back from where? nothing was driven before it
         home = (setting.button((ReturnHome(),)),)
         return _ask(ClauseProblem(Code.AMBIGUOUS, text), home, setting)
     return StepPlan(steps=steps)

@@ -19,6 +19,7 @@ from planner.language.motion_guard.mentioned_names import (
 from planner.plan import (
     DRIVES,
     STANDS,
+    ClockTime,
     ComeBack,
     Count,
     Explore,
@@ -32,6 +33,7 @@ from planner.plan import (
     StepPlan,
     Turn,
     Vocabulary,
+    list_nodes,
     places_of,
 )
 
@@ -53,12 +55,12 @@ _DEGREES = re.compile(r"degree|\bdeg\b|°|度|radian|弧")
 _CLOSE = 0.02  # of the number that was said
 
 
-def moves(step: Step) -> bool:
+def moves(step: Step | ClockTime) -> bool:
     """Tell whether a step moves the robot."""
     return step.kind in DRIVES or (step.kind not in STANDS and bool(places_of(step)))
 
 
-def evidence(step: Step, said: str) -> int:
+def evidence(step: Step | ClockTime, said: str) -> int:
     """Return how often words speak of what a step does, for kinds that words alone tell."""
     match step:
         case Follow():
@@ -74,7 +76,7 @@ def wrong_motions(plan: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[st
     """Return why each step that moves is not named by the sentence; empty where all are."""
     named = frozenset(places_named(text, vocabulary))
     found = []
-    for step in plan.steps:
+    for step in (node.step for node in list_nodes(plan.steps)):
         if moves(step):
             unnamed = [place for place in places_of(step) if place not in named]
             found += [f"{step.kind} to {place}, which is not named" for place in unnamed]
@@ -83,7 +85,7 @@ def wrong_motions(plan: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[st
     return tuple(found)
 
 
-def unnamed_part(step: Step, said: str) -> str:
+def unnamed_part(step: Step | ClockTime, said: str) -> str:
     """Return the part of a step, besides its places, that the sentence does not say."""
     match step:
         case ReturnHome():

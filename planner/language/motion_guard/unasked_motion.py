@@ -30,14 +30,20 @@ from planner.language.yes_no import consents
 from planner.plan import (
     EVERY_KIND,
     Clarify,
+    ClockTime,
     Code,
     Count,
     Language,
     Look,
     Refuse,
+    Repeat,
     Step,
+    StepNode,
     StepPlan,
+    StepRole,
     Vocabulary,
+    list_nodes,
+    parents_of,
     places_of,
 )
 
@@ -68,6 +74,10 @@ _HERE = re.compile(
 _REPEATS = re.compile(
     r"\b(?:twice|thrice|times|again|repeat|loop|keep|over and over|back and forth|laps?)\b"
     r"|[二两三四五六七八九十几\d]\s*[次遍趟圈]|来回|反复|一直|轮流|不断|循环|往返"
+)
+_ROUNDS_SAID = re.compile(
+    rf"{_REPEATS.pattern}|\b(?:until|till|while|as long as|every|for [a-z0-9]+ (?:minutes?|hours?"
+    r"|seconds?)|rounds?)\b|直到|等到|为止|每|分钟|小时|秒|轮"
 )
 _FOLLOWS = re.compile(
     r"\bfollow|\b(?:go|goes|come|walk|drive|run|stay|keep) (?:along )?(?:after|behind|with)\b"
@@ -133,18 +143,36 @@ def said_words(order: str, exchanges: tuple[tuple[str, str], ...]) -> tuple[str,
 def find_unasked(
     made: StepPlan, person: PersonWords, vocabulary: Vocabulary
 ) -> tuple[UnaskedStep, ...]:
-    """Return the steps that move the robot and that nobody asked for. Never raises."""
+    """Return the steps that move the robot and that nobody asked for. Never raises.
+
+    Their index is that of the row of all steps (``list_nodes``). A branch is held to the words on
+    a condition, since it looks or asks first; so is what is done where something else fails. What
+    comes again in rounds must have been ordered so.
+    """
     judge = _Judge(person, vocabulary)
+    row = list_nodes(made.steps)
     found, before = [], False
-    for index, step in enumerate(made.steps):
+    for index, node in enumerate(row):
+        step = node.step
         if can_move(step):
-            why = judge.find_fault(step, upon=before or person.checked or step.kind in LOOKS)
+            upon = before or person.checked or step.kind in LOOKS or _hangs_on_more(row, index)
+            why = judge.find_fault(step, upon=upon) or judge.find_rounds(row, index)
             found += [UnaskedStep(index, why)] if why else []
         before = before or step.kind == "ask"
     return tuple(found)
 
 
-def can_move(step: Step) -> bool:
+_UPON = frozenset(
+    {StepRole.WHEN, StepRole.THEN, StepRole.OTHERWISE, StepRole.ON_FAILURE, StepRole.UNTIL}
+)
+
+
+def _hangs_on_more(row: tuple[StepNode, ...], index: int) -> bool:
+    """Tell whether a step is a condition, or done upon one or upon a failure alone."""
+    return any(row[i].role in _UPON for i in (index, *parents_of(row, index)))
+
+
+def can_move(step: Step | ClockTime) -> bool:
     """Tell whether a step moves the robot, turning about to look included."""
     turns_about = isinstance(step, Look) and looks_round(step.question)
     return moves(step) or isinstance(step, Count) or turns_about
@@ -167,7 +195,7 @@ class _Judge:
         self._at = ""
         self._repeats = any(_REPEATS.search(scope.upon) for scope in self._scopes)
 
-    def find_fault(self, step: Step, *, upon: bool) -> str:
+    def find_fault(self, step: Step | ClockTime, *, upon: bool) -> str:
         """Return why a step is unasked; empty where it is asked."""
         if self._veto is not None:
             return f"the order itself is {self._veto.value}"
@@ -188,11 +216,20 @@ class _Judge:
             or self._why_often(step, key, said)
         )
 
+    def find_rounds(self, row: tuple[StepNode, ...], index: int) -> str:
+        """Return why a step is done again and again though nobody ordered that."""
+        about = (row[i].step for i in parents_of(row, index))
+        again = any(isinstance(step, Repeat) and step.times > 1 for step in about)
+        said = _GAP.join(f"{scope.upon} {scope.things}" for scope in self._scopes)
+        if not again or _ROUNDS_SAID.search(said):
+            return ""
+        return f"{row[index].step.kind} again and again, which is not said"
+
     @staticmethod
     def _scope_text(scope: OrderScope, upon: bool) -> str:
         return scope.upon if upon else scope.ordered
 
-    def _why_places(self, step: Step, said: str) -> str:
+    def _why_places(self, step: Step | ClockTime, said: str) -> str:
         named = Counter(places_named(said, self._vocabulary))
         named.update(dict.fromkeys(self._rooms_of_group(said), 1))
         if self._room is not None and _HERE.search(said):
@@ -220,7 +257,7 @@ class _Judge:
         rooms = (entry.id for entry in self._vocabulary.entries if entry.kind == "room")
         return frozenset(rooms) - out
 
-    def _why_kind(self, step: Step, said: str) -> str:
+    def _why_kind(self, step: Step | ClockTime, said: str) -> str:
         if isinstance(step, Look):
             looks = _SEES if step.place is not None else _SEES_ROUND
             return "" if looks.search(said) else "no word of looking"
@@ -235,7 +272,7 @@ class _Judge:
         follows = step.kind != "follow" or _FOLLOWS.search(said)
         return "" if follows else "no word of following"
 
-    def _why_often(self, step: Step, key: object, said: str) -> str:
+    def _why_often(self, step: Step | ClockTime, key: object, said: str) -> str:
         if self._repeats or places_of(step):
             return ""
         most = max(1, evidence(step, said))
@@ -272,7 +309,7 @@ def _read_grammar(
         return Counter(), None
     read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
     if isinstance(read, StepPlan):
-        return Counter(map(_key, read.steps)), None
+        return Counter(_key(node.step) for node in list_nodes(read.steps)), None
     vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
     return Counter(), read.code if vetoed and isinstance(read, Refuse | Clarify) else None
 
@@ -287,7 +324,7 @@ def _spare_clauses(text: str, vocabulary: Vocabulary, room: str | None) -> str |
     return ", ".join(orders) if orders and not vetoed and len(orders) < len(clauses) else None
 
 
-def _key(step: Step) -> object:
+def _key(step: Step | ClockTime) -> object:
     """Return what a step does, however it is worded."""
     label = getattr(step, "object", None)
     angle, far = getattr(step, "angle_rad", None), getattr(step, "distance_m", None)

@@ -27,6 +27,7 @@ from planner.mission.skills.actions import (
     Way,
 )
 from planner.mission.skills.ask import ask
+from planner.mission.skills.conditions import clock, judge_condition
 from planner.mission.skills.count import count
 from planner.mission.skills.decide import decide
 from planner.mission.skills.drive_to_place import come_back, go_to, patrol, return_home
@@ -43,6 +44,7 @@ from planner.mission.skills.say import say
 from planner.mission.skills.skill_state import STATES, SkillState, SkillStateBase, begin_state
 from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
+from planner.mission.skills.wait_for import wait_for
 from planner.plan import Code, say_same
 
 SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProxyType(
@@ -55,6 +57,8 @@ SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProx
         "patrol": patrol,
         "explore": explore,
         "wait": wait,
+        "wait_for": wait_for,
+        "clock": clock,
         "say": say,
         "ask": ask,
         "decide": decide,
@@ -82,7 +86,7 @@ def act_of(scene: Scene[Any]) -> SkillAction:
     code = scene.eyes.means(scene.sight.blind, grows=scene.facts.grows).lacks(kind)
     skill = SKILLS.get(kind)
     if skill is not None and code is None:
-        return skill(scene)
+        return judge_condition(scene, skill(scene))
     code = code or Code.NO_CAPABILITY
     return Fail(code, code.value, message(code, part=say_same(kind)))
 

@@ -76,6 +76,8 @@ class Scene(Generic[S_co]):
     """What was driven for this step."""
     answer: ImageAnswer | None = None
     """What came of a question about the picture that was just asked."""
+    unix_s: float = 0.0
+    """The same moment on people's clock."""
     upon: Bilingual | None = None
     """What moves next upon a yes to the question that the step asks; None: nothing does."""
     thinks: bool = False
@@ -148,6 +150,8 @@ class Stand:
     """Stand for a while [s]."""
 
     seconds: float
+    state: SkillStateBase | None = None
+    """Held from now on."""
 
 
 @dataclass(frozen=True, slots=True)

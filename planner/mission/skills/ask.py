@@ -21,8 +21,9 @@ from planner.mission.skills.actions import (
     SkillAction,
     Think,
 )
+from planner.mission.skills.conditions import ask_condition
 from planner.mission.skills.skill_state import AskStage, AskState
-from planner.plan import Bilingual, Code, say_same
+from planner.plan import JUDGED, Bilingual, Code, say_same
 
 _QUOTED = 80
 _NO = say("question.said_no")
@@ -31,6 +32,8 @@ _UNCLEAR = say("question.said_neither")
 
 def ask(scene: Scene[AskState]) -> SkillAction:
     """Return the question, until it is answered; then whether that lets the goal go on."""
+    if scene.step.role in JUDGED:
+        return ask_condition(scene)
     answer, state = scene.step.answer, scene.state
     if answer is None:
         again = state.stage is AskStage.AGAIN

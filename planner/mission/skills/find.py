@@ -12,13 +12,14 @@ from typing import Any
 from planner.language.catalogue import message
 from planner.language.object_names import name_object
 from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
+from planner.mission.skills.conditions import HOLDS, with_answer
 from planner.mission.skills.object_matching import found, wanted_of
 from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.result_text import by_neighbour, found_at, looked_in, unknown_words
 from planner.mission.skills.search import alike, find_spent_budget, search
 from planner.mission.skills.skill_state import FindState, SearchState
 from planner.perception.snapshot import Thing
-from planner.plan import Code
+from planner.plan import JUDGED, Code
 
 
 def find(scene: Scene[FindState]) -> SkillAction:
@@ -37,20 +38,22 @@ def find(scene: Scene[FindState]) -> SkillAction:
 def _found(scene: Scene[FindState], thing: Thing, wanted: WantedObject) -> Finish:
     record = found(thing, scene.pose, scene.now_s)
     said = found_at(scene.facts, thing.label, thing.color, thing.room, record.distance_m, wanted)
-    figures = {"found": record, "rooms": scene.state.rooms}
-    return Finish(figures, Code.FOUND, said)
+    ended = Finish({"found": record, "rooms": scene.state.rooms}, Code.FOUND, said)
+    return with_answer(ended, True) if scene.step.role in JUDGED else ended
 
 
 def not_found(scene: Scene[SearchState], wanted: WantedObject) -> Fail:
     """Say that it was not seen, and where was looked."""
     state = scene.state
     shut = tuple(room for room in state.shut if room not in state.rooms)
-    looked = looked_in(
-        scene.facts, state.rooms, shut, find_spent_budget(scene), alike(scene, wanted)
-    )
+    spent, others = find_spent_budget(scene), alike(scene, wanted)
+    looked = looked_in(scene.facts, state.rooms, shut, spent, others)
     name = by_neighbour(name_object(wanted.label, wanted.color), wanted)
     said = message(Code.NOT_FOUND, thing=name, looked=looked)
-    return Fail(Code.NOT_FOUND, "not_found", said, {"rooms": state.rooms})
+    figures: dict[str, Any] = {"rooms": state.rooms}
+    if scene.step.role in JUDGED:  # what was not looked at is not known to be empty
+        figures[HOLDS] = None if shut or spent is not None or others else False
+    return Fail(Code.NOT_FOUND, "not_found", said, figures)
 
 
 def unknown(scene: Scene[Any]) -> Fail:

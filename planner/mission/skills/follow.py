@@ -5,8 +5,8 @@ nobody whom it saw for less than half a second; the way is laid anew as the pers
 second at most, each time to a point short of them; the bridge's limits and gates hold as on any
 leg. Out of sight, the robot goes to as far short of where it saw them last and looks round; while
 its eyes see nothing at all it stands. Verdict: lost when nobody was seen for ``LOST_S``, told and
-standing; failed when no way leads to them, try after try; done when the time is over. Budget:
-300 s, and the bridge's grant.
+standing; failed when no way leads to them, try after try; done when the time is over: the one
+that was said, else 300 s. Budget: 300 s, and the bridge's grant.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from planner.mission.skills.result_text import name_with_article
 from planner.mission.skills.search import short_of
 from planner.mission.skills.skill_state import FollowPersonState, FollowStage
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
-from planner.plan import Code
+from planner.plan import MAX_FOLLOW_S, Code
 
 if TYPE_CHECKING:
     from planner.mission.skills.perception import WantedObject
@@ -47,7 +47,7 @@ NEW_S = 1.5
 SAME_M = 2.0
 """Nobody walks farther between two looks; who is seen beyond is somebody else."""
 FACE_RAD = 0.35
-LOST_S, FOLLOW_S = 25.0, 300.0
+LOST_S = 25.0
 GAZE_LOOKS, GAZE_S = 10, 8.0
 FIRST_LOOKS = 3
 SHUT_LOOKS = 15
@@ -65,7 +65,7 @@ def follow(scene: Scene[FollowPersonState]) -> SkillAction:
         return unknown(scene)
     if scene.pose is None:
         return Retry()
-    if scene.spent_s > FOLLOW_S:
+    if not scene.spent_s <= (scene.step.seconds or MAX_FOLLOW_S):
         return _finish(scene)
     if scene.sight.blind is not None:  # where the person is now nobody knows: nothing moves
         return Observe(1, state=scene.state, then=scene.state, watch=True)

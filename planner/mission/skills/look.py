@@ -6,7 +6,8 @@ where the words ask for it. The answer is what the detector saw, by kind, colour
 neighbour (scene_answers.py). Beside it stands, labelled, what a vision model read in the pictures
 of all these directions: its words may repeat what stands written there, so they describe and
 never command. Where a model is set and does not answer, why is told. Verdict: looked; a place
-to which there was no way was not. Budget: one leg and one turn about.
+to which there was no way was not. Where branches hang on it, its answer is a yes, a no, or that it
+can't be told (conditions.py). Budget: one leg and one turn about.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from planner.mission.skills.actions import (
     Scene,
     SkillAction,
 )
+from planner.mission.skills.conditions import agree, with_answer
 from planner.mission.skills.directions import direction, goes_round, list_directions
 from planner.mission.skills.image_errors import why_silent
 from planner.mission.skills.look_around import LOOKS, look_round
@@ -34,7 +36,7 @@ from planner.mission.skills.scene_answers import SceneAnswer, answer
 from planner.mission.skills.search import begin, spots
 from planner.mission.skills.skill_state import LookStage, LookState
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
-from planner.plan import Bilingual, Code, say_same
+from planner.plan import JUDGED, Bilingual, Code, say_same
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -73,9 +75,10 @@ def look(scene: Scene[LookState]) -> SkillAction:
 def _finish(scene: Scene[LookState], pose: Pose2, question: str) -> Finish:
     """Tell the sights, and a model's reading or why there is none."""
     state, views = scene.state, scene.eyes.views
+    partly = len(state.faced) > 1 and not goes_round(state.faced, views)
     told = SceneAnswer(NO_DETECTOR) if _model_alone(scene) else answer(scene, question)
     said, silent = [told.said], why_silent(scene.answer)
-    if len(state.faced) > 1 and not goes_round(state.faced, views):
+    if partly:
         names = list_directions(tuple(map(direction, state.faced)))
         said.append(say("look.only_looked", names=names))
     if silent is not None:
@@ -84,7 +87,11 @@ def _finish(scene: Scene[LookState], pose: Pose2, question: str) -> Finish:
     read = None
     if scene.answer is not None:
         read = reading(scene.answer, told.yes, state.faced, views, _facing(state, pose))
-    return Finish({"rooms": state.rooms}, Code.SEEN, whole, read)
+    ended = Finish({"rooms": state.rooms}, Code.SEEN, whole, read)
+    if scene.step.role not in JUDGED:
+        return ended
+    holds = agree(told.yes, scene.answer.seen if scene.answer is not None else None)
+    return with_answer(ended, None if partly and holds is False else holds)
 
 
 def _facing(state: LookState, pose: Pose2) -> Bilingual:

@@ -240,6 +240,16 @@ class AskState(SkillStateBase):
     """An answer that was neither yes nor no, after which was asked once more."""
 
 
+class WaitForState(SkillStateBase):
+    """Remember until when is waited, and that a word was asked for."""
+
+    kind: Literal["wait_for"] = "wait_for"
+    until_unix_s: float | None = None
+    """On people's clock: a wait for a time that has come while the goal was paused is over."""
+    asked: int = 0
+    """Times that somebody said something else than the word."""
+
+
 SkillState = Annotated[
     AskState
     | CountState
@@ -248,7 +258,8 @@ SkillState = Annotated[
     | FollowPersonState
     | GoToObjectState
     | GoToPointState
-    | LookState,
+    | LookState
+    | WaitForState,
     Field(discriminator="kind"),
 ]
 STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
@@ -261,6 +272,7 @@ STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
         "go_to_object": GoToObjectState,
         "go_to_point": GoToPointState,
         "look": LookState,
+        "wait_for": WaitForState,
     }
 )
 """By the kind of step; the other kinds remember nothing."""

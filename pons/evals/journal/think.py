@@ -125,7 +125,7 @@ async def _think_again(
     rejection = check_plan(plan, vocabulary)
     if rejection is not None:
         return replace(again, refused=rejection.first.code.value)
-    moves = isinstance(plan, StepPlan) and any(step.kind in MOTION for step in plan.steps)
+    moves = isinstance(plan, StepPlan) and any(step.kind in MOTION for step in record.steps)
     if relation is Difference.DIFFERS and isinstance(plan, StepPlan) and moves:
         return replace(again, plan=plan)
     return again

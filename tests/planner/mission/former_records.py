@@ -4,6 +4,12 @@
 
 from __future__ import annotations
 
+YOUNGER = (
+    *("recoveries", "depth", "role", "times", "round", "began_unix_s", "holds", "earlier"),
+    *("word", "time", "after", "before"),
+)
+"""Fields of a step that these programs did not know."""
+
 FIND = r"""
 {"id":"g1","order":1,"text":"text g1","language":"en","state":"running","reason":null,"replies":
 [],"questions":[],"source":"api","plan":{"kind":"plan","steps":[{"kind":"find","place":null,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.plan import DRIVES, EVERY_KIND, NEEDS_CAMERA, PLAN, RUNNABLE
+from planner.plan import CONDITIONS, DRIVES, EVERY_KIND, NEEDS_CAMERA, PLAN, RUNNABLE
 
 
 def test_every_kind_is_what_a_plan_may_hold() -> None:
@@ -12,5 +12,5 @@ def test_every_kind_is_what_a_plan_may_hold() -> None:
         for shape in shapes
         if "properties" in shape
     }
-    assert kinds - {None, "plan", "answer", "clarify", "refuse"} == EVERY_KIND
+    assert kinds - {None, "plan", "answer", "clarify", "refuse"} == EVERY_KIND | CONDITIONS
     assert RUNNABLE | NEEDS_CAMERA | DRIVES <= EVERY_KIND

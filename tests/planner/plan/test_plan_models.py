@@ -69,6 +69,25 @@ STEPS: list[dict[str, Any]] = [
     {"kind": "follow", "object": "the person"},
     {"kind": "explore"},
     {"kind": "recall", "object": "red cup", "place": "kitchen", "when": "morning"},
+    {"kind": "wait_for", "word": "go", "seconds": 60.0},
+    {
+        "kind": "if",
+        "when": {"kind": "ask", "question": "may I come in?"},
+        "then": [{"kind": "go_to", "place": "study"}],
+        "otherwise": [{"kind": "say", "text": "it is shut"}],
+    },
+    {
+        "kind": "try",
+        "steps": [{"kind": "go_to", "place": "kitchen"}],
+        "on_failure": [{"kind": "say", "text": "dinner is ready"}],
+    },
+    {
+        "kind": "repeat",
+        "times": 3,
+        "seconds": 600.0,
+        "steps": [{"kind": "go_to", "place": "kitchen"}],
+        "until": {"kind": "clock", "after": "18:30"},
+    },
 ]
 KINDS = [cls.model_fields["kind"].default for cls in get_args(get_args(Step)[0])]
 
@@ -102,6 +121,24 @@ def test_plan_survives_json(step: dict[str, Any]) -> None:
         {"kind": "say", "text": "  "},
         {"kind": "patrol", "places": []},
         {"kind": "fly"},
+        {"kind": "repeat", "times": 10**9, "steps": [{"kind": "come_back"}]},
+        {"kind": "repeat", "times": 0, "steps": [{"kind": "come_back"}]},
+        {"kind": "repeat", "seconds": math.inf, "steps": [{"kind": "come_back"}]},
+        {"kind": "repeat", "steps": []},
+        {"kind": "repeat", "steps": [{"kind": "come_back"}], "until": "never"},
+        {
+            "kind": "if",
+            "when": {"kind": "go_to", "place": "kitchen"},
+            "then": [{"kind": "explore"}],
+        },
+        {"kind": "if", "when": {"kind": "clock"}, "then": [{"kind": "explore"}]},
+        {"kind": "if", "when": {"kind": "clock", "after": "25:00"}, "then": [{"kind": "explore"}]},
+        {"kind": "if", "when": {"kind": "look", "question": "is it?"}, "then": []},
+        {"kind": "try", "steps": [{"kind": "explore"}]},
+        {"kind": "wait_for"},
+        {"kind": "wait_for", "object": "person", "word": "go"},
+        {"kind": "wait_for", "object": "person", "seconds": 601},
+        {"kind": "wait_for", "time": "8 pm"},
         {},
     ],
     ids=str,
@@ -258,3 +295,57 @@ def test_wait_accepts_only_its_bounds(seconds: float) -> None:
     else:
         with pytest.raises(ValidationError):
             PLAN.validate_python({"kind": "plan", "steps": [step]})
+
+
+def nested(deep: int) -> dict[str, Any]:
+    step: dict[str, Any] = {"kind": "say", "text": "hello"}
+    for _ in range(deep):
+        step = {"kind": "repeat", "times": 2, "steps": [step]}
+    return step
+
+
+@pytest.mark.parametrize(
+    ("step", "word"),
+    [
+        (nested(4), "deep"),
+        (nested(200), "deep"),
+        ({"kind": "repeat", "times": 20, "steps": [nested(1), {"kind": "repeat", "times": 20,
+          "steps": [{"kind": "say", "text": "hello"}]}]}, "over all rounds"),
+        ({"kind": "repeat", "times": 20,
+          "steps": [{"kind": "patrol", "places": ["kitchen", "study"] * 10}]}, "over all rounds"),
+        ({"kind": "repeat", "times": 20, "steps": [{"kind": "wait", "seconds": 600}]}, "waits of"),
+        ({"kind": "repeat", "times": 2,
+          "steps": [{"kind": "decide", "question": "and now?"}]}, "decide inside repeat"),
+    ],
+)  # fmt: skip
+def test_a_tree_beyond_its_bounds_is_refused_with_what_is_expected(
+    step: dict[str, Any], word: str
+) -> None:
+    plan = PLAN.validate_python({"kind": "plan", "steps": [step]})
+    rejection = check_plan(plan, HOME)
+    assert rejection is not None
+    assert rejection.repairable, "a model can write it better"
+    assert {reason.code for reason in rejection.reasons} == {Code.BAD_PLAN}
+    assert any(word in reason.what for reason in rejection.reasons)
+    assert check_plan(plan_record(plan).steps, HOME) == rejection, "the record is judged alike"
+
+
+def test_every_branch_is_judged() -> None:
+    for branch in ("then", "otherwise"):
+        step = {
+            "kind": "if",
+            "when": {"kind": "clock", "after": "18:00"},
+            "then": [{"kind": "go_to", "place": "kitchen"}],
+        }
+        step[branch] = [{"kind": "go_to", "place": "cellar"}]
+        rejection = check_plan(PLAN.validate_python({"kind": "plan", "steps": [step]}), HOME)
+        assert rejection is not None
+        assert rejection.first.code is Code.UNKNOWN_PLACE
+
+
+def test_who_has_no_detector_waits_for_nobody() -> None:
+    waits = PLAN.validate_python({"kind": "plan", "steps": [
+        {"kind": "wait_for", "object": "person"}]})  # fmt: skip
+    rejection = check_plan(waits, HOME)
+    assert rejection is not None
+    assert rejection.first.code is Code.NO_CAMERA

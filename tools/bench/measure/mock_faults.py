@@ -19,7 +19,7 @@ from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.endpoint import EndpointBrain
 from planner.mission import AskBrain, MissionState, Planned, Submitted, advance
 from planner.mission.plan_request import Hearing, thinker
-from planner.plan import DRIVES, Language, StepPlan, Vocabulary, check_plan
+from planner.plan import DRIVES, Language, StepPlan, Vocabulary, check_plan, list_nodes
 from planner.settings import ModelSettings
 from planner.site import Site
 from planner.site.site_view import facts_of, vocabulary_of
@@ -137,7 +137,7 @@ class _Trial:
             self.counts["nothing"] += 1
         else:
             self.counts["model" if by_model else "offline"] += 1
-            drives = any(step.kind in DRIVES for step in plan.steps)
+            drives = any(node.step.kind in DRIVES for node in list_nodes(plan.steps))
             wrong = check_plan(plan, self._vocabulary) is not None
             if drives and (wrong or (by_model and self._fault not in READABLE)):
                 self.counts["invalid"] += 1

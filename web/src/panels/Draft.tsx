@@ -56,6 +56,15 @@ const EMPTY: Step = {
   reason: null,
   said: null,
   read: null,
+  depth: 0,
+  role: null,
+  times: null,
+  round: 0,
+  holds: null,
+  word: null,
+  time: null,
+  after: null,
+  before: null,
 };
 
 /** Return a written step with every field, so that it reads as a step of a plan does. */

@@ -5,7 +5,7 @@ import { act, answer } from "../state/acts";
 import type { Goal, Outcome, Step, Tag } from "../wire/types";
 import { DraftOf } from "./Draft";
 import { fixed } from "./format";
-import { brainName, needed, reasonWords, stepWords } from "./steps";
+import { brainName, needed, reasonWords, roleWords, stepWords } from "./steps";
 import { verdict } from "./verdict";
 
 const MARKS: { readonly [state: string]: string } = {
@@ -15,6 +15,9 @@ const MARKS: { readonly [state: string]: string } = {
   failed: "✕",
   skipped: "–",
 };
+
+/** Steps that hold others: what is done now is one of these. */
+const HOLDS = new Set(["if", "try", "repeat"]);
 
 export function GoalCard({ goal }: { goal: Goal }) {
   const asks = goal.state === "needs_clarification"; // its question says why, in words
@@ -41,11 +44,18 @@ export function Steps({ steps }: { steps: readonly Step[] }) {
   return (
     <ol class="steps" aria-label={t("goal.steps")}>
       {steps.map((step, index) => (
-        <li key={index} class={`step step-${step.state}`}>
+        <li
+          key={index}
+          class={`step step-${step.state}`}
+          data-depth={step.depth}
+          data-role={step.role}
+          aria-current={step.state === "running" && !HOLDS.has(step.kind) ? "step" : undefined}
+        >
           <span class="mark" aria-hidden="true">
             {MARKS[step.state] ?? "•"}
           </span>
           <span class="what">
+            {roleWords(step) && <span class="role">{roleWords(step)} </span>}
             {stepWords(step)}
             <span class="unseen"> ({word("state", step.state)})</span>
             {step.reason && <span class="reason"> {reasonWords(step.reason)}</span>}

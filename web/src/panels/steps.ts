@@ -14,7 +14,22 @@ export function stepWords(step: Step): string {
   return template === step.kind ? step.kind : template.replace("{what}", what(step)).trim();
 }
 
+/** Say what a step is to the one that holds it, and what a condition came to. */
+export function roleWords(step: Step): string {
+  if (!step.role) return "";
+  const answer = typeof step.holds === "boolean" ? t(step.holds ? "role.yes" : "role.no") : "";
+  return [word("role", step.role), answer].filter((words) => words).join(" ");
+}
+
 function what(step: Step): string {
+  if (step.kind === "repeat") {
+    return step.round > 0
+      ? t("step.round", { n: `${step.round}`, of: `${step.times ?? 1}` })
+      : t("step.times", { of: `${step.times ?? 1}` });
+  }
+  if (step.kind === "wait_for") return step.object ?? step.word ?? step.time ?? "";
+  if (step.kind === "clock") return `${step.after ?? ""} – ${step.before ?? ""}`;
+  if (step.kind === "follow" && step.object) return step.object;
   if (typeof step.seconds === "number") return fixed(step.seconds, 0, "s");
   if (typeof step.angle_rad === "number") return `${fixed((step.angle_rad * 180) / Math.PI, 0)}°`;
   if (typeof step.distance_m === "number") return fixed(step.distance_m, 2, "m");

@@ -120,6 +120,15 @@ export type Step = {
   readonly reason: string | null;
   readonly said: Bilingual | null; // what a step that looks came to
   readonly read: Bilingual | null; // what a model said of the picture: for people alone
+  readonly depth: number; // in how many other steps it stands
+  readonly role: string | null; // what it is to the step that holds it
+  readonly times: number | null; // rounds of a repeat, at most
+  readonly round: number; // which of them runs, or was the last
+  readonly holds: boolean | null; // of a condition: what it came to
+  readonly word: string | null;
+  readonly time: string | null;
+  readonly after: string | null;
+  readonly before: string | null;
 };
 
 export type Option = { readonly label: Bilingual; readonly text: string };

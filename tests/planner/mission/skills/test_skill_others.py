@@ -23,6 +23,8 @@ from planner.mission.skills import (
     begin_state,
 )
 from planner.plan import (
+    CONDITIONS,
+    CONTROL,
     EVERY_KIND,
     NEEDS_CAMERA,
     NEEDS_GROWING_MAP,
@@ -42,7 +44,8 @@ BACK = Pose2(1.0, 1.0, 0.5)
 
 def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
     whole = Means(camera=True, detector=True, growing_map=True)
-    assert set(SKILLS) == EVERY_KIND == whole.runnable
+    assert set(SKILLS) | CONTROL == EVERY_KIND | CONDITIONS
+    assert whole.runnable == EVERY_KIND
     assert Means().runnable == RUNNABLE == EVERY_KIND - NEEDS_CAMERA - NEEDS_GROWING_MAP
     assert Means(growing_map=True).runnable - RUNNABLE == NEEDS_GROWING_MAP == {"explore"}
     blind = Means(camera=True)

@@ -1,0 +1,204 @@
+"""Read a sentence whose orders hang on something: a condition, a failure, rounds, a wait.
+
+One way for all tongues; the words are each language's own (``en/compound.py``, ``zh/compound.py``).
+Law: the sentence is cut, and every part must be an order, or a question that a look answers, which
+the grammar reads alone with all its vetoes; else nothing is read here and the sentence is judged as
+a whole. So no condition becomes a plan that nobody can look at, and "don't", "or" and harm in any
+part still hold everything back.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from planner.language.grammar.numbers import seconds
+from planner.language.object_names import resolve
+from planner.language.stop import is_stop
+from planner.plan import (
+    MAX_FOLLOW_S,
+    Attempt,
+    Follow,
+    If,
+    Look,
+    Repeat,
+    Step,
+    StepPlan,
+    WaitFor,
+)
+
+ReadSteps = Callable[[str], tuple[Step, ...] | None]
+"""Return the steps of one order, or None where it is no plan."""
+MOST_CUTS = 40
+"""Places at which a condition without a comma may end, tried one after the other."""
+
+
+@dataclass(frozen=True, slots=True)
+class ConditionParts:
+    """Hold a condition cut out of a sentence: the question that tells it, and what hangs on it."""
+
+    question: str
+    thing: str
+    denied: bool
+    """It holds where the answer is no."""
+    is_placed: bool
+    """It says where."""
+
+
+@dataclass(frozen=True, slots=True)
+class CompoundForms:
+    """Hold one language's words. Each pattern reads a normalised sentence whole."""
+
+    trigger: re.Pattern[str]
+    """Without it nothing is tried."""
+    conditions: tuple[re.Pattern[str], ...]
+    """Groups ``body`` (condition and order, in one) or ``if`` and ``then``; ``else`` or none."""
+    read_condition: Callable[[str], ConditionParts | None]
+    cuts: re.Pattern[str]
+    """Where a condition may end in ``body``."""
+    failures: re.Pattern[str]
+    """Groups ``main`` and ``else``."""
+    rounds: re.Pattern[str]
+    """Groups ``main`` and ``times``."""
+    count: Callable[[str], int | None]
+    waits: tuple[re.Pattern[str], ...]
+    """Groups ``before``, ``rest``, and one of ``who``, ``word`` and ``time``."""
+    time: Callable[[str], str | None]
+    slowly: re.Pattern[str]
+    """Words that ask for no more than half the speed."""
+    follows: re.Pattern[str]
+    """Groups ``main``, ``number`` and ``unit``."""
+
+
+def read_compound(said: str, forms: CompoundForms, read: ReadSteps) -> StepPlan | None:
+    """Return the plan of a sentence of such a form; None of any other."""
+    if forms.trigger.search(said) is None:
+        return None
+    slow = forms.slowly.sub(" ", said)
+    if slow != said:
+        plain = " ".join(slow.split()).strip(" ,")
+        inner = read_compound(plain, forms, read)
+        steps = inner.steps if inner is not None else read(plain)
+        return StepPlan(steps=steps, pace="slow") if steps else None
+    steps = (
+        _read_failure(said, forms, read)
+        or _read_condition(said, forms, read)
+        or _read_wait(said, forms, read)
+        or _read_rounds(said, forms, read)
+        or _read_follow(said, forms, read)
+    )
+    return StepPlan(steps=steps) if steps else None
+
+
+def _read_condition(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+    for pattern in forms.conditions:
+        found = pattern.fullmatch(said)
+        if found is None:
+            continue
+        parts = found.groupdict()
+        pairs = (
+            _cut(parts["body"], forms.cuts) if parts.get("body") else [(parts["if"], parts["then"])]
+        )
+        for condition, order in pairs:
+            made = _branch(condition, order, parts.get("else"), forms, read)
+            if made is not None:
+                return made
+    return None
+
+
+def _cut(body: str, cuts: re.Pattern[str]) -> Iterator[tuple[str, str]]:
+    """Yield each way to cut a condition from the order that follows it: the longest one first.
+
+    Where a comma stands, it ends there and nowhere else.
+    """
+    comma = re.search(r",(?: then)? ", body)
+    found = [comma] if comma is not None else list(cuts.finditer(body))[-MOST_CUTS:]
+    for cut in reversed(found):
+        condition, order = body[: cut.start()].strip(" ,"), body[cut.end() :].strip(" ,")
+        if condition and order:
+            yield condition, order
+
+
+def _branch(
+    condition: str, order: str, other: str | None, forms: CompoundForms, read: ReadSteps
+) -> tuple[Step, ...] | None:
+    parts = forms.read_condition(condition.strip(" ,"))
+    if parts is None or resolve(parts.thing) is None:
+        return None
+    look = _look(parts, read)
+    yes, no = read(order), read(other) if other else ()
+    if look is None or yes is None or no is None:
+        return None
+    if parts.denied:
+        yes, no = no, yes
+    return (If(when=look, then=yes, otherwise=no),)
+
+
+def _look(parts: ConditionParts, read: ReadSteps) -> Look | None:
+    """Return the look that answers a question, where one does; the way there is its own.
+
+    Where a place is said, it must be known: else the words are cut in the wrong spot.
+    """
+    steps = read(parts.question)
+    last = steps[-1] if steps else None
+    if not isinstance(last, Look) or steps is None or (parts.is_placed and last.place is None):
+        return None
+    return last if all(step.kind in ("go_to", "look") for step in steps) else None
+
+
+def _read_failure(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+    found = forms.failures.fullmatch(said)
+    if found is None:
+        return None
+    tried, instead = read(found["main"].strip(" ,;.")), read(found["else"].strip(" ,;."))
+    if not tried or not instead:
+        return None
+    return (Attempt(steps=tried, on_failure=instead),)
+
+
+def _read_rounds(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+    found = forms.rounds.fullmatch(said)
+    if found is None:
+        return None
+    times, again = forms.count(found["times"]), read(found["main"].strip(" ,"))
+    if times is None or not again:
+        return None
+    return (Repeat(times=times, steps=again),) if 1 <= times <= 20 else None
+
+
+def _read_follow(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+    """Read a time for which somebody is followed; longer than a step may last it is not read."""
+    found = forms.follows.fullmatch(said)
+    steps = read(found["main"].strip(" ,")) if found is not None else None
+    if found is None or not steps or not isinstance(steps[-1], Follow):
+        return None
+    far_s = seconds(found["number"], found["unit"])
+    if far_s is None or not 0.0 < far_s <= MAX_FOLLOW_S:
+        return None
+    return (*steps[:-1], steps[-1].model_copy(update={"seconds": far_s}))
+
+
+def _read_wait(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+    for pattern in forms.waits:
+        found = pattern.fullmatch(said)
+        if found is None:
+            continue
+        parts = found.groupdict()
+        wait = _wait(parts, forms)
+        before, rest = (
+            read(parts[name].strip(" ,")) if parts.get(name) else () for name in ("before", "rest")
+        )
+        if wait is not None and before is not None and rest is not None:
+            return (*before, wait, *rest)
+    return None
+
+
+def _wait(parts: dict[str, str | None], forms: CompoundForms) -> WaitFor | None:
+    who, word, time = parts.get("who"), parts.get("word"), parts.get("time")
+    if time:
+        hour = forms.time(time)
+        return WaitFor(time=hour) if hour is not None else None
+    if word:  # a stop word stops: nobody could say it for anything else
+        return None if is_stop(word) else WaitFor(word=word)
+    return WaitFor(object="person") if who and (resolve(who) or ("",))[0] == "person" else None

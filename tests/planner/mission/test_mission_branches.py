@@ -1,0 +1,339 @@
+"""Tell goals whose plan holds a condition, a fallback or a round: what is walked, what is told."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from planner.mission.events import Restarted, Resume
+from planner.mission.plan_walk import NOT_CHOSEN
+from planner.plan import (
+    Ask,
+    Attempt,
+    ClockTime,
+    Code,
+    ComeBack,
+    Find,
+    GoalState,
+    GoTo,
+    If,
+    Look,
+    Repeat,
+    Say,
+    Step,
+    StepPlan,
+    StepState,
+    Wait,
+    WaitFor,
+)
+from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.lockstep import Together
+from tests.planner.mission.telling import Telling, thing, untruths
+
+CUP = thing("cup", 1.5, 0.0, "hall")
+FAR_CUP = thing("cup", 4.5, 0.5, "kitchen")
+PERSON = thing("person", 4.5, 0.5, "kitchen")
+NAMES = {place: target.name for place, target in FACTS.targets.items()}
+IN_KITCHEN = Look(question="is anybody there?", place="kitchen")
+
+
+def plan(*steps: Step) -> StepPlan:
+    return StepPlan(steps=steps)
+
+
+def kinds_done(mission: Any) -> list[str]:
+    return [s.kind for s in mission.steps if s.state is StepState.SUCCEEDED]
+
+
+def test_the_branch_that_the_look_calls_for_is_walked_and_the_other_is_not() -> None:
+    for there, walked in ((True, "then"), (False, "else")):
+        world = Telling(truth=(PERSON,) if there else ())
+        world.model.manner = "honest"
+        mission = world.play(
+            plan(If(when=IN_KITCHEN, then=(Say(text="then"),), otherwise=(Say(text="else"),)))
+        )
+        said = [s for s in mission.steps if s.kind == "say"]
+        assert mission.state is GoalState.SUCCEEDED
+        assert [s.text for s in said if s.state is StepState.SUCCEEDED] == [walked]
+        assert [s.reason for s in said if s.state is StepState.SKIPPED] == [NOT_CHOSEN]
+        assert len(world.asked) == 1, "nobody thinks again"
+        assert not untruths(mission, NAMES)
+
+
+def test_an_if_without_a_second_branch_goes_on_behind_it() -> None:
+    world = Telling()
+    world.model.manner = "honest"
+    mission = world.play(plan(If(when=IN_KITCHEN, then=(Say(text="then"),)), Say(text="after")))
+    assert mission.state is GoalState.SUCCEEDED
+    assert kinds_done(mission) == ["if", "look", "say"]
+    assert mission.outcome is not None
+    assert "then" not in mission.outcome.message.en
+    assert "Not done" not in mission.outcome.message.en
+
+
+def test_what_nobody_can_tell_takes_neither_branch_and_says_so() -> None:
+    world = Telling(truth=(PERSON,), unseen=(PERSON.id,))
+    world.model.manner = "affirms"  # the detector says no, the model says yes
+    mission = world.play(
+        plan(If(when=IN_KITCHEN, then=(Say(text="then"),), otherwise=(Say(text="else"),)))
+    )
+    assert mission.state is GoalState.FAILED
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.UNSURE
+    assert mission.outcome.message.en.startswith("I can't tell, so I do neither.")
+    assert mission.outcome.message.zh.startswith("我判断不了，所以两样都没有做。")
+    assert "say" not in kinds_done(mission)
+
+
+def test_what_only_a_model_sees_steers_by_one_bit() -> None:
+    door = Look(question="is the door open?")
+    for manner, walked in (("affirms", "then"), ("denies", "else")):
+        world = Telling()
+        world.model.manner = manner
+        mission = world.play(
+            plan(If(when=door, then=(GoTo(place="kitchen"),), otherwise=(Say(text="else"),)))
+        )
+        assert mission.state is GoalState.SUCCEEDED, mission.outcome
+        assert ("go_to" in kinds_done(mission)) is (walked == "then"), mission.steps
+        assert len(world.asked) == 1
+
+
+def test_a_model_that_is_down_or_only_describes_takes_neither_branch() -> None:
+    for manner in ("down", "describes"):
+        world = Telling()
+        world.model.manner = manner
+        door = Look(question="is the door open?")
+        mission = world.play(plan(If(when=door, then=(GoTo(place="kitchen"),))))
+        assert mission.outcome is not None
+        assert mission.outcome.code is Code.UNSURE
+        assert world.bridge.moved_epochs == []
+
+
+def test_a_search_that_finds_nothing_is_a_no_and_no_failure() -> None:
+    search = Find(object="cup", place="kitchen")
+    for truth, walked in (((FAR_CUP,), "then"), ((), "else")):
+        world = Telling(truth=truth)
+        mission = world.play(
+            plan(If(when=search, then=(Say(text="then"),), otherwise=(Say(text="else"),)))
+        )
+        assert mission.state is GoalState.SUCCEEDED, mission.outcome
+        assert world.said == [walked]
+
+
+def test_a_room_that_was_not_looked_in_is_not_empty() -> None:
+    world = Telling()
+    world.shut((FACTS.targets["kitchen"].pose,))
+    search = Find(object="cup", place="kitchen")
+    mission = world.play(plan(If(when=search, then=(Say(text="a"),), otherwise=(Say(text="b"),))))
+    assert mission.state is GoalState.FAILED
+    assert world.said == []
+
+
+def test_an_answer_chooses_and_what_is_neither_is_asked_once_more() -> None:
+    asks = Ask(question="May I come in?")
+    steps = plan(If(when=asks, then=(GoTo(place="kitchen"),), otherwise=(Say(text="else"),)))
+    for replies, moves in ((["yes"], True), (["no"], False), (["tea", "yes please"], True)):
+        world = Telling(replies=list(replies))
+        mission = world.play(steps)
+        assert mission.state is GoalState.SUCCEEDED, (replies, mission.outcome)
+        assert bool(world.bridge.moved_epochs) is moves
+        assert world.answers == replies
+    world = Telling(replies=["tea", "coffee"])
+    mission = world.play(steps)
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.UNSURE
+    assert world.bridge.moved_epochs == []
+
+
+def test_where_a_step_fails_the_plan_has_a_way_of_its_own() -> None:
+    world = Telling()
+    world.shut((FACTS.targets["kitchen"].pose,))
+    mission = world.play(
+        plan(
+            Attempt(
+                steps=(GoTo(place="kitchen"), Say(text="dinner is ready")),
+                on_failure=(Say(text="dinner is ready, here"),),
+            )
+        )
+    )
+    assert mission.state is GoalState.SUCCEEDED
+    assert world.said == ["dinner is ready, here"]
+    assert len(world.asked) == 1, "nobody thinks again"
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.DONE, "nobody arrived"
+    assert mission.outcome.message.en == (
+        "I found no way to kitchen. Instead: Said: “dinner is ready, here”."
+    )
+    assert not untruths(mission, NAMES)
+
+
+def test_a_way_that_is_free_leaves_the_fallback_out() -> None:
+    world = Telling()
+    mission = world.play(
+        plan(
+            Attempt(steps=(GoTo(place="kitchen"),), on_failure=(GoTo(place="dock"),)),
+            Say(text="after"),
+        )
+    )
+    assert kinds_done(mission) == ["try", "go_to", "say"]
+    assert mission.outcome is not None
+    assert mission.outcome.message.en == "Arrived: kitchen. Said: “after”."
+
+
+def test_a_fallback_that_fails_too_ends_the_goal_with_both() -> None:
+    world = Telling()
+    world.shut((FACTS.targets["kitchen"].pose, FACTS.targets["dock"].pose))
+    mission = world.play(
+        plan(Attempt(steps=(GoTo(place="kitchen"),), on_failure=(GoTo(place="dock"),)))
+    )
+    assert mission.state is GoalState.FAILED
+    assert mission.outcome is not None
+    assert "kitchen" in mission.outcome.message.en
+    assert "dock" in mission.outcome.message.en
+
+
+def test_rounds_are_counted_and_told() -> None:
+    world = Telling(truth=(CUP,))
+    world.model.manner = "honest"
+    mission = world.play(plan(Repeat(times=2, steps=(Look(question="is there a cup?"),))))
+    assert mission.state is GoalState.SUCCEEDED
+    assert mission.steps[0].round == 2
+    assert mission.outcome is not None
+    assert mission.outcome.message.en.startswith("Round 2 of 2: Yes, I see 1 cup")
+
+
+def test_a_repeat_ends_as_soon_as_it_holds_and_fails_where_it_never_does() -> None:
+    seen = Look(question="is there a cup?")
+    mission = None
+    for truth, rounds, state in ((CUP,), 1, GoalState.SUCCEEDED), ((), 3, GoalState.FAILED):
+        world = Telling(truth=truth)
+        world.model.manner = "honest"
+        mission = world.play(plan(Repeat(times=3, steps=(Wait(seconds=1.0),), until=seen)))
+        assert (mission.state, mission.steps[0].round) == (state, rounds)
+    assert mission is not None
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.UNMET
+    assert "It did not come to that within 3 rounds." in mission.outcome.message.en
+
+
+def test_a_repeat_for_a_time_ends_with_it() -> None:
+    world = Telling()
+    mission = world.play(plan(Repeat(seconds=5.0, steps=(Wait(seconds=2.0),))))
+    assert mission.state is GoalState.SUCCEEDED
+    assert mission.steps[0].round == 3
+
+
+def test_the_clock_chooses() -> None:
+    always = plan(
+        If(when=ClockTime(after="00:00"), then=(Say(text="then"),), otherwise=(Say(text="else"),))
+    )
+    world = Telling()
+    world.play(always)
+    assert world.said == ["then"]
+
+
+def test_who_waits_for_somebody_stands_until_they_come() -> None:
+    somebody = thing("person", 2.0, 0.0, "hall")
+    world = Telling()
+    world.thoughts = [plan(WaitFor(object="person", seconds=60.0), Say(text="welcome"))]
+    goal = world.give(None)
+    world.see(10.0)
+    assert world.said == []
+    assert world.goal(goal).state is GoalState.RUNNING
+    world.truth = (somebody,)
+    world.see(4.0)
+    assert world.said == ["welcome"]
+    assert world.goal(goal).state is GoalState.SUCCEEDED
+    assert world.bridge.moved_epochs == []
+
+
+def test_nobody_comes_and_that_is_told() -> None:
+    world = Telling()
+    mission = world.play(plan(WaitFor(object="person", seconds=5.0), Say(text="welcome")))
+    assert mission.state is GoalState.FAILED
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.UNMET
+    assert world.bridge.moved_epochs == []
+    assert world.said == []
+
+
+def test_a_word_lets_it_go_on_and_another_does_not() -> None:
+    world = Telling(replies=["not yet", "ok, GO!"])
+    mission = world.play(plan(WaitFor(word="go"), GoTo(place="kitchen")))
+    assert mission.state is GoalState.SUCCEEDED
+    assert world.answers == ["not yet", "ok, GO!"]
+
+
+def test_a_failure_in_a_branch_comes_back_where_the_order_says() -> None:
+    world = Telling()
+    mission = world.play(
+        plan(
+            If(when=ClockTime(after="00:00"), then=(Find(object="cup"),)),
+            ComeBack(),
+            Say(text="x"),
+        ),
+        None,
+    )
+    assert mission.state is GoalState.FAILED
+    assert kinds_done(mission)[-1] == "come_back"
+    assert world.said == []
+
+
+TWICE_THEN_BACK = plan(
+    Repeat(times=2, steps=(GoTo(place="kitchen"), Say(text="round"), GoTo(place="hall"))),
+    If(when=ClockTime(after="00:00"), then=(Say(text="then"),), otherwise=(Say(text="else"),)),
+    Attempt(steps=(GoTo(place="kitchen"),), on_failure=(Say(text="failed"),)),
+)
+
+
+@pytest.mark.parametrize("after_s", range(1, 40, 2))
+def test_a_planner_killed_in_a_round_or_a_branch_goes_on_there(after_s: int) -> None:
+    world = Together()
+    world.run(0.2)
+    goal = world.give(TWICE_THEN_BACK)
+    world.run(float(after_s))
+    before = world.goal(goal)
+    assert before.state is GoalState.RUNNING
+    after = world.restart()
+    assert after.goal(goal).state is GoalState.PAUSED
+    assert after.goal(goal).steps == before.steps, "what was done is known"
+    standing = after.bridge.pose
+    after.run(2.0)
+    assert after.bridge.pose == standing, "nothing moves before a person acts"
+    after.act()
+    after.event(Resume(goal))
+    mission = after.run_until(goal, GoalState.SUCCEEDED, GoalState.FAILED, limit_s=120.0)
+    assert mission.state is GoalState.SUCCEEDED
+    assert mission.steps[0].round == 2
+    words = [*world.said, *after.said]
+    assert words.count("round") <= 2
+    assert words.count("then") <= 1
+    assert not {"else", "failed"} & set(words)
+
+
+@pytest.mark.parametrize("after_s", range(1, 12, 2))
+def test_a_planner_killed_while_it_looks_for_a_condition_chooses_the_same_branch(
+    after_s: int,
+) -> None:
+    world = Telling(truth=(PERSON,))
+    world.model.manner = "honest"
+    steps = plan(If(when=IN_KITCHEN, then=(Say(text="then"),), otherwise=(Say(text="else"),)))
+    world.thoughts = [steps]
+    goal = world.give(None)
+    world.see(float(after_s))
+    if world.goal(goal).has_ended:
+        return
+    again = Telling(truth=(PERSON,), bridge=world.bridge, planner_id="p2", now_s=world.now_s)
+    again.model.manner = "honest"
+    world.bridge.lose_owner()
+    again.ids = world.ids
+    again.event(Restarted(tuple(world.book.missions.values()), (), 0.0))
+    again.see(1.0)
+    again.act()
+    again.event(Resume(goal))
+    end_s = again.now_s + 120.0
+    while not again.goal(goal).has_ended:
+        assert again.now_s < end_s, again.goal(goal)
+        again.see(0.2)
+    assert again.said == ["then"]
