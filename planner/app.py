@@ -16,6 +16,7 @@ from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
 from planner.mission import JournalSync, MissionJournal, Missions, Rules
 from planner.navigation import RouteLimits, RouteWorker
+from planner.orders.factory import standing_orders_of
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of
 from planner.robot_service import LinkedRobot
@@ -100,6 +101,7 @@ class Planner:
             brain=self.brain,
             disk=JournalSync(self._journal),
         )
+        self.orders = standing_orders_of(self.settings.orders, where.home, self._state, self.goals)
         self.goals.show_scans(self._router)
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
 
@@ -125,9 +127,11 @@ class Planner:
         self.ears.warm()
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
         await self.eyes.start()
+        await self.orders.keeper.start()
 
     async def close(self) -> None:
         """End all parts; goals that ran come back paused in the next process."""
+        await self.orders.keeper.close()
         await self.eyes.close()
         await self.goals.close()
         if self._opening is not None:
@@ -187,7 +191,7 @@ async def _end_with(planner: Planner) -> None:
     And when the bridge holds the fence that now lies on the disk, and this planner an older one:
     whoever supervises it starts it anew, with the map's costs worked out for that fence.
     """
-    while (failure := planner.goals.failure) is None:
+    while (failure := planner.goals.failure or planner.orders.keeper.failure) is None:
         if planner.detector.refused is not None:
             log.critical("the detector that is set can't be used: %s", planner.detector.refused)
             break

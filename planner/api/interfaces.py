@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from planner.budget import Usage
     from planner.mission import Leg
     from planner.navigation import ObstacleReport
+    from planner.orders.factory import StandingOrders
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
     from planner.site import FenceProposals, KnownPlaces, Site
@@ -190,6 +191,9 @@ class Services(Protocol):
 
     @property
     def budget(self) -> Budget: ...
+
+    @property
+    def orders(self) -> StandingOrders: ...
 
     @property
     def ears(self) -> Recogniser: ...

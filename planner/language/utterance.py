@@ -20,6 +20,7 @@ from planner.language.commands import (
 )
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.folding import is_chinese
+from planner.language.schedule import OrderCommand
 from planner.language.stop import StopReading, is_stop, read_stop
 from planner.language.yes_no import consents
 from planner.plan import Language
@@ -55,7 +56,8 @@ class Utterance:
         """Return whether a stop word stands in it that is not read as anything else."""
         if isinstance(self.intent, Replace | AppendCommand):
             return self.instead is not StopReading.NONE
-        return self.intent is None and self.reading is StopReading.POSSIBLE
+        unread = self.intent is None or isinstance(self.intent, OrderCommand)
+        return unread and self.reading is StopReading.POSSIBLE
 
     @property
     def stays_put(self) -> bool:

@@ -9,7 +9,16 @@ from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import FloorReport
 from planner.perception.snapshot import Sight
-from planner.plan import AnswerPlan, BrainTag, Clarify, Language, Outcome, Refuse, StepPlan
+from planner.plan import (
+    AnswerPlan,
+    Bilingual,
+    BrainTag,
+    Clarify,
+    Language,
+    Outcome,
+    Refuse,
+    StepPlan,
+)
 from planner.site.site_view import SiteView
 from wire import Status
 
@@ -38,6 +47,8 @@ class Submitted:
     source: str = "api"
     local: bool = False
     """It is said to the planner itself, or answers: no order that needs room among the others."""
+    also: Bilingual | None = None
+    """What was done beside the stop that these words were: told with it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,11 +20,7 @@ from planner.mission.api_view import goal_of
 from planner.mission.clocks import Clocks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
-from planner.mission.errors import (
-    JournalDown,
-    NothingToResume,
-    UnknownGoal,
-)
+from planner.mission.errors import JournalDown, NothingToResume, UnknownGoal
 from planner.mission.events import (
     Cancel,
     Command,
@@ -53,6 +49,7 @@ from planner.mission.reception import (
 )
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.scan_sender import ScanObserver, ScanSender
+from planner.mission.standing_goals import StandingGoals
 from planner.mission.state import MissionState, Rules
 from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import RouteService
@@ -95,7 +92,8 @@ class Missions:
         clock = self._clocks.monotonic
         self._router, self._repeats = RouteAhead(router, self.loop, clock), Repeats()
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
-        self._think = PlannerCommands(self._ask_brain, self.memory, self.loop, link).think
+        self.commands = PlannerCommands(self._ask_brain, self.memory, self.loop, link)
+        self.standing = StandingGoals(self.loop, self._ask_brain, self._repeats)
         self.obstacles: ScanSender | None = None
         self.memory.listen(self._on_places)
 
@@ -127,8 +125,10 @@ class Missions:
             ConfigError: the journal holds what this version can't read.
         """
         self.loop.rule(rules or Rules())
-        kept = await self.loop.start(self._think, self._router, freeze=freeze, rounds=rounds)
-        self._repeats = Repeats(kept)
+        kept = await self.loop.start(
+            self.commands.think, self._router, freeze=freeze, rounds=rounds
+        )
+        self._repeats.recall(kept)
 
     async def close(self) -> None:
         """End everything; a running goal comes back paused in the next process."""
@@ -322,7 +322,8 @@ class Missions:
 
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
-        self.loop.event(dataclasses.replace(given, echoed=result.is_echoed))
+        also = await self.commands.obey_beside_stop(given)
+        self.loop.event(dataclasses.replace(given, echoed=result.is_echoed, also=also))
         return self.goal(given.id)
 
     def _newest_paused(self) -> str:

@@ -40,7 +40,7 @@ RUNS_JUDGED = 50
 _CRON_FIELDS = 5
 
 
-def settle(said: SpokenRule, now_unix_s: float, zone: tzinfo) -> Rule:
+def settle(said: SpokenRule | AtRule, now_unix_s: float, zone: tzinfo) -> Rule:
     """Return the rule that a sentence or a request means, said now.
 
     Raises:
@@ -141,9 +141,7 @@ def _instant(said: DayTime, now_unix_s: float, zone: tzinfo) -> float:
             found.append(wanted.timestamp())
     if not found:
         clock = f"{said.hour:02}:{said.minute:02}"
-        raise OrderRefusal(
-            "order_time_unknown", f"the clock skips {clock} on that day", time=clock
-        )
+        raise OrderRefusal("order_time_unknown", f"the clock skips {clock} on that day", time=clock)
     return min((s for s in found if s > now_unix_s), default=found[0])
 
 

@@ -36,6 +36,7 @@ from planner.plan.responses import (
     PlanRole,
     Refuse,
     StepPlan,
+    words_of,
 )
 from planner.plan.steps import (
     DRIVES,
@@ -127,4 +128,5 @@ __all__ = [
     "places_of",
     "plan_record",
     "say_same",
+    "words_of",
 ]

@@ -39,6 +39,7 @@ class Code(StrEnum):
     MODEL_UNAVAILABLE = "model_unavailable"
     NOT_ARMED = "not_armed"
     PLACE_NOT_KEPT = "place_not_kept"
+    ORDER_NOT_KEPT = "order_not_kept"
     # On the way.
     CONFIRM = "confirm"
     ASKED = "asked"

@@ -11,6 +11,7 @@ from planner.settings.loader import (
 )
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
+from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import PRESETS, JsonMode, Preset, PresetName, TokensField
 from planner.settings.vision import VisionSettings
 
@@ -25,6 +26,8 @@ __all__ = [
     "Limits",
     "MissionSettings",
     "ModelSettings",
+    "NotifySettings",
+    "OrderSettings",
     "Preset",
     "PresetName",
     "Price",

@@ -19,6 +19,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price, contradiction
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
+from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import known_as
 from planner.settings.vision import VisionSettings, with_environment
 from wire import ConfigError
@@ -43,6 +44,7 @@ class Settings(BaseModel):
     budget: BudgetSettings = BudgetSettings()
     mission: MissionSettings = MissionSettings()
     vision: VisionSettings = VisionSettings()
+    orders: OrderSettings = OrderSettings()
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
@@ -255,6 +257,8 @@ _TABLES: dict[str, type[BaseModel]] = {
     "model": ModelSettings,
     "mission": MissionSettings,
     "vision": VisionSettings,
+    "orders": OrderSettings,
+    "orders.notify": NotifySettings,
     "budget": BudgetSettings,
     "budget.goal": GoalLimits,
     "budget.day": DayLimits,

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from planner.language.grammar.numbers import EN_DURATION, seconds
+from planner.language.numbers import EN_DURATION, seconds
 from planner.language.schedule.parts import (
     EVERY_DAY,
     WEEKEND,
@@ -29,24 +29,43 @@ if TYPE_CHECKING:
 
 GAP = re.compile(r"[ ,]*(?:and )?")
 """Between two parts."""
-_NUMBERS = ("one two three four five six seven eight nine ten eleven twelve").split()
+_NUMBERS = [
+    "one",
+    "two",
+    "three",
+    "four",
+    "five",
+    "six",
+    "seven",
+    "eight",
+    "nine",
+    "ten",
+    "eleven",
+    "twelve",
+]
 _HOURS = {word: number for number, word in enumerate(_NUMBERS, 1)}
 _MINUTES = {"five": 5, "ten": 10, "fifteen": 15, "twenty": 20, "twenty five": 25, "twenty-five": 25,
             "thirty": 30, "forty": 40, "forty five": 45, "forty-five": 45, "fifty": 50,
             "quarter": 15, "a quarter": 15, "half": 30}  # fmt: skip
 _H = rf"\d{{1,2}}|{'|'.join(_NUMBERS)}"
 _M = "|".join(sorted(_MINUTES, key=len, reverse=True))
-_AP = r"(?: ?(?P<ap>[ap])\.?m\b\.?)"
+
+
+def _half(name: str) -> str:
+    """Return the pattern of "pm", with a group of this name."""
+    return rf"(?: ?(?P<{name}>[ap])\.?m\b\.?)"
+
+
 _PART = r"morning|afternoon|evening|night|noon"
-_DAYS = ("sunday monday tuesday wednesday thursday friday saturday").split()
+_DAYS = ["sunday", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday"]
 _DAY = "|".join(_DAYS)
 _END = r"(?![\w'])"
 
 _CLOCK = re.compile(
-    rf"(?:at |by )?(?:about |around |exactly )?(?:(?P<h>\d{{1,2}})[:.](?P<m>\d{{2}}){_AP}?(?: ?h\b)?"
-    rf"|(?P<past>{_M}) (?P<way>past|to|after|before) (?P<ph>{_H}){_AP}?"
-    rf"|(?P<oh>{_H})(?: (?P<om>{_M}))?(?: ?o'clock{_AP.replace('<ap>', '<ap2>')}?"
-    rf"|{_AP.replace('<ap>', '<ap3>')})"
+    rf"(?:at |by )?(?:about |around |exactly )?(?:(?P<h>\d{{1,2}})[:.](?P<m>\d{{2}}){_half('ap')}?(?: ?h\b)?"
+    rf"|(?P<past>{_M}) (?P<way>past|to|after|before) (?P<ph>{_H}){_half('ap4')}?"
+    rf"|(?P<oh>{_H})(?: (?P<om>{_M}))?(?: ?o'clock{_half('ap2')}?"
+    rf"|{_half('ap3')})"
     rf"|(?P<noon>noon|midday|midnight))(?: sharp)?{_END}"
 )
 _AT = re.compile(
@@ -103,7 +122,9 @@ POLITE = re.compile(
     r" you|i(?:'d| would) like you to|i want you to|i need you to|you (?:should|must|have to)"
     r"|make sure (?:to|that you)|from now on)[ ,]+)+"
 )
-POLITE_END = re.compile(r"(?:[ ,]+(?:please|thanks|thank you|robot|for me|from now on|from today))+$")
+POLITE_END = re.compile(
+    r"(?:[ ,]+(?:please|thanks|thank you|robot|for me|from now on|from today))+$"
+)
 ASKS = re.compile(
     r"(?:what|who|whom|whose|where|why|how|which|is|are|was|were|did|does|do (?:you|i|we|they)"
     r"|have you|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
@@ -115,7 +136,9 @@ REMIND = re.compile(
 )
 OF = re.compile(r"[ ,:]*(?:(?:to|about|of|that|for|with|saying)(?![\w'])[ ,:]*)?")
 WAKE_UP = "time to get up"
-LEAD = re.compile(r"[ ,:;.-]*(?:(?:then|please|to|and|you (?:should|must|shall)|it is time to)[ ,]+)*")
+LEAD = re.compile(
+    r"[ ,:;.-]*(?:(?:then|please|to|and|you (?:should|must|shall)|it is time to)[ ,]+)*"
+)
 
 
 def _clock(found: re.Match[str]) -> Part | None:
@@ -131,18 +154,18 @@ def _clock(found: re.Match[str]) -> Part | None:
         minute = _MINUTES[found["past"]]
         if found["way"] in ("to", "before"):
             hour, minute = (hour - 1) or 12, 60 - minute
-    half = found["ap"] or found["ap2"] or found["ap3"]
+    half = found["ap"] or found["ap2"] or found["ap3"] or found["ap4"]
     if half:
-        if not 1 <= hour <= 12:  # noqa: PLR2004  # "15 pm"
+        if not 1 <= hour <= 12:  # "15 pm"
             return None
         hour = hour % 12 + (12 if half == "p" else 0)
-    sure = bool(half) or hour > 12 or hour == 0 or (found["m"] and len(hour_word) > 1)  # noqa: PLR2004
-    return Clock(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None  # noqa: PLR2004
+    sure = bool(half) or hour > 12 or hour == 0 or (found["m"] and len(hour_word) > 1)
+    return Clock(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None
 
 
 def _bare(found: re.Match[str]) -> Part | None:
     hour, minute = _number(found["h"]), _MINUTES[found["m"]] if found["m"] else 0
-    return Clock(hour, minute, hour > 12 or hour == 0) if hour < 24 else None  # noqa: PLR2004
+    return Clock(hour, minute, hour > 12 or hour == 0) if hour < 24 else None
 
 
 def _number(word: str) -> int:
@@ -206,7 +229,13 @@ def _again(found: re.Match[str]) -> tuple[Part, ...]:
     return () if lasts_s is None else (Again(lasts_s),)
 
 
-def _one(make: Callable[[re.Match[str]], Part | None]) -> Callable[[re.Match[str]], tuple[Part, ...]]:
+def _upon(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
+    return lambda _: (Upon(event),)
+
+
+def _one(
+    make: Callable[[re.Match[str]], Part | None],
+) -> Callable[[re.Match[str]], tuple[Part, ...]]:
     def several(found: re.Match[str]) -> tuple[Part, ...]:
         part = make(found)
         return () if part is None else (part,)
@@ -215,7 +244,7 @@ def _one(make: Callable[[re.Match[str]], Part | None]) -> Callable[[re.Match[str
 
 
 PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
-    *((pattern, _one(lambda _, event=event: Upon(event))) for pattern, event in _UPON),
+    *((pattern, _upon(event)) for pattern, event in _UPON),
     (_HOURLY, lambda found: (Again(1800.0 if found["half"] else 3600.0),)),
     (_EVERY_SO, _again),
     (_EVERY, _every),
@@ -227,6 +256,3 @@ PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]]
     (_ONE_DAY, _one_day),
 )
 """What begins a part, and the parts that it makes; empty: it is none after all."""
-
-
-

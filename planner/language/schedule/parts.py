@@ -140,7 +140,7 @@ def combine(parts: Sequence[Part]) -> Timing | None:
 def _lasting(seconds: float, make: type[EveryRule] | type[InRule]) -> Timing:
     if not 0.0 < seconds <= MAX_AHEAD_S:
         return Timing(problem="order_malformed")
-    if make is EveryRule and seconds == 3600.0:  # noqa: PLR2004  # "every hour": at the full hour
+    if make is EveryRule and seconds == 3600.0:  # "every hour": at the full hour
         return Timing(CronRule(cron="0 * * * *"))
     return Timing(make(seconds=seconds))
 
@@ -162,7 +162,7 @@ def _by_clock(day: OnceDay, clock: Clock | None, daypart: DayPart | None) -> Tim
     if at is None:
         return Timing(problem="order_time_missing")
     bare = clock is not None and not clock.sure and daypart is None
-    either = bare and day == OnceDay() and 1 <= at[0] <= 12  # noqa: PLR2004  # on a dial
+    either = bare and day == OnceDay() and 1 <= at[0] <= 12  # on a dial
     return Timing(
         DayTime(
             hour=at[0], minute=at[1], days_ahead=day.ahead, weekday=day.weekday, either_half=either
@@ -179,14 +179,14 @@ def _hour_minute(clock: Clock | None, daypart: DayPart | None) -> tuple[int, int
 
 def hour_in(hour: int, daypart: DayPart) -> int:
     """Return the hour of 24 that a dial's hour is in a part of the day."""
-    if not 1 <= hour <= 12:  # noqa: PLR2004  # already of 24
+    if not 1 <= hour <= 12:  # already of 24
         return hour
     match daypart:
         case DayPart.MORNING:
             return hour % 12
         case DayPart.NOON:
-            return hour + 12 if hour <= 3 else hour  # noqa: PLR2004  # 中午一点 is 13:00
+            return hour + 12 if hour <= 3 else hour  # 中午一点 is 13:00
         case DayPart.NIGHT:
-            return hour % 12 if hour <= 5 or hour == 12 else hour + 12  # noqa: PLR2004
+            return hour % 12 if hour <= 5 or hour == 12 else hour + 12
         case _:
             return hour % 12 + 12
