@@ -116,8 +116,8 @@ class PlannerCommands:
         "Stop checking the door every evening" stops the robot first, and then means what it says.
         """
         command = parse(given.text).intent
-        if self.desk is None or not isinstance(command, ChangeOrders):
-            return None
+        if self.desk is None or not given.stop or not isinstance(command, ChangeOrders):
+            return None  # a doubtful stop is thought about, and carried out then
         return await self.desk.change(command, given.language)
 
     async def carry_out(self, intent: Intent, mission: Mission) -> AnswerPlan | Refuse:

@@ -20,6 +20,7 @@ from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.voice import Recognition, Sound, VoiceFailure
+from tests.planner.orders.fakes import FakeMissions, MovedClocks, standing_orders
 from tests.wire.examples import STATUS
 from wire import (
     Answer,
@@ -274,3 +275,5 @@ class FakeServices:
         self.site = two_room()
         self.memory = KnownPlaces(self.site)
         self.fences = FenceProposals.in_home(Path("/nowhere"))
+        clock = MovedClocks()
+        self.orders = standing_orders(Path("/nowhere"), clock, FakeMissions(clock, "two_room"))

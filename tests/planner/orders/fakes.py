@@ -96,9 +96,7 @@ class FakeMissions:
         think = thinker(OfflineBrain(), vocabulary_of(self.site), None, means)
         return await think(AskBrain(goal_id, text, language, order=text))
 
-    async def give(
-        self, goal_id: str, text: str, language: Language, key: str, source: str
-    ) -> str:
+    async def give(self, goal_id: str, text: str, language: Language, key: str, source: str) -> str:
         if self.refusal is not None:
             raise self.refusal
         if key in self.keys:

@@ -17,7 +17,7 @@ from planner.orders.rule import QuietHours
 from planner.plan import GoalState
 from planner.state_database import StateUnavailable
 from tests.planner.orders.fakes import NOON_UNIX_S, FakeMissions, Kept, MovedClocks, kept_in
-from wire import Hold, HoldReason, Mode
+from wire import HeldReason, Mode, StandingHold
 
 
 def run(work: Coroutine[Any, Any, None]) -> None:
@@ -67,7 +67,7 @@ def test_a_reminder_is_said_and_told(tmp_path: Path) -> None:
         ({"mode": Mode.ESTOPPED}, "estop"),
         ({"mode": Mode.FAULT}, "fault"),
         ({"mode": Mode.TELEOP}, "teleop"),
-        ({"held": Hold(id="h1", reason=HoldReason.STOP)}, "held"),
+        ({"held": StandingHold(id="h1", reason=HeldReason.STOP)}, "held"),
     ],
 )
 def test_nothing_fires_while_the_robot_may_not_move(
@@ -109,7 +109,7 @@ def test_a_pause_by_a_person_keeps_orders_waiting_until_the_next_order(tmp_path:
 def test_a_silent_bridge_is_waited_for_after_a_start_and_told_later(tmp_path: Path) -> None:
     async def story() -> None:
         kept = await kept_in(tmp_path)
-        await give(kept, "every day at 12:00 say noon")  # tomorrow
+        await give(kept, "every day at 12:00 say hello")  # tomorrow
         await give(kept, "in 5 minutes say hello")
         kept.missions.silent = True
         await kept.run_s(301.0)
@@ -148,7 +148,7 @@ def test_what_is_due_while_the_planner_is_off_is_told_in_one_word(tmp_path: Path
         order = await give(kept, "every hour go to the kitchen")
         await kept.turn()
         clock = kept.clock
-        clock.pass_s(5 * 3600.0)
+        clock.pass_s(5 * 3600.0 + 100.0)
         clock.monotonic_s = 7.0  # another boot
         again = await kept_in(tmp_path, clock)
         await again.run_s(10.0)
