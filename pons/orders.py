@@ -61,14 +61,14 @@ def _lines(act: str, answer: dict[str, Any]) -> list[str]:
         head = f"{len(answer['orders'])} of {answer['most']}, times of {answer['timezone']}{quiet}"
         return [*map(_line, answer["orders"]), head]
     if act == "add":
-        return [_said(answer, answer["told"]), _line(answer)]
+        return [_in_language(answer, answer["told"]), _line(answer)]
     if act == "show":
         runs = [f"  next {run}" for run in answer["runs"]]
-        return [_line(answer), *runs, *(f"  {_fired(answer, f)}" for f in answer["history"])]
+        return [_line(answer), *runs, *(f"  {_show_firing(answer, f)}" for f in answer["history"])]
     return [_line(answer)]
 
 
-def _said(order: dict[str, Any], text: dict[str, str]) -> str:
+def _in_language(order: dict[str, Any], text: dict[str, str]) -> str:
     return text.get(order["language"], text["en"])
 
 
@@ -76,13 +76,13 @@ def _line(order: dict[str, Any]) -> str:
     state = "" if order["state"] == "active" else f" [{order['state']}]"
     due = f"; next {order['next']}" if order["next"] else ""
     counts = f"; fired {order['fired']}, missed {order['missed']}"
-    when, does = _said(order, order["when"]), _said(order, order["does"])
+    when, does = _in_language(order, order["when"]), _in_language(order, order["does"])
     return f"{order['id']:<5}{state} {when}: {does}{due}{counts}"
 
 
-def _fired(order: dict[str, Any], firing: dict[str, Any]) -> str:
+def _show_firing(order: dict[str, Any], firing: dict[str, Any]) -> str:
     why = firing["reason"] or firing["code"] or ""
     often = f" × {firing['count']}" if firing["count"] > 1 else ""
-    told = f": {_said(order, firing['told'])}" if firing["told"] else ""
+    told = f": {_in_language(order, firing['told'])}" if firing["told"] else ""
     goal = f" ({firing['goal']})" if firing["goal"] else ""
     return f"{firing['due']} {firing['state']}{often} {why}{goal}{told}"

@@ -19,7 +19,7 @@ from planner.api.rates import Rates
 from planner.api.schemas import Body
 from planner.language.utterance import language_of
 from planner.orders.errors import OrderRefusal
-from planner.orders.intake import NewOrder, Question, order_of_text, tell_question
+from planner.orders.new_order import NewOrder, OrderQuestion, order_of_text, tell_question
 from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_ORDERS, Firing, StandingOrder
 from planner.orders.rule import upcoming
 from planner.orders.telling import say_goal_of_reminder, tell_deed, tell_rule
@@ -161,10 +161,10 @@ def _giving(router: APIRouter, orders: StandingOrders) -> None:
             raise HttpProblem(429, "too_many_goals", detail)
         known = set(orders.keeper.book.orders)
         try:
-            order = await orders.intake.give(_wanted(new), f"order-{uuid.uuid4().hex[:12]}")
+            order = await orders.intake.give(_read_body(new), f"order-{uuid.uuid4().hex[:12]}")
         except OrderRefusal as refused:
             raise problem(refused) from None
-        except Question as question:
+        except OrderQuestion as question:
             said = tell_question(question.asked)
             raise HttpProblem(
                 422, "order_unclear", said.en, message=said.model_dump(),
@@ -176,7 +176,7 @@ def _giving(router: APIRouter, orders: StandingOrders) -> None:
         return {**order_view(orders, order), "told": told.model_dump()}
 
 
-def _wanted(new: NewStandingOrder) -> NewOrder:
+def _read_body(new: NewStandingOrder) -> NewOrder:
     if new.when is None:
         return order_of_text(new.text or "", new.language, new.source)
     words = new.text if new.text is not None else new.reminder or ""
@@ -222,7 +222,7 @@ def orders_view(orders: StandingOrders) -> dict[str, Any]:
         "version": orders.keeper.version,
         "timezone": name_of(book.zone),
         "now": _time(orders, orders.keeper.clocks.unix()),
-        "quiet": book.quiet.told if book.quiet is not None else None,
+        "quiet": book.quiet.text if book.quiet is not None else None,
         "trouble": orders.keeper.trouble,
         "most": MAX_ORDERS,
         "orders": [order_view(orders, order) for order in kept],

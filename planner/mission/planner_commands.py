@@ -89,7 +89,7 @@ class PlannerCommands:
         """Answer at once where the planner itself is meant."""
         mission = self._loop.book.missions.get(ask.id)
         if self.desk is not None and mission is not None and is_of_order(mission):
-            return hold_to_order(await self._brain(ask), self.desk.allowed(mission.source))
+            return hold_to_order(await self._brain(ask), self.desk.allowed_steps(mission.source))
         intent = (
             parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
         )

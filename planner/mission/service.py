@@ -1,7 +1,7 @@
 """Take goals and commands in and answer for them: the API's door to the missions.
 
-Every call is judged against the book at once, journalled before it returns, and carried out by the
-loop. An order to stop is judged before anything else and waits for no brain and no disk.
+Every call is judged against the book, journalled before it returns, and carried out by the loop. An
+order to stop is judged before anything else and waits for no brain and no disk.
 """
 
 from __future__ import annotations
@@ -83,14 +83,14 @@ class Missions:
         self.link, self.memory = link, site if isinstance(site, KnownPlaces) else KnownPlaces(site)
         self.memory.use(RobotSurvey(link, router))
         site = self.memory.site
-        planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
-        identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
+        self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
+        identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
         engine = Engine(MissionState(self.memory.facts), identity)
         self._clocks, self._robot, self._brain = clocks or Clocks(), robot, brain
         surveyor = Surveyor(link, robot, site.grid)
-        self.loop, self.planner_id = Loop(engine, link, disk, self._clocks, surveyor), planner_id
-        clock = self._clocks.monotonic
-        self._router, self._repeats = RouteAhead(router, self.loop, clock), Repeats()
+        self.loop = Loop(engine, link, disk, self._clocks, surveyor)
+        clock, self._repeats = self._clocks.monotonic, Repeats()
+        self._router = RouteAhead(router, self.loop, clock)
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
         self.commands = PlannerCommands(self._ask_brain, self.memory, self.loop, link)
         self.standing = StandingGoals(self.loop, self._ask_brain, self._repeats)
@@ -279,7 +279,7 @@ class Missions:
 
     @property
     def first_waypoint_s(self) -> tuple[float, ...]:
-        """Return the newest times from a goal's acceptance to its first waypoint [s]."""
+        """Return the newest times from acceptance to first waypoint [s]."""
         return tuple(self.loop.accepted.seconds)
 
     def goal(self, goal_id: str) -> Goal:
@@ -332,8 +332,8 @@ class Missions:
         return goal_id
 
     async def _ask_brain(self, ask: AskBrain) -> Planned:
-        eyes = (self._hearing, self.loop.book.means, self.loop.book.eyes.classes)
-        return await thinker(self._brain, self.memory.vocabulary, *eyes)(ask)
+        book, names = self.loop.book, self.memory.vocabulary
+        return await thinker(self._brain, names, self._hearing, book.means, book.eyes.classes)(ask)
 
     def _on_places(self) -> None:
         self.loop.event(Known(self.memory.facts))

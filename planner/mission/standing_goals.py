@@ -52,7 +52,7 @@ class OrderDesk(Protocol):
     async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
         """Remove, pause or resume the orders that are meant, and say which."""
 
-    def allowed(self, source: str) -> tuple[StepRecord, ...] | None:
+    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is none of ours."""
 
 

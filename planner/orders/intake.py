@@ -7,19 +7,26 @@ what will be. Nothing moves here.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
 from planner.language.catalogue import join, message, say
-from planner.language.schedule import ChangeOrders, ListOrders, OrderCommand, Scheduled
-from planner.language.utterance import language_of, parse
+from planner.language.schedule import ChangeOrders, ListOrders, OrderCommand
+from planner.language.utterance import parse
 from planner.mission.events import Planned
 from planner.orders import world
 from planner.orders.errors import OrderRefusal
+from planner.orders.new_order import (
+    NewOrder,
+    OrderQuestion,
+    judge_words,
+    put_time_before,
+    read_new_order,
+)
 from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_ORDERS, StandingOrder
 from planner.orders.rule import next_due, settle, upcoming
 from planner.orders.selection import select
-from planner.orders.telling import say_goal_of_reminder, tell_kept, tell_list, tell_order
+from planner.orders.telling import tell_kept, tell_list, tell_order
 from planner.plan import (
     AnswerPlan,
     Bilingual,
@@ -31,10 +38,9 @@ from planner.plan import (
     StepPlan,
     StepRecord,
     plan_record,
-    say_same,
     words_of,
 )
-from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, SpokenRule
+from planner.plan.timing import CronRule, EventRule, EveryRule
 from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
@@ -58,27 +64,6 @@ class Considers(Protocol):
     def book(self) -> MissionState: ...
 
     async def consider(self, text: str, language: Language, goal_id: str) -> Planned: ...
-
-
-@dataclass(frozen=True, slots=True)
-class NewOrder:
-    """Hold what somebody wants kept: when, what, and who says so."""
-
-    when: SpokenRule | AtRule
-    order: str
-    language: Language
-    text: str
-    words: str = ""
-    reminder: str | None = None
-    source: str = "api"
-
-
-class Question(Exception):
-    """A brain asks about the order: it was not taken."""
-
-    def __init__(self, asked: Clarify) -> None:
-        super().__init__(asked.question.en)
-        self.asked = asked
 
 
 class OrderIntake:
@@ -106,13 +91,13 @@ class OrderIntake:
         if answered:  # the question was about the order within: its words alone are put in
             command = replace(command, order=ask.text, problem=None)
         try:
-            new = _new_order(command, ask.language, given)
+            new = read_new_order(command, ask.language, given)
             order = await self.give(new, ask.id)
         except OrderRefusal as refused:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
             return Planned(ask.id, Refuse(code=Code.ORDER_NOT_KEPT, reason=why))
-        except Question as question:
-            return Planned(ask.id, _with_time(question.asked, command))
+        except OrderQuestion as question:
+            return Planned(ask.id, put_time_before(question.asked, command))
         return Planned(ask.id, AnswerPlan(text=self.tell_one(order)))
 
     async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
@@ -120,9 +105,9 @@ class OrderIntake:
         said = words_of(await self._change_or_ask(command, language))
         return said if said is not None else say("standing.none")
 
-    def allowed(self, source: str) -> tuple[StepRecord, ...] | None:
+    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is gone."""
-        return self._keeper.allowed(source)
+        return self._keeper.allowed_steps(source)
 
     # Giving -------------------------------------------------------------------------------------
 
@@ -135,11 +120,11 @@ class OrderIntake:
 
         Raises:
             OrderRefusal: see ``[order_refusal]`` of the catalogue.
-            Question: the brain asks about it.
+            OrderQuestion: the brain asks about it.
         """
         book = self._keeper.book
         now_s = self._keeper.clocks.unix()
-        _judge_words(new)
+        judge_words(new)
         if isinstance(new.when, EventRule):
             lacking = world.lacks(self._goals.book, new.when.event, self._report())
             if lacking is not None:
@@ -168,7 +153,7 @@ class OrderIntake:
         planned = await self._goals.consider(new.order, new.language, goal_id)
         plan = planned.plan
         if isinstance(plan, Clarify):
-            raise Question(plan)
+            raise OrderQuestion(plan)
         if plan is None or isinstance(plan, Refuse):
             failed = planned.failure.message if planned.failure is not None else None
             why = failed or words_of(plan) or say("standing.none")
@@ -187,7 +172,7 @@ class OrderIntake:
             return
         runs = upcoming(rule, now_s, self._keeper.book.zone, QUIET_LOOKED)
         if all(quiet.holds(run_s, self._keeper.book.zone) for run_s in runs):
-            raise OrderRefusal("order_always_quiet", quiet.told, quiet=quiet.told)
+            raise OrderRefusal("order_always_quiet", quiet.text, quiet=quiet.text)
 
     def _judge_room(self, new: NewOrder, rule: Rule) -> None:
         kept = [o for o in self._keeper.book.orders.values() if not o.ended]
@@ -300,82 +285,3 @@ class OrderIntake:
     def facts(self) -> SiteView:
         """Return the site as it is now."""
         return self._goals.book.facts
-
-
-def _new_order(command: Scheduled, language: Language, given: Mission) -> NewOrder:
-    """Return what a sentence wants kept.
-
-    Raises:
-        OrderRefusal: its time is none that can be kept, or there is nothing to do.
-    """
-    if command.problem is not None:
-        raise OrderRefusal(command.problem, given.text[:200])
-    if command.when is None:
-        raise OrderRefusal("order_malformed", given.text[:200])
-    order = command.order
-    if command.reminder is not None:
-        order = say_goal_of_reminder(language.value, command.reminder)
-    return NewOrder(
-        command.when, order, language, given.text, command.words, command.reminder, given.source
-    )
-
-
-def _judge_words(new: NewOrder) -> None:
-    """Refuse an order that is none, that stops, or that is about what runs now.
-
-    Raises:
-        OrderRefusal: ``order_empty``, ``order_too_long``, ``order_stops``, ``order_nested``,
-            ``order_is_command``.
-    """
-    order = new.order.strip()
-    if not order:
-        raise OrderRefusal("order_empty", "no order")
-    if len(order) > MAX_ORDER_CHARACTERS:
-        raise OrderRefusal("order_too_long", f"{len(order)} characters", most=MAX_ORDER_CHARACTERS)
-    if new.reminder is not None:
-        return  # its words are said, and are nobody's order
-    said = parse(order)
-    if said.orders_stop or said.may_mean_stop:
-        raise OrderRefusal("order_stops", order[:120], order=order[:120])
-    if isinstance(said.intent, Scheduled):
-        raise OrderRefusal("order_nested", order[:120])
-    if said.intent is not None or said.consent is not None:
-        raise OrderRefusal("order_is_command", order[:120], order=order[:120])
-
-
-def _with_time(asked: Clarify, command: Scheduled) -> Clarify:
-    """Return a brain's question about the order within, its options with the time before them."""
-    options = tuple(
-        Option(label=each.label, text=f"{command.words} {each.text}".strip()[:2000])
-        for each in asked.options
-        if command.words
-    )
-    if options:
-        return Clarify(code=asked.code, question=asked.question, options=options)
-    return Clarify(code=asked.code, question=say("standing.say_whole", question=asked.question))
-
-
-def order_of_text(text: str, language: Language | None, source: str) -> NewOrder:
-    """Return what a whole sentence wants kept, for whoever has no goal of it.
-
-    Raises:
-        OrderRefusal: ``order_malformed`` where it is no standing order, else as its time is.
-    """
-    command = parse(text).intent
-    spoken = language or language_of(text)
-    if not isinstance(command, Scheduled):
-        raise OrderRefusal("order_malformed", f"{text[:120]!r} names no time")
-    if command.problem is not None or command.when is None:
-        raise OrderRefusal(command.problem or "order_malformed", text[:120])
-    order = command.order
-    if command.reminder is not None:
-        order = say_goal_of_reminder(spoken.value, command.reminder)
-    return NewOrder(command.when, order, spoken, text, command.words, command.reminder, source)
-
-
-def tell_question(asked: Clarify) -> Bilingual:
-    """Return a brain's question with the sentences that it offers."""
-    if not asked.options:
-        return asked.question
-    offers = join((say_same(f"“{each.text}”") for each in asked.options), "joint.name")
-    return join((asked.question, offers))

@@ -10,39 +10,36 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-import time
-import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
-from planner.language.catalogue import say
 from planner.mission.errors import MissionError
 from planner.orders import world
-from planner.orders.notifier import Message, Notifier
+from planner.orders.announcer import OrderAnnouncer
+from planner.orders.interfaces import GoalGiver, OrderClocks
 from planner.orders.order import SOURCE, Firing, FiringState, StandingOrder, key_of
 from planner.orders.scheduler import (
     INTERRUPTED,
     Fire,
-    Instant,
     Keep,
     Note,
     OrderBook,
-    World,
+    RobotView,
     add,
     drop,
     put,
     tick,
 )
-from planner.orders.telling import tell_missed, tell_reminder
 from planner.orders.watch import Watch, notice
-from planner.plan import Bilingual, GoalState, Language
+from planner.plan import Bilingual, GoalState
 
 if TYPE_CHECKING:
     from datetime import tzinfo
 
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport
+    from planner.orders.notifier import Notifier
     from planner.orders.rule import QuietHours
     from planner.orders.store import OrderStore
     from planner.plan import StepRecord
@@ -57,38 +54,12 @@ MOST_ENDED = 20
 """Orders that were due once and are over stay so many, to be looked up."""
 
 
-class GoalGiver(Protocol):
-    """Give goals, as ``planner.mission.standing_goals.StandingGoals`` does."""
-
-    @property
-    def book(self) -> MissionState: ...
-
-    def publish(self, event: dict[str, Any]) -> None: ...
-
-    def find(self, key: str) -> str | None: ...
-
-    async def give(
-        self, goal_id: str, text: str, language: Language, key: str, source: str
-    ) -> str: ...
-
-    def outcome(self, goal_id: str) -> Mission | None: ...
-
-    def waits(self, goal_id: str) -> bool: ...
-
-    def cancel(self, goal_id: str) -> None: ...
-
-
 @dataclass(frozen=True, slots=True)
-class OrderClocks:
-    """Give the two clocks, and ids."""
+class End:
+    """Write down how a firing's goal ended."""
 
-    monotonic: Callable[[], float] = time.monotonic
-    unix: Callable[[], float] = time.time
-    new_id: Callable[[], str] = lambda: f"g-{uuid.uuid4().hex[:12]}"
-
-    def now(self) -> Instant:
-        """Return now on both."""
-        return Instant(self.unix(), self.monotonic())
+    order: StandingOrder
+    firing: Firing
 
 
 class OrderKeeper:
@@ -111,14 +82,15 @@ class OrderKeeper:
         self.trouble: str | None = None
         """Why nothing can be written down, or None."""
         self.failure: BaseException | None = None
-        self._store, self.goals, self._notifier = store, goals, notifier
+        self._store, self.goals = store, goals
         self.clocks, self._report = clocks or OrderClocks(), report
+        self._announcer = OrderAnnouncer(goals.publish, notifier, zone, self._unix_s)
         self._open: dict[str, Firing] = {}
         self._asked: set[str] = set()
         self._watch = Watch()
         self._ended: frozenset[str] | None = None
         self._done = self._failed = 0
-        self._work: asyncio.Queue[Fire | Note | Keep] = asyncio.Queue()
+        self._work: asyncio.Queue[Fire | Note | Keep | End] = asyncio.Queue()
         self._seen_s = float("-inf")
         self._tasks: list[asyncio.Task[None]] = []
         self.lock = asyncio.Lock()
@@ -149,8 +121,7 @@ class OrderKeeper:
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
-        if self._notifier is not None:
-            await self._notifier.close()
+        await self._announcer.close()
 
     async def _guard(self, work: Any) -> None:
         try:
@@ -174,7 +145,10 @@ class OrderKeeper:
             return
         missed = firing.model_copy(update={"state": FiringState.MISSED, "reason": INTERRUPTED})
         await self._write_end(missed)
-        self._tell_missed(order, missed)
+        self._announcer.tell_missed(order, missed)
+
+    def _unix_s(self) -> float:
+        return self.clocks.unix()
 
     # Time ---------------------------------------------------------------------------------------
 
@@ -185,14 +159,14 @@ class OrderKeeper:
 
     def turn(self) -> None:
         """Look at clocks and world once, and have done what follows."""
-        now, book = self.clocks.now(), self.goals.book
+        now, book = self.clocks.read(), self.goals.book
         ended, done, failed = world.count_ended(book.missions, self._ended or frozenset())
         if self._ended is not None:
             self._done, self._failed = self._done + done, self._failed + failed
         self._ended = ended
         facts = world.facts_now(book, self._report(), now.monotonic_s, self._done, self._failed)
         self._watch, happened = notice(self._watch, facts, now.monotonic_s)
-        told = World(world.hindrance(book, now.monotonic_s), self._busy(book), happened)
+        told = RobotView(world.hindrance(book, now.monotonic_s), self._busy(book), happened)
         self.book, effects = tick(self.book, told, now)
         for effect in effects:
             if isinstance(effect, Fire):  # from now on, not from when it is written
@@ -226,7 +200,7 @@ class OrderKeeper:
         while not self._work.empty():
             await self.carry_out(self._work.get_nowait())
 
-    async def carry_out(self, effect: Fire | Note | Keep) -> None:
+    async def carry_out(self, effect: Fire | Note | Keep | End) -> None:
         """Write it down, then do it."""
         if effect.order.id not in self.book.orders:  # removed meanwhile
             self._open.pop(effect.order.id, None)
@@ -239,10 +213,12 @@ class OrderKeeper:
                 kept = await self._keep(order, firing)
                 new = kept is None or kept.count == firing.count  # the first in a row is told
                 if firing.state is FiringState.MISSED and new:
-                    self._tell_missed(order, firing)
+                    self._announcer.tell_missed(order, firing)
             case Keep():
                 await self._keep(order)
-        self.changed()
+            case End(_, firing):
+                await self._write_end(firing)
+        self.publish_change()
 
     async def _fire(self, order: StandingOrder, firing: Firing) -> None:
         await self._keep(order, firing)
@@ -261,7 +237,7 @@ class OrderKeeper:
         self._open[order.id] = given
         await self._write_end(given)
         if order.reminder is not None:
-            self._tell(order, "reminder", "reminder", tell_reminder(order), firing)
+            self._announcer.tell_reminder(order, firing)
 
     async def _miss(self, order: StandingOrder, firing: Firing, why: str) -> None:
         self._open.pop(order.id, None)
@@ -271,7 +247,7 @@ class OrderKeeper:
         )
         self.book = replace(self.book, orders={**self.book.orders, order.id: counted})
         await self._keep(counted, missed)
-        self._tell_missed(counted, missed)
+        self._announcer.tell_missed(counted, missed)
 
     def _follow_goals(self) -> None:
         """Note the firings whose goals have ended, and tell those that wait for a word."""
@@ -290,8 +266,8 @@ class OrderKeeper:
                 self._asked.add(firing.goal)
                 asking = self.goals.book.missions[firing.goal].outcome
                 if asking is not None:
-                    told = say("standing.ended", text=order.text, outcome=asking.message)
-                    self._tell(order, "asks", asking.code.value, told, firing)
+                    words = asking.message
+                    self._announcer.tell_outcome(order, "asks", asking.code.value, words, firing)
 
     def _end(self, order: StandingOrder, firing: Firing, mission: Mission) -> None:
         outcome = mission.outcome
@@ -299,13 +275,12 @@ class OrderKeeper:
         words = outcome.message if outcome is not None else Bilingual(en=code, zh=code)
         ended = firing.model_copy(update={"state": FiringState.ENDED, "code": code, "told": words})
         self._asked.discard(mission.id)
-        task = asyncio.ensure_future(self._write_end(ended))
-        self._tasks = [t for t in self._tasks if not t.done()] + [task]
+        self._work.put_nowait(End(order, ended))
         done = mission.state is GoalState.SUCCEEDED
         if not (done and order.reminder is not None):  # its words were told as it fired
-            told = say("standing.ended", text=order.text, outcome=words)
-            self._tell(order, "done" if done else "failed", code, told, firing)
-        self.changed()
+            kind = "done" if done else "failed"
+            self._announcer.tell_outcome(order, kind, code, words, firing)
+        self.publish_change()
 
     # Disk ---------------------------------------------------------------------------------------
 
@@ -324,7 +299,7 @@ class OrderKeeper:
 
     async def _note_clock(self) -> None:
         """Write down how far the clock is: a later start behind it is not believed."""
-        now = self.clocks.now()
+        now = self.clocks.read()
         if not self.book.orders or now.monotonic_s - self._seen_s < SEEN_EVERY_S or self.book.unset:
             return
         self._seen_s = now.monotonic_s
@@ -350,43 +325,26 @@ class OrderKeeper:
         for old in sorted(over, key=lambda o: o.number)[: max(0, len(over) - MOST_ENDED)]:
             await asyncio.to_thread(self._store.remove, old.id)
             self.book = drop(self.book, old.id)
-        self.changed()
+        self.publish_change()
 
     async def remove(self, order_id: str) -> None:
         """Forget an order. Raises StateUnavailable."""
         await asyncio.to_thread(self._store.remove, order_id)
         self.book = drop(self.book, order_id)
-        self.changed()
+        self.publish_change()
 
     async def history(self, order_id: str, most: int) -> tuple[Firing, ...]:
         """Return an order's newest firings. Raises StateUnavailable."""
         return await asyncio.to_thread(self._store.history, order_id, most)
 
-    def allowed(self, source: str) -> tuple[StepRecord, ...] | None:
+    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the order of a goal may do; None where there is no such order."""
         order = self.book.orders.get(source.removeprefix(SOURCE))
         return order.allowed if order is not None else None
 
     # Telling ------------------------------------------------------------------------------------
 
-    def changed(self) -> None:
+    def publish_change(self) -> None:
         """Have pages ask for the orders anew."""
         self.version += 1
         self.goals.publish({"type": "orders", "version": self.version})
-
-    def _tell_missed(self, order: StandingOrder, firing: Firing) -> None:
-        told = tell_missed(order, firing, self.book.zone, self.clocks.unix())
-        self._tell(order, "missed", firing.reason or "late", told, firing)
-
-    def _tell(
-        self, order: StandingOrder, kind: str, code: str, told: Bilingual, firing: Firing
-    ) -> None:
-        log.info("standing order %s: %s (%s)", order.id, kind, code)
-        self.goals.publish(
-            {"type": "told", "order": order.id, "kind": kind, "code": code,
-             "message": told.model_dump()}
-        )  # fmt: skip
-        if self._notifier is not None:
-            self._notifier.tell(
-                Message(kind, order.id, code, order.language, told, firing.due_unix_s)
-            )

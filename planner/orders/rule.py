@@ -178,7 +178,7 @@ class QuietHours:
         return minute >= self.begin_min or minute < self.end_min
 
     @property
-    def told(self) -> str:
+    def text(self) -> str:
         """Return them as people read them: 22:00–07:00."""
         begin, end = divmod(self.begin_min, 60), divmod(self.end_min, 60)
         return f"{begin[0]:02}:{begin[1]:02}–{end[0]:02}:{end[1]:02}"

@@ -43,7 +43,7 @@ STILL_RUNNING, INTERRUPTED = "still_running", "interrupted"
 
 
 @dataclass(frozen=True, slots=True)
-class Instant:
+class ClockReading:
     """Hold now on both clocks."""
 
     unix_s: float
@@ -51,7 +51,7 @@ class Instant:
 
 
 @dataclass(frozen=True, slots=True)
-class World:
+class RobotView:
     """Say what the scheduler must know of the robot."""
 
     hindrance: str | None = None
@@ -71,9 +71,9 @@ class OrderBook:
     orders: dict[str, StandingOrder] = field(default_factory=dict)
     due: dict[str, float] = field(default_factory=dict)
     """When each order is due next; orders upon events have none."""
-    began: Instant | None = None
+    began: ClockReading | None = None
     """The first tick of this process."""
-    ticked: Instant | None = None
+    ticked: ClockReading | None = None
     floor_unix_s: float = 0.0
     """The clock was once this far: before it, it may not be set yet."""
     fired_s: dict[str, float] = field(default_factory=dict)
@@ -138,7 +138,9 @@ def drop(book: OrderBook, order_id: str) -> OrderBook:
     )
 
 
-def tick(book: OrderBook, world: World, now: Instant) -> tuple[OrderBook, tuple[Effect, ...]]:
+def tick(
+    book: OrderBook, world: RobotView, now: ClockReading
+) -> tuple[OrderBook, tuple[Effect, ...]]:
     """Return the book after this instant, and what is to be done. Same arguments, same answer."""
     effects: list[Effect] = []
     book = _follow_clock(book, now, effects)
@@ -154,7 +156,7 @@ def tick(book: OrderBook, world: World, now: Instant) -> tuple[OrderBook, tuple[
     return replace(book, ticked=now, stepped=False), tuple(effects)
 
 
-def _follow_clock(book: OrderBook, now: Instant, effects: list[Effect]) -> OrderBook:
+def _follow_clock(book: OrderBook, now: ClockReading, effects: list[Effect]) -> OrderBook:
     """Move along what was counted from an instant where the clock was put right."""
     before = book.ticked
     if before is None:
@@ -168,14 +170,14 @@ def _follow_clock(book: OrderBook, now: Instant, effects: list[Effect]) -> Order
     book = replace(book, stepped=True, unset=False, floor_unix_s=floor_s)
     for order in tuple(book.orders.values()):
         moves = order.id in book.fresh or not was_unset  # else they lie on the clock of before
-        moved = _moved(order, step_s if moves else 0.0, now)
+        moved = _move_along(order, step_s if moves else 0.0, now)
         if moved is not order:
             book = put(book, moved)
             effects.append(Keep(moved))
     return book
 
 
-def _moved(order: StandingOrder, step_s: float, now: Instant) -> StandingOrder:
+def _move_along(order: StandingOrder, step_s: float, now: ClockReading) -> StandingOrder:
     rule = order.rule
     if isinstance(rule, AtRule) and rule.relative and not order.ended:
         rule = rule.model_copy(update={"unix_s": max(0.0, rule.unix_s + step_s)})
@@ -190,7 +192,7 @@ def _moved(order: StandingOrder, step_s: float, now: Instant) -> StandingOrder:
     return order
 
 
-def _waits(book: OrderBook, order: StandingOrder, world: World, now: Instant) -> bool:
+def _waits(book: OrderBook, order: StandingOrder, world: RobotView, now: ClockReading) -> bool:
     """Tell whether nothing can be said of a run yet."""
     alive_s = now.monotonic_s - book.began.monotonic_s if book.began is not None else 0.0
     relative = isinstance(order.rule, EveryRule) or getattr(order.rule, "relative", False)
@@ -203,8 +205,8 @@ def _run(
     book: OrderBook,
     order: StandingOrder,
     due_s: float,
-    world: World,
-    now: Instant,
+    world: RobotView,
+    now: ClockReading,
     effects: list[Effect],
 ) -> OrderBook:
     """Fire the newest run that is due, or say why not; those before it are missed."""
@@ -218,18 +220,18 @@ def _run(
         newest_s = now.unix_s - LATE_S - STEP_S
     why = _too_late(book, newest_s, now)
     if why is not None:
-        missed = _missed(order, due_s, now, why, skipped + 1, newest_s)
+        missed = _miss_run(order, due_s, now, why, skipped + 1, newest_s)
         effects.append(missed)
         return put(book, missed.order)
     if skipped:
         why = CLOCK_MOVED if book.stepped else LATE
-        older = _missed(order, due_s, now, why, skipped, before_s)
+        older = _miss_run(order, due_s, now, why, skipped, before_s)
         effects.append(older)
         order = older.order
     return _fire(book, order, newest_s, world, now, effects)
 
 
-def _too_late(book: OrderBook, due_s: float, now: Instant) -> str | None:
+def _too_late(book: OrderBook, due_s: float, now: ClockReading) -> str | None:
     began_s = book.began.unix_s if book.began is not None else now.unix_s
     if book.stepped:
         return CLOCK_MOVED if now.unix_s - due_s > LATE_S else None
@@ -242,19 +244,19 @@ def _fire(
     book: OrderBook,
     order: StandingOrder,
     due_s: float,
-    world: World,
-    now: Instant,
+    world: RobotView,
+    now: ClockReading,
     effects: list[Effect],
 ) -> OrderBook:
     quiet = book.quiet
     rests = quiet is not None and not order.is_once and quiet.holds(due_s, book.zone)
     why = STILL_RUNNING if order.id in world.busy else world.hindrance
     if rests:
-        noted = _noted(order, due_s, now, FiringState.QUIET, None)
+        noted = _note_run(order, due_s, now, FiringState.QUIET, None)
     elif why is not None:
-        noted = _missed(order, due_s, now, why, 1, due_s)
+        noted = _miss_run(order, due_s, now, why, 1, due_s)
     else:
-        begun = _handled(order, due_s).model_copy(update={"fired": order.fired + 1})
+        begun = _handle(order, due_s).model_copy(update={"fired": order.fired + 1})
         firing = Firing(
             order=order.id, serial=begun.serial, due_unix_s=due_s, at_unix_s=now.unix_s,
             state=FiringState.BEGUN,
@@ -266,7 +268,11 @@ def _fire(
 
 
 def _upon_event(
-    book: OrderBook, order: StandingOrder, world: World, now: Instant, effects: list[Effect]
+    book: OrderBook,
+    order: StandingOrder,
+    world: RobotView,
+    now: ClockReading,
+    effects: list[Effect],
 ) -> OrderBook:
     last_s = book.fired_s.get(order.id, float("-inf"))
     if order.paused or now.monotonic_s - last_s < COOLDOWN_S:
@@ -275,23 +281,23 @@ def _upon_event(
     return _fire(book, order, now.unix_s, world, now, effects)
 
 
-def _missed(
-    order: StandingOrder, due_s: float, now: Instant, why: str, count: int, until_s: float
+def _miss_run(
+    order: StandingOrder, due_s: float, now: ClockReading, why: str, count: int, until_s: float
 ) -> Note:
-    return _noted(order, due_s, now, FiringState.MISSED, why, count, until_s)
+    return _note_run(order, due_s, now, FiringState.MISSED, why, count, until_s)
 
 
-def _noted(
+def _note_run(
     order: StandingOrder,
     due_s: float,
-    now: Instant,
+    now: ClockReading,
     state: FiringState,
     why: str | None,
     count: int = 1,
     until_s: float | None = None,
 ) -> Note:
     last_s = until_s if until_s is not None else due_s
-    changed = _handled(order, last_s)
+    changed = _handle(order, last_s)
     if state is FiringState.MISSED:
         changed = changed.model_copy(update={"missed": order.missed + count})
     firing = Firing(
@@ -301,7 +307,7 @@ def _noted(
     return Note(changed, firing)
 
 
-def _handled(order: StandingOrder, due_s: float) -> StandingOrder:
+def _handle(order: StandingOrder, due_s: float) -> StandingOrder:
     """Return an order of which everything until a run is over; one that was due once has ended."""
     handled_s = due_s if order.is_event else max(due_s, order.handled_unix_s)
     return order.model_copy(

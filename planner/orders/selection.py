@@ -132,7 +132,7 @@ def _overlap(bare: str, hay: str) -> bool:
 
 def _stem(word: str) -> str:
     for end in ("ing", "s"):
-        if word.endswith(end) and len(word) > len(end) + 2:
+        if word.endswith(end) and len(word) > len(end) + 1:
             return word.removesuffix(end)
     return word
 

@@ -117,7 +117,7 @@ def tell_kept(
     facts: SiteView, order: StandingOrder, due_s: float | None, zone: tzinfo, now_unix_s: float
 ) -> Bilingual:
     """Return what a person hears when an order is taken."""
-    when = capitalised(tell_rule(order.rule, zone, now_unix_s))
+    when = capitalise(tell_rule(order.rule, zone, now_unix_s))
     said = say("standing.kept", when=when, deed=tell_deed(facts, order))
     if due_s is None or order.is_once:
         return said
@@ -163,7 +163,7 @@ def tell_reminder(order: StandingOrder) -> Bilingual:
     )
 
 
-def capitalised(said: Bilingual) -> Bilingual:
+def capitalise(said: Bilingual) -> Bilingual:
     """Return a text with a capital at its beginning, where its language has them."""
     return build(lambda language: said.of(language)[:1].upper() + said.of(language)[1:])
 

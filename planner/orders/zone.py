@@ -36,12 +36,12 @@ def find_zone(
         ConfigError: ``timezone_unknown``: the owner's setting names none.
     """
     if wanted is not None:
-        zone = _named(wanted)
+        zone = _find_named(wanted)
         if zone is None:
             raise ConfigError("timezone_unknown", f"[orders] timezone {wanted[:60]!r} is none")
         return zone
     named = environment.get("TZ", "").removeprefix(":")
-    zone = _named(named) if named and not named.startswith("/") else None
+    zone = _find_named(named) if named and not named.startswith("/") else None
     if zone is not None:
         return zone
     try:
@@ -58,7 +58,7 @@ def name_of(zone: tzinfo) -> str:
     return str(getattr(zone, "key", None) or zone)
 
 
-def _named(name: str) -> tzinfo | None:
+def _find_named(name: str) -> tzinfo | None:
     try:
         return ZoneInfo(name)
     except (ZoneInfoNotFoundError, ValueError, OSError):

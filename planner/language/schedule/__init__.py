@@ -8,8 +8,8 @@ from planner.language.schedule.command import (
     ChangeOrders,
     ListOrders,
     OrderCommand,
-    Scheduled,
+    ScheduleCommand,
 )
 from planner.language.schedule.reader import read_order_command
 
-__all__ = ["ChangeOrders", "ListOrders", "OrderCommand", "Scheduled", "read_order_command"]
+__all__ = ["ChangeOrders", "ListOrders", "OrderCommand", "ScheduleCommand", "read_order_command"]

@@ -94,7 +94,7 @@ def read_about(folded: str, reads: ReadsTiming, *, chinese: bool) -> OrderComman
     for act, verbs in _ACTS:
         verb = re.match(rf"(?:{verbs}) ", folded)
         if verb is not None:
-            found = _named(act, folded[verb.end() :], reads)
+            found = _read_named(act, folded[verb.end() :], reads)
             if found is not None:
                 return found
     denied = _NOT_ANY_MORE.fullmatch(folded)
@@ -103,7 +103,7 @@ def read_about(folded: str, reads: ReadsTiming, *, chinese: bool) -> OrderComman
     return None
 
 
-def _named(act: Act, rest: str, reads: ReadsTiming) -> ChangeOrders | None:
+def _read_named(act: Act, rest: str, reads: ReadsTiming) -> ChangeOrders | None:
     found = _NAMED.fullmatch(rest)
     if found is None:
         return None

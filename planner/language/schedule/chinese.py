@@ -14,13 +14,13 @@ from planner.language.schedule.parts import (
     WEEKEND,
     WORKDAYS,
     After,
-    Again,
-    Clock,
+    ClockTime,
     DayPart,
-    Days,
+    EventPart,
+    Interval,
     OnceDay,
     Part,
-    Upon,
+    WeekDays,
     hour_in,
 )
 from planner.plan.timing import WorldEvent
@@ -98,16 +98,16 @@ LEAD = re.compile(r"[,:、]*(?:就|都|要|再|请|帮我|你|给我)*")
 
 def _clock(found: re.Match[str]) -> tuple[Part, ...]:
     if found["noon"]:
-        return (Clock(12, 0, sure=True),)
+        return (ClockTime(12, 0, sure=True),)
     if found["midnight"]:
-        return (Clock(0, 0, sure=True),)
+        return (ClockTime(0, 0, sure=True),)
     hour = _number(found["h"] or found["oh"])
     minute = _minute(found)
     if hour is None or minute is None or not (hour < 24 and minute < 60):
         return ()
     if found["part"]:
-        return (Clock(hour_in(hour, _PARTS[found["part"]]) % 24, minute, sure=True),)
-    return (Clock(hour, minute, hour > 12 or hour == 0),)
+        return (ClockTime(hour_in(hour, _PARTS[found["part"]]) % 24, minute, sure=True),)
+    return (ClockTime(hour, minute, hour > 12 or hour == 0),)
 
 
 def _minute(found: re.Match[str]) -> int | None:
@@ -127,16 +127,16 @@ def _number(word: str) -> int | None:
 
 def _every(found: re.Match[str]) -> tuple[Part, ...]:
     if found["work"]:
-        return (Days(WORKDAYS),)
+        return (WeekDays(WORKDAYS),)
     if found["end"]:
-        return (Days(WEEKEND),)
+        return (WeekDays(WEEKEND),)
     part = found["part"] or found["eve"]
-    return (Days(EVERY_DAY), _PARTS[part]) if part else (Days(EVERY_DAY),)
+    return (WeekDays(EVERY_DAY), _PARTS[part]) if part else (WeekDays(EVERY_DAY),)
 
 
 def _weekly(found: re.Match[str]) -> tuple[Part, ...]:
     named = re.findall(_DAY, found["days"])
-    return (Days(frozenset(_WEEKDAYS.index(day.replace("天", "日")) for day in named)),)
+    return (WeekDays(frozenset(_WEEKDAYS.index(day.replace("天", "日")) for day in named)),)
 
 
 def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
@@ -166,28 +166,28 @@ def _in(found: re.Match[str]) -> tuple[Part, ...]:
     return () if lasts_s is None else (After(lasts_s),)
 
 
-def _again(found: re.Match[str]) -> tuple[Part, ...]:
+def _interval(found: re.Match[str]) -> tuple[Part, ...]:
     lasts_s = seconds(found["number"], found["unit"])
-    return () if lasts_s is None else (Again(lasts_s),)
+    return () if lasts_s is None else (Interval(lasts_s),)
 
 
-def _upon(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
+def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
     def make(found: re.Match[str]) -> tuple[Part, ...]:
         """Take it where a word says "when" or "then": 有人来 alone tells a fact."""
         said = found.group()
         marked = (
             found["open"].removesuffix("你") or found["end"] or said.endswith((",", "就", "都"))
         )
-        return (Upon(event),) if marked else ()
+        return (EventPart(event),) if marked else ()
 
     return make
 
 
 PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
-    *((pattern, _upon(event)) for pattern, event in _UPON),
+    *((pattern, _event(event)) for pattern, event in _UPON),
     (_IN, _in),
-    (_HOURLY, lambda found: (Again(1800.0 if found["half"] else 3600.0),)),
-    (_EVERY_SO, _again),
+    (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
+    (_EVERY_SO, _interval),
     (_WEEKLY, _weekly),
     (_EVERY, _every),
     (_ONE_DAY, _one_day),

@@ -11,7 +11,7 @@ Problem = Literal["order_nested", "order_time_missing", "order_malformed"]
 
 
 @dataclass(frozen=True, slots=True)
-class Scheduled:
+class ScheduleCommand:
     """Do something at a time, again and again, or when something happens."""
 
     when: SpokenRule | None
@@ -41,4 +41,4 @@ class ChangeOrders:
     """Only reminders are meant."""
 
 
-OrderCommand = Scheduled | ListOrders | ChangeOrders
+OrderCommand = ScheduleCommand | ListOrders | ChangeOrders

@@ -14,13 +14,13 @@ from planner.language.schedule.parts import (
     WEEKEND,
     WORKDAYS,
     After,
-    Again,
-    Clock,
+    ClockTime,
     DayPart,
-    Days,
+    EventPart,
+    Interval,
     OnceDay,
     Part,
-    Upon,
+    WeekDays,
 )
 from planner.plan.timing import WorldEvent
 
@@ -143,7 +143,7 @@ LEAD = re.compile(
 
 def _clock(found: re.Match[str]) -> Part | None:
     if found["noon"]:
-        return Clock(0 if found["noon"] == "midnight" else 12, 0, sure=True)
+        return ClockTime(0 if found["noon"] == "midnight" else 12, 0, sure=True)
     hour_word = found["h"] or found["ph"] or found["oh"]
     hour, minute = _number(hour_word), 0
     if found["m"]:
@@ -160,12 +160,12 @@ def _clock(found: re.Match[str]) -> Part | None:
             return None
         hour = hour % 12 + (12 if half == "p" else 0)
     sure = bool(half) or hour > 12 or hour == 0 or (found["m"] and len(hour_word) > 1)
-    return Clock(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None
+    return ClockTime(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None
 
 
 def _bare(found: re.Match[str]) -> Part | None:
     hour, minute = _number(found["h"]), _MINUTES[found["m"]] if found["m"] else 0
-    return Clock(hour, minute, hour > 12 or hour == 0) if hour < 24 else None
+    return ClockTime(hour, minute, hour > 12 or hour == 0) if hour < 24 else None
 
 
 def _number(word: str) -> int:
@@ -175,10 +175,10 @@ def _number(word: str) -> int:
 def _every(found: re.Match[str]) -> tuple[Part, ...]:
     what = found["what"] or found["daily"] or found["plural"] or "weekend"
     if what.startswith(("weekday", "work")):
-        return (Days(WORKDAYS),)
+        return (WeekDays(WORKDAYS),)
     if what.startswith("weekend"):
-        return (Days(WEEKEND),)
-    days = Days(EVERY_DAY)
+        return (WeekDays(WEEKEND),)
+    days = WeekDays(EVERY_DAY)
     if what in ("day", "daily"):
         return (days,)
     return (days, DayPart("night" if what == "nightly" else what))
@@ -191,7 +191,7 @@ def _weekdays(found: re.Match[str]) -> tuple[Part, ...]:
         if len(named) > 1:
             return ()
         return (OnceDay(weekday=(_DAYS.index(named[0]) - 1) % 7), *part)
-    return (Days(frozenset(map(_DAYS.index, named))), *part)
+    return (WeekDays(frozenset(map(_DAYS.index, named))), *part)
 
 
 def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
@@ -224,13 +224,13 @@ def _in(found: re.Match[str]) -> tuple[Part, ...]:
     return () if lasts_s is None else (After(lasts_s),)
 
 
-def _again(found: re.Match[str]) -> tuple[Part, ...]:
+def _interval(found: re.Match[str]) -> tuple[Part, ...]:
     lasts_s = seconds(found["number"], found["unit"])
-    return () if lasts_s is None else (Again(lasts_s),)
+    return () if lasts_s is None else (Interval(lasts_s),)
 
 
-def _upon(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
-    return lambda _: (Upon(event),)
+def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
+    return lambda _: (EventPart(event),)
 
 
 def _one(
@@ -244,9 +244,9 @@ def _one(
 
 
 PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
-    *((pattern, _upon(event)) for pattern, event in _UPON),
-    (_HOURLY, lambda found: (Again(1800.0 if found["half"] else 3600.0),)),
-    (_EVERY_SO, _again),
+    *((pattern, _event(event)) for pattern, event in _UPON),
+    (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
+    (_EVERY_SO, _interval),
     (_EVERY, _every),
     (_WEEKDAYS, _weekdays),
     (_IN_THE, lambda found: (DayPart(found["a"] or found["b"]),)),

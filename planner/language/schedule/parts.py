@@ -49,14 +49,14 @@ WORKDAYS, WEEKEND = frozenset({1, 2, 3, 4, 5}), frozenset({0, 6})
 
 
 @dataclass(frozen=True, slots=True)
-class Days:
+class WeekDays:
     """Come again on these days of the week; 0 is Sunday, as cron has it."""
 
     days: frozenset[int]
 
 
 @dataclass(frozen=True, slots=True)
-class Again:
+class Interval:
     """Come again after so long [s]."""
 
     seconds: float
@@ -78,7 +78,7 @@ class After:
 
 
 @dataclass(frozen=True, slots=True)
-class Clock:
+class ClockTime:
     """Name a time of day. ``sure``: it is said on which half of the day."""
 
     hour: int
@@ -87,13 +87,13 @@ class Clock:
 
 
 @dataclass(frozen=True, slots=True)
-class Upon:
+class EventPart:
     """Name an event."""
 
     event: WorldEvent
 
 
-Part = Days | Again | OnceDay | After | Clock | Upon | DayPart
+Part = WeekDays | Interval | OnceDay | After | ClockTime | EventPart | DayPart
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,28 +109,28 @@ def combine(parts: Sequence[Part]) -> Timing | None:
     found: dict[type[object], Part] = {}
     for part in parts:
         if type(part) in found:
-            nested = isinstance(part, (Days, Again, After, Upon, OnceDay))
+            nested = isinstance(part, (WeekDays, Interval, After, EventPart, OnceDay))
             return Timing(problem="order_nested") if nested else None
         found[type(part)] = part
-    repeats = [p for p in parts if isinstance(p, (Days, Again, OnceDay, After, Upon))]
+    repeats = [p for p in parts if isinstance(p, (WeekDays, Interval, OnceDay, After, EventPart))]
     if len(repeats) > 1:
         return Timing(problem="order_nested")
-    clock = next((p for p in parts if isinstance(p, Clock)), None)
+    clock = next((p for p in parts if isinstance(p, ClockTime)), None)
     daypart = next((p for p in parts if isinstance(p, DayPart)), None)
     if not repeats:
         return _by_clock(OnceDay(), clock, daypart) if clock is not None else None
     match repeats[0]:
-        case Days() as again:
+        case WeekDays() as again:
             return _weekly(again, clock, daypart)
         case OnceDay() as day:
             return _by_clock(day, clock, daypart)
-        case Again(seconds) | After(seconds) if clock is not None or daypart is not None:
+        case Interval(seconds) | After(seconds) if clock is not None or daypart is not None:
             return Timing(problem="order_nested")
-        case Again(seconds):
+        case Interval(seconds):
             return _lasting(seconds, EveryRule)
         case After(seconds):
             return _lasting(seconds, InRule)
-        case Upon(event):
+        case EventPart(event):
             alone = clock is None and daypart is None
             return Timing(EventRule(event=event)) if alone else None
         case _:
@@ -145,19 +145,19 @@ def _lasting(seconds: float, make: type[EveryRule] | type[InRule]) -> Timing:
     return Timing(make(seconds=seconds))
 
 
-def _weekly(again: Days, clock: Clock | None, daypart: DayPart | None) -> Timing:
+def _weekly(again: WeekDays, clock: ClockTime | None, daypart: DayPart | None) -> Timing:
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
-    days = "*" if again.days == EVERY_DAY else _listed(again.days)
+    days = "*" if again.days == EVERY_DAY else _list_days(again.days)
     return Timing(CronRule(cron=f"{at[1]} {at[0]} * * {days}"))
 
 
-def _listed(days: frozenset[int]) -> str:
+def _list_days(days: frozenset[int]) -> str:
     return "1-5" if days == WORKDAYS else ",".join(map(str, sorted(days)))
 
 
-def _by_clock(day: OnceDay, clock: Clock | None, daypart: DayPart | None) -> Timing:
+def _by_clock(day: OnceDay, clock: ClockTime | None, daypart: DayPart | None) -> Timing:
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
@@ -170,7 +170,7 @@ def _by_clock(day: OnceDay, clock: Clock | None, daypart: DayPart | None) -> Tim
     )
 
 
-def _hour_minute(clock: Clock | None, daypart: DayPart | None) -> tuple[int, int] | None:
+def _hour_minute(clock: ClockTime | None, daypart: DayPart | None) -> tuple[int, int] | None:
     if clock is None:
         return None if daypart is None else (USUAL_HOUR[daypart], 0)
     hour = clock.hour if clock.sure or daypart is None else hour_in(clock.hour, daypart)

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.schedule import chinese, english
 from planner.language.schedule.about import read_about
-from planner.language.schedule.command import OrderCommand, Scheduled
-from planner.language.schedule.parts import Part, Timing, Upon, combine
+from planner.language.schedule.command import OrderCommand, ScheduleCommand
+from planner.language.schedule.parts import EventPart, Part, Timing, combine
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -31,25 +31,25 @@ _QUOTE = re.compile('["“”「」『』]')
 
 
 @dataclass(frozen=True, slots=True)
-class _Sentence:
+class _FoldedSentence:
     """Hold a sentence twice, character for character alike: to match, and as it was written."""
 
     folded: str
     written: str
 
-    def part(self, start: int, end: int | None = None) -> _Sentence:
-        return _Sentence(self.folded[start:end], self.written[start:end])
+    def part(self, start: int, end: int | None = None) -> _FoldedSentence:
+        return _FoldedSentence(self.folded[start:end], self.written[start:end])
 
-    def strip(self, pattern: re.Pattern[str]) -> _Sentence:
+    def strip(self, pattern: re.Pattern[str]) -> _FoldedSentence:
         """Take off what a pattern matches at the beginning."""
         found = pattern.match(self.folded)
         return self.part(found.end()) if found is not None else self
 
-    def strip_end(self, pattern: re.Pattern[str]) -> _Sentence:
+    def strip_end(self, pattern: re.Pattern[str]) -> _FoldedSentence:
         found = pattern.search(self.folded)
         return self.part(0, found.start()) if found is not None and found.start() > 0 else self
 
-    def bare(self) -> _Sentence:
+    def bare(self) -> _FoldedSentence:
         start = len(self.folded) - len(self.folded.lstrip(_ENDS))
         return self.part(start, max(start, len(self.folded.rstrip(_ENDS))))
 
@@ -70,7 +70,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     said = _fold(text)
     asks = said.folded.rstrip(_ENDS).endswith("?")
     grammar = chinese if has_chinese(said.folded) else english
-    said = _Sentence(said.folded.replace("?", " "), said.written)
+    said = _FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
     about = read_about(said.folded, _reads_timing, chinese=grammar is chinese)
     if about is not None:
@@ -81,17 +81,17 @@ def read_order_command(text: str) -> OrderCommand | None:
     return _read(said, grammar)
 
 
-def _fold(text: str) -> _Sentence:
+def _fold(text: str) -> _FoldedSentence:
     spaced = _SPACES.sub(" ", fold_width(text).translate(_MARKS)).strip()
     if has_chinese(spaced):  # spaces between characters mean nothing; between Latin words they do
         spaced = re.sub(r"(?<![A-Za-z0-9]) | (?![A-Za-z0-9])", "", spaced)
     folded = spaced.lower()
     if len(folded) != len(spaced):  # a few letters grow in lower case
         spaced = folded
-    return _Sentence(fold_script(folded), spaced)
+    return _FoldedSentence(fold_script(folded), spaced)
 
 
-def _read(said: _Sentence, grammar: ModuleType) -> Scheduled | None:
+def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a time, an order, and whether it is to be reminded of."""
     before = _first_parts(said.folded, grammar)
     rest = said.part(before.at).strip(grammar.LEAD)
@@ -117,7 +117,7 @@ def _read(said: _Sentence, grammar: ModuleType) -> Scheduled | None:
     words = _words(said, rest, before, after)
     if remind is not None:
         return _reminder(order, timing, words, grammar, woken=bool(remind["wake"]))
-    return _scheduled(order.bare(), timing, words)
+    return _order(order.bare(), timing, words)
 
 
 def _repeats(parts: tuple[Part, ...]) -> bool:
@@ -125,22 +125,22 @@ def _repeats(parts: tuple[Part, ...]) -> bool:
     return timing is not None
 
 
-def _scheduled(order: _Sentence, timing: Timing, words: str) -> Scheduled | None:
+def _order(order: _FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
     if timing.problem is not None and not order.folded:
         return None  # "every day": nothing that is understood
-    return Scheduled(timing.when, order.written.strip(), words, problem=timing.problem)
+    return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 
 
 def _reminder(
-    order: _Sentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
-) -> Scheduled:
+    order: _FoldedSentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
+) -> ScheduleCommand:
     what = order.bare().strip(grammar.OF).bare().written.strip()
     if woken and not what:
         what = grammar.WAKE_UP
-    return Scheduled(timing.when, what, words, reminder=what, problem=timing.problem)
+    return ScheduleCommand(timing.when, what, words, reminder=what, problem=timing.problem)
 
 
-def _words(said: _Sentence, rest: _Sentence, before: _Found, after: _Found) -> str:
+def _words(said: _FoldedSentence, rest: _FoldedSentence, before: _Found, after: _Found) -> str:
     """Return what was said of the time: the beginning and the end together."""
     ends = rest.written[after.at :] if after.parts else ""
     return " ".join(each.strip(_ENDS) for each in (said.written[: before.at], ends) if each.strip())
@@ -184,7 +184,7 @@ def _reads_timing(folded: str, *, in_chinese: bool) -> bool:
     """Tell whether a text is, or ends with, a time that comes again."""
     grammar = chinese if in_chinese else english
     found = _first_parts(folded, grammar)
-    event = any(isinstance(part, Upon) for part in found.parts)
+    event = any(isinstance(part, EventPart) for part in found.parts)
     if found.parts and not event and combine(found.parts) is not None:
         return True
     return bool(_last_parts(folded, grammar).parts)

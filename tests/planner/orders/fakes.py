@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from itertools import count
 from pathlib import Path
 from typing import Any
+from zoneinfo import ZoneInfo
 
 from planner.brain import OfflineBrain
 from planner.mission.effects import AskBrain
@@ -17,7 +18,8 @@ from planner.mission.standing_goals import StandingGoals
 from planner.mission.state import Mission, MissionState
 from planner.orders.factory import StandingOrders
 from planner.orders.intake import OrderIntake
-from planner.orders.keeper import OrderClocks, OrderKeeper
+from planner.orders.interfaces import OrderClocks
+from planner.orders.keeper import OrderKeeper
 from planner.orders.notifier import Notifier
 from planner.orders.rule import QuietHours
 from planner.orders.store import OrderStore
@@ -28,7 +30,6 @@ from planner.site.site_view import facts_of, vocabulary_of
 from planner.state_database import StateDatabase
 from tests.wire.examples import STATUS
 from wire import CameraConfig, Mode, Status
-from zoneinfo import ZoneInfo
 
 ROOT = Path(__file__).resolve().parents[3]
 BERLIN = ZoneInfo("Europe/Berlin")

@@ -11,7 +11,7 @@ import pytest
 
 from planner.mission.errors import QueueFull
 from planner.orders.errors import OrderRefusal
-from planner.orders.intake import order_of_text
+from planner.orders.new_order import order_of_text
 from planner.orders.order import FiringState, StandingOrder
 from planner.orders.rule import QuietHours
 from planner.plan import GoalState
@@ -170,7 +170,7 @@ def test_a_firing_that_was_cut_off_before_its_goal_is_told_and_not_begun(tmp_pat
         async def die(*_: Any) -> str:
             raise KeyboardInterrupt
 
-        kept.missions.give = die  # type: ignore[method-assign]
+        kept.missions.give = die  # type: ignore[method-assign, assignment]
         with pytest.raises(KeyboardInterrupt):
             await kept.run_s(61.0)
         again = await kept_in(tmp_path, kept.clock)
@@ -191,7 +191,7 @@ def test_a_firing_that_was_cut_off_after_its_goal_is_found_again(tmp_path: Path)
         async def die(_: Any) -> None:
             raise KeyboardInterrupt
 
-        kept.orders.keeper._write_end = die  # type: ignore[method-assign]
+        kept.orders.keeper._write_end = die  # type: ignore[method-assign, assignment]
         with pytest.raises(KeyboardInterrupt):
             await kept.run_s(61.0)
         again = await kept_in(tmp_path, kept.clock, kept.missions)

@@ -64,13 +64,18 @@ def test_every_hour_is_due_each_hour_that_passes() -> None:
     st.one_of(
         st.builds(
             lambda m, h, d: CronRule(cron=f"{m} {h} * * {d}"),
-            st.integers(0, 59), st.integers(0, 23), st.sampled_from(["*", "1-5", "0,6", "3"]),
-        ),  # fmt: skip
+            st.integers(0, 59),
+            st.integers(0, 23),
+            st.sampled_from(["*", "1-5", "0,6", "3"]),
+        ),
         st.just(CronRule(cron="0 * * * *")),
-        st.builds(lambda s, a: EveryRule(seconds=s, anchor_unix_s=a), st.floats(300.0, 1e6),
-                  st.floats(1.6e9, 2.0e9)),
+        st.builds(
+            lambda s, a: EveryRule(seconds=s, anchor_unix_s=a),
+            st.floats(300.0, 1e6),
+            st.floats(1.6e9, 2.0e9),
+        ),
     ),
-)  # fmt: skip
+)
 def test_the_next_run_comes_after_and_none_lies_between(
     zone: ZoneInfo, after_s: float, rule: Rule
 ) -> None:
@@ -151,5 +156,5 @@ def test_quiet_hours_go_over_midnight() -> None:
     assert not quiet.holds(NOON_UNIX_S + 19 * 3600.0, BERLIN)
     assert not quiet.holds(NOON_UNIX_S, BERLIN)
     assert quiet.holds(float("nan"), BERLIN)
-    assert quiet.told == "22:00–07:00"
+    assert quiet.text == "22:00–07:00"
     assert QuietHours(60, 120).holds(midnight + timedelta(minutes=90).total_seconds(), BERLIN)

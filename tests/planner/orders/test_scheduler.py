@@ -11,11 +11,11 @@ from planner.orders.order import FiringState, StandingOrder
 from planner.orders.rule import next_due, settle
 from planner.orders.scheduler import (
     LATE_S,
+    ClockReading,
     Fire,
-    Instant,
     Note,
     OrderBook,
-    World,
+    RobotView,
     add,
     put,
     tick,
@@ -51,8 +51,8 @@ class Player:
         for kept in self.orders.values():
             self.book = put(self.book, kept)
 
-    def tick(self, world: World = World()) -> None:  # noqa: B008  # frozen
-        now = Instant(self.unix_s, self.monotonic_s)
+    def tick(self, world: RobotView = RobotView()) -> None:  # noqa: B008  # frozen
+        now = ClockReading(self.unix_s, self.monotonic_s)
         self.book, effects = tick(self.book, world, now)
         for effect in effects:
             self.orders[effect.order.id] = effect.order
@@ -99,7 +99,7 @@ def test_every_run_is_fired_or_told_exactly_once(
         life.pass_s(seconds)
         if deed == "off":
             life.start()
-        life.tick(World(hindrance="held") if deed == "hold" else World())
+        life.tick(RobotView(hindrance="held") if deed == "hold" else RobotView())
     for n, rule in enumerate(rules):
         name, due, wanted = f"o{n}", NOON_UNIX_S, []
         while (later := next_due(rule, due, BERLIN)) is not None and later <= life.unix_s:
@@ -168,23 +168,23 @@ def test_a_relative_order_given_on_an_unset_clock_keeps_its_time() -> None:
 def test_events_fire_with_a_pause_between_and_not_while_held() -> None:
     life = Player({"o1": order(1, Upon(event=WorldEvent.PERSON_SEEN))})
     life.start()
-    seen = World(happened=(WorldEvent.PERSON_SEEN,))
+    seen = RobotView(happened=(WorldEvent.PERSON_SEEN,))
     life.tick(seen)
     life.pass_s(10.0)
     life.tick(seen)
-    life.tick(World(happened=(WorldEvent.MOVEMENT,)))
+    life.tick(RobotView(happened=(WorldEvent.MOVEMENT,)))
     assert len(life.fired) == 1
     life.pass_s(60.0)
-    life.tick(World(hindrance="held", happened=(WorldEvent.PERSON_SEEN,)))
+    life.tick(RobotView(hindrance="held", happened=(WorldEvent.PERSON_SEEN,)))
     assert len(life.fired) == 1
     assert len(life.told) == 1
 
 
 def test_the_same_arguments_give_the_same_answer() -> None:
     book = put(OrderBook(BERLIN), order(1, CronRule(cron="0 13 * * *")))
-    book, _ = tick(book, World(), Instant(NOON_UNIX_S, 1.0))
-    now = Instant(NOON_UNIX_S + 3600.2, 3601.2)
-    assert tick(book, World(), now) == tick(book, World(), now)
-    _, [fire] = tick(book, World(), now)
+    book, _ = tick(book, RobotView(), ClockReading(NOON_UNIX_S, 1.0))
+    now = ClockReading(NOON_UNIX_S + 3600.2, 3601.2)
+    assert tick(book, RobotView(), now) == tick(book, RobotView(), now)
+    _, [fire] = tick(book, RobotView(), now)
     assert isinstance(fire, Fire)
     assert fire.firing.state is FiringState.BEGUN

@@ -10,8 +10,18 @@ from pathlib import Path
 
 from planner.brain.scripted import Reply
 from planner.orders.factory import StandingOrders, standing_orders_of
-from planner.orders.keeper import OrderClocks
-from planner.plan import Bilingual, Clarify, Code, Goal, GoalState, GoTo, Option, Say, StepPlan
+from planner.orders.interfaces import OrderClocks
+from planner.plan import (
+    Bilingual,
+    Clarify,
+    Code,
+    ComeBack,
+    Goal,
+    GoalState,
+    Option,
+    Say,
+    StepPlan,
+)
 from planner.settings import OrderSettings
 from planner.site import Site
 from planner.state_database import StateDatabase
@@ -120,6 +130,16 @@ def test_motion_that_nobody_said_is_no_standing_order(tmp_path: Path) -> None:
             refused = await made.say("every day at 12:10 say hello")
             assert refused.outcome is not None
             assert refused.outcome.code is Code.ORDER_NOT_KEPT
+            assert made.orders.keeper.book.orders == {}
+
+    run(story())
+
+
+def test_an_order_that_comes_back_to_nowhere_is_refused(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, StepPlan(steps=(ComeBack(),))) as made:
+            refused = await made.say("every day at 12:10 come back")
+            assert "name the place" in told(refused)
             assert made.orders.keeper.book.orders == {}
 
     run(story())
