@@ -318,8 +318,6 @@ class Missions:
             "status": status.model_dump(mode="json") if status is not None else None,
         }
 
-    # Inside -------------------------------------------------------------------------------------
-
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
         also = await self.commands.obey_beside_stop(given)
