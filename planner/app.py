@@ -18,6 +18,7 @@ from planner.memory import MemoryLimits, MemoryStore, Recollection, SightingReco
 from planner.mission import JournalSync, MissionJournal, Missions, Rules
 from planner.mission.skills.spatial_relations import support_of
 from planner.navigation import RouteLimits, RouteWorker
+from planner.orders.factory import standing_orders_of
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of
 from planner.plan import Language
@@ -109,6 +110,7 @@ class Planner:
             brain=self.brain,
             disk=JournalSync(self._journal),
         )
+        self.orders = standing_orders_of(self.settings.orders, where.home, self._state, self.goals)
         self.goals.show_scans(self._router)
         limits = MemoryLimits(**self.settings.memory.model_dump())
         self.recollection = Recollection(MemoryStore(self._state, limits))
@@ -172,9 +174,11 @@ class Planner:
         self.goals.loop.hub.join(SpokenReplies(self.speaker))
         await self.eyes.start()
         await self.recorder.start(self.eyes.sight.things)
+        await self.orders.keeper.start()
 
     async def close(self) -> None:
         """End all parts; goals that ran come back paused in the next process."""
+        await self.orders.keeper.close()
         await self.recorder.close()
         await self.eyes.close()
         await self.goals.close()
@@ -238,7 +242,7 @@ async def _end_with(planner: Planner) -> None:
     And when the bridge holds the fence that now lies on the disk, and this planner an older one:
     whoever supervises it starts it anew, with the map's costs worked out for that fence.
     """
-    while (failure := planner.goals.failure) is None:
+    while (failure := planner.goals.failure or planner.orders.keeper.failure) is None:
         if planner.detector.refused is not None:
             log.critical("the detector that is set can't be used: %s", planner.detector.refused)
             break

@@ -24,6 +24,7 @@ class _EmptyServices:
     ears = None
     fences = None
     eyes = None
+    orders = None
 
     def __init__(self) -> None:
         self.site = Site.load(SITES / "two_room")

@@ -61,6 +61,11 @@ def parser() -> argparse.ArgumentParser:
     fenced.add_argument("act", choices=("show", "propose", "accept", "reject"))
     fenced.add_argument("what", nargs="?", help="a file to propose, or a proposal's id")
     _places(words)
+    kept = words.add_parser("orders", help="list standing orders, add, show, pause, remove one")
+    kept.add_argument("act", nargs="?", default="list",
+                      choices=("list", "add", "show", "pause", "resume", "remove"))  # fmt: skip
+    kept.add_argument("words", nargs="*", help="the order as a sentence, or an id")
+    kept.add_argument("--json", action="store_true")
     broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")
     broken.add_argument("--for", dest="seconds", type=_seconds, help="mend it after so long [s]")
@@ -287,7 +292,7 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
 _BARE_TOOLS = frozenset({"tls", "why", "key"})
 """Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
 _TOOLS = _BARE_TOOLS | {
-    "doctor", "braking", "fence", "places", "calibrate", "fault", "replay", "detect",
+    "doctor", "braking", "fence", "places", "orders", "calibrate", "fault", "replay", "detect",
 }  # fmt: skip
 
 
@@ -328,6 +333,10 @@ def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
         from pons import places
 
         return places.run(settings, said.act, said.name, chinese=said.zh)
+    if said.word == "orders":
+        from pons import orders
+
+        return orders.run(settings, said.act, said.words, as_json=said.json)
     if said.word == "fault":
         from pons import fault
 

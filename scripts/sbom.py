@@ -41,6 +41,7 @@ NOTES = {
 }
 STATED = {
     "eclipse-zenoh": "EPL-2.0 OR Apache-2.0",
+    "cronsim": "BSD-3-Clause",
     "lz4": "BSD-3-Clause",
     "pocketsphinx": "BSD-2-Clause AND BSD-3-Clause",
 }

@@ -70,6 +70,25 @@ _FALSE = "bridge/core/sensing/test_sensor_update_lies.py"
 _KEY = "bridge/test_operator_key.py"
 
 THREATS = (
+    Threat(
+        "A standing order that a model, a stop word, a viewer or a flood of orders would make",
+        "No model makes one; an order's words are read and judged as they are given and again at each firing, what moves beyond them waits for a yes; 64 orders, 5 minutes apart; a viewer gets 403",
+        (
+            "planner/orders/test_with_missions.py::test_a_model_that_drives_elsewhere_at_its_time_is_asked_about",
+            "planner/orders/test_with_missions.py::test_nothing_fires_after_a_stop_until_a_person_acts",
+            "planner/api/test_order_routes.py::test_a_viewer_may_look_and_change_nothing",
+            "planner/api/test_order_routes.py::test_no_more_orders_are_kept_than_a_page_can_show",
+        ),
+    ),
+    Threat(
+        "An address that is told of standing orders hangs, redirects or fails",
+        "Three tries in 12 s beside everything else, 32 messages wait at most, no redirect is followed, the URL is never logged",
+        (
+            "planner/orders/test_notifier.py::test_tries_are_bounded_and_no_redirect_is_followed",
+            "planner/orders/test_notifier.py::test_a_dead_address_is_given_up",
+            "planner/orders/test_notifier.py::test_no_more_than_so_many_wait",
+        ),
+    ),
     Threat("Connections that send nothing, or trickle, by the thousand",
            "A request's head has 5 s, a body 5 s and 64 kB/s; 128 connections an address, 512 in all; room "
            "is made by the oldest without a complete request, by one with a stop last",
@@ -224,6 +243,8 @@ that fail without the answer.
 _OPEN = """
 ## What is not promised
 
+- A webhook or ntfy topic that the owner sets learns when somebody is at home, what the robot is asked to do and how it
+  went (`words = false`: codes alone); whoever reads the topic reads that. No picture and no position is sent.
 - From another machine, or as a user without the right to the bridge's socket, `pons stop` has the planner's
   word alone, and says so. Whoever doubts it says `pons stop` at the robot, or presses the robot's own button.
 - A planner that was taken over can show anything in the page. The page signs what it shows, for the nonce of this moment and one kind

@@ -17,6 +17,7 @@ from planner.api import (
     memory,
     objects,
     operator,
+    orders,
     places,
     problems,
     robot,
@@ -39,7 +40,8 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, voice, operator, robot, places, localization, objects, memory, camera, fence, usage,
+    goals, voice, operator, robot, orders, places, localization, objects, memory, camera, fence,
+    usage,
     health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from planner.memory import Recollection
     from planner.mission import Leg
     from planner.navigation import ObstacleReport
+    from planner.orders.factory import StandingOrders
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
     from planner.site import FenceProposals, KnownPlaces, Site
@@ -191,6 +192,9 @@ class Services(Protocol):
 
     @property
     def budget(self) -> Budget: ...
+
+    @property
+    def orders(self) -> StandingOrders: ...
 
     @property
     def ears(self) -> Recogniser: ...

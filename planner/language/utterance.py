@@ -21,6 +21,7 @@ from planner.language.commands import (
 )
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.folding import is_chinese
+from planner.language.schedule import OrderCommand
 from planner.language.stop import StopReading, is_stop, read_stop
 from planner.language.yes_no import consents
 from planner.plan import Language
@@ -56,8 +57,8 @@ class Utterance:
         """Return whether a stop word stands in it that is not read as anything else."""
         if isinstance(self.intent, Replace | AppendCommand):
             return self.instead is not StopReading.NONE
-        plain = self.intent is None or isinstance(self.intent, TeachFact)
-        return plain and self.reading is StopReading.POSSIBLE
+        stays = isinstance(self.intent, TeachFact | OrderCommand)
+        return (self.intent is None or stays) and self.reading is StopReading.POSSIBLE
 
     @property
     def stays_put(self) -> bool:

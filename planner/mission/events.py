@@ -48,6 +48,8 @@ class Submitted:
     source: str = "api"
     local: bool = False
     """It is said to the planner itself, or answers: no order that needs room among the others."""
+    also: Bilingual | None = None
+    """What was done beside the stop that these words were: told with it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -60,6 +60,7 @@ from planner.plan import (
     Refuse,
     StepPlan,
     plan_record,
+    words_of,
 )
 
 MAP_CHANGED = say("goal.map_changed")
@@ -103,7 +104,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         updated_unix_s=now_unix_s,
     )
     if event.stop or (event.doubtful_stop and not event.echoed):
-        _end_stopped(turn, mission, event.echoed)
+        _end_stopped(turn, mission, event.echoed, event.also)
         return
     if event.asking:
         asking = take_sentence(turn, mission, event.asking)
@@ -113,9 +114,12 @@ def submit(turn: Transaction, event: Submitted) -> None:
     _think(turn, turn.put(mission))
 
 
-def _end_stopped(turn: Transaction, mission: Mission, echoed: bool) -> None:
+def _end_stopped(
+    turn: Transaction, mission: Mission, echoed: bool, also: Bilingual | None = None
+) -> None:
     if echoed:
-        said = Outcome(code=Code.STOPPED, message=stop_told(turn.book))
+        told = stop_told(turn.book) if also is None else join((stop_told(turn.book), also))
+        said = Outcome(code=Code.STOPPED, message=told)
         finish(turn, mission, PersonCause.ORDERS_STOP, said)
         return
     said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
@@ -147,7 +151,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
     plan = event.plan
     stepless = not isinstance(plan, StepPlan) or plan.does in STEPLESS
     if mission.doubtful_stop and stepless:
-        _end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True)
+        also = words_of(plan) if event.brain is None else None  # the planner's own, as it was told
+        _end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True, also=also)
         return
     if plan is None:
         outcome = event.failure or _bad_plan("no answer")

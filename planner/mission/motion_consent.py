@@ -38,8 +38,8 @@ def ask_for_motion(
         steps: the new ones.
         unasked: which of the new ones nobody asked for.
     """
-    known = {_key(step) for step in allowed}
-    found = [steps[i] for i in unasked if i < len(steps) and _key(steps[i]) not in known]
+    known = {key_of_deed(step) for step in allowed}
+    found = [steps[i] for i in unasked if i < len(steps) and key_of_deed(steps[i]) not in known]
     if not found:
         return None
     deeds = dict.fromkeys(_tell(facts, step) for step in found)
@@ -47,7 +47,8 @@ def ask_for_motion(
     return Outcome(code=Code.CONFIRM, message=message(Code.ASKED, text=why))
 
 
-def _key(step: StepRecord) -> tuple[object, ...]:
+def key_of_deed(step: StepRecord) -> tuple[object, ...]:
+    """Return what a step would do, so that two of the same are alike."""
     label = (step.object or "").strip().casefold()
     return (
         *(step.kind, step.place, step.places, label),

@@ -27,6 +27,7 @@ from planner.language.commands import (
     TeachFact,
     read_statement,
 )
+from planner.language.schedule import ChangeOrders, OrderCommand
 from planner.language.utterance import parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
@@ -34,6 +35,7 @@ from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_position
+from planner.mission.standing_goals import hold_to_order, is_of_order
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
@@ -43,9 +45,10 @@ from planner.site.pose_hint import hint_in
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from planner.mission.events import Command
+    from planner.mission.events import Command, Submitted
     from planner.mission.loop import Loop
     from planner.mission.memory_lookup import MemoryLookup
+    from planner.mission.standing_goals import OrderDesk
     from planner.mission.state import Mission
     from planner.mission.tasks import Think
     from planner.site.known_places import KnownPlaces
@@ -87,13 +90,24 @@ class PlannerCommands:
         """
         self._brain, self._memory, self._loop, self._link = think, memory, loop, link
         self._facts = FactCommands(lookup, memory, loop)
+        self.desk: OrderDesk | None = None
+        """Who keeps the standing orders."""
 
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
         mission = self._loop.book.missions.get(ask.id)
+        if self.desk is not None and mission is not None and is_of_order(mission):
+            return hold_to_order(await self._brain(ask), self.desk.allowed_steps(mission.source))
         intent = (
             parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
         )
+        standing = intent
+        if mission is not None and not mission.has_begun and not isinstance(intent, OrderCommand):
+            standing = parse(mission.order_text).intent  # its question is answered
+        if isinstance(standing, OrderCommand) and self.desk is not None and mission is not None:
+            return await self.desk.take(standing, ask, mission)
+        if isinstance(intent, OrderCommand):
+            intent = None
         if isinstance(intent, Replace) and not intent.corrects:
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:
@@ -107,6 +121,16 @@ class PlannerCommands:
         if intent is None or mission is None or mission.steps:
             return await self._brain(ask)
         return Planned(ask.id, await self.carry_out(intent, mission))
+
+    async def obey_beside_stop(self, given: Submitted) -> Bilingual | None:
+        """Remove or pause the standing orders that an order to stop names, too; say which.
+
+        "Stop checking the door every evening" stops the robot first, and then means what it says.
+        """
+        command = parse(given.text).intent
+        if self.desk is None or not given.stop or not isinstance(command, ChangeOrders):
+            return None  # a doubtful stop is thought about, and carried out then
+        return await self.desk.change(command, given.language)
 
     async def carry_out(self, intent: Intent, mission: Mission) -> AnswerPlan | Refuse:
         """Do it and say how it went."""

@@ -46,6 +46,10 @@ class Repeats:
 
     def __init__(self, kept: Iterable[GoalKey] = ()) -> None:
         """Begin with the journal's keys, oldest first."""
+        self.recall(kept)
+
+    def recall(self, kept: Iterable[GoalKey]) -> None:
+        """Take up the journal's keys, oldest first."""
         self._keys = {each.key: each for each in kept}
 
     def find(self, key: str | None) -> GoalKey | None:

@@ -1,7 +1,7 @@
 """Take goals and commands in and answer for them: the API's door to the missions.
 
-Every call is judged against the book at once, journalled before it returns, and carried out by the
-loop. An order to stop is judged before anything else and waits for no brain and no disk.
+Every call is judged against the book, journalled before it returns, and carried out by the loop. An
+order to stop is judged before anything else and waits for no brain and no disk.
 """
 
 from __future__ import annotations
@@ -50,6 +50,7 @@ from planner.mission.reception import (
 )
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.scan_sender import ScanObserver, ScanSender
+from planner.mission.standing_goals import StandingGoals
 from planner.mission.state import MissionState, Rules
 from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import RouteService
@@ -84,19 +85,18 @@ class Missions:
         self.link, self.memory = link, site if isinstance(site, KnownPlaces) else KnownPlaces(site)
         self.memory.use(RobotSurvey(link, router))
         site = self.memory.site
-        planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
-        identity = Identity(planner_id, robot.hash, site.fence.fence_hash, site.map_id)
+        self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
+        identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
         engine = Engine(MissionState(self.memory.facts), identity)
         self._clocks, self._robot, self._brain = clocks or Clocks(), robot, brain
         surveyor = Surveyor(link, robot, site.grid)
-        self.loop, self.planner_id = Loop(engine, link, disk, self._clocks, surveyor), planner_id
-        clock = self._clocks.monotonic
-        self._router, self._repeats = RouteAhead(router, self.loop, clock), Repeats()
+        self.loop = Loop(engine, link, disk, self._clocks, surveyor)
+        clock, self._repeats = self._clocks.monotonic, Repeats()
+        self._router = RouteAhead(router, self.loop, clock)
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
         self._lookup = MemoryLookup(self.loop, self._clocks.wall)
-        self._think = PlannerCommands(
-            self._ask_brain, self.memory, self.loop, link, self._lookup
-        ).think
+        self.commands = PlannerCommands(self._ask_brain, self.memory, self.loop, link, self._lookup)
+        self.standing = StandingGoals(self.loop, self._ask_brain, self._repeats)
         self.obstacles: ScanSender | None = None
         self.memory.listen(self._on_places)
 
@@ -131,9 +131,13 @@ class Missions:
         """
         self.loop.rule(rules or Rules())
         kept = await self.loop.start(
-            self._think, self._router, freeze=freeze, rounds=rounds, recall=self._lookup.answer
+            self.commands.think,
+            self._router,
+            freeze=freeze,
+            rounds=rounds,
+            recall=self._lookup.answer,
         )
-        self._repeats = Repeats(kept)
+        self._repeats.recall(kept)
 
     async def close(self) -> None:
         """End everything; a running goal comes back paused in the next process."""
@@ -280,7 +284,7 @@ class Missions:
 
     @property
     def first_waypoint_s(self) -> tuple[float, ...]:
-        """Return the newest times from a goal's acceptance to its first waypoint [s]."""
+        """Return the newest times from acceptance to first waypoint [s]."""
         return tuple(self.loop.accepted.seconds)
 
     def goal(self, goal_id: str) -> Goal:
@@ -321,7 +325,8 @@ class Missions:
 
     async def _stop_goal(self, given: Submitted, source: str) -> Goal:
         result = await self.stop(source)
-        self.loop.event(dataclasses.replace(given, echoed=result.is_echoed))
+        also = await self.commands.obey_beside_stop(given)
+        self.loop.event(dataclasses.replace(given, echoed=result.is_echoed, also=also))
         return self.goal(given.id)
 
     def _newest_paused(self) -> str:
@@ -330,9 +335,10 @@ class Missions:
         return goal_id
 
     async def _ask_brain(self, ask: AskBrain) -> Planned:
-        eyes = (self._hearing, self.loop.book.means, self.loop.book.eyes.classes)
+        book, names = self.loop.book, self.memory.vocabulary
+        eyes = (self._hearing, book.means, book.eyes.classes)
         remember = self._lookup.find_relevant
-        return await thinker(self._brain, self.memory.vocabulary, *eyes, remember=remember)(ask)
+        return await thinker(self._brain, names, *eyes, remember=remember)(ask)
 
     def step_kind(self) -> str:
         """Return the kind of the step that is under way; empty where none is."""

@@ -37,6 +37,7 @@ from planner.plan.responses import (
     PlanRole,
     Refuse,
     StepPlan,
+    words_of,
 )
 from planner.plan.steps import (
     CONDITIONS,
@@ -173,4 +174,5 @@ __all__ = [
     "plan_record",
     "root_of",
     "say_same",
+    "words_of",
 ]

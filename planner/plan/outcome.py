@@ -40,6 +40,7 @@ class Code(StrEnum):
     NOT_ARMED = "not_armed"
     PLACE_NOT_KEPT = "place_not_kept"
     NOT_KEPT = "not_kept"
+    ORDER_NOT_KEPT = "order_not_kept"
     # On the way.
     CONFIRM = "confirm"
     ASKED = "asked"

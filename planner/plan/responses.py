@@ -73,3 +73,16 @@ class Refuse(Frozen):
 
 Plan = Annotated[StepPlan | AnswerPlan | Clarify | Refuse, Field(discriminator="kind")]
 PLAN: TypeAdapter[StepPlan | AnswerPlan | Clarify | Refuse] = TypeAdapter(Plan)
+
+
+def words_of(plan: StepPlan | AnswerPlan | Clarify | Refuse | None) -> Bilingual | None:
+    """Return what a plan says to a person; None where it says nothing."""
+    match plan:
+        case AnswerPlan():
+            return plan.text
+        case Clarify():
+            return plan.question
+        case Refuse():
+            return plan.reason
+        case _:
+            return None

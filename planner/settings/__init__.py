@@ -12,6 +12,7 @@ from planner.settings.loader import (
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
+from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import PRESETS, JsonMode, Preset, PresetName, TokensField
 from planner.settings.vision import VisionSettings
 from planner.settings.voice import SpeechSettings, VoiceSettings
@@ -28,6 +29,8 @@ __all__ = [
     "MemorySettings",
     "MissionSettings",
     "ModelSettings",
+    "NotifySettings",
+    "OrderSettings",
     "Preset",
     "PresetName",
     "Price",

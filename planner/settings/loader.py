@@ -20,6 +20,7 @@ from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
+from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import known_as
 from planner.settings.vision import VisionSettings, with_environment
 from planner.settings.voice import SpeechSettings, VoiceSettings
@@ -49,6 +50,7 @@ class Settings(BaseModel):
     vision: VisionSettings = VisionSettings()
     voice: VoiceSettings = VoiceSettings()
     speech: SpeechSettings = SpeechSettings()
+    orders: OrderSettings = OrderSettings()
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
@@ -271,6 +273,8 @@ _TABLES: dict[str, type[BaseModel]] = {
     "vision": VisionSettings,
     "voice": VoiceSettings,
     "speech": SpeechSettings,
+    "orders": OrderSettings,
+    "orders.notify": NotifySettings,
     "budget": BudgetSettings,
     "budget.goal": GoalLimits,
     "budget.day": DayLimits,

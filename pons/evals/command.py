@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 REACHED, MISSED, REFUSED = 0, 1, 2
-TALK, MEMORY = "talk", "memory"
+TALK, MEMORY, ORDERS = "talk", "memory", "orders"
 GOAL = 0.9
 Scored = TypeVar("Scored")
 
@@ -53,6 +53,8 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
         parser.error("give a SUITE, --quick or --journal")
     if said.suite in (TALK, MEMORY):
         return _talk(settings, said)
+    if said.suite == ORDERS:
+        return _orders(settings, said)
     try:
         suites = load(said.suite, said.data, said.site)
         if said.guard:
@@ -101,13 +103,34 @@ def _talk(settings: LaunchSettings, said: argparse.Namespace) -> int:
         return REFUSED
 
 
+def _orders(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    """Score sentences about standing orders, in both languages."""
+    from pons.evals.orders import read_order_cases, score_orders, show_orders
+
+    async def score(brain: Brain) -> int:
+        site, right, count = Site.load(said.site), 0, 0
+        for name in ("en", "zh"):
+            verdicts = await score_orders(read_order_cases(name), brain, site)
+            print(show_orders(name, verdicts))
+            right, count = right + sum(v.right for v in verdicts), count + len(verdicts)
+        return REACHED if right >= GOAL * count else MISSED
+
+    try:
+        return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
+    except (SiteError, ConfigError) as wrong:
+        print(f"pons eval: {wrong}", file=sys.stderr)
+        return REFUSED
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="pons eval",
         description="Score what a brain plans. Exit status: 0 goal reached, 1 not, 2 not asked.",
     )
     parser.add_argument(
-        "suite", nargs="?", help=f"{', '.join(suite_names())}, {TALK}, {MEMORY}, or a .tsv file"
+        "suite",
+        nargs="?",
+        help=f"{', '.join(suite_names())}, {TALK}, {MEMORY}, {ORDERS}, or a .tsv file",
     )
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from planner.language.schedule.command import OrderCommand
+
 
 @dataclass(frozen=True, slots=True)
 class Remember:
@@ -131,4 +133,5 @@ Intent = (
     | Doing
     | Slower
     | Faster
+    | OrderCommand
 )

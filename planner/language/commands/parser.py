@@ -32,6 +32,7 @@ from planner.language.commands.command import (
 from planner.language.commands.facts import read_fact_order
 from planner.language.commands.follow_up import read_follow_up
 from planner.language.folding import fold_script, fold_width, has_chinese
+from planner.language.schedule import read_order_command
 from planner.language.stop import is_stop
 
 MAX_READ = 300
@@ -71,6 +72,8 @@ def intent_of(text: str) -> Intent | None:
     if (own := _intent_alone(text)) is not None:
         return own
     unread = not text.strip() or len(text) > MAX_READ or any(map(_unseen, text))
+    if not unread and (standing := read_order_command(text)) is not None:
+        return standing
     after = None if unread else read_follow_up(text)
     rest = after.rest if isinstance(after, Replace | AppendCommand) else None
     # "no, continue": whichever is meant, a person must say; an order to stop stands for itself

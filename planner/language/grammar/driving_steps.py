@@ -15,9 +15,9 @@ from pydantic import ValidationError
 from planner.language.catalogue import say as message_of
 from planner.language.grammar.clauses import FIRST_QUOTE
 from planner.language.grammar.noun_phrases import go_to, several_of, up_to
-from planner.language.grammar.numbers import angle_rad, metres, seconds, times
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
 from planner.language.grammar.step_builders import ASIDE, look, missing, one_at_a_time
+from planner.language.numbers import angle_rad, metres, seconds, times
 from planner.plan import (
     Code,
     ComeBack,

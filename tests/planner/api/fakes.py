@@ -22,6 +22,7 @@ from planner.plan import Goal, GoalState, Language
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.state_database import StateDatabase
 from planner.voice import Recognition, Sound, VoiceAbilities, VoiceFailure
+from tests.planner.orders.fakes import FakeMissions, MovedClocks, standing_orders
 from tests.wire.examples import STATUS
 from wire import (
     Answer,
@@ -293,3 +294,5 @@ class FakeServices:
         self.memory = KnownPlaces(self.site)
         self.recollection = Recollection(MemoryStore(StateDatabase(Path("/nowhere"))))
         self.fences = FenceProposals.in_home(Path("/nowhere"))
+        clock = MovedClocks()
+        self.orders = standing_orders(Path("/nowhere"), clock, FakeMissions(clock, "two_room"))

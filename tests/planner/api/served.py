@@ -45,6 +45,7 @@ class Stage:
     def __init__(self) -> None:
         self.site = two_room()
         self.goals, self.robot = Part("goals"), Part("robot")
+        self.orders = Part("orders")
 
     def __getattr__(self, name: str) -> Any:
         return getattr(_AT_HAND.get(), name)

@@ -1,6 +1,7 @@
 /** Ask the planner over HTTP. Every failure is an ApiError with a code; nothing is thrown raw. */
 import type {
   Bilingual,
+  Firing,
   Goal,
   Grid,
   Known,
@@ -8,6 +9,7 @@ import type {
   Memories,
   Objects,
   Pose,
+  StandingOrders,
   Taught,
 } from "../wire/types";
 import type { OperatorProof } from "./proof";
@@ -173,6 +175,31 @@ export async function hintPose(where: { point: Point } | { place: string }): Pro
 
 export async function forgetPlace(id: string): Promise<void> {
   await call("DELETE", `/v1/places/${encodeURIComponent(id)}`);
+}
+
+export async function fetchOrders(): Promise<StandingOrders> {
+  return (await call("GET", "/v1/orders")) as StandingOrders;
+}
+
+export async function fetchHistory(id: string): Promise<readonly Firing[]> {
+  const shown = (await call("GET", `/v1/orders/${encodeURIComponent(id)}`)) as {
+    readonly history: readonly Firing[];
+  };
+  return shown.history;
+}
+
+/** Give a standing order as a sentence; return what the robot will do, in both languages. */
+export async function giveOrder(text: string): Promise<Bilingual> {
+  const kept = await call("POST", "/v1/orders", { text, source: "page" });
+  return (kept as { readonly told: Bilingual }).told;
+}
+
+export async function changeOrder(id: string, verb: "pause" | "resume"): Promise<void> {
+  await call("POST", `/v1/orders/${encodeURIComponent(id)}/${verb}`, {});
+}
+
+export async function removeOrder(id: string): Promise<void> {
+  await call("DELETE", `/v1/orders/${encodeURIComponent(id)}`);
 }
 
 export async function fetchGrid(): Promise<Grid> {

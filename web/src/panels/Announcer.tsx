@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { say, word } from "../i18n";
 import { note, tell } from "../state/acts";
-import { goals } from "../state/store";
+import { goals, orderTold } from "../state/store";
 import type { Goal } from "../wire/types";
 
 const SHOWN_MS = 6000;
@@ -11,6 +11,7 @@ const SHOWN_MS = 6000;
 export function Announcer() {
   const shown = note.value;
   useEffect(() => watchOutcomes(), []);
+  useEffect(() => watchOrders(), []);
   useEffect(() => {
     if (!shown) return;
     const timer = setTimeout(() => {
@@ -34,6 +35,13 @@ function watchOutcomes(): () => void {
       if (known !== null && known.get(goal.id) !== goal.state) announce(goal);
     }
     if (states.size > 0 || known !== null) known = states;
+  });
+}
+
+/** Tell what becomes of standing orders: a reminder's words, a run that was missed. */
+function watchOrders(): () => void {
+  return effect(() => {
+    if (orderTold.value) tell(say(orderTold.value.words), orderTold.value.bad);
   });
 }
 

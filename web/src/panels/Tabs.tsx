@@ -6,13 +6,15 @@ import { t } from "../i18n";
 import { DriveTab } from "./DriveTab";
 import { LogTab } from "./LogTab";
 import { ObjectsTab } from "./ObjectsTab";
+import { OrdersTab } from "./OrdersTab";
 import { PlacesTab } from "./PlacesTab";
 import { RobotTab } from "./RobotTab";
 
-type TabId = "drive" | "places" | "objects" | "robot" | "log";
+type TabId = "drive" | "orders" | "places" | "objects" | "robot" | "log";
 
 const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "drive", View: DriveTab },
+  { id: "orders", View: OrdersTab },
   { id: "places", View: PlacesTab },
   { id: "objects", View: ObjectsTab },
   { id: "robot", View: RobotTab },

@@ -1,10 +1,11 @@
 /** Say an entry of the log in a sentence; what has none keeps its code. */
-import { causeWords, rowWords, t, word } from "../i18n";
+import { causeWords, rowWords, say, t, word } from "../i18n";
 import type { LogEntry } from "../state/model";
 
 export type Told = { readonly text: string; readonly fine: string };
 
 export function told(entry: LogEntry): Told {
+  if (entry.words) return { text: say(entry.words), fine: "" };
   if (entry.kind === "say") return { text: `${t("log.say")}: ${entry.text}`, fine: "" };
   if (entry.kind === "act") return { text: t("log.act", { code: entry.code }), fine: "" };
   if (entry.kind === "planner") return { text: entry.text, fine: entry.code };

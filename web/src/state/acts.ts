@@ -6,15 +6,18 @@ import {
   ApiError,
   actOnGoal,
   answerGoal,
+  changeOrder,
   forgetObject,
   forgetPlace,
   type GoalVerb,
   giveGoal,
+  giveOrder,
   hintPose,
   moveGoal,
   type Names,
   operate,
   type Point,
+  removeOrder,
   teachPlace,
 } from "../net/api";
 import { prove, proveGoal } from "../net/proof";
@@ -111,6 +114,20 @@ export function forget(place: Taught): Promise<boolean> {
   return attempt(async () => {
     await forgetPlace(place.id);
     tell(t("places.gone", { name: say(place.name) }));
+    return undefined;
+  });
+}
+
+export function keepOrder(text: string): Promise<boolean> {
+  return attempt(async () => {
+    tell(say(await giveOrder(text)));
+    return undefined;
+  });
+}
+
+export function turnOrder(id: string, verb: "pause" | "resume" | "remove"): Promise<boolean> {
+  return attempt(async () => {
+    await (verb === "remove" ? removeOrder(id) : changeOrder(id, verb));
     return undefined;
   });
 }

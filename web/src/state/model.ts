@@ -4,6 +4,7 @@
  */
 import type {
   About,
+  Bilingual,
   Draft,
   Frame,
   Goal,
@@ -25,13 +26,17 @@ export const MAX_LOG = 200;
 export type LogEntry = {
   readonly id: number;
   readonly at: number; // Date.now(), to show
-  readonly kind: "bridge" | "say" | "act" | "planner";
+  readonly kind: "bridge" | "say" | "act" | "planner" | "told";
   readonly code: string;
   readonly text: string;
+  readonly words?: Bilingual; // of what the planner told in both languages
 };
 
 /** Words that the robot speaks; a new object each time. */
 export type Spoken = { readonly text: string; readonly language: Language };
+
+/** What was told of a standing order; `id` rises with each. */
+export type Told = { readonly id: number; readonly words: Bilingual; readonly bad: boolean };
 
 /** The planner's answer to a stop over the socket; a new object each time. */
 export type StopAnswer = { readonly confirmed: boolean };
@@ -43,6 +48,8 @@ export type Model = {
   readonly drafts: readonly Draft[]; // of goals that are thought about now
   readonly usage: Usage | null;
   readonly placesVersion: number; // changes when a place is taught or forgotten
+  readonly ordersVersion: number; // changes with the standing orders, and with a new connection
+  readonly told: Told | null; // of a standing order, the newest
   readonly sight: Sight | null;
   readonly sightAt: Moment | null;
   readonly blindAt: Moment | null; // when this page first heard that it is blind so
@@ -68,6 +75,8 @@ export const EMPTY: Model = {
   drafts: [],
   usage: null,
   placesVersion: 0,
+  ordersVersion: 0,
+  told: null,
   sight: null,
   sightAt: null,
   blindAt: null,
@@ -121,6 +130,7 @@ function take(model: Model, frame: Frame, now: Moment): Model {
         drafts: thoughtAbout(model.drafts, frame.goals),
         usage: frame.usage,
         placesVersion: frame.places_version,
+        ordersVersion: model.ordersVersion + 1,
         sight: frame.sight,
         sightAt: now,
         blindAt: blindSince(model, frame.sight, now),
@@ -159,6 +169,13 @@ function take(model: Model, frame: Frame, now: Moment): Model {
     }
     case "places":
       return { ...model, placesVersion: frame.version };
+    case "orders":
+      return { ...model, ordersVersion: model.ordersVersion + 1 };
+    case "told": {
+      const bad = frame.about === "missed" || frame.about === "failed";
+      const told = { id: (model.told?.id ?? 0) + 1, words: frame.words, bad };
+      return { ...logged(model, "told", frame.code, "", now, frame.words), told };
+    }
     case "gap":
       return { ...model, gaps: model.gaps + 1, wantsSnapshot: true };
     case "stopped":
@@ -185,9 +202,11 @@ function logged(
   code: string,
   text: string,
   now: Moment,
+  words?: Bilingual,
 ): Model {
   const id = (model.log[0]?.id ?? 0) + 1;
-  const entry: LogEntry = { id, at: now.wallMs, kind, code, text };
+  const said = words === undefined ? {} : { words };
+  const entry: LogEntry = { id, at: now.wallMs, kind, code, text, ...said };
   return { ...model, log: [entry, ...model.log].slice(0, MAX_LOG) };
 }
 

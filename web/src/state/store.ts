@@ -65,6 +65,8 @@ export const goals = computed(() => model.value.goals);
 export const drafts = computed(() => model.value.drafts);
 export const usage = computed(() => model.value.usage);
 export const placesVersion = computed(() => model.value.placesVersion);
+export const ordersVersion = computed(() => model.value.ordersVersion);
+export const orderTold = computed(() => model.value.told);
 export const sight = computed(() => model.value.sight);
 export const sightAt = computed(() => model.value.sightAt);
 export const blindAt = computed(() => model.value.blindAt);

@@ -3,6 +3,7 @@
  * that are not finite are no frames; whoever calls counts them.
  */
 import type {
+  Bilingual,
   BridgeEvent,
   Draft,
   Frame,
@@ -229,6 +230,9 @@ const isAbout = (value: unknown): boolean =>
   bag(value.limits) &&
   finite(value.limits.max_speed_mps);
 
+const isWords = (value: unknown): value is Bilingual =>
+  bag(value) && text(value.en) && text(value.zh);
+
 const isEvent = (value: unknown): value is BridgeEvent =>
   bag(value) && text(value.code) && text(value.mode) && text(value.detail) && finite(value.seq);
 
@@ -275,6 +279,14 @@ export function decode(data: unknown): Frame | null {
       return isSight(came.sight) ? { seq, kind: "sight", sight: came.sight } : null;
     case "places":
       return finite(came.version) ? { seq, kind: "places", version: came.version } : null;
+    case "orders":
+      return finite(change.version)
+        ? { seq, kind: "orders", version: change.version }
+        : null;
+    case "told":
+      return isWords(change.message) && text(change.kind) && text(change.code)
+        ? { seq, kind: "told", about: change.kind, code: change.code, words: change.message }
+        : null;
     case "say":
       return text(change.text)
         ? { seq, kind: "say", text: change.text, language: change.language === "zh" ? "zh" : "en" }

@@ -322,6 +322,13 @@ export type Frame = { readonly seq: number } & (
   | { readonly kind: "usage"; readonly usage: Usage }
   | { readonly kind: "sight"; readonly sight: Sight }
   | { readonly kind: "places"; readonly version: number }
+  | { readonly kind: "orders"; readonly version: number }
+  | {
+      readonly kind: "told"; // what became of a standing order
+      readonly about: string;
+      readonly code: string;
+      readonly words: Bilingual;
+    }
   | { readonly kind: "say"; readonly text: string; readonly language: Language }
   | { readonly kind: "act"; readonly accepted: boolean; readonly code: string }
   | { readonly kind: "bridge"; readonly event: BridgeEvent }
@@ -420,3 +427,33 @@ export type Memory = {
 };
 
 export type Memories = { readonly memories: readonly Memory[] };
+
+/** A standing order, as the planner shows it. */
+export type StandingOrder = {
+  readonly id: string;
+  readonly text: string;
+  readonly when: Bilingual;
+  readonly does: Bilingual;
+  readonly state: "active" | "paused" | "ended";
+  readonly next: string | null; // on the robot's own clock
+  readonly fired: number;
+  readonly missed: number;
+};
+
+/** One run of it, or several that were missed together. */
+export type Firing = {
+  readonly serial: number;
+  readonly due: string;
+  readonly state: "begun" | "given" | "ended" | "missed" | "quiet";
+  readonly reason: string | null;
+  readonly code: string | null;
+  readonly count: number;
+  readonly told: Bilingual | null;
+};
+
+export type StandingOrders = {
+  readonly timezone: string;
+  readonly quiet: string | null;
+  readonly most: number;
+  readonly orders: readonly StandingOrder[];
+};

@@ -25,7 +25,6 @@ from planner.language.grammar.driving_steps import (
 )
 from planner.language.grammar.en import GO, THE
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.numbers import EN_ANGLE, EN_DURATION, EN_LENGTH, TIMES
 from planner.language.grammar.parse_result import (
     Meaning,
     Reading,
@@ -38,6 +37,7 @@ from planner.language.grammar.parse_result import (
 )
 from planner.language.grammar.small_talk import Topic
 from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
+from planner.language.numbers import EN_ANGLE, EN_DURATION, EN_LENGTH, TIMES
 from planner.plan import Code
 
 _LEAD = (

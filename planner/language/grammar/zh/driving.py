@@ -24,7 +24,6 @@ from planner.language.grammar.driving_steps import (
     wander,
 )
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
 from planner.language.grammar.parse_result import (
     Meaning,
     Reading,
@@ -39,6 +38,7 @@ from planner.language.grammar.parse_result import (
 from planner.language.grammar.small_talk import Topic
 from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
 from planner.language.grammar.zh import ALL_ROOMS, GO
+from planner.language.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
 from planner.plan import Code, Say
 
 _AFTER = r"(?:去一下|去一趟|去|来|过去|待命|停下来?|等我|一下|一趟|走一趟|转转|转一圈)?"

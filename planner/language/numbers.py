@@ -89,6 +89,11 @@ def _value(number: str) -> float | None:
     return _EN_VALUES[number] if number in _EN_VALUES else _chinese(number)
 
 
+def chinese_number(number: str) -> float | None:
+    """Return a number in Chinese characters: 半, 0 to 199; None where it is none."""
+    return _chinese(number)
+
+
 def _chinese(number: str) -> float | None:
     """Read 半, 0 to 99 written with 十, or one digit."""
     if number == "半":

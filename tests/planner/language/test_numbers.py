@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.language.grammar.numbers import seconds
+from planner.language.numbers import seconds
 
 
 @pytest.mark.parametrize(

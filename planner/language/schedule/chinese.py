@@ -1,0 +1,197 @@
+"""Find the parts of a time in a Chinese sentence, and its words about standing orders.
+
+All patterns read simplified characters without spaces.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from planner.language.numbers import ZH_DURATION, chinese_number, seconds
+from planner.language.schedule.parts import (
+    EVERY_DAY,
+    WEEKEND,
+    WORKDAYS,
+    After,
+    ClockTime,
+    DayPart,
+    EventPart,
+    Interval,
+    OnceDay,
+    Part,
+    WeekDays,
+    hour_in,
+)
+from planner.plan.timing import WorldEvent
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+GAP = re.compile(r"[,、]*(?:的时候|的)?[,、]*")
+_PARTS = {
+    "清晨": DayPart.MORNING, "早上": DayPart.MORNING, "早晨": DayPart.MORNING, "早": DayPart.MORNING,
+    "上午": DayPart.MORNING, "中午": DayPart.NOON, "正午": DayPart.NOON, "下午": DayPart.AFTERNOON,
+    "傍晚": DayPart.EVENING, "晚上": DayPart.EVENING, "晚": DayPart.EVENING, "夜里": DayPart.NIGHT,
+    "夜间": DayPart.NIGHT, "夜晚": DayPart.NIGHT, "深夜": DayPart.NIGHT, "半夜": DayPart.NIGHT,
+    "凌晨": DayPart.NIGHT,
+}  # fmt: skip
+_P = "|".join(sorted(_PARTS, key=len, reverse=True))
+_N = r"\d{1,2}|[零一二三四五六七八九十两]{1,3}"
+_DAY = r"[一二三四五六日天]"
+_WEEK = r"(?:周|星期|礼拜)"
+_WEEKDAYS = "日一二三四五六"
+
+_CLOCK = re.compile(
+    rf"(?:在|到)?(?P<part>{_P})?(?:(?P<h>\d{{1,2}})[:](?P<m>\d{{2}})"
+    rf"|(?P<oh>{_N})(?:点钟?|时)(?:整|(?P<half>半)|(?P<q>一刻|三刻)|(?P<om>{_N})分?)?)"
+    rf"|(?P<noon>(?:中午|正午)(?:十二点)?)|(?P<midnight>午夜|半夜十二点)"
+)
+_DAYPART = re.compile(rf"(?:在)?(?P<part>{_P})")
+_EVERY = re.compile(
+    rf"(?:每一?天|每日|天天|日日)(?P<part>{_P})?(?![一二两三四五六七八九十\d]?个)|每个?(?P<eve>{_P})"
+    r"|每?个?(?P<work>工作日)|每?个?(?P<end>周末)"
+)
+_WEEKLY = re.compile(
+    rf"(?:每个?{_WEEK}|逢{_WEEK})(?P<days>{_DAY}(?:(?:、|,|和|及|跟|与)?(?:每个?)?(?:{_WEEK})?{_DAY})*)"
+)
+_HOURLY = re.compile(r"每(?:隔)?(?:一)?(?P<half>半)?个?(?:小时|钟头)(?:一次)?")
+_EVERY_SO = re.compile(rf"每(?:隔|过)?{ZH_DURATION}(?:一次)?")
+_ONE_DAY = re.compile(
+    rf"(?P<day>今天|今日|明天|明日|后天|今晚|今夜|明晚|今早|明早)|(?:下个?|这个?|本)?{_WEEK}(?P<week>{_DAY})"
+)
+_AHEAD = {"今": 0, "明": 1, "后": 2}
+_LASTS = rf"(?:(?P<and>{_N})个半(?:小时|钟头)|半个?(?P<halfhour>小时|钟头)|(?P<quarter>一刻钟)|{ZH_DURATION})"
+_IN = re.compile(
+    rf"{_LASTS}(?:之后|以后|过后|后)|(?:过|再过){_LASTS.replace('?P<', '?P<x')}(?:之后|以后|后)?"
+)
+
+_OPENS = r"(?:当|只要|一旦|每当|每次|一|要是一)?(?:你)?"
+_CLOSES = r"(?:了)?(?P<end>的时候|之后|以后|时|后)?,?(?:你?就|都|请)?"
+_SOMEBODY = r"(?:有人|有客人|客人|来人|谁|人)"
+_EVENTS: tuple[tuple[str, WorldEvent], ...] = (
+    (rf"{_SOMEBODY}(?:一)?(?:走)?(?:进来|进门|进屋|回家|回来|到家|来访|来|过来|出现|到|在门口)", WorldEvent.PERSON_SEEN),
+    (r"(?:看到|看见|发现|遇到|见到)(?:有)?人", WorldEvent.PERSON_SEEN),
+    (r"(?:有|发现|看到)(?:任何|什么)?(?:动静|东西在?动|移动)", WorldEvent.MOVEMENT),
+    (r"(?:电量|电池|电)(?:过|太|很|变)?(?:低|不足|不够|快没)|(?:快)?没电|电快(?:用完|没)", WorldEvent.BATTERY_LOW),
+    (r"(?:任务|目标)(?:失败|没完成|出错)", WorldEvent.GOAL_FAILED),
+    (r"(?:任务|目标)(?:完成|结束|做完)", WorldEvent.GOAL_DONE),
+    (r"(?:回到|到)(?:了)?家", WorldEvent.ARRIVED_HOME),
+)  # fmt: skip
+_UPON = tuple(
+    (re.compile(rf"(?P<open>{_OPENS})(?:{pattern}){_CLOSES}"), event) for pattern, event in _EVENTS
+)
+
+POLITE = re.compile(
+    r"(?:请问?|麻烦你?|劳驾|拜托|机器人|小车|喂|嗨|你好|帮我|我要你|我想让你|我想要你|我希望你|你要|你得|你"
+    r"|记得|记住|以后|从今天起|从现在起|那|,)+"
+)
+POLITE_END = re.compile(r"(?:吧|啊|呀|哦|好吗|行吗|可以吗|谢谢你?|,|一下)+$")
+ASKS = re.compile(
+    r".*(?:吗|呢)$|(?![^说]*说).*(?:什么|几次|多少次|哪里|哪儿|怎么|为何|是不是)|(?:如果|要是|假如|除非)"
+)
+REMIND = re.compile(r"(?:再)?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我)|(?:叫|喊)我(?!的))")
+OF = re.compile(r"[,:]*(?:要|该|去|说)?[,:]*")
+WAKE_UP = "该起床了"
+LEAD = re.compile(r"[,:、]*(?:就|都|要|再|请|帮我|你|给我)*")
+
+
+def _clock(found: re.Match[str]) -> tuple[Part, ...]:
+    if found["noon"]:
+        return (ClockTime(12, 0, sure=True),)
+    if found["midnight"]:
+        return (ClockTime(0, 0, sure=True),)
+    hour = _number(found["h"] or found["oh"])
+    minute = _minute(found)
+    if hour is None or minute is None or not (hour < 24 and minute < 60):
+        return ()
+    if found["part"]:
+        return (ClockTime(hour_in(hour, _PARTS[found["part"]]) % 24, minute, sure=True),)
+    return (ClockTime(hour, minute, hour > 12 or hour == 0),)
+
+
+def _minute(found: re.Match[str]) -> int | None:
+    if found["m"]:
+        return int(found["m"])
+    if found["half"]:
+        return 30
+    if found["q"]:
+        return 15 if found["q"] == "一刻" else 45
+    return _number(found["om"]) if found["om"] else 0
+
+
+def _number(word: str) -> int | None:
+    value = float(word) if word.isdigit() else chinese_number(word)
+    return None if value is None else int(value)
+
+
+def _every(found: re.Match[str]) -> tuple[Part, ...]:
+    if found["work"]:
+        return (WeekDays(WORKDAYS),)
+    if found["end"]:
+        return (WeekDays(WEEKEND),)
+    part = found["part"] or found["eve"]
+    return (WeekDays(EVERY_DAY), _PARTS[part]) if part else (WeekDays(EVERY_DAY),)
+
+
+def _weekly(found: re.Match[str]) -> tuple[Part, ...]:
+    named = re.findall(_DAY, found["days"])
+    return (WeekDays(frozenset(_WEEKDAYS.index(day.replace("天", "日")) for day in named)),)
+
+
+def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
+    if found["week"]:
+        sunday_first = _WEEKDAYS.index(found["week"].replace("天", "日"))
+        return (OnceDay(weekday=(sunday_first - 1) % 7),)
+    day = found["day"]
+    part: tuple[Part, ...] = ()
+    if day[1] in "晚夜":
+        part = (DayPart.EVENING,)
+    elif day[1] == "早":
+        part = (DayPart.MORNING,)
+    return (OnceDay(ahead=_AHEAD[day[0]]), *part)
+
+
+def _in(found: re.Match[str]) -> tuple[Part, ...]:
+    group = {name.removeprefix("x"): text for name, text in found.groupdict().items()
+             if text is not None}  # fmt: skip
+    if "and" in group:
+        hours = _number(group["and"])
+        return () if hours is None else (After(hours * 3600.0 + 1800.0),)
+    if "halfhour" in group:
+        return (After(1800.0),)
+    if "quarter" in group:
+        return (After(900.0),)
+    lasts_s = seconds(group["number"], group["unit"])
+    return () if lasts_s is None else (After(lasts_s),)
+
+
+def _interval(found: re.Match[str]) -> tuple[Part, ...]:
+    lasts_s = seconds(found["number"], found["unit"])
+    return () if lasts_s is None else (Interval(lasts_s),)
+
+
+def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
+    def make(found: re.Match[str]) -> tuple[Part, ...]:
+        """Take it where a word says "when" or "then": 有人来 alone tells a fact."""
+        said = found.group()
+        marked = (
+            found["open"].removesuffix("你") or found["end"] or said.endswith((",", "就", "都"))
+        )
+        return (EventPart(event),) if marked else ()
+
+    return make
+
+
+PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
+    *((pattern, _event(event)) for pattern, event in _UPON),
+    (_IN, _in),
+    (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
+    (_EVERY_SO, _interval),
+    (_WEEKLY, _weekly),
+    (_EVERY, _every),
+    (_ONE_DAY, _one_day),
+    (_CLOCK, _clock),
+    (_DAYPART, lambda found: (_PARTS[found["part"]],)),
+)
+"""What begins a part, and the parts that it makes; empty: it is none after all."""

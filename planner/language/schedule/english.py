@@ -1,0 +1,258 @@
+"""Find the parts of a time in an English sentence, and its words about standing orders.
+
+All patterns read lower case with single spaces. ``PARTS`` are tried in order where a part may begin.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from planner.language.numbers import EN_DURATION, seconds
+from planner.language.schedule.parts import (
+    EVERY_DAY,
+    WEEKEND,
+    WORKDAYS,
+    After,
+    ClockTime,
+    DayPart,
+    EventPart,
+    Interval,
+    OnceDay,
+    Part,
+    WeekDays,
+)
+from planner.plan.timing import WorldEvent
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+GAP = re.compile(r"[ ,]*(?:and )?")
+"""Between two parts."""
+_NUMBERS = [
+    "one",
+    "two",
+    "three",
+    "four",
+    "five",
+    "six",
+    "seven",
+    "eight",
+    "nine",
+    "ten",
+    "eleven",
+    "twelve",
+]
+_HOURS = {word: number for number, word in enumerate(_NUMBERS, 1)}
+_MINUTES = {"five": 5, "ten": 10, "fifteen": 15, "twenty": 20, "twenty five": 25, "twenty-five": 25,
+            "thirty": 30, "forty": 40, "forty five": 45, "forty-five": 45, "fifty": 50,
+            "quarter": 15, "a quarter": 15, "half": 30}  # fmt: skip
+_H = rf"\d{{1,2}}|{'|'.join(_NUMBERS)}"
+_M = "|".join(sorted(_MINUTES, key=len, reverse=True))
+
+
+def _half(name: str) -> str:
+    """Return the pattern of "pm", with a group of this name."""
+    return rf"(?: ?(?P<{name}>[ap])\.?m\b\.?)"
+
+
+_PART = r"morning|afternoon|evening|night|noon"
+_DAYS = ["sunday", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday"]
+_DAY = "|".join(_DAYS)
+_END = r"(?![\w'])"
+
+_CLOCK = re.compile(
+    rf"(?:at |by )?(?:about |around |exactly )?(?:(?P<h>\d{{1,2}})[:.](?P<m>\d{{2}}){_half('ap')}?(?: ?h\b)?"
+    rf"|(?P<past>{_M}) (?P<way>past|to|after|before) (?P<ph>{_H}){_half('ap4')}?"
+    rf"|(?P<oh>{_H})(?: (?P<om>{_M}))?(?: ?o'clock{_half('ap2')}?"
+    rf"|{_half('ap3')})"
+    rf"|(?P<noon>noon|midday|midnight))(?: sharp)?{_END}"
+)
+_AT = re.compile(
+    rf"at (?:about |around |exactly )?(?P<h>{_H})(?: (?P<m>{_M}))?(?: sharp)?{_END}(?! (?:past|to)\b)"
+)
+_IN_THE = re.compile(rf"(?:in the (?P<a>{_PART})|at (?P<b>night|noon)){_END}")
+_EVERY = re.compile(
+    rf"(?:(?:every|each)(?: single)? (?P<what>day|weekday|workday|working day|weekend|{_PART})"
+    rf"|(?P<daily>daily|nightly)|on (?P<plural>weekdays|workdays|weekends)|at (?:the )?weekends?)"
+    rf"{_END}"
+)
+_WEEKDAYS = re.compile(
+    rf"(?:(?P<every>every|each) |on )(?P<days>(?:{_DAY})s?(?:(?:, ?| and |, and )(?:on )?(?:{_DAY})s?)*)"
+    rf"(?: (?P<part>{_PART})s?)?{_END}"
+)
+_HOURLY = re.compile(rf"(?:(?:every|each) (?P<half>half )?(?:an )?hour|hourly){_END}")
+_EVERY_SO = re.compile(rf"every {EN_DURATION}{_END}")
+_ONE_DAY = re.compile(
+    rf"(?:(?P<today>today|this)|(?P<tonight>tonight)|(?P<after>the day after tomorrow)"
+    rf"|(?P<tomorrow>tomorrow)|(?:on |next |this |coming )?(?P<day>{_DAY}))(?: (?P<part>{_PART}))?{_END}"
+)
+_LASTS = (
+    rf"(?:(?:an|one|1) hour and (?:a half|30 minutes)(?P<oneandhalf>)|half an hour(?P<halfhour>)"
+    rf"|(?:a )?quarter of an hour(?P<quarter>)|(?P<n>{_H}) and a half hours|{EN_DURATION})"
+)
+_IN = re.compile(rf"(?:in|after) {_LASTS}{_END}|{_LASTS.replace('?P<', '?P<x')} from now{_END}")
+
+_SOMEBODY = r"(?:somebody|someone|anybody|anyone|a person|people|a visitor|a guest|a human)"
+_COMES = (
+    r"(?:comes?(?: (?:in|home|inside|by|over|here|back|near|along|up|through the door|to the door))?"
+    r"|enters?(?: the (?:house|home|room|flat))?|arrives?(?: home)?|shows? up|appears?|walks? in"
+    r"|walks? by|is (?:here|there|at the door)|(?:gets?|is) home)"
+)
+_WHEN = r"(?:when(?:ever)?|every time|each time|as soon as|once)"
+_EVENTS: tuple[tuple[str, WorldEvent], ...] = (
+    (rf"{_WHEN} {_SOMEBODY} {_COMES}", WorldEvent.PERSON_SEEN),
+    (rf"{_WHEN} you (?:see|spot|notice|meet|detect) {_SOMEBODY}", WorldEvent.PERSON_SEEN),
+    (rf"{_WHEN} (?:something|anything) moves|{_WHEN} (?:there is|you (?:see|notice)) (?:any )?"
+     r"(?:movement|motion)", WorldEvent.MOVEMENT),
+    (rf"{_WHEN} (?:the|your) battery (?:is|gets|runs|becomes) (?:low|(?:almost |nearly )?empty)"
+     rf"|{_WHEN} you(?:'re| are)? (?:run(?:ning)? )?(?:low on|out of) (?:battery|power)",
+     WorldEvent.BATTERY_LOW),
+    (rf"{_WHEN} (?:a|any|the|your) (?:goal|task|drive|order|mission) fails|{_WHEN} something goes "
+     r"wrong", WorldEvent.GOAL_FAILED),
+    (rf"{_WHEN} (?:a|any|the|your) (?:goal|task|drive|order|mission) (?:is (?:done|finished|over)"
+     r"|ends|finishes)", WorldEvent.GOAL_DONE),
+    (rf"{_WHEN} you(?:'re| are| get| come| arrive| return)(?: back)? (?:at )?home(?: again)?",
+     WorldEvent.ARRIVED_HOME),
+)  # fmt: skip
+_UPON = tuple((re.compile(rf"(?:{pattern}){_END}"), event) for pattern, event in _EVENTS)
+
+POLITE = re.compile(
+    r"(?:(?:please|pls|hey|hi|ok|okay|so|well|robot|pons|kindly|now|and|then|(?:can|could|would|will)"
+    r" you|i(?:'d| would) like you to|i want you to|i need you to|you (?:should|must|have to)"
+    r"|make sure (?:to|that you)|from now on)[ ,]+)+"
+)
+POLITE_END = re.compile(
+    r"(?:[ ,]+(?:please|thanks|thank you|robot|for me|from now on|from today))+$"
+)
+ASKS = re.compile(
+    r"(?:what|who|whom|whose|where|why|how|which|is|are|was|were|did|does|do (?:you|i|we|they)"
+    r"|have you|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
+)
+"""A question, or a condition that is no event."""
+REMIND = re.compile(
+    r"(?:remind me(?: again)?|don't let me forget|do not let me forget|set a reminder(?: for me)?"
+    r"|give me a reminder|(?P<wake>wake me(?: up)?))(?![\w'])"
+)
+OF = re.compile(r"[ ,:]*(?:(?:to|about|of|that|for|with|saying)(?![\w'])[ ,:]*)?")
+WAKE_UP = "time to get up"
+LEAD = re.compile(
+    r"[ ,:;.-]*(?:(?:then|please|to|and|you (?:should|must|shall)|it is time to)[ ,]+)*"
+)
+
+
+def _clock(found: re.Match[str]) -> Part | None:
+    if found["noon"]:
+        return ClockTime(0 if found["noon"] == "midnight" else 12, 0, sure=True)
+    hour_word = found["h"] or found["ph"] or found["oh"]
+    hour, minute = _number(hour_word), 0
+    if found["m"]:
+        minute = int(found["m"])
+    elif found["om"]:
+        minute = _MINUTES[found["om"]]
+    elif found["past"]:
+        minute = _MINUTES[found["past"]]
+        if found["way"] in ("to", "before"):
+            hour, minute = (hour - 1) or 12, 60 - minute
+    half = found["ap"] or found["ap2"] or found["ap3"] or found["ap4"]
+    if half:
+        if not 1 <= hour <= 12:  # "15 pm"
+            return None
+        hour = hour % 12 + (12 if half == "p" else 0)
+    sure = bool(half) or hour > 12 or hour == 0 or (found["m"] and len(hour_word) > 1)
+    return ClockTime(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None
+
+
+def _bare(found: re.Match[str]) -> Part | None:
+    hour, minute = _number(found["h"]), _MINUTES[found["m"]] if found["m"] else 0
+    return ClockTime(hour, minute, hour > 12 or hour == 0) if hour < 24 else None
+
+
+def _number(word: str) -> int:
+    return _HOURS[word] if word in _HOURS else int(word)
+
+
+def _every(found: re.Match[str]) -> tuple[Part, ...]:
+    what = found["what"] or found["daily"] or found["plural"] or "weekend"
+    if what.startswith(("weekday", "work")):
+        return (WeekDays(WORKDAYS),)
+    if what.startswith("weekend"):
+        return (WeekDays(WEEKEND),)
+    days = WeekDays(EVERY_DAY)
+    if what in ("day", "daily"):
+        return (days,)
+    return (days, DayPart("night" if what == "nightly" else what))
+
+
+def _weekdays(found: re.Match[str]) -> tuple[Part, ...]:
+    named = [day for day in _DAYS if day in found["days"]]
+    part = (DayPart(found["part"]),) if found["part"] else ()
+    if not found["every"] and not found["days"].endswith("s"):
+        if len(named) > 1:
+            return ()
+        return (OnceDay(weekday=(_DAYS.index(named[0]) - 1) % 7), *part)
+    return (WeekDays(frozenset(map(_DAYS.index, named))), *part)
+
+
+def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
+    part: tuple[Part, ...] = (DayPart(found["part"]),) if found["part"] else ()
+    if found["today"]:
+        return () if found["today"] == "this" and not part else (OnceDay(ahead=0), *part)
+    if found["tonight"]:
+        return (OnceDay(ahead=0), DayPart.EVENING)
+    if found["day"]:
+        return (OnceDay(weekday=(_DAYS.index(found["day"]) - 1) % 7), *part)
+    return (OnceDay(ahead=1 if found["tomorrow"] else 2), *part)
+
+
+def _lasts(found: re.Match[str]) -> float | None:
+    group = {name.removeprefix("x"): text for name, text in found.groupdict().items()
+             if text is not None}  # fmt: skip
+    if "oneandhalf" in group:
+        return 5400.0
+    if "halfhour" in group:
+        return 1800.0
+    if "quarter" in group:
+        return 900.0
+    if "n" in group:
+        return _number(group["n"]) * 3600.0 + 1800.0
+    return seconds(group["number"], group["unit"])
+
+
+def _in(found: re.Match[str]) -> tuple[Part, ...]:
+    lasts_s = _lasts(found)
+    return () if lasts_s is None else (After(lasts_s),)
+
+
+def _interval(found: re.Match[str]) -> tuple[Part, ...]:
+    lasts_s = seconds(found["number"], found["unit"])
+    return () if lasts_s is None else (Interval(lasts_s),)
+
+
+def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
+    return lambda _: (EventPart(event),)
+
+
+def _one(
+    make: Callable[[re.Match[str]], Part | None],
+) -> Callable[[re.Match[str]], tuple[Part, ...]]:
+    def several(found: re.Match[str]) -> tuple[Part, ...]:
+        part = make(found)
+        return () if part is None else (part,)
+
+    return several
+
+
+PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
+    *((pattern, _event(event)) for pattern, event in _UPON),
+    (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
+    (_EVERY_SO, _interval),
+    (_EVERY, _every),
+    (_WEEKDAYS, _weekdays),
+    (_IN_THE, lambda found: (DayPart(found["a"] or found["b"]),)),
+    (_IN, _in),
+    (_CLOCK, _one(_clock)),
+    (_AT, _one(_bare)),
+    (_ONE_DAY, _one_day),
+)
+"""What begins a part, and the parts that it makes; empty: it is none after all."""

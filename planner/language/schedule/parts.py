@@ -1,0 +1,192 @@
+"""Own the parts of a time that a sentence may name, and how they make one rule together. Pure.
+
+A language finds the parts (``english``, ``chinese``); what they mean together is the same in each.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from planner.plan.timing import (
+    MAX_AHEAD_S,
+    CronRule,
+    DayTime,
+    EventRule,
+    EveryRule,
+    InRule,
+    SpokenRule,
+    WorldEvent,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from planner.language.schedule.command import Problem
+
+
+class DayPart(StrEnum):
+    """Name a part of the day."""
+
+    MORNING = "morning"
+    NOON = "noon"
+    AFTERNOON = "afternoon"
+    EVENING = "evening"
+    NIGHT = "night"
+
+
+USUAL_HOUR = {
+    DayPart.MORNING: 8,
+    DayPart.NOON: 12,
+    DayPart.AFTERNOON: 15,
+    DayPart.EVENING: 20,
+    DayPart.NIGHT: 22,
+}
+"""What "every evening" means where no hour is said; the answer tells it."""
+EVERY_DAY = frozenset(range(7))
+WORKDAYS, WEEKEND = frozenset({1, 2, 3, 4, 5}), frozenset({0, 6})
+
+
+@dataclass(frozen=True, slots=True)
+class WeekDays:
+    """Come again on these days of the week; 0 is Sunday, as cron has it."""
+
+    days: frozenset[int]
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """Come again after so long [s]."""
+
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class OnceDay:
+    """Name one day: so far off, or by its weekday (Monday is 0)."""
+
+    ahead: int | None = None
+    weekday: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class After:
+    """Come once after so long [s]."""
+
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class ClockTime:
+    """Name a time of day. ``sure``: it is said on which half of the day."""
+
+    hour: int
+    minute: int = 0
+    sure: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class EventPart:
+    """Name an event."""
+
+    event: WorldEvent
+
+
+Part = WeekDays | Interval | OnceDay | After | ClockTime | EventPart | DayPart
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """Hold what the parts mean together: a rule, or why they are none."""
+
+    when: SpokenRule | None = None
+    problem: Problem | None = None
+
+
+def combine(parts: Sequence[Part]) -> Timing | None:
+    """Return what these parts mean together; None where they name no time for an order."""
+    found: dict[type[object], Part] = {}
+    for part in parts:
+        if type(part) in found:
+            nested = isinstance(part, (WeekDays, Interval, After, EventPart, OnceDay))
+            return Timing(problem="order_nested") if nested else None
+        found[type(part)] = part
+    repeats = [p for p in parts if isinstance(p, (WeekDays, Interval, OnceDay, After, EventPart))]
+    if len(repeats) > 1:
+        return Timing(problem="order_nested")
+    clock = next((p for p in parts if isinstance(p, ClockTime)), None)
+    daypart = next((p for p in parts if isinstance(p, DayPart)), None)
+    if not repeats:
+        return _by_clock(OnceDay(), clock, daypart) if clock is not None else None
+    match repeats[0]:
+        case WeekDays() as again:
+            return _weekly(again, clock, daypart)
+        case OnceDay() as day:
+            return _by_clock(day, clock, daypart)
+        case Interval(seconds) | After(seconds) if clock is not None or daypart is not None:
+            return Timing(problem="order_nested")
+        case Interval(seconds):
+            return _lasting(seconds, EveryRule)
+        case After(seconds):
+            return _lasting(seconds, InRule)
+        case EventPart(event):
+            alone = clock is None and daypart is None
+            return Timing(EventRule(event=event)) if alone else None
+        case _:
+            return None
+
+
+def _lasting(seconds: float, make: type[EveryRule] | type[InRule]) -> Timing:
+    if not 0.0 < seconds <= MAX_AHEAD_S:
+        return Timing(problem="order_malformed")
+    if make is EveryRule and seconds == 3600.0:  # "every hour": at the full hour
+        return Timing(CronRule(cron="0 * * * *"))
+    return Timing(make(seconds=seconds))
+
+
+def _weekly(again: WeekDays, clock: ClockTime | None, daypart: DayPart | None) -> Timing:
+    at = _hour_minute(clock, daypart)
+    if at is None:
+        return Timing(problem="order_time_missing")
+    days = "*" if again.days == EVERY_DAY else _list_days(again.days)
+    return Timing(CronRule(cron=f"{at[1]} {at[0]} * * {days}"))
+
+
+def _list_days(days: frozenset[int]) -> str:
+    return "1-5" if days == WORKDAYS else ",".join(map(str, sorted(days)))
+
+
+def _by_clock(day: OnceDay, clock: ClockTime | None, daypart: DayPart | None) -> Timing:
+    at = _hour_minute(clock, daypart)
+    if at is None:
+        return Timing(problem="order_time_missing")
+    bare = clock is not None and not clock.sure and daypart is None
+    either = bare and day == OnceDay() and 1 <= at[0] <= 12  # on a dial
+    return Timing(
+        DayTime(
+            hour=at[0], minute=at[1], days_ahead=day.ahead, weekday=day.weekday, either_half=either
+        )
+    )
+
+
+def _hour_minute(clock: ClockTime | None, daypart: DayPart | None) -> tuple[int, int] | None:
+    if clock is None:
+        return None if daypart is None else (USUAL_HOUR[daypart], 0)
+    hour = clock.hour if clock.sure or daypart is None else hour_in(clock.hour, daypart)
+    return hour % 24, clock.minute
+
+
+def hour_in(hour: int, daypart: DayPart) -> int:
+    """Return the hour of 24 that a dial's hour is in a part of the day."""
+    if not 1 <= hour <= 12:  # already of 24
+        return hour
+    match daypart:
+        case DayPart.MORNING:
+            return hour % 12
+        case DayPart.NOON:
+            return hour + 12 if hour <= 3 else hour  # 中午一点 is 13:00
+        case DayPart.NIGHT:
+            return hour % 12 if hour <= 5 or hour == 12 else hour + 12
+        case _:
+            return hour % 12 + 12

@@ -1,0 +1,158 @@
+"""Serve the standing orders with goals: think about one ahead, give one, hold one to its order.
+
+The missions' door for ``planner.orders``, which knows when; all that walks a goal is the missions'
+own. A goal of a standing order passes every gate that a person's does, and clears no hold: it
+carries no person's act.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Protocol
+
+from planner.language.catalogue import message, say
+from planner.mission.effects import AskBrain
+from planner.mission.errors import JournalDown, QueueFull
+from planner.mission.events import Cancel, Planned, Submitted
+from planner.mission.motion_consent import key_of_deed
+from planner.mission.open_questions import has_room
+from planner.mission.outcomes import moves
+from planner.mission.plan_check import unwalkable
+from planner.mission.state import GoalKey, Mission, MissionState
+from planner.mission.transitions import FIRST
+from planner.plan import (
+    STEPLESS,
+    Bilingual,
+    Code,
+    GoalState,
+    Language,
+    Outcome,
+    StepPlan,
+    StepRecord,
+    plan_record,
+)
+
+if TYPE_CHECKING:
+    from planner.language.schedule import ChangeOrders, OrderCommand
+    from planner.mission.loop import Loop
+    from planner.mission.reception import Repeats
+    from planner.mission.tasks import Think
+
+ORDER_SOURCE = "order:"
+"""What the source of every goal of a standing order begins with."""
+
+
+class OrderDesk(Protocol):
+    """Keep the standing orders, as ``planner.orders`` does."""
+
+    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned:
+        """Carry out what a person said about standing orders, and say what came of it."""
+
+    async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
+        """Remove, pause or resume the orders that are meant, and say which."""
+
+    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
+        """Return what the standing order of a goal may do; None where it is none of ours."""
+
+
+def is_of_order(mission: Mission | None) -> bool:
+    """Tell whether a standing order gave this goal."""
+    return mission is not None and mission.source.startswith(ORDER_SOURCE)
+
+
+def hold_to_order(planned: Planned, allowed: tuple[StepRecord, ...] | None) -> Planned:
+    """Return a plan for a standing order's goal, in which all motion beyond the order is unasked.
+
+    Law: such a step waits for a person's yes, whichever brain wrote it. Where the order is gone,
+    every step that moves does.
+    """
+    if not isinstance(planned.plan, StepPlan):
+        return planned
+    known = {key_of_deed(step) for step in allowed or ()}
+    steps = plan_record(planned.plan).steps
+    beyond = {i for i, step in enumerate(steps) if moves(step) and key_of_deed(step) not in known}
+    return replace(planned, unasked=tuple(sorted({*planned.unasked, *beyond})))
+
+
+class StandingGoals:
+    """Give goals without a person's sentence: the one door for ``planner.orders``."""
+
+    def __init__(self, loop: Loop, think: Think, repeats: Repeats) -> None:
+        """Take the loop, how sentences are understood, and the requests that came before."""
+        self._loop, self._think, self._repeats = loop, think, repeats
+
+    @property
+    def book(self) -> MissionState:
+        """Return where everything stands."""
+        return self._loop.book
+
+    def publish(self, event: dict[str, Any]) -> None:
+        """Tell every page that listens."""
+        self._loop.hub.publish(event)
+
+    def find(self, key: str) -> str | None:
+        """Return the goal that was given with this key before, also by a process that is gone."""
+        before = self._repeats.find(key)
+        return before.goal if before is not None else None
+
+    async def consider(self, text: str, language: Language, goal_id: str) -> Planned:
+        """Have an order understood and judged as a goal would be; nothing is given.
+
+        Args:
+            text: the order.
+            language: its language.
+            goal_id: to whose account a model's calls go.
+        """
+        planned = await self._think(AskBrain(goal_id, text, language, order=text))
+        plan = planned.plan
+        if not isinstance(plan, StepPlan):
+            return planned
+        if plan.does in STEPLESS:
+            why = say("plan.no_steps")
+            said = Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
+            return Planned(planned.id, None, said, planned.brain)
+        stand_in = Mission(
+            id=goal_id, order=0, text=text, language=language, state=FIRST,
+            created_unix_s=0.0, updated_unix_s=0.0,
+        )  # fmt: skip
+        outcome = unwalkable(self.book, stand_in, plan_record(plan).steps)
+        return planned if outcome is None else Planned(planned.id, None, outcome, planned.brain)
+
+    async def give(self, goal_id: str, text: str, language: Language, key: str, source: str) -> str:
+        """Give the goal of one firing and return its id; the same key gives the same goal.
+
+        Raises:
+            QueueFull: there is no room among the open goals.
+            JournalDown: it can't be written down, so it was not taken.
+        """
+        if (before := self.find(key)) is not None:
+            return before
+        if not has_room(self.book):
+            raise QueueFull(sum(not m.has_ended for m in self.book.missions.values()))
+        body = hashlib.sha256(f"{source}\n{text}".encode()).hexdigest()[:32]
+        request = GoalKey(key, body, goal_id)
+        self._repeats.remember(request)
+        self._loop.event(Submitted(goal_id, text, language, source=source), request)
+        try:
+            await self._loop.wait_written()
+        except JournalDown:
+            self._loop.event(Cancel(goal_id))
+            self._repeats.forget(request)
+            raise
+        return goal_id
+
+    def outcome(self, goal_id: str) -> Mission | None:
+        """Return a goal that has ended; None while it is open."""
+        mission = self.book.missions.get(goal_id)
+        return mission if mission is not None and mission.has_ended else None
+
+    def waits(self, goal_id: str) -> bool:
+        """Tell whether a goal waits for a person's word."""
+        mission = self.book.missions.get(goal_id)
+        asks = (GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION)
+        return mission is not None and mission.state in asks
+
+    def cancel(self, goal_id: str) -> None:
+        """End a goal, where it has not ended."""
+        self._loop.obey(Cancel(goal_id))

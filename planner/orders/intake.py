@@ -1,0 +1,287 @@
+"""Take standing orders in: read, judged, thought about once as they are given, then kept and told.
+
+The one door for sentences, page, command line and API. What the order does each time is found out
+by the very brain and checks that will do it, so that a person hears at once what can't be done, or
+what will be. Nothing moves here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Protocol
+
+from planner.language.catalogue import join, message, say
+from planner.language.schedule import ChangeOrders, ListOrders, OrderCommand
+from planner.language.utterance import parse
+from planner.mission.events import Planned
+from planner.orders import world
+from planner.orders.errors import OrderRefusal
+from planner.orders.new_order import (
+    NewOrder,
+    OrderQuestion,
+    judge_words,
+    put_time_before,
+    read_new_order,
+)
+from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_ORDERS, StandingOrder
+from planner.orders.rule import next_due, settle, upcoming
+from planner.orders.selection import select
+from planner.orders.telling import tell_kept, tell_list, tell_order
+from planner.plan import (
+    AnswerPlan,
+    Bilingual,
+    Clarify,
+    Code,
+    Language,
+    Option,
+    Refuse,
+    StepPlan,
+    StepRecord,
+    plan_record,
+    words_of,
+)
+from planner.plan.timing import CronRule, EventRule, EveryRule
+from planner.state_database import StateUnavailable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from planner.mission.effects import AskBrain
+    from planner.mission.state import Mission, MissionState
+    from planner.navigation import ObstacleReport
+    from planner.orders.keeper import OrderKeeper
+    from planner.plan.timing import Rule
+    from planner.site.site_view import SiteView
+
+QUIET_LOOKED = 30
+"""Runs that must not all lie in the quiet hours."""
+
+
+class Considers(Protocol):
+    """Think about an order ahead, as ``StandingGoals`` does."""
+
+    @property
+    def book(self) -> MissionState: ...
+
+    async def consider(self, text: str, language: Language, goal_id: str) -> Planned: ...
+
+
+class OrderIntake:
+    """Be the missions' desk for standing orders, and the API's."""
+
+    def __init__(
+        self,
+        keeper: OrderKeeper,
+        goals: Considers,
+        report: Callable[[], ObstacleReport | None] = lambda: None,
+    ) -> None:
+        """Take the keeper, and who thinks about orders."""
+        self._keeper, self._goals, self._report = keeper, goals, report
+
+    # The missions' desk -------------------------------------------------------------------------
+
+    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned:
+        """Carry out what a person said about standing orders, and say what came of it."""
+        answered = bool(given.replies) and not isinstance(parse(ask.text).intent, OrderCommand)
+        if isinstance(command, ListOrders):
+            return Planned(ask.id, AnswerPlan(text=self.tell()))
+        if isinstance(command, ChangeOrders):
+            named = replace(command, which=ask.text) if answered else command
+            return Planned(ask.id, await self._change_or_ask(named, ask.language))
+        if answered:  # the question was about the order within: its words alone are put in
+            command = replace(command, order=ask.text, problem=None)
+        try:
+            new = read_new_order(command, ask.language, given)
+            order = await self.give(new, ask.id)
+        except OrderRefusal as refused:
+            why = message(Code.ORDER_NOT_KEPT, why=refused.message)
+            return Planned(ask.id, Refuse(code=Code.ORDER_NOT_KEPT, reason=why))
+        except OrderQuestion as question:
+            return Planned(ask.id, put_time_before(question.asked, command))
+        return Planned(ask.id, AnswerPlan(text=self.tell_one(order)))
+
+    async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
+        """Remove, pause or resume the orders that are meant, and say which."""
+        said = words_of(await self._change_or_ask(command, language))
+        return said if said is not None else say("standing.none")
+
+    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
+        """Return what the standing order of a goal may do; None where it is gone."""
+        return self._keeper.allowed_steps(source)
+
+    # Giving -------------------------------------------------------------------------------------
+
+    async def give(self, new: NewOrder, goal_id: str) -> StandingOrder:
+        """Keep an order, on disk as this returns; the same one again is the one that is kept.
+
+        Args:
+            new: what is wanted.
+            goal_id: to whose account the thought goes.
+
+        Raises:
+            OrderRefusal: see ``[order_refusal]`` of the catalogue.
+            OrderQuestion: the brain asks about it.
+        """
+        book = self._keeper.book
+        now_s = self._keeper.clocks.unix()
+        judge_words(new)
+        if isinstance(new.when, EventRule):
+            lacking = world.lacks(self._goals.book, new.when.event, self._report())
+            if lacking is not None:
+                raise OrderRefusal("order_no_eyes", lacking, why=say(f"order_lacks.{lacking}"))
+        rule = settle(new.when, now_s, book.zone)
+        self._judge_quiet(rule, now_s)
+        self._judge_room(new, rule)
+        allowed = await self._consider(new, goal_id)
+        async with self._keeper.lock:
+            if (same := self._find_same(new, rule)) is not None:
+                return same
+            self._judge_room(new, rule)
+            number = max((o.number for o in self._keeper.book.orders.values()), default=0) + 1
+            order = StandingOrder(
+                id=f"o{number}", number=number, text=new.text[:MAX_ORDER_CHARACTERS],
+                order=new.order, language=new.language, rule=rule, reminder=new.reminder,
+                source=new.source, allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
+            )  # fmt: skip
+            try:
+                await self._keeper.keep(order, new=True)
+            except StateUnavailable as error:
+                raise OrderRefusal("orders_unwritable", str(error)) from None
+        return order
+
+    async def _consider(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
+        planned = await self._goals.consider(new.order, new.language, goal_id)
+        plan = planned.plan
+        if isinstance(plan, Clarify):
+            raise OrderQuestion(plan)
+        if plan is None or isinstance(plan, Refuse):
+            failed = planned.failure.message if planned.failure is not None else None
+            why = failed or words_of(plan) or say("standing.none")
+            raise OrderRefusal("order_not_understood", why.en, order=new.order[:120], why=why)
+        if planned.unasked:
+            raise OrderRefusal("order_unasked", "motion that nobody said", order=new.order[:120])
+        steps = plan_record(plan).steps if isinstance(plan, StepPlan) else ()
+        first = next((s for s in steps if s.kind in ("come_back", "go_to", "patrol")), None)
+        if first is not None and first.kind == "come_back":
+            raise OrderRefusal("order_leans", "come back to where?")
+        return steps
+
+    def _judge_quiet(self, rule: Rule, now_s: float) -> None:
+        quiet = self._keeper.book.quiet
+        if quiet is None or not isinstance(rule, (CronRule, EveryRule)):
+            return
+        runs = upcoming(rule, now_s, self._keeper.book.zone, QUIET_LOOKED)
+        if all(quiet.holds(run_s, self._keeper.book.zone) for run_s in runs):
+            raise OrderRefusal("order_always_quiet", quiet.text, quiet=quiet.text)
+
+    def _judge_room(self, new: NewOrder, rule: Rule) -> None:
+        kept = [o for o in self._keeper.book.orders.values() if not o.ended]
+        if len(kept) >= MAX_ORDERS and self._find_same(new, rule) is None:
+            raise OrderRefusal("orders_full", f"{MAX_ORDERS} are kept", most=MAX_ORDERS)
+
+    def _find_same(self, new: NewOrder, rule: Rule) -> StandingOrder | None:
+        """Return the order that is this very one already; "in 20 minutes" twice are two."""
+        if not isinstance(rule, (CronRule, EventRule)):
+            return None
+        kept = self._keeper.book.orders.values()
+        return next(
+            (o for o in kept if (o.rule, o.order) == (rule, new.order) and not o.paused), None
+        )
+
+    # Changing -----------------------------------------------------------------------------------
+
+    async def pause(self, order_id: str, *, paused: bool = True) -> StandingOrder:
+        """Pause an order, or resume it: what was due meanwhile is not told.
+
+        Raises:
+            OrderRefusal: ``unknown_order``, ``order_ended``, ``orders_unwritable``.
+        """
+        async with self._keeper.lock:
+            order = self.find(order_id)
+            if order.ended:
+                raise OrderRefusal("order_ended", order_id)
+            now_s = self._keeper.clocks.unix()
+            handled_s = order.handled_unix_s if paused else max(order.handled_unix_s, now_s)
+            changed = order.model_copy(update={"paused": paused, "handled_unix_s": handled_s})
+            try:
+                await self._keeper.keep(changed)
+            except StateUnavailable as error:
+                raise OrderRefusal("orders_unwritable", str(error)) from None
+        return changed
+
+    async def remove(self, order_id: str) -> StandingOrder:
+        """Forget an order. Raises OrderRefusal: ``unknown_order``, ``orders_unwritable``."""
+        async with self._keeper.lock:
+            order = self.find(order_id)
+            try:
+                await self._keeper.remove(order_id)
+            except StateUnavailable as error:
+                raise OrderRefusal("orders_unwritable", str(error)) from None
+        return order
+
+    def find(self, order_id: str) -> StandingOrder:
+        """Return an order. Raises OrderRefusal: ``unknown_order``."""
+        order = self._keeper.book.orders.get(order_id)
+        if order is None:
+            known = ", ".join(self._keeper.book.orders) or "none"
+            raise OrderRefusal("unknown_order", f"{order_id[:60]!r}; known: {known}",
+                               id=order_id[:60])  # fmt: skip
+        return order
+
+    async def _change_or_ask(
+        self, command: ChangeOrders, language: Language
+    ) -> AnswerPlan | Clarify | Refuse:
+        orders = self._keeper.book.orders.values()
+        zone = self._keeper.book.zone
+        found = select(orders, command.which, zone, reminders=command.reminders)
+        if not found:
+            which = command.which or ("reminder" if language is Language.EN else "提醒")
+            none = say("standing.no_such", which=which[:80], known=self.tell())
+            return AnswerPlan(text=none)
+        if len(found) > 1 and command.which:
+            return self._ask_which(command, found)
+        try:
+            for order in found:
+                if command.act == "remove":
+                    await self.remove(order.id)
+                else:
+                    await self.pause(order.id, paused=command.act == "pause")
+        except OrderRefusal as refused:
+            why = message(Code.ORDER_NOT_KEPT, why=refused.message)
+            return Refuse(code=Code.ORDER_NOT_KEPT, reason=why)
+        done = {"remove": "removed", "pause": "paused", "resume": "resumed"}[command.act]
+        lines = join((self.line(order) for order in found), "joint.name")
+        return AnswerPlan(text=say(f"standing.{done}", lines=lines))
+
+    def _ask_which(self, command: ChangeOrders, found: tuple[StandingOrder, ...]) -> Clarify:
+        verb = {"remove": "remove", "pause": "pause", "resume": "resume"}[command.act]
+        options = tuple(
+            Option(label=self.line(order), text=f"{verb} order {order.id}") for order in found[:8]
+        )
+        lines = join((option.label for option in options), "joint.name")
+        return Clarify(
+            code=Code.AMBIGUOUS, question=say("standing.which", lines=lines), options=options
+        )
+
+    # Telling ------------------------------------------------------------------------------------
+
+    def tell(self) -> Bilingual:
+        """Return all orders in words."""
+        kept = [o for o in self._keeper.book.orders.values() if not o.ended]
+        return tell_list(tuple(self.line(order) for order in kept))
+
+    def line(self, order: StandingOrder) -> Bilingual:
+        """Return an order in one line."""
+        keeper = self._keeper
+        return tell_order(self._goals.book.facts, order, keeper.book.zone, keeper.clocks.unix())
+
+    def tell_one(self, order: StandingOrder) -> Bilingual:
+        """Return what a person hears when an order is taken."""
+        book, now_s = self._keeper.book, self._keeper.clocks.unix()
+        due_s = book.due.get(order.id, next_due(order.rule, now_s, book.zone))
+        return tell_kept(self._goals.book.facts, order, due_s, book.zone, now_s)
+
+    @property
+    def facts(self) -> SiteView:
+        """Return the site as it is now."""
+        return self._goals.book.facts

@@ -1,0 +1,49 @@
+"""Say what the keeper of standing orders needs: goals that are given, and two clocks."""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol
+
+from planner.orders.scheduler import ClockReading
+
+if TYPE_CHECKING:
+    from planner.mission.state import Mission, MissionState
+    from planner.plan import Language
+
+
+class GoalGiver(Protocol):
+    """Give goals, as ``planner.mission.standing_goals.StandingGoals`` does."""
+
+    @property
+    def book(self) -> MissionState: ...
+
+    def publish(self, event: dict[str, Any]) -> None: ...
+
+    def find(self, key: str) -> str | None: ...
+
+    async def give(
+        self, goal_id: str, text: str, language: Language, key: str, source: str
+    ) -> str: ...
+
+    def outcome(self, goal_id: str) -> Mission | None: ...
+
+    def waits(self, goal_id: str) -> bool: ...
+
+    def cancel(self, goal_id: str) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class OrderClocks:
+    """Give the two clocks, and ids."""
+
+    monotonic: Callable[[], float] = time.monotonic
+    unix: Callable[[], float] = time.time
+    new_id: Callable[[], str] = lambda: f"g-{uuid.uuid4().hex[:12]}"
+
+    def read(self) -> ClockReading:
+        """Return now on both."""
+        return ClockReading(self.unix(), self.monotonic())

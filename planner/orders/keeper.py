@@ -1,0 +1,350 @@
+"""Run the standing orders: tick, write down, give goals, tell. The shell around the scheduler.
+
+Ten times a second the scheduler is told clocks and world; what it asks is done in order by one
+task, so that a slow disk delays standing orders and nothing else. Every firing is on disk before
+its goal is given.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from planner.mission.errors import MissionError
+from planner.orders import world
+from planner.orders.announcer import OrderAnnouncer
+from planner.orders.interfaces import GoalGiver, OrderClocks
+from planner.orders.order import SOURCE, Firing, FiringState, StandingOrder, key_of
+from planner.orders.scheduler import (
+    INTERRUPTED,
+    Fire,
+    Keep,
+    Note,
+    OrderBook,
+    RobotView,
+    add,
+    drop,
+    put,
+    tick,
+)
+from planner.orders.watch import Watch, notice
+from planner.plan import Bilingual, GoalState
+
+if TYPE_CHECKING:
+    from datetime import tzinfo
+
+    from planner.mission.state import Mission, MissionState
+    from planner.navigation import ObstacleReport
+    from planner.orders.notifier import Notifier
+    from planner.orders.rule import QuietHours
+    from planner.orders.store import OrderStore
+    from planner.plan import StepRecord
+
+log = logging.getLogger(__name__)
+
+TICK_S = 0.1
+SEEN_EVERY_S = 600.0
+"""How far the clock is, is written down so often while there are orders."""
+UNWRITABLE = "orders_unwritable"
+MOST_ENDED = 20
+"""Orders that were due once and are over stay so many, to be looked up."""
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """Write down how a firing's goal ended."""
+
+    order: StandingOrder
+    firing: Firing
+
+
+class OrderKeeper:
+    """Own the order book while the planner runs."""
+
+    def __init__(
+        self,
+        store: OrderStore,
+        goals: GoalGiver,
+        zone: tzinfo,
+        quiet: QuietHours | None = None,
+        notifier: Notifier | None = None,
+        clocks: OrderClocks | None = None,
+        report: Callable[[], ObstacleReport | None] = lambda: None,
+    ) -> None:
+        """Put the parts together; nothing is read yet."""
+        self.book = OrderBook(zone, quiet)
+        self.version = 0
+        """Rises with every change."""
+        self.trouble: str | None = None
+        """Why nothing can be written down, or None."""
+        self.failure: BaseException | None = None
+        self._store, self.goals = store, goals
+        self.clocks, self._report = clocks or OrderClocks(), report
+        self._announcer = OrderAnnouncer(goals.publish, notifier, zone, self._unix_s)
+        self._open: dict[str, Firing] = {}
+        self._asked: set[str] = set()
+        self._watch = Watch()
+        self._ended: frozenset[str] | None = None
+        self._done = self._failed = 0
+        self._work: asyncio.Queue[Fire | Note | Keep | End] = asyncio.Queue()
+        self._seen_s = float("-inf")
+        self._tasks: list[asyncio.Task[None]] = []
+        self.lock = asyncio.Lock()
+        """Held while an order is taken or changed."""
+
+    # Life ---------------------------------------------------------------------------------------
+
+    async def start(self, *, rounds: bool = True) -> None:
+        """Take up what is kept. A firing that was cut off is told, and never begun again.
+
+        Raises:
+            ConfigError, StateUnavailable: it can't be read.
+        """
+        orders, firings, seen_unix_s = await asyncio.to_thread(self._store.load)
+        self.book = replace(self.book, floor_unix_s=seen_unix_s)
+        for order in orders:
+            self.book = put(self.book, order)
+        for firing in firings:
+            await self._take_up(firing)
+        if rounds:
+            self._tasks = [
+                asyncio.create_task(self._guard(self._tick_on()), name="standing orders"),
+                asyncio.create_task(self._guard(self._work_on()), name="firings"),
+            ]
+
+    async def close(self) -> None:
+        """End; what is due meanwhile is told at the next start."""
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+        await self._announcer.close()
+
+    async def _guard(self, work: Any) -> None:
+        try:
+            await work
+        except asyncio.CancelledError:
+            raise
+        except Exception as error:
+            self.failure = error
+            log.exception("the standing orders ended")
+            raise
+
+    async def _take_up(self, firing: Firing) -> None:
+        order = self.book.orders.get(firing.order)
+        goal = firing.goal or self.goals.find(key_of(firing.order, firing.serial))
+        if order is None:
+            return
+        if goal is not None:
+            self._open[firing.order] = firing.model_copy(
+                update={"state": FiringState.GIVEN, "goal": goal}
+            )
+            return
+        missed = firing.model_copy(update={"state": FiringState.MISSED, "reason": INTERRUPTED})
+        await self._write_end(missed)
+        self._announcer.tell_missed(order, missed)
+
+    def _unix_s(self) -> float:
+        return self.clocks.unix()
+
+    # Time ---------------------------------------------------------------------------------------
+
+    async def _tick_on(self) -> None:
+        while True:
+            self.turn()
+            await asyncio.sleep(TICK_S)
+
+    def turn(self) -> None:
+        """Look at clocks and world once, and have done what follows."""
+        now, book = self.clocks.read(), self.goals.book
+        ended, done, failed = world.count_ended(book.missions, self._ended or frozenset())
+        if self._ended is not None:
+            self._done, self._failed = self._done + done, self._failed + failed
+        self._ended = ended
+        facts = world.facts_now(book, self._report(), now.monotonic_s, self._done, self._failed)
+        self._watch, happened = notice(self._watch, facts, now.monotonic_s)
+        told = RobotView(world.hindrance(book, now.monotonic_s), self._busy(book), happened)
+        self.book, effects = tick(self.book, told, now)
+        for effect in effects:
+            if isinstance(effect, Fire):  # from now on, not from when it is written
+                self._give_up(self._open.get(effect.order.id))
+                self._open[effect.order.id] = effect.firing
+            self._work.put_nowait(effect)
+        self._follow_goals()
+
+    def _busy(self, book: MissionState) -> frozenset[str]:
+        """Return the orders whose last goal is under way; a paused one gives way to the next."""
+        paused = {i for i, m in book.missions.items() if m.state is GoalState.PAUSED}
+        return frozenset(name for name, f in self._open.items() if f.goal not in paused)
+
+    def _give_up(self, before: Firing | None) -> None:
+        """End the paused goal of an order's last run: two of one order never wait."""
+        if before is not None and before.goal is not None:
+            self.goals.cancel(before.goal)
+
+    async def _work_on(self) -> None:
+        while True:
+            try:
+                async with asyncio.timeout(1.0):
+                    effect = await self._work.get()
+            except TimeoutError:
+                await self._note_clock()
+                continue
+            await self.carry_out(effect)
+
+    async def work_off(self) -> None:
+        """Do all that is asked for until now; for whoever turns the rounds."""
+        while not self._work.empty():
+            await self.carry_out(self._work.get_nowait())
+
+    async def carry_out(self, effect: Fire | Note | Keep | End) -> None:
+        """Write it down, then do it."""
+        if effect.order.id not in self.book.orders:  # removed meanwhile
+            self._open.pop(effect.order.id, None)
+            return
+        order = self.book.orders[effect.order.id]  # as it is by now
+        match effect:
+            case Fire(_, firing):
+                await self._fire(order, firing)
+            case Note(_, firing):
+                kept = await self._keep(order, firing)
+                new = kept is None or kept.count == firing.count  # the first in a row is told
+                if firing.state is FiringState.MISSED and new:
+                    self._announcer.tell_missed(order, firing)
+            case Keep():
+                await self._keep(order)
+            case End(_, firing):
+                await self._write_end(firing)
+        self.publish_change()
+
+    async def _fire(self, order: StandingOrder, firing: Firing) -> None:
+        await self._keep(order, firing)
+        if self.trouble is not None:
+            await self._miss(order, firing, UNWRITABLE)
+            return
+        key, source = key_of(order.id, firing.serial), f"{SOURCE}{order.id}"
+        try:
+            goal = await self.goals.give(
+                self.clocks.new_id(), order.order, order.language, key, source
+            )
+        except MissionError as refused:
+            await self._miss(order, firing, refused.code)
+            return
+        given = firing.model_copy(update={"state": FiringState.GIVEN, "goal": goal})
+        self._open[order.id] = given
+        await self._write_end(given)
+        if order.reminder is not None:
+            self._announcer.tell_reminder(order, firing)
+
+    async def _miss(self, order: StandingOrder, firing: Firing, why: str) -> None:
+        self._open.pop(order.id, None)
+        missed = firing.model_copy(update={"state": FiringState.MISSED, "reason": why})
+        counted = order.model_copy(
+            update={"fired": max(0, order.fired - 1), "missed": order.missed + 1}
+        )
+        self.book = replace(self.book, orders={**self.book.orders, order.id: counted})
+        await self._keep(counted, missed)
+        self._announcer.tell_missed(counted, missed)
+
+    def _follow_goals(self) -> None:
+        """Note the firings whose goals have ended, and tell those that wait for a word."""
+        for name, firing in tuple(self._open.items()):
+            if firing.goal is None:
+                continue
+            order = self.book.orders.get(name)
+            mission = self.goals.outcome(firing.goal)
+            gone = firing.goal not in self.goals.book.missions
+            if order is None or gone:
+                del self._open[name]
+            elif mission is not None:
+                del self._open[name]
+                self._end(order, firing, mission)
+            elif self.goals.waits(firing.goal) and firing.goal not in self._asked:
+                self._asked.add(firing.goal)
+                asking = self.goals.book.missions[firing.goal].outcome
+                if asking is not None:
+                    words = asking.message
+                    self._announcer.tell_outcome(order, "asks", asking.code.value, words, firing)
+
+    def _end(self, order: StandingOrder, firing: Firing, mission: Mission) -> None:
+        outcome = mission.outcome
+        code = outcome.code.value if outcome is not None else mission.state.value
+        words = outcome.message if outcome is not None else Bilingual(en=code, zh=code)
+        ended = firing.model_copy(update={"state": FiringState.ENDED, "code": code, "told": words})
+        self._asked.discard(mission.id)
+        self._work.put_nowait(End(order, ended))
+        done = mission.state is GoalState.SUCCEEDED
+        if not (done and order.reminder is not None):  # its words were told as it fired
+            kind = "done" if done else "failed"
+            self._announcer.tell_outcome(order, kind, code, words, firing)
+        self.publish_change()
+
+    # Disk ---------------------------------------------------------------------------------------
+
+    async def _keep(self, order: StandingOrder, firing: Firing | None = None) -> Firing | None:
+        try:
+            kept = await asyncio.to_thread(self._store.keep, order, firing)
+        except OSError as error:
+            self._complain(error)
+            return None
+        self.trouble = None
+        return kept
+
+    async def _write_end(self, firing: Firing) -> None:
+        with contextlib.suppress(OSError):
+            await asyncio.to_thread(self._store.end, firing)
+
+    async def _note_clock(self) -> None:
+        """Write down how far the clock is: a later start behind it is not believed."""
+        now = self.clocks.read()
+        if not self.book.orders or now.monotonic_s - self._seen_s < SEEN_EVERY_S or self.book.unset:
+            return
+        self._seen_s = now.monotonic_s
+        with contextlib.suppress(OSError):
+            await asyncio.to_thread(self._store.see, now.unix_s)
+
+    def _complain(self, error: OSError) -> None:
+        if self.trouble is None:
+            log.error("orders_unwritable: %s", error)
+        self.trouble = str(error)
+
+    # Orders -------------------------------------------------------------------------------------
+
+    async def keep(self, order: StandingOrder, *, new: bool = False) -> None:
+        """Keep an order that a person gave or changed; on return it is on disk.
+
+        Raises:
+            StateUnavailable: it can't be written; nothing has changed.
+        """
+        await asyncio.to_thread(self._store.keep, order, None, self.clocks.unix())
+        self.book = add(self.book, order) if new else put(self.book, order)
+        over = [o for o in self.book.orders.values() if o.ended and o.id not in self._open]
+        for old in sorted(over, key=lambda o: o.number)[: max(0, len(over) - MOST_ENDED)]:
+            await asyncio.to_thread(self._store.remove, old.id)
+            self.book = drop(self.book, old.id)
+        self.publish_change()
+
+    async def remove(self, order_id: str) -> None:
+        """Forget an order. Raises StateUnavailable."""
+        await asyncio.to_thread(self._store.remove, order_id)
+        self.book = drop(self.book, order_id)
+        self.publish_change()
+
+    async def history(self, order_id: str, most: int) -> tuple[Firing, ...]:
+        """Return an order's newest firings. Raises StateUnavailable."""
+        return await asyncio.to_thread(self._store.history, order_id, most)
+
+    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
+        """Return what the order of a goal may do; None where there is no such order."""
+        order = self.book.orders.get(source.removeprefix(SOURCE))
+        return order.allowed if order is not None else None
+
+    # Telling ------------------------------------------------------------------------------------
+
+    def publish_change(self) -> None:
+        """Have pages ask for the orders anew."""
+        self.version += 1
+        self.goals.publish({"type": "orders", "version": self.version})

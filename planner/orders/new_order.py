@@ -1,0 +1,122 @@
+"""Hold what somebody wants kept as a standing order, and judge its words. Pure.
+
+Law: an order that stops, that is about what runs now, or that is a standing order itself is none:
+each firing gives its words as a goal, and they must mean the same then as now.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from planner.language.catalogue import join, say
+from planner.language.schedule import ScheduleCommand
+from planner.language.utterance import language_of, parse
+from planner.orders.errors import OrderRefusal
+from planner.orders.order import MAX_ORDER_CHARACTERS
+from planner.orders.telling import say_goal_of_reminder
+from planner.plan import Bilingual, Clarify, Language, Option, say_same
+from planner.plan.timing import AtRule, SpokenRule
+
+if TYPE_CHECKING:
+    from planner.mission.state import Mission
+
+
+@dataclass(frozen=True, slots=True)
+class NewOrder:
+    """Hold what somebody wants kept: when, what, and who says so."""
+
+    when: SpokenRule | AtRule
+    order: str
+    language: Language
+    text: str
+    words: str = ""
+    reminder: str | None = None
+    source: str = "api"
+
+
+class OrderQuestion(Exception):
+    """A brain asks about the order: it was not taken."""
+
+    def __init__(self, asked: Clarify) -> None:
+        super().__init__(asked.question.en)
+        self.asked = asked
+
+
+def read_new_order(command: ScheduleCommand, language: Language, given: Mission) -> NewOrder:
+    """Return what a sentence wants kept.
+
+    Raises:
+        OrderRefusal: its time is none that can be kept, or there is nothing to do.
+    """
+    if command.problem is not None:
+        raise OrderRefusal(command.problem, given.text[:200])
+    if command.when is None:
+        raise OrderRefusal("order_malformed", given.text[:200])
+    order = command.order
+    if command.reminder is not None:
+        order = say_goal_of_reminder(language.value, command.reminder)
+    return NewOrder(
+        command.when, order, language, given.text, command.words, command.reminder, given.source
+    )
+
+
+def judge_words(new: NewOrder) -> None:
+    """Refuse an order that is none, that stops, or that is about what runs now.
+
+    Raises:
+        OrderRefusal: ``order_empty``, ``order_too_long``, ``order_stops``, ``order_nested``,
+            ``order_is_command``.
+    """
+    order = new.order.strip()
+    if not order:
+        raise OrderRefusal("order_empty", "no order")
+    if len(order) > MAX_ORDER_CHARACTERS:
+        raise OrderRefusal("order_too_long", f"{len(order)} characters", most=MAX_ORDER_CHARACTERS)
+    if new.reminder is not None:
+        return  # its words are said, and are nobody's order
+    said = parse(order)
+    if said.orders_stop or said.may_mean_stop:
+        raise OrderRefusal("order_stops", order[:120], order=order[:120])
+    if isinstance(said.intent, ScheduleCommand):
+        raise OrderRefusal("order_nested", order[:120])
+    if said.intent is not None or said.consent is not None:
+        raise OrderRefusal("order_is_command", order[:120], order=order[:120])
+
+
+def put_time_before(asked: Clarify, command: ScheduleCommand) -> Clarify:
+    """Return a brain's question about the order within, its options with the time before them."""
+    options = tuple(
+        Option(label=each.label, text=f"{command.words} {each.text}".strip()[:2000])
+        for each in asked.options
+        if command.words
+    )
+    if options:
+        return Clarify(code=asked.code, question=asked.question, options=options)
+    return Clarify(code=asked.code, question=say("standing.say_whole", question=asked.question))
+
+
+def order_of_text(text: str, language: Language | None, source: str) -> NewOrder:
+    """Return what a whole sentence wants kept, for whoever has no goal of it.
+
+    Raises:
+        OrderRefusal: ``order_malformed`` where it is no standing order, else as its time is.
+    """
+    command = parse(text).intent
+    spoken = language or language_of(text)
+    if not isinstance(command, ScheduleCommand):
+        raise OrderRefusal("order_malformed", f"{text[:120]!r} names no time")
+    if command.problem is not None or command.when is None:
+        raise OrderRefusal(command.problem or "order_malformed", text[:120])
+    order = command.order
+    if command.reminder is not None:
+        order = say_goal_of_reminder(spoken.value, command.reminder)
+    return NewOrder(command.when, order, spoken, text, command.words, command.reminder, source)
+
+
+def tell_question(asked: Clarify) -> Bilingual:
+    """Return a brain's question with the sentences that it offers."""
+    if not asked.options:
+        return asked.question
+    offers = join((say_same(f"“{each.text}”") for each in asked.options), "joint.name")
+    return join((asked.question, offers))

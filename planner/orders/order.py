@@ -1,0 +1,102 @@
+"""Own the records of standing orders: the order, and each of its firings. Data only.
+
+A firing is written down before its goal is given (``planner.orders.scheduler``), so that no crash
+can make the robot do one twice.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+from pydantic import Field
+
+from planner.plan import Bilingual, Frozen, Language, StepRecord
+from planner.plan.timing import AtRule, EventRule, Rule
+
+MAX_ORDERS = 64
+"""Of one robot. Each is looked at ten times a second, and told to every page."""
+MAX_ORDER_CHARACTERS = 500
+COOLDOWN_S = 60.0
+"""Between two firings of one order upon an event."""
+
+
+class StandingOrder(Frozen):
+    """Keep one standing order whole."""
+
+    id: str
+    number: int
+    """Rises with every order given."""
+    text: str
+    """As the person said it."""
+    order: Annotated[str, Field(min_length=1, max_length=MAX_ORDER_CHARACTERS)]
+    """What is given as a goal each time."""
+    language: Language
+    rule: Rule
+    reminder: str | None = None
+    """The words that it reminds of, where that is all it does."""
+    source: str = "api"
+    allowed: tuple[StepRecord, ...] = ()
+    """What it may do: the plan that was told to the person as the order was given."""
+    paused: bool = False
+    ended: bool = False
+    """It was due once, and that is over."""
+    created_unix_s: float
+    handled_unix_s: float
+    """All that was due until then was done, missed or left out. No run before it is ever begun."""
+    fired: int = 0
+    missed: int = 0
+    serial: int = 0
+    """Of its newest firing."""
+
+    @property
+    def is_once(self) -> bool:
+        """Tell whether it is due one time only."""
+        return isinstance(self.rule, AtRule)
+
+    @property
+    def is_event(self) -> bool:
+        """Tell whether it waits for an event."""
+        return isinstance(self.rule, EventRule)
+
+
+class FiringState(StrEnum):
+    """Name what became of one run."""
+
+    BEGUN = "begun"
+    """Written down; whether its goal was given is not known yet."""
+    GIVEN = "given"
+    """Its goal was given; how it ended is the goal's story."""
+    ENDED = "ended"
+    MISSED = "missed"
+    QUIET = "quiet"
+    """It was left out: quiet hours."""
+
+
+class Firing(Frozen):
+    """Keep one run of an order, or several that were missed together."""
+
+    order: str
+    serial: int
+    due_unix_s: float
+    at_unix_s: float
+    state: FiringState
+    goal: str | None = None
+    reason: str | None = None
+    """Why it was missed: a stable code."""
+    count: int = 1
+    """So many runs in a row came to the same."""
+    until_unix_s: float | None = None
+    """When the last of these was due."""
+    code: str | None = None
+    """How its goal ended."""
+    told: Bilingual | None = None
+
+
+def key_of(order: str, serial: int) -> str:
+    """Return the Idempotency-Key with which a firing's goal is given."""
+    return f"standing-order:{order}:{serial}"
+
+
+SOURCE = "order:"
+"""What the source of every goal of a standing order begins with."""

@@ -1,0 +1,315 @@
+"""Decide which standing orders fire now. Pure: told the clocks and the world, answers what to do.
+
+Laws, each held by a test:
+- A run fires at most once, whatever restarts, and whatever the clock does: all that was due until
+  ``handled_unix_s`` is over, and that is written down before the goal is given.
+- A run that did not fire is told: it was missed, with the reason, or left out in quiet hours.
+- What was missed is never caught up: one run fires, the newest, or none.
+- Nothing fires while the robot is held, disarmed or paused by a person.
+
+Time has two clocks: ``unix_s``, by which people live and which may jump, and ``monotonic_s``, which
+never does. Where they part by over a second, the clock was put right: rules that were counted from
+an instant ("in 20 minutes") move along, times of day stay.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from planner.orders.order import COOLDOWN_S, Firing, FiringState, StandingOrder
+from planner.orders.rule import QuietHours, next_due
+from planner.plan.timing import AtRule, EventRule, EveryRule, WorldEvent
+
+if TYPE_CHECKING:
+    from datetime import tzinfo
+
+STEP_S = 1.0
+"""The clocks may part by so much between two ticks before that is a step; slewing is slower."""
+LATE_S = 60.0
+"""A run fires so late at most, where the planner was held up; one of before its start, never."""
+WAITS_S = 10.0
+"""For the bridge's first word, after a start."""
+BACK_S = 26 * 3600.0
+"""A clock that is put back by more was wrong before, and so were the runs of that time."""
+UNSET_S = 600.0
+"""A clock that is behind what was written down before is not believed for so long."""
+BEHIND_S = 60.0
+MOST_COUNTED = 1000
+"""Missed runs that are counted; more are "at least so many"."""
+BRIDGE_SILENT = "bridge_silent"
+WAS_OFF, CLOCK_MOVED, LATE = "was_off", "clock_moved", "late"
+STILL_RUNNING, INTERRUPTED = "still_running", "interrupted"
+
+
+@dataclass(frozen=True, slots=True)
+class ClockReading:
+    """Hold now on both clocks."""
+
+    unix_s: float
+    monotonic_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class RobotView:
+    """Say what the scheduler must know of the robot."""
+
+    hindrance: str | None = None
+    """Why nothing may fire now (a stable code), or None."""
+    busy: frozenset[str] = frozenset()
+    """Orders whose last goal has not ended."""
+    happened: tuple[WorldEvent, ...] = ()
+    """What was noticed since the last tick."""
+
+
+@dataclass(frozen=True, slots=True)
+class OrderBook:
+    """Hold all standing orders of one robot. Frozen; its dictionaries are replaced, not changed."""
+
+    zone: tzinfo
+    quiet: QuietHours | None = None
+    orders: dict[str, StandingOrder] = field(default_factory=dict)
+    due: dict[str, float] = field(default_factory=dict)
+    """When each order is due next; orders upon events have none."""
+    began: ClockReading | None = None
+    """The first tick of this process."""
+    ticked: ClockReading | None = None
+    floor_unix_s: float = 0.0
+    """The clock was once this far: before it, it may not be set yet."""
+    fired_s: dict[str, float] = field(default_factory=dict)
+    """When each order upon an event last fired, monotonic."""
+    stepped: bool = False
+    """The clock was put right just now."""
+    unset: bool = False
+    """The clock began behind the floor, and nobody has set it yet."""
+    fresh: frozenset[str] = frozenset()
+    """Orders given to this process: their instants are on its clock, right or wrong."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fire:
+    """Write this firing down with its order, then give its goal."""
+
+    order: StandingOrder
+    firing: Firing
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """Write down a run that did not fire, and tell it where it was missed."""
+
+    order: StandingOrder
+    firing: Firing
+
+
+@dataclass(frozen=True, slots=True)
+class Keep:
+    """Write an order down that the clock has changed."""
+
+    order: StandingOrder
+
+
+Effect = Fire | Note | Keep
+
+
+def put(book: OrderBook, order: StandingOrder) -> OrderBook:
+    """Return the book with an order that is new or has changed; its next run is worked out."""
+    due = {name: s for name, s in book.due.items() if name != order.id}
+    if not (order.paused or order.ended or order.is_event):
+        next_s = next_due(order.rule, order.handled_unix_s, book.zone)
+        if next_s is not None:
+            due[order.id] = next_s
+    return replace(book, orders={**book.orders, order.id: order}, due=due)
+
+
+def add(book: OrderBook, order: StandingOrder) -> OrderBook:
+    """Return the book with an order that a person gives now."""
+    return replace(put(book, order), fresh=book.fresh | {order.id})
+
+
+def drop(book: OrderBook, order_id: str) -> OrderBook:
+    """Return the book without an order."""
+    return replace(
+        book,
+        orders={name: order for name, order in book.orders.items() if name != order_id},
+        due={name: s for name, s in book.due.items() if name != order_id},
+        fired_s={name: s for name, s in book.fired_s.items() if name != order_id},
+        fresh=book.fresh - {order_id},
+    )
+
+
+def tick(
+    book: OrderBook, world: RobotView, now: ClockReading
+) -> tuple[OrderBook, tuple[Effect, ...]]:
+    """Return the book after this instant, and what is to be done. Same arguments, same answer."""
+    effects: list[Effect] = []
+    book = _follow_clock(book, now, effects)
+    for name, due_s in sorted(book.due.items(), key=lambda item: item[1]):
+        if due_s > now.unix_s:
+            break
+        if not _waits(book, book.orders[name], world, now):
+            book = _run(book, book.orders[name], due_s, world, now, effects)
+    for event in dict.fromkeys(world.happened):
+        for order in tuple(book.orders.values()):
+            if isinstance(order.rule, EventRule) and order.rule.event is event:
+                book = _upon_event(book, order, world, now, effects)
+    return replace(book, ticked=now, stepped=False), tuple(effects)
+
+
+def _follow_clock(book: OrderBook, now: ClockReading, effects: list[Effect]) -> OrderBook:
+    """Move along what was counted from an instant where the clock was put right."""
+    before = book.ticked
+    if before is None:
+        unset = not now.unix_s >= book.floor_unix_s - BEHIND_S
+        return replace(book, began=now, unset=unset)
+    step_s = (now.unix_s - before.unix_s) - (now.monotonic_s - before.monotonic_s)
+    if not abs(step_s) > STEP_S:
+        return book
+    was_unset = book.unset
+    floor_s = min(book.floor_unix_s, now.unix_s)
+    book = replace(book, stepped=True, unset=False, floor_unix_s=floor_s)
+    for order in tuple(book.orders.values()):
+        moves = order.id in book.fresh or not was_unset  # else they lie on the clock of before
+        moved = _move_along(order, step_s if moves else 0.0, now)
+        if moved is not order:
+            book = put(book, moved)
+            effects.append(Keep(moved))
+    return book
+
+
+def _move_along(order: StandingOrder, step_s: float, now: ClockReading) -> StandingOrder:
+    rule = order.rule
+    if isinstance(rule, AtRule) and rule.relative and not order.ended:
+        rule = rule.model_copy(update={"unix_s": max(0.0, rule.unix_s + step_s)})
+    elif isinstance(rule, EveryRule):
+        anchor_s = max(0.0, rule.anchor_unix_s + step_s)
+        rule = rule.model_copy(update={"anchor_unix_s": anchor_s})
+    if rule != order.rule:
+        handled_s = order.handled_unix_s + step_s
+        return order.model_copy(update={"rule": rule, "handled_unix_s": handled_s})
+    if order.handled_unix_s - now.unix_s > BACK_S:
+        return order.model_copy(update={"handled_unix_s": now.unix_s})
+    return order
+
+
+def _waits(book: OrderBook, order: StandingOrder, world: RobotView, now: ClockReading) -> bool:
+    """Tell whether nothing can be said of a run yet."""
+    alive_s = now.monotonic_s - book.began.monotonic_s if book.began is not None else 0.0
+    relative = isinstance(order.rule, EveryRule) or getattr(order.rule, "relative", False)
+    if book.unset and not (relative and order.id in book.fresh):
+        return alive_s < UNSET_S
+    return world.hindrance == BRIDGE_SILENT and alive_s < WAITS_S
+
+
+def _run(
+    book: OrderBook,
+    order: StandingOrder,
+    due_s: float,
+    world: RobotView,
+    now: ClockReading,
+    effects: list[Effect],
+) -> OrderBook:
+    """Fire the newest run that is due, or say why not; those before it are missed."""
+    skipped, before_s, newest_s = 0, due_s, due_s
+    while skipped < MOST_COUNTED:
+        next_s = next_due(order.rule, newest_s, book.zone)
+        if next_s is None or next_s > now.unix_s:
+            break
+        skipped, before_s, newest_s = skipped + 1, newest_s, next_s
+    if skipped >= MOST_COUNTED:  # counted so far: no later run of these is looked for
+        newest_s = now.unix_s - LATE_S - STEP_S
+    why = _too_late(book, newest_s, now)
+    if why is not None:
+        missed = _miss_run(order, due_s, now, why, skipped + 1, newest_s)
+        effects.append(missed)
+        return put(book, missed.order)
+    if skipped:
+        why = CLOCK_MOVED if book.stepped else LATE
+        older = _miss_run(order, due_s, now, why, skipped, before_s)
+        effects.append(older)
+        order = older.order
+    return _fire(book, order, newest_s, world, now, effects)
+
+
+def _too_late(book: OrderBook, due_s: float, now: ClockReading) -> str | None:
+    began_s = book.began.unix_s if book.began is not None else now.unix_s
+    if book.stepped:
+        return CLOCK_MOVED if now.unix_s - due_s > LATE_S else None
+    if due_s < began_s - STEP_S and now.unix_s >= began_s:
+        return WAS_OFF
+    return LATE if now.unix_s - due_s > LATE_S else None
+
+
+def _fire(
+    book: OrderBook,
+    order: StandingOrder,
+    due_s: float,
+    world: RobotView,
+    now: ClockReading,
+    effects: list[Effect],
+) -> OrderBook:
+    quiet = book.quiet
+    rests = quiet is not None and not order.is_once and quiet.holds(due_s, book.zone)
+    why = STILL_RUNNING if order.id in world.busy else world.hindrance
+    if rests:
+        noted = _note_run(order, due_s, now, FiringState.QUIET, None)
+    elif why is not None:
+        noted = _miss_run(order, due_s, now, why, 1, due_s)
+    else:
+        begun = _handle(order, due_s).model_copy(update={"fired": order.fired + 1})
+        firing = Firing(
+            order=order.id, serial=begun.serial, due_unix_s=due_s, at_unix_s=now.unix_s,
+            state=FiringState.BEGUN,
+        )  # fmt: skip
+        effects.append(Fire(begun, firing))
+        return put(book, begun)
+    effects.append(noted)
+    return put(book, noted.order)
+
+
+def _upon_event(
+    book: OrderBook,
+    order: StandingOrder,
+    world: RobotView,
+    now: ClockReading,
+    effects: list[Effect],
+) -> OrderBook:
+    last_s = book.fired_s.get(order.id, float("-inf"))
+    if order.paused or now.monotonic_s - last_s < COOLDOWN_S:
+        return book
+    book = replace(book, fired_s={**book.fired_s, order.id: now.monotonic_s})
+    return _fire(book, order, now.unix_s, world, now, effects)
+
+
+def _miss_run(
+    order: StandingOrder, due_s: float, now: ClockReading, why: str, count: int, until_s: float
+) -> Note:
+    return _note_run(order, due_s, now, FiringState.MISSED, why, count, until_s)
+
+
+def _note_run(
+    order: StandingOrder,
+    due_s: float,
+    now: ClockReading,
+    state: FiringState,
+    why: str | None,
+    count: int = 1,
+    until_s: float | None = None,
+) -> Note:
+    last_s = until_s if until_s is not None else due_s
+    changed = _handle(order, last_s)
+    if state is FiringState.MISSED:
+        changed = changed.model_copy(update={"missed": order.missed + count})
+    firing = Firing(
+        order=order.id, serial=changed.serial, due_unix_s=due_s, at_unix_s=now.unix_s, state=state,
+        reason=why, count=count, until_unix_s=until_s if count > 1 else None,
+    )  # fmt: skip
+    return Note(changed, firing)
+
+
+def _handle(order: StandingOrder, due_s: float) -> StandingOrder:
+    """Return an order of which everything until a run is over; one that was due once has ended."""
+    handled_s = due_s if order.is_event else max(due_s, order.handled_unix_s)
+    return order.model_copy(
+        update={"handled_unix_s": handled_s, "serial": order.serial + 1, "ended": order.is_once}
+    )

@@ -1,0 +1,153 @@
+"""Find the standing orders that a person means: "the evening check", 吃药, "o3". Pure.
+
+Law: words that fit several orders are asked about, unless all of them were meant; words that fit
+none change nothing.
+"""
+
+from __future__ import annotations
+
+import re
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+from planner.language.folding import fold, fold_words, has_chinese
+from planner.orders.rule import next_due
+from planner.plan.timing import CronRule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from datetime import tzinfo
+
+    from planner.orders.order import StandingOrder
+
+_WORD = re.compile(r"[a-z0-9:']+")
+_LITTLE = frozenset(
+    [
+        "the",
+        "a",
+        "an",
+        "my",
+        "your",
+        "our",
+        "to",
+        "at",
+        "in",
+        "on",
+        "of",
+        "for",
+        "about",
+        "every",
+        "each",
+        "day",
+        "and",
+        "me",
+        "i",
+        "you",
+        "it",
+        "one",
+        "ones",
+        "please",
+        "any",
+        "more",
+        "again",
+        "now",
+        "check",
+        "checks",
+        "order",
+        "orders",
+        "reminder",
+        "reminders",
+        "patrol",
+        "round",
+        "task",
+        "tasks",
+        "job",
+    ]
+)
+"""Words that name none by themselves; what they name besides is weighed."""
+_KIND = frozenset(["check", "checks", "patrol", "round"])
+_LITTLE_ZH = re.compile(r"[的了我你把去来在每天一下个次提醒任务定时,、。]")
+_PARTS = (
+    (5, 11, "morning 早上 早晨 上午 每早"),
+    (11, 14, "noon 中午"),
+    (13, 18, "afternoon 下午"),
+    (17, 24, "evening 晚上 每晚 傍晚 今晚"),
+    (20, 24, "night nightly 夜里"),
+    (0, 5, "night nightly 夜里 凌晨"),
+)
+_DAYS = (
+    "sunday 周日 星期天 周末 weekend",
+    "monday 周一",
+    "tuesday 周二",
+    "wednesday 周三",
+    "thursday 周四",
+    "friday 周五",
+    "saturday 周六 周末 weekend",
+)
+
+
+def select(
+    orders: Iterable[StandingOrder], which: str, zone: tzinfo, *, reminders: bool
+) -> tuple[StandingOrder, ...]:
+    """Return the orders that these words may mean, oldest first; all where no words were said."""
+    kept = [o for o in orders if not o.ended and (o.reminder is not None or not reminders)]
+    words = fold_words(which)
+    if not words:
+        return tuple(kept)
+    by_id = [order for order in kept if order.id == words]
+    if by_id:
+        return tuple(by_id)
+    return tuple(order for order in kept if _fits(order, words, zone))
+
+
+def _fits(order: StandingOrder, words: str, zone: tzinfo) -> bool:
+    hay = f"{fold(order.text)} {fold(order.order)} {_time_words(order, zone)}"
+    if has_chinese(words):
+        return _fits_chinese(words, hay)
+    stems = {_stem(word) for word in _WORD.findall(hay)}
+    said = _WORD.findall(words)
+    weighed = [w for w in said if w not in _LITTLE]
+    kinds = [w for w in said if w in _KIND]
+    if not weighed:
+        return any(_stem(w) in stems for w in kinds)
+    return all(_stem(w) in stems for w in weighed)
+
+
+def _fits_chinese(words: str, hay: str) -> bool:
+    """Return whether most of the telling characters stand in the order, two by two."""
+    parts = [part for part in re.split("的", words) if part]
+    telling = [_LITTLE_ZH.sub("", part) for part in parts]
+    left = [(part, bare) for part, bare in zip(parts, telling, strict=True) if bare]
+    if not left:
+        return all(part in hay for part in parts)
+    return all(part in hay or bare in hay or _overlap(bare, hay) for part, bare in left)
+
+
+def _overlap(bare: str, hay: str) -> bool:
+    if len(bare) < 2:  # one character is no proof
+        return bare in hay
+    pairs = [bare[i : i + 2] for i in range(len(bare) - 1)]
+    return sum(pair in hay for pair in pairs) >= 0.6 * len(pairs)
+
+
+def _stem(word: str) -> str:
+    for end in ("ing", "s"):
+        if word.endswith(end) and len(word) > len(end) + 1:
+            return word.removesuffix(end)
+    return word
+
+
+def _time_words(order: StandingOrder, zone: tzinfo) -> str:
+    """Return what people call the time of an order."""
+    due_s = next_due(order.rule, order.handled_unix_s, zone)
+    if due_s is None:
+        return order.rule.kind
+    due = datetime.fromtimestamp(due_s, zone)
+    words = [f"{due.hour}:{due.minute:02}", f"{due.hour:02}:{due.minute:02}"]
+    words += [names for begin, end, names in _PARTS if begin <= due.hour < end]
+    if isinstance(order.rule, CronRule):
+        fields = order.rule.cron.split()
+        words.append("daily 每天 每日" if fields[4] == "*" else "weekly 每周 工作日 weekday")
+        words += [names for day, names in enumerate(_DAYS) if str(day) in fields[4]]
+        words += ["hourly hour 每小时"] if fields[1] == "*" else []
+    return " ".join(words)

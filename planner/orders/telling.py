@@ -1,0 +1,174 @@
+"""Say what a standing order is, when it comes next and what became of it. Pure."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+from planner.language.catalogue import CATALOGUE, build, join, list_names, raw, say, say_or_quote
+from planner.plan import Bilingual, say_same
+from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from datetime import tzinfo
+
+    from planner.orders.order import Firing, StandingOrder
+    from planner.plan import StepRecord
+    from planner.plan.timing import Rule
+    from planner.site.site_view import SiteView
+
+MOST_TOLD = 8
+"""Orders that are listed in words; the page shows all."""
+_WORKDAYS, _WEEKEND = "1-5", ("0,6", "6,0")
+
+
+def tell_rule(rule: Rule, zone: tzinfo, now_unix_s: float) -> Bilingual:
+    """Return when a rule is due, in words."""
+    match rule:
+        case CronRule():
+            return _tell_cron(rule.cron)
+        case EveryRule():
+            minutes = rule.seconds / 60.0
+            if minutes % 60.0 == 0.0:
+                return say("standing.every_hours", hours=f"{minutes / 60.0:g}")
+            return say("standing.every_minutes", minutes=f"{minutes:g}")
+        case AtRule():
+            return tell_time(rule.unix_s, zone, now_unix_s)
+        case EventRule():
+            return say(f"standing.upon_{rule.event.value}")
+
+
+def _tell_cron(cron: str) -> Bilingual:
+    minute, hour, day, month, week = cron.split()
+    plain = minute.isdigit() and day == month == "*"
+    if plain and hour == "*" and week == "*":
+        return say("standing.hourly", minute=f"{int(minute):02}")
+    if not (plain and hour.isdigit()):
+        return say("standing.cron", cron=cron)
+    time = f"{int(hour):02}:{int(minute):02}"
+    if week == "*":
+        return say("standing.daily", time=time)
+    if week == _WORKDAYS:
+        return say("standing.workdays", time=time)
+    if week in _WEEKEND:
+        return say("standing.weekend", time=time)
+    if not all(each.isdigit() for each in week.split(",")):
+        return say("standing.cron", cron=cron)
+    names = [say(f"standing.day_{int(each) % 7}") for each in week.split(",")]
+    return say("standing.weekly", days=list_names(names, "joint.and"), time=time)
+
+
+def tell_time(unix_s: float, zone: tzinfo, now_unix_s: float) -> Bilingual:
+    """Return an instant as people name it: "tomorrow 09:00"."""
+    then, now = datetime.fromtimestamp(unix_s, zone), datetime.fromtimestamp(now_unix_s, zone)
+    time = f"{then.hour:02}:{then.minute:02}"
+    days = (then.date() - now.date()).days
+    if days in (0, 1):
+        return say("standing.today" if days == 0 else "standing.tomorrow", time=time)
+    return say("standing.on_date", date=then.date().isoformat(), time=time)
+
+
+def tell_steps(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual:
+    """Return what these steps do: "go to the kitchen, then look"."""
+    return list_names((_tell_step(facts, step) for step in steps), "joint.then")
+
+
+def _tell_step(facts: SiteView, step: StepRecord) -> Bilingual:
+    code = f"order_deed.{step.kind}"
+    if not CATALOGUE.has(code):
+        return say_same(step.kind)
+    place = facts.home if step.kind == "return_home" else step.place
+    if step.place and step.kind != "go_to" and CATALOGUE.has(f"{code}_at"):
+        code = f"{code}_at"
+    return say(
+        code,
+        place=_name(facts, place) if place else "",
+        places=list_names([_name(facts, each) for each in step.places], "joint.and"),
+        what=step.object or "",
+        text=(step.text or "")[:120],
+        amount=_amount(step),
+    )
+
+
+def _name(facts: SiteView, place: str) -> Bilingual:
+    return facts.targets[place].name if place in facts.targets else say_same(place)
+
+
+def _amount(step: StepRecord) -> str:
+    value = step.seconds if step.seconds is not None else step.distance_m
+    if value is None and step.angle_rad is not None:
+        return f"{step.angle_rad * 57.29577951308232:.0f}°"
+    return f"{value or 0.0:g}"
+
+
+def tell_deed(facts: SiteView, order: StandingOrder) -> Bilingual:
+    """Return what an order does each time."""
+    if order.reminder is not None:
+        return say("standing.reminds", words=order.reminder) if order.reminder else say(
+            "standing.reminds_of_time"
+        )  # fmt: skip
+    if not order.allowed:
+        return say("standing.answers", order=order.order)
+    return tell_steps(facts, order.allowed)
+
+
+def tell_kept(
+    facts: SiteView, order: StandingOrder, due_s: float | None, zone: tzinfo, now_unix_s: float
+) -> Bilingual:
+    """Return what a person hears when an order is taken."""
+    when = capitalise(tell_rule(order.rule, zone, now_unix_s))
+    said = say("standing.kept", when=when, deed=tell_deed(facts, order))
+    if due_s is None or order.is_once:
+        return said
+    following = say("standing.next", time=tell_time(due_s, zone, now_unix_s))
+    return join((said, following))
+
+
+def tell_order(facts: SiteView, order: StandingOrder, zone: tzinfo, now_unix_s: float) -> Bilingual:
+    """Return an order in one line: "o3: every day at 20:00: look. (paused)"."""
+    code = "standing.line_paused" if order.paused else "standing.line"
+    when = tell_rule(order.rule, zone, now_unix_s)
+    return say(code, id=order.id, when=when, deed=tell_deed(facts, order))
+
+
+def tell_list(lines: tuple[Bilingual, ...]) -> Bilingual:
+    """Return all orders in words; of many the first."""
+    if not lines:
+        return say("standing.none")
+    shown = list(lines[:MOST_TOLD])
+    if len(lines) > MOST_TOLD:
+        shown.append(say("standing.more", count=len(lines) - MOST_TOLD))
+    return say("standing.list", lines=list_names(shown, "joint.name"))
+
+
+def tell_missed(order: StandingOrder, firing: Firing, zone: tzinfo, now_unix_s: float) -> Bilingual:
+    """Return that a run was missed, and why; a reminder's words are in it."""
+    why = say_or_quote("order_reason", firing.reason or "late")
+    time = tell_time(firing.due_unix_s, zone, now_unix_s)
+    order_text = order.reminder or order.text
+    if firing.count > 1:
+        return say(
+            "standing.missed_several", count=firing.count, text=order_text, time=time, why=why
+        )
+    return say("standing.missed", text=order_text, time=time, why=why)
+
+
+def tell_reminder(order: StandingOrder) -> Bilingual:
+    """Return a reminder's words."""
+    return (
+        say("standing.reminder", words=order.reminder)
+        if order.reminder
+        else say("standing.reminder_of_time")
+    )
+
+
+def capitalise(said: Bilingual) -> Bilingual:
+    """Return a text with a capital at its beginning, where its language has them."""
+    return build(lambda language: said.of(language)[:1].upper() + said.of(language)[1:])
+
+
+def say_goal_of_reminder(order_language: str, words: str) -> str:
+    """Return the order that a reminder is as a goal, in its own language."""
+    spoken = words or raw("standing.time_is_over", order_language)
+    return raw("standing.say_words", order_language).format(words=spoken)

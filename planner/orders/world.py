@@ -1,0 +1,106 @@
+"""Read the missions and the robot for what standing orders must know: may one fire, what happened.
+
+Pure questions about the newest word of bridge, eyes and lidar; no memory.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING
+
+from planner.mission.bridge_status import cannot_move, standing
+from planner.mission.standing_goals import is_of_order
+from planner.orders.scheduler import BRIDGE_SILENT
+from planner.orders.watch import WorldFacts
+from planner.plan import GoalState, PauseReason
+from planner.plan.timing import WorldEvent
+
+if TYPE_CHECKING:
+    from planner.mission.state import Mission, MissionState
+    from planner.navigation import ObstacleReport
+
+FRESH_S = 1.0
+"""A status older than this says nothing of now."""
+HOME_M = 0.8
+PERSON = "person"
+_BY_PERSON = frozenset(
+    {PauseReason.OPERATOR.value, PauseReason.STOP.value, PauseReason.TELEOP.value}
+)
+
+
+def hindrance(book: MissionState, now_s: float) -> str | None:
+    """Return why no standing order may fire now (a stable code), or None."""
+    status = book.status
+    if status is None or not now_s - book.status_s <= FRESH_S:
+        return BRIDGE_SILENT
+    if (cause := cannot_move(status)) is not None:
+        return "fault" if cause.startswith("fault") else cause
+    if status.held is not None:
+        return "held"
+    return "paused" if _is_paused(book) else None
+
+
+def _is_paused(book: MissionState) -> bool:
+    """Tell whether a person paused the robot, and gave no order since."""
+    missions = book.missions.values()
+    paused = [m for m in missions if m.state is GoalState.PAUSED and m.reason in _BY_PERSON]
+    if not paused:
+        return False
+    last = max(paused, key=lambda m: m.updated_unix_s)
+    given = (m.created_unix_s for m in missions if m is not last and not is_of_order(m))
+    return not max(given, default=float("-inf")) > last.updated_unix_s
+
+
+def facts_now(
+    book: MissionState, report: ObstacleReport | None, now_s: float, done: int, failed: int
+) -> WorldFacts:
+    """Return what the planner knows of the world now."""
+    status = book.status
+    fresh = status is not None and now_s - book.status_s <= FRESH_S
+    sight = book.sight
+    seeing = sight.blind is None and sight.look is not None
+    look = sight.look if seeing else None
+    still = fresh and status is not None and standing(status) and book.running is None
+    scan = report if still and report is not None else None
+    return WorldFacts(
+        look=look.seq if look is not None else None,
+        person=look is not None and any(d.label == PERSON for d in look.detections),
+        scan=scan.version if scan is not None else None,
+        moves=scan is not None and bool(scan.movers),
+        battery=status.drive.battery if fresh and status is not None else None,
+        at_home=_is_home(book) if fresh else None,
+        done=done,
+        failed=failed,
+    )
+
+
+def _is_home(book: MissionState) -> bool | None:
+    status, home = book.status, book.facts.targets.get(book.facts.home)
+    pose = status.base_in_map if status is not None else None
+    if status is None or pose is None or home is None:
+        return None
+    near = hypot(pose.x_m - home.pose.x_m, pose.y_m - home.pose.y_m) <= HOME_M
+    return near and standing(status)
+
+
+def lacks(book: MissionState, event: WorldEvent, report: ObstacleReport | None) -> str | None:
+    """Return why an event can't be noticed by this robot (a code of the problems), or None."""
+    if event is WorldEvent.PERSON_SEEN and book.sight.blind in ("no_camera", "no_detector"):
+        return book.sight.blind
+    if event is WorldEvent.PERSON_SEEN and book.eyes.classes and PERSON not in book.eyes.classes:
+        return "no_detector"
+    if event is WorldEvent.MOVEMENT and report is None:
+        return "no_lidar"
+    gauge = book.status is not None and book.status.drive.battery is None
+    return "no_gauge" if event is WorldEvent.BATTERY_LOW and gauge else None
+
+
+def count_ended(
+    missions: dict[str, Mission], known: frozenset[str]
+) -> tuple[frozenset[str], int, int]:
+    """Return the goals that have ended, and how many of persons' goals did and failed anew."""
+    ended = {i: m for i, m in missions.items() if m.has_ended}
+    fresh = [m for i, m in ended.items() if i not in known and not is_of_order(m) and m.steps]
+    done = sum(m.state is GoalState.SUCCEEDED for m in fresh)
+    failed = sum(m.state is GoalState.FAILED for m in fresh)
+    return frozenset(ended), done, failed

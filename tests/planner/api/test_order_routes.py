@@ -1,0 +1,184 @@
+"""Standing orders over HTTP: given, listed, shown, paused, removed; by an operator alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from planner.api import Access
+from planner.orders.order import MAX_ORDERS
+from planner.orders.rule import QuietHours
+from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import BASE, client_of
+from tests.planner.orders.fakes import NOON_UNIX_S, FakeMissions, MovedClocks, standing_orders
+
+VIEWER = {"Authorization": "Bearer viewer-token-viewer"}
+
+
+@pytest.fixture
+def services(tmp_path: Path) -> FakeServices:
+    made = FakeServices()
+    clock = MovedClocks()
+    quiet = QuietHours(22 * 60, 7 * 60)
+    made.orders = standing_orders(tmp_path, clock, FakeMissions(clock, "two_room"), quiet)
+    return made
+
+
+@pytest.fixture
+def client(services: FakeServices) -> Iterator[TestClient]:
+    with client_of(services) as made:
+        yield made
+
+
+def give(client: TestClient, **body: Any) -> Any:
+    return client.post("/v1/orders", json=body)
+
+
+def test_an_order_is_given_listed_shown_paused_and_removed(client: TestClient) -> None:
+    made = give(client, text="every evening at eight go to the kitchen", source="page")
+    assert made.status_code == 201, made.text
+    order = made.json()
+    assert order["id"] == "o1"
+    assert order["next"] == "2027-01-15T20:00:00+01:00"
+    assert order["told"]["en"] == "Every day at 20:00 I will go to “kitchen”. Next: today 20:00."
+    assert order["told"]["zh"] == "每天 20:00我会去“厨房”。下一次：今天 20:00。"
+    assert [step["kind"] for step in order["may"]] == ["go_to"]
+    listed = client.get("/v1/orders").json()
+    assert listed["timezone"] == "Europe/Berlin"
+    assert listed["quiet"] == "22:00–07:00"
+    assert [each["id"] for each in listed["orders"]] == ["o1"]
+    shown = client.get("/v1/orders/o1").json()
+    assert shown["runs"][:2] == ["2027-01-15T20:00:00+01:00", "2027-01-16T20:00:00+01:00"]
+    assert shown["history"] == []
+    assert client.post("/v1/orders/o1/pause", json={}).json()["state"] == "paused"
+    assert client.get("/v1/orders/o1").json()["runs"] == []
+    assert client.post("/v1/orders/o1/resume", json={}).json()["state"] == "active"
+    assert client.request("DELETE", "/v1/orders/o1", json={}).status_code == 200
+    assert client.get("/v1/orders").json()["orders"] == []
+
+
+def test_the_same_order_again_is_the_one_that_is_kept(client: TestClient) -> None:
+    first = give(client, text="every evening at eight go to the kitchen")
+    again = give(client, text="each evening at 8 pm go to the kitchen")
+    assert (first.status_code, again.status_code) == (201, 200)
+    assert again.json()["id"] == first.json()["id"]
+
+
+@pytest.mark.parametrize(
+    ("when", "kind"),
+    [
+        ({"cron": "0 20 * * 1-5"}, "cron"),
+        ({"at": "2027-01-16T09:00:00+01:00"}, "at"),
+        ({"in_s": 1200}, "at"),
+        ({"every_s": 3600}, "every"),
+        ({"event": "battery_low"}, "event"),
+    ],
+)
+def test_a_time_may_be_given_apart(client: TestClient, when: dict[str, Any], kind: str) -> None:
+    made = give(client, text="go to the kitchen", when=when)
+    assert made.status_code == 201, made.text
+    assert made.json()["rule"]["kind"] == kind
+
+
+def test_a_reminder_may_be_given_apart(client: TestClient) -> None:
+    made = give(client, reminder="stop the oven", when={"in_s": 600})
+    assert made.status_code == 201, made.text
+    assert made.json()["order"] == "say “stop the oven”"
+    assert made.json()["does"]["en"] == "remind you: “stop the oven”"
+
+
+@pytest.mark.parametrize(
+    ("body", "status", "code"),
+    [
+        ({"text": "go to the kitchen"}, 422, "order_malformed"),
+        ({"text": "every day, every hour go to the kitchen"}, 422, "order_nested"),
+        ({"text": "daily at 9 say hello", "when": {"in_s": 60}}, 422, "order_nested"),
+        ({"text": "every day go to the kitchen"}, 422, "order_time_missing"),
+        ({"text": "every day at eight"}, 422, "order_empty"),
+        ({"text": "today at nine go to the kitchen"}, 422, "order_in_past"),
+        ({"text": "say hello", "when": {"at": "2020-01-01T00:00:00Z"}}, 422, "order_in_past"),
+        ({"text": "say hello", "when": {"at": "2999-01-01T00:00:00Z"}}, 422, "order_too_far"),
+        ({"text": "go to the kitchen", "when": {"cron": "* * * * *"}}, 422, "order_too_often"),
+        ({"text": "go to the kitchen", "when": {"cron": "* * * * * *"}}, 422, "order_malformed"),
+        ({"text": "go to the kitchen", "when": {"every_s": 1}}, 422, "order_too_often"),
+        ({"text": "go to the kitchen", "when": {"cron": "30 3 * * *"}}, 422, "order_always_quiet"),
+        ({"text": "go to the moon", "when": {"in_s": 60}}, 422, "order_unclear"),
+        ({"text": "fly", "when": {"in_s": 60}}, 422, "order_unclear"),
+        ({"text": "stop", "when": {"in_s": 60}}, 422, "order_stops"),
+        ({"text": "pause for now", "when": {"in_s": 60}}, 422, "order_is_command"),
+        ({"text": "yes", "when": {"in_s": 60}}, 422, "order_is_command"),
+        ({"text": "go to the kitchen", "when": {}}, 422, "invalid_request"),
+        ({"text": "x", "when": {"in_s": 60, "every_s": 900}}, 422, "invalid_request"),
+        ({"text": "x", "when": {"event": "full_moon"}}, 422, "invalid_request"),
+        ({"text": "x", "when": {"in_s": 1e12}}, 422, "invalid_request"),
+        ({"text": "x", "when": {"at": "2027-01-16T09:00:00"}}, 422, "invalid_request"),
+        ({"reminder": "tea"}, 422, "invalid_request"),
+        ({}, 422, "invalid_request"),
+        ({"text": "y" * 501}, 422, "invalid_request"),
+    ],
+)  # fmt: skip
+def test_what_can_not_be_kept_is_refused_with_a_code(
+    client: TestClient, services: FakeServices, body: dict[str, Any], status: int, code: str
+) -> None:
+    answer = give(client, **body)
+    assert (answer.status_code, answer.json()["code"]) == (status, code), answer.text
+    assert services.orders.keeper.book.orders == {}
+    if code.startswith("order_"):
+        told = answer.json()["message"]
+        assert told["en"] != told["zh"]
+
+
+def test_no_more_orders_are_kept_than_a_page_can_show(
+    client: TestClient, services: FakeServices
+) -> None:
+    for number in range(MAX_ORDERS + 3):
+        services.orders.keeper.clocks  # noqa: B018  # each from its own second
+        answer = client.post(
+            "/v1/orders",
+            json={"text": "say hello", "when": {"cron": f"{number % 60} {8 + number // 60} * * *"}},
+            headers={},
+        )
+        if answer.status_code == 429:
+            break
+    assert len(services.orders.keeper.book.orders) <= MAX_ORDERS
+
+
+@pytest.mark.parametrize("order_id", ["o9", "o999999"])
+def test_an_unknown_order_is_told(client: TestClient, order_id: str) -> None:
+    for method, path in (("GET", ""), ("DELETE", ""), ("POST", "/pause"), ("POST", "/resume")):
+        answer = client.request(method, f"/v1/orders/{order_id}{path}", json={})
+        assert (answer.status_code, answer.json()["code"]) == (404, "unknown_order")
+    assert client.get("/v1/orders/../goals").status_code in (200, 404, 422)
+
+
+def test_a_viewer_may_look_and_change_nothing(services: FakeServices) -> None:
+    access = Access(
+        "127.0.0.1", hosts=frozenset({"testserver", "127.0.0.1"}),
+        operator_token="operator-token-operator", viewer_token="viewer-token-viewer",
+    )  # fmt: skip
+    with client_of(services, access) as client:
+        assert client.get("/v1/orders", headers=VIEWER).status_code == 200
+        for method, path in (
+            ("POST", "/v1/orders"),
+            ("POST", "/v1/orders/o1/pause"),
+            ("POST", "/v1/orders/o1/resume"),
+            ("DELETE", "/v1/orders/o1"),
+            ("POST", "/v1/goals/g1/answer"),
+            ("POST", "/v1/goals/g1/confirm"),
+        ):
+            body = {"text": "every day at eight go to the kitchen"}
+            answer = client.request(method, path, json=body, headers=VIEWER)
+            assert (answer.status_code, answer.json()["code"]) == (403, "operator_needed")
+    assert services.orders.keeper.book.orders == {}
+    assert services.goals.calls == []
+
+
+def test_times_are_told_on_the_robots_own_clock(client: TestClient) -> None:
+    now = client.get("/v1/orders").json()["now"]
+    assert now == "2027-01-15T12:00:00+01:00"
+    assert NOON_UNIX_S == 1_800_010_800.0
+    assert BASE.startswith("http")

@@ -1,0 +1,248 @@
+"""Standing orders and the missions together: said, kept, fired, held to what was said, stopped."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from planner.brain.scripted import Reply
+from planner.orders.factory import StandingOrders, standing_orders_of
+from planner.orders.interfaces import OrderClocks
+from planner.plan import (
+    Bilingual,
+    Clarify,
+    Code,
+    ComeBack,
+    Goal,
+    GoalState,
+    Option,
+    Say,
+    StepPlan,
+)
+from planner.settings import OrderSettings
+from planner.site import Site
+from planner.state_database import StateDatabase
+from tests.planner.mission import live
+from tests.planner.mission.live import Together, run
+from tests.planner.orders.fakes import NOON_UNIX_S, ROOT
+from wire import Pose2
+
+SITE = Site.load(ROOT / "sites" / "two_room")
+KITCHEN, SOFA = live.KITCHEN, live.SOFA
+HELLO = StepPlan(steps=(Say(text="hello"),))
+ENDED = (GoalState.SUCCEEDED, GoalState.REFUSED, GoalState.FAILED, GoalState.CANCELLED)
+
+
+@dataclass
+class Home:
+    """Hold a planner's missions and its standing orders, whose clock a test moves."""
+
+    together: Together
+    orders: StandingOrders
+    unix_s: float = NOON_UNIX_S
+
+    async def say(self, text: str, *states: GoalState) -> Goal:
+        given = await self.together.missions.submit(text)
+        return await self.together.reach(given.id, *(states or ENDED))
+
+    async def pass_s(self, seconds: float) -> None:
+        """Let the orders' clocks go on; the missions' own goes by itself."""
+        self.unix_s += seconds
+        self.orders.keeper.turn()
+        await self.orders.keeper.work_off()
+
+    def fired(self) -> list[Goal]:
+        missions = self.together.missions.loop.book.missions.values()
+        found = [m.id for m in missions if m.source.startswith("order:")]
+        return [self.together.missions.goal(i) for i in found]
+
+
+@asynccontextmanager
+async def home(
+    folder: Path, *replies: Reply, by_grammar: bool = True, prefix: str = "g"
+) -> AsyncIterator[Home]:
+    bridge = live.LiveBridge(pose=Pose2(1.0, 4.2, 0.0))
+    async with live.planner(
+        folder, SITE, *replies, bridge=bridge, by_grammar=by_grammar, prefix=prefix
+    ) as together:
+        settings = OrderSettings(timezone="Europe/Berlin")
+        database = StateDatabase(folder)
+        orders = standing_orders_of(settings, folder, database, together.missions)
+        made = Home(together, orders)
+        numbers = iter(range(1000))
+        # The two clocks part by design: the missions' is the bridge's, the orders' the test's.
+        orders.keeper.clocks = OrderClocks(
+            bridge.now_s, lambda: made.unix_s, lambda: f"{prefix}-order-{next(numbers)}"
+        )
+        await orders.keeper.start(rounds=False)
+        try:
+            yield made
+        finally:
+            await orders.keeper.close()
+            database.close()
+
+
+def told(goal: Goal) -> str:
+    assert goal.outcome is not None
+    return goal.outcome.message.en
+
+
+def test_an_order_is_said_kept_listed_and_driven(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, KITCHEN) as made:
+            kept = await made.say("every day at 12:10 go to the kitchen")
+            assert kept.outcome is not None
+            assert kept.outcome.code is Code.ANSWERED
+            assert told(kept).startswith("Every day at 12:10 I will go to “kitchen”. Next: today")
+            assert made.together.bridge.waypoints == []
+            assert "o1: every day at 12:10" in told(await made.say("what do you do every day?"))
+            await made.pass_s(599.0)
+            assert made.fired() == []
+            await made.pass_s(2.0)
+            [goal] = made.fired()
+            assert goal.text == "go to the kitchen"
+            await made.together.reach(goal.id, GoalState.SUCCEEDED)
+            await made.pass_s(1.0)
+            assert made.together.bridge.waypoints != []
+
+    run(story())
+
+
+def test_a_model_that_drives_elsewhere_at_its_time_is_asked_about(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, KITCHEN, SOFA) as made:
+            await made.say("every day at 12:10 go to the kitchen")
+            await made.pass_s(601.0)
+            [goal] = made.fired()
+            waits = await made.together.reach(goal.id, GoalState.AWAITING_CONFIRMATION)
+            assert waits.reason == "unasked_motion"
+            assert made.together.bridge.waypoints == []
+
+    run(story())
+
+
+def test_motion_that_nobody_said_is_no_standing_order(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, KITCHEN, by_grammar=False) as made:
+            refused = await made.say("every day at 12:10 say hello")
+            assert refused.outcome is not None
+            assert refused.outcome.code is Code.ORDER_NOT_KEPT
+            assert made.orders.keeper.book.orders == {}
+
+    run(story())
+
+
+def test_an_order_that_comes_back_to_nowhere_is_refused(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, StepPlan(steps=(ComeBack(),))) as made:
+            refused = await made.say("every day at 12:10 come back")
+            assert "name the place" in told(refused)
+            assert made.orders.keeper.book.orders == {}
+
+    run(story())
+
+
+def test_a_question_about_the_order_is_answered_with_its_time(tmp_path: Path) -> None:
+    which = Clarify(
+        code=Code.AMBIGUOUS,
+        question=Bilingual(en="The kitchen?", zh="厨房？"),
+        options=(Option(label=Bilingual(en="Yes", zh="是"), text="go to the kitchen"),),
+    )
+
+    async def story() -> None:
+        async with home(tmp_path, which, KITCHEN) as made:
+            asking = await made.say(
+                "every day at 12:10 go to the room", GoalState.NEEDS_CLARIFICATION
+            )
+            assert asking.plan is not None
+            [option] = asking.plan.options
+            assert option.text == "every day at 12:10 go to the kitchen"
+            await made.together.missions.answer(asking.id, "yes")
+            ended = await made.together.reach(asking.id, GoalState.SUCCEEDED)
+            assert "go to “kitchen”" in told(ended)
+            assert made.together.bridge.waypoints == []
+            [kept] = made.orders.keeper.book.orders.values()
+            assert kept.order == "go to the kitchen"
+
+    run(story())
+
+
+def test_a_free_answer_never_drives_at_once(tmp_path: Path) -> None:
+    which = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which?", zh="哪个？"))
+
+    async def story() -> None:
+        async with home(tmp_path, which, KITCHEN) as made:
+            asking = await made.say(
+                "every day at 12:10 go to the room", GoalState.NEEDS_CLARIFICATION
+            )
+            await made.together.missions.answer(asking.id, "go to the kitchen")
+            ended = await made.together.reach(asking.id, GoalState.SUCCEEDED)
+            assert "Every day at 12:10 I will" in told(ended)
+            assert made.together.bridge.waypoints == []
+
+    run(story())
+
+
+def test_stop_words_stop_first_and_then_mean_what_they_say(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, KITCHEN) as made:
+            await made.say("every day at 12:10 go to the kitchen")
+            drive = await made.together.missions.submit("go to the kitchen")
+            await made.together.reach(drive.id, GoalState.RUNNING)
+            await made.together.until(lambda: made.together.bridge.horizon is not None)
+            stopped = await made.say("stop going to the kitchen every day")
+            assert stopped.outcome is not None
+            assert stopped.outcome.code is Code.STOPPED
+            assert "Removed: o1" in told(stopped)
+            assert made.together.missions.goal(drive.id).state is GoalState.PAUSED
+            assert made.orders.keeper.book.orders == {}
+
+    run(story())
+
+
+def test_a_word_that_may_mean_stop_stops_and_removes(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, HELLO, KITCHEN) as made:
+            await made.say("remind me in 20 minutes to call Tom")
+            drive = await made.together.missions.submit("go to the kitchen")
+            await made.together.reach(drive.id, GoalState.RUNNING)
+            stopped = await made.say("stop reminding me")
+            assert "Removed: o1" in told(stopped)
+            assert made.together.missions.goal(drive.id).state is GoalState.PAUSED
+            assert made.orders.keeper.book.orders == {}
+
+    run(story())
+
+
+def test_nothing_fires_after_a_stop_until_a_person_acts(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, KITCHEN) as made:
+            await made.say("every day at 12:10 go to the kitchen")
+            await made.say("stop")
+            await made.pass_s(601.0)
+            assert made.fired() == []
+            [kept] = made.orders.keeper.book.orders.values()
+            assert kept.missed == 1
+
+    run(story())
+
+
+def test_a_killed_planner_gives_no_goal_twice(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, KITCHEN) as made:
+            await made.say("every day at 12:10 go to the kitchen")
+            await made.pass_s(601.0)
+            [goal] = made.fired()
+            key = "standing-order:o1:1"
+            assert made.together.missions.standing.find(key) == goal.id
+        async with home(tmp_path, KITCHEN, prefix="h") as again:
+            again.unix_s = NOON_UNIX_S + 610.0
+            assert again.together.missions.standing.find(key) == goal.id
+            await again.pass_s(1.0)
+            assert [g.id for g in again.fired()] == [goal.id]
+            await asyncio.sleep(0)
+
+    run(story())
