@@ -11,6 +11,7 @@ import json
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 NAME = "ros2_true"
 TITLE = "ROS 2 true nodes: commands, scans, kills in mid-drive and the home tour, by transport"
 LONG_ONLY = True
-WAYS = ("rosbridge", "dds")
+WAYS = ("dds", "rosbridge")
 COMMANDS, KILLS, SCANS_S = 1_000, 20, 20.0
 GRAPH = CHECKOUT / "tests" / "ros2" / "ros_graph.py"
 RELAY = CHECKOUT / "examples" / "ros2_relay" / "relay.py"
@@ -50,7 +51,7 @@ STEP_MPS = 1e-5
 
 
 def measure(lab: BenchLab) -> list[ReportRow]:
-    """Measure each way: the line, then kills and freezes, then the tour."""
+    """Measure each way: the line, then the tour, then kills and freezes."""
     if not os.environ.get("PONS_ROS2_PYTHON"):
         raise MeasurementFailure("PONS_ROS2_PYTHON names no Python with rclpy (docs/ros2.md)")
     return [row for way in WAYS for row in _measure_way(lab, way)]
@@ -59,10 +60,10 @@ def measure(lab: BenchLab) -> list[ReportRow]:
 def _measure_way(lab: BenchLab, way: str) -> list[ReportRow]:
     take_line = partial(_line, lab, way)
     lines = list(lab.slices(f"line.{way}", lab.count(1, 3), lambda _: take_line()))
-    faults = ("killed", "frozen", "cut") if way == "rosbridge" else ("killed", "frozen")
-    zeros = {fault: _zeros_ms(lab, way, fault) for fault in faults}
     take_tour = partial(_tour, lab, way)
     tours = list(lab.slices(f"tour.{way}", 1, lambda _: take_tour()))
+    faults = ("killed", "frozen", "cut") if way == "rosbridge" else ("killed", "frozen")
+    zeros = {fault: _zeros_ms(lab, way, fault) for fault in faults}
     delivered = ", ".join(f"{one['delivered']} of {COMMANDS}" for one in lines)
     scans = ", ".join(f"{one['scans']} of {one['scans_said']}" for one in lines)
     came_ms = [one for line in lines for one in line["came_ms"]]
@@ -236,7 +237,7 @@ def _tour(lab: BenchLab, way: str) -> dict[str, Any]:
             cwd=CHECKOUT, stderr=subprocess.DEVNULL,
         )  # fmt: skip
         stack.callback(_end, body)
-        time.sleep(2.0)
+        until(partial(_is_open, port), START_S, "the simulator's server")
         graph.start(("body", str(port)))
         judge = stack.enter_context(open_session(Party.JUDGE, "r1", body_home))
         truths, contacts = judge.subscriber(keys.SIM_TRUTH), 0
@@ -255,6 +256,12 @@ def _tour(lab: BenchLab, way: str) -> dict[str, Any]:
                 lost += f"{room}: {said.stdout[-300:]}{said.stderr[-300:]} "
             lab.say(f"{way}: {room} {'reached' if said.returncode == 0 else 'lost'}")
     return {"reached": reached, "contacts": contacts, "lost": lost}
+
+
+def _is_open(port: int) -> bool:
+    with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1.0):
+        return True
+    return False
 
 
 class _PonsUp:
