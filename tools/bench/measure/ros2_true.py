@@ -165,7 +165,7 @@ def _end(process: subprocess.Popen[Any]) -> None:
         process.stdout.close()
 
 
-def _begun(stack: ExitStack, graph: _TrueGraph) -> tuple[Commander, subprocess.Popen[bytes]]:
+def _begin_line(stack: ExitStack, graph: _TrueGraph) -> tuple[Commander, subprocess.Popen[bytes]]:
     """Return a bridge whose commands the relay obeys, and the process between."""
     graph.start(("base", STAMPED), ("lidar",))
     process = graph.start_process()
@@ -179,7 +179,7 @@ def _line(lab: BenchLab, way: str) -> dict[str, Any]:
     """Send a thousand commands, each of another speed; then count scans for a while."""
     with lab.folder() as home, ExitStack() as stack:
         graph = _TrueGraph(way, home, stack)
-        commander, _ = _begun(stack, graph)
+        commander, _ = _begin_line(stack, graph)
         radius_m = load_robot(ROBOTS["rosbridge"]).base.wheel_radius_m
         sent_s = {}
         for number in range(COMMANDS):
@@ -210,7 +210,7 @@ def _break_line(lab: BenchLab, way: str, fault: str) -> dict[str, float]:
     """Kill or freeze the process, or cut its server off, in mid-drive; wait for zeros."""
     with lab.folder() as home, ExitStack() as stack:
         graph = _TrueGraph(way, home, stack)
-        commander, process = _begun(stack, graph)
+        commander, process = _begin_line(stack, graph)
         radius_m = load_robot(ROBOTS["rosbridge"]).base.wheel_radius_m
         for _ in range(100):
             commander.turn(DRIVE_MPS / radius_m)
