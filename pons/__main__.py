@@ -25,7 +25,7 @@ _APART = {
     EVAL: "score what a brain plans, on sentences",
     MOCK_LLM: "serve a model that is none, with faults",
     SITE: "make a site of a map, name its rooms, check it",
-    MAP: "make a site of the recordings of a drive",
+    MAP: "make a site of a drive, or mend the map of one",
     ROBOT: "find out what is plugged in, for robot.toml",
     NAV2: "let Nav2 drive through the bridge, in the planner's place",
 }

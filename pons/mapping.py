@@ -165,6 +165,7 @@ def _new_folder(sites: Path, name: str) -> Path:
 
 def _replay(recordings: list[Path], replay: MapReplay) -> MapReplay:
     for path in recordings:
+        print(f"reading {path}", file=sys.stderr)  # a second for each ten that were recorded
         if path.suffix == SUFFIX:
             try:
                 replay.hear(read_motion(path))

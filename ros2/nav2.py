@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ros2.nav2_velocity import Nav2Velocity
-from ros2.transport import open_transport
+from ros2.transport_choice import open_transport
 from wire import ConfigError, keys, load_robot
 from wire.keys import Key, Party
 from wire.session import open_session

@@ -138,16 +138,16 @@ class Nav2Velocity:
         owner = status.owner
         if owner is None or owner.planner_id != self._me:
             if owner is None and status.map_id is not None:
-                said.append((_any(keys.HELLO), self._hello(status, status.map_id)))
+                said.append((_widened_key(keys.HELLO), self._hello(status, status.map_id)))
             return said
         now = {"planner_id": self._me, "epoch": status.epoch, "seen": status.seq}
-        said.append((_any(keys.HEARTBEAT), Heartbeat(**now, used=status.seq)))
+        said.append((_widened_key(keys.HEARTBEAT), Heartbeat(**now, used=status.seq)))
         wants = self._twist is not None and not self._twist.is_still and self._is_sound
         is_new = status.grant is None or status.grant.mission != self._mission()
         free = status.held is None and status.mode in (Mode.HOLD, Mode.ACTIVE)
         if wants and is_new and free:
             grant = Grant(**now, mission=self._mission(), metres=METRES, seconds=SECONDS)
-            said.append((_any(keys.GRANT), grant))
+            said.append((_widened_key(keys.GRANT), grant))
         return said
 
     def velocity(self, status: Status, now_s: float) -> Velocity | None:
@@ -231,7 +231,7 @@ class Nav2Velocity:
         return None
 
 
-def _any(key: object) -> Key[Record]:
+def _widened_key(key: object) -> Key[Record]:
     return key  # type: ignore[return-value]  # a Key only ever produces its message
 
 

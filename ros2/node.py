@@ -7,7 +7,7 @@ import logging
 import time
 from typing import TYPE_CHECKING
 
-from ros2.transport import open_transport
+from ros2.transport_choice import open_transport
 from ros2.trouble import STARTING
 from wire import keys
 

@@ -20,7 +20,8 @@ from ros2.operations import (
     UnreadableMessage,
     plain_type,
 )
-from ros2.transport import NOTHING_MADE, open_transport
+from ros2.transport import NOTHING_MADE
+from ros2.transport_choice import open_transport
 from ros2.trouble import STARTING, Ros2Trouble
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Say what each way to a ROS 2 robot must do, and open the one that robot.toml names."""
+"""Say what each way to a ROS 2 robot must do, and what it makes for the wire."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
 
     from ros2.operations import Answer, Request
     from ros2.trouble import Ros2Trouble
     from wire import DriveState, Imu, Scan
-    from wire.ros2_config import Ros2Config
 
 MOST_BYTES = 1 << 20
 """A scan of 4 000 beams has 80 kB as JSON; a server that sends more sends something else."""
@@ -56,23 +54,3 @@ class Transport(Protocol):
 
     async def drop_if_silent(self, now_s: float) -> None:
         """End a connection at whose other end nobody is left."""
-
-
-def open_transport(
-    ros2: Ros2Config,
-    listener: GraphListener,
-    publish: Callable[[LinkMessages], None],
-    most_bytes: int = MOST_BYTES,
-) -> Transport:
-    """Return the transport that ``ros2.transport`` names; it dials when it is served."""
-    if ros2.transport == "dds":
-        from ros2.dds import DdsTransport
-
-        return DdsTransport(ros2, listener, publish)
-    if ros2.transport == "zenoh":
-        from ros2.rmw_zenoh import ZenohTransport
-
-        return ZenohTransport(ros2, listener, publish)
-    from ros2.connection import RosbridgeConnection
-
-    return RosbridgeConnection(ros2.peer, listener, publish, most_bytes)

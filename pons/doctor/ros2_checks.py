@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok
 from ros2 import BaseLink
-from ros2.transport import open_transport
+from ros2.transport_choice import open_transport
 from ros2.trouble import CODES, STARTING, Ros2Trouble
 from wire import keys
 from wire.doors import ROS2_COPY_DOOR

@@ -44,6 +44,42 @@ def test_what_does_not_fit_is_refused_by_name(given: dict[str, Any], says: str) 
     assert says in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"transport": "rosbridge"}, "ros2.url is missing: ros2.transport 'rosbridge'"),
+        ({"transport": "dds", **URL}, "ros2.url is for transport rosbridge, not 'dds'"),
+        ({"transport": "dds", "router": "tcp/a:1"}, "ros2.router is for transport zenoh"),
+        ({"transport": "zenoh", "interface": "lo"}, "ros2.interface is for transport dds"),
+        ({"domain": 3, **URL}, "ros2.domain is for transport dds and zenoh, not 'rosbridge'"),
+        ({"transport": "dds", "domain": 233}, "ros2.domain"),
+        ({"transport": "dds", "interface": 'lo"/>'}, "ros2.interface"),
+        ({"transport": "zenoh", "router": "udp/a:1"}, "ros2.router"),
+        ({"transport": "udp"}, "ros2.transport"),
+    ],
+)
+def test_a_way_that_lacks_a_key_or_has_anothers_is_refused(
+    given: dict[str, Any], says: str
+) -> None:
+    with pytest.raises(ValidationError) as refused:
+        RobotDescription.model_validate({"drive": DRIVE, "ros2": given, "inputs": BLIND})
+    assert says in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("preset", "peer"),
+    [
+        ("ros2_diff_drive", "ws://127.0.0.1:9090"),
+        ("ros2_dds", "DDS domain 0"),
+        ("ros2_zenoh", "tcp/127.0.0.1:7447, domain 0"),
+    ],
+)
+def test_each_transport_has_a_preset_that_says_whom_it_reaches(preset: str, peer: str) -> None:
+    ros2 = load_robot(ROOT / "robots" / f"{preset}.toml").ros2
+    assert ros2 is not None
+    assert ros2.peer == peer
+
+
 def test_a_base_without_lidar_and_gyro_of_ros_is_taken() -> None:
     made = RobotDescription.model_validate({"drive": DRIVE, "ros2": URL, "inputs": BLIND})
     assert not made.drive.virtual

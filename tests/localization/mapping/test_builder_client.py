@@ -25,7 +25,7 @@ from wire import Pose2, RobotDescription
 
 pytestmark = pytest.mark.e2e
 LIDAR = RobotDescription().lidar.model_copy(update={"x_m": 0.0, "y_m": 0.0})
-LIMIT_S = 250.0
+LIMIT_S = 30.0
 
 
 class Kept(MapBuilder):
