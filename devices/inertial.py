@@ -24,6 +24,8 @@ MOST_RADPS: Final = 0.4
 """What a gyro may say standing: an MPU-6050's data sheet allows 20 degrees a second."""
 CREEP_RADPS: Final = 0.03
 """From one standstill to the next; an MPU-6050 creeps by 0.3 rad/s from -40 to 85 degrees."""
+UNSURE_CREEP_RADPS: Final = 0.005
+"""The same where a standstill is guessed: an even turn could pass for one."""
 AGREE_RADPS: Final = 0.01
 SURE_WINDOWS: Final = 4
 """So many windows in a row that agree outweigh a bias that was learnt otherwise: a robot that was
@@ -76,6 +78,7 @@ class StandingBias:
                 was learnt first is never thrown away.
         """
         self._is_sure = is_sure_of_standing
+        self._creep_radps = CREEP_RADPS if is_sure_of_standing else UNSURE_CREEP_RADPS
         self._window: deque[tuple[float, float]] = deque()
         self._others: deque[float] = deque(maxlen=SURE_WINDOWS)
         self.bias_radps: float | None = None
@@ -102,7 +105,7 @@ class StandingBias:
             return
         if self.bias_radps is None:
             self.bias_radps = mean
-        elif abs(mean - self.bias_radps) <= CREEP_RADPS:
+        elif abs(mean - self.bias_radps) <= self._creep_radps:
             self.bias_radps += (mean - self.bias_radps) / 2.0
             self._others.clear()
         elif self._is_sure:

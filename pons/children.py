@@ -62,12 +62,11 @@ def children(
     for child in found:
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())
-    if simulated and (robot.camera.kind == "sim" or robot.camera.is_real):
-        arguments = ["sim.camera", *world, *domain]
-        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
-    elif robot.camera.is_real:
-        arguments = ["sensors.camera", *common]
-        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
+    if not simulated and robot.inputs.imu and robot.imu.is_on_i2c:
+        found.insert(0, Child("imu", ["sensors.imu", *common], logs / "imu.log"))
+    seen = ["sim.camera", *world, *domain] if simulated else ["sensors.camera", *common]
+    if robot.camera.is_real or (simulated and robot.camera.kind == "sim"):
+        found.append(Child("camera", seen, logs / "camera.log", waits_for_ready=True))
     return found
 
 

@@ -22,6 +22,7 @@ LISTENING = {
     "camera": Party.CAMERA,
     "lidar": Party.LIDAR,
     "ros2": Party.ROS2,
+    "imu": Party.IMU,
 }
 """Which party each child of ``pons up`` is."""
 

@@ -48,7 +48,8 @@ class SimNode:
         self._robot = robot
         self._twin: DriveTwin | Ros2Twin | None = twin or ros2
         self._ros2 = ros2
-        self._base_gyro = twin if twin is not None and twin.has_gyro else None
+        base_tells = twin is not None and twin.has_gyro and not robot.robot.imu.is_on_i2c
+        self._base_gyro = twin if base_tells else None
         self._lidar = lidar
         self._commands = session.subscriber(keys.DRIVE_COMMAND)
         self._controls = session.subscriber(keys.SIM_CONTROL)

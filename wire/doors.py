@@ -85,6 +85,18 @@ SCANS_DOOR = Door(
     _keys(keys.SCAN, keys.LIDAR_STATE),
     "a copy of what a real lidar says; it hears nothing",
 )  # fmt: skip
+IMU_DOOR = Door(
+    "imu", Party.IMU, (Party.BRIDGE,),
+    (),
+    _keys(keys.IMU, keys.STOP),
+    "a gyro of its own, for the bridge alone",
+)  # fmt: skip
+IMU_COPY_DOOR = Door(
+    "imu_copy", Party.IMU, (Party.PLANNER, Party.LOCALIZATION, Party.JUDGE),
+    (),
+    _keys(keys.IMU, keys.IMU_STATE),
+    "a copy of what a gyro of its own says; it hears nothing",
+)  # fmt: skip
 ROS2_DOOR = Door(
     "ros2", Party.ROS2, (Party.BRIDGE,),
     _keys(keys.DRIVE_COMMAND),
@@ -123,8 +135,8 @@ CAMERA_DOOR = Door(
 )  # fmt: skip
 
 DOORS = (
-    DRIVE_DOOR, ROS2_DOOR, BRIDGE_DOOR, SENSES_DOOR, LIDAR_DOOR, ROBOT_DOOR, ROS2_COPY_DOOR,
-    SCANS_DOOR, SIM_DOOR, LOCALIZATION_DOOR, HINT_DOOR, CAMERA_DOOR,
+    DRIVE_DOOR, ROS2_DOOR, BRIDGE_DOOR, SENSES_DOOR, LIDAR_DOOR, IMU_DOOR, ROBOT_DOOR,
+    ROS2_COPY_DOOR, SCANS_DOOR, IMU_COPY_DOOR, SIM_DOOR, LOCALIZATION_DOOR, HINT_DOOR, CAMERA_DOOR,
 )  # fmt: skip
 """In the order in which a message that passes several is said: the wheels first."""
 

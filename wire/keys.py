@@ -24,6 +24,7 @@ from wire.sensors import (
     DriveState,
     ImageHeader,
     Imu,
+    ImuStatus,
     LidarStatus,
     Localization,
     LocalizerStatus,
@@ -60,6 +61,7 @@ class Party(StrEnum):
     JUDGE = "judge"
     LIDAR = "lidar"
     ROS2 = "ros2"
+    IMU = "imu"
 
 
 M = TypeVar("M", bound=Record)
@@ -86,7 +88,7 @@ class Key(Generic[M]):
         return f"pons/{robot_id}/{self.path}"
 
 
-_P, _B, _L, _R, _C, _S, _O, _J, _LI, _RO = Party  # short, for the table below
+_P, _B, _L, _R, _C, _S, _O, _J, _LI, _RO, _IM = Party  # short, for the table below
 _WHO_ASKS = frozenset({_P, _O, _J})
 """Receivers of the bridge's status and events."""
 
@@ -164,8 +166,10 @@ SCAN = Key("scan", Scan, frozenset({_R, _LI, _RO}), _HEARERS,
            "planar lidar, of the simulator or of a real one's process")  # fmt: skip
 LIDAR_STATE = _from(_LI, "lidar/state", LidarStatus, frozenset({_P, _J}), "2 Hz and on change",
                     "how well a real lidar is read")  # fmt: skip
-IMU = Key("imu", Imu, _WHO_DRIVES, _HEARERS, "100 Hz", LATEST, SMALL,
+IMU = Key("imu", Imu, _WHO_DRIVES | {_IM}, _HEARERS, "100 Hz", LATEST, SMALL,
           "rate of turn, acceleration")  # fmt: skip
+IMU_STATE = _from(_IM, "imu/state", ImuStatus, frozenset({_P, _J}), "2 Hz and on change",
+                  "how well a gyro on an I2C bus is read")  # fmt: skip
 ROS2_STATE = _from(_RO, "ros2/state", Ros2Status, frozenset({_P, _J}), "2 Hz and on change",
                    "how well a ROS 2 base is heard")  # fmt: skip
 CAMERA_COLOR = _from(_C, "camera/color", ImageHeader, frozenset({_P, _J}), "10 Hz",
@@ -186,6 +190,6 @@ OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
     *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
-    LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, ROS2_STATE,
+    LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, IMU_STATE, ROS2_STATE,
     CAMERA_COLOR, CAMERA_DEPTH, CAMERA_STATE, SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
 )  # fmt: skip

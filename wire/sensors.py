@@ -171,6 +171,30 @@ class Imu(Record):
     accel_y_mps2: Annotated[float, Field(ge=-1_000.0, le=1_000.0)]
 
 
+class ImuStatus(Record):
+    """Say how well a gyro's own process reads it, for people; the bridge needs none of it."""
+
+    boot_id: Name
+    seq: Count
+    stamp_s: Seconds
+    model: Name
+    """Kind of robot.toml."""
+    code: Code | None
+    """What is wrong, None where nothing is; docs/sensors.md lists them."""
+    detail: Text = ""
+    """What came, what was expected and what cures it; empty where nothing is wrong."""
+    rate_hz: Annotated[float, Field(ge=0.0, le=1_000.0)]
+    """Readings a second, of the last seconds."""
+    bias_radps: Radps | None
+    """What it says standing, which is taken away; None where it is not known, or the chip's own."""
+    readings: Count
+    """Since the process began, as the next two."""
+    errors: Count
+    """Transfers that failed."""
+    opened: Count
+    """How often the chip was set."""
+
+
 class Odometry(Record):
     """Integrate the wheels: ``base`` in ``odom``, continuous within one ``odom_id``."""
 

@@ -135,8 +135,8 @@ activate() {
   systemctl daemon-reload
   local person=${SUDO_USER:-}
   if [ -n "$person" ] && [ "$person" != root ]; then
-    usermod -a -G pons,dialout,video "$person"
-    say "$person is in the groups pons, dialout and video from the next login on"
+    usermod -a -G pons,dialout,video,i2c "$person"
+    say "$person is in the groups pons, dialout, video and i2c from the next login on"
   fi
 }
 
@@ -163,6 +163,7 @@ start_services() {
   make_key
   systemctl enable pons.target pons-localization
   case "$(kind_of lidar)" in sim | ros2) ;; *) systemctl enable pons-lidar ;; esac
+  case "$(kind_of imu)" in mpu6050 | bno085) systemctl enable pons-imu ;; esac
   case "$(kind_of camera)" in uvc | stream | realsense) systemctl enable pons-uvc ;; esac
   [ "$(kind_of drive)" != ros2 ] || systemctl enable pons-ros2
   say "services start with the computer; on metal a person arms: docs/raspberry-pi.md"

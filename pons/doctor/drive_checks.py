@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
-from wire.drive_config import DRIVE_KINDS
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok
 from wire.ros2_config import ROS2
 
 if TYPE_CHECKING:
@@ -54,45 +53,3 @@ def trial(robot: RobotDescription) -> HealthFinding:
         "lift its wheels off the ground and run: pons robot try", "把轮子架空后运行：pons robot try"
     )
     return fail("trial", found, cure)
-
-
-def gyro(robot: RobotDescription) -> HealthFinding:
-    """Say whose gyro counts, and whether somebody has seen which way it turns."""
-    if not robot.inputs.imu:
-        return warn(
-            "gyro",
-            BilingualWords(
-                "inputs.imu is false: at most 0.3 m/s, and slipping wheels are not seen",
-                "inputs.imu 为 false：最高 0.3 m/s，且无法发现打滑",
-            ),
-            BilingualWords(
-                "where there is one, say so (docs/sensors.md)",
-                "若有陀螺仪请写明（docs/sensors.md）",
-            ),
-        )
-    if robot.drive.virtual or robot.drive.kind == ROS2:
-        return ok("gyro", "comes with the drive", "随驱动提供")
-    if not (robot.imu.is_on_i2c or DRIVE_KINDS[robot.drive.kind].has_gyro):
-        kinds = ", ".join(name for name, kind in DRIVE_KINDS.items() if kind.has_gyro)
-        return fail(
-            "gyro",
-            BilingualWords(
-                f"inputs.imu is true, and a base of kind {robot.drive.kind!r} brings no gyro",
-                f"inputs.imu 为 true，而 {robot.drive.kind!r} 底盘没有陀螺仪",
-            ),
-            BilingualWords(
-                f"inputs.imu = false, or an [imu] on I2C; {kinds} bring their own",
-                f"设 inputs.imu = false，或配置 I2C 的 [imu]；{kinds} 自带",
-            ),
-        )
-    whose = robot.imu.kind if robot.imu.is_on_i2c else "the base's own"
-    valid = robot.valid_trial
-    if valid is None or not valid.gyro:
-        return warn(
-            "gyro",
-            BilingualWords(
-                f"{whose}; nobody has seen which way it turns", f"{whose}：尚未确认转动方向"
-            ),
-            BilingualWords("pons robot try asks for it", "pons robot try 会要求确认"),
-        )
-    return ok("gyro", f"{whose}, tried on {valid.date}", f"{whose}，{valid.date} 已测试")

@@ -10,6 +10,7 @@ import secrets
 import select
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,8 @@ from pons.robot.lidar_trial import try_lidar
 from pons.robot.trial_words import PROMPTS, REFUSALS
 from pons.robot.wheel_trial import TrialRefusal, WheelTrial
 from pons_assets import IS_INSTALLED, ROBOT_FILE
+from sensors.imu.bus import SmBus
+from sensors.imu.reader import ImuReader
 from sensors.lidar.kinds import kind_of
 from sensors.lidar.reader import LidarReader
 from wire import ConfigError, load_robot
@@ -29,7 +32,7 @@ from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
     from bridge.drive import SerialDrive
-    from pons.robot.gyro_trial import Timed
+    from pons.robot.gyro_trial import GyroSource, Timed
     from pons.robot.wheel_trial import WheelFindings
     from pons.settings import LaunchSettings
     from wire import RobotDescription, Scan
@@ -165,6 +168,27 @@ class BaseGyroSource:
         return heard
 
 
+class I2cGyroSource:
+    """Be a chip on an I2C bus, read as its process reads it."""
+
+    def __init__(self, robot: RobotDescription) -> None:
+        bus = robot.imu.bus or 0
+        self._reader = ImuReader(robot.imu, partial(SmBus, bus), "trial", time.monotonic())
+
+    def readings(self) -> list[Timed]:
+        """Read once.
+
+        Raises:
+            ConfigError: the chip can't be read.
+        """
+        now_s = time.monotonic()
+        self._reader.turn(now_s)
+        trouble = self._reader.judge(now_s)
+        if trouble is not None and trouble.code not in {"imu_starting", "imu_unsettled"}:
+            raise ConfigError(trouble.code, trouble.detail)
+        return [] if self._reader.reading is None else [self._reader.reading]
+
+
 def _try_base(
     robot: RobotDescription, person: TerminalPerson
 ) -> tuple[WheelFindings, float | None]:
@@ -174,9 +198,12 @@ def _try_base(
     try:
         require_brakes(drive)
         found = WheelTrial(drive, robot, _WallPace(), person, boot).run()
-        if not robot.inputs.imu or robot.imu.is_on_i2c:
+        if not robot.inputs.imu:
             return found, None
-        return found, try_gyro(robot.imu, BaseGyroSource(drive), _WallPace(), person)
+        source: GyroSource = BaseGyroSource(drive)
+        if robot.imu.is_on_i2c:
+            source = I2cGyroSource(robot)
+        return found, try_gyro(robot.imu, source, _WallPace(), person)
     finally:
         drive.close()
 

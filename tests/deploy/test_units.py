@@ -100,6 +100,17 @@ def test_the_lidars_service_is_as_hardened_and_opens_serial_ports_alone() -> Non
     assert lidar["Install"]["WantedBy"] == ["pons.target"]
 
 
+def test_the_gyros_service_is_the_lidars_but_for_its_devices() -> None:
+    gyro, lidar = (unit(UNITS / f"pons-{name}.service") for name in ("imu", "lidar"))
+    own = {"ExecStart", "User", "SupplementaryGroups", "DeviceAllow"}
+    assert {n: v for n, v in gyro["Service"].items() if n not in own} == {
+        n: v for n, v in lidar["Service"].items() if n not in own
+    }
+    assert gyro["Service"]["DeviceAllow"] == ["char-i2c rw"]
+    assert "python -m sensors.imu --home /var/lib/pons" in gyro["Service"]["ExecStart"][0]
+    assert gyro["Install"]["WantedBy"] == ["pons.target"]
+
+
 def test_the_service_of_a_camera_of_metal_opens_video_alone() -> None:
     camera, other = (unit(UNITS / f"pons-{name}.service") for name in ("uvc", "camera"))
     own = {"ExecStart", "SupplementaryGroups", "MemoryMax", "DevicePolicy", "DeviceAllow"}
@@ -142,6 +153,7 @@ def test_every_door_has_a_folder_that_its_listener_alone_writes_and_who_dials_it
         Party.LOCALIZATION: users["localization"],
         Party.CAMERA: users["camera"],
         Party.LIDAR: unit(UNITS / "pons-lidar.service")["Service"]["User"][0],
+        Party.IMU: unit(UNITS / "pons-imu.service")["Service"]["User"][0],
         Party.ROS2: unit(UNITS / "pons-ros2.service")["Service"]["User"][0],
     }
     for door in DOORS:

@@ -36,6 +36,7 @@ PARTIES = {
     Party.CAMERA: "pons-camera",
     Party.LIDAR: "pons-lidar",
     Party.ROS2: "pons-ros2",
+    Party.IMU: "pons-imu",
     Party.PLANNER: "pons-planner",
     Party.OPERATOR: "pons-planner",
 }

@@ -74,7 +74,12 @@ def test_a_frame_goes_out_and_one_comes_in(line: CanLine, other: Any) -> None:
     )
     other.send(can.Message(arbitration_id=0x1ABCDE, data=b"x", is_extended_id=True))
     came: list[CanFrame] = []
-    until(lambda: came.extend(unpack(line.read())) or came)
+
+    def has_come() -> bool:
+        came.extend(unpack(line.read()))
+        return bool(came)
+
+    until(has_come)
     assert came == [CanFrame(0x1ABCDE, b"x", is_extended=True)]
 
 

@@ -22,7 +22,7 @@ UNITS = CHECKOUT / "deploy" / "systemd"
 INSTALLED = "/var/lib"
 BRIDGE, PLANNER, SIM = "pons-bridge", "pons-planner", "pons-sim"
 LOCALIZATION, CAMERA, LIDAR = "pons-localization", "pons-camera", "pons-lidar"
-ROS2 = "pons-ros2"
+ROS2, IMU = "pons-ros2", "pons-imu"
 MEMBER, STRANGER = "member", "stranger"
 """A person or program in the group pons, and one in none of the groups."""
 USERS = {
@@ -35,14 +35,16 @@ USERS = {
     ROS2: 61_007,
     MEMBER: 61_008,
     STRANGER: 61_009,
+    IMU: 61_010,
 }
 GROUPS = {
     "pons": 62_000, "pons-senses": 62_001, "pons-drive": 62_002, "pons-hint": 62_003,
-    "pons-scan": 62_004, "pons-base": 62_005, MEMBER: 62_008, STRANGER: 62_009,
+    "pons-scan": 62_004, "pons-base": 62_005, "pons-gyro": 62_006, "i2c": 62_007, MEMBER: 62_008,
+    STRANGER: 62_009,
 }  # fmt: skip
 OF_PROCESSES = {
     "bridge": BRIDGE, "planner": PLANNER, "sim": SIM, "localization": LOCALIZATION,
-    "sim.camera": CAMERA, "sensors.lidar": LIDAR, "ros2": ROS2,
+    "sim.camera": CAMERA, "sensors.lidar": LIDAR, "sensors.imu": IMU, "ros2": ROS2,
 }  # fmt: skip
 
 

@@ -19,6 +19,7 @@ class RobotProcess:
         """Take commands from the wire, or from a base on a line, which then has the answers."""
         self.robot = robot
         self._base = base
+        self._base_tells = base is not None and base.twin.has_gyro and not robot.robot.imu.is_on_i2c
         self._commands = port.subscriber(keys.DRIVE_COMMAND)
         self._drive = port.publisher(keys.DRIVE_STATE)
         self._imu = port.publisher(keys.IMU)
@@ -35,7 +36,7 @@ class RobotProcess:
         self._say(self.robot.tick(now_s), now_s)
 
     def _say(self, report: Report, now_s: float) -> None:
-        if report.imu is not None and self._base is not None and self._base.twin.has_gyro:
+        if report.imu is not None and self._base is not None and self._base_tells:
             self._base.twin.feel(report.imu)
         elif report.imu is not None:
             self._imu.put(report.imu)

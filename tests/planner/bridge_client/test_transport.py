@@ -81,6 +81,7 @@ def senders(home: Path, ends: tuple[Session, WireBus]) -> Iterator[dict[Party, S
         open_session(Party.LOCALIZATION, "r1", home) as localization,
         open_session(Party.LIDAR, "r1", home) as lidar,
         open_session(Party.ROS2, "r1", home) as ros2,
+        open_session(Party.IMU, "r1", home) as imu,
     ):
         yield {
             Party.BRIDGE: ends[0],
@@ -88,6 +89,7 @@ def senders(home: Path, ends: tuple[Session, WireBus]) -> Iterator[dict[Party, S
             Party.LOCALIZATION: localization,
             Party.LIDAR: lidar,
             Party.ROS2: ros2,
+            Party.IMU: imu,
         }
 
 

@@ -222,6 +222,8 @@ def senses(liar: Liar) -> Said:
         (keys.IMU, {"yaw_rate_radps": lambda _: 0.0}),
         (keys.ODOM, {"base_in_odom": lambda _: Pose2(0.0, 0.0, 0.0)}),
         (keys.LIDAR_STATE, {"code": lambda _: None, "rate_hz": lambda _: 10.0}),
+        (keys.CAMERA_STATE, {"code": lambda _: None, "rate_hz": lambda _: 10.0}),
+        (keys.IMU_STATE, {"code": lambda _: None, "rate_hz": lambda _: 100.0}),
         (keys.ROS2_STATE, {"code": lambda _: None, "odom_hz": lambda _: 50.0}),
         (keys.SIM_TRUTH, {"base_in_map": lambda _: Pose2(0.0, 0.0, 0.0)}),
     ):  # fmt: skip

@@ -6,7 +6,7 @@ import json
 
 from tools.bench.confirmation import CLI, HTTP
 from tools.bench.hostile.draw import MISSIONS, OF_THE_DRIVE, ORDER, WATCH_S, Mood, draw
-from tools.bench.users import BRIDGE, LIDAR, ROS2, SIM, USERS
+from tools.bench.users import BRIDGE, IMU, LIDAR, ROS2, SIM, USERS
 
 RUNS = [draw(number) for number in range(300)]
 
@@ -17,7 +17,7 @@ def test_a_number_draws_the_same_run_every_time() -> None:
 
 
 def test_every_user_but_those_who_own_the_wheels_has_its_turns_among_the_counted() -> None:
-    no_process = {LIDAR, ROS2}  # the simulator is base and lidar of its robot
+    no_process = {LIDAR, ROS2, IMU}  # the simulator is base, lidar and gyro of its robot
     assert {run.user for run in RUNS} == set(USERS) - {BRIDGE, SIM} - no_process
     assert all(sum(run.user == user for run in RUNS) >= 50 for user in ORDER)
     assert {draw(OF_THE_DRIVE + number).user for number in range(20)} == {SIM}
