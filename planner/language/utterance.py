@@ -12,6 +12,7 @@ from functools import lru_cache
 
 from planner.language.commands import (
     AppendCommand,
+    ForgetFacts,
     HereCommand,
     Intent,
     LeaningCommand,
@@ -56,7 +57,7 @@ class Utterance:
         """Return whether a stop word stands in it that is not read as anything else."""
         if isinstance(self.intent, Replace | AppendCommand):
             return self.instead is not StopReading.NONE
-        plain = self.intent is None or isinstance(self.intent, TeachFact)
+        plain = self.intent is None or isinstance(self.intent, TeachFact | ForgetFacts)
         return plain and self.reading is StopReading.POSSIBLE
 
     @property
