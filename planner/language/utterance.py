@@ -12,6 +12,7 @@ from functools import lru_cache
 
 from planner.language.commands import (
     AppendCommand,
+    ForgetFacts,
     HereCommand,
     Intent,
     LeaningCommand,
@@ -57,7 +58,7 @@ class Utterance:
         """Return whether a stop word stands in it that is not read as anything else."""
         if isinstance(self.intent, Replace | AppendCommand):
             return self.instead is not StopReading.NONE
-        stays = isinstance(self.intent, TeachFact | OrderCommand)
+        stays = isinstance(self.intent, TeachFact | ForgetFacts | OrderCommand)
         return (self.intent is None or stays) and self.reading is StopReading.POSSIBLE
 
     @property

@@ -55,7 +55,7 @@ class MemoryStore:
         with self._database.change(sync=sync) as connection:
             new = sum(_join_or_add(connection, each) for each in wanted)
             if new:
-                _bound(connection, (THING, PERSON), self.limits.most_sightings)
+                _drop_oldest(connection, (THING, PERSON), self.limits.most_sightings)
         return new
 
     def see_once(self, sightings: Sequence[ObjectSighting]) -> bool:
@@ -303,7 +303,7 @@ def _index(connection: sqlite3.Connection, row: int, terms: str) -> None:
     connection.execute("INSERT INTO memory_terms (rowid, terms) VALUES (?, ?)", (row, terms))
 
 
-def _bound(connection: sqlite3.Connection, kinds: tuple[str, ...], most: int) -> None:
+def _drop_oldest(connection: sqlite3.Connection, kinds: tuple[str, ...], most: int) -> None:
     marks = ", ".join("?" for _ in kinds)
     connection.execute(
         f"DELETE FROM memory WHERE id IN (SELECT id FROM memory WHERE kind IN ({marks})"

@@ -40,7 +40,7 @@ class FactCommands:
 
     async def _teach(self, recollection: Recollection, intent: TeachFact) -> AnswerPlan:
         named = set(places_named(intent.words, self._places.vocabulary))
-        room = self._here() if intent.here else None
+        room = self._find_room() if intent.here else None
         if room is None and len(named) == 1:
             room = named.pop()
         kept = await recollection.teach(
@@ -51,7 +51,7 @@ class FactCommands:
             return AnswerPlan(text=say("memory.kept_here", words=kept.words, room=where))
         return AnswerPlan(text=say("memory.kept", words=kept.words))
 
-    def _here(self) -> str | None:
+    def _find_room(self) -> str | None:
         """Return the room that the robot is in."""
         status = self._loop.book.status
         pose = status.base_in_map if status is not None else None

@@ -33,7 +33,7 @@ def tell_memos(
     """Return the answer to a question: what fits, or that nothing does and what comes nearest."""
     fitting = tuple(m for m in memos if m.fits or not ask.label)
     if not fitting:
-        nothing = message(Code.NOT_REMEMBERED, what=_asked(facts, ask))
+        nothing = message(Code.NOT_REMEMBERED, what=_name_question(facts, ask))
         near = [_tell(facts, memo, now) for memo in memos[:2]]
         return join((nothing, *((say("memory.nearest"), *near) if near else _offer(ask))))
     most = MOST_NAMED if ask.label else MOST_LISTED
@@ -47,7 +47,7 @@ def tell_memos(
     return join(told)
 
 
-def _asked(facts: SiteView, ask: AskMemory) -> Bilingual:
+def _name_question(facts: SiteView, ask: AskMemory) -> Bilingual:
     what = say("memory.asked", what=ask.label) if ask.label else say("memory.anything")
     if ask.label == PERSON:
         what = say("memory.somebody")

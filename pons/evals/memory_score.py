@@ -131,11 +131,11 @@ def _fits(way: str, done: str, made: Made | None) -> bool:
     if kind in ("teach", "place", "command", "deeds"):
         return done == way
     if kind in ("recall", "forget"):
-        return done.split(maxsplit=1)[0] == kind and _same(way, done)
+        return done.split(maxsplit=1)[0] == kind and _is_same(way, done)
     return made is not None and read_expectation(way).fits(made)
 
 
-def _same(way: str, done: str) -> bool:
+def _is_same(way: str, done: str) -> bool:
     """Compare words; articles and the 的 of Chinese do not matter."""
     wanted, said = (
         [part for part in text.casefold().split() if part not in ("the", "my", "a", "an")]

@@ -6,7 +6,7 @@ A fact is no order, whatever it says. A sentence that goes on after it is left t
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Protocol, Self
+from typing import TYPE_CHECKING
 
 from planner.language.commands import chinese, english
 from planner.language.commands.command import ForgetFacts, TeachFact
@@ -15,6 +15,8 @@ from planner.language.folding import fold_script, fold_width, has_chinese
 if TYPE_CHECKING:
     from types import ModuleType
 
+    from planner.language.commands.folded_text import FoldedText
+
 _ENDS = " .!,;:。~…"
 _QUOTES = "\"'「」『』“”‘’《》"
 _APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
@@ -22,24 +24,12 @@ MAX_STATEMENT = 90
 """Characters; a flat statement is short."""
 
 
-class WrittenText(Protocol):
-    """Hold a sentence twice: folded to be matched, and as it was written."""
-
-    @property
-    def folded(self) -> str: ...
-
-    @property
-    def written(self) -> str: ...
-
-    def part(self, start: int, end: int) -> Self: ...
-
-
-def read_fact_order(said: WrittenText, grammar: ModuleType) -> TeachFact | ForgetFacts | None:
+def read_fact_order(said: FoldedText, grammar: ModuleType) -> TeachFact | ForgetFacts | None:
     """Return what is to be remembered or forgotten, or None."""
     return _read_forgetting(said, grammar) or _read_teaching(said, grammar)
 
 
-def _read_forgetting(said: WrittenText, grammar: ModuleType) -> ForgetFacts | None:
+def _read_forgetting(said: FoldedText, grammar: ModuleType) -> ForgetFacts | None:
     for pattern, told, seen in (
         (grammar.FORGET_TOLD, True, False),
         (grammar.FORGET_SEEN, False, True),
@@ -63,7 +53,7 @@ _PRONOUN = re.compile(
 )
 
 
-def _read_teaching(said: WrittenText, grammar: ModuleType) -> TeachFact | None:
+def _read_teaching(said: FoldedText, grammar: ModuleType) -> TeachFact | None:
     found = grammar.TEACH.fullmatch(said.folded)
     if found is None:
         return None

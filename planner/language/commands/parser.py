@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from dataclasses import dataclass
 from itertools import islice
 from types import ModuleType
 
@@ -30,6 +29,7 @@ from planner.language.commands.command import (
     WhereCommand,
 )
 from planner.language.commands.facts import read_fact_order
+from planner.language.commands.folded_text import FoldedText
 from planner.language.commands.follow_up import read_follow_up
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.schedule import read_order_command
@@ -50,21 +50,6 @@ _END = " .!,;:。~…"
 _QUOTES = "\"'「」『』“”‘’《》"
 _APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
 _SEPARATOR = re.compile(r"[,;:.!。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and then) ")
-
-
-@dataclass(frozen=True, slots=True)
-class _FoldedText:
-    """Hold a sentence twice: to match, and as it was written; character for character alike."""
-
-    folded: str
-    written: str
-
-    def part(self, start: int, end: int) -> _FoldedText:
-        return _FoldedText(self.folded[start:end], self.written[start:end])
-
-    def strip(self, characters: str) -> _FoldedText:
-        start = len(self.folded) - len(self.folded.lstrip(characters))
-        return self.part(start, max(start, len(self.folded.rstrip(characters))))
 
 
 def intent_of(text: str) -> Intent | None:
@@ -91,7 +76,7 @@ def _intent_alone(text: str) -> Intent | None:
     return heard or (_read(said, english) if said.folded[0].isascii() else None)
 
 
-def _read(said: _FoldedText, grammar: ModuleType) -> Intent | None:
+def _read(said: FoldedText, grammar: ModuleType) -> Intent | None:
     asks = said.folded.rstrip(_END).endswith("?")
     said = said.strip(_END + "?")
     if grammar.COURTEOUS.match(said.folded):  # "can you continue?" asks for it, not about it
@@ -110,7 +95,7 @@ def _read(said: _FoldedText, grammar: ModuleType) -> Intent | None:
     )
 
 
-def _slowing(said: _FoldedText, grammar: ModuleType) -> Intent | None:
+def _slowing(said: FoldedText, grammar: ModuleType) -> Intent | None:
     """Read "slow down, there is a child": a reason behind it changes nothing."""
     cut = _SEPARATOR.search(said.folded)
     first = _plain(said.part(0, cut.start()), grammar).folded if cut is not None else ""
@@ -122,15 +107,15 @@ def _unseen(char: str) -> bool:
     return unicodedata.category(char) in ("Cc", "Cf", "Cs", "Co") and char not in "\t\n\r"
 
 
-def _fold(text: str) -> _FoldedText:
+def _fold(text: str) -> FoldedText:
     written = " ".join(fold_width(text).translate(_APOSTROPHES).split())
     folded = written.lower()
     if len(folded) != len(written):  # a few letters grow in lower case
         written = folded
-    return _FoldedText(fold_script(folded), written)
+    return FoldedText(fold_script(folded), written)
 
 
-def _plain(said: _FoldedText, grammar: ModuleType) -> _FoldedText:
+def _plain(said: FoldedText, grammar: ModuleType) -> FoldedText:
     """Take the courtesy off both ends."""
     while True:
         before = said
@@ -151,7 +136,7 @@ def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
     return None
 
 
-def _read_lesson(said: _FoldedText, grammar: ModuleType) -> Intent | None:
+def _read_lesson(said: FoldedText, grammar: ModuleType) -> Intent | None:
     """Read the name that is to be remembered or forgotten, or where the robot is said to be."""
     kinds: tuple[tuple[str, type[Remember] | type[Forget] | type[HereCommand]], ...] = (
         ("REMEMBER", Remember),
@@ -168,7 +153,7 @@ def _read_lesson(said: _FoldedText, grammar: ModuleType) -> Intent | None:
     return None
 
 
-def _name(said: _FoldedText) -> str | None:
+def _name(said: FoldedText) -> str | None:
     """Return a name without quotes and determiners, or None where the words are no name."""
     said = said.strip(" " + _QUOTES + _END)
     grammar = chinese if has_chinese(said.folded) else english
@@ -180,7 +165,7 @@ def _name(said: _FoldedText) -> str | None:
     return said.written
 
 
-def _replacing(said: _FoldedText, grammar: ModuleType) -> Intent | None:
+def _replacing(said: FoldedText, grammar: ModuleType) -> Intent | None:
     """Read "forget that, come here" and "go to the kitchen instead"."""
     found = grammar.INSTEAD.fullmatch(said.folded)
     if found is not None:
@@ -198,7 +183,7 @@ def _replacing(said: _FoldedText, grammar: ModuleType) -> Intent | None:
     return None
 
 
-def _goes_on(said: _FoldedText, cut: re.Match[str], grammar: ModuleType) -> bool:
+def _goes_on(said: FoldedText, cut: re.Match[str], grammar: ModuleType) -> bool:
     """Tell whether a clause is joined to the next: then "don't" may well mean both."""
     joined = said.folded[cut.start() :].lstrip(_END)
     return grammar.GOES_ON.match(joined) is not None
@@ -208,7 +193,7 @@ def _gap(grammar: ModuleType) -> str:
     return "" if grammar is chinese else " "
 
 
-def _replace(rest: _FoldedText, *, now: bool) -> Intent | None:
+def _replace(rest: FoldedText, *, now: bool) -> Intent | None:
     """Take the rest as the new order; where it is none by itself, leave all to the brain."""
     rest = rest.strip(_END)
     if not any(map(str.isalnum, rest.folded)):

@@ -121,12 +121,12 @@ def _read_english(asked: _Question, room: str | None) -> RecallReading | None:
         return _reading(asked) if asked.place or asked.when or "you" in text else None
     if (told := english.TOLD.fullmatch(text)) is not None:
         what = _first(told)
-        return _named(asked, what, english) if what else _reading(asked)
+        return _name_thing(asked, what, english) if what else _reading(asked)
     if (seen := english.THING.fullmatch(text)) is not None:
-        return _named(asked, _first(seen), english)
+        return _name_thing(asked, _first(seen), english)
     if (now := english.NOW.fullmatch(text)) is not None:
         past = asked.when is not None or asked.remembers
-        return _named(asked, _first(now), english, present=not past)
+        return _name_thing(asked, _first(now), english, present=not past)
     return None
 
 
@@ -135,7 +135,7 @@ def _read_chinese(asked: _Question, room: str | None) -> RecallReading | None:
     for pattern in (chinese.TOLD, chinese.KEPT):
         if (told := pattern.fullmatch(text)) is not None:
             what = _first(told)
-            return _named(asked, what, chinese) if what else _reading(asked)
+            return _name_thing(asked, what, chinese) if what else _reading(asked)
     if chinese.DEEDS.fullmatch(text):
         past = asked.when is not None or re.search(r"[了过]", text)
         return _reading(asked, deeds=True) if past else None
@@ -149,9 +149,9 @@ def _read_chinese(asked: _Question, room: str | None) -> RecallReading | None:
         return _reading(asked, None, place) if past else None
     for pattern in (chinese.THING, chinese.SEEN):
         if (seen := pattern.fullmatch(text)) is not None:
-            return _named(asked, _first(seen), chinese, place=_spot(seen, asked, room))
+            return _name_thing(asked, _first(seen), chinese, place=_spot(seen, asked, room))
     if (now := chinese.NOW.fullmatch(text)) is not None:
-        return _named(asked, _first(now), chinese, present=asked.when is None)
+        return _name_thing(asked, _first(now), chinese, present=asked.when is None)
     return None
 
 
@@ -167,7 +167,7 @@ def _first(found: re.Match[str]) -> str:
     return next((text for text in groups.values() if text is not None), "")
 
 
-def _named(
+def _name_thing(
     asked: _Question,
     what: str,
     words: ModuleType,

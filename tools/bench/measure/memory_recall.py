@@ -39,7 +39,7 @@ QUESTIONS = (
 )
 
 
-def filled(store: MemoryStore, seed: int) -> None:
+def fill(store: MemoryStore, seed: int) -> None:
     """Fill a memory with things of a week, spread over five rooms."""
     random = Random(seed)
     batch: list[ObjectSighting] = []
@@ -66,7 +66,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     with tempfile.TemporaryDirectory(prefix="pons-memory-") as home:
         database = StateDatabase(Path(home))
         store = MemoryStore(database)
-        filled(store, 1)
+        fill(store, 1)
         for query in QUESTIONS:
             took = [_ask(store, query) for _ in range(lab.count(EACH, 10 * EACH))]
             what = query.words or query.place or "everything"
