@@ -168,5 +168,6 @@ def _describe_field(name: str, shape: dict[str, Any]) -> str:
         return "true"
     if _type(shape) == "string":
         return '"…"'
+    shape = shape if "type" in shape else shape["anyOf"][0]
     low = shape.get("minimum", shape.get("exclusiveMinimum"))
     return f"{low:g} to {shape['maximum']:g}"
