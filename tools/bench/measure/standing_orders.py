@@ -42,7 +42,7 @@ RULES: tuple[Rule, ...] = (
     CronRule(cron="15 12 * * 0,6"),
     EveryRule(seconds=5400.0, anchor_unix_s=BEGIN_UNIX_S),
 )
-KILLS, KILLED_EVERY_S = 12, 1.3
+KILLS, KILLED_EVERY_S, BEGINS_WITHIN_S = 8, 1.3, 60.0
 
 
 @dataclass
@@ -163,7 +163,7 @@ def _kills() -> list[ReportRow]:
             with subprocess.Popen(program) as child:
                 started = time.monotonic()
                 log = home / "given"
-                while time.monotonic() - started < 20.0 and not (home / "up").exists():
+                while time.monotonic() - started < BEGINS_WITHIN_S and not (home / "up").exists():
                     time.sleep(0.02)
                 (home / "up").unlink(missing_ok=True)
                 time.sleep(KILLED_EVERY_S * random.uniform(0.5, 1.5))

@@ -170,7 +170,8 @@ export const en = {
   "orders.give": "A standing order",
   "orders.sentence": "What to do, and when",
   "orders.keep": "Keep it",
-  "orders.how": "For example: “every evening at eight go to the kitchen and look”, “when somebody comes in, say hello”, “remind me in 20 minutes”.",
+  "orders.how":
+    "For example: “every evening at eight go to the kitchen and look”, “when somebody comes in, say hello”, “remind me in 20 minutes”.",
   "orders.kept": "Standing orders",
   "orders.none": "There are none yet.",
   "orders.zone": "Times of {zone}.",

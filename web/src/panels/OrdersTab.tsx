@@ -71,11 +71,7 @@ function Give() {
             onInput={(event) => (sentence.value = event.currentTarget.value)}
           />
         </label>
-        <button
-          type="submit"
-          class="main"
-          disabled={sentence.value.trim() === "" || sending.value}
-        >
+        <button type="submit" class="main" disabled={sentence.value.trim() === "" || sending.value}>
           {t("orders.keep")}
         </button>
       </form>

@@ -280,9 +280,7 @@ export function decode(data: unknown): Frame | null {
     case "places":
       return finite(came.version) ? { seq, kind: "places", version: came.version } : null;
     case "orders":
-      return finite(change.version)
-        ? { seq, kind: "orders", version: change.version }
-        : null;
+      return finite(change.version) ? { seq, kind: "orders", version: change.version } : null;
     case "told":
       return isWords(change.message) && text(change.kind) && text(change.code)
         ? { seq, kind: "told", about: change.kind, code: change.code, words: change.message }
