@@ -19,14 +19,14 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pons.children import children
+from pons.children import can_set_up, children, must_set_up, set_up_children
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
 from pons_assets import ROOT
-from wire import ConfigError, RobotDescription, load_robot
+from wire import EXIT_SET_UP, ConfigError, RobotDescription, load_robot
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
@@ -44,6 +44,8 @@ LOOK_S = 0.5
 PRIVATE = 0o077
 """What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
 MIN_FREE_BYTES = 200 * 1024 * 1024
+_CHANGERS = frozenset({"planner", "setup"})
+SET_UP = "set-up: no bridge, nothing drives; try the robot on that page / 设置模式：请在网页上测试"
 
 
 class CannotStart(Exception):
@@ -60,13 +62,21 @@ class Supervisor:
         *,
         planner: bool,
         issued: IssuedCertificate | None = None,
+        set_up: bool = False,
     ) -> None:
+        self.changes = False
+        """Whether the run ended because a person asked for set-up, or to leave it."""
+        self._set_up = set_up
         self._trust = issued.trust_lines() if issued else ()
         self._settings = settings
         self._robot = robot
         self._planner = planner
         self._ending = threading.Event()
-        self._children = children(settings, robot, planner=planner, issued=issued)
+        self._children = (
+            set_up_children(settings, issued)
+            if set_up
+            else children(settings, robot, planner=planner, issued=issued)
+        )
         self._said_ready = False
         self._armed = not robot.drive.virtual  # on metal a person arms
         self._next_arm_s = 0.0
@@ -95,6 +105,10 @@ class Supervisor:
             status = child.died(now_s)
             if status == REFUSED_TO_START:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
+            if status == EXIT_SET_UP and child.name in _CHANGERS:
+                self.changes = True
+                self.end()
+                return
             if status is not None:
                 self._sockets.forget(child.name)
                 wait_s = child.next_start_s - now_s
@@ -133,7 +147,7 @@ class Supervisor:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
             for line in self._trust:
                 say(line)
-            say(_what_to_try(self._settings))
+            say(SET_UP if self._set_up else _what_to_try(self._settings))
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
@@ -143,7 +157,8 @@ class Supervisor:
         if not self._planner:
             return True  # arming asks the bridge itself
         try:
-            call(self._settings, "GET", "/readyz", timeout_s=1.0)
+            asked = "/healthz" if self._set_up else "/readyz"  # set-up drives nowhere
+            call(self._settings, "GET", asked, timeout_s=1.0)
         except (PlannerDown, PlannerProblem):
             return False
         return True
@@ -291,17 +306,38 @@ def _supervise(
     planner: bool,
     issued: IssuedCertificate | None,
 ) -> int:
-    supervisor = Supervisor(settings, robot, planner=planner, issued=issued)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _handler(supervisor))
     where = settings.site.name if settings.canvas is None else f"a home to map: {settings.mapping}"
-    say(f"starting {robot.id} in {where} (state in {settings.home})")
-    return supervisor.run()
+    set_up = planner and _begins_in_set_up(settings, robot)
+    while True:
+        supervisor = Supervisor(settings, robot, planner=planner, issued=issued, set_up=set_up)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, _handler(supervisor))
+        say(f"starting {robot.id} in {where} (state in {settings.home})")
+        status = supervisor.run()
+        if not supervisor.changes:
+            return status
+        set_up = not set_up
+        robot = check(settings)  # a trial has written to it
+
+
+def _begins_in_set_up(settings: LaunchSettings, robot: RobotDescription) -> bool:
+    """Tell whether to begin in set-up.
+
+    Raises:
+        CannotStart: it is asked for, and this robot has none.
+    """
+    if settings.set_up and not can_set_up(settings, robot):
+        raise CannotStart(
+            "setup_needless: set-up tries a base of metal at a serial line; this robot is "
+            f"simulated, a twin's or one of ROS 2 (drive.kind {robot.drive.kind!r})"
+        )
+    return settings.set_up or must_set_up(settings, robot)
 
 
 def _handler(supervisor: Supervisor) -> _Handler:
     def handle(number: int, _frame: FrameType | None) -> None:
         say(f"{signal.Signals(number).name}: taking everything down")
+        supervisor.changes = False
         supervisor.end()
 
     return handle

@@ -19,6 +19,7 @@ from planner.api import (
     places,
     problems,
     robot,
+    setup,
     static_files,
     usage,
     voice,
@@ -38,8 +39,8 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, voice, operator, robot, places, localization, objects, camera, fence, usage, health,
-    websocket,
+    goals, voice, operator, setup, robot, places, localization, objects, camera, fence, usage,
+    health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

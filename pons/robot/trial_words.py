@@ -6,31 +6,46 @@ from typing import Final
 
 PROMPTS: Final[dict[str, tuple[str, str]]] = {
     "wheels_up": (
-        "The wheels will turn. Lift them off the ground, hands and cables away; type UP, Enter",
-        "轮子将会转动。请把轮子架空，手和线缆远离轮子。输入 UP 后回车",
+        "The wheels will turn. Lift them off the ground, hands and cables away",
+        "轮子将会转动。请把轮子架空，手和线缆远离轮子",
     ),
     "hand_left": (
-        "Turn the LEFT wheel FORWARD by hand, three whole turns, then Enter",
-        "请用手把左轮向前转三整圈，然后回车",
+        "Turn the LEFT wheel FORWARD by hand, three whole turns",
+        "请用手把左轮向前转三整圈",
     ),
     "hand_right": (
-        "Turn the RIGHT wheel FORWARD by hand, three whole turns, then Enter",
-        "请用手把右轮向前转三整圈，然后回车",
+        "Turn the RIGHT wheel FORWARD by hand, three whole turns",
+        "请用手把右轮向前转三整圈",
     ),
     "lidar_clear": (
-        "Step away from the robot, so that nothing moves around it, then Enter",
-        "请离开机器人，保证周围没有东西移动，然后回车",
+        "Step away from the robot, so that nothing moves around it",
+        "请离开机器人，保证周围没有东西移动",
     ),
     "lidar_front": (
-        "Hold a box half a metre in FRONT of the robot, at the lidar's height, then Enter",
-        "请把一个盒子举在机器人正前方半米、与激光雷达同高处，然后回车",
+        "Hold a box half a metre in FRONT of the robot, at the lidar's height",
+        "请把一个盒子举在机器人正前方半米、与激光雷达同高处",
     ),
     "lidar_left": (
-        "Hold the box half a metre to the LEFT of the robot, then Enter",
-        "请把盒子举在机器人左侧半米处，然后回车",
+        "Hold the box half a metre to the LEFT of the robot",
+        "请把盒子举在机器人左侧半米处",
     ),
 }
 """By what is asked."""
+
+STEPS: Final[dict[str, tuple[str, str]]] = {
+    "wheels_up": ("wheels off the ground", "轮子架空"),
+    "listen": ("the base speaks, and stands without a command", "底盘有应答，无指令时静止"),
+    "hand_left": ("left wheel by hand", "手转左轮"),
+    "hand_right": ("right wheel by hand", "手转右轮"),
+    "power_left": ("left motor, forward and back", "左电机正反转"),
+    "power_right": ("right motor, forward and back", "右电机正反转"),
+    "silence": ("no command, three times: do they stop by themselves?", "三次断开指令，看是否自停"),
+    "lidar_clear": ("lidar: nothing near", "激光雷达：周围无物"),
+    "lidar_front": ("lidar: a box in front", "激光雷达：前方盒子"),
+    "lidar_left": ("lidar: a box at the left", "激光雷达：左侧盒子"),
+    "write": ("written into robot.toml", "写入 robot.toml"),
+}
+"""By step, in order; the engine tells them, a person reads them."""
 
 REFUSALS: Final[dict[str, tuple[str, str]]] = {
     "not_lifted": (
@@ -52,6 +67,30 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
     "trial_silent": (
         "the base says nothing: is it powered, is this its port? pons robot find tells",
         "底盘没有数据：请检查供电和端口，可用 pons robot find 查看",
+    ),
+    "trial_stopped": (
+        "somebody stopped the trial; the wheels were told to stand",
+        "测试被人停止；已命令轮子静止",
+    ),
+    "trial_unwatched": (
+        "the page that watched is gone or hidden: keep it in front while wheels may turn",
+        "监视测试的网页已断开或被隐藏：轮子可能转动时请保持网页在前台",
+    ),
+    "trial_untold": (
+        "the operator's key did not fit, so nothing was turned: type it anew",
+        "操作员密钥不符，未转动任何轮子：请重新输入",
+    ),
+    "trial_missing": (
+        "this robot was not tried in its present wiring: try it first",
+        "当前接线尚未通过测试：请先测试",
+    ),
+    "trial_config": (
+        "robot.toml or its port can't be used: mend what it says, then begin again",
+        "robot.toml 或端口无法使用：请按提示修正后重试",
+    ),
+    "trial_port": (
+        "the base's port is not there or is held: plug it in, or end the program that has it",
+        "底盘端口不存在或被占用：请插好，或结束占用它的程序",
     ),
     "trial_stop_pressed": (
         "the stop input is pressed, or its contact open: release or wire it (docs/firmware.md)",
