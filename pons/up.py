@@ -63,7 +63,9 @@ class Supervisor:
         planner: bool,
         issued: IssuedCertificate | None = None,
         set_up: bool = False,
+        came_from_setup: bool = False,
     ) -> None:
+        self._came_from_setup = came_from_setup
         self.changes = False
         """Whether the run ended because a person asked for set-up, or to leave it."""
         self._set_up = set_up
@@ -137,10 +139,14 @@ class Supervisor:
                 self._said_ready = True
                 self._say_ready(now_s - began_s)
         if now_s - began_s > READY_LIMIT_S:
-            raise CannotStart(
+            text = (
                 f"not_ready: the {'planner' if self._planner else 'bridge'} was not ready within "
                 f"{READY_LIMIT_S:.0f} s; logs are in {self._settings.home / 'logs'}"
             )
+            if not self._came_from_setup:
+                raise CannotStart(text)
+            self._said_ready = True  # the page is all that this person has
+            say(text)
 
     def _say_ready(self, after_s: float) -> None:
         if self._planner:
@@ -180,6 +186,7 @@ class Supervisor:
         """End the planner first, so that the bridge still brakes; the drive last."""
         for child in reversed(self._children):
             child.stop(PATIENCE_S)
+            self._sockets.forget(child.name)
 
 
 def _what_to_try(settings: LaunchSettings) -> str:
@@ -308,15 +315,18 @@ def _supervise(
 ) -> int:
     where = settings.site.name if settings.canvas is None else f"a home to map: {settings.mapping}"
     set_up = planner and _begins_in_set_up(settings, robot)
+    changed = False
     while True:
-        supervisor = Supervisor(settings, robot, planner=planner, issued=issued, set_up=set_up)
+        supervisor = Supervisor(
+            settings, robot, planner=planner, issued=issued, set_up=set_up, came_from_setup=changed
+        )
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, _handler(supervisor))
         say(f"starting {robot.id} in {where} (state in {settings.home})")
         status = supervisor.run()
         if not supervisor.changes:
             return status
-        set_up = not set_up
+        set_up, changed = not set_up, True
         robot = check(settings)  # a trial has written to it
 
 

@@ -94,7 +94,7 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
     ),
     "trial_stop_pressed": (
         "the stop input is pressed, or its contact open: release or wire it (docs/firmware.md)",
-        "急停输入被按下或断线：请松开或接好（见 docs/firmware.md）",
+        "停止输入被按下或断线：请松开或接好（见 docs/firmware.md）",
     ),
     "trial_rebooted": (
         "the controller began anew in the middle: its supply dips, or its cable is loose",
