@@ -6,7 +6,7 @@ import os
 import socket
 from pathlib import Path
 
-from planner.brain.endpoint.address import Address, refused_among
+from planner.outbound import Address, refused_among
 from planner.settings import load_settings
 from planner.site import Site
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn

@@ -177,8 +177,9 @@ async def _with_brain(
     """
     if model is None:
         return await score(OfflineBrain())
-    from planner.brain.endpoint import Address, EndpointBrain
+    from planner.brain.endpoint import EndpointBrain
     from planner.budget import Ledger, Purse
+    from planner.outbound import Address
     from pons.evals.model_access import choose_model
 
     owner, whom = choose_model(model, settings.home, os.environ)

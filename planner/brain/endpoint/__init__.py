@@ -1,6 +1,5 @@
 """Ask a model over HTTP for a plan. The only place of the planner that knows httpx."""
 
-from planner.brain.endpoint.address import Address
 from planner.brain.endpoint.http_client import warm_up
 from planner.brain.endpoint.image_client import EndpointLooker
 from planner.brain.endpoint.model_brain import EndpointBrain
@@ -9,7 +8,6 @@ from planner.brain.endpoint.response import MAX_REPLY_BYTES
 
 __all__ = [
     "MAX_REPLY_BYTES",
-    "Address",
     "EndpointBrain",
     "EndpointLooker",
     "Unusable",

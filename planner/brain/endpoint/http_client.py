@@ -19,12 +19,12 @@ from typing import Any
 
 import httpx
 
-from planner.brain.endpoint.address import Address, CallTarget, TargetResolver
 from planner.brain.endpoint.completion import Assembly
 from planner.brain.endpoint.metering import MeteredTransport
-from planner.brain.endpoint.response import RetryableFailure, Secret, StreamBroken, Told, read
+from planner.brain.endpoint.response import RetryableFailure, StreamBroken, Told, read
 from planner.brain.errors import BrainDown
 from planner.brain.usage_meter import Meter
+from planner.outbound import Address, CallFailure, CallTarget, Secret, TargetResolver
 from planner.settings import ModelSettings
 
 KEEPALIVE_S = 600.0
@@ -156,7 +156,11 @@ class Client:
     async def _anywhere(self, raw: bytes, told: Told | None) -> Any | RetryableFailure:
         """Try the endpoint's addresses until one takes the connection."""
         refused: BrainDown | None = None
-        for target in await self._names.targets():
+        try:
+            targets = await self._names.targets()
+        except CallFailure as failure:
+            raise BrainDown(str(failure), why=failure.why) from None
+        for target in targets:
             try:
                 got = await self._post_once(target, raw, told)
             except _ConnectFailure as nobody:

@@ -14,7 +14,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from planner.brain.endpoint.address import Address
 from planner.brain.endpoint.completion import ModelReply, read_reply
 from planner.brain.endpoint.dialect import (
     Body,
@@ -32,6 +31,7 @@ from planner.brain.image_questions import NotSent
 from planner.brain.response_format import PLAN_FORM, ReplyForm
 from planner.brain.schema import Message
 from planner.brain.usage_meter import Meter, thinking_about
+from planner.outbound import Address
 from planner.settings import ModelSettings
 from wire import ConfigError
 

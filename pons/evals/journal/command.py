@@ -10,7 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from planner.brain.endpoint import Address
+from planner.outbound import Address
 from planner.site import Site
 from pons.evals.journal.recorded import NoJournal, RecordedDecisions, read
 from pons.evals.journal.show import content, table

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
-from planner.brain.endpoint import Address, EndpointBrain
+from planner.brain.endpoint import EndpointBrain
 from planner.brain.prompt import Prompt
 from planner.brain.prompt_tokens import tokens
 from planner.budget import Purse
+from planner.outbound import Address
 from planner.plan import EVERY_KIND, Language
 from planner.settings import GoalLimits, JsonMode, ModelSettings, Settings
 from planner.site import Site

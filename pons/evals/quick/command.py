@@ -7,8 +7,8 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from planner.brain.endpoint import Address
 from planner.budget.totals import cost
+from planner.outbound import Address
 from pons.evals.model_access import agree_on, choose_model
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
 from pons.evals.quick.grade import grade

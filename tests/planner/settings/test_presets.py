@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner.brain.endpoint import Address
+from planner.outbound import Address
 from planner.settings import FILE, OWN_FIELDS, PRESETS, JsonMode, PresetName, load_settings
 from tests.conftest import ROOT
 from wire import ConfigError

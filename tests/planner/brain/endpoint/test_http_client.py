@@ -42,6 +42,7 @@ from tests.planner.brain.endpoint.sockets import (
     serving,
     without_end,
 )
+from tests.planner.outbound.test_address import resolving
 
 ERROR = {"error": {"message": "mock"}}
 
@@ -416,3 +417,43 @@ def test_tls_where_none_is_spoken_and_the_other_way_round(home: Vocabulary, tmp_
             assert ended(secret.port, home, tmp_path) in ("server_error", "unreachable")
             assert secret.asked == []
     gc.collect()  # here, where the warning is expected, and not in the middle of another test
+
+
+def test_a_call_goes_to_the_address_that_was_judged(
+    home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A name that means another address at the connection leads nowhere else."""
+    asked = resolving(monkeypatch, ["203.0.113.7"], ["169.254.169.254"])
+    server = Server(lambda: wrote(GO))
+    made = brain(server, tmp_path, url="https://models.example/v1", allow_offhost=True)
+    think(made, home)
+    (request,) = server.requests
+    assert str(request.url) == "https://203.0.113.7/v1/chat/completions"
+    assert request.headers["host"] == "models.example"
+    assert request.extensions["sni_hostname"] == "models.example"
+    assert request.headers["authorization"] == f"Bearer {KEY}"
+    assert asked == ["models.example"]
+
+
+@pytest.mark.parametrize("found", [["10.0.0.1", "169.254.169.254"], ["fe80::1"], []])
+def test_a_name_that_leads_to_the_link_by_any_of_its_addresses_is_not_asked(
+    found: list[str], home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    resolving(monkeypatch, found)
+    server = Server(lambda: wrote(GO))
+    made = brain(server, tmp_path, url="http://models.example:8080/v1", allow_offhost=True)
+    with pytest.raises(BrainDown) as down:
+        think(made, home)
+    assert down.value.why == ("refused_address" if found else "unreachable")
+    assert server.requests == []
+
+
+def test_an_address_that_takes_no_connection_is_passed_over(
+    home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    resolving(monkeypatch, ["2001:db8::1", "203.0.113.7"])
+    server = Server(httpx.ConnectError("no way"), lambda: wrote(GO))
+    made = brain(server, tmp_path, url="http://models.example:8080/v1", allow_offhost=True)
+    assert think(made, home).plan.kind == "plan"
+    hosts = [(request.url.host, request.headers["host"]) for request in server.requests]
+    assert hosts == [("2001:db8::1", "models.example:8080"), ("203.0.113.7", "models.example:8080")]

@@ -16,12 +16,11 @@ from planner.brain import BrainDown, Draft, FallbackBrain, OfflineBrain, ThinkRe
 from planner.brain.endpoint import EndpointBrain
 from planner.brain.endpoint.completion import Assembly, StreamFailure, read_reply
 from planner.brain.endpoint.plan_reply import Drafting
-from planner.brain.endpoint.response import Events, Secret
+from planner.brain.endpoint.response import Events
 from planner.plan import RUNNABLE, GoTo, StepPlan, Vocabulary, Wait
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.endpoint.servers import (
     GO,
-    KEY,
     Answer,
     Server,
     answer,
@@ -297,15 +296,6 @@ def test_a_draft_is_bounded_and_clean() -> None:
     assert len(heard) == 1
     Drafting(HOME, RUNNABLE, heard.append)(lambda: "a" * 3000 + "b" * 500)
     assert heard[1].text == "a" * 1500 + "b" * 500  # the newest
-
-
-def test_a_key_that_a_stream_echoes_is_never_shown() -> None:
-    secret = Secret(KEY)
-    for spelt in (KEY, KEY.replace("s", "\\u0073")):
-        said = f'the key is "{spelt}", again {spelt}.'
-        for end in range(len(said) + 1):
-            assert KEY[:4] not in secret.struck_growing(said[:end]).replace("***", "")
-    assert Secret("").struck_growing(KEY) == KEY
 
 
 def test_a_recorded_stream_is_read_to_its_end(

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from pathlib import Path
 
-import httpx
 import pytest
 
-from planner.brain import BrainDown
-from planner.brain.endpoint.address import Address, TargetResolver, refused_among
-from planner.plan import Vocabulary
-from tests.planner.brain.endpoint.servers import GO, KEY, Server, brain, think, wrote
+from planner.outbound import Address, TargetResolver, refused_among
 from wire import ConfigError
 
 
@@ -106,46 +101,6 @@ def resolving(monkeypatch: pytest.MonkeyPatch, *answers: list[str]) -> list[str]
     return asked
 
 
-def test_a_call_goes_to_the_address_that_was_judged(
-    home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A name that means another address at the connection leads nowhere else."""
-    asked = resolving(monkeypatch, ["203.0.113.7"], ["169.254.169.254"])
-    server = Server(lambda: wrote(GO))
-    made = brain(server, tmp_path, url="https://models.example/v1", allow_offhost=True)
-    think(made, home)
-    (request,) = server.requests
-    assert str(request.url) == "https://203.0.113.7/v1/chat/completions"
-    assert request.headers["host"] == "models.example"
-    assert request.extensions["sni_hostname"] == "models.example"
-    assert request.headers["authorization"] == f"Bearer {KEY}"
-    assert asked == ["models.example"]
-
-
-@pytest.mark.parametrize("found", [["10.0.0.1", "169.254.169.254"], ["fe80::1"], []])
-def test_a_name_that_leads_to_the_link_by_any_of_its_addresses_is_not_asked(
-    found: list[str], home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    resolving(monkeypatch, found)
-    server = Server(lambda: wrote(GO))
-    made = brain(server, tmp_path, url="http://models.example:8080/v1", allow_offhost=True)
-    with pytest.raises(BrainDown) as down:
-        think(made, home)
-    assert down.value.why == ("refused_address" if found else "unreachable")
-    assert server.requests == []
-
-
-def test_an_address_that_takes_no_connection_is_passed_over(
-    home: Vocabulary, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    resolving(monkeypatch, ["2001:db8::1", "203.0.113.7"])
-    server = Server(httpx.ConnectError("no way"), lambda: wrote(GO))
-    made = brain(server, tmp_path, url="http://models.example:8080/v1", allow_offhost=True)
-    assert think(made, home).plan.kind == "plan"
-    hosts = [(request.url.host, request.headers["host"]) for request in server.requests]
-    assert hosts == [("2001:db8::1", "models.example:8080"), ("203.0.113.7", "models.example:8080")]
-
-
 def test_the_address_that_answered_comes_first_and_a_number_is_not_looked_up(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -157,7 +112,7 @@ def test_the_address_that_answered_comes_first_and_a_number_is_not_looked_up(
         _, second = await names.targets()
         names.prefer(second)
         assert (await names.targets())[0] is second
-        monkeypatch.setattr("planner.brain.endpoint.address.RESOLVED_FOR_S", -1.0)
+        monkeypatch.setattr("planner.outbound.address.RESOLVED_FOR_S", -1.0)
         assert [each.ip for each in await names.targets()] == [eight, seven]
         assert [each.ip for each in await names.targets()] == [eight]
         local = TargetResolver(Address.parse("http://127.0.0.1:1/v1"))

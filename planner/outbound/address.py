@@ -1,10 +1,11 @@
-"""Judge where a model's endpoint may be, and pin each call to an address that was judged.
+"""Judge where a server that the owner named may be, and pin each call to an address judged before.
 
 Link-local addresses hold the metadata services of clouds, which give out credentials to whoever
-asks; no model lives there. Names are judged by what they are and, before a call, by what they
-resolve to. A name that resolves to a harmless address now and to a metadata service at the
-connection would otherwise pass: so the call goes to the very address that was judged, with the name
-in the Host header and in the TLS handshake, where the certificate is held against it.
+asks; no model, no recogniser and no voice lives there. Names are judged by what they are and,
+before a call, by what they resolve to. A name that resolves to a harmless address now and to a
+metadata service at the connection would otherwise pass: so the call goes to the very address that
+was judged, with the name in the Host header and in the TLS handshake, where the certificate is held
+against it.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from dataclasses import dataclass, field
 from typing import Any
 from urllib.parse import urlsplit
 
-from planner.brain.errors import BrainDown
+from planner.outbound.errors import CallFailure
 from wire import ConfigError
 
 MAX_URL = 2000
@@ -47,7 +48,7 @@ class Address:
     """Hold the one URL that is asked."""
 
     url: str
-    """Of the chat completions, whole."""
+    """Of the one route that is called, whole."""
     host: str
     port: int
     local: bool
@@ -56,37 +57,44 @@ class Address:
     """The host is a number, so nothing needs to be resolved."""
 
     @classmethod
-    def parse(cls, base: str) -> Address:
+    def parse(cls, base: str, route: str = "/chat/completions", setting: str = "model") -> Address:
         """Return the address below a base URL.
 
+        Args:
+            base: as the owner wrote it, for example ``http://127.0.0.1:11434/v1``.
+            route: what is called below it.
+            setting: the table of settings.toml that names it, for errors.
+
         Raises:
-            ConfigError: ``model_url``, with what is wrong; user names and passwords in it are
-                not repeated.
+            ConfigError: ``model_url`` (or that of another setting), with what is wrong; user names
+                and passwords in it are not repeated.
         """
         if not (0 < len(base) <= MAX_URL and base.isascii() and base.isprintable()):
-            raise _wrong("must be plain ASCII text without spaces")
+            raise _wrong(setting, "must be plain ASCII text without spaces")
         try:
             parts = urlsplit(base)
             port = parts.port
         except ValueError:
-            raise _wrong("is no URL") from None
+            raise _wrong(setting, "is no URL") from None
         if parts.scheme not in ("http", "https"):
-            raise _wrong(f"has the scheme {parts.scheme!r}; expected http or https")
+            raise _wrong(setting, f"has the scheme {parts.scheme!r}; expected http or https")
         if parts.username is not None or parts.password is not None:
-            raise _wrong("carries a user name or password; set the key apart from it")
+            raise _wrong(setting, "carries a user name or password; set the key apart from it")
         if parts.query or parts.fragment or " " in base or "\\" in base:
-            raise _wrong("must end with the path: no query, no fragment, no spaces")
+            raise _wrong(setting, "must end with the path: no query, no fragment, no spaces")
         host = (parts.hostname or "").rstrip(".")
         if not host:
-            raise _wrong("names no host")
+            raise _wrong(setting, "names no host")
         number = _number(host)
         if _metadata_name(host) or (number is not None and not is_allowed(number)):
-            raise _wrong(f"leads to {host}: link-local and metadata addresses are never asked")
+            raise _wrong(
+                setting, f"leads to {host}: link-local and metadata addresses are never asked"
+            )
         if port is None:
             port = 443 if parts.scheme == "https" else 80
         local = host in _LOOPBACK_NAMES or (number is not None and number.is_loopback)
         shown = f"[{host}]" if ":" in host else host
-        url = f"{parts.scheme}://{shown}:{port}{_path(parts.path)}"
+        url = f"{parts.scheme}://{shown}:{port}{_path(parts.path, route)}"
         return cls(url, host, port, local, number is not None)
 
 
@@ -136,15 +144,13 @@ def _metadata_name(host: str) -> bool:
     return host.lower() in _METADATA_NAMES
 
 
-def _path(path: str) -> str:
+def _path(path: str, route: str) -> str:
     path = path.rstrip("/")
-    if path.endswith("/chat/completions"):
-        return path
-    return f"{path or '/v1'}/chat/completions"
+    return path if path.endswith(route) else f"{path or '/v1'}{route}"
 
 
-def _wrong(what: str) -> ConfigError:
-    return ConfigError("model_url", f"the model's URL {what}")
+def _wrong(setting: str, what: str) -> ConfigError:
+    return ConfigError(f"{setting}_url", f"the URL under [{setting}] {what}")
 
 
 RESOLVED_FOR_S = 60.0
@@ -175,7 +181,7 @@ class TargetResolver:
         """Return where to call, the best first.
 
         Raises:
-            BrainDown: ``refused_address`` or ``unreachable``.
+            CallFailure: ``refused_address`` or ``unreachable``.
         """
         now_s = time.monotonic()
         fixed = self._address.literal or self._address.local
@@ -185,7 +191,7 @@ class TargetResolver:
         wrong = refused_among(found)
         if wrong is not None:
             told = f"{self._address.host} resolves to {wrong}, which is never asked"
-            raise BrainDown(told, why="refused_address")
+            raise CallFailure(told, why="refused_address")
         # Names of large services turn their addresses round at each look; a connection is kept.
         found.sort(key=lambda ip: ip != self._targets[0].ip)
         self._targets = tuple(map(self._pin, found[:MAX_TRIED]))
@@ -204,10 +210,10 @@ class TargetResolver:
         try:
             found = await loop.getaddrinfo(host, port, type=socket.SOCK_STREAM)
         except OSError as error:
-            raise BrainDown(f"{type(error).__name__}: {error}"[:200], why="unreachable") from None
+            raise CallFailure(f"{type(error).__name__}: {error}"[:200], why="unreachable") from None
         addresses = list(dict.fromkeys(str(entry[4][0]) for entry in found))
         if not addresses:
-            raise BrainDown(f"{host} resolves to nothing", why="unreachable")
+            raise CallFailure(f"{host} resolves to nothing", why="unreachable")
         return addresses
 
     def _pin(self, ip: str) -> CallTarget:
