@@ -8,11 +8,8 @@ running.
 
 from __future__ import annotations
 
-import contextlib
 import os
-import shutil
 import signal
-import socket
 import sys
 import threading
 import time
@@ -23,10 +20,11 @@ from pons.children import can_set_up, children, must_set_up, set_up_children
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
+from pons.launch_checks import CannotStart, check, check_port
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
 from pons_assets import ROOT
-from wire import EXIT_SET_UP, ConfigError, RobotDescription, load_robot
+from wire import EXIT_SET_UP, ConfigError, RobotDescription
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
@@ -43,13 +41,8 @@ LOOK_S = 0.5
 """The longest that a removed socket stays unreachable, or a log longer than its bound."""
 PRIVATE = 0o077
 """What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
-MIN_FREE_BYTES = 200 * 1024 * 1024
 _CHANGERS = frozenset({"planner", "setup"})
 SET_UP = "set-up: no bridge, nothing drives; try the robot on that page / 设置模式：请在网页上测试"
-
-
-class CannotStart(Exception):
-    """Something outside must change first; nothing was left running."""
 
 
 class Supervisor:
@@ -224,61 +217,6 @@ def say(text: str) -> None:
     print(f"pons: {text}", flush=True)
 
 
-def check(settings: LaunchSettings) -> RobotDescription:
-    """Look for causes of a later and less clear failure.
-
-    Raises:
-        CannotStart: a file is missing or wrong, or the disk is full.
-    """
-    try:
-        robot = load_robot(settings.robot)
-    except ConfigError as wrong:
-        raise CannotStart(str(wrong)) from None
-    if not (settings.site / "map.yaml").is_file():
-        known = sorted(path.parent.name for path in settings.site.parent.glob("*/map.yaml"))
-        raise CannotStart(
-            f"site_missing: {settings.site} has no map.yaml; sites beside it: "
-            f"{', '.join(known) or 'none'}"
-        )
-    if settings.mapping is not None:
-        from pons.mapping import prepare_canvas
-
-        prepare_canvas(settings, settings.mapping, robot)
-    if settings.twin and robot.drive.virtual and robot.lidar.is_simulated:
-        raise CannotStart(
-            "twin_needless: drive.kind and lidar.kind 'sim' are simulated as they are; --twin "
-            "plays a base or a lidar of metal"
-        )
-    if robot.drive.virtual and not robot.lidar.is_simulated and not settings.twin:
-        raise CannotStart(
-            f"lidar_of_another_world: lidar.kind {robot.lidar.kind!r} sees real walls, drive.kind "
-            "'sim' drives among simulated ones; add --twin, or make both real"
-        )
-    try:
-        (settings.home / "logs").mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CannotStart(
-            f"home_unwritable: {settings.home}: {error.strerror}; "
-            "set PONS_HOME to a folder that you may write"
-        ) from None
-    free = shutil.disk_usage(settings.home).free
-    if not free >= MIN_FREE_BYTES:
-        raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")
-    return robot
-
-
-def _check_port(settings: LaunchSettings) -> None:
-    with contextlib.closing(socket.socket()) as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind((settings.host, settings.port))
-        except OSError as error:
-            raise CannotStart(
-                f"port_in_use: {settings.host}:{settings.port}: {error.strerror}; stop what "
-                "listens there or set PONS_PORT"
-            ) from None
-
-
 def run(settings: LaunchSettings, *, planner: bool = True) -> int:
     """Be ``pons up``; without a planner the robot waits for another brain."""
     os.umask(PRIVATE)  # of the children too
@@ -286,7 +224,7 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
         robot = check(settings)
         with HomeLock(settings.home):
             if planner:
-                _check_port(settings)
+                check_port(settings)
             if settings.domain is not None:
                 from pons.domain import keep_domain
 

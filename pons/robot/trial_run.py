@@ -34,7 +34,8 @@ TICK_S = 0.01
 SCANS_WITHIN_S = 6.0
 """An RPLidar begins to turn when it is opened."""
 WHEEL_STEPS: Final = (
-    "wheels_up", "listen", "hand_left", "hand_right", "power_left", "power_right", "silence",
+    "wheels_up", "listen", "hand_left", "hand_right", "power_left", "power_right",
+    "power_back", "silence",
 )  # fmt: skip
 LIDAR_STEPS: Final = ("lidar_clear", "lidar_front", "lidar_left")
 

@@ -37,8 +37,9 @@ STEPS: Final[dict[str, tuple[str, str]]] = {
     "listen": ("the base speaks, and stands without a command", "底盘有应答，无指令时静止"),
     "hand_left": ("left wheel by hand", "手转左轮"),
     "hand_right": ("right wheel by hand", "手转右轮"),
-    "power_left": ("left motor, forward and back", "左电机正反转"),
-    "power_right": ("right motor, forward and back", "右电机正反转"),
+    "power_left": ("left motor forward", "左电机前转"),
+    "power_right": ("right motor forward", "右电机前转"),
+    "power_back": ("both motors back, one by one", "两个电机依次后转"),
     "silence": ("no command, three times: do they stop by themselves?", "三次断开指令，看是否自停"),
     "lidar_clear": ("lidar: nothing near", "激光雷达：周围无物"),
     "lidar_front": ("lidar: a box in front", "激光雷达：前方盒子"),
@@ -137,8 +138,8 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "轮子向后转：请交换该电机的两根线，或修改 ..._MOTOR_SENSE",
     ),
     "power_both": (
-        "both wheels turned though one was told to: look for a bridge between their wires",
-        "只命令一个轮子却两个都转：请检查接线是否短接",
+        "both wheels turned: a bridge between their wires, or the other motor's two are swapped",
+        "只命令一个轮子却两个都转：接线短接，或另一个电机的两根线接反",
     ),
     "power_runaway": (
         "a wheel ran far faster than told: its encoder does not count while the motor turns",

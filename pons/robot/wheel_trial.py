@@ -88,10 +88,11 @@ class WheelTrial:
             tell("hand_right", f"{HAND_TURNS * ratio['left']:+.2f} turns")
             ratio["right"] = self._turn_by_hand("right")
             tell("power_left", f"{HAND_TURNS * ratio['right']:+.2f} turns")
-            said = [self._turn_by_motor(1, 0), self._turn_by_motor(-1, 0)]
-            tell("power_right", ", ".join(said))
-            said = [self._turn_by_motor(0, 1), self._turn_by_motor(0, -1)]
-            tell("silence", ", ".join(said))
+            # Each forward before any goes back: a reversed motor, held at zero by its regulator,
+            # creeps off in time, and would then be taken for two motors on one wire.
+            tell("power_right", self._turn_by_motor(1, 0))
+            tell("power_back", self._turn_by_motor(0, 1))
+            tell("silence", f"{self._turn_by_motor(-1, 0)}, {self._turn_by_motor(0, -1)}")
             silences = [self._fall_silent() for _ in range(SILENCES)]
         finally:
             self._base.halt()
