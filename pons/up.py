@@ -58,7 +58,9 @@ class Supervisor:
         set_up: bool = False,
         came_from_setup: bool = False,
     ) -> None:
-        self._came_from_setup = came_from_setup
+        self._is_patient = came_from_setup or set_up
+        """The page is all that this person has: it is not taken away for being slow."""
+        self._said_late = False
         self.changes = False
         """Whether the run ended because a person asked for set-up, or to leave it."""
         self._set_up = set_up
@@ -136,10 +138,11 @@ class Supervisor:
                 f"not_ready: the {'planner' if self._planner else 'bridge'} was not ready within "
                 f"{READY_LIMIT_S:.0f} s; logs are in {self._settings.home / 'logs'}"
             )
-            if not self._came_from_setup:
+            if not self._is_patient:
                 raise CannotStart(text)
-            self._said_ready = True  # the page is all that this person has
-            say(text)
+            if not self._said_late:
+                say(text)
+            self._said_late = True
 
     def _say_ready(self, after_s: float) -> None:
         if self._planner:

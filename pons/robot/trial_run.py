@@ -8,6 +8,7 @@ from __future__ import annotations
 import secrets
 import time
 from dataclasses import dataclass
+from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -81,10 +82,7 @@ def try_robot(path: Path, robot: RobotDescription, person: TrialPerson) -> Trial
     """
     before = path.read_text("utf-8")
     found = _try_wheels(robot, person)
-    seen = (
-        f"{found.dead_man_s:.2f} s without a command until they stand, "
-        f"{found.brake_s:.2f} s of it braking"
-    )
+    seen = f"{found.dead_man_s:.2f} s ({found.brake_s:.2f} s)"
     if not robot.lidar.is_simulated:
         seen = _try_lidar(robot, person, seen)
     person.tell("write", seen)
@@ -180,7 +178,7 @@ def _try_lidar(robot: RobotDescription, person: TrialPerson, seen: str) -> str:
     finally:
         reader.close()
         port.close()
-    return f"front at {where['front']:+.2f} rad, left at {where['left']:+.2f}"
+    return f"{degrees(where['front']):+.0f}°, {degrees(where['left']):+.0f}°"
 
 
 def _newest_scan(reader: LidarReader, person: TrialPerson) -> Scan:

@@ -40,10 +40,13 @@ STEPS: Final[dict[str, tuple[str, str]]] = {
     "power_left": ("left motor forward", "左电机前转"),
     "power_right": ("right motor forward", "右电机前转"),
     "power_back": ("both motors back, one by one", "两个电机依次后转"),
-    "silence": ("no command, three times: do they stop by themselves?", "三次断开指令，看是否自停"),
+    "silence": (
+        "three silences: how long until the wheels stand (of it braking)",
+        "三次不发指令：多久后停下（其中制动）",
+    ),
     "lidar_clear": ("lidar: nothing near", "激光雷达：周围无物"),
     "lidar_front": ("lidar: a box in front", "激光雷达：前方盒子"),
-    "lidar_left": ("lidar: a box at the left", "激光雷达：左侧盒子"),
+    "lidar_left": ("lidar: a box at the left; where it saw both", "激光雷达：左侧盒子；两者方位"),
     "write": ("written into robot.toml", "写入 robot.toml"),
 }
 """By step, in order; the engine tells them, a person reads them."""

@@ -85,9 +85,9 @@ class WheelTrial:
             report_hz = self._listen()
             tell("hand_left", f"{report_hz:.0f} Hz")
             ratio: dict[Side, float] = {"left": self._turn_by_hand("left")}
-            tell("hand_right", f"{HAND_TURNS * ratio['left']:+.2f} turns")
+            tell("hand_right", f"{HAND_TURNS * ratio['left']:+.2f} × 360°")
             ratio["right"] = self._turn_by_hand("right")
-            tell("power_left", f"{HAND_TURNS * ratio['right']:+.2f} turns")
+            tell("power_left", f"{HAND_TURNS * ratio['right']:+.2f} × 360°")
             # Each forward before any goes back: a reversed motor, held at zero by its regulator,
             # creeps off in time, and would then be taken for two motors on one wire.
             tell("power_right", self._turn_by_motor(1, 0))

@@ -1,4 +1,4 @@
-"""A page begins a trial by proof alone, its silence and any stop end it, and all is said at once."""
+"""A page begins a trial by proof alone; its silence and any stop end it."""
 
 from __future__ import annotations
 

@@ -39,7 +39,6 @@ function Trying({ now }: { now: Trial }) {
     <section class="card" aria-labelledby="trial-title" id="trial" data-phase={now.phase}>
       <h2 id="trial-title">{t("trial.title")}</h2>
       {!isTrying.value && <Begin now={now} />}
-      {now.steps.length > 0 && <Steps now={now} />}
       {isTrying.value && <Question now={now} />}
       {now.phase === "refused" && now.cure && (
         <div class="clarify bad" role="alert" id="trial-refused" data-code={now.code}>
@@ -57,6 +56,7 @@ function Trying({ now }: { now: Trial }) {
           <pre>{now.wrote.join("\n")}</pre>
         </div>
       )}
+      {now.steps.length > 0 && <Steps now={now} />}
     </section>
   );
 }
