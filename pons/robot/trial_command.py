@@ -39,7 +39,8 @@ def run_trial(settings: LaunchSettings) -> int:
         print("\n".join(refusal_lines(refused)), file=sys.stderr)
         return EXIT_REFUSED
     except (ConfigError, CalibrationRefusal, OSError) as trouble:
-        print(f"{trouble}\nnothing was written", file=sys.stderr)
+        unusable = TrialRefusal("trial_config", " ".join(str(trouble).split()))
+        print("\n".join(refusal_lines(unusable)), file=sys.stderr)
         return EXIT_REFUSED
     except KeyboardInterrupt:
         print("interrupted / 已中断: the wheels stand, nothing was written", file=sys.stderr)

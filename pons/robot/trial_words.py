@@ -108,6 +108,10 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "a wheel turns without torque: hold the robot still; is a motor fed past the controller?",
         "没有扭矩时轮子自己在转：请固定机器人，并检查电机是否被供电",
     ),
+    "trial_battery": (
+        "the battery is at its end: charge it, then try again",
+        "电池即将耗尽：请充电后重试",
+    ),
     "trial_no_time_out": (
         "without a command the base has not timed out: no dead-man, or another program drives it",
         "没有指令时底盘仍说未超时：它没有看门狗，或有其他程序在驱动它",

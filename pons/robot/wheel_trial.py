@@ -23,6 +23,8 @@ SPEED_RADPS = 2.0
 START_S = 15.0
 """A base that opening its port has reset needs up to eight."""
 LISTEN_S = 1.0
+LEAST_BATTERY = 0.05
+"""A supply that dips resets the controller, and what then looks wrong are not the wires."""
 POWER_S = 1.5
 SPIN_UP_S = 1.5
 SILENCES = 3
@@ -150,7 +152,11 @@ class WheelTrial:
         return states
 
     def _listen(self) -> float:
-        """See that it stands without a command; return how often it reports [Hz]."""
+        """See that it stands without a command; return how often it reports [Hz].
+
+        Raises:
+            TrialRefusal: ``trial_rolls``, ``trial_battery`` or ``trial_no_time_out``.
+        """
         until_s = self._pace.now_s() + START_S
         while self._newest is None and self._pace.now_s() < until_s:
             self._tick(0.0, 0.0, enable=False)
@@ -160,6 +166,9 @@ class WheelTrial:
             rolled_rad = max(abs(_angle(one, side) - _angle(states[0], side)) for one in states)
             if rolled_rad > STILL_RAD:
                 raise TrialRefusal("trial_rolls", f"{side} {rolled_rad:.2f} rad")
+        battery = states[-1].battery
+        if battery is not None and not battery >= LEAST_BATTERY:
+            raise TrialRefusal("trial_battery", f"{battery:.0%}, at least {LEAST_BATTERY:.0%}")
         if states[-1].timed_out is False:
             raise TrialRefusal("trial_no_time_out", "after 1.5 s without a command")
         return len(states) / LISTEN_S

@@ -58,6 +58,7 @@ class Wires:
     late_s: float = 0.0
     """So much later than its time-out it stops."""
     stop_pressed: bool = False
+    battery: float = 0.8
     lidar_mirrored: bool = False
     lidar_turned_rad: float = 0.0
 
@@ -74,6 +75,7 @@ WRONG: Final[dict[str, dict[str, Any]]] = {
     "deaf": {"deaf": True},
     "coasts": {"coast_s": 1.0},
     "stop_pressed": {"stop_pressed": True},
+    "battery_empty": {"battery": 0.02},
     "lidar_mirrored": {"lidar_mirrored": True},
     "lidar_turned": {"lidar_turned_rad": pi / 2},
 }
@@ -164,7 +166,7 @@ class WheelStand:
             bumper_front=False,
             bumper_rear=False,
             cliff=False,
-            battery=0.8,
+            battery=self.wires.battery,
         )
 
 

@@ -90,6 +90,13 @@ def test_a_person_who_turned_the_other_wheel_is_told_so() -> None:
     assert said == "hand_swapped"
 
 
+def test_a_battery_at_its_end_is_charged_first() -> None:
+    volts = {"battery_empty_v": 9.6, "battery_full_v": 12.6}
+    robot = MCU.model_copy(update={"drive": MCU.drive.model_copy(update=volts)})
+    with pytest.raises(TrialRefusal, match="trial_battery"):
+        tried(Stand(robot, Wires(battery=0.02)))
+
+
 def test_ticks_that_fit_are_proposed() -> None:
     stand = Stand(MCU, Wires(ticks_times=0.5))
     with pytest.raises(TrialRefusal, match=r"ticks_per_turn may be 7[45]\d"):
