@@ -43,6 +43,7 @@ RUNAWAY_TIMES, RUNAWAY_RADPS = 3.0, 1.0
 UNSEEN_S = 0.1
 """What a dead-man may take beyond its time-out: a state's way to us, and the motor's lag."""
 SPEED_SHARE = 0.35
+ALIKE_SHARE = 0.4
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,8 +239,14 @@ class WheelTrial:
         other_rad = _angle(now, other) - _angle(start, other)
         said = f"{side} {sign * moved_rad:+.2f} rad, {other} {other_rad:+.2f}"
         if abs(other_rad) > OTHER_RAD:
-            code = "power_swapped" if moved_rad < WRONG_WAY_RAD else "power_both"
-            raise TrialRefusal(code, said)
+            if moved_rad < WRONG_WAY_RAD:
+                raise TrialRefusal("power_swapped", said)
+            # Two motors on one wire turn alike. One that creeps off while it is told to stand is
+            # held by a regulator whose motor is reversed.
+            alike = isclose(other_rad, sign * moved_rad, rel_tol=ALIKE_SHARE)
+            if alike:
+                raise TrialRefusal("power_both", said)
+            raise TrialRefusal("power_backwards", f"{said}: the {other} one was told to stand")
         if moved_rad < -WRONG_WAY_RAD:
             raise TrialRefusal("power_backwards", said)
         fastest_radps = max(abs(now.left_radps), abs(now.right_radps))

@@ -90,6 +90,13 @@ def test_a_person_who_turned_the_other_wheel_is_told_so() -> None:
     assert said == "hand_swapped"
 
 
+@pytest.mark.parametrize("kind", sorted(SERIAL_PROTOCOLS))
+def test_a_reversed_motor_that_creeps_while_the_other_turns_is_named(kind: str) -> None:
+    """Of some bases it creeps so far, held at zero, that both wheels turn in the first step."""
+    with pytest.raises(TrialRefusal, match="power_backwards"):
+        tried(Stand(robot_of(kind), Wires(motor_sign=(1, -1))))
+
+
 def test_a_battery_at_its_end_is_charged_first() -> None:
     volts = {"battery_empty_v": 9.6, "battery_full_v": 12.6}
     robot = MCU.model_copy(update={"drive": MCU.drive.model_copy(update=volts)})
