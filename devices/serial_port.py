@@ -209,6 +209,11 @@ def _open(path: Path) -> int:
     if not os.isatty(file):
         os.close(file)
         raise PortTrouble("port_not_serial", path, "not a terminal device")
+    try:  # TIOCEXCL does not keep root out; between two of ours this does
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        os.close(file)
+        raise PortTrouble("port_busy", path, error.strerror or "") from None
     return file
 
 

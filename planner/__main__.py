@@ -19,7 +19,7 @@ from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.api.connections import protocol
 from planner.app import Planner, PlannerPaths, application
 from processes.priority import add_nice
-from wire import ConfigError
+from wire import EXIT_SET_UP, ConfigError
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -33,14 +33,16 @@ MIN_TOKEN_CHARACTERS = 16
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Serve until told to end; 1 where the home can't be written at present, 2 when refused."""
+    """Serve until told to end; 1 home unwritable at present, 2 refused, 4 for set-up."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     given = _options(arguments)
     try:
         secure = tls.context(given.tls_cert, given.tls_key)
         authority = tls.authority(given.tls_ca)
         access = _access(given.host, speaks_tls=secure is not None)
-        planner = Planner(PlannerPaths(given.home, given.robot, given.site))
+        planner = Planner(
+            PlannerPaths(given.home, given.robot, given.site, may_set_up=given.may_set_up)
+        )
     except ConfigError as wrong:  # a SiteError is one
         print(f"planner: {wrong}", file=sys.stderr)
         return wrong.exit_status
@@ -66,6 +68,8 @@ def main(arguments: list[str] | None = None) -> int:
     if planner.detector.refused is not None:
         print(f"planner: {planner.detector.refused}", file=sys.stderr)
         return REFUSED
+    if planner.setup.is_thrown:
+        return EXIT_SET_UP
     return 0 if server.started else 1
 
 
@@ -74,7 +78,7 @@ def _end(planner: Planner, number: int, _: FrameType | None) -> None:
 
     The server shuts down on a signal of its own, and then raises it again here.
     """
-    if planner.detector.refused is None:
+    if planner.detector.refused is None and not planner.setup.is_thrown:
         signal.signal(number, signal.SIG_DFL)
         signal.raise_signal(number)
 
@@ -91,6 +95,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         "--tls-key", type=Path, metavar="FILE", help="its key; may be the same file"
     )
     parser.add_argument("--tls-ca", type=Path, metavar="FILE", help="given out as /ca.crt")
+    parser.add_argument(
+        "--may-set-up", action="store_true", help="end with 4 when an operator asks for set-up"
+    )
     return parser.parse_args(arguments)
 
 

@@ -24,6 +24,7 @@ from planner.perception_factory import Opening, eyes_of, looker_of
 from planner.plan import Language
 from planner.robot_service import LinkedRobot
 from planner.settings import load_settings
+from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
@@ -56,6 +57,8 @@ class PlannerPaths:
     home: Path
     robot: Path
     site: Path
+    may_set_up: bool = False
+    """Who started this planner starts set-up in its place when it asks for that."""
 
 
 class Planner:
@@ -68,6 +71,7 @@ class Planner:
             ConfigError, SiteError: robot.toml, settings.toml or the site is wrong, or a planner
                 runs here.
         """
+        self.setup = ProcessSwitch(is_there=where.may_set_up)
         self.settings = load_settings(where.home, os.environ)
         self._state = StateDatabase(where.home)
         self._state.put_aside_if_spoilt()
@@ -245,6 +249,9 @@ async def _end_with(planner: Planner) -> None:
     while (failure := planner.goals.failure or planner.orders.keeper.failure) is None:
         if planner.detector.refused is not None:
             log.critical("the detector that is set can't be used: %s", planner.detector.refused)
+            break
+        if planner.setup.is_thrown:
+            log.warning("set_up: leaving, so that set-up takes the bridge's place")
             break
         if await asyncio.to_thread(planner.fence_is_old):
             log.warning("fence_changed: leaving, so that the next start routes by the new fence")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,8 @@ from wire import (
     PoseHint,
     RobotDescription,
     Status,
+    TrialOrder,
+    TrialState,
     Velocity,
 )
 
@@ -24,6 +27,9 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
+TRIAL_S = 1.0
+"""Set-up speaks ten times a second."""
+ORDERED_S, ORDERED_GAP_S = 2.0, 0.05
 LOCALIZER_S = 2.0
 """It speaks five times a second; what is older says nothing of now."""
 
@@ -50,6 +56,25 @@ class LinkedRobot:
         """Return what the localizer says that it does; None where none spoke lately."""
         heard = self._link.localizer
         return heard.value if heard is not None and heard.age_s <= LOCALIZER_S else None
+
+    @property
+    def trial(self) -> TrialState | None:
+        """Return how the trial of a robot in set-up stands; None where a bridge drives."""
+        heard = self._link.trial
+        return heard.value if heard is not None and heard.age_s <= TRIAL_S else None
+
+    async def order_trial(self, order: TrialOrder) -> bool:
+        """Bring set-up an order; a begin is said until it is taken up. Tell whether it was."""
+        self._link.order_trial(order)
+        if order.act != "begin":
+            return True
+        for _ in range(round(ORDERED_S / ORDERED_GAP_S)):
+            await asyncio.sleep(ORDERED_GAP_S)
+            trial = self.trial
+            if trial is not None and trial.by == order.id:
+                return True
+            self._link.order_trial(order)
+        return False
 
     async def hint(self, hint: PoseHint) -> HintVerdict | None:
         """Return the localizer's verdict on a person's word, or None where it stayed silent."""

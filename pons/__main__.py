@@ -88,6 +88,7 @@ def _launch(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     started.add_argument("--twin", action="store_true", help="play base and lidar of robot.toml")
     started.add_argument("--twin-firmware", type=Path, metavar="BUILD", help="docs/firmware.md")
     started.add_argument("--map", dest="mapping", metavar="NAME", help="map a home by driving")
+    started.add_argument("--set-up", action="store_true", help="try the robot again, at the page")
     started.add_argument("--no-planner", action="store_true", help="leave it to another brain")
 
 
@@ -258,7 +259,7 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
         given |= {"domain": said.domain, "seed": said.seed}
         given |= {"twin": said.twin or said.twin_firmware is not None}
         given |= {"twin_firmware": said.twin_firmware}
-        given |= {"mapping": said.mapping}
+        given |= {"mapping": said.mapping, "set_up": said.set_up}
         chosen = {name: value for name, value in given.items() if value is not None}
         chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before
         return up.run(replace(settings, **chosen), planner=not said.no_planner)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pons.robot_processes import address_arguments, common_arguments, free_port
@@ -10,11 +11,24 @@ from pons.settings import allowed_hosts
 from pons.supervisor import Child
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from pons.authority import IssuedCertificate
     from pons.settings import LaunchSettings
     from wire import RobotDescription
+
+
+def can_set_up(settings: LaunchSettings, robot: RobotDescription) -> bool:
+    """Tell whether this robot can be tried from the page: metal at a serial line, and no twin."""
+    return not (robot.drive.virtual or robot.ros2 is not None or settings.twin)
+
+
+def must_set_up(settings: LaunchSettings, robot: RobotDescription) -> bool:
+    """Tell whether a bridge would refuse this robot's line: metal that was not tried.
+
+    Whose far end is a program, a twin's or a test's, may be driven without.
+    """
+    if not can_set_up(settings, robot) or robot.valid_trial is not None:
+        return False
+    return not Path(robot.drive.port or "").resolve().is_relative_to("/dev/pts")
 
 
 def children(
@@ -38,8 +52,8 @@ def children(
     at_line = ["--drive-port", str(line)] if plays_drive else []
     wanted = [("bridge", [*common, *at_line])]
     if planner:
-        secured = issued.planner_arguments() if issued else []
-        wanted.append(("planner", [*common, *address_arguments(settings), *secured]))
+        more = ["--may-set-up"] if can_set_up(settings, robot) else []
+        wanted.append(("planner", [*_planner(settings, common, issued), *more]))
     simulated = robot.drive.virtual or settings.twin
     if simulated:
         more = _simulator(settings)
@@ -59,15 +73,34 @@ def children(
         found.insert(int(simulated), Child("lidar", arguments, logs / "lidar.log"))
     if has_ros2:
         found.insert(int(simulated), _ros2(common, ros2_port, logs))
+    _secure(found, issued)
+    if simulated and (robot.camera.kind == "sim" or robot.camera.is_real):
+    return found
+
+
+def set_up_children(settings: LaunchSettings, issued: IssuedCertificate | None) -> list[Child]:
+    """Return the processes of a robot in set-up: no bridge, and nobody else at its lines."""
+    logs, common = settings.home / "logs", common_arguments(settings)
+    planner = ["planner", *_planner(settings, common, issued)]
+    found = [
+        Child("setup", ["pons.robot.setup_node", *common], logs / "setup.log"),
+        Child("planner", planner, logs / "planner.log", knows_tokens=True),
+    ]
+    _secure(found, issued)
+    return found
+
+
+def _planner(
+    settings: LaunchSettings, common: list[str], issued: IssuedCertificate | None
+) -> list[str]:
+    secured = issued.planner_arguments() if issued else []
+    return [*common, *address_arguments(settings), *secured]
+
+
+def _secure(found: list[Child], issued: IssuedCertificate | None) -> None:
     for child in found:
         if child.name == "planner" and issued:
             child.environment |= issued.planner_environment(allowed_hosts())
-    if not simulated and robot.inputs.imu and robot.imu.is_on_i2c:
-        found.insert(0, Child("imu", ["sensors.imu", *common], logs / "imu.log"))
-    seen = ["sim.camera", *world, *domain] if simulated else ["sensors.camera", *common]
-    if robot.camera.is_real or (simulated and robot.camera.kind == "sim"):
-        found.append(Child("camera", seen, logs / "camera.log", waits_for_ready=True))
-    return found
 
 
 def _simulator(settings: LaunchSettings) -> list[str]:

@@ -17,6 +17,7 @@ from wire.sockets import Endpoints, is_listening
 
 LISTENING = {
     "bridge": Party.BRIDGE,
+    "setup": Party.BRIDGE,
     "sim": Party.ROBOT,
     "localization": Party.LOCALIZATION,
     "camera": Party.CAMERA,

@@ -42,6 +42,8 @@ class LaunchSettings:
     mapping: str | None = None
     """Of the site that is being mapped; its canvas takes the site's place for all but the simulator
     (docs/mapping.md)."""
+    set_up: bool = False
+    """Whether to begin in set-up, though the robot was tried (docs/robot-try.md)."""
     tls: bool = False
     """Whether the planner is asked, and by ``pons up`` started, over TLS."""
     authority: Path | None = None

@@ -8,25 +8,23 @@ running.
 
 from __future__ import annotations
 
-import contextlib
 import os
-import shutil
 import signal
-import socket
 import sys
 import threading
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pons.children import children
+from pons.children import can_set_up, children, must_set_up, set_up_children
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
+from pons.launch_checks import CannotStart, check, check_port
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
 from pons_assets import ROOT
-from wire import ConfigError, RobotDescription, load_robot
+from wire import EXIT_SET_UP, ConfigError, RobotDescription
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
@@ -43,11 +41,8 @@ LOOK_S = 0.5
 """The longest that a removed socket stays unreachable, or a log longer than its bound."""
 PRIVATE = 0o077
 """What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
-MIN_FREE_BYTES = 200 * 1024 * 1024
-
-
-class CannotStart(Exception):
-    """Something outside must change first; nothing was left running."""
+_CHANGERS = frozenset({"planner", "setup"})
+SET_UP = "set-up: no bridge, nothing drives; try the robot on that page / 设置模式：请在网页上测试"
 
 
 class Supervisor:
@@ -60,13 +55,25 @@ class Supervisor:
         *,
         planner: bool,
         issued: IssuedCertificate | None = None,
+        set_up: bool = False,
+        came_from_setup: bool = False,
     ) -> None:
+        self._is_patient = came_from_setup or set_up
+        """The page is all that this person has: it is not taken away for being slow."""
+        self._said_late = False
+        self.changes = False
+        """Whether the run ended because a person asked for set-up, or to leave it."""
+        self._set_up = set_up
         self._trust = issued.trust_lines() if issued else ()
         self._settings = settings
         self._robot = robot
         self._planner = planner
         self._ending = threading.Event()
-        self._children = children(settings, robot, planner=planner, issued=issued)
+        self._children = (
+            set_up_children(settings, issued)
+            if set_up
+            else children(settings, robot, planner=planner, issued=issued)
+        )
         self._said_ready = False
         self._armed = not robot.drive.virtual  # on metal a person arms
         self._next_arm_s = 0.0
@@ -95,6 +102,10 @@ class Supervisor:
             status = child.died(now_s)
             if status == REFUSED_TO_START:
                 raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
+            if status == EXIT_SET_UP and child.name in _CHANGERS:
+                self.changes = True
+                self.end()
+                return
             if status is not None:
                 self._sockets.forget(child.name)
                 wait_s = child.next_start_s - now_s
@@ -123,17 +134,22 @@ class Supervisor:
                 self._said_ready = True
                 self._say_ready(now_s - began_s)
         if now_s - began_s > READY_LIMIT_S:
-            raise CannotStart(
+            text = (
                 f"not_ready: the {'planner' if self._planner else 'bridge'} was not ready within "
                 f"{READY_LIMIT_S:.0f} s; logs are in {self._settings.home / 'logs'}"
             )
+            if not self._is_patient:
+                raise CannotStart(text)
+            if not self._said_late:
+                say(text)
+            self._said_late = True
 
     def _say_ready(self, after_s: float) -> None:
         if self._planner:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
             for line in self._trust:
                 say(line)
-            say(_what_to_try(self._settings))
+            say(SET_UP if self._set_up else _what_to_try(self._settings))
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
@@ -143,7 +159,8 @@ class Supervisor:
         if not self._planner:
             return True  # arming asks the bridge itself
         try:
-            call(self._settings, "GET", "/readyz", timeout_s=1.0)
+            asked = "/healthz" if self._set_up else "/readyz"  # set-up drives nowhere
+            call(self._settings, "GET", asked, timeout_s=1.0)
         except (PlannerDown, PlannerProblem):
             return False
         return True
@@ -165,6 +182,7 @@ class Supervisor:
         """End the planner first, so that the bridge still brakes; the drive last."""
         for child in reversed(self._children):
             child.stop(PATIENCE_S)
+            self._sockets.forget(child.name)
 
 
 def _what_to_try(settings: LaunchSettings) -> str:
@@ -202,67 +220,6 @@ def say(text: str) -> None:
     print(f"pons: {text}", flush=True)
 
 
-def check(settings: LaunchSettings) -> RobotDescription:
-    """Look for causes of a later and less clear failure.
-
-    Raises:
-        CannotStart: a file is missing or wrong, or the disk is full.
-    """
-    try:
-        robot = load_robot(settings.robot)
-    except ConfigError as wrong:
-        raise CannotStart(str(wrong)) from None
-    if not (settings.site / "map.yaml").is_file():
-        known = sorted(path.parent.name for path in settings.site.parent.glob("*/map.yaml"))
-        raise CannotStart(
-            f"site_missing: {settings.site} has no map.yaml; sites beside it: "
-            f"{', '.join(known) or 'none'}"
-        )
-    if settings.mapping is not None:
-        from pons.mapping import prepare_canvas
-
-        prepare_canvas(settings, settings.mapping, robot)
-    real = not robot.lidar.is_simulated or robot.camera.is_real
-    if settings.twin and robot.drive.virtual and not real:
-        raise CannotStart(
-            "twin_needless: drive.kind and lidar.kind 'sim' are simulated as they are; --twin "
-            "plays a base, a lidar or a camera of metal"
-        )
-    if robot.drive.virtual and not robot.lidar.is_simulated and not settings.twin:
-        raise CannotStart(
-            f"lidar_of_another_world: lidar.kind {robot.lidar.kind!r} sees real walls, drive.kind "
-            "'sim' drives among simulated ones; add --twin, or make both real"
-        )
-    if robot.drive.virtual and robot.camera.is_real and not settings.twin:
-        raise CannotStart(
-            f"camera_of_another_world: camera.kind {robot.camera.kind!r} sees a real room, "
-            "drive.kind 'sim' drives in a simulated one; add --twin, or make both real"
-        )
-    try:
-        (settings.home / "logs").mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CannotStart(
-            f"home_unwritable: {settings.home}: {error.strerror}; "
-            "set PONS_HOME to a folder that you may write"
-        ) from None
-    free = shutil.disk_usage(settings.home).free
-    if not free >= MIN_FREE_BYTES:
-        raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")
-    return robot
-
-
-def _check_port(settings: LaunchSettings) -> None:
-    with contextlib.closing(socket.socket()) as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind((settings.host, settings.port))
-        except OSError as error:
-            raise CannotStart(
-                f"port_in_use: {settings.host}:{settings.port}: {error.strerror}; stop what "
-                "listens there or set PONS_PORT"
-            ) from None
-
-
 def run(settings: LaunchSettings, *, planner: bool = True) -> int:
     """Be ``pons up``; without a planner the robot waits for another brain."""
     os.umask(PRIVATE)  # of the children too
@@ -270,7 +227,7 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
         robot = check(settings)
         with HomeLock(settings.home):
             if planner:
-                _check_port(settings)
+                check_port(settings)
             if settings.domain is not None:
                 from pons.domain import keep_domain
 
@@ -297,17 +254,41 @@ def _supervise(
     planner: bool,
     issued: IssuedCertificate | None,
 ) -> int:
-    supervisor = Supervisor(settings, robot, planner=planner, issued=issued)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _handler(supervisor))
     where = settings.site.name if settings.canvas is None else f"a home to map: {settings.mapping}"
-    say(f"starting {robot.id} in {where} (state in {settings.home})")
-    return supervisor.run()
+    set_up = planner and _begins_in_set_up(settings, robot)
+    changed = False
+    while True:
+        supervisor = Supervisor(
+            settings, robot, planner=planner, issued=issued, set_up=set_up, came_from_setup=changed
+        )
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, _handler(supervisor))
+        say(f"starting {robot.id} in {where} (state in {settings.home})")
+        status = supervisor.run()
+        if not supervisor.changes:
+            return status
+        set_up, changed = not set_up, True
+        robot = check(settings)  # a trial has written to it
+
+
+def _begins_in_set_up(settings: LaunchSettings, robot: RobotDescription) -> bool:
+    """Tell whether to begin in set-up.
+
+    Raises:
+        CannotStart: it is asked for, and this robot has none.
+    """
+    if settings.set_up and not can_set_up(settings, robot):
+        raise CannotStart(
+            "setup_needless: set-up tries a base of metal at a serial line; this robot is "
+            f"simulated, a twin's or one of ROS 2 (drive.kind {robot.drive.kind!r})"
+        )
+    return settings.set_up or must_set_up(settings, robot)
 
 
 def _handler(supervisor: Supervisor) -> _Handler:
     def handle(number: int, _frame: FrameType | None) -> None:
         say(f"{signal.Signals(number).name}: taking everything down")
+        supervisor.changes = False
         supervisor.end()
 
     return handle

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.faults.code_messages import SENTENCES, WANTS
 from bridge.core.faults.fault_messages import WORDS
+from pons.robot.trial_words import STEPS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,8 +28,9 @@ def rows_json() -> str:
 
 
 def codes_json() -> str:
-    """Return what is said of each code that is no row."""
-    return _text({"sentences": _both_languages(SENTENCES), "wants": _both_languages(WANTS)})
+    """Return what is said of each code that is no row, and of each step of a trial."""
+    tables = {"sentences": SENTENCES, "wants": WANTS, "trial": STEPS}
+    return _text({name: _both_languages(table) for name, table in tables.items()})
 
 
 def _both_languages(table: Mapping[str, tuple[str, str]]) -> dict[str, dict[str, str]]:

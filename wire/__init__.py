@@ -85,8 +85,18 @@ from wire.status import (
     Status,
     TickStats,
 )
+from wire.trial_dialogue import (
+    EXIT_SET_UP,
+    PortReport,
+    Sentence,
+    TrialAct,
+    TrialOrder,
+    TrialState,
+    TrialStep,
+)
 
 __all__ = [
+    "EXIT_SET_UP",
     "IDENTITY",
     "MAX_POINTS",
     "NEEDS_PROOF",
@@ -131,6 +141,7 @@ __all__ = [
     "OpRequest",
     "Owner",
     "OwnerKind",
+    "PortReport",
     "Pose2",
     "PoseCandidate",
     "PoseHint",
@@ -140,6 +151,7 @@ __all__ = [
     "Ros2Status",
     "RowReport",
     "Scan",
+    "Sentence",
     "SimControl",
     "SimFault",
     "SimScene",
@@ -149,6 +161,10 @@ __all__ = [
     "Status",
     "Stop",
     "TickStats",
+    "TrialAct",
+    "TrialOrder",
+    "TrialState",
+    "TrialStep",
     "Twist2",
     "Unwritable",
     "Velocity",

@@ -35,6 +35,7 @@ from wire.sensors import (
 )
 from wire.simulation import SimControl, SimScene, SimTruth
 from wire.status import Event, Status
+from wire.trial_dialogue import TrialOrder, TrialState
 
 LATEST = 1
 """Ring size for state: only the newest counts."""
@@ -186,10 +187,16 @@ SIM_CONTROL = Key("sim/control", SimControl, frozenset({_J}), frozenset({_R}), "
                   SEQUENCED, SMALL,
                   "a test moves the simulated robot or a thing of its home")  # fmt: skip
 
+TRIAL_ORDER = _from(_P, "trial/order", TrialOrder, _TO_B, "3 Hz while a page watches a trial",
+                    "a person at the page tries the robot; heard while no bridge drives",
+                    ring=SEQUENCED)  # fmt: skip
+TRIAL_STATE = _from(_B, "trial/state", TrialState, frozenset({_P, _J}), "10 Hz in set-up",
+                    "what the trial asks, saw and found", max_bytes=MEDIUM)  # fmt: skip
+
 OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
     *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
-    LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, IMU_STATE, ROS2_STATE,
-    CAMERA_COLOR, CAMERA_DEPTH, CAMERA_STATE, SIM_TRUTH, SIM_SCENE, SIM_CONTROL,
+    CAMERA_COLOR, CAMERA_DEPTH, CAMERA_STATE, SIM_TRUTH, SIM_SCENE, SIM_CONTROL, TRIAL_ORDER,
+    TRIAL_STATE,
 )  # fmt: skip

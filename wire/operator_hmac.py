@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+from typing import Literal
 
 from wire.commands import FenceRequest, OpKind, OpRequest, Proof
 from wire.fence import text_sha256
@@ -23,7 +24,11 @@ NEEDS_PROOF: frozenset[OpKind] = frozenset({"arm", "reset", "resume"})
 """What lets a robot move again. What makes it stand still is believed from anybody."""
 
 
-def sign(key: bytes, kind: OpKind, robot: str, nonce: str, request_id: str) -> Proof:
+SignedKind = OpKind | Literal["trial"]
+"""What a proof may be for; that of a trial lets wheels turn that are off the ground."""
+
+
+def sign(key: bytes, kind: SignedKind, robot: str, nonce: str, request_id: str) -> Proof:
     """Make the proof for one request under one nonce."""
     return Proof(nonce=nonce, mac=_mac(key, kind, robot, nonce, request_id))
 
@@ -36,7 +41,9 @@ def signed_request(
     return OpRequest(id=request_id, source=source, proof=proof)
 
 
-def authentic(key: bytes, kind: OpKind, robot: str, proof: Proof | None, request_id: str) -> bool:
+def authentic(
+    key: bytes, kind: SignedKind, robot: str, proof: Proof | None, request_id: str
+) -> bool:
     """Return whether the proof fits the request; its nonce's validity is not judged."""
     if proof is None:
         return False

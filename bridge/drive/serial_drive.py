@@ -65,6 +65,8 @@ class ByteLine(Protocol):
 
     opened: int
     """How often it was opened."""
+    trouble: PortTrouble | None
+    """Why it is away; None while it is open."""
 
     def read(self) -> bytes:
         """Return the bytes that came."""
@@ -105,6 +107,11 @@ class SerialDrive:
         self._boot = boot
         self._clock = clock
         self._seq = self._asked = 0
+
+    @property
+    def trouble(self) -> PortTrouble | None:
+        """Return why the port is away; None while it is open."""
+        return self._port.trouble
 
     def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         """Return the states since the last call, oldest first, at most the 4 newest."""

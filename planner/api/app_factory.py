@@ -21,6 +21,7 @@ from planner.api import (
     places,
     problems,
     robot,
+    setup,
     static_files,
     usage,
     voice,
@@ -40,8 +41,8 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, voice, operator, robot, orders, places, localization, objects, memory, camera, fence,
-    usage,
+    goals, voice, operator, setup, robot, orders, places, localization, objects, memory, camera,
+    fence, usage,
     health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
         PoseHint,
         RobotDescription,
         Status,
+        TrialOrder,
+        TrialState,
     )
 
 
@@ -113,6 +115,11 @@ class Robot(Protocol):
 
     async def hint(self, hint: PoseHint) -> HintVerdict | None: ...
 
+    @property
+    def trial(self) -> TrialState | None: ...
+
+    async def order_trial(self, order: TrialOrder) -> bool: ...
+
     def ages_s(self) -> dict[str, float | None]: ...
 
     async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None: ...
@@ -169,8 +176,20 @@ class PerceptionView(Protocol):
     def forget(self, thing_id: str | None = None) -> tuple[Thing, ...]: ...
 
 
+class SetupSwitch(Protocol):
+    """Leave the robot to set-up, where who started this planner can start that."""
+
+    @property
+    def is_there(self) -> bool: ...
+
+    def throw(self) -> None: ...
+
+
 class Services(Protocol):
     """Hold the parts of one planner."""
+
+    @property
+    def setup(self) -> SetupSwitch: ...
 
     @property
     def goals(self) -> Goals: ...

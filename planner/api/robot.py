@@ -13,6 +13,7 @@ from fastapi import APIRouter
 
 from maps.growing_map import GROWING_MAP, GrowingMap, GrowingMapError, read_growing_map
 from planner.api.interfaces import Services
+from planner.api.setup import setup_view
 from planner.brain import mind_of
 from planner.mission import Leg, tell_doubt
 from planner.site import GridMap
@@ -63,6 +64,7 @@ def robot_view(services: Services) -> dict[str, Any]:
         "localization": _localization_kind(services),
         "localizer": services.robot.localizer.state if services.robot.localizer else None,
         "match": match_view(services),
+        "setup": setup_view(services),
         "brain": mind_of(services.brain).model_dump(mode="json"),
     }
 

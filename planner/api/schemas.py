@@ -7,8 +7,8 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field, StrictBool
 
 from planner.plan import Language
-from wire import Proof
-from wire.bounded_types import Name
+from wire import Proof, TrialAct
+from wire.bounded_types import Count, Name
 from wire.geometry import Mps, Radps
 
 MAX_GOAL_CHARACTERS = 4_000
@@ -92,3 +92,22 @@ class Steer(Body):
     v_mps: Annotated[Mps, Field(strict=True)]
     w_radps: Annotated[Radps, Field(strict=True)]
     dead_man: StrictBool
+
+
+class SetupAsk(Body):
+    """Ask for set-up in the bridge's place."""
+
+    source: Name = "api"
+
+
+class TrialAsk(Body):
+    """Ask set-up for something, or show that the page which began a trial still watches."""
+
+    act: TrialAct
+    id: Name
+    """Of this request; of a watch: that of its begin, which the proof of that covers."""
+    source: Name = "api"
+    answered: Count = 0
+    """Of a watch: the number of the newest question whose answer is "done"."""
+    proof: Proof | None = None
+    """Of a begin, over "trial", the robot's id, the status's nonce and this id."""

@@ -33,6 +33,8 @@ from wire import (
     Scan,
     Status,
     Stop,
+    TrialOrder,
+    TrialState,
     Velocity,
 )
 
@@ -90,6 +92,7 @@ class Link:
         self._odometry: tuple[Odometry, float] | None = None
         self._scan: tuple[Scan, float] | None = None
         self._localizer: tuple[LocalizerStatus, float] | None = None
+        self._trial: tuple[TrialState, float] | None = None
         self._waiting: dict[str, asyncio.Future[Answer]] = {}
         self._followers: list[Follower] = []
 
@@ -108,6 +111,8 @@ class Link:
                 follower.odometry(odometry)
         if (said := self._bus.localizer()) is not None:
             self._localizer = (said, now_s)
+        if (trial := self._bus.trial()) is not None:
+            self._trial = (trial, now_s)
         if (scan := self._bus.scan()) is not None:
             self._scan = (scan, now_s)
         status = self._bus.status()
@@ -138,6 +143,15 @@ class Link:
     def localizer(self) -> Aged[LocalizerStatus] | None:
         """Return what the localizer said last that it does, however old; None without one."""
         return self._aged(self._localizer)
+
+    @property
+    def trial(self) -> Aged[TrialState] | None:
+        """Return the newest word of a robot in set-up, however old; None where none spoke."""
+        return self._aged(self._trial)
+
+    def order_trial(self, order: TrialOrder) -> None:
+        """Bring set-up a page's order."""
+        self._bus.send(order)
 
     @property
     def odometry(self) -> Aged[Odometry] | None:

@@ -24,6 +24,8 @@ from wire import (
     Scan,
     Status,
     Stop,
+    TrialOrder,
+    TrialState,
     Velocity,
     Waypoints,
 )
@@ -44,6 +46,9 @@ class Bus(Protocol):
 
     def localizer(self) -> LocalizerStatus | None:
         """Take the localizer's newest word on what it does that was not taken yet."""
+
+    def trial(self) -> TrialState | None:
+        """Take the newest word of a robot in set-up that was not taken yet."""
 
     def odometry(self) -> Odometry | None:
         """Take the newest odometry that was not taken yet."""
@@ -75,6 +80,8 @@ class WireBus:
         self._odometry = session.subscriber(k.ODOM)
         self._scan = session.subscriber(k.SCAN)
         self._events = session.subscriber(k.EVENT)
+        self._trial = session.subscriber(k.TRIAL_STATE)
+        self._order = session.publisher(k.TRIAL_ORDER)
         self._hello = session.publisher(k.HELLO)
         self._grant = session.publisher(k.GRANT)
         self._heartbeat = session.publisher(k.HEARTBEAT)
@@ -92,6 +99,9 @@ class WireBus:
 
     def localizer(self) -> LocalizerStatus | None:
         return self._localizer.newest()
+
+    def trial(self) -> TrialState | None:
+        return self._trial.newest()
 
     def odometry(self) -> Odometry | None:
         return self._odometry.newest()
@@ -118,6 +128,8 @@ class WireBus:
                 self._fence.put(message)
             case PoseHint():
                 self._hint.put(message)
+            case TrialOrder():
+                self._order.put(message)
             case _:
                 raise TypeError(f"{type(message).__name__} is no command of an owner")
 

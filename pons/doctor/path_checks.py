@@ -13,7 +13,7 @@ from bridge.operator_key import load_operator_key
 from planner.settings import find_exposed
 from planner.site import Site, SiteError
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
-from pons.up import MIN_FREE_BYTES
+from pons.launch_checks import MIN_FREE_BYTES
 from wire import ConfigError, RobotDescription, load_robot
 from wire.doors import DOORS
 from wire.sockets import MAX_SOCKET_PATH, Endpoints, is_listening

@@ -135,7 +135,7 @@ def describe(found: Sequence[PortFinding], *, has_modem_manager: bool = False) -
     if not found:
         yield from _explain("port_none")
     for one in found:
-        yield f"{one.entry.path}  {_adapter(one.entry)}"
+        yield f"{one.entry.path}  {adapter_words(one.entry)}"
         if one.answer is not None:
             yield f"  {one.part} {one.kind}, {one.baud} baud: {_printable(one.answer.words)}"
         else:
@@ -206,7 +206,8 @@ def _explain(code: str, detail: str = "") -> Iterator[str]:
     yield f"  {chinese.format(detail=detail)}"
 
 
-def _adapter(entry: SerialPortEntry) -> str:
+def adapter_words(entry: SerialPortEntry) -> str:
+    """Return what the adapter calls itself."""
     usb = entry.usb
     if usb is None:
         return entry.driver

@@ -10,11 +10,12 @@ from math import degrees, isfinite
 from typing import TYPE_CHECKING, Final, Protocol
 
 from devices.inertial import MOST_RADPS, Mounting, Vector
-from pons.robot.wheel_trial import TrialRefusal
+from pons.robot.trial_parties import TrialRefusal
 
 if TYPE_CHECKING:
     from devices.inertial import InertialReading
-    from pons.robot.wheel_trial import TrialPace, TrialPerson
+    from bridge.drive import SerialDrive
+    from pons.robot.trial_parties import TrialPace, TrialPerson
     from wire.imu_config import Axis, ImuConfig
 
 STILL_S = 2.0
@@ -38,6 +39,24 @@ class GyroSource(Protocol):
         """Return what came since the last call, each with its stamp [s], oldest first."""
 
 
+class BaseGyroSource:
+    """Be the gyro of a base that says nothing of itself unless it is asked."""
+
+    def __init__(self, drive: SerialDrive) -> None:
+        self._drive = drive
+
+    def readings(self) -> list[Timed]:
+        """Ask and read; no command goes with it."""
+        gyro = self._drive.gyro
+        if gyro is None:
+            return []
+        self._drive.ask()
+        self._drive.read()
+        heard = list(gyro.heard)
+        gyro.heard.clear()
+        return heard
+
+
 def try_gyro(imu: ImuConfig, source: GyroSource, pace: TrialPace, person: TrialPerson) -> float:
     """Have a person turn the robot left; return by how much the gyro says it did [rad].
 
@@ -51,6 +70,7 @@ def try_gyro(imu: ImuConfig, source: GyroSource, pace: TrialPace, person: TrialP
     last: Timed | None = None
     count = 0
     while not person.has_answered():
+        person.require_watch()
         pace.wait()
         for at_s, reading in source.readings():
             rates = [rate - bias for rate, bias in zip(reading.gyro_radps, bias_radps, strict=True)]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, cos, degrees, hypot, pi, sin
 from typing import TYPE_CHECKING, Literal
 
-from pons.robot.wheel_trial import TrialRefusal
+from pons.robot.trial_parties import TrialRefusal
 
 if TYPE_CHECKING:
     from collections.abc import Callable

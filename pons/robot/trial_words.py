@@ -6,35 +6,55 @@ from typing import Final
 
 PROMPTS: Final[dict[str, tuple[str, str]]] = {
     "wheels_up": (
-        "The wheels will turn. Lift them off the ground, hands and cables away; type UP, Enter",
-        "轮子将会转动。请把轮子架空，手和线缆远离轮子。输入 UP 后回车",
+        "The wheels will turn. Lift them off the ground, hands and cables away",
+        "轮子将会转动。请把轮子架空，手和线缆远离轮子",
     ),
     "hand_left": (
-        "Turn the LEFT wheel FORWARD by hand, three whole turns, then Enter",
-        "请用手把左轮向前转三整圈，然后回车",
+        "Turn the LEFT wheel FORWARD by hand, three whole turns",
+        "请用手把左轮向前转三整圈",
     ),
     "hand_right": (
-        "Turn the RIGHT wheel FORWARD by hand, three whole turns, then Enter",
-        "请用手把右轮向前转三整圈，然后回车",
+        "Turn the RIGHT wheel FORWARD by hand, three whole turns",
+        "请用手把右轮向前转三整圈",
     ),
     "gyro_left": (
         "Turn the whole robot a QUARTER to the LEFT, level, on its stand or lifted, then Enter",
         "请把整个机器人水平地向左转四分之一圈（可连支架或抬起），然后回车",
     ),
     "lidar_clear": (
-        "Step away from the robot, so that nothing moves around it, then Enter",
-        "请离开机器人，保证周围没有东西移动，然后回车",
+        "Step away from the robot, so that nothing moves around it",
+        "请离开机器人，保证周围没有东西移动",
     ),
     "lidar_front": (
-        "Hold a box half a metre in FRONT of the robot, at the lidar's height, then Enter",
-        "请把一个盒子举在机器人正前方半米、与激光雷达同高处，然后回车",
+        "Hold a box half a metre in FRONT of the robot, at the lidar's height",
+        "请把一个盒子举在机器人正前方半米、与激光雷达同高处",
     ),
     "lidar_left": (
-        "Hold the box half a metre to the LEFT of the robot, then Enter",
-        "请把盒子举在机器人左侧半米处，然后回车",
+        "Hold the box half a metre to the LEFT of the robot",
+        "请把盒子举在机器人左侧半米处",
     ),
 }
 """By what is asked."""
+
+STEPS: Final[dict[str, tuple[str, str]]] = {
+    "wheels_up": ("wheels off the ground", "轮子架空"),
+    "listen": ("the base speaks, and stands without a command", "底盘有应答，无指令时静止"),
+    "hand_left": ("left wheel by hand", "手转左轮"),
+    "hand_right": ("right wheel by hand", "手转右轮"),
+    "power_left": ("left motor forward", "左电机前转"),
+    "power_right": ("right motor forward", "右电机前转"),
+    "power_back": ("both motors back, one by one", "两个电机依次后转"),
+    "silence": (
+        "three silences: how long until the wheels stand (of it braking)",
+        "三次不发指令：多久后停下（其中制动）",
+    ),
+    "gyro_left": ("gyro: the whole robot a quarter to the left", "陀螺仪：整机向左转四分之一圈"),
+    "lidar_clear": ("lidar: nothing near", "激光雷达：周围无物"),
+    "lidar_front": ("lidar: a box in front", "激光雷达：前方盒子"),
+    "lidar_left": ("lidar: a box at the left; where it saw both", "激光雷达：左侧盒子；两者方位"),
+    "write": ("written into robot.toml", "写入 robot.toml"),
+}
+"""By step, in order; the engine tells them, a person reads them."""
 
 REFUSALS: Final[dict[str, tuple[str, str]]] = {
     "not_lifted": (
@@ -57,9 +77,33 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "the base says nothing: is it powered, is this its port? pons robot find tells",
         "底盘没有数据：请检查供电和端口，可用 pons robot find 查看",
     ),
+    "trial_stopped": (
+        "somebody stopped the trial; the wheels were told to stand",
+        "测试被人停止；已命令轮子静止",
+    ),
+    "trial_unwatched": (
+        "the page that watched is gone or hidden: keep it in front while wheels may turn",
+        "监视测试的网页已断开或被隐藏：轮子可能转动时请保持网页在前台",
+    ),
+    "trial_untold": (
+        "the operator's key did not fit, so nothing was turned: type it anew",
+        "操作员密钥不符，未转动任何轮子：请重新输入",
+    ),
+    "trial_missing": (
+        "this robot was not tried in its present wiring: try it first",
+        "当前接线尚未通过测试：请先测试",
+    ),
+    "trial_config": (
+        "robot.toml or its port can't be used: mend what it says, then begin again",
+        "robot.toml 或端口无法使用：请按提示修正后重试",
+    ),
+    "trial_port": (
+        "the base's port is not there or is held: plug it in, or end the program that has it",
+        "底盘端口不存在或被占用：请插好，或结束占用它的程序",
+    ),
     "trial_stop_pressed": (
         "the stop input is pressed, or its contact open: release or wire it (docs/firmware.md)",
-        "急停输入被按下或断线：请松开或接好（见 docs/firmware.md）",
+        "停止输入被按下或断线：请松开或接好（见 docs/firmware.md）",
     ),
     "trial_rebooted": (
         "the controller began anew in the middle: its supply dips, or its cable is loose",
@@ -68,6 +112,10 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
     "trial_rolls": (
         "a wheel turns without torque: hold the robot still; is a motor fed past the controller?",
         "没有扭矩时轮子自己在转：请固定机器人，并检查电机是否被供电",
+    ),
+    "trial_battery": (
+        "the battery is at its end: charge it, then try again",
+        "电池即将耗尽：请充电后重试",
     ),
     "trial_no_time_out": (
         "without a command the base has not timed out: no dead-man, or another program drives it",
@@ -102,8 +150,8 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "轮子向后转：请交换该电机的两根线，或修改 ..._MOTOR_SENSE",
     ),
     "power_both": (
-        "both wheels turned though one was told to: look for a bridge between their wires",
-        "只命令一个轮子却两个都转：请检查接线是否短接",
+        "both wheels turned: a bridge between their wires, or the other motor's two are swapped",
+        "只命令一个轮子却两个都转：接线短接，或另一个电机的两根线接反",
     ),
     "power_runaway": (
         "a wheel ran far faster than told: its encoder does not count while the motor turns",

@@ -10,17 +10,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isclose, tau
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING
 
+from pons.robot.trial_parties import Side, TrialRefusal, opposite_side
 from wire import DriveCommand, DriveState
 
 if TYPE_CHECKING:
-    from wire import DecodeFailure, RobotDescription
+    from pons.robot.trial_parties import TrialBase, TrialPace, TrialPerson
+    from wire import RobotDescription
 
 SPEED_RADPS = 2.0
 START_S = 15.0
 """A base that opening its port has reset needs up to eight."""
 LISTEN_S = 1.0
+LEAST_BATTERY = 0.05
+"""A supply that dips resets the controller, and what then looks wrong are not the wires."""
 POWER_S = 1.5
 SPIN_UP_S = 1.5
 SILENCES = 3
@@ -39,52 +43,7 @@ RUNAWAY_TIMES, RUNAWAY_RADPS = 3.0, 1.0
 UNSEEN_S = 0.1
 """What a dead-man may take beyond its time-out: a state's way to us, and the motor's lag."""
 SPEED_SHARE = 0.35
-
-Side = Literal["left", "right"]
-
-
-class TrialRefusal(Exception):
-    """The trial found what must be mended first. The code is stable; ``detail`` says what came."""
-
-    def __init__(self, code: str, detail: str = "") -> None:
-        super().__init__(f"{code}: {detail}")
-        self.code, self.detail = code, detail
-
-
-class TrialBase(Protocol):
-    """Be a base as the bridge drives it."""
-
-    def read(self) -> tuple[DriveState | DecodeFailure, ...]:
-        """Return the states since the last call, oldest first."""
-
-    def write(self, command: DriveCommand | None) -> None:
-        """Send one command."""
-
-    def ask(self) -> None:
-        """Ask for a state, where the base speaks only when asked; no dead-man is fed by it."""
-
-    def halt(self) -> None:
-        """Zero both wheels and take the torque away. Never raises."""
-
-
-class TrialPace(Protocol):
-    """Give the time, and let it pass."""
-
-    def now_s(self) -> float:
-        """Return the time [s]."""
-
-    def wait(self) -> None:
-        """Wait for the next tick of 10 ms."""
-
-
-class TrialPerson(Protocol):
-    """Be the person beside the robot. Nobody waits for an answer: the base must be heard on."""
-
-    def ask(self, code: str) -> None:
-        """Ask for something to be done."""
-
-    def has_answered(self) -> bool:
-        """Tell whether it is done."""
+ALIKE_SHARE = 0.4
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,12 +82,20 @@ class WheelTrial:
         Raises:
             TrialRefusal: something must be mended first.
         """
+        tell = self._person.tell
         try:
+            tell("listen")
             report_hz = self._listen()
+            tell("hand_left", f"{report_hz:.0f} Hz")
             ratio: dict[Side, float] = {"left": self._turn_by_hand("left")}
+            tell("hand_right", f"{HAND_TURNS * ratio['left']:+.2f} × 360°")
             ratio["right"] = self._turn_by_hand("right")
-            for left, right in ((1, 0), (0, 1), (-1, 0), (0, -1)):
-                self._turn_by_motor(left, right)
+            tell("power_left", f"{HAND_TURNS * ratio['right']:+.2f} × 360°")
+            # Each forward before any goes back: a reversed motor, held at zero by its regulator,
+            # creeps off in time, and would then be taken for two motors on one wire.
+            tell("power_right", self._turn_by_motor(1, 0))
+            tell("power_back", self._turn_by_motor(0, 1))
+            tell("silence", f"{self._turn_by_motor(-1, 0)}, {self._turn_by_motor(0, -1)}")
             silences = [self._fall_silent() for _ in range(SILENCES)]
         finally:
             self._base.halt()
@@ -143,8 +110,9 @@ class WheelTrial:
         """Send a command, or none; return the states that came.
 
         Raises:
-            TrialRefusal: ``trial_rebooted`` or ``trial_stop_pressed``.
+            TrialRefusal: ``trial_rebooted`` or ``trial_stop_pressed``; or as the person ends it.
         """
+        self._person.require_watch()
         self._seq += 1
         if left_radps is None:
             self._base.ask()
@@ -185,7 +153,11 @@ class WheelTrial:
         return states
 
     def _listen(self) -> float:
-        """See that it stands without a command; return how often it reports [Hz]."""
+        """See that it stands without a command; return how often it reports [Hz].
+
+        Raises:
+            TrialRefusal: ``trial_rolls``, ``trial_battery`` or ``trial_no_time_out``.
+        """
         until_s = self._pace.now_s() + START_S
         while self._newest is None and self._pace.now_s() < until_s:
             self._tick(0.0, 0.0, enable=False)
@@ -195,6 +167,9 @@ class WheelTrial:
             rolled_rad = max(abs(_angle(one, side) - _angle(states[0], side)) for one in states)
             if rolled_rad > STILL_RAD:
                 raise TrialRefusal("trial_rolls", f"{side} {rolled_rad:.2f} rad")
+        battery = states[-1].battery
+        if battery is not None and not battery >= LEAST_BATTERY:
+            raise TrialRefusal("trial_battery", f"{battery:.0%}, at least {LEAST_BATTERY:.0%}")
         if states[-1].timed_out is False:
             raise TrialRefusal("trial_no_time_out", "after 1.5 s without a command")
         return len(states) / LISTEN_S
@@ -213,7 +188,7 @@ class WheelTrial:
             self._tick()
         after = self._hear(0.2)[-1]
         turned = (_angle(after, side) - _angle(before, side)) / tau
-        other_side = _opposite_side(side)
+        other_side = opposite_side(side)
         other = (_angle(after, other_side) - _angle(before, other_side)) / tau
         counted = f"{side} {turned:+.2f} turns, {other_side} {other:+.2f}"
         if abs(turned) < 0.2 and abs(other) < 0.2:
@@ -231,8 +206,8 @@ class WheelTrial:
 
     # By motor -----------------------------------------------------------------------------------
 
-    def _turn_by_motor(self, left: int, right: int) -> None:
-        """Turn one wheel slowly, and let the base stand again.
+    def _turn_by_motor(self, left: int, right: int) -> str:
+        """Turn one wheel slowly, and let the base stand again; return how far it went.
 
         Raises:
             TrialRefusal: ``power_none``, ``power_swapped``, ``power_backwards``, ``power_both``,
@@ -256,15 +231,22 @@ class WheelTrial:
         if not isclose(moved_rad, expected_rad, rel_tol=SPEED_SHARE):
             raise TrialRefusal("power_speed", said)
         self._stand()
+        return f"{sign * moved_rad:+.1f} rad"
 
     def _watch_motor(self, start: DriveState, now: DriveState, side: Side, sign: int) -> None:
         moved_rad = sign * (_angle(now, side) - _angle(start, side))
-        other = _opposite_side(side)
+        other = opposite_side(side)
         other_rad = _angle(now, other) - _angle(start, other)
         said = f"{side} {sign * moved_rad:+.2f} rad, {other} {other_rad:+.2f}"
         if abs(other_rad) > OTHER_RAD:
-            code = "power_swapped" if moved_rad < WRONG_WAY_RAD else "power_both"
-            raise TrialRefusal(code, said)
+            if moved_rad < WRONG_WAY_RAD:
+                raise TrialRefusal("power_swapped", said)
+            # Two motors on one wire turn alike. One that creeps off while it is told to stand is
+            # held by a regulator whose motor is reversed.
+            alike = isclose(other_rad, sign * moved_rad, rel_tol=ALIKE_SHARE)
+            if alike:
+                raise TrialRefusal("power_both", said)
+            raise TrialRefusal("power_backwards", f"{said}: the {other} one was told to stand")
         if moved_rad < -WRONG_WAY_RAD:
             raise TrialRefusal("power_backwards", said)
         fastest_radps = max(abs(now.left_radps), abs(now.right_radps))
@@ -323,10 +305,6 @@ class WheelTrial:
 
 def _angle(state: DriveState, side: Side) -> float:
     return state.left_rad if side == "left" else state.right_rad
-
-
-def _opposite_side(side: Side) -> Side:
-    return "right" if side == "left" else "left"
 
 
 def _slower(state: DriveState) -> float:

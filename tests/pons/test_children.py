@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 from pons.children import children
+from pons.launch_checks import CannotStart, check
 from pons.settings import CHECKOUT, LaunchSettings
 from pons.supervisor import REFUSED_TO_START
-from pons.up import CannotStart, brain_example, check
+from pons.up import brain_example
 from wire import RobotDescription
 
 ROBOT = ["sim", "localization", "bridge", "planner"]

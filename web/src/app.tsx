@@ -9,6 +9,7 @@ import { Notice } from "./panels/Notice";
 import { Tabs } from "./panels/Tabs";
 import { TokenForm } from "./panels/TokenForm";
 import { TopBar } from "./panels/TopBar";
+import { inSetup } from "./state/trial";
 import { StopBar } from "./stop/StopBar";
 
 export function App({ again }: { again: () => void }) {
@@ -18,15 +19,17 @@ export function App({ again }: { again: () => void }) {
         <TopBar />
         <Lost />
       </Boundary>
-      <main>
-        <Boundary>
-          <MapPanel />
-        </Boundary>
+      <main class={inSetup.value ? "set-up" : ""}>
+        {!inSetup.value && (
+          <Boundary>
+            <MapPanel />
+          </Boundary>
+        )}
         <div class="side">
           <Boundary>
             {tokenNeeded.value ? <TokenForm used={again} /> : null}
-            <Notice />
-            <Camera />
+            {!inSetup.value && <Notice />}
+            {!inSetup.value && <Camera />}
             <Tabs />
           </Boundary>
         </div>

@@ -22,6 +22,38 @@ describe("decode", () => {
     });
   });
 
+  it("takes a trial whole or not at all", () => {
+    const trial = {
+      robot: "r1",
+      drive: "pons_mcu",
+      port: "/dev/x",
+      tried: null,
+      phase: "trying",
+      by: "page-1",
+      plan: ["listen"],
+      steps: [{ step: "listen", seen: "" }],
+      ask: 1,
+      question: { en: "a", zh: "b" },
+      code: null,
+      detail: "",
+      cure: null,
+      wrote: [],
+      ports: null,
+      part: [],
+    };
+    const framed = (given: object): unknown =>
+      decode(
+        text({
+          seq: 2,
+          kind: "robot",
+          robot: { ...robot, setup: { is_there: true, trial: given } },
+        }),
+      );
+    expect(framed(trial)).not.toBeNull();
+    expect(framed({ ...trial, question: "a" })).toBeNull();
+    expect(framed({ ...trial, steps: [{ step: 1 }] })).toBeNull();
+  });
+
   it("takes of progress what is a number", () => {
     const change = { type: "progress", goal: "a", step: 0, left_m: 1.5, left_rad: "2" };
     const progress = { goal: "a", step: 0, left_m: 1.5 };

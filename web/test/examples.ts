@@ -35,6 +35,7 @@ export const robot: Robot = {
   map_id: "0123456789abcdef",
   localizer: "tracking",
   match: { score: 0.93, candidates: [] },
+  setup: { is_there: false, trial: null },
   brain: { name: "offline", breaker: null, rests_s: 0, last_error: null },
 };
 

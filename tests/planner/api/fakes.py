@@ -19,6 +19,7 @@ from planner.mission.errors import BadState, UnknownGoal
 from planner.navigation import ObstacleReport
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
+from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.state_database import StateDatabase
 from planner.voice import Recognition, Sound, VoiceAbilities, VoiceFailure
@@ -35,6 +36,8 @@ from wire import (
     PoseHint,
     RobotDescription,
     Status,
+    TrialOrder,
+    TrialState,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -150,6 +153,9 @@ class FakeRobot:
         self.localizer: LocalizerStatus | None = None
         self.steers: list[tuple[str, float, float, bool]] = []
         self.points: list[tuple[float, float]] = []
+        self.trial: TrialState | None = None
+        self.trial_orders: list[TrialOrder] = []
+        self.takes_trial = True
         self.verdict: Answer | None = Answer(
             id="x", kind="arm", accepted=True, code="ok", detail=""
         )
@@ -164,6 +170,10 @@ class FakeRobot:
 
     def obstacles(self) -> Sequence[tuple[float, float]]:
         return self.points
+
+    async def order_trial(self, order: TrialOrder) -> bool:
+        self.trial_orders.append(order)
+        return self.takes_trial
 
     async def hint(self, hint: PoseHint) -> HintVerdict | None:
         self.hints.append(hint)
@@ -284,6 +294,7 @@ class FakeServices:
     def __init__(self, status: Status | None = STATUS) -> None:
         self.goals = FakeGoals()
         self.robot = FakeRobot(status)
+        self.setup = ProcessSwitch(is_there=True)
         self.ears = FakeEars()
         self.speaker = FakeSpeech()
         self.voice = VoiceAbilities()

@@ -43,6 +43,7 @@ from wire import (
     Status,
     Stop,
     TickStats,
+    TrialState,
     Twist2,
     Velocity,
     Waypoint,
@@ -292,6 +293,9 @@ class FakeBridge:
         return None
 
     def localization(self) -> Localization | None:
+        return None
+
+    def trial(self) -> TrialState | None:
         return None
 
     def odometry(self) -> Odometry | None:

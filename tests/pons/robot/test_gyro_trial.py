@@ -9,10 +9,9 @@ import pytest
 
 from bridge.drive.base_gyro import KEPT
 from devices.inertial import InertialReading, Mounting, Vector
-from pons.robot.gyro_trial import STILL_S, Timed, try_gyro
-from pons.robot.trial_command import BaseGyroSource
+from pons.robot.gyro_trial import STILL_S, BaseGyroSource, Timed, try_gyro
+from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_words import PROMPTS, REFUSALS
-from pons.robot.wheel_trial import TrialRefusal
 from tests.pons.robot.stand import Stand
 from wire import Imu, RobotDescription
 from wire.imu_config import ImuConfig
@@ -50,6 +49,12 @@ class Bench:
 
     def has_answered(self) -> bool:
         return bool(self.asked) and self._left == 0
+
+    def tell(self, step: str, seen: str = "") -> None:
+        pass
+
+    def require_watch(self) -> None:
+        pass
 
     def readings(self) -> list[Timed]:
         if self.time_s > self.says_until_s or self._count % 2:

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pons.robot.lidar_trial import try_lidar
+from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_words import PROMPTS, REFUSALS
-from pons.robot.wheel_trial import TrialRefusal
 from wire import Scan
 from wire.lidar_config import LidarConfig
 

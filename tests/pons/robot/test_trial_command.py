@@ -13,9 +13,10 @@ from pathlib import Path
 import pytest
 
 from pons.__main__ import main
-from pons.robot.trial_command import refusal_lines, set_trial
+from pons.robot.trial_command import refusal_lines
+from pons.robot.trial_parties import TrialRefusal
+from pons.robot.trial_run import set_trial
 from pons.robot.trial_words import PROMPTS, REFUSALS
-from pons.robot.wheel_trial import TrialRefusal
 from sim.twin.line import TwinLine
 from tests.conftest import ROOT
 from tests.pons.robot.stand import START_S, TICK_S, Stand
@@ -111,7 +112,7 @@ def test_a_person_tries_a_base_and_the_bridge_may_then_drive_it(
     assert load_robot(path).valid_trial is None
     line = TwinLine(link)
     stand = Stand(load_robot(path))
-    stand.end = line  # type: ignore[assignment]
+    stand.wheels.end = line
     ending = threading.Event()
     with typed(monkeypatch, "UP\n") as terminal:
 

@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 
 from bridge.drive.serial_drive import SERIAL_PROTOCOLS
+from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_words import REFUSALS
-from pons.robot.wheel_trial import SPEED_RADPS, TrialRefusal, WheelFindings, WheelTrial
+from pons.robot.wheel_trial import SPEED_RADPS, WheelFindings, WheelTrial
 from sim.twin.twin import FIRMWARES
 from tests.pons.robot.stand import Stand, Wires
 from wire import RobotDescription
@@ -49,7 +50,7 @@ def test_a_good_base_passes_and_its_dead_man_is_measured(kind: str) -> None:
     assert found.brake_s < 0.2
     assert found.hand_ratio == pytest.approx({"left": 1.0, "right": 1.0}, abs=0.02)
     assert stand.asked == ["hand_left", "hand_right"]
-    assert stand.fastest_radps < 2 * SPEED_RADPS
+    assert stand.wheels.fastest_radps < 2 * SPEED_RADPS
 
 
 @pytest.mark.parametrize(
@@ -79,14 +80,28 @@ def test_a_good_base_passes_and_its_dead_man_is_measured(kind: str) -> None:
 def test_what_is_wrong_is_named_and_no_wheel_runs_wild(wires: Wires, code: str) -> None:
     said, stand = refused(wires)
     assert said == code
-    assert stand.fastest_radps <= 8.0
+    assert stand.wheels.fastest_radps <= 8.0
     if not (wires.deaf or wires.rolls_radps or wires.coast_s > 0.5):
-        assert max(map(abs, stand.radps)) < 0.1
+        assert max(map(abs, stand.wheels.radps)) < 0.1
 
 
 def test_a_person_who_turned_the_other_wheel_is_told_so() -> None:
     said, _ = refused(Wires(), hand={"hand_left": (1, 3.0)})
     assert said == "hand_swapped"
+
+
+@pytest.mark.parametrize("kind", sorted(SERIAL_PROTOCOLS))
+def test_a_reversed_motor_that_creeps_while_the_other_turns_is_named(kind: str) -> None:
+    """Of some bases it creeps so far, held at zero, that both wheels turn in the first step."""
+    with pytest.raises(TrialRefusal, match="power_backwards"):
+        tried(Stand(robot_of(kind), Wires(motor_sign=(1, -1))))
+
+
+def test_a_battery_at_its_end_is_charged_first() -> None:
+    volts = {"battery_empty_v": 9.6, "battery_full_v": 12.6}
+    robot = MCU.model_copy(update={"drive": MCU.drive.model_copy(update=volts)})
+    with pytest.raises(TrialRefusal, match="trial_battery"):
+        tried(Stand(robot, Wires(battery=0.02)))
 
 
 def test_ticks_that_fit_are_proposed() -> None:
@@ -97,7 +112,7 @@ def test_ticks_that_fit_are_proposed() -> None:
 
 def test_a_base_that_is_not_there_is_silence() -> None:
     stand = Stand(MCU)
-    stand.end.write = lambda data: None  # type: ignore[method-assign]
+    stand.wheels.end.write = lambda data: None  # type: ignore[method-assign]
     with pytest.raises(TrialRefusal, match="trial_silent"):
         tried(stand)
 
@@ -105,7 +120,7 @@ def test_a_base_that_is_not_there_is_silence() -> None:
 def test_a_controller_that_begins_anew_ends_the_trial() -> None:
     class Reset(Stand):
         def ask(self, code: str) -> None:
-            self.firmware = FIRMWARES["pons_mcu"](MCU)
+            self.wheels.firmware = FIRMWARES["pons_mcu"](MCU)
             super().ask(code)
 
     with pytest.raises(TrialRefusal, match="trial_rebooted"):

@@ -1,62 +1,42 @@
-"""Measure drives of metal: our firmware's silence, faults of the line in mid-drive, spoilt frames.
+"""Measure drives of metal: our firmware's silence, and spoilt frames of its reader.
 
-The firmware's own bytes run on a simulated board and are judged by its processor's time. Faults of
-the line spoil both ways, in lockstep, with model, line and shipped drive; every second time a crate
-stands a metre ahead from the fault's first moment on. Spoilt frames: what the reader believes
-though it was changed; the checksum lets 1 of 65 536 by.
+The firmware's own bytes run on a simulated board and are judged by its processor's time. Spoilt
+frames: what the reader believes though it was changed; the checksum lets 1 of 65 536 by. Faults of
+the line in mid-drive: line_faults.py.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from dataclasses import asdict, dataclass
-from functools import lru_cache, partial
-from math import cos, sin, tau
+from functools import partial
+from math import tau
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from devices import pons_mcu
 from devices.pons_mcu import McuCommand, McuReader, McuState, encode_command, encode_state
 from sim.twin.avr_board import BUILD, FAULT_CLOCK, FREE_RADPS, AvrBoard
 from tools.bench.figures import none_in
 from tools.bench.report import ReportRow, row_of
-from tools.lockstep import TICK_S, LockstepWorld
-from tools.lockstep.serial_line import LineFault
-from tools.lockstep.world_fork import fork_world
-from wire import Mode, RobotDescription
-from wire.drive_config import DriveConfig
 
 if TYPE_CHECKING:
     from tools.bench.context import BenchLab
 
 NAME = "drives"
-TITLE = "drives of metal: the firmware's silence, faults of the line in mid-drive, spoilt frames"
+TITLE = "drives of metal: the firmware's silence, spoilt frames"
 LONG_ONLY = True
-CONFIG = DriveConfig(kind="pons_mcu", port="/dev/line", ticks_per_turn=4096)
 STEP_S = 0.001
 FRAMES = 1_000_000
 SLICES = 10
-FAULT_S = 2.0
-AFTER_S = 60.0
-AHEAD_M = 1.0
-RESET = "reset"
-FAULTS = (*(fault.value for fault in LineFault), RESET)
-MUST_STAND = frozenset({"garbage", "silent", "hung_up", "wrong_baud"})
-"""Of the others enough frames come through for a robot to drive on."""
 
 
 def measure(lab: BenchLab) -> list[ReportRow]:
-    """Measure all three."""
+    """Measure both."""
     rows = []
     if (BUILD / "board").is_file():
         silences = lab.slices("firmware silence", lab.count(10, 100), firmware_silence)
         rows.append(_row("firmware: PWM zero after the time to live", 10.0, list(silences)))
         hangs = lab.slices("firmware hang", lab.count(5, 50), firmware_hang)
         rows.append(_row("firmware: PWM zero after its loop hangs", 75.0, list(hangs)))
-    for fault in FAULTS:
-        take = partial(_trial_slice, fault)
-        found = [LineTrial(**one) for one in lab.slices(f"drive {fault}", lab.count(4, 50), take)]
-        rows.append(_drive_row(fault, found))
     each = lab.count(FRAMES // 100, FRAMES) // SLICES
     runs = list(lab.slices("fuzz", SLICES, partial(fuzz, each)))
     return [*rows, *_fuzz_rows(runs)]
@@ -128,89 +108,6 @@ def _first_still(rig: _Rig, most: int, faults: int) -> int:
         if rig.step(sends=bool(faults), faults=faults):
             return passed
     return most
-
-
-# Faults of the line -------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class LineTrial:
-    """Tell what became of one fault of the line."""
-
-    rows: tuple[str, ...]
-    """Of the bridge, that stood while the fault did."""
-    stood_s: float | None
-    """From the fault until the robot stood; None where it drove on."""
-    contacts: int
-    moved_unasked: bool
-    """It moved again before the fault was mended."""
-    arrived: bool
-
-
-def _trial_slice(fault: str, index: int) -> dict[str, Any]:
-    return asdict(drive(fault, index))
-
-
-def drive(fault: str, seed: int) -> LineTrial:
-    """Spoil the line at a moment of a drive, watch for FAULT_S, mend it, and see it arrive."""
-    world = fork_world(_cruising())
-    random = Random(f"{fault} {seed}")
-    world.run(random.uniform(0.0, 6.0))
-    crate = seed % 2 == 1
-    if crate:
-        at = world.truth
-        world.sim.place_obstacle(
-            at.x_m + AHEAD_M * cos(at.yaw_rad), at.y_m + AHEAD_M * sin(at.yaw_rad)
-        )
-    base = world.base
-    if base is None:
-        raise ValueError("a drive of metal has a line in lockstep")
-    if fault == RESET:
-        base.twin.reset()
-    else:
-        base.line.break_down(LineFault(fault))
-    rows = dict[str, None]()
-    stood_s, moved = None, False
-    for tick in range(1, round(FAULT_S / TICK_S) + 1):
-        world.tick()
-        rows |= dict.fromkeys(row.row for row in world.status.rows)
-        if stood_s is None and world.standing:
-            stood_s = tick * TICK_S
-        moved |= stood_s is not None and fault in MUST_STAND and not world.standing
-    base.line.break_down(None)
-    if crate:
-        world.sim.remove_obstacle()
-    waited_s = 0.0
-    while not _has_arrived(world) and waited_s < AFTER_S:
-        world.run(1.0)
-        waited_s += 1.0
-    return LineTrial(tuple(rows), stood_s, world.contacts, moved, waited_s < AFTER_S)
-
-
-def _has_arrived(world: LockstepWorld) -> bool:
-    return world.status.leg is not None and world.status.leg.reached
-
-
-@lru_cache(maxsize=1)
-def _cruising() -> LockstepWorld:
-    """Drive off; each fault spoils the same drive at another moment."""
-    world = LockstepWorld(site="home", seed=1, robot=RobotDescription(drive=CONFIG))
-    world.say("go to the kitchen")
-    world.run_until(lambda w: w.status.mode is Mode.ACTIVE and w.twist.v_mps > 0.4, 30.0)
-    return world
-
-
-def _drive_row(fault: str, trials: list[LineTrial]) -> ReportRow:
-    seen = Counter(row for one in trials for row in one.rows)
-    note = (
-        f"contacts {sum(one.contacts for one in trials)} of {len(trials)}; "
-        f"moved again by itself {sum(one.moved_unasked for one in trials)}; "
-        f"told by a row {sum(bool(one.rows) for one in trials)}; "
-        f"arrived after {sum(one.arrived for one in trials)}; "
-        f"drove on {sum(one.stood_s is None for one in trials)}; rows {dict(seen)}"
-    )
-    stood = [one.stood_s for one in trials if one.stood_s is not None]
-    return row_of(f"pons_mcu, {fault}: stands after", "s", "contacts 0", stood, note)
 
 
 # Spoilt frames ------------------------------------------------------------------------------------

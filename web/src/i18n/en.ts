@@ -36,6 +36,7 @@ export const en = {
   "motion.standing": "Standing still",
   "motion.unknown": "No word from the bridge: nobody here knows whether the robot moves.",
   "motion.stale": "Last heard: {words}, {age} ago",
+  "motion.trial": "Trial: wheels may turn.",
 
   "mode.BOOT": "Starting",
   "mode.SELFTEST": "Self test",
@@ -49,6 +50,7 @@ export const en = {
   "mode.none": "Unknown",
   "mode.lost": "Lost",
   "mode.searching": "Where am I?",
+  "mode.setup": "Set-up",
 
   "held.stop": "Held by a stop. A goal that becomes a plan, or this button, lets it go on.",
   "held.teleop": "Held: it was steered by hand.",
@@ -103,6 +105,43 @@ export const en = {
   "tab.robot": "Robot",
   "tab.log": "Log",
   "tab.label": "Views",
+  "tab.setup": "Set up",
+
+  "setup.title": "Set up",
+  "setup.untried":
+    "This robot was not tried: no bridge runs and nothing drives. Try it now, with its wheels off the ground.",
+  "setup.tried": "Tried on {date} in its present wiring. No bridge runs while you set it up.",
+  "setup.drive": "Drive",
+  "setup.why":
+    "See what is plugged in and try the wheels again, after wires or parts were changed.",
+  "setup.enter": "Go to set-up",
+  "setup.enter.ask": "The bridge ends; nothing drives until you come back.",
+  "setup.enter.disarm": "Disarm the robot first.",
+  "setup.enter.yes": "Yes, set up",
+  "setup.entering": "Going to set-up; this takes a few seconds.",
+  "trial.title": "Try it, wheels off the ground",
+  "trial.what":
+    "The robot turns each of its wheels slowly, and then stops talking to them to see that they stop by themselves. You turn each wheel by hand first.",
+  "trial.minute":
+    "It takes about a minute. Put the robot on a box, so that the wheels turn freely.",
+  "trial.stops": "Stop, Space or Esc ends it at each moment.",
+  "trial.front":
+    "Keep this page in front: where it is hidden or loses its connection, the wheels stop.",
+  "trial.lifted": "The wheels are off the ground; hands and cables are away from them.",
+  "trial.begin": "Begin",
+  "trial.again": "Try again",
+  "trial.steps": "Steps of the trial",
+  "trial.done": "Done",
+  "trial.watch": "Watch the wheels: they may turn. Hands away.",
+  "trial.others": "Another page began this trial and watches it. Stop works here too.",
+  "trial.unwritten": "Nothing was written.",
+  "trial.proved": "Proved, and written into robot.toml:",
+  "ports.title": "What is plugged in",
+  "ports.what": "Listens, and asks only what moves nothing. About ten seconds.",
+  "ports.look": "Look",
+  "ports.looking": "Looking …",
+  "ports.none": "No serial port is here: plug the base or the lidar in.",
+  "ports.part": "For robot.toml",
 
   "goal.label": "Tell the robot where to go",
   "goal.placeholder": "e.g. go to the kitchen",
@@ -479,6 +518,11 @@ export const en = {
   "event.grant_refused": "A drive was refused.",
 
   "error.planner_silent": "The planner does not answer.",
+  "error.no_setup": "This robot is not in set-up any more.",
+  "error.setup_silent": "Set-up does not answer: look at its log (logs/setup.log).",
+  "error.setup_unavailable":
+    "Here set-up can't be entered from the page: run pons robot try at the robot.",
+  "error.not_disarmed": "Disarm the robot first.",
   "error.operator_key_needed":
     "This robot is not simulated. Type the operator's key first, under Robot.",
   "error.operator_key_insecure":

@@ -44,6 +44,13 @@ type Words = Readonly<Record<string, Bilingual>>;
 const ROWS: Words = rows;
 const SENTENCES: Words = codes.sentences;
 const WANTS: Words = codes.wants;
+const TRIAL: Words = codes.trial;
+
+/** Name a step of a trial. */
+export function stepWords(step: string): string {
+  const known = TRIAL[step];
+  return known ? say(known) : step;
+}
 
 /** Return the bridge's own sentence for a row. */
 export function rowWords(row: string): string {

@@ -151,6 +151,23 @@ export async function operate(kind: Act, operator: OperatorProof | null): Promis
   await call("POST", `/v1/${kind}`, { source: "page", ...withProof(operator) });
 }
 
+export type TrialAct = "watch" | "begin" | "find" | "leave";
+
+/** Ask set-up for something; a watch bears the id of its begin. */
+export async function askTrial(
+  act: TrialAct,
+  id: string,
+  answered: number,
+  proof: OperatorProof["proof"] | null = null,
+): Promise<void> {
+  await call("POST", "/v1/trial", { act, id, source: "page", answered, proof });
+}
+
+/** Put set-up in the bridge's place. */
+export async function enterSetup(): Promise<void> {
+  await call("POST", "/v1/setup", { source: "page" });
+}
+
 export async function fetchPlaces(): Promise<Known> {
   return (await call("GET", "/v1/places")) as Known;
 }

@@ -60,7 +60,7 @@ export const needsKey = (status: Status | null): boolean =>
  * Throws ApiError where metal moves: `operator_key_insecure` where this page may not ask for the key,
  * `operator_key_needed` where none was typed.
  */
-export function prove(kind: Act, status: Status | null): OperatorProof | null {
+export function prove(kind: Act | "trial", status: Status | null): OperatorProof | null {
   if (!needsKey(status) || status === null || kind === "disarm" || kind === "estop") return null;
   if (!mayAskKey()) throw new ApiError("operator_key_insecure", "");
   if (key === null) throw new ApiError("operator_key_needed", "");

@@ -72,8 +72,11 @@ function Question({ kind, close }: { kind: Act; close: () => void }) {
   );
 }
 
-/** Take the operator's key for this page's memory, or say where it can be given instead. */
-export function KeyBox() {
+/**
+ * Take the operator's key for this page's memory, or say where it can be given instead. `stays`: the
+ * box is not taken away once the key is there, so it may be read at each letter.
+ */
+export function KeyBox({ stays = false }: { stays?: boolean }) {
   if (!mayAskKey()) return <p class="fine key-insecure">{t("error.operator_key_insecure")}</p>;
   return (
     <form onSubmit={(event) => event.preventDefault()}>
@@ -84,6 +87,7 @@ export function KeyBox() {
           autocomplete="off"
           spellcheck={false}
           onChange={(event) => setKey(event.currentTarget.value)}
+          onInput={(event) => stays && setKey(event.currentTarget.value)}
         />
         <small>
           {t("op.key.why")} {t("op.key.short")}

@@ -11,8 +11,10 @@ import {
   mind,
   pageFresh,
   shown,
+  setup,
   shownStatus,
 } from "../state/store";
+import { busy, enter, inSetup } from "../state/trial";
 import type { Status } from "../wire/types";
 import { Deliberate, KeyBox } from "./Deliberate";
 import { fixed, seconds } from "./format";
@@ -41,7 +43,8 @@ export function RobotTab() {
   const stale = bridgeFresh.value ? "" : "stale";
   return (
     <>
-      <section class="card" aria-labelledby="orders-title">
+      {setup.value?.is_there && !inSetup.value && <EnterSetup />}
+      <section class="card" aria-labelledby="orders-title" hidden={inSetup.value}>
         <h2 id="orders-title">{t("robot.orders")}</h2>
         <div class="orders">
           <Deliberate kind="arm" where="robot" />
@@ -76,6 +79,31 @@ export function RobotTab() {
       <Links />
       <Plots />
     </>
+  );
+}
+
+/** Offer set-up in the bridge's place; asked twice, as all that changes who is in charge. */
+function EnterSetup() {
+  const disarmed = shownStatus.value?.mode === "DISARMED";
+  return (
+    <section class="card" aria-labelledby="enter-title" id="enter-setup">
+      <h2 id="enter-title">{t("setup.title")}</h2>
+      <p class="fine">{t("setup.why")}</p>
+      <details>
+        <summary>{t("setup.enter")} …</summary>
+        <p>{t(disarmed ? "setup.enter.ask" : "setup.enter.disarm")}</p>
+        <div class="buttons">
+          <button
+            type="button"
+            class="main"
+            disabled={!disarmed || busy.value}
+            onClick={() => void enter()}
+          >
+            {t("setup.enter.yes")}
+          </button>
+        </div>
+      </details>
+    </section>
   );
 }
 

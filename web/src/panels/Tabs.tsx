@@ -1,5 +1,5 @@
 /** Hold the views beside the map; a later one is one more line here. */
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import type { ComponentType } from "preact";
 import { useRef } from "preact/hooks";
 import { t } from "../i18n";
@@ -9,8 +9,10 @@ import { ObjectsTab } from "./ObjectsTab";
 import { OrdersTab } from "./OrdersTab";
 import { PlacesTab } from "./PlacesTab";
 import { RobotTab } from "./RobotTab";
+import { SetupTab } from "./SetupTab";
+import { inSetup } from "../state/trial";
 
-type TabId = "drive" | "orders" | "places" | "objects" | "robot" | "log";
+type TabId = "setup" | "drive" | "orders" | "places" | "objects" | "robot" | "log";
 
 const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "drive", View: DriveTab },
@@ -21,34 +23,45 @@ const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "log", View: LogTab },
 ];
 
-const shown = signal<TabId>("drive");
+/** Where no bridge drives there is nothing to drive to. */
+const SETUP_TABS: typeof TABS = [
+  { id: "setup", View: SetupTab },
+  ...TABS.filter(({ id }) => id === "robot" || id === "log"),
+];
+
+const chosen = signal<TabId>("drive");
+const tabs = computed(() => (inSetup.value ? SETUP_TABS : TABS));
+const shown = computed(
+  () => (tabs.value.find((tab) => tab.id === chosen.value) ?? tabs.value[0])?.id ?? "drive",
+);
 
 /** Go to where orders are typed, from whatever view is shown. */
 export function toGoalBox(): void {
-  shown.value = "drive";
+  chosen.value = "drive";
   requestAnimationFrame(() => document.getElementById("goal-text")?.focus());
 }
 
 /** Go to where places are taught, from whatever view is shown. */
 export function toTeaching(): void {
-  shown.value = "places";
+  chosen.value = "places";
   requestAnimationFrame(() => document.getElementById("teach-en")?.focus());
 }
 
 export function Tabs() {
   const list = useRef<HTMLDivElement>(null);
-  const View = TABS.find((tab) => tab.id === shown.value)?.View ?? DriveTab;
+  const listed = tabs.value;
+  const View = listed.find((tab) => tab.id === shown.value)?.View ?? DriveTab;
   const step = (by: number): void => {
-    const index = TABS.findIndex((tab) => tab.id === shown.value);
-    const next = TABS[(index + by + TABS.length) % TABS.length];
+    const index = listed.findIndex((tab) => tab.id === shown.value);
+    const next = listed[(index + by + listed.length) % listed.length];
     if (!next) return;
-    shown.value = next.id;
+    chosen.value = next.id;
     list.current?.querySelector<HTMLElement>(`#tab-${next.id}`)?.focus();
   };
   return (
     <>
       <div ref={list} class="tabs" role="tablist" aria-label={t("tab.label")}>
-        {TABS.map(({ id }) => (
+        {listed.map(({ id }) => (
           <button
             key={id}
             type="button"
@@ -57,7 +70,7 @@ export function Tabs() {
             aria-selected={shown.value === id}
             aria-controls="view"
             tabIndex={shown.value === id ? 0 : -1}
-            onClick={() => (shown.value = id)}
+            onClick={() => (chosen.value = id)}
             onKeyDown={(event) => {
               if (event.key === "ArrowRight") step(1);
               if (event.key === "ArrowLeft") step(-1);

@@ -13,6 +13,7 @@ import {
   shownStatus,
 } from "../state/store";
 import { seconds } from "./format";
+import { inSetup } from "../state/trial";
 import { toGoalBox } from "./Tabs";
 
 const siteNow = computed(() => shown.value?.site);
@@ -56,6 +57,7 @@ export function TopBar() {
 
 function Mode() {
   const mode = modeNow.value;
+  const told = inSetup.value ? "setup" : mode;
   const lost = bridgeFresh.value && mode === "HOLD" ? poseLost.value : null; // "Ready" would be untrue
   const state = lost === null ? `mode-${mode}` : "bad";
   return (
@@ -64,7 +66,7 @@ function Mode() {
       id="mode"
       data-mode={mode}
     >
-      {word("mode", lost ?? mode)}
+      {word("mode", lost ?? told)}
     </span>
   );
 }

@@ -39,6 +39,8 @@ export const history = new History();
 
 /** The bridge's newest word, as it comes: to act upon and to draw. Panels read `shown`. */
 export const status = computed(() => model.value.robot?.status ?? null);
+/** What set-up says; null before anything was heard. */
+export const setup = computed(() => model.value.robot?.setup ?? null);
 export const shownStatus = computed(() => shown.value?.status ?? null);
 /** The localizer is without a pose: since the start, or since it was carried. */
 export const poseLost = computed(() => {

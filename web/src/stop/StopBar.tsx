@@ -4,6 +4,7 @@ import { seconds } from "../panels/format";
 import { limitWords } from "../panels/steps";
 import { age, bridgeFresh, shownStatus } from "../state/store";
 import { steady } from "../state/steady";
+import { isTrying } from "../state/trial";
 import type { StopState } from "./machine";
 import { stop, stopState } from "./stopper";
 
@@ -75,6 +76,7 @@ function Motion() {
   const motion = motionNow.value;
   if (motion === null) return <p class="motion stale">{t("motion.unknown")}</p>;
   const { words, limit } = motion;
+  if (isTrying.value && bridgeFresh.value) return <p class="motion">{t("motion.trial")}</p>;
   return bridgeFresh.value ? (
     <p class="motion">
       {words}

@@ -95,6 +95,30 @@ const isCandidate = (value: unknown): boolean =>
 const isMatch = (value: unknown): boolean =>
   bag(value) && finite(value.score) && all(value.candidates, isCandidate);
 
+const trialStep = (value: unknown): boolean => bag(value) && text(value.step) && text(value.seen);
+const port = (value: unknown): boolean =>
+  bag(value) &&
+  [value.path, value.adapter, value.code, value.device].every(text) &&
+  (value.cure === null || words(value.cure));
+
+function isTrial(value: unknown): boolean {
+  if (!bag(value)) return false;
+  return (
+    [value.robot, value.drive, value.port, value.phase, value.detail].every(text) &&
+    [value.tried, value.by, value.code].every(textOrNull) &&
+    [value.plan, value.wrote, value.part].every((list) => all(list, text)) &&
+    all(value.steps, trialStep) &&
+    finite(value.ask) &&
+    [value.question, value.cure].every((said) => said === null || words(said)) &&
+    (value.ports === null || all(value.ports, port))
+  );
+}
+
+const isSetup = (value: unknown): boolean =>
+  bag(value) &&
+  typeof value.is_there === "boolean" &&
+  (value.trial === null || isTrial(value.trial));
+
 function isRobot(value: unknown): value is Robot {
   return (
     bag(value) &&
@@ -105,6 +129,7 @@ function isRobot(value: unknown): value is Robot {
     isMind(value.brain) &&
     textOrNull(value.localizer) &&
     (value.match === null || isMatch(value.match)) &&
+    isSetup(value.setup) &&
     bag(value.ages_s) &&
     Object.values(value.ages_s).every(finiteOrNull)
   );

@@ -85,6 +85,38 @@ export type Candidate = { readonly pose: Pose; readonly score: number };
 /** How well the newest scan fits the map, -1 to 1; candidates, best first, while there is no pose. */
 export type Match = { readonly score: number; readonly candidates: readonly Candidate[] };
 
+/** One serial port and what answers there. */
+export type Port = {
+  readonly path: string;
+  readonly adapter: string;
+  readonly code: string;
+  readonly device: string;
+  readonly cure: Bilingual | null;
+};
+
+/** All of set-up, as wire/trial_dialogue.py has it. */
+export type Trial = {
+  readonly robot: string;
+  readonly drive: string;
+  readonly port: string;
+  readonly tried: string | null;
+  readonly phase: string;
+  readonly by: string | null;
+  readonly plan: readonly string[];
+  readonly steps: readonly { readonly step: string; readonly seen: string }[];
+  readonly ask: number;
+  readonly question: Bilingual | null;
+  readonly code: string | null;
+  readonly detail: string;
+  readonly cure: Bilingual | null;
+  readonly wrote: readonly string[];
+  readonly ports: readonly Port[] | null;
+  readonly part: readonly string[];
+};
+
+/** Whether set-up can be had here, and how its trial stands: null while a bridge drives. */
+export type Setup = { readonly is_there: boolean; readonly trial: Trial | null };
+
 export type Robot = {
   readonly status: Status | null;
   readonly room: string | null;
@@ -94,6 +126,7 @@ export type Robot = {
   /** What the localizer does; null where none speaks. */
   readonly localizer: "searching" | "tracking" | "coasting" | "lost" | null;
   readonly match: Match | null;
+  readonly setup: Setup;
   readonly brain: Mind;
 };
 

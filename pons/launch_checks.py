@@ -1,0 +1,86 @@
+"""Look, before anything starts, for causes of a later and less clear failure of ``pons up``."""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import socket
+from typing import TYPE_CHECKING
+
+from wire import ConfigError, load_robot
+
+if TYPE_CHECKING:
+    from pons.settings import LaunchSettings
+    from wire import RobotDescription
+
+MIN_FREE_BYTES = 200 * 1024 * 1024
+
+
+class CannotStart(Exception):
+    """Something outside must change first; nothing was left running."""
+
+
+def check(settings: LaunchSettings) -> RobotDescription:
+    """Look for causes of a later and less clear failure.
+
+    Raises:
+        CannotStart: a file is missing or wrong, or the disk is full.
+    """
+    try:
+        robot = load_robot(settings.robot)
+    except ConfigError as wrong:
+        raise CannotStart(str(wrong)) from None
+    if not (settings.site / "map.yaml").is_file():
+        known = sorted(path.parent.name for path in settings.site.parent.glob("*/map.yaml"))
+        raise CannotStart(
+            f"site_missing: {settings.site} has no map.yaml; sites beside it: "
+            f"{', '.join(known) or 'none'}"
+        )
+    if settings.mapping is not None:
+        from pons.mapping import prepare_canvas
+
+        prepare_canvas(settings, settings.mapping, robot)
+    real = not robot.lidar.is_simulated or robot.camera.is_real
+    if settings.twin and robot.drive.virtual and not real:
+        raise CannotStart(
+            "twin_needless: drive.kind and lidar.kind 'sim' are simulated as they are; --twin "
+            "plays a base, a lidar or a camera of metal"
+        )
+    if robot.drive.virtual and not robot.lidar.is_simulated and not settings.twin:
+        raise CannotStart(
+            f"lidar_of_another_world: lidar.kind {robot.lidar.kind!r} sees real walls, drive.kind "
+            "'sim' drives among simulated ones; add --twin, or make both real"
+        )
+    if robot.drive.virtual and robot.camera.is_real and not settings.twin:
+        raise CannotStart(
+            f"camera_of_another_world: camera.kind {robot.camera.kind!r} sees a real room, "
+            "drive.kind 'sim' drives in a simulated one; add --twin, or make both real"
+        )
+    try:
+        (settings.home / "logs").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CannotStart(
+            f"home_unwritable: {settings.home}: {error.strerror}; "
+            "set PONS_HOME to a folder that you may write"
+        ) from None
+    free = shutil.disk_usage(settings.home).free
+    if not free >= MIN_FREE_BYTES:
+        raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")
+    return robot
+
+
+def check_port(settings: LaunchSettings) -> None:
+    """Hold that the planner's port is free.
+
+    Raises:
+        CannotStart: something listens there.
+    """
+    with contextlib.closing(socket.socket()) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((settings.host, settings.port))
+        except OSError as error:
+            raise CannotStart(
+                f"port_in_use: {settings.host}:{settings.port}: {error.strerror}; stop what "
+                "listens there or set PONS_PORT"
+            ) from None

@@ -1,0 +1,232 @@
+"""Try one robot of metal, whoever the person is: open its lines, run the engine, write the record.
+
+Knows robot.toml and the ports; not whether a terminal or a page asks.
+"""
+
+from __future__ import annotations
+
+import secrets
+import time
+from dataclasses import dataclass
+from math import degrees
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from bridge.drive import open_serial_drive, require_brakes
+from devices import LastingPort, PortTrouble
+from pons.calibrate.robot_toml import replace
+from pons.robot.gyro_trial import BaseGyroSource, try_gyro
+from pons.robot.lidar_trial import try_lidar
+from pons.robot.trial_parties import TrialRefusal
+from pons.robot.wheel_trial import WheelTrial
+from pons_assets import IS_INSTALLED, ROBOT_FILE
+from sensors.lidar.kinds import kind_of
+from sensors.lidar.reader import LidarReader
+from wire import ConfigError, load_robot
+from wire.ros2_config import ROS2
+from wire.trial_record import TrialRecord, wiring_of
+
+if TYPE_CHECKING:
+    from bridge.drive import SerialDrive
+    from pons.robot.trial_parties import TrialPerson
+    from pons.robot.wheel_trial import WheelFindings
+    from wire import RobotDescription, Scan
+
+TICK_S = 0.01
+SCANS_WITHIN_S = 6.0
+"""An RPLidar begins to turn when it is opened."""
+WHEEL_STEPS: Final = (
+    "wheels_up", "listen", "hand_left", "hand_right", "power_left", "power_right",
+    "power_back", "silence",
+)  # fmt: skip
+GYRO_STEPS: Final = ("gyro_left",)
+LIDAR_STEPS: Final = ("lidar_clear", "lidar_front", "lidar_left")
+
+
+@dataclass(frozen=True, slots=True)
+class TrialResult:
+    """Hold what a trial proved and where it stands written."""
+
+    record: TrialRecord
+    kept: Path
+    """The robot.toml before."""
+
+
+def plan_steps(robot: RobotDescription) -> tuple[str, ...]:
+    """Return the steps that a trial of this robot has, in order."""
+    gyro = GYRO_STEPS if has_base_gyro(robot) else ()
+    lidar = () if robot.lidar.is_simulated else LIDAR_STEPS
+    return (*WHEEL_STEPS, *gyro, *lidar, "write")
+
+
+def has_base_gyro(robot: RobotDescription) -> bool:
+    """Return whether robot.toml counts on a gyro that the base itself reports."""
+    return robot.inputs.imu and not robot.imu.is_on_i2c
+
+
+def load_triable(path: Path) -> RobotDescription:
+    """Return the robot of a robot.toml that a trial may turn and may write to.
+
+    Raises:
+        TrialRefusal: ``trial_shipped``, ``trial_virtual`` or ``trial_ros2``.
+        ConfigError: robot.toml can't be used.
+    """
+    if IS_INSTALLED and path == ROBOT_FILE:
+        raise TrialRefusal("trial_shipped", f"cp {ROBOT_FILE} robot.toml")
+    robot = load_robot(path)
+    if robot.drive.virtual:
+        raise TrialRefusal("trial_virtual")
+    if robot.drive.kind == ROS2:
+        raise TrialRefusal("trial_ros2")
+    return robot
+
+
+def try_robot(path: Path, robot: RobotDescription, person: TrialPerson) -> TrialResult:
+    """Try wheels, gyro and lidar, and write ``[trial]``; however it ends, the wheels are told to stand.
+
+    Raises:
+        TrialRefusal: something must be mended first, or the person ended it.
+        ConfigError: a port can't be used, or the new robot.toml would be refused.
+        CalibrationRefusal, OSError: robot.toml was changed meanwhile, or can't be written.
+    """
+    before = path.read_text("utf-8")
+    found, turned_rad = _try_base(robot, person)
+    seen = f"{found.dead_man_s:.2f} s ({found.brake_s:.2f} s)"
+    if turned_rad is not None:
+        seen = f"{degrees(turned_rad):+.0f}°"
+    if not robot.lidar.is_simulated:
+        seen = _try_lidar(robot, person, seen)
+    person.tell("write", seen)
+    return _write(path, before, robot, found, gyro=turned_rad is not None)
+
+
+def wait_for(person: TrialPerson, code: str) -> None:
+    """Ask for something to be done, and return when it is."""
+    person.ask(code)
+    while not person.has_answered():
+        person.require_watch()
+        time.sleep(TICK_S)
+
+
+def set_trial(text: str, record: TrialRecord) -> str:
+    """Return robot.toml's text with this trial in place of the one that it had."""
+    kept: list[str] = []
+    within = False
+    for line in text.splitlines():
+        if line.strip().startswith("["):
+            within = line.split("#")[0].strip() == "[trial]"
+        if not within:
+            kept.append(line)
+    while kept and not kept[-1].strip():
+        kept.pop()
+    return "\n".join([*kept, "", *record_lines(record)]) + "\n"
+
+
+def record_lines(record: TrialRecord) -> list[str]:
+    """Return a trial as robot.toml has it."""
+    values = [f"{key} = {_toml_of(value)}" for key, value in record.model_dump().items()]
+    return ["[trial]", "# written by pons robot try", *values]
+
+
+def _toml_of(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool) else repr(value)
+
+
+class _WallPace:
+    """Let real time pass, a tick of 10 ms at once."""
+
+    def __init__(self) -> None:
+        self._next_s = time.monotonic()
+
+    def now_s(self) -> float:
+        return time.monotonic()
+
+    def wait(self) -> None:
+        now_s = time.monotonic()
+        self._next_s = max(self._next_s + TICK_S, now_s)
+        time.sleep(max(0.0, self._next_s - now_s))
+
+
+def _try_base(
+    robot: RobotDescription, person: TrialPerson
+) -> tuple[WheelFindings, float | None]:
+    """Try the wheels and, where there is one, the base's own gyro: by how much it turned [rad]."""
+    boot = secrets.token_hex(6)
+    drive = open_serial_drive(robot, boot, for_trial=True)
+    try:
+        require_brakes(drive)
+        _require_port(drive)
+        found = WheelTrial(drive, robot, _WallPace(), person, boot).run()
+        if not has_base_gyro(robot):
+            return found, None
+        person.tell("gyro_left", f"{found.dead_man_s:.2f} s ({found.brake_s:.2f} s)")
+        return found, try_gyro(robot.imu, BaseGyroSource(drive), _WallPace(), person)
+    except TrialRefusal as refusal:
+        if refusal.code == "trial_silent":
+            _require_port(drive)  # it went meanwhile: that is the better word
+        raise
+    finally:
+        drive.close()
+
+
+def _require_port(drive: SerialDrive) -> None:
+    """Hold that the base's port is open: a bridge may wait for a cable, a person is told."""
+    trouble = drive.trouble
+    if trouble is not None:
+        raise TrialRefusal("trial_port", f"{trouble.code}: {trouble.detail}")
+
+
+def _try_lidar(robot: RobotDescription, person: TrialPerson, seen: str) -> str:
+    """Return where the lidar saw what was held up."""
+    kind = kind_of(robot.lidar)
+    path = Path(robot.lidar.port or "")
+    try:
+        port = LastingPort(path, kind.baud, dtr=kind.dtr)
+    except PortTrouble as trouble:
+        raise ConfigError(trouble.code, f"lidar.port {trouble.detail}") from None
+    reader = LidarReader(kind, port, str(path), "trial")
+
+    def look() -> Scan:
+        return _newest_scan(reader, person)
+
+    said = [seen]
+
+    def ask(code: str) -> None:
+        person.tell(code, said.pop() if said else "")
+        wait_for(person, code)
+
+    try:
+        where = try_lidar(robot.lidar, look, ask)
+    finally:
+        reader.close()
+        port.close()
+    return f"{degrees(where['front']):+.0f}°, {degrees(where['left']):+.0f}°"
+
+
+def _newest_scan(reader: LidarReader, person: TrialPerson) -> Scan:
+    """Return a scan that began after now; what waited in the port is of another time."""
+    began_s = time.monotonic()
+    while time.monotonic() - began_s < SCANS_WITHIN_S:
+        person.require_watch()
+        time.sleep(TICK_S / 2)
+        now_s = time.monotonic()
+        fresh = [scan for scan in reader.turn(now_s) if scan.stamp_s > began_s]
+        if fresh:
+            return fresh[-1]
+    verdict = reader.judge(time.monotonic())
+    said = f"{verdict.code}: {verdict.detail}" if verdict else ""
+    raise TrialRefusal("lidar_silent", said or f"none within {SCANS_WITHIN_S:g} s")
+
+
+def _write(
+    path: Path, before: str, robot: RobotDescription, found: WheelFindings, *, gyro: bool
+) -> TrialResult:
+    record = TrialRecord(
+        date=time.strftime("%Y-%m-%d", time.gmtime()),
+        wiring=wiring_of(robot),
+        dead_man_s=round(found.dead_man_s, 3),
+        brake_s=round(found.brake_s, 3),
+        gyro=gyro,
+    )
+    stamp = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
+    return TrialResult(record, replace(path, before, set_trial(before, record), stamp))
