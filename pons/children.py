@@ -75,6 +75,11 @@ def children(
         found.insert(int(simulated), _ros2(common, ros2_port, logs))
     _secure(found, issued)
     if simulated and (robot.camera.kind == "sim" or robot.camera.is_real):
+        arguments = ["sim.camera", *world, *domain]
+        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
+    elif robot.camera.is_real:
+        arguments = ["sensors.camera", *common]
+        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
     return found
 
 

@@ -228,11 +228,8 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
             return say("account.looking", text=text)
         case "recall":
             return say("account.recalling")
-        case "wait":
-            seconds = f"{step.seconds or 0.0:g}"
-            return say("account.waiting", seconds=seconds)
-        case "wait_for":
-            return say("account.waiting_for", what=step.object or step.word or step.time or "")
+        case "wait" | "wait_for":
+            return _name_wait(step)
         case "turn":
             put = angle(step.angle_rad or 0.0)
             return say("account.turning", put=put)
@@ -249,6 +246,13 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
         case _:
             name = place_name(facts, mission, step)
             return say("account.going_to", name=name)
+
+
+def _name_wait(step: StepRecord) -> Bilingual:
+    """Name a wait for some seconds, or for what it waits for."""
+    if step.kind == "wait":
+        return say("account.waiting", seconds=f"{step.seconds or 0.0:g}")
+    return say("account.waiting_for", what=step.object or step.word or step.time or "")
 
 
 def _join_sentences(told: Sequence[Bilingual]) -> Bilingual:

@@ -13,8 +13,8 @@ from devices.inertial import MOST_RADPS, Mounting, Vector
 from pons.robot.trial_parties import TrialRefusal
 
 if TYPE_CHECKING:
-    from devices.inertial import InertialReading
     from bridge.drive import SerialDrive
+    from devices.inertial import InertialReading
     from pons.robot.trial_parties import TrialPace, TrialPerson
     from wire.imu_config import Axis, ImuConfig
 

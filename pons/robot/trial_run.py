@@ -82,7 +82,7 @@ def load_triable(path: Path) -> RobotDescription:
 
 
 def try_robot(path: Path, robot: RobotDescription, person: TrialPerson) -> TrialResult:
-    """Try wheels, gyro and lidar, and write ``[trial]``; however it ends, the wheels are told to stand.
+    """Try wheels, gyro and lidar, and write ``[trial]``; at its end the wheels are told to stand.
 
     Raises:
         TrialRefusal: something must be mended first, or the person ended it.
@@ -147,9 +147,7 @@ class _WallPace:
         time.sleep(max(0.0, self._next_s - now_s))
 
 
-def _try_base(
-    robot: RobotDescription, person: TrialPerson
-) -> tuple[WheelFindings, float | None]:
+def _try_base(robot: RobotDescription, person: TrialPerson) -> tuple[WheelFindings, float | None]:
     """Try the wheels and, where there is one, the base's own gyro: by how much it turned [rad]."""
     boot = secrets.token_hex(6)
     drive = open_serial_drive(robot, boot, for_trial=True)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, cast
 
 from tools.bench import endpoint
 from tools.bench.measure import (
+    base_frames,
     brain_silent,
     brains_compared,
     chaos,
@@ -69,6 +70,7 @@ if TYPE_CHECKING:
 ALL: tuple[Measure, ...] = cast(
     "tuple[Measure, ...]",
     (
+        base_frames,
         core_step,
         lockstep_speed,
         tick_lateness,
