@@ -47,7 +47,7 @@ NO_LEAF = 16
 
 
 @dataclass(frozen=True, slots=True)
-class ShutWay:
+class ShutWayDrive:
     """Hold what one drive came to."""
 
     name: str
@@ -69,8 +69,8 @@ class ShutWay:
 def measure(lab: BenchLab) -> list[ReportRow]:
     """Occupy 50 goals and shut each door in a long run, 2 of each in a quick one."""
     count, doors = lab.count(2, OCCUPIED), lab.count(2, DOORS)
-    goals = [ShutWay(**one) for one in lab.side_by_side("goal", count, occupy)]
-    shut = [ShutWay(**one) for one in lab.side_by_side("door", doors, shut_door)]
+    goals = [ShutWayDrive(**one) for one in lab.side_by_side("goal", count, occupy)]
+    shut = [ShutWayDrive(**one) for one in lab.side_by_side("door", doors, shut_door)]
     ended = sorted({one.code for one in (*goals, *shut)})
     beside = [one.beside_s for one in goals if one.beside_s is not None]
     waits = [one.beside_s for one in shut if one.beside_s is not None]
@@ -140,14 +140,14 @@ class _WatchedDrive:
         self._is_near, self._visits, self._driven_m = False, 0, 0.0
         self._near_s: float | None = None
 
-    def run(self, goal: GoalHandle, name: str, pose: Pose2) -> ShutWay:
+    def run(self, goal: GoalHandle, name: str, pose: Pose2) -> ShutWayDrive:
         """Let time pass until the goal has ended."""
         world, began_s, touched = self._world, self._world.now_s, self._world.contacts
         shortest_m = world.scene.router.route(RouteRequest(world.truth, pose)).length_m
         while not goal.has_ended and world.now_s < began_s + LIMIT_S:
             self._look()
         outcome = goal.record.outcome
-        return ShutWay(
+        return ShutWayDrive(
             name=name,
             code=outcome.code.value if outcome is not None else "never ended",
             took_s=world.now_s - began_s,
