@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-
     from ros2.operations import Answer, Request
     from ros2.trouble import Ros2Trouble
     from wire import DriveState, Imu, Scan
