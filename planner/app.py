@@ -16,6 +16,7 @@ from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
 from planner.memory import MemoryLimits, MemoryStore, Recollection, SightingRecorder
 from planner.mission import JournalSync, MissionJournal, Missions, Rules
+from planner.mission.memory_lookup import step_kind
 from planner.mission.skills.spatial_relations import support_of
 from planner.navigation import RouteLimits, RouteWorker
 from planner.orders.factory import standing_orders_of
@@ -119,7 +120,10 @@ class Planner:
         limits = MemoryLimits(**self.settings.memory.model_dump())
         self.recollection = Recollection(MemoryStore(self._state, limits))
         self.recorder = SightingRecorder(
-            self.recollection, self.site.map_id, support=support_of, step=self.goals.step_kind
+            self.recollection,
+            self.site.map_id,
+            support=support_of,
+            step=lambda: step_kind(self.goals.loop.book),
         )
         self.eyes.listen(self.recorder.take)
         self.recollection.flush_by(self.recorder.flush)

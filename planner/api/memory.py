@@ -55,17 +55,7 @@ def routes(services: Services) -> APIRouter:
         """
         kinds = (kind,) if kind is not None else KINDS
         query = MemoryQuery(words=q, place=place, kinds=kinds, limit=limit)
-        try:
-            found = await services.recollection.find(query)
-            counts = await services.recollection.counts()
-        except FactRefusal as refused:
-            raise _problem(refused) from None
-        return {
-            "version": services.recollection.changes,
-            "counts": counts,
-            "kept_days": services.recollection.limits_days,
-            "memories": [memo_view(memo) for memo in found],
-        }
+        return await _list_memories(services, query)
 
     @router.post("/facts", status_code=201, operation_id="teach_fact")
     async def teach(new: NewFact) -> dict[str, Any]:
@@ -87,13 +77,7 @@ def routes(services: Services) -> APIRouter:
     ) -> dict[str, Any]:
         """Forget all that `about` names, or everything of a kind, or everything."""
         kinds = (kind,) if kind is not None else KINDS
-        try:
-            if about.strip():
-                gone = await services.recollection.forget_about(about, kinds)
-                return {"forgotten": len(gone)}
-            return {"forgotten": await services.recollection.forget_all(kinds)}
-        except FactRefusal as refused:
-            raise _problem(refused) from None
+        return {"forgotten": await _forget_some(services, about.strip(), kinds)}
 
     @router.delete("/{memo_id}", operation_id="forget_memory")
     async def forget(memo_id: MemoId) -> dict[str, Any]:
@@ -109,6 +93,29 @@ def routes(services: Services) -> APIRouter:
         return {"forgotten": 1}
 
     return router
+
+
+async def _list_memories(services: Services, query: MemoryQuery) -> dict[str, Any]:
+    try:
+        found = await services.recollection.find(query)
+        counts = await services.recollection.counts()
+    except FactRefusal as refused:
+        raise _problem(refused) from None
+    return {
+        "version": services.recollection.changes,
+        "counts": counts,
+        "kept_days": services.recollection.limits_days,
+        "memories": [memo_view(memo) for memo in found],
+    }
+
+
+async def _forget_some(services: Services, about: str, kinds: tuple[str, ...]) -> int:
+    try:
+        if about:
+            return len(await services.recollection.forget_about(about, kinds))
+        return await services.recollection.forget_all(kinds)
+    except FactRefusal as refused:
+        raise _problem(refused) from None
 
 
 def memo_view(memo: Memo) -> dict[str, Any]:

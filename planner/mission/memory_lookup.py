@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from planner.memory import Memo, Recollection
     from planner.mission.effects import AskBrain, AskMemory
     from planner.mission.loop import Loop
+    from planner.mission.state import MissionState
     from planner.plan import Vocabulary
 
 log = logging.getLogger(__name__)
@@ -118,6 +119,13 @@ class MemoryLookup:
         found = await self.recollection.find_relevant(queries)
         now_unix_s = self._wall()
         return tuple(_item(memo, now_unix_s) for memo in found)
+
+
+def step_kind(book: MissionState) -> str:
+    """Return the kind of the step that is under way; empty where none is."""
+    running = book.missions.get(book.running or "")
+    step = running.current_step if running is not None else None
+    return step.kind if step is not None else ""
 
 
 def _item(memo: Memo, now_unix_s: float) -> RememberedItem:

@@ -340,12 +340,6 @@ class Missions:
         remember = self._lookup.find_relevant
         return await thinker(self._brain, names, *eyes, remember=remember)(ask)
 
-    def step_kind(self) -> str:
-        """Return the kind of the step that is under way; empty where none is."""
-        running = self.loop.book.missions.get(self.loop.book.running or "")
-        step = running.current_step if running is not None else None
-        return step.kind if step is not None else ""
-
     def _on_places(self) -> None:
         self.loop.event(Known(self.memory.facts))
 
