@@ -1,7 +1,7 @@
 """Read people's clock: when HH:MM comes next, and whether it is that late. Pure arithmetic.
 
-Local time is Unix time and an offset from UTC [s] that was read when the planner began: where summer
-time begins or ends while it runs, HH:MM is an hour off until it is started anew.
+Local time is Unix time and an offset from UTC [s] that was read when the planner began: where
+summer time begins or ends while it runs, HH:MM is an hour off until it is started anew.
 """
 
 from __future__ import annotations
