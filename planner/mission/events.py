@@ -226,6 +226,8 @@ class Restarted:
     missions: tuple[Mission, ...]
     queue: tuple[str, ...]
     wall_offset_s: float
+    local_offset_s: float = 0.0
+    """Of people's own clock from UTC."""
 
 
 @dataclass(frozen=True, slots=True)

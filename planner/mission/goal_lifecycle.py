@@ -319,6 +319,7 @@ def restart(turn: Transaction, event: Restarted) -> None:
         activity=None,
         order=order,
         wall_offset_s=event.wall_offset_s,
+        local_offset_s=event.local_offset_s,
         asked_s=waiting_since(missions, turn.now_s),
     )
     for mission in missions.values():

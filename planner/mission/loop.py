@@ -10,6 +10,7 @@ a clock, a disk and an event loop of its own, and turns the rounds itself.
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Coroutine
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -156,7 +157,8 @@ class Loop:
         )
         self._helpers = MissionTasks(think, router, answers, self._door, recall)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
-        self.event(Restarted(kept.missions, kept.queue, offset_s))
+        local_s = float(time.localtime().tm_gmtoff)
+        self.event(Restarted(kept.missions, kept.queue, offset_s, local_s))
         if freeze:
             self._collector.freeze(self._clocks.monotonic())
         if rounds:

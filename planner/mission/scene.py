@@ -56,6 +56,7 @@ def scene_of(
         spent_m=mission.step_m + (activity.metres if activity is not None else 0.0),
         answer=answer,
         unix_s=turn.now_s + turn.book.wall_offset_s,
+        local_offset_s=turn.book.local_offset_s,
         upon=upon_yes(turn.book.facts, mission),
         thinks=can_think(turn.book.rules, mission),
     )

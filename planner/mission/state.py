@@ -192,6 +192,8 @@ class MissionState:
 
     facts: SiteView
     rules: Rules = Rules()
+    local_offset_s: float = 0.0
+    """Of people's own clock from UTC."""
     wall_offset_s: float = 0.0
     """Unix time less the monotonic clock that ``now_s`` is on."""
     missions: dict[str, Mission] = field(default_factory=dict)

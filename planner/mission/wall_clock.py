@@ -1,46 +1,32 @@
-"""Read people's clock: which moment HH:MM is, and whether it is that late. Pure but for the zone.
+"""Read people's clock: when HH:MM comes next, and whether it is that late. Pure arithmetic.
 
-The zone is this computer's, with its rules for summer time; the moment is always given.
+Local time is Unix time and an offset from UTC [s] that was read when the planner began: where
+summer time begins or ends while it runs, HH:MM is an hour off until it is started anew.
 """
 
 from __future__ import annotations
 
-from datetime import datetime, timedelta
-
+DAY_S = 86400.0
 MAX_AHEAD_S = 12 * 3600.0
 """An HH:MM whose next coming is farther off than this was meant for a time that is past."""
 
 
-def local(unix_s: float) -> datetime:
-    """Return a moment on people's clock."""
-    return datetime.fromtimestamp(unix_s).astimezone()
+def clock_time(local_s: float) -> str:
+    """Return HH:MM of a local time [s]."""
+    minutes = int(local_s % DAY_S // 60)
+    return f"{minutes // 60:02d}:{minutes % 60:02d}"
 
 
-def next_coming(time: str, now_unix_s: float) -> float | None:
-    """Return when HH:MM comes next [Unix s]; None where that time is past.
-
-    Args:
-        time: HH:MM, checked before.
-        now_unix_s: this moment.
-    """
-    now = local(now_unix_s)
+def seconds_until(time: str, local_s: float) -> float | None:
+    """Return how long it is until HH:MM comes next [s]; None where that time is past."""
     hour, minute = (int(part) for part in time.split(":"))
-    wanted = now.replace(hour=hour, minute=minute, second=0, microsecond=0, tzinfo=None)
-    due_s = wanted.astimezone().timestamp()
-    if due_s < now_unix_s:
-        due_s = (wanted + timedelta(days=1)).astimezone().timestamp()
-    return due_s if due_s - now_unix_s <= MAX_AHEAD_S else None
+    ahead_s = (3600.0 * hour + 60.0 * minute - local_s) % DAY_S
+    return ahead_s if ahead_s <= MAX_AHEAD_S else None
 
 
-def is_between(after: str | None, before: str | None, now_unix_s: float) -> bool:
-    """Tell whether it is ``after`` already and not yet ``before``; over midnight where that is so.
-
-    Args:
-        after: HH:MM, or None for any.
-        before: HH:MM, or None for any.
-        now_unix_s: this moment.
-    """
-    now = local(now_unix_s).strftime("%H:%M")
+def is_between(after: str | None, before: str | None, local_s: float) -> bool:
+    """Tell whether it is ``after`` already and not yet ``before``, over midnight too."""
+    now = clock_time(local_s)
     if after is None or before is None:
         return (after is None or after <= now) and (before is None or now < before)
     if after <= before:

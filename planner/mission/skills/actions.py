@@ -77,7 +77,9 @@ class Scene(Generic[S_co]):
     answer: ImageAnswer | None = None
     """What came of a question about the picture that was just asked."""
     unix_s: float = 0.0
-    """The same moment on people's clock."""
+    """The same moment in Unix time."""
+    local_offset_s: float = 0.0
+    """Of people's own clock from UTC."""
     upon: Bilingual | None = None
     """What moves next upon a yes to the question that the step asks; None: nothing does."""
     thinks: bool = False

@@ -17,7 +17,7 @@ from planner.language.catalogue import message, say
 from planner.language.utterance import parse
 from planner.mission.skills.actions import Fail, Finish, Question, Scene, SkillAction
 from planner.mission.skills.skill_state import AskStage, AskState
-from planner.mission.wall_clock import is_between, local
+from planner.mission.wall_clock import clock_time, is_between
 from planner.plan import JUDGED, Bilingual, Code, StepRole, say_same
 
 HOLDS = "holds"
@@ -63,8 +63,9 @@ def ask_condition(scene: Scene[AskState]) -> SkillAction:
 def clock(scene: Scene[None]) -> SkillAction:
     """Return whether it is as late as the step asks."""
     step = scene.step
-    holds = is_between(step.after, step.before, scene.unix_s)
-    said = say("condition.clock", time=local(scene.unix_s).strftime("%H:%M"))
+    local_s = scene.unix_s + scene.local_offset_s
+    holds = is_between(step.after, step.before, local_s)
+    said = say("condition.clock", time=clock_time(local_s))
     return Finish({HOLDS: holds}, Code.SEEN, said)
 
 

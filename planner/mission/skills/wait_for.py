@@ -26,7 +26,7 @@ from planner.mission.skills.find import unknown
 from planner.mission.skills.object_matching import fits, fresh, lasting, wanted_of
 from planner.mission.skills.result_text import name_with_article
 from planner.mission.skills.skill_state import WaitForState
-from planner.mission.wall_clock import next_coming
+from planner.mission.wall_clock import seconds_until
 from planner.plan import Code, say_same
 
 SEEN_S = 1.5
@@ -48,9 +48,10 @@ def wait_for(scene: Scene[WaitForState]) -> SkillAction:
 def _for_time(scene: Scene[WaitForState], time: str) -> SkillAction:
     due_s = scene.state.until_unix_s
     if due_s is None:
-        due_s = next_coming(time, scene.unix_s)
-        if due_s is None:
+        ahead_s = seconds_until(time, scene.unix_s + scene.local_offset_s)
+        if ahead_s is None:
             return Fail(Code.TIME_PAST, Code.TIME_PAST.value, message(Code.TIME_PAST, time=time))
+        due_s = scene.unix_s + ahead_s
     left_s = due_s - scene.unix_s
     if left_s <= 0.0:
         return Finish({}, Code.DONE, say("wait_for.time", time=time))
