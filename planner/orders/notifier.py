@@ -19,8 +19,6 @@ from planner.outbound import Address, CallFailure
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import httpx
-
     from planner.outbound.caller import Caller
     from planner.plan import Bilingual, Language
     from planner.settings import NotifySettings
@@ -57,7 +55,7 @@ class Notifier:
         self,
         settings: NotifySettings,
         token: str = "",
-        transport: httpx.AsyncBaseTransport | None = None,
+        transport: Any = None,
         pauses_s: tuple[float, ...] = PAUSES_S,
     ) -> None:
         """Take the address; ``transport`` and ``pauses_s`` are the tests' own.
