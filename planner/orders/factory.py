@@ -39,7 +39,7 @@ def standing_orders_of(
     """Return a planner's standing orders, known to its missions; nothing runs yet.
 
     Raises:
-        ConfigError: ``timezone_unknown``, ``notify_token``.
+        ConfigError: ``timezone_unknown``, ``notify_token``, ``orders.notify_url``.
     """
     quiet = settings.quiet_min
     notify = settings.notify
@@ -60,9 +60,9 @@ def standing_orders_of(
     return StandingOrders(intake, keeper)
 
 
-def _token(path: Path | None, home: Path) -> str | None:
+def _token(path: Path | None, home: Path) -> str:
     if path is None:
-        return None
+        return ""
     try:
         with (home / path).open("rb") as file:
             token = file.read(MAX_TOKEN_BYTES).decode("ascii").strip()

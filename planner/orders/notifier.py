@@ -1,8 +1,8 @@
 """Tell the owner, at the one address that the owner named. Blocks nothing and keeps nothing.
 
 A message is tried three times within half a minute and then dropped, with a line in the log; while
-the address does not answer, at most ``MOST_WAITING`` wait and the oldest gives way. No redirect is
-followed, no proxy of the environment used: words go to the named host or nowhere.
+the address does not answer, at most ``MOST_WAITING`` wait and the oldest gives way. Where it may be
+and what leaves with it is ``planner.outbound``'s law: no redirect, no proxy, no metadata service.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ import logging
 from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
-from urllib.parse import urlsplit
+
+from planner.outbound import Address, CallFailure
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import httpx
-
+    from planner.outbound.caller import Caller
     from planner.plan import Bilingual, Language
     from planner.settings import NotifySettings
 
@@ -30,8 +30,9 @@ TIMEOUT_S = 5.0
 MOST_WAITING = 32
 MOST_CHARACTERS = 1000
 TITLE = "Pons"
-_AGAIN = frozenset({408, 425, 429})
-_REFUSED, _BROKEN = 400, 500
+MOST_ANSWER_BYTES = 65_536
+_AGAIN = frozenset({"unreachable", "timeout", "rate_limited", "server_error"})
+"""Failures after which another try may do better."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,17 +54,22 @@ class Notifier:
     def __init__(
         self,
         settings: NotifySettings,
-        token: str | None = None,
-        client: httpx.AsyncClient | None = None,
+        token: str = "",
+        transport: Any = None,
         pauses_s: tuple[float, ...] = PAUSES_S,
     ) -> None:
-        """Take the address; ``client`` and ``pauses_s`` are the tests' own."""
+        """Take the address; ``transport`` and ``pauses_s`` are the tests' own.
+
+        Raises:
+            ConfigError: ``orders.notify_url``: it leads nowhere that may be asked.
+        """
         self._settings, self._token, self._pauses_s = settings, token, pauses_s
-        self._client = client
+        self._address = Address.parse(settings.url, "", "orders.notify")
+        self._transport = transport
+        self._caller: Caller | None = None
         self._waiting: deque[Message] = deque()
         self._wake = asyncio.Event()
         self._task: asyncio.Task[None] | None = None
-        self._host = urlsplit(settings.url).hostname or ""
         self.sent = self.dropped = 0
 
     def tell(self, message: Message) -> None:
@@ -84,8 +90,8 @@ class Notifier:
             self._task.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await self._task
-        if self._client is not None:
-            await self._client.aclose()
+        if self._caller is not None:
+            await self._caller.close()
 
     async def _run(self) -> None:
         while True:
@@ -99,52 +105,45 @@ class Notifier:
                     self.dropped += 1
 
     async def _send(self, message: Message) -> bool:
-        import httpx  # it costs 0.1 s: only where somebody is told
+        if self._caller is None:
+            from planner.outbound.caller import Caller  # httpx costs 0.1 s: only where one is told
 
-        if self._client is None:
-            self._client = httpx.AsyncClient(
-                timeout=TIMEOUT_S, follow_redirects=False, trust_env=False
+            self._caller = Caller(
+                self._address, self._token, timeout_s=TIMEOUT_S, transport=self._transport
             )
         why = ""
         for pause_s in self._pauses_s:
             await asyncio.sleep(pause_s)
             try:
-                status = await asyncio.wait_for(self._post(message), TIMEOUT_S)
-            except (httpx.HTTPError, httpx.InvalidURL, OSError, TimeoutError) as error:
-                why = type(error).__name__
-                continue
-            if status < 300:  # HTTP's own
+                async with asyncio.timeout(TIMEOUT_S):
+                    await self._post(self._caller, message)
+            except CallFailure as failure:
+                why = failure.why
+                if why not in _AGAIN:
+                    break
+            except TimeoutError:
+                why = "timeout"
+            else:
                 return True
-            why = f"status {status}"
-            if _REFUSED <= status < _BROKEN and status not in _AGAIN:
-                break
-        log.warning("notify_failed: %s was not told (%s): %s", self._host, message.kind, why)
+        log.warning(
+            "notify_failed: %s was not told (%s): %s", self._address.host, message.kind, why
+        )
         return False
 
-    async def _post(self, message: Message) -> int:
-        if self._client is None:
-            raise OSError("closed")
+    async def _post(self, caller: Caller, message: Message) -> None:
         headers = self._headers(message)
         if self._settings.form == "ntfy":
             text = self._text(message).encode()
-            async with self._client.stream(
-                "POST", self._settings.url, content=text, headers=headers
-            ) as answer:
-                return answer.status_code
-        body = self._body(message)
-        async with self._client.stream(
-            "POST", self._settings.url, json=body, headers=headers
-        ) as answer:  # the answer's body is nobody's: it is not read
-            return answer.status_code
+            await caller.post(most_bytes=MOST_ANSWER_BYTES, content=text, headers=headers)
+        else:
+            body = self._body(message)
+            await caller.post(most_bytes=MOST_ANSWER_BYTES, json=body, headers=headers)
 
     def _headers(self, message: Message) -> Mapping[str, str]:
-        headers = {"User-Agent": "pons"}
-        if self._token is not None:
-            headers["Authorization"] = f"Bearer {self._token}"
-        if self._settings.form == "ntfy":
-            urgent = message.kind in ("failed", "missed", "asks")
-            headers |= {"Title": TITLE, "Tags": message.kind, "Priority": "4" if urgent else "3"}
-        return headers
+        if self._settings.form != "ntfy":
+            return {}
+        urgent = message.kind in ("failed", "missed", "asks")
+        return {"Title": TITLE, "Tags": message.kind, "Priority": "4" if urgent else "3"}
 
     def _text(self, message: Message) -> str:
         if not self._settings.words:

@@ -158,11 +158,11 @@ def _kills() -> list[ReportRow]:
         home = Path(folder)
         order = replace_rule(_order(1, EveryRule(seconds=0.5, anchor_unix_s=time.time())))
         OrderStore(StateDatabase(home)).keep(order)
+        log = home / "given"
         for _ in range(KILLS):
             program = [sys.executable, "-m", "tools.bench.order_keeper_process", str(home)]
             with subprocess.Popen(program) as child:
                 started = time.monotonic()
-                log = home / "given"
                 while time.monotonic() - started < BEGINS_WITHIN_S and not (home / "up").exists():
                     time.sleep(0.02)
                 (home / "up").unlink(missing_ok=True)
