@@ -68,14 +68,14 @@ def _parts(step: Step | ClockTime) -> Iterator[tuple[Step | ClockTime, StepRole]
                 yield step.until, StepRole.UNTIL
 
 
-class Placed(Protocol):
+class RowEntry(Protocol):
     """Be one of a row of steps."""
 
     @property
     def depth(self) -> int: ...
 
 
-def end_of(row: Sequence[Placed], index: int) -> int:
+def end_of(row: Sequence[RowEntry], index: int) -> int:
     """Return where the steps that a step holds end: the index behind the last of them."""
     end = index + 1
     while end < len(row) and row[end].depth > row[index].depth:
@@ -83,19 +83,19 @@ def end_of(row: Sequence[Placed], index: int) -> int:
     return end
 
 
-def children_of(row: Sequence[Placed], index: int) -> tuple[int, ...]:
+def children_of(row: Sequence[RowEntry], index: int) -> tuple[int, ...]:
     """Return the steps that a step holds, without those that they hold."""
     below = range(index + 1, end_of(row, index))
     return tuple(i for i in below if row[i].depth == row[index].depth + 1)
 
 
-def parent_of(row: Sequence[Placed], index: int) -> int | None:
+def parent_of(row: Sequence[RowEntry], index: int) -> int | None:
     """Return the step that holds another, or None of one that none holds."""
     above = (i for i in range(index - 1, -1, -1) if row[i].depth < row[index].depth)
     return next(above, None)
 
 
-def parents_of(row: Sequence[Placed], index: int) -> tuple[int, ...]:
+def parents_of(row: Sequence[RowEntry], index: int) -> tuple[int, ...]:
     """Return all that hold a step, the nearest first."""
     found: list[int] = []
     parent = parent_of(row, index)
@@ -105,6 +105,6 @@ def parents_of(row: Sequence[Placed], index: int) -> tuple[int, ...]:
     return tuple(found)
 
 
-def root_of(row: Sequence[Placed], index: int) -> int:
+def root_of(row: Sequence[RowEntry], index: int) -> int:
     """Return the outermost step that holds one, or the step itself."""
     return (index, *parents_of(row, index))[-1]

@@ -309,7 +309,9 @@ def _read_grammar(
         return Counter(), None
     read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
     if isinstance(read, StepPlan):
-        return Counter(_key(node.step) for node in list_nodes(read.steps)), None
+        row = list_nodes(read.steps)  # what hangs on something is not asked for without it
+        own = (n.step for i, n in enumerate(row) if not _hangs_on_more(row, i))
+        return Counter(map(_key, own)), None
     vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
     return Counter(), read.code if vetoed and isinstance(read, Refuse | Clarify) else None
 

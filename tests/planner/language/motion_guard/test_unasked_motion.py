@@ -17,6 +17,7 @@ from planner.plan import (
     Find,
     Follow,
     GoTo,
+    If,
     GoToObject,
     GoToPoint,
     Look,
@@ -149,6 +150,9 @@ def test_a_condition_holds_once_somebody_has_looked() -> None:
     assert unasked(order, STUDY) == (0,)
     assert unasked(order, STUDY, checked=True) == ()
     assert unasked(order, Patrol(places=ROOMS), checked=True) == (0,)
+    hung = If(when=look, then=(BATH,), otherwise=(STUDY,))
+    assert unasked(order, hung) == (), "what looks first may"
+    assert unasked(order, hung, KITCHEN) == (4,), "and nothing behind it"
 
 
 def test_a_denial_ends_with_its_clause() -> None:
