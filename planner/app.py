@@ -22,16 +22,14 @@ from planner.navigation import RouteLimits, RouteWorker
 from planner.orders.factory import standing_orders_of
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of
-from planner.plan import Language
 from planner.robot_service import LinkedRobot
 from planner.settings import load_settings
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
-from planner.voice import Ears, Recogniser, VoiceAbilities, VoiceWorker
-from planner.voice.speech_engines import open_speech
-from planner.voice.transcription import open_caller
+from planner.voice import VoiceAbilities
+from planner.voice_factory import Voice
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -92,11 +90,9 @@ class Planner:
         self.memory = KnownPlaces(self.site, taught, radius_m=radius_m)
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
-        self._grammar = VoiceWorker(self._list_spoken_names())
-        self.memory.listen(lambda: self._grammar.know(self._list_spoken_names()))
-        self._transcription = open_caller(self.settings.voice)
-        self.ears = self._join_ears()
-        self.speaker = open_speech(self.settings.speech)
+        self._voice = Voice(self.settings, self._list_spoken_names)
+        self.memory.listen(self._voice.learn_names)
+        self.ears, self.speaker = self._voice.recogniser(), self._voice.speaker
         link = Link(WireBus(self._session), self.description)
         self.robot = LinkedRobot(link, self.description)
         self.detector = Opening(self.settings.vision, self.description)
@@ -117,39 +113,26 @@ class Planner:
         )
         self.orders = standing_orders_of(self.settings.orders, where.home, self._state, self.goals)
         self.goals.show_scans(self._router)
-        limits = MemoryLimits(**self.settings.memory.model_dump())
-        self.recollection = Recollection(MemoryStore(self._state, limits))
-        self.recorder = SightingRecorder(
-            self.recollection,
-            self.site.map_id,
-            support=support_of,
-            step=lambda: step_kind(self.goals.loop.book),
-        )
-        self.eyes.listen(self.recorder.take)
-        self.recollection.flush_by(self.recorder.flush)
-        self.recollection.listen(self._on_forgotten)
-        self.goals.remember_by(self.recollection)
+        self._begin_memory()
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
-
-    def _join_ears(self) -> Recogniser:
-        """Return what hears recordings: the grammar, and a server beside it where one is set."""
-        if self._transcription is None:
-            return self._grammar
-        log.info("recordings are heard by %s, too", self._transcription.host)
-        return Ears(self._grammar, self._transcription, "server", self.settings.voice.timeout_s)
 
     @property
     def voice(self) -> VoiceAbilities:
         """Show what is heard and spoken."""
-        trouble, server = self.speaker.trouble, self._transcription
-        return VoiceAbilities(
-            languages=(Language.EN,) if server is None else tuple(Language),
-            recogniser="grammar" if server is None else "server",
-            host=None if server is None else server.host,
-            speaks=self.settings.speech.engine,
-            quiet=self.speaker.is_quiet,
-            trouble=None if trouble is None else trouble.code,
-        )
+        return self._voice.abilities()
+
+    def _begin_memory(self) -> None:
+        """Let what the eyes see and what people tell be remembered."""
+        limits = MemoryLimits(**self.settings.memory.model_dump())
+        self.recollection = Recollection(MemoryStore(self._state, limits))
+        self.recorder = SightingRecorder(
+            self.recollection, self.site.map_id,
+            support=support_of, step=lambda: step_kind(self.goals.loop.book),
+        )  # fmt: skip
+        self.eyes.listen(self.recorder.take)
+        self.recollection.flush_by(self.recorder.flush)
+        self.recollection.listen(self._on_forgotten)
+        self.goals.remember_by(self.recollection)
 
     def _on_forgotten(self, things: tuple[str, ...] | None) -> None:
         """Let the eyes forget what memory has: it comes back when it is seen again."""
@@ -176,8 +159,7 @@ class Planner:
         """Start the route process, then the missions; the detector's opens beside them."""
         self._opening = asyncio.create_task(self.detector.open(), name="open detector")
         await self._router.start()
-        self._grammar.warm()
-        self.speaker.start()
+        self._voice.start()
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
         self.goals.loop.hub.join(SpokenReplies(self.speaker))
         await self.eyes.start()
@@ -195,10 +177,7 @@ class Planner:
             await asyncio.gather(self._opening, return_exceptions=True)
         await self.detector.worker.close()
         await self._router.close()
-        await self.speaker.close()
-        await self._grammar.close()
-        if self._transcription is not None:
-            await self._transcription.close()
+        await self._voice.close()
         if self._model is not None:
             await self._model.close()
         self.budget.close()

@@ -172,11 +172,7 @@ def _calibrate(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
     )
     word.add_argument("--shuttles", type=int, default=3, choices=range(2, 11), metavar="N")
     word.add_argument(
-        "--patience",
-        type=_seconds,
-        default=30.0,
-        metavar="S",
-        help="wait so long to be armed again",
+        "--patience", type=_seconds, default=30.0, metavar="S", help="wait so long to be armed"
     )
     word.add_argument("--yes", action="store_true", help="write without asking")
 
@@ -321,11 +317,8 @@ def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
             settings,
             reference=said.reference,
             measured_m=said.measured_m,
-            shuttles=said.shuttles,
-            patience_s=said.patience,
-            yes=said.yes,
-            track=said.track,
-        )
+            shuttles=said.shuttles, patience_s=said.patience, yes=said.yes, track=said.track,
+        )  # fmt: skip
     if said.word == "fence":
         from pons import fence
 

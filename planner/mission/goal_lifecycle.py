@@ -340,13 +340,11 @@ def _forget_poses(turn: Transaction, mission: Mission) -> None:
     elif mission.map_id:
         mission = turn.put(mission, accepted_at=None, skill_state=None)
         if mission.state is GoalState.PAUSED:
-            said = Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED)
-            turn.put(mission, outcome=said)
+            turn.put(mission, outcome=Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED))
     turn.put(turn.book.missions[mission.id], map_id=turn.book.facts.map_id)
 
 
 def _queue(event: Restarted, missions: dict[str, Mission]) -> tuple[str, ...]:
     """Return the waiting goals, in the order that was journalled; goals missing there come last."""
     waiting = [m.id for m in missions.values() if m.state is GoalState.QUEUED]
-    known = [i for i in dict.fromkeys(event.queue) if i in waiting]
-    return (*known, *(i for i in waiting if i not in known))
+    return tuple(dict.fromkeys([*(i for i in event.queue if i in waiting), *waiting]))

@@ -233,7 +233,10 @@ class Missions:
             UnknownGoal, BadState: as named.
             NothingToResume: no id was given and nothing is paused or kept waiting.
         """
-        return await self._command(Resume(goal_id or self._newest_paused()), act)
+        wanted = goal_id or goal_to_resume(self.loop.book)
+        if wanted is None:
+            raise NothingToResume
+        return await self._command(Resume(wanted), act)
 
     async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal:
         """Say yes to a plan. Raises UnknownGoal, BadState."""
@@ -329,16 +332,10 @@ class Missions:
         self.loop.event(dataclasses.replace(given, echoed=result.is_echoed, also=also))
         return self.goal(given.id)
 
-    def _newest_paused(self) -> str:
-        if (goal_id := goal_to_resume(self.loop.book)) is None:
-            raise NothingToResume
-        return goal_id
-
     async def _ask_brain(self, ask: AskBrain) -> Planned:
-        book, names = self.loop.book, self.memory.vocabulary
+        book, names, find = self.loop.book, self.memory.vocabulary, self._lookup.find_relevant
         eyes = (self._hearing, book.means, book.eyes.classes)
-        remember = self._lookup.find_relevant
-        return await thinker(self._brain, names, *eyes, remember=remember)(ask)
+        return await thinker(self._brain, names, *eyes, remember=find)(ask)
 
     def _on_places(self) -> None:
         self.loop.event(Known(self.memory.facts))

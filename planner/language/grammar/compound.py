@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from planner.language.grammar.numbers import seconds
+from planner.language.numbers import seconds
 from planner.language.object_names import resolve
 from planner.language.stop import is_stop
 from planner.plan import (

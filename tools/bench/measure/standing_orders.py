@@ -1,4 +1,4 @@
-"""Measure standing orders: 1 000 simulated days with restarts and jumps of the clock, and kill -9.
+"""Measure standing orders: 1 000 simulated days with restarts, and kill -9.
 
 The days are played by the scheduler itself, with a disk that keeps what it asked to keep; a process
 may die between any two of its effects, also after a firing was written and before its goal was

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound import CompoundForms, ConditionParts
-from planner.language.grammar.numbers import EN_DURATION, times
+from planner.language.numbers import EN_DURATION, times
 
 _NOT = r"(?:can not|cannot|could not|do not|does not|are not able to|is not)"
 _YOU = r"(?:you|it|that|this|the way|the door|there)"

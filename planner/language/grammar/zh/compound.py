@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound import CompoundForms, ConditionParts
-from planner.language.grammar.numbers import ZH_DURATION
+from planner.language.numbers import ZH_DURATION
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
 _THEN = r"[,，]?(?:那么|那)?(?:就|便|你就)?"
