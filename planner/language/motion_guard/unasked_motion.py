@@ -185,7 +185,7 @@ class _Judge:
         self._vocabulary, self._room = vocabulary, person.room
         self._scopes = tuple(read_scope(words) for words in person.words)
         newest = person.words[-1] if person.words else ""
-        self._own, self._veto = _read_grammar(newest, vocabulary, person.room)
+        self._own, self._hung, self._veto = _read_grammar(newest, vocabulary, person.room)
         if self._veto is not None and self._veto is not Code.UNSAFE:
             spared = _spare_clauses(newest, vocabulary, person.room)
             if spared is not None:  # "somebody knocks at the door, go and look"
@@ -203,7 +203,8 @@ class _Judge:
             self._at = ""  # wherever it leads
         key = _key(step)
         self._done[key] += 1
-        if key in self._own and self._done[key] <= self._own[key]:
+        own = self._hung if upon else self._own
+        if key in own and self._done[key] <= own[key]:
             for place in places_of(step):
                 self._arrive(place)
             return ""
@@ -303,17 +304,24 @@ _QUIET = frozenset({"look", "find", "count", "go_to_object"})
 
 def _read_grammar(
     text: str, vocabulary: Vocabulary, room: str | None
-) -> tuple[Counter[object], Code | None]:
-    """Return the steps that the grammar reads in an order, or why nothing may move upon it."""
+) -> tuple[Counter[object], Counter[object], Code | None]:
+    """Return the steps that the grammar reads in an order, or why nothing may move upon it.
+
+    First those that are done anyhow, then these and what hangs on a condition or a failure.
+    """
     if len(text) > _GRAMMAR_READS:
-        return Counter(), None
+        return Counter(), Counter(), None
     read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
     if isinstance(read, StepPlan):
         row = list_nodes(read.steps)  # what hangs on something is not asked for without it
         own = (n.step for i, n in enumerate(row) if not _hangs_on_more(row, i))
-        return Counter(map(_key, own)), None
+        return Counter(map(_key, own)), Counter(_key(n.step) for n in row), None
     vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
-    return Counter(), read.code if vetoed and isinstance(read, Refuse | Clarify) else None
+    return (
+        Counter(),
+        Counter(),
+        read.code if vetoed and isinstance(read, Refuse | Clarify) else None,
+    )
 
 
 def _spare_clauses(text: str, vocabulary: Vocabulary, room: str | None) -> str | None:
@@ -322,7 +330,7 @@ def _spare_clauses(text: str, vocabulary: Vocabulary, room: str | None) -> str |
     if not 1 < len(clauses) <= _MOST_CLAUSES:
         return None
     orders = [clause for clause in clauses if not _STATES.match(plain(clause))]
-    vetoed = any(_read_grammar(clause, vocabulary, room)[1] for clause in orders)
+    vetoed = any(_read_grammar(clause, vocabulary, room)[2] for clause in orders)
     return ", ".join(orders) if orders and not vetoed and len(orders) < len(clauses) else None
 
 
