@@ -7,6 +7,7 @@ nothing. The order is the law: what a person or a fault demands comes before any
 from __future__ import annotations
 
 from planner.mission.activity import AskingImage, Driving, Observing, Retrying
+from planner.mission.arrival import on_arrival
 from planner.mission.bridge_status import (
     GATES,
     amount_done,
@@ -34,7 +35,7 @@ from planner.mission.queue import end_running, hold_queue, pause_running, standi
 from planner.mission.recovery_steps import note_unblocked, recover, watch_manoeuvre
 from planner.mission.skills import Fail, Way
 from planner.mission.skills.drive_to_place import place_gone
-from planner.mission.step_execution import begin_step, end_wait_if_due, on_arrival
+from planner.mission.step_execution import begin_step, end_wait_if_due
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact

@@ -1,7 +1,7 @@
 """Walk the running mission's plan: begin steps, carry out what their skills ask, end them.
 
-A motion step is done when the bridge says that this very leg was reached, the robot stands, and its
-pose lies inside the room's outline. Nothing moves or speaks before the journal holds its beginning.
+When a leg is done, ``arrival`` tells. Nothing moves or speaks before the journal holds its
+beginning.
 """
 
 from __future__ import annotations
@@ -18,13 +18,12 @@ from planner.mission.activity import (
     Speaking,
     Waiting,
 )
-from planner.mission.bridge_status import cannot_move, standing
+from planner.mission.bridge_status import cannot_move
 from planner.mission.effects import AskEyes, AskMemory, SayAloud
-from planner.mission.legs import abandon_route, ask_route, measure_from, settle_amounts
+from planner.mission.legs import ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import (
     ended_outcome,
     moves,
-    spot_at,
     thoughts,
 )
 from planner.mission.plan_walk import RoundBudget, enter
@@ -61,8 +60,6 @@ from planner.mission.step_failure import end_failed, fail_step, think, to_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import CONTROL, JUDGED, NEEDS_CAMERA, Code, Outcome, StepState, parent_of
-from planner.site.polygon import contains
-from wire import Pose2
 
 
 def start_next(turn: Transaction) -> None:
@@ -280,45 +277,6 @@ def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
         return
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
     think(turn, turn.put(mission, decides=mission.decides + 1, skill_state=state))
-
-
-def on_arrival(turn: Transaction) -> bool:
-    """Go on in the step if the bridge says that its leg is done; say whether that happened."""
-    mission, driving, status = turn.running, turn.driving, turn.book.status
-    if mission is None or driving is None or status is None or driving.leg is None:
-        return False
-    leg, pose = status.leg, status.base_in_map
-    if leg is None or (leg.mission, leg.leg) != (mission.id, driving.leg):
-        return False
-    if not (leg.reached and standing(status)) or pose is None:
-        return False
-    if _is_outside(turn, driving, pose):
-        abandon_route(turn)
-        return True
-    settled = settle_activity(turn)
-    if settled is None:
-        return True
-    mission = turn.put(
-        settled, part=settled.part + 1, skill_state=driving.then or settled.skill_state
-    )
-    figures = {"reached": spot_at(turn.book.facts, pose, driving.target)}
-    residuals = {
-        "residual_m": round(leg.residual_m, 4),
-        "residual_rad": round(leg.residual_rad, 4) if driving.heading else None,
-    }
-    mission = note_step(turn, mission, **figures, **residuals)
-    if mission.steps[mission.step].kind == "patrol":
-        mission = note_step(turn, mission, visited=mission.part)
-    carry_out(turn, mission, act_of(scene_of(turn, mission)))
-    return True
-
-
-def _is_outside(turn: Transaction, driving: Driving, pose: Pose2) -> bool:
-    """Tell whether the leg ended short of the room that it was to."""
-    target = turn.book.facts.targets.get(driving.target or "")
-    if target is None or not target.room or target.polygon is None:
-        return False
-    return not contains(target.polygon, pose.x_m, pose.y_m)
 
 
 def finish_step(turn: Transaction, state: StepState, **record: object) -> None:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 from planner.brain.endpoint.completion import ModelReply, Tokens
 from planner.brain.endpoint.image_client import EndpointLooker, LayOut, Shrink
-from planner.brain.endpoint.plan_reply import Drafting, Planned, Unusable, clean, judge
+from planner.brain.endpoint.plan_draft import Drafting
+from planner.brain.endpoint.plan_reply import Planned, Unusable, clean, judge
 from planner.brain.endpoint.session import Line
 from planner.brain.errors import BadPlan
 from planner.brain.interface import ThinkRequest, ThinkResult

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from planner.language.folding import CHINESE, fold_words
-from planner.plan import Vocabulary
+from planner.language.object_names import resolve, synonyms
+from planner.plan import Language, Vocabulary
 
 _WORD = re.compile(rf"[a-z0-9']+|[{CHINESE}]")
 _GENERIC = frozenset(
@@ -175,3 +176,35 @@ def numbers_named(text: str) -> tuple[float, ...]:
     for whole, tenths in re.findall(r"([一二两三四五六七八九\d])米([一二三四五六七八九半])", said):
         found.append(_ZH.get(whole, 0.0) + _ZH[tenths] / (1.0 if tenths == "半" else 10.0))
     return (*found, *(_ZH[char] for char in said if char in _ZH))
+
+
+_PEOPLE = re.compile(
+    r"\b(?:person|people|persons|any ?(?:one|body)|some ?(?:one|body)|every ?(?:one|body)|who"
+    r"|whom|m[ae]n|wom[ae]n|guests?|visitors?|child(?:ren)?|kids?|boys?|girls?|lady|ladies|guys?|mister|mr|mrs"
+    r"|human|follow me|after me|behind me|with me|find me|meet|greet|welcome|introduce|him|her|them"
+    r"|(?:tell|inform|remind|call|wake) (?!me\b|us\b|you)[a-z]+|(?:to|for) (?:my|our|the) [a-z]+"
+    r"|(?:say|talk|speak) [a-z ]{0,16}to (?!me\b|us\b|you))\b"
+    r"|人|谁|大家|客人|孩子|小孩|男|女|老|先生|女士|他|她|我|妈|爸|爷|奶|叔|阿姨|接|迎|打招呼|告诉(?!我)"
+)
+
+
+def thing_named(label: str, said: str) -> bool:
+    """Tell whether words speak of a thing or a person that a step names."""
+    if has_specific_words(label):
+        return label_named(label, said) or _kind_named(label, said)
+    return _PEOPLE.search(said) is not None
+
+
+def _kind_named(label: str, said: str) -> bool:
+    """Tell whether the same kind of thing is named, in either language."""
+    kind = resolve(label)
+    return kind is not None and any(
+        re.search(pattern, said) is not None for pattern in _patterns(kind[0])
+    )
+
+
+@lru_cache(maxsize=128)
+def _patterns(kind: str) -> tuple[str, ...]:
+    english = "|".join(map(re.escape, synonyms(kind, Language.EN))) or r"(?!)"
+    chinese = "|".join(map(re.escape, synonyms(kind, Language.ZH))) or r"(?!)"
+    return rf"\b(?:{english})(?:e?s)?\b", rf"(?:{chinese})"

@@ -12,19 +12,15 @@ from __future__ import annotations
 import re
 from collections import Counter
 from dataclasses import dataclass
-from functools import lru_cache
 
 from planner.language.grammar.parser import Context
 from planner.language.grammar.parser import plan as read_order
 from planner.language.motion_guard.mentioned_names import (
-    has_specific_words,
-    label_named,
     places_named,
     plain,
 )
 from planner.language.motion_guard.order_scope import OrderScope, read_scope
 from planner.language.motion_guard.step_words import evidence, moves, unnamed_part
-from planner.language.object_names import resolve, synonyms
 from planner.language.questions import looks_round
 from planner.language.yes_no import consents
 from planner.plan import (
@@ -33,7 +29,6 @@ from planner.plan import (
     ClockTime,
     Code,
     Count,
-    Language,
     Look,
     Refuse,
     Repeat,
@@ -83,14 +78,6 @@ _FOLLOWS = re.compile(
     r"\bfollow|\b(?:go|goes|come|walk|drive|run|stay|keep) (?:along )?(?:after|behind|with)\b"
     r"|\b(?:track|trail|chase|tag along)\b|随|尾"
     r"|跟(?!.{1,8}?(?:说|讲|聊|打.{0,2}招呼|告诉|道|问))"
-)
-_PEOPLE = re.compile(
-    r"\b(?:person|people|persons|any ?(?:one|body)|some ?(?:one|body)|every ?(?:one|body)|who"
-    r"|whom|m[ae]n|wom[ae]n|guests?|visitors?|child(?:ren)?|kids?|boys?|girls?|lady|ladies|guys?|mister|mr|mrs"
-    r"|human|follow me|after me|behind me|with me|find me|meet|greet|welcome|introduce|him|her|them"
-    r"|(?:tell|inform|remind|call|wake) (?!me\b|us\b|you)[a-z]+|(?:to|for) (?:my|our|the) [a-z]+"
-    r"|(?:say|talk|speak) [a-z ]{0,16}to (?!me\b|us\b|you))\b"
-    r"|人|谁|大家|客人|孩子|小孩|男|女|老|先生|女士|他|她|我|妈|爸|爷|奶|叔|阿姨|接|迎|打招呼|告诉(?!我)"
 )
 _SEES = re.compile(
     r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe|around|show)\b"
@@ -345,25 +332,3 @@ def _key(step: Step | ClockTime) -> object:
         round(angle, 1) if angle is not None else None,
         round(far, 2) if far is not None else None,
     )
-
-
-def thing_named(label: str, said: str) -> bool:
-    """Tell whether words speak of a thing or a person that a step names."""
-    if has_specific_words(label):
-        return label_named(label, said) or _kind_named(label, said)
-    return _PEOPLE.search(said) is not None
-
-
-def _kind_named(label: str, said: str) -> bool:
-    """Tell whether the same kind of thing is named, in either language."""
-    kind = resolve(label)
-    return kind is not None and any(
-        re.search(pattern, said) is not None for pattern in _patterns(kind[0])
-    )
-
-
-@lru_cache(maxsize=128)
-def _patterns(kind: str) -> tuple[str, ...]:
-    english = "|".join(map(re.escape, synonyms(kind, Language.EN))) or r"(?!)"
-    chinese = "|".join(map(re.escape, synonyms(kind, Language.ZH))) or r"(?!)"
-    return rf"\b(?:{english})(?:e?s)?\b", rf"(?:{chinese})"

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from planner.brain import BrainDown, Draft, FallbackBrain, OfflineBrain, ThinkRequest, ThinkResult
 from planner.brain.endpoint import EndpointBrain
 from planner.brain.endpoint.completion import Assembly, StreamFailure, read_reply
-from planner.brain.endpoint.plan_reply import Drafting
+from planner.brain.endpoint.plan_draft import Drafting
 from planner.brain.endpoint.response import Events
 from planner.plan import RUNNABLE, GoTo, StepPlan, Vocabulary, Wait
 from tests.planner.brain.conftest import HOME
