@@ -100,7 +100,7 @@ class CanLine:
         self.opened = 0
         self.dropped = 0
         """Frames that found no room on their way out."""
-        self.trouble: str | None = "not opened yet"
+        self.trouble: CanTrouble | None = CanTrouble("can_unopened", "not opened yet")
         self._threads = [
             threading.Thread(target=work, name=f"can-{name}", daemon=True)
             for name, work in (("in", self._receive), ("out", self._send))
@@ -178,9 +178,12 @@ class CanLine:
 
     def _say(self, trouble: str | None) -> None:
         """Log a trouble once, not at each frame."""
-        if trouble is not None and self.trouble in (None, "not opened yet"):
+        if trouble is None:
+            self.trouble = None
+            return
+        if self.trouble is None or self.trouble.code == "can_unopened":
             log.warning("can_gone: %s: %s", self._words["channel"], trouble)
-        self.trouble = trouble
+        self.trouble = CanTrouble("can_gone", trouble)
 
 
 def load_library() -> Any:

@@ -60,13 +60,22 @@ class SerialProtocol(Protocol):
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
 
 
+class LineTrouble(Protocol):
+    """Say why a line is away."""
+
+    code: str
+    detail: str
+
+
 class ByteLine(Protocol):
     """Be a line that may vanish and come back; a LastingPort is one."""
 
     opened: int
     """How often it was opened."""
-    trouble: PortTrouble | None
-    """Why it is away; None while it is open."""
+
+    @property
+    def trouble(self) -> LineTrouble | None:
+        """Return why it is away; None while it is open."""
 
     def read(self) -> bytes:
         """Return the bytes that came."""
@@ -109,7 +118,7 @@ class SerialDrive:
         self._seq = self._asked = 0
 
     @property
-    def trouble(self) -> PortTrouble | None:
+    def trouble(self) -> LineTrouble | None:
         """Return why the port is away; None while it is open."""
         return self._port.trouble
 

@@ -89,8 +89,7 @@ class Missions:
         identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
         engine = Engine(MissionState(self.memory.facts), identity)
         self._clocks, self._robot, self._brain = clocks or Clocks(), robot, brain
-        surveyor = Surveyor(link, robot, site.grid)
-        self.loop = Loop(engine, link, disk, self._clocks, surveyor)
+        self.loop = Loop(engine, link, disk, self._clocks, Surveyor(link, robot, site.grid))
         clock, self._repeats = self._clocks.monotonic, Repeats()
         self._router = RouteAhead(router, self.loop, clock)
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
@@ -233,8 +232,7 @@ class Missions:
             UnknownGoal, BadState: as named.
             NothingToResume: no id was given and nothing is paused or kept waiting.
         """
-        wanted = goal_id or goal_to_resume(self.loop.book)
-        if wanted is None:
+        if (wanted := goal_id or goal_to_resume(self.loop.book)) is None:
             raise NothingToResume
         return await self._command(Resume(wanted), act)
 

@@ -112,14 +112,14 @@ def test_a_bus_that_fails_is_opened_again(channel: str, monkeypatch: pytest.Monk
 
     with monkeypatch.context() as patch:
         patch.setattr("can.interfaces.virtual.VirtualBus._recv_internal", broken)
-        until(lambda: line.trouble == "bus off")
+        until(lambda: line.trouble is not None and line.trouble.detail == "bus off")
     until(lambda: line.trouble is None and line.opened >= 2)
     line.close()
 
 
 def test_a_channel_that_is_not_there_is_waited_for() -> None:
     line = CanLine("pons-none0")
-    until(lambda: line.trouble not in (None, "not opened yet"))
+    until(lambda: line.trouble is not None and line.trouble.code == "can_gone")
     assert line.read() == b""
     assert not line.write(pack([CanFrame(1, b"")]))
     line.close()

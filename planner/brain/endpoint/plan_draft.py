@@ -15,7 +15,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from planner.brain.endpoint.plan_reply import MAX_CHARACTERS, clean, trim_step, without_thoughts
 from planner.brain.streamed_draft import MAX_DRAFT, Draft, Hear
-from planner.plan import Step, Vocabulary, places_of
+from planner.plan import MAX_STEPS, Step, Vocabulary, list_nodes, places_of
 
 TELL_S = 0.05
 """Between two drafts: twenty a second read as a flow."""

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from planner.language.grammar.parser import Context
 from planner.language.grammar.parser import plan as read_order
-from planner.language.motion_guard.mentioned_names import (
+from planner.language.motion_guard.mentioned_names import places_named, plain, thing_named
     places_named,
     plain,
 )
