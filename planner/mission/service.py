@@ -339,8 +339,7 @@ class Missions:
         self.loop.event(Known(self.memory.facts))
 
     async def _command(self, command: Command, act: OpRequest | None = None) -> Goal:
-        error = refusal(self.loop.book, command)
-        if error is not None:
+        if (error := refusal(self.loop.book, command)) is not None:
             raise error
         if isinstance(command, Resume):
             self.loop.clear_hold(act)

@@ -16,9 +16,6 @@ from dataclasses import dataclass
 from planner.language.grammar.parser import Context
 from planner.language.grammar.parser import plan as read_order
 from planner.language.motion_guard.mentioned_names import places_named, plain, thing_named
-    places_named,
-    plain,
-)
 from planner.language.motion_guard.order_scope import OrderScope, read_scope
 from planner.language.motion_guard.step_words import evidence, moves, unnamed_part
 from planner.language.questions import looks_round
