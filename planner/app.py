@@ -29,7 +29,7 @@ from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
 from planner.voice import VoiceAbilities
-from planner.voice_factory import Voice
+from planner.voice_factory import VoiceParts
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -90,7 +90,7 @@ class Planner:
         self.memory = KnownPlaces(self.site, taught, radius_m=radius_m)
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
-        self._voice = Voice(self.settings, self._list_spoken_names)
+        self._voice = VoiceParts(self.settings, self._list_spoken_names)
         self.memory.listen(self._voice.learn_names)
         self.ears, self.speaker = self._voice.recogniser(), self._voice.speaker
         link = Link(WireBus(self._session), self.description)

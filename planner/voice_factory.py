@@ -14,7 +14,7 @@ from planner.voice.transcription import open_caller
 log = logging.getLogger(__name__)
 
 
-class Voice:
+class VoiceParts:
     """Hold recognisers and the robot's own voice."""
 
     def __init__(self, settings: Settings, names: Callable[[], list[str]]) -> None:

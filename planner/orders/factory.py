@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from planner.orders.intake import OrderIntake
 from planner.orders.keeper import OrderKeeper
 from planner.orders.notifier import Notifier
-from planner.orders.rule import QuietHours
 from planner.orders.store import OrderStore
 from planner.orders.zone import find_zone
 from wire import ConfigError
@@ -41,7 +40,6 @@ def standing_orders_of(
     Raises:
         ConfigError: ``timezone_unknown``, ``notify_token``, ``orders.notify_url``.
     """
-    quiet = settings.quiet_min
     notify = settings.notify
 
     def report() -> ObstacleReport | None:
@@ -51,7 +49,7 @@ def standing_orders_of(
         OrderStore(database),
         missions.standing,
         find_zone(settings.timezone, os.environ),
-        QuietHours(*quiet) if quiet is not None else None,
+        settings.quiet,
         Notifier(notify, _token(notify.token_file, home)) if notify is not None else None,
         report=report,
     )

@@ -24,7 +24,7 @@ from planner.orders.new_order import (
     read_new_order,
 )
 from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_ORDERS, StandingOrder
-from planner.orders.rule import next_due, settle, upcoming
+from planner.orders.rule import is_quiet, next_due, settle, upcoming
 from planner.orders.selection import select
 from planner.orders.telling import tell_kept, tell_list, tell_order
 from planner.plan import (
@@ -171,7 +171,7 @@ class OrderIntake:
         if quiet is None or not isinstance(rule, (CronRule, EveryRule)):
             return
         runs = upcoming(rule, now_s, self._keeper.book.zone, QUIET_LOOKED)
-        if all(quiet.holds(run_s, self._keeper.book.zone) for run_s in runs):
+        if all(is_quiet(quiet, run_s, self._keeper.book.zone) for run_s in runs):
             raise OrderRefusal("order_always_quiet", quiet.text, quiet=quiet.text)
 
     def _judge_room(self, new: NewOrder, rule: Rule) -> None:

@@ -40,9 +40,8 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport
     from planner.orders.notifier import Notifier
-    from planner.orders.rule import QuietHours
     from planner.orders.store import OrderStore
-    from planner.plan import StepRecord
+    from planner.plan import QuietHours, StepRecord
 
 log = logging.getLogger(__name__)
 

@@ -8,7 +8,6 @@ hour that passes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from itertools import pairwise
 from math import ceil, isfinite
@@ -32,6 +31,8 @@ from planner.plan.timing import (
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from datetime import tzinfo
+
+    from planner.plan import QuietHours
 
 MIN_APART_S = 300.0
 """Between two runs of one order: what comes oftener is no errand but a state."""
@@ -160,25 +161,9 @@ def _exists(wanted: datetime) -> bool:
     return there_and_back.replace(tzinfo=None) == wanted.replace(tzinfo=None)
 
 
-@dataclass(frozen=True, slots=True)
-class QuietHours:
-    """Hold the time of day in which standing orders rest: minutes since midnight."""
-
-    begin_min: int
-    end_min: int
-
-    def holds(self, unix_s: float, zone: tzinfo) -> bool:
-        """Return whether an instant lies within; the end is not part of it."""
-        if not isfinite(unix_s):
-            return True
-        now = datetime.fromtimestamp(unix_s, zone)
-        minute = now.hour * 60 + now.minute
-        if self.begin_min < self.end_min:
-            return self.begin_min <= minute < self.end_min
-        return minute >= self.begin_min or minute < self.end_min
-
-    @property
-    def text(self) -> str:
-        """Return them as people read them: 22:00–07:00."""
-        begin, end = divmod(self.begin_min, 60), divmod(self.end_min, 60)
-        return f"{begin[0]:02}:{begin[1]:02}–{end[0]:02}:{end[1]:02}"
+def is_quiet(quiet: QuietHours, unix_s: float, zone: tzinfo) -> bool:
+    """Return whether an instant lies within hours of the day there; one that is none does."""
+    if not isfinite(unix_s):
+        return True
+    now = datetime.fromtimestamp(unix_s, zone)
+    return quiet.holds(now.hour * 60 + now.minute)

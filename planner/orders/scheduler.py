@@ -18,7 +18,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from planner.orders.order import COOLDOWN_S, Firing, FiringState, StandingOrder
-from planner.orders.rule import QuietHours, next_due
+from planner.orders.rule import is_quiet, next_due
+from planner.plan import QuietHours
 from planner.plan.timing import AtRule, EventRule, EveryRule, WorldEvent
 
 if TYPE_CHECKING:
@@ -249,7 +250,7 @@ def _fire(
     effects: list[Effect],
 ) -> OrderBook:
     quiet = book.quiet
-    rests = quiet is not None and not order.is_once and quiet.holds(due_s, book.zone)
+    rests = quiet is not None and not order.is_once and is_quiet(quiet, due_s, book.zone)
     why = STILL_RUNNING if order.id in world.busy else world.hindrance
     if rests:
         noted = _note_run(order, due_s, now, FiringState.QUIET, None)

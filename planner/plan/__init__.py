@@ -26,6 +26,7 @@ from planner.plan.goal import (
     plan_record,
 )
 from planner.plan.outcome import Code, Outcome, Spot
+from planner.plan.quiet_hours import QuietHours
 from planner.plan.responses import (
     MAX_STEPS,
     PLAN,
@@ -144,6 +145,7 @@ __all__ = [
     "PlanRecord",
     "PlanRejection",
     "PlanRole",
+    "QuietHours",
     "Reason",
     "Recall",
     "Refuse",

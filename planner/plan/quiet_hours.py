@@ -35,3 +35,9 @@ class QuietHours:
         """Return whether a minute of the day, 0 to 1439, lies within."""
         after = (minute - self.from_min) % MINUTES
         return after < (self.until_min - self.from_min) % MINUTES
+
+    @property
+    def text(self) -> str:
+        """Return them as people read them: 22:00–07:00."""
+        first, last = divmod(self.from_min, 60), divmod(self.until_min, 60)
+        return f"{first[0]:02}:{first[1]:02}–{last[0]:02}:{last[1]:02}"

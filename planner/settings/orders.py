@@ -5,14 +5,14 @@ Data only. What is told off this machine goes to the URL that stands here and to
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Annotated, Literal
 from urllib.parse import urlsplit
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 
-_CLOCK = re.compile(r"([01]\d|2[0-3]):([0-5]\d)")
+from planner.plan import QuietHours
+
 Told = Literal["reminder", "missed", "failed", "done", "asks"]
 
 
@@ -55,21 +55,11 @@ class OrderSettings(BaseModel):
 
     timezone: Annotated[str, Field(min_length=1, max_length=64)] | None = None
     """A name of the IANA list, as ``Europe/Berlin``; None: the system's."""
-    quiet: tuple[str, str] | None = None
-    """From and to, as ``["22:00", "07:00"]``: orders that come again rest in between."""
+    quiet: QuietHours | None = None
+    """``22:00-07:00``: orders that come again rest in between."""
     notify: NotifySettings | None = None
 
-    @model_validator(mode="after")
-    def _leaves_time(self) -> OrderSettings:
-        if self.quiet is not None and self.quiet_min is None:
-            raise ValueError('quiet: expected two different times as ["22:00", "07:00"]')
-        return self
-
-    @property
-    def quiet_min(self) -> tuple[int, int] | None:
-        """Return the quiet hours in minutes since midnight; None where there are none."""
-        if self.quiet is None:
-            return None
-        found = [_CLOCK.fullmatch(each) for each in self.quiet]
-        minutes = [int(m[1]) * 60 + int(m[2]) for m in found if m is not None]
-        return (minutes[0], minutes[1]) if len(minutes) == 2 and minutes[0] != minutes[1] else None
+    @field_validator("quiet", mode="before")
+    @classmethod
+    def _read_quiet(cls, given: object) -> object:
+        return QuietHours.read(given) if isinstance(given, str) else given

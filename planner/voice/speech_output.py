@@ -16,8 +16,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Protocol
 
-from planner.plan import Language
-from planner.plan.quiet_hours import QuietHours
+from planner.plan import Language, QuietHours
 
 log = logging.getLogger(__name__)
 

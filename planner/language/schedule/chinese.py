@@ -14,12 +14,12 @@ from planner.language.schedule.parts import (
     WEEKEND,
     WORKDAYS,
     After,
-    ClockTime,
     DayPart,
     EventPart,
     Interval,
     OnceDay,
     Part,
+    TimeOfDay,
     WeekDays,
     hour_in,
 )
@@ -98,16 +98,16 @@ LEAD = re.compile(r"[,:、]*(?:就|都|要|再|请|帮我|你|给我)*")
 
 def _clock(found: re.Match[str]) -> tuple[Part, ...]:
     if found["noon"]:
-        return (ClockTime(12, 0, sure=True),)
+        return (TimeOfDay(12, 0, sure=True),)
     if found["midnight"]:
-        return (ClockTime(0, 0, sure=True),)
+        return (TimeOfDay(0, 0, sure=True),)
     hour = _number(found["h"] or found["oh"])
     minute = _minute(found)
     if hour is None or minute is None or not (hour < 24 and minute < 60):
         return ()
     if found["part"]:
-        return (ClockTime(hour_in(hour, _PARTS[found["part"]]) % 24, minute, sure=True),)
-    return (ClockTime(hour, minute, hour > 12 or hour == 0),)
+        return (TimeOfDay(hour_in(hour, _PARTS[found["part"]]) % 24, minute, sure=True),)
+    return (TimeOfDay(hour, minute, hour > 12 or hour == 0),)
 
 
 def _minute(found: re.Match[str]) -> int | None:

@@ -14,12 +14,12 @@ from planner.language.schedule.parts import (
     WEEKEND,
     WORKDAYS,
     After,
-    ClockTime,
     DayPart,
     EventPart,
     Interval,
     OnceDay,
     Part,
+    TimeOfDay,
     WeekDays,
 )
 from planner.plan.timing import WorldEvent
@@ -143,7 +143,7 @@ LEAD = re.compile(
 
 def _clock(found: re.Match[str]) -> Part | None:
     if found["noon"]:
-        return ClockTime(0 if found["noon"] == "midnight" else 12, 0, sure=True)
+        return TimeOfDay(0 if found["noon"] == "midnight" else 12, 0, sure=True)
     hour_word = found["h"] or found["ph"] or found["oh"]
     hour, minute = _number(hour_word), 0
     if found["m"]:
@@ -160,12 +160,12 @@ def _clock(found: re.Match[str]) -> Part | None:
             return None
         hour = hour % 12 + (12 if half == "p" else 0)
     sure = bool(half) or hour > 12 or hour == 0 or (found["m"] and len(hour_word) > 1)
-    return ClockTime(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None
+    return TimeOfDay(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None
 
 
 def _bare(found: re.Match[str]) -> Part | None:
     hour, minute = _number(found["h"]), _MINUTES[found["m"]] if found["m"] else 0
-    return ClockTime(hour, minute, hour > 12 or hour == 0) if hour < 24 else None
+    return TimeOfDay(hour, minute, hour > 12 or hour == 0) if hour < 24 else None
 
 
 def _number(word: str) -> int:

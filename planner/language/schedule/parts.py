@@ -78,7 +78,7 @@ class After:
 
 
 @dataclass(frozen=True, slots=True)
-class ClockTime:
+class TimeOfDay:
     """Name a time of day. ``sure``: it is said on which half of the day."""
 
     hour: int
@@ -93,7 +93,7 @@ class EventPart:
     event: WorldEvent
 
 
-Part = WeekDays | Interval | OnceDay | After | ClockTime | EventPart | DayPart
+Part = WeekDays | Interval | OnceDay | After | TimeOfDay | EventPart | DayPart
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +115,7 @@ def combine(parts: Sequence[Part]) -> Timing | None:
     repeats = [p for p in parts if isinstance(p, (WeekDays, Interval, OnceDay, After, EventPart))]
     if len(repeats) > 1:
         return Timing(problem="order_nested")
-    clock = next((p for p in parts if isinstance(p, ClockTime)), None)
+    clock = next((p for p in parts if isinstance(p, TimeOfDay)), None)
     daypart = next((p for p in parts if isinstance(p, DayPart)), None)
     if not repeats:
         return _by_clock(OnceDay(), clock, daypart) if clock is not None else None
@@ -145,7 +145,7 @@ def _lasting(seconds: float, make: type[EveryRule] | type[InRule]) -> Timing:
     return Timing(make(seconds=seconds))
 
 
-def _weekly(again: WeekDays, clock: ClockTime | None, daypart: DayPart | None) -> Timing:
+def _weekly(again: WeekDays, clock: TimeOfDay | None, daypart: DayPart | None) -> Timing:
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
@@ -157,7 +157,7 @@ def _list_days(days: frozenset[int]) -> str:
     return "1-5" if days == WORKDAYS else ",".join(map(str, sorted(days)))
 
 
-def _by_clock(day: OnceDay, clock: ClockTime | None, daypart: DayPart | None) -> Timing:
+def _by_clock(day: OnceDay, clock: TimeOfDay | None, daypart: DayPart | None) -> Timing:
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
@@ -170,7 +170,7 @@ def _by_clock(day: OnceDay, clock: ClockTime | None, daypart: DayPart | None) ->
     )
 
 
-def _hour_minute(clock: ClockTime | None, daypart: DayPart | None) -> tuple[int, int] | None:
+def _hour_minute(clock: TimeOfDay | None, daypart: DayPart | None) -> tuple[int, int] | None:
     if clock is None:
         return None if daypart is None else (USUAL_HOUR[daypart], 0)
     hour = clock.hour if clock.sure or daypart is None else hour_in(clock.hour, daypart)

@@ -11,7 +11,7 @@ from starlette.testclient import TestClient
 
 from planner.api import Access
 from planner.orders.order import MAX_ORDERS
-from planner.orders.rule import QuietHours
+from planner.plan import QuietHours
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import BASE, client_of
 from tests.planner.orders.fakes import NOON_UNIX_S, FakeMissions, MovedClocks, standing_orders

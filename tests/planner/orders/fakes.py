@@ -21,10 +21,9 @@ from planner.orders.intake import OrderIntake
 from planner.orders.interfaces import OrderClocks
 from planner.orders.keeper import OrderKeeper
 from planner.orders.notifier import Notifier
-from planner.orders.rule import QuietHours
 from planner.orders.store import OrderStore
 from planner.perception.snapshot import Sight
-from planner.plan import Code, GoalState, Language, Means, Outcome, say_same
+from planner.plan import Code, GoalState, Language, Means, Outcome, QuietHours, say_same
 from planner.site import Site
 from planner.site.site_view import facts_of, vocabulary_of
 from planner.state_database import StateDatabase

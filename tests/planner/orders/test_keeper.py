@@ -13,8 +13,7 @@ from planner.mission.errors import QueueFull
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import order_of_text
 from planner.orders.order import FiringState, StandingOrder
-from planner.orders.rule import QuietHours
-from planner.plan import GoalState
+from planner.plan import GoalState, QuietHours
 from planner.state_database import StateUnavailable
 from tests.planner.orders.fakes import NOON_UNIX_S, FakeMissions, Kept, MovedClocks, kept_in
 from wire import HeldReason, Mode, StandingHold

@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.orders.errors import OrderRefusal
-from planner.orders.rule import QuietHours, judge, next_due, settle, upcoming
+from planner.orders.rule import is_quiet, judge, next_due, settle, upcoming
+from planner.plan import QuietHours
 from planner.plan.timing import (
     AtRule,
     CronRule,
@@ -151,10 +152,10 @@ def test_events_have_no_time() -> None:
 def test_quiet_hours_go_over_midnight() -> None:
     quiet = QuietHours(22 * 60, 7 * 60)
     midnight = NOON_UNIX_S + 12 * 3600.0
-    assert quiet.holds(midnight, BERLIN)
-    assert quiet.holds(NOON_UNIX_S + 10 * 3600.0, BERLIN)
-    assert not quiet.holds(NOON_UNIX_S + 19 * 3600.0, BERLIN)
-    assert not quiet.holds(NOON_UNIX_S, BERLIN)
-    assert quiet.holds(float("nan"), BERLIN)
+    assert is_quiet(quiet, midnight, BERLIN)
+    assert is_quiet(quiet, NOON_UNIX_S + 10 * 3600.0, BERLIN)
+    assert not is_quiet(quiet, NOON_UNIX_S + 19 * 3600.0, BERLIN)
+    assert not is_quiet(quiet, NOON_UNIX_S, BERLIN)
+    assert is_quiet(quiet, float("nan"), BERLIN)
     assert quiet.text == "22:00–07:00"
-    assert QuietHours(60, 120).holds(midnight + timedelta(minutes=90).total_seconds(), BERLIN)
+    assert is_quiet(QuietHours(60, 120), midnight + timedelta(minutes=90).total_seconds(), BERLIN)
