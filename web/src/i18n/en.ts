@@ -278,7 +278,6 @@ export const en = {
   "memory.on": "on: {what}",
   "memory.forgot": "Forgotten: {count}.",
   "memory.forget_all": "Forget everything",
-  "memory.locale": "en-GB",
   "objects.title": "Things it has seen",
   "objects.none": "Nothing has been seen yet.",
   "objects.now": "in view",

@@ -269,7 +269,6 @@ export const zh: Record<Key, string> = {
   "memory.on": "在{what}上",
   "memory.forgot": "已忘掉 {count} 条。",
   "memory.forget_all": "全部忘掉",
-  "memory.locale": "zh-CN",
   "objects.title": "见过的物体",
   "objects.none": "还没有见过任何物体。",
   "objects.now": "正看着",

@@ -1,7 +1,7 @@
 /** Search what the robot remembers: seen and told, with ages; teach it a fact, have it forget. */
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { say, t } from "../i18n";
+import { language, say, t } from "../i18n";
 import { forgetMemories, forgetMemory, listMemories, teachFact } from "../net/api";
 import { attempt, tell } from "../state/acts";
 import { pageFresh } from "../state/store";
@@ -173,10 +173,13 @@ function whatOf(memory: Memory): string {
 }
 
 function knownOf(memory: Memory): string {
-  const at = new Date(memory.last_unix_s * 1000).toLocaleString(t("memory.locale"), {
-    dateStyle: "medium",
-    timeStyle: "short",
-  });
+  const at = new Date(memory.last_unix_s * 1000).toLocaleString(
+    language.value === "zh" ? "zh-CN" : "en-GB",
+    {
+      dateStyle: "medium",
+      timeStyle: "short",
+    },
+  );
   const where = memory.room ? nameOf(memory.room) : "";
   const on = memory.on ? t("memory.on", { what: say(memory.on) }) : "";
   const when = t(memory.kind === "fact" ? "memory.told" : "memory.seen", { at });
