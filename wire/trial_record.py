@@ -6,7 +6,7 @@ another count of ticks, another lidar, and it is of another robot.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Protocol
 
 from pydantic import Field
 
@@ -14,7 +14,7 @@ from wire.base import Record
 from wire.fingerprint import fingerprint
 
 if TYPE_CHECKING:
-    from wire.robot import RobotDescription
+    from pydantic import BaseModel
 
 _DRIVE = {"kind", "port", "baud", "ticks_per_turn", "timeout_s"}
 _LIDAR = {"kind", "model", "port", "upside_down", "yaw_rad"}
@@ -34,7 +34,20 @@ class TrialRecord(Record):
     """The gyro turned left when a person turned the robot left; false: it was not tried."""
 
 
-def wiring_of(robot: RobotDescription) -> str:
+class WiredRobot(Protocol):
+    """Describe what hangs on which wires, as robot.toml does."""
+
+    @property
+    def drive(self) -> BaseModel: ...
+
+    @property
+    def lidar(self) -> BaseModel: ...
+
+    @property
+    def imu(self) -> BaseModel: ...
+
+
+def wiring_of(robot: WiredRobot) -> str:
     """Return the fingerprint of what a trial proves: which wheels, lidar and gyro hang where.
 
     A gyro that sits as it comes adds nothing, so that trials from before there were gyros hold.

@@ -22,7 +22,8 @@ from pathlib import Path
 from sensors.camera.grabber import CameraGrabber
 from sensors.camera.node import CameraProcess
 from sensors.camera.realsense import load_library
-from sensors.camera.source import CameraTrouble, open_source, without_password
+from sensors.camera.shot import CameraTrouble
+from sensors.camera.source import open_source, without_password
 from wire import CameraConfig, ConfigError, load_robot
 from wire.keys import Party
 from wire.session import open_session

@@ -12,12 +12,12 @@ import zlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from sensors.camera.source import CameraTrouble
+from sensors.camera.shot import CameraTrouble
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from sensors.camera.source import CameraShot, PictureSource
+    from sensors.camera.shot import CameraShot, PictureSource
 
 RETRY_S = 1.0
 END_S = 4.0

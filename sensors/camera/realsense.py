@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import cv2
 import numpy as np
 
-from sensors.camera.source import CameraShot, CameraTrouble
+from sensors.camera.shot import CameraShot, CameraTrouble
 
 if TYPE_CHECKING:
     from wire import CameraConfig

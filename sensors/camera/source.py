@@ -10,18 +10,16 @@ import errno
 import os
 import stat
 import time
-from dataclasses import dataclass
 from math import tan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit, urlunsplit
 
 import cv2
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+from sensors.camera.shot import CameraShot, CameraTrouble, PictureSource
 
+if TYPE_CHECKING:
     from wire import CameraConfig
 
 OPEN_MS, READ_MS = 5_000, 3_000
@@ -31,40 +29,6 @@ OVER_TCP = "rtsp_transport;tcp"
 DEFAULT_HZ = 25.0
 """Of a film that does not say how fast it is."""
 V4L2_MAJOR = 81
-
-
-class CameraTrouble(Exception):
-    """A camera can't be read at present. The code is stable; ``detail`` says what came."""
-
-    def __init__(self, code: str, detail: str) -> None:
-        super().__init__(f"{code}: {detail}")
-        self.code, self.detail = code, detail
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class CameraShot:
-    """Hold one picture as a camera gave it."""
-
-    color: NDArray[np.uint8]
-    """Blue, green, red in a third axis."""
-    focal_px: float
-    center_px: tuple[float, float]
-    depth_mm: NDArray[np.uint16] | None = None
-    """Along the optical axis of the colours' camera; 0 where none was measured."""
-
-
-class PictureSource(Protocol):
-    """Be an open camera."""
-
-    def read(self) -> CameraShot:
-        """Wait for the next picture and return it.
-
-        Raises:
-            CameraTrouble: none came; the source is of no more use.
-        """
-
-    def close(self) -> None:
-        """Give the camera back."""
 
 
 def open_source(config: CameraConfig) -> PictureSource:

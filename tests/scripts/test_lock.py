@@ -94,6 +94,7 @@ def test_the_extra_of_the_wheel_pins_what_the_lock_pins(repository: Path) -> Non
 
 FOR_OTHERS = {
     "httptools": "uvicorn's parser",
+    "tzdata": "zoneinfo's time zones, where the system has none",
     "uvloop": "uvicorn's loop",
     "websockets": "uvicorn's WebSocket",
 }

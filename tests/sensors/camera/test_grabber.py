@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from sensors.camera.grabber import CameraGrabber
-from sensors.camera.source import CameraShot, CameraTrouble
+from sensors.camera.shot import CameraShot, CameraTrouble
 
 LIMIT_S = 10.0
 

@@ -9,7 +9,7 @@ import pytest
 
 from sensors.camera.grabber import CameraGrabber
 from sensors.camera.health import CODES, FROZEN_S, SILENT_S, START_S, CameraHealth
-from sensors.camera.source import CameraTrouble
+from sensors.camera.shot import CameraTrouble
 from wire import CameraConfig
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from sensors.camera.realsense import RealsenseSource, load_library
-from sensors.camera.source import CameraTrouble
+from sensors.camera.shot import CameraTrouble
 from wire import CameraConfig
 
 

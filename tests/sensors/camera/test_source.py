@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sensors.camera.source import CameraTrouble, open_source, without_password
+from sensors.camera.shot import CameraTrouble
+from sensors.camera.source import open_source, without_password
 from tests.sensors.camera.films import BOTTOM, HEIGHT, TOP, WIDTH, film
 from wire import CameraConfig
 
