@@ -219,7 +219,7 @@ def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp) -> None:
     until_s = turn.now_s + act.seconds
     looking = LookingUp(record=turn.next_entry, ticket=ticket, until_s=until_s)
     turn.set(tickets=ticket, activity=looking)
-    turn.emit(AskMemory(mission.id, ticket, step.object, step.place, step.when, step.deeds))
+    turn.emit(AskMemory(mission.id, ticket, step.object, step.place, step.span, step.deeds))
 
 
 def _result(act: Finish) -> dict[str, object]:

@@ -86,7 +86,7 @@ class StepRecord(Frozen):
     seconds: float | None = None
     angle_rad: float | None = None
     distance_m: float | None = None
-    when: Span | None = None  # a time that is asked about
+    span: Span | None = None  # a time that is asked about
     deeds: bool = False  # what the robot did is asked about
     state: StepState = StepState.PENDING
     reached: Spot | None = None

@@ -139,12 +139,12 @@ class Look(Frozen):
 
 
 class Recall(Frozen):
-    """Tell what was seen or told; with deeds, what you did."""
+    """Tell what is remembered; deeds: what you did."""
 
     kind: Literal["recall"] = "recall"
     object: Label | None = None
     place: PlaceId | None = None
-    when: Span | None = None
+    span: Span | None = None
     deeds: bool = False
 
 

@@ -121,7 +121,7 @@ def _name(made: Made) -> str:
     if not isinstance(step, Recall):
         return " > ".join(each.kind for each in made.steps)
     place = f" @{step.place}" if step.place else ""
-    when = f" %{step.when}" if step.when else ""
+    when = f" %{step.span}" if step.span else ""
     what = "deeds" if step.deeds else f"recall {step.object or ''}".strip()
     return f"{what}{place}{when}"
 

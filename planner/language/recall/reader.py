@@ -194,5 +194,5 @@ def _reading(
 ) -> RecallReading | None:
     if label is not None and not 0 < len(label) <= 80:
         return None
-    step = Recall(object=label, place=place or asked.place, when=asked.when, deeds=deeds)
+    step = Recall(object=label, place=place or asked.place, span=asked.when, deeds=deeds)
     return RecallReading(step, present)

@@ -153,7 +153,7 @@ def test_a_memory_that_hangs_ends_the_step() -> None:
 
 
 def test_deeds_are_told_of_goals_that_did_something(tmp_path: Path) -> None:
-    deeds = StepPlan(steps=(Recall(deeds=True, when="today"),))
+    deeds = StepPlan(steps=(Recall(deeds=True, span="today"),))
 
     async def story() -> None:
         async with remembering(tmp_path, StepPlan(steps=(GoTo(place="sofa"),)), deeds) as (

@@ -68,7 +68,7 @@ STEPS: list[dict[str, Any]] = [
     {"kind": "look", "question": "what do you see?"},
     {"kind": "follow", "object": "the person"},
     {"kind": "explore"},
-    {"kind": "recall", "object": "red cup", "place": "kitchen", "when": "morning"},
+    {"kind": "recall", "object": "red cup", "place": "kitchen", "span": "morning"},
     {"kind": "wait_for", "word": "go", "seconds": 60.0},
     {
         "kind": "if",

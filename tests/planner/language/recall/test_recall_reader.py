@@ -48,14 +48,14 @@ def test_courtesy_and_language_do_not_change_what_is_asked(
         f"{COURTESY[polite]}did you see the {thing} in the {place} {span}".strip() + "?"
     )
     chinese = asked(f"{COURTESY_ZH[polite]}{zh}你在{PLACES[place]}看到过{THINGS[thing]}吗？")
-    assert english == Recall(object=thing, place=place, when=when)
-    assert chinese == Recall(object=THINGS[thing], place=place, when=when)
+    assert english == Recall(object=thing, place=place, span=when)
+    assert chinese == Recall(object=THINGS[thing], place=place, span=when)
 
 
 @given(place=st.sampled_from(sorted(PLACES)), span=st.sampled_from(sorted(SPANS)))
 def test_people_are_asked_for_by_place_and_time(place: str, span: str) -> None:
     when, zh = SPANS[span]
-    wanted = Recall(object="person", place=place, when=when)
+    wanted = Recall(object="person", place=place, span=when)
     assert asked(f"who was in the {place} {span}".strip()) == wanted
     assert asked(f"{zh}谁来过{PLACES[place]}") == wanted
 
