@@ -8,10 +8,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import Browser, expect
 
 from tests.conftest import ROOT
 from tests.e2e.system import System, new_home
+
+pytestmark = pytest.mark.e2e
 
 KEY = "0123456789abcdef" * 2
 TELEPHONE = {"width": 360, "height": 740}
