@@ -48,6 +48,8 @@ OWN_PROBLEMS: dict[str, tuple[int, ...]] = {
     "move_goal": _MISSION,
     "pause_goal": _MISSION,
     "resume_goal": _MISSION,
+    "trial": (409, 503),
+    "set_up": (409, 503),
     "give_order": (409, 429, 503),
     "get_order": (503,),
     "pause_order": _MISSION,

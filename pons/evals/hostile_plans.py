@@ -25,6 +25,7 @@ from planner.plan import (
     Look,
     MoveStraight,
     Patrol,
+    Recall,
     Repeat,
     ReturnHome,
     Say,
@@ -122,6 +123,8 @@ def _step(act: Act) -> Step:
     if act.kind == "wait_for":
         name = "time" if ":" in what else "object" if what in _PERSONS else "word"
         return WaitFor.model_validate({name: what})
+    if act.kind == "recall":
+        return Recall(object=what or None, place=act.where)
     if act.kind == "say":
         return Say(text=what or "hello")
     place = {"place": act.where} if act.kind == "look" else {}

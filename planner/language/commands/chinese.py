@@ -105,7 +105,7 @@ _ORDERS = (
 )
 _KEEP = r"(?:记住|记下来?|记一下|记好|记得|牢记|请记|别忘了?|不要忘(?:了|记)?|别忘记)"
 TEACH = re.compile(
-    rf"{_KEEP}[,:]+(?P<a>.{{3,}})|{_KEEP}(?P<b>(?!{_ORDERS}).{{4,}})|(?P<c>{_THIS_IS})"
+    rf"{_KEEP}[,:]+(?P<a>.{{3,}})|{_KEEP}(?P<b>(?!{_ORDERS}|记|.*这个(?:地方|地点|位置)$).{{4,}})|(?P<c>{_THIS_IS})"
     rf"|{_KEEP}(?P<d>{_THIS_IS})"
 )
 """What is to be remembered, word for word."""

@@ -51,7 +51,7 @@ ORDERS = {
     ),
     Code.CONDITIONAL: (
         ("go to the kitchen if it is empty", "I can't check the condition “if it is empty”,"),
-        ("如果没人就去厨房", "所以不会开始。"),
+        ("如果天黑了就去厨房", "所以不会开始。"),
     ),
     Code.OUT_OF_SCOPE: (
         ("go to x=1, y=2", "Speeds and coordinates are not mine to choose"),

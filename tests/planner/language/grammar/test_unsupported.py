@@ -33,7 +33,7 @@ STILL_ORDERS = {
 def test_what_was_done_is_asked_or_told_about_and_nothing_moves(
     text: str, understood: Callable[[str], str]
 ) -> None:
-    assert understood(text) == "clarify not_understood"
+    assert understood(text) in ("recall", "clarify not_understood")
 
 
 @pytest.mark.parametrize(("text", "steps"), STILL_ORDERS.items())
