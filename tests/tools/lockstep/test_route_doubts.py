@@ -16,7 +16,7 @@ def set_off(ready: Callable[..., LockstepWorld], order: str) -> tuple[LockstepWo
     goal = world.say(order)
     loop = world.planner.missions.loop
     world.run(4.0)  # into the hallway
-    way = loop.way_ahead()
+    way = loop._engine.way_ahead(3.0)
     assert way is not None
     world.place_obstacle(*way.points[-1])
     return world, goal
