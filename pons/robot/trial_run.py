@@ -40,6 +40,7 @@ WHEEL_STEPS: Final = (
     "power_back", "silence",
 )  # fmt: skip
 GYRO_STEPS: Final = ("gyro_left",)
+BASES_WITH_GYRO: Final = frozenset({"waveshare", "turtlebot3"})
 LIDAR_STEPS: Final = ("lidar_clear", "lidar_front", "lidar_left")
 
 
@@ -61,7 +62,8 @@ def plan_steps(robot: RobotDescription) -> tuple[str, ...]:
 
 def has_base_gyro(robot: RobotDescription) -> bool:
     """Return whether robot.toml counts on a gyro that the base itself reports."""
-    return robot.inputs.imu and not robot.imu.is_on_i2c
+    reports = robot.drive.kind in BASES_WITH_GYRO
+    return robot.inputs.imu and not robot.imu.is_on_i2c and reports
 
 
 def load_triable(path: Path) -> RobotDescription:

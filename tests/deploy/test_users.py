@@ -125,7 +125,7 @@ def test_what_the_planners_user_may_say_is_what_the_bridge_lets_anybody_ask() ->
     """The law that the table above shows, from the files alone; and where a person says it is."""
     said = {key for door in DOORS for key in expected("pons-planner", door)}
     assert said == {key.path for key in BRIDGE_DOOR.hears} | {"loc/hint"}
-    assert all(key.startswith(("cmd/", "op/")) for key in said - {"loc/hint"})
+    assert all(key.startswith(("cmd/", "op/")) for key in said - {"loc/hint", "trial/order"})
     assert "op/estop_link" not in said
     assert {key for door in DOORS for key in expected("stranger", door)} == set()
 
