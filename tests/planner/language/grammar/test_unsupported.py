@@ -17,6 +17,11 @@ NO_ORDER = (
     "你数了几把椅子",
     "厨房里找到杯子了吗", "在厨房找到了杯子", "你在厨房看到了几个人", "你在厨房发现了什么",
 )  # fmt: skip
+RECALLED = frozenset(
+    ("did you find the cup", "what did you find?", "did you see anyone in the kitchen",
+     "tell me what you saw in the kitchen", "你在厨房看到了几个人", "你在厨房发现了什么")
+)  # fmt: skip
+"""What memory answers, and nothing moves for it either."""
 STILL_ORDERS = {
     "go to the kitchen and tell me what you saw": "kitchen look=tell me what you saw@kitchen",
     "go to the kitchen and tell me how many cups you found": "kitchen count=cups@kitchen",
@@ -33,7 +38,7 @@ STILL_ORDERS = {
 def test_what_was_done_is_asked_or_told_about_and_nothing_moves(
     text: str, understood: Callable[[str], str]
 ) -> None:
-    assert understood(text) in ("recall", "clarify not_understood")
+    assert understood(text) == ("recall" if text in RECALLED else "clarify not_understood")
 
 
 @pytest.mark.parametrize(("text", "steps"), STILL_ORDERS.items())
