@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from bridge.drive import open_serial_drive, require_brakes
+from bridge.drive.serial_drive import SERIAL_PROTOCOLS
 from devices import LastingPort, PortTrouble
 from pons.calibrate.robot_toml import replace
 from pons.robot.gyro_trial import BaseGyroSource, try_gyro
@@ -40,7 +41,6 @@ WHEEL_STEPS: Final = (
     "power_back", "silence",
 )  # fmt: skip
 GYRO_STEPS: Final = ("gyro_left",)
-BASES_WITH_GYRO: Final = frozenset({"waveshare", "turtlebot3"})
 LIDAR_STEPS: Final = ("lidar_clear", "lidar_front", "lidar_left")
 
 
@@ -62,8 +62,10 @@ def plan_steps(robot: RobotDescription) -> tuple[str, ...]:
 
 def has_base_gyro(robot: RobotDescription) -> bool:
     """Return whether robot.toml counts on a gyro that the base itself reports."""
-    reports = robot.drive.kind in BASES_WITH_GYRO
-    return robot.inputs.imu and not robot.imu.is_on_i2c and reports
+    if not robot.inputs.imu or robot.imu.is_on_i2c:
+        return False
+    protocol_of = SERIAL_PROTOCOLS.get(robot.drive.kind)
+    return protocol_of is not None and protocol_of(robot, "trial").gyro is not None
 
 
 def load_triable(path: Path) -> RobotDescription:

@@ -80,8 +80,12 @@ def test_what_a_step_saw_stands_beside_it() -> None:
 
 
 def test_every_step_has_its_words() -> None:
-    robot = load_robot(ROOT / "robots" / "pons_mcu_ld19.toml")
-    assert list(plan_steps(robot)) == list(STEPS)
+    bare = load_robot(ROOT / "robots" / "pons_mcu_ld19.toml")
+    with_gyro = load_robot(ROOT / "robots" / "waveshare_ugv_rover.toml")
+    planned = {*plan_steps(bare), *plan_steps(with_gyro)}
+    assert planned == set(STEPS)
+    assert "gyro_left" in plan_steps(with_gyro)
+    assert "gyro_left" not in plan_steps(bare)
 
 
 @contextmanager
