@@ -48,6 +48,7 @@ class HostileDrive(Drive):
 
     lens: Callable[[Ranges, int], Ranges] = staticmethod(lambda ranges, _: ranges)
     stamp: Callable[[float, int], float] = staticmethod(lambda now_s, _: now_s)
+    seq: Callable[[int], int] = staticmethod(lambda turn: turn)
     boot: Callable[[int], str] = staticmethod(lambda _: "lidar-1")
 
     def make_scan(self, ranges: Ranges) -> Scan:
@@ -57,7 +58,7 @@ class HostileDrive(Drive):
             "stamp_s": self.stamp(self.now_s, self.turns),
             "boot_id": self.boot(self.turns),
         }
-        return scan_of(ranges, self.now_s, self.turns).model_copy(update=changed)
+        return scan_of(ranges, self.now_s, self.seq(self.turns)).model_copy(update=changed)
 
 
 @pytest.fixture
@@ -134,6 +135,22 @@ def test_stamps_that_lie_age_the_pose_and_nothing_else(drive: HostileDrive, name
     drive.run(2.0)
     assert_honest(drive)
     assert drive.said[-1].quality < POOR_QUALITY, "no scan of this time has come"
+
+
+SEQUENCES: dict[str, Callable[[int], int]] = {
+    "backwards": lambda turn: 10_000 - turn,
+    "constant": lambda _: 7,
+    "with gaps": lambda turn: turn * 1000,
+}
+
+
+@pytest.mark.parametrize("name", SEQUENCES)
+def test_numbers_of_scans_that_lie_make_no_confident_wrong_pose(
+    drive: HostileDrive, name: str
+) -> None:
+    drive.seq = SEQUENCES[name]
+    drive.run(SECONDS, Pose2(0.01, 0.0, 0.02))
+    assert_honest(drive)
 
 
 def test_two_lidars_on_one_key_are_one_room(drive: HostileDrive) -> None:

@@ -288,6 +288,19 @@ def test_the_same_hint_said_again_is_answered_once(drive: Drive) -> None:
     assert drive.localizer.hint_answer is answered
 
 
+def test_a_thousand_hints_a_second_move_the_pose_nowhere_and_cost_one_answer_each(
+    drive: Drive,
+) -> None:
+    for number in range(1000):
+        drive.localizer.hear_hint(hint(f"here-{number}", Pose2(4.4, 2.0, 0.0), 0.3))
+        if number % 100 == 0:
+            drive.run(0.1)
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is not None
+    assert drive.localizer.hint_answer.code == "does_not_fit"
+    assert drive.error_m() < 0.03
+
+
 def test_a_persons_word_is_refused_in_motion_and_before_a_scan(drive: Drive) -> None:
     Drive().localizer.hear_hint(hint("a", START, 1.0))
     early = Drive().localizer

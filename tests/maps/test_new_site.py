@@ -77,6 +77,34 @@ def test_a_robot_that_made_the_map_begins_where_it_began(tmp_path: Path) -> None
         new_site(loaded, RADIUS_M, Pose2(-0.9, -0.9, 0.0))
 
 
+def test_floor_in_a_thousand_islands_becomes_one_site_with_a_fence_around_home(
+    tmp_path: Path,
+) -> None:
+    picture = two_rooms()
+    islands: Picture = np.full((picture.shape[0], 320), 205, np.uint8)
+    islands[:, :200] = picture
+    islands[2:-2:4, 202:-2:4] = 254
+    made = new_site(load_map(written(tmp_path, islands, 0.19)), RADIUS_M)
+    made.write(tmp_path / "s")
+    site = Site.load(tmp_path / "s")
+    assert site.fence.allows(made.home.x_m, made.home.y_m)
+    assert not site.fence.allows(-1 + 210.5 * CELL_M, -1 + 60.5 * CELL_M)
+    assert len(made.rooms) == 2
+
+
+def test_walls_smeared_grey_by_jpeg_stay_walls(tmp_path: Path) -> None:
+    """A map that went through a photograph's format: walls bleed into grey, floor gets spots."""
+    clean = two_rooms()
+    clean[clean == 205] = 0
+    packed = cv2.imencode(".jpg", clean, [cv2.IMWRITE_JPEG_QUALITY, 30])[1]
+    smeared = cv2.imdecode(packed, cv2.IMREAD_GRAYSCALE)
+    loaded = load_map(written(tmp_path, np.asarray(smeared, np.uint8), 0.196))
+    free = cell_array(loaded.grid) == FREE
+    assert not free[np.flipud(clean) == 0].any()
+    new_site(loaded, RADIUS_M).write(tmp_path / "s")
+    assert Site.load(tmp_path / "s").rooms == ()
+
+
 @pytest.mark.parametrize("grey", [0, 205])
 def test_a_map_without_floor_is_refused(tmp_path: Path, grey: int) -> None:
     loaded = load_map(written(tmp_path, np.full((40, 40), grey, np.uint8)))

@@ -20,7 +20,10 @@ from sim.site.classes import PERSON_RADIUS_M
 from wire import compose, wrap
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from tools.lockstep import LockstepWorld
+    from wire import Pose2
 
 LOOK_TICKS = 10
 MOVES_MPS = 0.05
@@ -52,8 +55,18 @@ class TourRecord:
 class RecordedDrive:
     """Drive one world."""
 
-    def __init__(self, world: LockstepWorld, chance: str) -> None:
-        """Take a world that is ready, and what its goals are drawn by."""
+    def __init__(
+        self, world: LockstepWorld, chance: str, goals: Mapping[str, Pose2] | None = None
+    ) -> None:
+        """Take a world that is ready, and what its goals are drawn by.
+
+        Args:
+            world: where to drive.
+            chance: seeds the choice.
+            goals: poses in ``map`` by the names to say; left out, the rooms of a declared home.
+        """
+        rooms = world.sim.home.rooms.values()
+        self._goals = goals or {room.name.en: pose2(room.pose) for room in rooms}
         self._world, self._random = world, Random(chance)
         self.record = TourRecord()
         self._contacts: Counter[str] = Counter()
@@ -73,14 +86,14 @@ class RecordedDrive:
         return self.record
 
     def _go(self, end_s: float) -> None:
-        world, home = self._world, self._world.sim.home
-        room_id = self._random.choice(sorted(home.rooms))
-        pose, began_s = pose2(home.rooms[room_id].pose), world.now_s
+        world = self._world
+        name = self._random.choice(sorted(self._goals))
+        pose, began_s = self._goals[name], world.now_s
         try:
             shortest_m = world.scene.router.route(RouteRequest(world.truth, pose)).length_m
         except RouteFailure:  # it stands where no route begins: pushed, or carried there
             shortest_m = 0.0
-        goal = world.say(f"go to the {home.rooms[room_id].name.en}")
+        goal = world.say(f"go to the {name}")
         self._path_m = 0.0
         while not goal.has_ended and world.now_s < began_s + GOAL_LIMIT_S:
             if world.now_s >= end_s:
