@@ -74,12 +74,11 @@ def children(
     if has_ros2:
         found.insert(int(simulated), _ros2(common, ros2_port, logs))
     _secure(found, issued)
-    if simulated and (robot.camera.kind == "sim" or robot.camera.is_real):
-        arguments = ["sim.camera", *world, *domain]
-        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
-    elif robot.camera.is_real:
-        arguments = ["sensors.camera", *common]
-        found.append(Child("camera", arguments, logs / "camera.log", waits_for_ready=True))
+    if not simulated and robot.inputs.imu and robot.imu.is_on_i2c:
+        found.insert(0, Child("imu", ["sensors.imu", *common], logs / "imu.log"))
+    seen = ["sim.camera", *world, *domain] if simulated else ["sensors.camera", *common]
+    if robot.camera.is_real or (simulated and robot.camera.kind == "sim"):
+        found.append(Child("camera", seen, logs / "camera.log", waits_for_ready=True))
     return found
 
 

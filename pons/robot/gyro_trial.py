@@ -6,16 +6,24 @@ nothing. First the robot stands, so that what the gyro says standing is known; t
 
 from __future__ import annotations
 
+import time
+from functools import partial
 from math import degrees, isfinite
 from typing import TYPE_CHECKING, Final, Protocol
 
 from devices.inertial import MOST_RADPS, Mounting, Vector
 from pons.robot.trial_parties import TrialRefusal
+from sensors.imu.bus import SmBus
+from sensors.imu.reader import ImuReader
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from bridge.drive import SerialDrive
     from devices.inertial import InertialReading
     from pons.robot.trial_parties import TrialPace, TrialPerson
+    from sensors.imu.bus import I2cBus
+    from wire import RobotDescription
     from wire.imu_config import Axis, ImuConfig
 
 STILL_S = 2.0
@@ -28,6 +36,8 @@ TURNED_RAD = 0.6
 OTHER_SHARE = 0.5
 """So much of the largest turn about another axis is a robot that was tipped."""
 AXES: Final[tuple[Axis, ...]] = ("x", "y", "z")
+_SETTLES: Final = frozenset({"imu_starting", "imu_unsettled"})
+"""A chip that was just opened; and one that is turned, whose bias the trial takes away itself."""
 
 Timed = tuple[float, "InertialReading"]
 
@@ -55,6 +65,47 @@ class BaseGyroSource:
         heard = list(gyro.heard)
         gyro.heard.clear()
         return heard
+
+    def close(self) -> None:
+        """Hold nothing: the base's port is the trial's."""
+
+
+class I2cGyroSource:
+    """Be a chip on an I2C bus, read as its process reads it."""
+
+    def __init__(
+        self,
+        robot: RobotDescription,
+        open_bus: Callable[[], I2cBus] | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Read nothing yet.
+
+        Args:
+            robot: its ``[imu]`` names bus and chip.
+            open_bus: opens another bus than that one.
+            clock: now [s].
+        """
+        opens = open_bus or partial(SmBus, robot.imu.bus or 0)
+        self._clock = clock
+        self._reader = ImuReader(robot.imu, opens, "trial", clock())
+
+    def readings(self) -> list[Timed]:
+        """Read once.
+
+        Raises:
+            TrialRefusal: ``gyro_silent``, with the code of what is wrong with the chip.
+        """
+        now_s = self._clock()
+        self._reader.turn(now_s)
+        trouble = self._reader.judge(now_s)
+        if trouble is not None and trouble.code not in _SETTLES:
+            raise TrialRefusal("gyro_silent", f"{trouble.code}: {trouble.detail}")
+        return [] if self._reader.reading is None else [self._reader.reading]
+
+    def close(self) -> None:
+        """Give the bus back."""
+        self._reader.close()
 
 
 def try_gyro(imu: ImuConfig, source: GyroSource, pace: TrialPace, person: TrialPerson) -> float:

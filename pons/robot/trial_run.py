@@ -7,16 +7,16 @@ from __future__ import annotations
 
 import secrets
 import time
+from contextlib import closing
 from dataclasses import dataclass
 from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from bridge.drive import open_serial_drive, require_brakes
-from bridge.drive.serial_drive import SERIAL_PROTOCOLS
 from devices import LastingPort, PortTrouble
 from pons.calibrate.robot_toml import replace
-from pons.robot.gyro_trial import BaseGyroSource, try_gyro
+from pons.robot.gyro_trial import BaseGyroSource, I2cGyroSource, try_gyro
 from pons.robot.lidar_trial import try_lidar
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.wheel_trial import WheelTrial
@@ -24,6 +24,7 @@ from pons_assets import IS_INSTALLED, ROBOT_FILE
 from sensors.lidar.kinds import kind_of
 from sensors.lidar.reader import LidarReader
 from wire import ConfigError, load_robot
+from wire.drive_config import DRIVE_KINDS
 from wire.ros2_config import ROS2
 from wire.trial_record import TrialRecord, wiring_of
 
@@ -55,17 +56,15 @@ class TrialResult:
 
 def plan_steps(robot: RobotDescription) -> tuple[str, ...]:
     """Return the steps that a trial of this robot has, in order."""
-    gyro = GYRO_STEPS if has_base_gyro(robot) else ()
+    gyro = GYRO_STEPS if has_gyro(robot) else ()
     lidar = () if robot.lidar.is_simulated else LIDAR_STEPS
     return (*WHEEL_STEPS, *gyro, *lidar, "write")
 
 
-def has_base_gyro(robot: RobotDescription) -> bool:
-    """Return whether robot.toml counts on a gyro that the base itself reports."""
-    if not robot.inputs.imu or robot.imu.is_on_i2c:
-        return False
-    protocol_of = SERIAL_PROTOCOLS.get(robot.drive.kind)
-    return protocol_of is not None and protocol_of(robot, "trial").gyro is not None
+def has_gyro(robot: RobotDescription) -> bool:
+    """Return whether robot.toml counts on a gyro: the base's own, or a chip on I2C."""
+    kind = DRIVE_KINDS[robot.drive.kind]
+    return robot.inputs.imu and (robot.imu.is_on_i2c or kind.has_gyro)
 
 
 def load_triable(path: Path) -> RobotDescription:
@@ -152,17 +151,20 @@ class _WallPace:
 
 
 def _try_base(robot: RobotDescription, person: TrialPerson) -> tuple[WheelFindings, float | None]:
-    """Try the wheels and, where there is one, the base's own gyro: by how much it turned [rad]."""
+    """Try the wheels and, where there is one, the gyro: by how much it turned [rad]."""
     boot = secrets.token_hex(6)
     drive = open_serial_drive(robot, boot, for_trial=True)
     try:
         require_brakes(drive)
         _require_port(drive)
         found = WheelTrial(drive, robot, _WallPace(), person, boot).run()
-        if not has_base_gyro(robot):
+        if not has_gyro(robot):
             return found, None
         person.tell("gyro_left", f"{found.dead_man_s:.2f} s ({found.brake_s:.2f} s)")
-        return found, try_gyro(robot.imu, BaseGyroSource(drive), _WallPace(), person)
+        with closing(
+            I2cGyroSource(robot) if robot.imu.is_on_i2c else BaseGyroSource(drive)
+        ) as gyro:
+            return found, try_gyro(robot.imu, gyro, _WallPace(), person)
     except TrialRefusal as refusal:
         if refusal.code == "trial_silent":
             _require_port(drive)  # it went meanwhile: that is the better word

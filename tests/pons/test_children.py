@@ -88,6 +88,22 @@ def test_a_camera_of_metal_has_its_process_and_where_a_twin_plays_is_drawn(
         assert found["camera"][0] == ("sim.camera" if twin else "sensors.camera")
 
 
+@pytest.mark.parametrize("twin", [False, True])
+@pytest.mark.parametrize("counts", [False, True])
+def test_a_gyro_on_i2c_has_its_process_where_metal_counts_on_it(
+    tmp_path: Path, twin: bool, counts: bool
+) -> None:
+    chip = {"kind": "mpu6050", "bus": 1, "address": 0x68} if counts else {}
+    robot = RobotDescription.model_validate({"drive": MCU, "imu": chip, "inputs": {"imu": counts}})
+    settings = LaunchSettings(
+        tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
+    )
+    found = {child.name: child.arguments for child in children(settings, robot)}
+    assert ("imu" in found) == (counts and not twin)
+    if "imu" in found:
+        assert found["imu"][0] == "sensors.imu"
+
+
 ROS2 = {"url": "ws://10.0.0.5:9090", "scan": "/scan", "imu": "/imu"}
 
 

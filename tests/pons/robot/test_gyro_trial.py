@@ -9,9 +9,10 @@ import pytest
 
 from bridge.drive.base_gyro import KEPT
 from devices.inertial import InertialReading, Mounting, Vector
-from pons.robot.gyro_trial import STILL_S, BaseGyroSource, Timed, try_gyro
+from pons.robot.gyro_trial import STILL_S, BaseGyroSource, I2cGyroSource, Timed, try_gyro
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_words import PROMPTS, REFUSALS
+from sim.twin.imu_chips import Mpu6050Twin
 from tests.pons.robot.stand import Stand
 from wire import Imu, RobotDescription
 from wire.imu_config import ImuConfig
@@ -144,3 +145,43 @@ def test_a_robot_without_a_gyro_of_its_own_has_no_readings() -> None:
     stand = Stand(RobotDescription.model_validate({"drive": drive}))
     assert BaseGyroSource(stand.drive).readings() == []
     assert isinstance(stand.drive.take_imu(), Imu | None)
+
+
+CHIP = ImuConfig(kind="mpu6050", bus=1, address=0x68)
+
+
+@dataclass
+class ChipBench(Bench):
+    """Turn a chip on an I2C bus; what it says is read as its process reads it."""
+
+    chip: Mpu6050Twin = field(default_factory=Mpu6050Twin)
+    unplugged_from_s: float = 1e9
+
+    def __post_init__(self) -> None:
+        robot = RobotDescription(imu=CHIP)
+        self.source = I2cGyroSource(robot, lambda: self.chip, self.now_s)
+
+    def readings(self) -> list[Timed]:
+        self.chip.is_plugged = self.time_s < self.unplugged_from_s
+        rate_radps = self.angle_rad / TURN_S if self._left else 0.0
+        at = {"boot_id": "b", "seq": 1, "stamp_s": self.time_s}
+        moved = {"yaw_rate_radps": rate_radps, "accel_x_mps2": 0.0, "accel_y_mps2": 0.0}
+        self.chip.feel(Imu.model_validate(at | moved))
+        return self.source.readings()
+
+
+def test_a_chip_on_i2c_is_tried_as_the_bases_own_is() -> None:
+    bench = ChipBench()
+    assert tried(bench, CHIP) == pytest.approx(pi / 2, abs=0.1)
+    bench.source.close()
+    assert bench.chip.closed == 1
+
+
+def test_a_chip_on_i2c_that_turns_right_is_named() -> None:
+    assert refused(ChipBench(angle_rad=-pi / 2), CHIP).code == "gyro_backwards"
+
+
+def test_a_chip_that_does_not_answer_is_named_with_its_own_code() -> None:
+    told = refused(ChipBench(unplugged_from_s=0.0), CHIP)
+    assert told.code == "gyro_silent"
+    assert "imu_silent" in told.detail

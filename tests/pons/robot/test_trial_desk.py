@@ -17,6 +17,7 @@ from pons.robot.trial_run import plan_steps
 from pons.robot.trial_words import STEPS
 from tests.conftest import ROOT
 from wire import Proof, TrialOrder, TrialState, load_robot, sign
+from wire.imu_config import ImuConfig
 from wire.keys import TRIAL_STATE
 from wire.trial_dialogue import UNWATCHED_S
 
@@ -86,6 +87,10 @@ def test_every_step_has_its_words() -> None:
     assert planned == set(STEPS)
     assert "gyro_left" in plan_steps(with_gyro)
     assert "gyro_left" not in plan_steps(bare)
+    chip = ImuConfig(kind="mpu6050", bus=1, address=0x68)
+    counts = bare.inputs.model_copy(update={"imu": True})
+    on_i2c = bare.model_copy(update={"imu": chip, "inputs": counts})
+    assert "gyro_left" in plan_steps(on_i2c)
 
 
 @contextmanager
