@@ -19,7 +19,7 @@ pytestmark = pytest.mark.e2e
 AXE = ROOT / "web" / "node_modules" / "axe-core" / "axe.min.js"
 PHONE = (360, 740)
 LEAST_STOP_PX = 64
-TABS = ("robot", "log", "places", "objects", "drive")
+TABS = ("robot", "log", "orders", "places", "objects", "drive")
 
 
 def assert_fits(page: Page) -> None:
@@ -131,6 +131,8 @@ def test_all_can_be_reached_by_keyboard(robot: Robot, open_page: OpenPage) -> No
         reached.add(page.evaluate("document.activeElement.id || document.activeElement.tagName"))
     assert {"stop", "goal-text", "tab-drive"} <= reached
     page.focus("#tab-drive")
+    page.keyboard.press("ArrowRight")
+    page.locator("#tab-orders:focus").wait_for()
     page.keyboard.press("ArrowRight")
     page.locator("#teach-title").wait_for()
     page.focus("#teach-en")  # a name and Enter are enough: the rest of a place is where it stands

@@ -277,6 +277,7 @@ export const en = {
   "memory.seen": "seen {at}",
   "memory.on": "on: {what}",
   "memory.forgot": "Forgotten: {count}.",
+  "memory.forget_one": "Forget in memory",
   "memory.forget_all": "Forget everything",
   "objects.title": "Things it has seen",
   "objects.none": "Nothing has been seen yet.",

@@ -157,7 +157,7 @@ function Line({ memory }: { readonly memory: Memory }) {
         ) : (
           <button
             type="button"
-            aria-label={`${t("places.forget")}: ${what}`}
+            aria-label={`${t("memory.forget_one")}: ${what}`}
             onClick={() => (doubted.value = memory.id)}
           >
             {t("places.forget")}
