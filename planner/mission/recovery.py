@@ -59,8 +59,9 @@ NEW_LADDER_M = 1.0
 MAX_LADDERS = 12
 """In one step: a busy home shuts a way often, but not for ever."""
 MAX_WALKER_LADDERS = 3
-"""In one step, in a row, before somebody who walked up: people go on in the end, and who waits for
-them is met again further on."""
+"""In a row before somebody who walked up and stands: people go on in the end, and who waits for them
+is met again further on. Where people come and go, as at a door in use, the count begins anew with
+each who is seen to walk there; how often the ladder is begun in a step is the bound then."""
 MAX_GIVEN_WAY = 3
 """In one step."""
 WALKER_S = 1.0
@@ -120,7 +121,7 @@ class RecoveryRecord(Frozen):
     newest: ShutWay | None = None
     """What stood in the way last."""
     climbed_again: int = 0
-    """Times that the ladder was begun anew before somebody who walked up."""
+    """Times that the ladder was begun anew since somebody was last seen to walk there."""
     given_way: int = 0
     """Times that the robot stood aside."""
     approaches: int = 0
@@ -218,6 +219,13 @@ def note_obstruction(
 
     Met on another ladder it was visited again: the robot had left it, and came back. Somebody who
     walks shuts no way: they will be elsewhere.
+
+    Args:
+        record: what the step has tried so far.
+        seen: what stands there now.
+        now_unix_s: now.
+        local_offset_s: of people's own clock from UTC.
+        moves: somebody was seen to walk there within the last seconds.
     """
     met = (*record.shut, *((record.newest,) if record.newest is not None else ()))
     known = next((way for way in met if is_same(way.obstruction, seen)), None)
@@ -233,7 +241,8 @@ def note_obstruction(
     )
     others = tuple(w for w in record.shut if not is_same(w.obstruction, seen))
     shut = others if way.moves else (*others, way)[-MAX_SHUT:]
-    return record.model_copy(update={"shut": shut, "newest": way})
+    climbed = 0 if moves else record.climbed_again
+    return record.model_copy(update={"shut": shut, "newest": way, "climbed_again": climbed})
 
 
 def note_open(record: RecoveryRecord, gone: ShutWay) -> RecoveryRecord:

@@ -241,6 +241,34 @@ def test_before_somebody_who_walked_up_the_ladder_is_climbed_thrice(world: Toget
     assert 40.0 <= world.now_s - began_s <= 100.0
 
 
+def let_people_pass(world: Together, goal: str, seconds: float) -> None:
+    """Have somebody walk through the door every five seconds, until the goal ends or time is up."""
+    end_s = world.now_s + seconds
+    while world.now_s < end_s and world.goal(goal).state is RUNNING:
+        world.event(Surveyed(CRATE, moves=True))
+        world.run(5.0)
+
+
+def test_where_people_come_and_go_it_waits_on_and_arrives_when_they_are_gone(
+    world: Together,
+) -> None:
+    goal = walked_up(world)
+    let_people_pass(world, goal, 150.0)
+    assert world.goal(goal).state is RUNNING
+    world.bridge.blocked = False
+    world.way = lambda ask: None
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_where_people_come_and_go_for_ever_it_gives_up_in_the_end(world: Together) -> None:
+    goal = walked_up(world)
+    let_people_pass(world, goal, 900.0)
+    mission = world.goal(goal)
+    assert mission.state is FAILED
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.BLOCKED
+
+
 def test_who_leaves_on_the_second_ladder_lets_the_robot_arrive(world: Together) -> None:
     goal = walked_up(world)
     world.run(35.0)
