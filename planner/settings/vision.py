@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field
 
 DecoderName = Literal[
     "yolov5", "yolov8", "end_to_end", "yolox", "yolox_decoded", "rtdetr", "rtdetr_rows", "rfdetr"
 ]
+DECODERS: tuple[str, ...] = get_args(DecoderName)
+"""Layouts of outputs that are read; docs/vision.md says who makes which."""
 ProviderName = Literal["tensorrt", "cuda", "openvino", "coreml", "cpu"]
 
 

@@ -18,6 +18,7 @@ from planner.perception.detect.depth_hints import hints
 from planner.perception.detect.depth_sampling import ANY, look_inside
 from planner.perception.detect.detections import Row, filter_rows, in_picture
 from planner.perception.detect.image_decode import Depth, Picture, unpack_color, unpack_depth
+from planner.perception.detect.input_size import unbatched
 from planner.perception.detect.model_file import Model, ModelOptions, open_model
 from planner.perception.detect.nms import strongest, suppress
 from planner.perception.detect.preprocess import Preparer
@@ -143,7 +144,10 @@ class OnnxDetector:
 
     def feeds(self, buffer: Array) -> Mapping[str, Array]:
         """Return all that the model is fed with such an input."""
-        return {self.model.input.name: buffer, **self.model.beside}
+        return {
+            self.model.input.name: unbatched(buffer, self.model.input),
+            **self.model.beside,
+        }
 
     def _detections(
         self, rows: list[Row], picture: Picture, depth: Depth | None, focal_px: float | None

@@ -9,9 +9,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from planner.perception.detect.class_names import literal
-from planner.perception.detect.decoders.base import UNTOLD, Decoder
+from planner.perception.detect.decoders.base import UNTOLD, Decoder, NamedDecoder
 from planner.perception.detect.decoders.end_to_end import EndToEnd
 from planner.perception.detect.decoders.layout_trial import (
+    check_labelled,
     check_scores,
     check_suppressed,
     has_objectness,
@@ -34,7 +35,7 @@ ALL: dict[str, Kind] = {
 }
 BY_CLASSES: tuple[Kind, ...] = (YoloV8, YoloV5, YoloX, DecodedYoloX)
 """Told apart by how many classes their shape makes beside how many names there are."""
-BY_NAMES: tuple[Kind, ...] = (RtDetr, RfDetr)
+BY_NAMES: tuple[type[NamedDecoder], ...] = (RtDetr, RfDetr)
 BY_SHAPE: tuple[Kind, ...] = (YoloV5, YoloX, DecodedYoloX, YoloV8, EndToEnd)
 DETECT = "detect"
 
@@ -59,6 +60,8 @@ def choose(facts: Facts, wanted: str | None = None) -> Choice:
     classes = _classes(kind, facts)
     if kind is EndToEnd:
         check_suppressed(facts)
+    elif kind is RtDetr:
+        check_labelled(facts, RtDetr.OUTPUTS)
     elif kind not in BY_NAMES:
         check_scores(facts, kind.NAME, in_rows=kind is not YoloV8 or is_turned(facts))
     return Choice(kind(facts), why, classes)
@@ -125,9 +128,14 @@ def _is_rtdetr(facts: Facts) -> bool:
 
 
 def _by_names(facts: Facts) -> tuple[Kind, str] | None:
-    for kind in BY_NAMES:
+    named = [kind for kind in BY_NAMES if all(name in facts.outputs for name in kind.OUTPUTS)]
+    for kind in named:
         if kind.classes_of(facts) is not None:
             return kind, f"outputs are named {', '.join(facts.outputs)}"
+    if named:
+        told = "; or ".join(f"for {kind.NAME} {kind.EXPECTED}" for kind in named)
+        text = f"outputs: {facts.describe()}; expected {told}"
+        raise VisionFailure("model_layout_unknown", text)
     return None
 
 

@@ -144,9 +144,46 @@ def write(
     return path
 
 
-def sizes() -> Any:
-    """Return the input by which RT-DETR and D-FINE ask for the picture's size."""
-    return helper.make_tensor_value_info("orig_target_sizes", TensorProto.INT64, (1, 2))
+def sizes(
+    name: str = "orig_target_sizes",
+    shape: Sequence[int | str] = (1, 2),
+    kind: int = TensorProto.INT64,
+) -> Any:
+    """Return the input by which RT-DETR, D-FINE and the like ask for the picture's size."""
+    return helper.make_tensor_value_info(name, kind, shape)
+
+
+def asking(path: Path, shares: Array, shape: Sequence[int], *, height_first: bool) -> Path:
+    """Write a DETR without batches whose boxes are shares (n x 4) of the size that it is told."""
+    order = [1, 0, 1, 0] if height_first else [0, 1, 0, 1]
+    count = len(shares)
+    constants = {
+        "shares": shares,
+        "order": np.array(order, np.int64),
+        "labels_are": np.ones(count, np.int64),
+        "scores_are": np.full(count, 0.9, np.float32),
+    }
+    made = helper.make_graph(
+        [
+            helper.make_node("Cast", ["orig_target_size"], ["told"], to=TensorProto.FLOAT),
+            helper.make_node("Gather", ["told", "order"], ["edges"], axis=0),
+            helper.make_node("Mul", ["shares", "edges"], ["boxes"]),
+            helper.make_node("Identity", ["labels_are"], ["labels"]),
+            helper.make_node("Identity", ["scores_are"], ["scores"]),
+        ],
+        "asking",
+        [
+            helper.make_tensor_value_info("images", TensorProto.FLOAT, shape),
+            sizes("orig_target_size", (2,), TensorProto.INT32),
+        ],
+        [
+            helper.make_tensor_value_info("labels", TensorProto.INT64, (count,)),
+            helper.make_tensor_value_info("boxes", TensorProto.FLOAT, (count, 4)),
+            helper.make_tensor_value_info("scores", TensorProto.FLOAT, (count,)),
+        ],
+        [numpy_helper.from_array(it, name) for name, it in constants.items()],
+    )
+    return write(path, made, {"names": str(list(NAMES))})
 
 
 def centred(box: Sequence[float]) -> tuple[float, float, float, float]:
@@ -219,6 +256,12 @@ def rtdetr(seen: Sequence[Seen]) -> dict[str, Array]:
     for row, it in enumerate(seen):
         labels[0, row], boxes[0, row], scores[0, row] = it.number, it.box, it.score
     return {"labels": labels, "boxes": boxes, "scores": scores}
+
+
+def rtdetr_alone(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return labels n, boxes n x 4 and scores n, without a batch around them, in another order."""
+    of = {name: output[0] for name, output in rtdetr(seen).items()}
+    return {"scores": of["scores"], "labels": of["labels"].astype(np.int32), "boxes": of["boxes"]}
 
 
 def rtdetr_rows(seen: Sequence[Seen]) -> dict[str, Array]:
