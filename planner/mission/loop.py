@@ -37,7 +37,7 @@ from planner.mission.events import Command, Event, Journalled, Restarted, Sighte
 from planner.mission.gc_control import Collector
 from planner.mission.journal_sync import Disk
 from planner.mission.perception_requests import EyeDoor
-from planner.mission.reducer import asked_about_picture, looks
+from planner.mission.reducer import asked_about_picture, looks, looks_widely
 from planner.mission.skills import Eyesight
 from planner.mission.state import GoalKey, MissionState, Rules
 from planner.mission.surveyor import Surveyor
@@ -79,7 +79,7 @@ class Loop:
         self._progress: Progress | None = None
         self._eyes: Eyes | None = None
         self._door = EyeDoor(None)
-        self._attends = False
+        self._attends = (False, False)
         self._acts: dict[str, OpRequest] = {}
         self._surveyor = surveyor
         self._obstacles: ScanSender | None = None
@@ -302,10 +302,13 @@ class Loop:
 
     def _attend(self) -> None:
         """Have the eyes look at their full rate while a step needs them."""
-        wanted = looks(self.book)
-        if self._eyes is not None and wanted != self._attends:
+        if self._eyes is None:
+            return
+        wide = looks_widely(self.book, self._eyes.open_classes)
+        wanted = looks(self.book), wide
+        if wanted != self._attends:
             self._attends = wanted
-            self._eyes.attend("mission", wanted)
+            self._eyes.attend("mission", wanted[0], wide=wide)
 
     def _seen_anew(self) -> None:
         """Take what the eyes said last once more: their classes can be read now."""

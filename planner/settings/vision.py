@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 DecoderName = Literal[
-    "yolov5", "yolov8", "end_to_end", "yolox", "yolox_decoded", "rtdetr", "rtdetr_rows", "rfdetr"
-]
+    "yolov5", "yolov8", "end_to_end", "yolox", "yolox_decoded", "rtdetr", "rtdetr_rows", "rfdetr",
+    "mmyolo", "detr_logits", "owlvit", "owlv2"
+]  # fmt: skip
+OPEN = "open"
 DECODERS: tuple[str, ...] = get_args(DecoderName)
 """Layouts of outputs that are read; docs/vision.md says who makes which."""
 ProviderName = Literal["tensorrt", "cuda", "openvino", "coreml", "cpu"]
@@ -28,6 +30,9 @@ class VisionSettings(BaseModel):
 
     model: Path | None = None
     """A detector's ONNX file, relative to the home folder; None: the one that comes with Pons."""
+    detector: Literal["open"] | None = None
+    """``open``: the model is an open-vocabulary export and looks beside the detector that comes
+    with Pons, for the kinds that one does not know, while a step needs it. None: it alone looks."""
     labels: Path | None = None
     """A file with the model's class names, one a line, where the model does not name them."""
     decoder: DecoderName | None = None
@@ -43,6 +48,12 @@ class VisionSettings(BaseModel):
     """What scores less is not reported; None: what the model's file says of each class, or 0.4."""
     input_px: Annotated[int, Field(ge=32, le=2048, multiple_of=32)] | None = None
     """Width and height of the input of a model that leaves them open."""
+
+    @model_validator(mode="after")
+    def _has_a_model(self) -> Self:
+        if self.detector == OPEN and self.model is None:
+            raise ValueError("detector = 'open' needs model: the ONNX file of that detector")
+        return self
 
 
 FILES = ("model", "labels")

@@ -21,6 +21,7 @@ from planner.plan import (
     Bilingual,
     BrainTag,
     Code,
+    Find,
     GoalState,
     GoToObject,
     GoToPoint,
@@ -46,6 +47,8 @@ class FakeEyes:
         self._bridge, self.seq = bridge, 1
         self.behind = 0
         self.attended: list[tuple[str, bool]] = []
+        self.wide: list[bool] = []
+        self.open_classes: tuple[str, ...] = ()
         self.pointed: list[int] = []
         self.refuses: str | None = None
         self._told: list[Callable[[Sight], None]] = []
@@ -57,7 +60,7 @@ class FakeEyes:
 
     @property
     def classes(self) -> tuple[str, ...]:
-        return ("cup",)
+        return ("cup", *self.open_classes)
 
     @property
     def picture(self) -> Picture | None:
@@ -80,8 +83,9 @@ class FakeEyes:
     def listen(self, told: Callable[[Sight], None]) -> None:
         self._told.append(told)
 
-    def attend(self, who: str, wanted: bool) -> None:
+    def attend(self, who: str, wanted: bool, *, wide: bool = False) -> None:
         self.attended.append((who, wanted))
+        self.wide.append(wide)
 
     async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
         self.pointed.append(picture.color.header.seq)
@@ -151,6 +155,32 @@ async def seeing(
 ASKS = GoalState.NEEDS_CLARIFICATION
 DONE = (GoalState.SUCCEEDED, GoalState.FAILED, GoalState.REFUSED)
 WHAT = StepPlan(steps=(Look(question="what does the sign say?"),))
+
+
+def test_the_open_vocabulary_model_looks_where_a_step_needs_it(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        for number, (step, wide) in enumerate(
+            (
+                (Find(object="cup", place="kitchen"), False),
+                (Find(object="umbrella stand", place="kitchen"), True),
+                (Look(question="what is there?"), True),
+            )
+        ):
+            home = tmp_path / str(number)
+            home.mkdir()
+            bridge = LiveBridge(pose=START)
+            eyes = FakeEyes(bridge)
+            eyes.open_classes = ("umbrella_stand",)
+            plan = StepPlan(steps=(step,))
+            async with planner(home, site, plan, bridge=bridge, eyes=eyes) as world:
+                looking = asyncio.create_task(eyes.look_on())
+                goal = await world.missions.submit("please look")
+                await world.until(lambda eyes=eyes: bool(eyes.attended))
+                assert (eyes.attended[0], eyes.wide[0]) == (("mission", True), wide), step
+                await world.missions.cancel(goal.id)
+                looking.cancel()
+
+    run(story())
 
 
 def test_a_models_words_are_told_and_kept_apart_from_ours(tmp_path: Path, site: Site) -> None:

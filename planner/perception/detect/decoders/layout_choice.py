@@ -18,6 +18,8 @@ from planner.perception.detect.decoders.layout_trial import (
     has_objectness,
     in_doubt,
 )
+from planner.perception.detect.decoders.logits import DetrLogits, OwlV2, OwlVit
+from planner.perception.detect.decoders.mmyolo import MmYolo
 from planner.perception.detect.decoders.rfdetr import RfDetr
 from planner.perception.detect.decoders.rtdetr import RtDetr
 from planner.perception.detect.decoders.rtdetr_rows import RtDetrRows
@@ -31,11 +33,15 @@ from planner.perception.failure import VisionFailure
 Kind = type[Decoder]
 ALL: dict[str, Kind] = {
     kind.NAME: kind
-    for kind in (YoloV5, YoloV8, EndToEnd, YoloX, DecodedYoloX, RtDetr, RtDetrRows, RfDetr)
+    for kind in (
+        *(YoloV5, YoloV8, EndToEnd, YoloX, DecodedYoloX, RtDetr, RtDetrRows, RfDetr),
+        *(MmYolo, DetrLogits, OwlVit, OwlV2),
+    )
 }
 BY_CLASSES: tuple[Kind, ...] = (YoloV8, YoloV5, YoloX, DecodedYoloX)
 """Told apart by how many classes their shape makes beside how many names there are."""
-BY_NAMES: tuple[type[NamedDecoder], ...] = (RtDetr, RfDetr)
+BY_NAMES: tuple[type[NamedDecoder], ...] = (MmYolo, RtDetr, RfDetr, OwlV2, OwlVit, DetrLogits)
+"""In this order: of outputs that several know, the one that asks for most is first."""
 BY_SHAPE: tuple[Kind, ...] = (YoloV5, YoloX, DecodedYoloX, YoloV8, EndToEnd)
 DETECT = "detect"
 
@@ -60,8 +66,8 @@ def choose(facts: Facts, wanted: str | None = None) -> Choice:
     classes = _classes(kind, facts)
     if kind is EndToEnd:
         check_suppressed(facts)
-    elif kind is RtDetr:
-        check_labelled(facts, RtDetr.OUTPUTS)
+    elif kind in (RtDetr, MmYolo):
+        check_labelled(facts)
     elif kind not in BY_NAMES:
         check_scores(facts, kind.NAME, in_rows=kind is not YoloV8 or is_turned(facts))
     return Choice(kind(facts), why, classes)

@@ -88,16 +88,19 @@ def check_suppressed(facts: Facts) -> None:
         _check_boxes(facts.trial.reshape(-1, 6), facts)
 
 
-def check_labelled(facts: Facts, outputs: tuple[str, str, str]) -> None:
-    """Refuse labels, boxes and scores, outputs of these names, that can't be some in the trial.
+LABELLED = ("labels", "boxes", "scores")
+
+
+def check_labelled(facts: Facts) -> None:
+    """Refuse outputs named labels, boxes and scores that can't be such in the trial.
 
     Raises:
         VisionFailure: ``model_layout_unknown``, ``model_not_detector`` or ``model_names_wrong``.
     """
     if not facts.results:
         return
-    found = [facts.results[name] for name in outputs]
-    for name, output in zip(outputs, found, strict=True):
+    found = [facts.results[name] for name in LABELLED]
+    for name, output in zip(LABELLED, found, strict=True):
         if output.dtype.kind not in "iuf":
             text = f"{name} holds {output.dtype}; expected numbers"
             raise VisionFailure("model_layout_unknown", text)

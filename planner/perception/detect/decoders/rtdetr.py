@@ -19,6 +19,8 @@ from planner.perception.detect.detections import Row, rows_of
 from planner.perception.detect.model_info import Facts
 from planner.perception.detect.preprocess import Recipe
 
+COUNT = "num_dets"
+
 
 class RtDetr:
     """Decode labels n, boxes n x 4, scores n, each with 1 before it or without."""
@@ -39,7 +41,8 @@ class RtDetr:
 
     @classmethod
     def classes_of(cls, facts: Facts) -> int | None:
-        if not all(name in facts.outputs for name in cls.OUTPUTS):
+        counted = COUNT in facts.outputs  # MMYOLO's: its pictures go in otherwise
+        if counted or not all(name in facts.outputs for name in cls.OUTPUTS):
             return None
         labels, boxes, scores = (facts.outputs[name] for name in cls.OUTPUTS)
         one_picture = len(scores) == 1 or (len(scores) == 2 and scores[0] == 1)
@@ -50,10 +53,10 @@ class RtDetr:
         told = np.asarray(scores, np.float32).reshape(-1)
         kept = told >= min_score
         rows = np.asarray(boxes, np.float32).reshape(-1, 4)[kept] * self._scale
-        return rows_of(rows, told[kept], _numbers(labels.reshape(-1)[kept]))
+        return rows_of(rows, told[kept], class_numbers(labels.reshape(-1)[kept]))
 
 
-def _numbers(labels: NDArray[np.generic]) -> NDArray[np.intp]:
+def class_numbers(labels: NDArray[np.generic]) -> NDArray[np.intp]:
     """Return class numbers; -1 where there is none."""
     if np.issubdtype(labels.dtype, np.integer):
         return np.asarray(labels, np.intp)

@@ -61,6 +61,10 @@ CASES = (
          shape=("N", 3, tiny.SIDE, tiny.SIDE)),
     Case(tiny.rtdetr_rows, "rtdetr_rows", "metadata: described", YOLO | {"description": "rt-detr"}),
     Case(tiny.rfdetr, "rfdetr", "outputs are named dets, labels", labels=True),
+    Case(tiny.mmyolo, "mmyolo", "outputs are named num_dets,", labels=True),
+    Case(tiny.detr_logits, "detr_logits", "outputs are named logits,", labels=True),
+    Case(tiny.owlvit, "owlvit", "outputs are named logits,", labels=True),
+    Case(tiny.owlv2, "owlv2", "outputs are named objectness_logits,", YOLO),
 )  # fmt: skip
 IDS = [f"{n} {case.layout.__name__} by {case.why[:18]}" for n, case in enumerate(CASES)]
 

@@ -148,6 +148,11 @@ REFUSED = [
      "no number came out"),
     (detr(metadata=tiny.ULTRALYTICS, beside=(tiny.sizes(shape=(4, 2)),)), "model_input_odd",
      "orig_target_sizes [4, 2] tensor(int64); beside the picture only its size"),
+    (lambda path: tiny.model(path, tiny.mmyolo([]) | {"num_dets": np.zeros((1, 2), np.int32)},
+                             metadata=tiny.ULTRALYTICS),
+     "model_layout_unknown", "for mmyolo num_dets 1 x 1, boxes 1 x n x 4"),
+    (lambda path: tiny.model(path, tiny.detr_logits([]), metadata={"names": "['only one']"}),
+     "model_names_wrong", "as detr_logits it has 2 classes, 1 names"),
     (detr(metadata=tiny.ULTRALYTICS, beside=(tiny.sizes("im_shape"),)), "model_input_odd",
      "im_shape"),
 ]  # fmt: skip

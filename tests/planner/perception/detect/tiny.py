@@ -283,6 +283,34 @@ def rfdetr(seen: Sequence[Seen]) -> dict[str, Array]:
     return {"dets": dets, "labels": labels}
 
 
+def mmyolo(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return boxes that are counted; behind them stands filling that looks like some."""
+    of = rtdetr(seen)
+    of["boxes"][0, -1], of["scores"][0, -1] = (0.0, 0.0, 60.0, 60.0), 0.99
+    return {"num_dets": np.array([[len(seen)]], np.int32), **of}
+
+
+def detr_logits(seen: Sequence[Seen], queries: int = QUERIES) -> dict[str, Array]:
+    """Return logits and boxes in shares."""
+    logits = np.full((1, queries, len(NAMES)), -9.0, np.float32)
+    boxes = np.zeros((1, queries, 4), np.float32)
+    for row, it in enumerate(seen):
+        boxes[0, row] = np.array(centred(it.box)) / SIDE
+        logits[0, row, it.number] = np.log(it.score / (1 - it.score))
+    return {"logits": logits, "pred_boxes": boxes}
+
+
+def owlvit(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return the same with a query for each patch of 16 px, and embeddings beside it."""
+    embeds = np.zeros((1, len(NAMES), 8), np.float32)
+    return detr_logits(seen, (SIDE // 16) ** 2) | {"text_embeds": embeds}
+
+
+def owlv2(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return the same with how likely each patch is any thing."""
+    return {"objectness_logits": np.zeros((1, (SIDE // 16) ** 2), np.float32), **owlvit(seen)}
+
+
 Layout = Callable[[Sequence[Seen]], dict[str, Array]]
 
 
