@@ -84,6 +84,8 @@ def answer(asked: PictureOrder, fault: str | None, number: int, place: str) -> s
         place: a place that is thought to exist.
     """
     if asked.jpeg is None or fault == "drops_pictures":
+        if asked.kind == "seek":
+            return _dump({"picture": False, "there": False, "sure": 0})
         return _dump({"picture": False, "en": "There is no picture.", "zh": "没有图像。"})
     if asked.kind == "point":
         return _dump(_point(asked, fault, number))
