@@ -21,7 +21,7 @@ from planner.mission.skills.spatial_relations import support_of
 from planner.navigation import RouteLimits, RouteWorker
 from planner.orders.factory import standing_orders_of
 from planner.perception.object_store import ThingStore
-from planner.perception_factory import Opening, eyes_of, looker_of
+from planner.perception_factory import Opening, eyes_of, looker_of, picture_limits, spent_by
 from planner.robot_service import LinkedRobot
 from planner.settings import load_settings
 from planner.setup_switch import ProcessSwitch
@@ -114,7 +114,12 @@ class Planner:
         self.orders = standing_orders_of(self.settings.orders, where.home, self._state, self.goals)
         self.goals.show_scans(self._router)
         self._begin_memory()
-        self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
+        self.goals.see(
+            self.eyes,
+            looker_of(self._model, self.brain, worker),
+            picture_limits(self.settings),
+            spent_by(self.budget),
+        )
 
     @property
     def voice(self) -> VoiceAbilities:

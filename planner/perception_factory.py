@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING
 from planner.brain import FallbackBrain
 from planner.brain.image_question_fallback import FallbackLooker
 from planner.brain.image_questions import DetectedObject, NotSent
+from planner.brain.prompt_tokens import PICTURE_TOKENS
+from planner.budget.totals import cost
 from planner.language.catalogue import list_names, say
 from planner.language.object_names import name_object
+from planner.mission.skills.perception import PictureCost, PictureLimits
 from planner.perception import VisionFailure, VisionWorker
 from planner.perception.dependencies import PerceptionParts
 from planner.perception.failure import REFUSALS
@@ -26,14 +29,19 @@ if TYPE_CHECKING:
     from planner.brain import Brain
     from planner.brain.endpoint import EndpointBrain
     from planner.bridge_client import Link
+    from planner.budget import Purse
+    from planner.mission.perception_requests import Spent
     from planner.perception.object_store import ThingStore
-    from planner.settings import VisionSettings
+    from planner.settings import Settings, VisionSettings
     from planner.site import Site
     from wire import RobotDescription
     from wire.session import Session
 
 log = logging.getLogger(__name__)
 
+SEEK_TOKENS = PICTURE_TOKENS + 600
+"""Sent with one question of a search: the picture, the prompt and what the detector found."""
+REPLY_TOKENS = 60
 REFUSED_WITHIN_S = 20.0
 """Later the robot may be at work: it then goes on without eyes, and says why."""
 
@@ -121,6 +129,32 @@ def looker_of(
         log.info("no picture goes to %s: %s", model.address.host, looker.refuses)
     breaker = brain.breaker if isinstance(brain, FallbackBrain) else None
     return FallbackLooker(looker, _by_detector, breaker)
+
+
+def picture_limits(settings: Settings) -> PictureLimits:
+    """Return the bound of one search by the vision model, and what a picture of it costs.
+
+    No more pictures than the goal's calls allow beside the one that planned it; each is priced at a
+    picture, its prompt and a short reply, rather too high.
+    """
+    goal, price = settings.budget.goal, settings.budget.price
+    most = min(settings.vision.search_pictures, max(0, goal.calls - 1))
+    most = min(most, goal.prompt_tokens // SEEK_TOKENS)
+    money = cost(price, SEEK_TOKENS, REPLY_TOKENS)
+    each = PictureCost(SEEK_TOKENS + REPLY_TOKENS, money)
+    return PictureLimits(most, each, price.currency if price is not None else None)
+
+
+def spent_by(purse: Purse) -> Spent:
+    """Return how the purse is asked what a goal's calls have cost by now."""
+
+    def spent(goal: str) -> PictureCost:
+        mine = purse.usage(goal).goal
+        if mine is None:
+            return PictureCost()
+        return PictureCost(mine.prompt_tokens + mine.reply_tokens, mine.money)
+
+    return spent
 
 
 def _by_detector(_: str, seen: Sequence[DetectedObject]) -> tuple[Bilingual, bool | None]:

@@ -1,4 +1,4 @@
-"""Render the two questions about a picture: ``prompts/look.md`` and ``prompts/point.md``.
+"""Render the questions about a picture: ``look.md``, ``point.md`` and ``seek.md`` of ``prompts``.
 
 The person's words and what the detector found enter as JSON, as data only; the picture itself is
 attached where the body is made.
@@ -12,6 +12,7 @@ from typing import Any
 
 from planner.brain.image_questions import (
     FULL,
+    MOST_COUNTED,
     DetectedObject,
     DirectionView,
     ImageQuestion,
@@ -44,8 +45,20 @@ LOOK_SCHEMA = _object(["picture", "en", "zh"], picture=_BOOLEAN, seen=_BOOLEAN, 
 POINT_SCHEMA = _object(["picture", "there"], picture=_BOOLEAN, there=_BOOLEAN, x=_PART, y=_PART)
 
 
+_COUNT = {"type": "integer", "minimum": 0, "maximum": MOST_COUNTED}
+SEEK_SCHEMA = _object(
+    ["picture", "there", "sure"],
+    picture=_BOOLEAN,
+    there=_BOOLEAN,
+    left=_COUNT,
+    middle=_COUNT,
+    right=_COUNT,
+    sure={"type": "integer", "minimum": 0, "maximum": 100},
+)
+
+
 class LookPrompts:
-    """Hold one version of both prompts."""
+    """Hold one version of each prompt."""
 
     @cached_property
     def look(self) -> Template:
@@ -57,6 +70,11 @@ class LookPrompts:
         """Return the prompt of a point."""
         return Template.load(PROMPTS / "point.md", _BLANKS)
 
+    @cached_property
+    def seek(self) -> Template:
+        """Return the prompt of a search."""
+        return Template.load(PROMPTS / "seek.md", _BLANKS)
+
     def look_messages(self, asked: ImageQuestion) -> list[Message]:
         """Return the messages of a question about a picture."""
         return _messages(self.look, LOOK_SCHEMA, "question", asked)
@@ -64,6 +82,10 @@ class LookPrompts:
     def point_messages(self, asked: ImageQuestion) -> list[Message]:
         """Return the messages that ask where something is."""
         return _messages(self.point, POINT_SCHEMA, "point_at", asked)
+
+    def seek_messages(self, asked: ImageQuestion) -> list[Message]:
+        """Return the messages that ask whether something is there, and how many of it."""
+        return _messages(self.seek, SEEK_SCHEMA, "look_for", asked)
 
 
 def _messages(

@@ -19,6 +19,7 @@ from planner.brain.image_questions import (
     ImageDescription,
     ImagePoint,
     ImageQuestion,
+    ImageSighting,
     Looker,
     NotSent,
     NotThere,
@@ -69,6 +70,15 @@ class FallbackLooker:
         """
         with self._guard_call():
             return await self._model.point(asked)
+
+    async def seek(self, asked: ImageQuestion) -> ImageSighting:
+        """Return what the model sees of a kind that no detector here knows.
+
+        Raises:
+            NotSent, BadPlan, BrainDown, OutOfBudget: as the model's, or ``resting``.
+        """
+        with self._guard_call():
+            return await self._model.seek(asked)
 
     @contextmanager
     def _guard_call(self) -> Iterator[None]:

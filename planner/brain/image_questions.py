@@ -23,6 +23,8 @@ LONG_SIDE_PX = 1024
 """A picture leaves with no longer side than this."""
 FULL = 1000
 """A pixel answer counts from 0 to this: x to the right, y down, whatever the picture's size."""
+MOST_COUNTED = 50
+"""Things of a kind in a third of a picture."""
 MAX_SAID = 300
 """Characters of an answer in one language; what is longer is cut."""
 
@@ -123,6 +125,20 @@ class NotThere:
     brain: BrainTag
 
 
+@dataclass(frozen=True, slots=True)
+class ImageSighting:
+    """Say whether a kind of thing is in the picture: figures, and no word that stood in it."""
+
+    there: bool
+    left: int
+    middle: int
+    right: int
+    """How many have their middle in that third of the picture."""
+    sure: float
+    """0 to 1, as the model says."""
+    brain: BrainTag
+
+
 class NotSent(BrainDown):
     """No call went out, and no call is to blame: this picture, or pictures at all, may not be sent.
 
@@ -151,6 +167,14 @@ class Looker(Protocol):
 
     async def point(self, asked: ImageQuestion) -> ImagePoint | NotThere:
         """Return where in a picture something is, or that it is not there.
+
+        Raises:
+            NotSent, BadPlan, BrainDown, OutOfBudget: as ``describe`` does.
+        """
+        ...
+
+    async def seek(self, asked: ImageQuestion) -> ImageSighting:
+        """Return whether what the words name is in a picture, and how many of it.
 
         Raises:
             NotSent, BadPlan, BrainDown, OutOfBudget: as ``describe`` does.

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 _PIECE = re.compile(rf"([A-Za-z]+)|[0-9]{{1,3}}|[{CHINESE}]|[^\sA-Za-z0-9{CHINESE}]{{1,3}}")
 _LETTERS = 8
+PICTURE_TOKENS = 1500
+"""Counted for a picture before the server says what it billed, rather too many: with a long side of
+1024 tiles of 512 px cost 765, patches of 28 or 32 px 1 369 or 1 024, an area by 750 1 398."""
 
 
 def tokens(messages: Sequence[Message]) -> int:

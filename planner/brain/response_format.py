@@ -23,3 +23,4 @@ PLAN_FORM = ReplyForm(
 )
 LOOK_FORM = ReplyForm("look", "Answer the question about the picture.")
 POINT_FORM = ReplyForm("point", "Point at one thing in the picture, or say that it is not there.")
+SEEK_FORM = ReplyForm("seek", "Say whether one kind of thing is in the picture, and how many.")

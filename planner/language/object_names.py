@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import re
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from planner.language import color_names
 from planner.language.catalogue import CATALOGUE, list_names, noun, plural, say
 from planner.language.folding import CHINESE, fold, fold_words
 from planner.language.object_classes import KINDS
-from planner.plan import Bilingual, Language, say_same
+from planner.plan import Bilingual, Language
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
 _IRREGULAR = {
     "person": ("people", "persons"), "man": ("men",), "woman": ("women",), "child": ("children",),
@@ -53,6 +53,46 @@ _RUN_ZH = re.compile(rf"[{CHINESE}]+")
 LONGEST_EN, LONGEST_ZH = 3, 8
 MAX_READ = 120
 """Characters of a question: each piece is looked up, on the event loop."""
+
+
+class OwnKind(NamedTuple):
+    """Name a class that is in no table, or to which the owner gave names of their own."""
+
+    id: str
+    english: tuple[str, ...]
+    chinese: tuple[str, ...]
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Return all its names, in either language."""
+        return (*self.english, *self.chinese)
+
+
+class OwnersNames:
+    """Hold the names that the owner's detector file gives its classes.
+
+    They come with the detector, long after the start, and hold for the whole process, as the
+    catalogue does.
+    """
+
+    def __init__(self) -> None:
+        self.words: Mapping[str, tuple[str, ...]] = {}
+
+    def of(self, label: str) -> OwnKind:
+        """Return the names of a class; of one without any in a language, those of the other."""
+        given = self.words.get(label, ())
+        english = tuple(_plain(name) for name in given if not _HAN.search(name))
+        chinese = tuple(_plain(name) for name in given if _HAN.search(name))
+        return OwnKind(label, english or (label.replace("_", " "),), chinese)
+
+
+OWNERS = OwnersNames()
+_HAN = re.compile(rf"[{CHINESE}]")
+
+
+def name_kinds(words: Mapping[str, Sequence[str]]) -> None:
+    """Take the owner's names of classes, by id, in place of all before."""
+    OWNERS.words = {label: tuple(names) for label, names in words.items() if names}
 
 
 def canonical(name: str) -> str:
@@ -123,29 +163,54 @@ def singles_out(words: str, classes: Collection[str] = ()) -> bool:
 
 def name_object(label: str, color: str | None = None) -> Bilingual:
     """Return a thing's name, with its colour where one is given."""
-    name = noun(f"noun.{label}") if label in KINDS else say_same(_bare(label))
-    return _with_color(name, color)
+    return _with_color(noun(f"noun.{label}") if label in KINDS else _own_name(label), color)
 
 
 def named_several(label: str, color: str | None = None) -> Bilingual:
     """Return what to call several of a thing."""
     if label in KINDS:
         return _with_color(plural(f"noun.{label}"), color)
-    words = _bare(label)
-    *first, last = words.split(" ")
-    return _with_color(Bilingual(en=" ".join((*first, _regular_plural(last))), zh=words), color)
+    name = _own_name(label)
+    *first, last = name.en.split(" ")
+    return _with_color(Bilingual(en=" ".join((*first, _regular_plural(last))), zh=name.zh), color)
+
+
+def _own_name(label: str) -> Bilingual:
+    """Return the name of a class that is in no table: the owner's, else the detector's own."""
+    kind = OWNERS.of(label)
+    return Bilingual(en=kind.english[0], zh=(kind.chinese or kind.english)[0])
 
 
 def synonyms(label: str, language: Language) -> tuple[str, ...]:
     """Return the words that mean a class: the one that is said, then the others."""
+    kind = OWNERS.of(label)
+    own = kind.chinese if language is Language.ZH else kind.english
     if label not in KINDS:
-        return (_bare(label),)
+        return own or kind.english
+    given = own if label in OWNERS.words else ()
+    return tuple(dict.fromkeys((*_catalogue_words(label, language), *given)))
+
+
+def known_words(classes: Collection[str]) -> frozenset[str]:
+    """Return people's names for these classes, in both languages."""
+    return _known_words(tuple(classes), _own_names(classes))
+
+
+@lru_cache(maxsize=8)
+def _known_words(classes: tuple[str, ...], own: Own) -> frozenset[str]:
+    given = (word for kind in own for word in kind.words)
+    tables = (
+        word
+        for label in classes
+        if label in KINDS
+        for language in Language
+        for word in _catalogue_words(label, language)
+    )
+    return frozenset((*given, *tables))
+
+
+def _catalogue_words(label: str, language: Language) -> tuple[str, ...]:
     return CATALOGUE.synonyms(f"noun.{label}", language)
-
-
-def _bare(label: str) -> str:
-    """Return the name of a class that is in no table: the detector's own."""
-    return label.replace("_", " ")
 
 
 def _with_color(name: Bilingual, color: str | None) -> Bilingual:
@@ -167,23 +232,26 @@ def _plain(words: str) -> str:
     return fold_words(words).strip(" .,!?，。！？")
 
 
-def _in_english(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:
+Own = tuple[OwnKind, ...]
+
+
+def _in_english(text: str, own: Own) -> tuple[str, str | None] | None:
     found = _english_match(text, own)
-    return None if found is None else _read_match(found, _english_names())
+    return None if found is None else _read_match(found, _english_names(), own)
 
 
-def _in_chinese(text: str, own: tuple[str, ...]) -> tuple[str, str | None] | None:
+def _in_chinese(text: str, own: Own) -> tuple[str, str | None] | None:
     found = _chinese_match(text, own)
-    return None if found is None else _read_match(found, _chinese_names())
+    return None if found is None else _read_match(found, _chinese_names(), own)
 
 
-def _english_match(text: str, own: tuple[str, ...]) -> re.Match[str] | None:
+def _english_match(text: str, own: Own) -> re.Match[str] | None:
     plain = re.sub(r"[-_]", " ", text)
     matches = (pattern.fullmatch(plain) for pattern in _english_patterns(own))
     return next((found for found in matches if found is not None), None)
 
 
-def _chinese_match(text: str, own: tuple[str, ...]) -> re.Match[str] | None:
+def _chinese_match(text: str, own: Own) -> re.Match[str] | None:
     return _chinese_pattern(own).fullmatch(text.replace(" ", ""))
 
 
@@ -195,18 +263,25 @@ def _besides(found: re.Match[str]) -> str:
     return rest
 
 
-def _read_match(found: re.Match[str], names: dict[str, str]) -> tuple[str, str | None]:
-    color = found["c"] or found["d"]
-    label = names.get(found["n"]) or canonical(found["n"])
+def _read_match(found: re.Match[str], names: dict[str, str], own: Own) -> tuple[str, str | None]:
+    color, name = found["c"] or found["d"], found["n"]
+    label = _own_words(own).get(name) or names.get(name) or canonical(name)
     return label, color_names.color_of(color) if color else None
 
 
 @lru_cache(maxsize=8)
-def _english_patterns(own: tuple[str, ...]) -> tuple[re.Pattern[str], ...]:
+def _own_words(own: Own) -> dict[str, str]:
+    """Return the class of each name that the owner gave, with its blanks and without."""
+    words = [(word, kind.id) for kind in own for word in kind.words]
+    return {spelt: id_ for word, id_ in words for spelt in (word, word.replace(" ", ""))}
+
+
+@lru_cache(maxsize=8)
+def _english_patterns(own: Own) -> tuple[re.Pattern[str], ...]:
     """Return the patterns of things and of people, which differ in their following words."""
     people = [w for w, label in _english_names().items() if label == "person"]
     things = [w for w, label in _english_names().items() if label != "person"]
-    own_words = [re.escape(name.replace("_", " ")) for name in own]
+    own_words = [re.escape(word) for word in _by_length(w for kind in own for w in kind.english)]
     return tuple(
         re.compile(
             rf"(?:{_FILLER_EN} )*(?:(?P<c>{color_names.ENGLISH}) )?(?:{_FILLER_EN} )*"
@@ -218,16 +293,18 @@ def _english_patterns(own: tuple[str, ...]) -> tuple[re.Pattern[str], ...]:
 
 
 @lru_cache(maxsize=8)
-def _chinese_pattern(own: tuple[str, ...]) -> re.Pattern[str]:
-    names = "|".join((*_by_length(_chinese_names()), *map(re.escape, own)))
+def _chinese_pattern(own: Own) -> re.Pattern[str]:
+    given = [re.escape(word.replace(" ", "")) for kind in own for word in (kind.id, *kind.words)]
+    names = "|".join(_by_length((*_chinese_names(), *given)))
     return re.compile(
         rf"{_PLACED_ZH}{_COUNT_ZH}*(?:(?P<c>{color_names.CHINESE})的?)?{_COUNT_ZH}*"
         rf"(?P<n>{names})(?:们|儿)?(?:是(?P<d>{color_names.CHINESE})的)?"
     )
 
 
-def _own_names(classes: Collection[str]) -> tuple[str, ...]:
-    return tuple(name for name in classes if name not in KINDS)
+def _own_names(classes: Collection[str]) -> Own:
+    """Return the classes that the tables don't tell all of."""
+    return tuple(OWNERS.of(n) for n in classes if n not in KINDS or n in OWNERS.words)
 
 
 def _by_length(names: Iterable[str]) -> list[str]:
@@ -242,11 +319,11 @@ def _english_names() -> dict[str, str]:
 
 @cache
 def _chinese_names() -> dict[str, str]:
-    return {word: label for label in KINDS for word in synonyms(label, Language.ZH)}
+    return {word: label for label in KINDS for word in _catalogue_words(label, Language.ZH)}
 
 
 def _forms(label: str) -> Iterable[str]:
-    for word in (_bare(label), *synonyms(label, Language.EN)):
+    for word in (label.replace("_", " "), *_catalogue_words(label, Language.EN)):
         yield word
         *first, last = word.split(" ")
         for many in _plurals(last):

@@ -93,6 +93,8 @@ class AskEyes:
     """Names of the directions whose pictures were to be kept, in their order."""
     now: Bilingual | None = None
     """The direction of the newest picture."""
+    seek: bool = False
+    """Whether such a thing is there and how many, in place of words."""
 
 
 @dataclass(frozen=True, slots=True)

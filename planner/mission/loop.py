@@ -36,9 +36,10 @@ from planner.mission.event_hub import Hub
 from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
 from planner.mission.gc_control import Collector
 from planner.mission.journal_sync import Disk
-from planner.mission.perception_requests import EyeDoor
-from planner.mission.reducer import asked_about_picture, looks
+from planner.mission.perception_requests import EyeDoor, Spent
+from planner.mission.reducer import asked_about_picture, looks, looks_widely
 from planner.mission.skills import Eyesight
+from planner.mission.skills.perception import NO_PICTURES, PictureLimits
 from planner.mission.state import GoalKey, MissionState, Rules
 from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import Answers, MissionTasks, Recaller, RouteService, Think
@@ -79,7 +80,7 @@ class Loop:
         self._progress: Progress | None = None
         self._eyes: Eyes | None = None
         self._door = EyeDoor(None)
-        self._attends = False
+        self._attends = (False, False)
         self._acts: dict[str, OpRequest] = {}
         self._surveyor = surveyor
         self._obstacles: ScanSender | None = None
@@ -117,12 +118,28 @@ class Loop:
         """Bound what goals may do by themselves, before anything starts."""
         self._engine.book = replace(self._engine.book, rules=rules)
 
-    def see(self, eyes: Eyes, looker: Looker | None, camera: CameraConfig) -> None:
-        """Take the eyes, and the model that may be asked about their pictures."""
+    def see(
+        self,
+        eyes: Eyes,
+        looker: Looker | None,
+        camera: CameraConfig,
+        pictures: PictureLimits = NO_PICTURES,
+        spent: Spent | None = None,
+    ) -> None:
+        """Take the eyes, and the model that may be asked about their pictures.
+
+        Args:
+            eyes: what is seen.
+            looker: the model; None: there is none.
+            camera: the robot's.
+            pictures: bound one search by the model.
+            spent: returns what a goal's calls have cost by now.
+        """
         self._eyes = eyes
-        self._door.see(eyes, looker)
+        self._door.see(eyes, looker, spent)
         self._wording = Wording(eyes.classes, self._spawn, self._seen_anew)
-        eyesight = Eyesight(camera, eyes.classes, model=looker is not None)
+        model = looker is not None
+        eyesight = Eyesight(camera, eyes.classes, model, pictures if model else NO_PICTURES)
         self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
         eyes.listen(self._on_sight)
 
@@ -302,10 +319,13 @@ class Loop:
 
     def _attend(self) -> None:
         """Have the eyes look at their full rate while a step needs them."""
-        wanted = looks(self.book)
-        if self._eyes is not None and wanted != self._attends:
+        if self._eyes is None:
+            return
+        wide = looks_widely(self.book, self._eyes.open_classes)
+        wanted = looks(self.book), wide
+        if wanted != self._attends:
             self._attends = wanted
-            self._eyes.attend("mission", wanted)
+            self._eyes.attend("mission", wanted[0], wide=wide)
 
     def _seen_anew(self) -> None:
         """Take what the eyes said last once more: their classes can be read now."""

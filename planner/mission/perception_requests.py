@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,7 @@ from planner.brain.errors import BadPlan, BrainDown
 from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImagePoint, ImageQuestion
 from planner.brain.image_questions import PosedPicture as Shown
 from planner.mission.events import Told
-from planner.mission.skills.perception import ImageAnswer
+from planner.mission.skills.perception import ImageAnswer, PictureCost
 from planner.perception.interfaces import PointRefusal
 
 if TYPE_CHECKING:
@@ -37,20 +38,37 @@ AS_NEW_S = 1.0
 """A picture with what was found in it is shown rather than one newer by so little without."""
 
 
+Spent = Callable[[str], PictureCost]
+"""Returns what the calls of a goal have cost by now."""
+
+
+def nothing_spent(_: str) -> PictureCost:
+    """Return the cost of calls that nobody meters."""
+    return PictureCost()
+
+
 class EyeDoor:
     """Stand between the missions and perception."""
 
     def __init__(self, eyes: Eyes | None, looker: Looker | None = None) -> None:
         """Ask these eyes, and this model about their pictures."""
         self._eyes, self._looker = eyes, looker
+        self._spent: Spent = nothing_spent
         self._pictures: dict[str, Picture | asyncio.Task[Picture | None]] = {}
         """By goal; a task where the picture is still to come."""
         self._views: dict[str, dict[int, tuple[Shown, tuple[Detection, ...]]]] = {}
         """By goal, and by the number of the direction."""
 
-    def see(self, eyes: Eyes, looker: Looker | None) -> None:
-        """Ask these eyes from now on, and this model about their pictures."""
+    def see(self, eyes: Eyes, looker: Looker | None, spent: Spent | None = None) -> None:
+        """Ask these eyes from now on, and this model about their pictures.
+
+        Args:
+            eyes: show the pictures.
+            looker: the model.
+            spent: returns what a goal's calls have cost by now.
+        """
         self._eyes, self._looker = eyes, looker
+        self._spent = spent or nothing_spent
 
     def note(self, goal_id: str) -> None:
         """Keep the newest picture: a plan for this goal is asked for now.
@@ -98,18 +116,24 @@ class EyeDoor:
             return await _point(eyes, meant, ask.x, ask.y)
         if self._looker is None:
             return ImageAnswer(failure="no_vision_model")
+        before = self._spent(ask.id)
         try:
-            return await self._model(self._looker, eyes, picture, ask)
+            answer = await self._model(self._looker, eyes, picture, ask)
         except (BrainDown, BadPlan) as failure:
             code = failure.why if isinstance(failure, BrainDown) else failure.code
             log.warning("goal %s: nobody looked at the picture: %s", ask.id, failure)
-            return ImageAnswer(failure=code)
+            answer = ImageAnswer(failure=code)
+        return replace(answer, cost=_cost_between(before, self._spent(ask.id)))
 
     async def _model(
         self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes
     ) -> ImageAnswer:
         seen = _detections(eyes, picture)
         asked = ImageQuestion(_pose_picture(eyes, picture), ask.words, ask.language, seen, ask.id)
+        if ask.seek:
+            sighting = await looker.seek(asked)
+            counts = (sighting.left, sighting.middle, sighting.right)
+            return ImageAnswer(counts=counts, sure=sighting.sure)
         if ask.point:
             found = await looker.point(asked)
             if not isinstance(found, ImagePoint):
@@ -129,6 +153,12 @@ class EyeDoor:
         return tuple(
             DirectionView(kept[n][0], name, kept[n][1]) for n, name in enumerate(ask.views)
         )
+
+
+def _cost_between(before: PictureCost, after: PictureCost) -> PictureCost | None:
+    """Return what a question has cost; None where nobody meters, or nothing was spent."""
+    tokens, money = after.tokens - before.tokens, after.money - before.money
+    return PictureCost(max(0, tokens), max(0.0, money)) if tokens > 0 or money > 0.0 else None
 
 
 def _newest(eyes: Eyes, picture: Picture | None) -> Picture | None:

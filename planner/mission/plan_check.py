@@ -61,9 +61,11 @@ def _unknown_object(book: MissionState, language: Language, step: StepRecord) ->
     """Return why a thing can't be looked for: the detector does not know it, nor can a model tell.
 
     A vision model can point at anything, but only at what is in the picture: enough to go there. It
-    answers any question about a picture.
+    answers any question about a picture, and looks for anything, one picture a direction.
     """
     eyes = book.eyes
+    if eyes.searches and step.kind in ("find", "count"):
+        return None
     if eyes.model and step.kind in ("go_to_object", "look"):
         return None
     if step.kind == "look":

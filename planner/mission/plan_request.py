@@ -13,7 +13,6 @@ import logging
 import time
 from collections.abc import Awaitable, Callable
 from datetime import datetime
-from functools import lru_cache
 from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
@@ -23,7 +22,7 @@ from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
-from planner.language.object_names import synonyms
+from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
@@ -31,7 +30,6 @@ from planner.mission.tasks import Think
 from planner.plan import (
     BARE,
     Code,
-    Language,
     Means,
     Outcome,
     Step,
@@ -181,15 +179,12 @@ def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:
     return tuple(each.index for each in found)
 
 
-@lru_cache(maxsize=8)
 def things_of(classes: tuple[str, ...]) -> frozenset[str]:
     """Return people's names for the things that a detector knows, in both languages.
 
     None while it has not said what it knows: an unknown place is then told as one.
     """
-    return frozenset(
-        name for label in classes for language in Language for name in synonyms(label, language)
-    )
+    return known_words(classes)
 
 
 def _outcome(code: Code, **facts: str) -> Outcome:

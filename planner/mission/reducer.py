@@ -54,12 +54,13 @@ from planner.mission.places_changed import on_known
 from planner.mission.queue import cancel, reorder
 from planner.mission.recovery_steps import on_survey
 from planner.mission.route_doubts import on_doubted, on_oncoming
+from planner.mission.skills.object_matching import names_any
 from planner.mission.speed_cap import change_speed
 from planner.mission.state import MissionState
 from planner.mission.status_monitor import on_status, on_tick
 from planner.mission.step_execution import speak_if_safe, start_next
 from planner.mission.transaction import Transaction
-from planner.plan import NEEDS_CAMERA
+from planner.plan import NEEDS_CAMERA, NEEDS_DETECTOR
 
 __all__ = ["AskBrain", "advance", "motion_request"]
 
@@ -109,6 +110,20 @@ def looks(book: MissionState) -> bool:
     step = mission.current_step if mission is not None else None
     waits = step is not None and step.kind == "wait_for" and step.object is not None
     return step is not None and (step.kind in NEEDS_CAMERA or waits)
+
+
+def looks_widely(book: MissionState, open_classes: tuple[str, ...]) -> bool:
+    """Tell whether the running step needs the classes that the open-vocabulary model alone finds.
+
+    A question about the picture may be about any of them.
+    """
+    mission = book.missions.get(book.running) if book.running is not None else None
+    step = mission.current_step if mission is not None else None
+    if mission is None or step is None or not open_classes:
+        return False
+    if step.object is None or step.kind not in (*NEEDS_DETECTOR, "wait_for"):
+        return step.kind == "look"
+    return names_any(step.object, mission.language, book.eyes.classes, open_classes)
 
 
 def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else

@@ -151,7 +151,7 @@ def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
 
 
 def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
-    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
     leg = Driving(
         record=turn.next_entry,
         goal=act.goal,
@@ -172,8 +172,13 @@ def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
     ask_route(turn, detour=False)
 
 
+def _bill(act: DriveLeg | Observe | AskImage) -> dict[str, object]:
+    """Return what a search by the vision model costs, where the step is one."""
+    return {} if act.bill is None else {"bill": act.bill}
+
+
 def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
-    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
     observing = Observing(
         record=turn.next_entry,
         since_s=turn.now_s,
@@ -190,7 +195,7 @@ def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
 
 def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     """Ask about the picture, standing; the answer comes with the ticket."""
-    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
     ticket = turn.book.tickets + 1
     asking = AskingImage(
         record=turn.next_entry,
@@ -205,6 +210,7 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
         *(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y),
         views=act.views,
         now=act.now,
+        seek=act.seek,
     )
     turn.emit(ask)
 

@@ -18,7 +18,7 @@ from planner.perception.visibility import Visible
 if TYPE_CHECKING:
     from planner.perception.interfaces import Picture
     from planner.perception.pose_buffer import Stance
-    from planner.perception.snapshot import Detection
+    from planner.perception.snapshot import Detection, Thing
     from planner.site.site import Site
     from wire.camera_config import CameraConfig
 
@@ -37,8 +37,12 @@ def saw(
     picture: Picture,
     detections: tuple[Detection, ...],
     stance: Stance | None,
+    passed_over: frozenset[str] = frozenset(),
 ) -> tuple[ObjectMemory, LookSnapshot]:
-    """Return the memory after one look, and the look. Without a pose nothing is learnt."""
+    """Return the memory after one look, and the look. Without a pose nothing is learnt.
+
+    Things of kinds that were ``passed_over``, which this look did not look for, are not missed.
+    """
     header = picture.color.header
     named = tuple(replace(seen, label=canonical(seen.label)) for seen in detections)
     look = LookSnapshot(header.seq, picture.taken_s, None, header.width, header.height, named)
@@ -46,7 +50,11 @@ def saw(
         return before, replace(look, here=("",) * len(named))
     view = View(header, scenery.camera, stance)
     placed = tuple(_place_all(scenery.site, view, named))
-    expected = Visible(view, scenery.site.grid, named)
+    visible = Visible(view, scenery.site.grid, named)
+
+    def expected(thing: Thing) -> bool:
+        return thing.label not in passed_over and visible(thing)
+
     after, ids = remember(before, placed, expected, picture.taken_s)
     here = tuple(ids.get(index, "") for index in range(len(named)))
     return after, replace(look, base_in_map=stance.base_in_map, here=here)

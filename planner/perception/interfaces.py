@@ -61,6 +61,10 @@ class Eyes(Protocol):
         """Return the class ids that can be seen now; none where nothing can be."""
 
     @property
+    def open_classes(self) -> tuple[str, ...]:
+        """Return those of these that a wide look alone finds."""
+
+    @property
     def picture(self) -> Picture | None:
         """Return the newest picture; None before one came, and while nobody wants any."""
 
@@ -74,8 +78,11 @@ class Eyes(Protocol):
     def listen(self, told: Callable[[Sight], None]) -> None:
         """Have something called after each look and when ``blind`` changes. It must be quick."""
 
-    def attend(self, who: str, wanted: bool) -> None:
-        """Say that somebody needs eyes now, or no longer: looks come at the full rate meanwhile."""
+    def attend(self, who: str, wanted: bool, *, wide: bool = False) -> None:
+        """Say that somebody needs eyes now, or no longer: looks come at the full rate meanwhile.
+
+        While somebody needs wide ones, each look is one; they may come slower.
+        """
 
     async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
         """Return the point of the map at a point of a picture (x right, y down, each 0 to 1000).
@@ -92,7 +99,11 @@ class Detector(Protocol):
     def classes(self) -> tuple[str, ...]:
         """Return the ids of the known classes; none until it is ready."""
 
-    async def look(self, color: Image, depth: Image | None) -> LookResult:
+    @property
+    def open_classes(self) -> tuple[str, ...]:
+        """Return the ids of the classes that a wide look alone finds."""
+
+    async def look(self, color: Image, depth: Image | None, *, wide: bool = False) -> LookResult:
         """Think upon one picture. Never raises for its content.
 
         Raises:

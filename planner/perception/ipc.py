@@ -26,6 +26,7 @@ def read_look(frame: Frame) -> LookResult:
         took_s=float(head["took_s"]),
         skipped=None if skipped is None else str(skipped),
         depth_lost=None if depth_lost is None else str(depth_lost),
+        wide=bool(head["wide"]),
     )
 
 
@@ -36,4 +37,11 @@ def _detection(item: dict[str, Any]) -> Detection:
 
 def read_about(head: dict[str, Any] | None) -> DetectorInfo | None:
     """Return the running detector; None without a model. Raises KeyError or TypeError."""
-    return None if head is None else DetectorInfo(**{**head, "classes": tuple(head["classes"])})
+    if head is None:
+        return None
+    told = {
+        "classes": tuple(head["classes"]),
+        "words": tuple(map(tuple, head["words"])),
+        "beside": read_about(head["beside"]),
+    }
+    return DetectorInfo(**{**head, **told})

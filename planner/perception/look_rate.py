@@ -32,12 +32,19 @@ class Attention:
         self._rate_hz = rate_hz
         self._idle_poll_s = min(IDLE_POLL_S, max(POLL_S, 0.5 / camera_hz))
         self._wanted: set[str] = set()
+        self._wide: set[str] = set()
         self._waiting = 0
         self._shown_s = self._began_s = self._rest_until_s = float("-inf")
 
-    def attend(self, who: str, wanted: bool) -> None:
-        """Take down that somebody needs eyes now, or no longer."""
+    def attend(self, who: str, wanted: bool, *, wide: bool = False) -> None:
+        """Take down that somebody needs eyes now, or no longer; ``wide``: for all kinds."""
         (self._wanted.add if wanted else self._wanted.discard)(who)
+        (self._wide.add if wanted and wide else self._wide.discard)(who)
+
+    @property
+    def wide(self) -> bool:
+        """Tell whether somebody needs wide looks."""
+        return bool(self._wide)
 
     def note_shown(self, now_s: float) -> None:
         """Take down that a page was shown the picture."""

@@ -67,10 +67,16 @@ class ObjectMap:
         """Bring it to the disk, where it is time."""
         self._keeper.keep(self.sight.things, self.version, now_s)
 
-    def take(self, picture: Picture, result: LookResult, stance: Stance | None) -> None:
-        """Take in a look's findings; they are told with the next sight."""
+    def take(
+        self,
+        picture: Picture,
+        result: LookResult,
+        stance: Stance | None,
+        passed_over: frozenset[str] = frozenset(),
+    ) -> None:
+        """Take in a look's findings, none of ``passed_over``; they are told with the next sight."""
         self._memory, self._look = saw(
-            self._scenery, self._memory, picture, result.detections, stance
+            self._scenery, self._memory, picture, result.detections, stance, passed_over
         )
 
     def age(self, now_s: float) -> bool:

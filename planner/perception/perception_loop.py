@@ -11,6 +11,7 @@ import asyncio
 import logging
 import time
 from collections import Counter
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from planner.language.object_names import canonical
@@ -91,7 +92,13 @@ class Sightseer:
         detector = self._means.detector
         if detector is None or not self._there:
             return ()
-        return tuple(dict.fromkeys(canonical(name) for name in detector.classes if name))
+        return _ids(detector.classes)
+
+    @property
+    def open_classes(self) -> tuple[str, ...]:
+        """Return those of these that a wide look alone finds."""
+        detector = self._means.detector
+        return _ids(detector.open_classes) if detector is not None and self._there else ()
 
     @property
     def picture(self) -> Picture | None:
@@ -122,9 +129,9 @@ class Sightseer:
         """Have something called after each look and when ``blind`` changes. It must be quick."""
         self._known.listen(told)
 
-    def attend(self, who: str, wanted: bool) -> None:
-        """Say that somebody needs eyes now, or no longer."""
-        self._attention.attend(who, wanted)
+    def attend(self, who: str, wanted: bool, *, wide: bool = False) -> None:
+        """Say that somebody needs eyes now, or no longer; ``wide``: for all that can be seen."""
+        self._attention.attend(who, wanted, wide=wide)
 
     async def show(self) -> Picture | None:
         """Return the newest picture to a page, which is then taken to look on; no point of it."""
@@ -231,7 +238,8 @@ class Sightseer:
 
     async def _think(self, detector: Detector, picture: Picture) -> None:
         try:
-            result = await detector.look(picture.color, picture.depth)
+            wide = self._attention.wide and bool(detector.open_classes)
+            result = await detector.look(picture.color, picture.depth, wide=wide)
         except VisionFailure as failure:
             self._note_failure(failure)
             return
@@ -262,7 +270,8 @@ class Sightseer:
 
     def _saw(self, picture: Picture, result: LookResult) -> None:
         stance = self._means.poses.at(picture.taken_s)
-        self._known.take(picture, result, stance)
+        passed_over = frozenset() if result.wide else frozenset(self.open_classes)
+        self._known.take(picture, result, stance, passed_over)
         self._looked = picture
         self.counts["looks"] += 1
         if result.depth_lost is not None:
@@ -295,3 +304,8 @@ class Sightseer:
     def _tell(self) -> None:
         now_s = self._clock()
         self._known.tell(self._blind(now_s), now_s)
+
+
+@lru_cache(maxsize=4)
+def _ids(classes: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(canonical(name) for name in classes if name))

@@ -12,9 +12,11 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from planner.language.object_names import canonical, name_kinds
 from planner.perception.failure import VisionFailure
 from planner.perception.ipc import read_about, read_look
 from planner.perception.result import DetectorInfo, LookResult
+from planner.settings.vision import OPEN
 from processes.worker import SupervisedWorker
 from processes.worker_protocol import FailureCodes, Frame
 
@@ -54,13 +56,12 @@ class VisionWorker(SupervisedWorker):
         """The owner names one, or one comes with Pons; if it can be used is found out later."""
         self.about: DetectorInfo | None = None
         """What runs, once the process is ready; None without a model."""
+        self.classes: tuple[str, ...] = ()
+        """Ids of the known classes; none until it is ready, and none without a model."""
+        self.open_classes: tuple[str, ...] = ()
+        """Those of these that a wide look alone finds."""
         self.skipped: Counter[str] = Counter()
         """How often pictures were skipped, by code."""
-
-    @property
-    def classes(self) -> tuple[str, ...]:
-        """Return the ids of the known classes; none until it is ready, and none without a model."""
-        return () if self.about is None else tuple(filter(None, self.about.classes))
 
     async def start(self, timeout_s: float = READY_S) -> None:
         """Start the process and wait until it can answer. Ends by itself, with :meth:`close`.
@@ -76,9 +77,11 @@ class VisionWorker(SupervisedWorker):
         await super().start(timeout_s)
 
     async def look(
-        self, color: Image, depth: Image | None, timeout_s: float = LOOK_S
+        self, color: Image, depth: Image | None, timeout_s: float = LOOK_S, *, wide: bool = False
     ) -> LookResult:
         """Think upon one picture. What it holds is never an exception: it may be ``skipped``.
+
+        A ``wide`` look has the open-vocabulary model look, too, where the owner has one.
 
         Raises:
             VisionFailure: ``no_detector``, ``detector_down``, ``detector_timed_out``, or what the
@@ -93,6 +96,7 @@ class VisionWorker(SupervisedWorker):
             "deep": depth is not None,
             "size": [header.width, header.height],
             "focal": header.focal_px,
+            "wide": wide,
         }
         bodies = (color.data,) if depth is None else (color.data, depth.data)
         return self._count_skips(await self.ask(head, bodies, timeout_s, read_look))
@@ -137,6 +141,12 @@ class VisionWorker(SupervisedWorker):
 
     def _check_greeting(self, said: dict[str, Any] | None) -> None:
         self.about = read_about(said)
+        own = _classes(self.about)
+        known = set(map(canonical, own))
+        beside = _classes(self.about.beside) if self.about is not None else ()
+        self.open_classes = tuple(name for name in beside if canonical(name) not in known)
+        self.classes = (*own, *self.open_classes)
+        name_kinds(_words(self.about))
         log.info("%s", "no detector is installed" if self.about is None else self.about.line)
 
     def _count_skips(self, result: LookResult) -> LookResult:
@@ -151,10 +161,23 @@ def settings_text(settings: VisionSettings) -> str:
     path = settings.model
     if path is None and DEFAULT_MODEL.is_file():
         path = DEFAULT_MODEL
-    files = {"path": path, "labels": settings.labels}
+    own = DEFAULT_MODEL if settings.detector == OPEN and DEFAULT_MODEL.is_file() else None
+    files = {"path": path, "labels": settings.labels, "own": own}
     names = ("decoder", "provider", "threads", "input_px", "min_score")
     told = {name: None if file is None else str(file.absolute()) for name, file in files.items()}
     return json.dumps(told | {name: getattr(settings, name) for name in names})
+
+
+def _classes(about: DetectorInfo | None) -> tuple[str, ...]:
+    return () if about is None else tuple(filter(None, about.classes))
+
+
+def _words(about: DetectorInfo | None) -> dict[str, tuple[str, ...]]:
+    """Return the names that the owner gives classes, by id."""
+    if about is None:
+        return {}
+    named = zip(about.classes, about.words, strict=False)
+    return _words(about.beside) | {canonical(label): words for label, words in named if label}
 
 
 def _same_instant(color: Image, depth: Image) -> bool:

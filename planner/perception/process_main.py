@@ -44,11 +44,16 @@ def _detector(settings: dict[str, Any]) -> OnnxDetector | None:
         return None
     bound_memory(settings["provider"])
     min_score: float | None = settings.pop("min_score")
+    own: str | None = settings.pop("own")
     paths = {
         name: None if settings[name] is None else Path(settings[name])
         for name in ("path", "labels")
     }
-    return OnnxDetector(ModelOptions(**{**settings, **paths}), min_score)
+    wanted = ModelOptions(**{**settings, **paths})
+    if own is None:
+        return OnnxDetector(wanted, min_score)
+    ours = ModelOptions(Path(own), provider=wanted.provider, threads=wanted.threads)
+    return OnnxDetector(ours, beside=OnnxDetector(wanted, min_score))
 
 
 def _answer(detector: OnnxDetector | None, asked: Frame) -> Frame:
@@ -64,7 +69,7 @@ def _answer(detector: OnnxDetector | None, asked: Frame) -> Frame:
     cut, (width, height) = int(head["color"]), head["size"]
     depth = body[cut:] if head["deep"] else None
     said, focal_px = (int(width), int(height)), float(head["focal"])
-    return look_frame(detector.look(body[:cut], depth, said, focal_px))
+    return look_frame(detector.look(body[:cut], depth, said, focal_px, wide=bool(head["wide"])))
 
 
 def _depth_at(head: dict[str, Any], body: bytes) -> float | None:

@@ -21,6 +21,8 @@ class LookResult:
     """A code of :data:`planner.perception.failure.SKIPS`; then there are no detections."""
     depth_lost: str | None = None
     """A code of the same, where it was looked at without its depth for that."""
+    wide: bool = False
+    """The open-vocabulary model looked, too: what it knows and did not find is not there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +43,19 @@ class DetectorInfo:
     """Of the model's input [px]."""
     least: str
     """How high something must score to be reported, in words."""
+    words: tuple[tuple[str, ...], ...] = ()
+    """All that people may call each class, where the owner gave several names; else none."""
+    beside: DetectorInfo | None = None
+    """The open-vocabulary model that looks where a step needs it."""
 
     @property
     def line(self) -> str:
         """Say it all in one line for a log."""
         size = f"{self.width}x{self.height}"
         count = sum(map(bool, self.classes))
-        return (
+        told = (
             f"detector {self.model}: input {size}, {count} classes; decoder {self.decoder} "
             f"({self.why}); provider {self.provider} ({self.provider_why}); "
             f"least score {self.least}"
         )
+        return told if self.beside is None else f"{told}; beside it {self.beside.line}"

@@ -75,6 +75,18 @@ class Found(Frozen):
     age_s: float | None = None
 
 
+class PictureBill(Frozen):
+    """Show what a search by the vision model has cost so far, and what it may cost."""
+
+    pictures: int = Field(ge=0)  # that went out
+    pictures_most: int = Field(ge=0)  # of one search
+    tokens: int = Field(ge=0)  # as they were billed
+    tokens_most: int = Field(ge=0)  # about so many, if all pictures go out
+    money: float | None = None  # none: no price is set
+    money_most: float | None = None
+    currency: str | None = None
+
+
 class StepRecord(Frozen):
     """Show one step: its request, its state, its result and why not."""
 
@@ -99,6 +111,7 @@ class StepRecord(Frozen):
     y: int | None = None  # and from its top
     found: Found | None = None  # what a step that looks has found
     count: int | None = None  # how many of it
+    bill: PictureBill | None = None  # what the vision model has cost this step
     rooms: tuple[str, ...] = ()  # that were looked through
     code: Code | None = None  # what a step that looks came to
     said: Bilingual | None = None  # and in words, from figures

@@ -30,7 +30,7 @@ class Price(_Table):
 class GoalLimits(_Table):
     """Limit one goal's expense, from its first thought to its end."""
 
-    calls: Count = 12
+    calls: Count = 30
     prompt_tokens: Count = 60_000
     reply_tokens: Count = 60_000
     seconds: Amount = 300.0

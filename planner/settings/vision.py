@@ -7,13 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 DecoderName = Literal[
-    "yolov5", "yolov8", "end_to_end", "yolox", "yolox_decoded", "rtdetr", "rtdetr_rows", "rfdetr"
-]
+    "yolov5", "yolov8", "end_to_end", "yolox", "yolox_decoded", "rtdetr", "rtdetr_rows", "rfdetr",
+    "mmyolo", "detr_logits", "owlvit", "owlv2"
+]  # fmt: skip
+OPEN = "open"
+DECODERS: tuple[str, ...] = get_args(DecoderName)
+"""Layouts of outputs that are read; docs/vision.md says who makes which."""
 ProviderName = Literal["tensorrt", "cuda", "openvino", "coreml", "cpu"]
 
 
@@ -26,6 +30,9 @@ class VisionSettings(BaseModel):
 
     model: Path | None = None
     """A detector's ONNX file, relative to the home folder; None: the one that comes with Pons."""
+    detector: Literal["open"] | None = None
+    """``open``: the model is an open-vocabulary export and looks beside the detector that comes
+    with Pons, for the kinds that one does not know, while a step needs it. None: it alone looks."""
     labels: Path | None = None
     """A file with the model's class names, one a line, where the model does not name them."""
     decoder: DecoderName | None = None
@@ -39,8 +46,17 @@ class VisionSettings(BaseModel):
     of them: slower eyes would fail it, and let a thing that is followed walk off."""
     min_score: Annotated[float, Field(ge=0.05, le=0.95)] | None = None
     """What scores less is not reported; None: what the model's file says of each class, or 0.4."""
+    search_pictures: Annotated[int, Field(ge=0, le=200)] = 24
+    """Pictures that one ``find`` or ``count`` may show a vision model, for what the detector does
+    not know; 0: it is not asked to search."""
     input_px: Annotated[int, Field(ge=32, le=2048, multiple_of=32)] | None = None
     """Width and height of the input of a model that leaves them open."""
+
+    @model_validator(mode="after")
+    def _has_a_model(self) -> Self:
+        if self.detector == OPEN and self.model is None:
+            raise ValueError("detector = 'open' needs model: the ONNX file of that detector")
+        return self
 
 
 FILES = ("model", "labels")

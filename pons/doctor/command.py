@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from pons.doctor import (
     board_checks,
     camera_checks,
+    detector_checks,
     drive_checks,
     gyro_checks,
     host_checks,
@@ -83,6 +84,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         run_check("gyro", lambda: gyro_checks.gyro(settings.home, robot)),
         run_check("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
         run_check("camera", lambda: camera_checks.camera(settings.home, robot)),
+        run_check("detector", lambda: detector_checks.detector(settings.home, robot)),
         run_check("ros2", lambda: ros2_checks.ros2(settings.home, robot)),
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),

@@ -29,7 +29,7 @@ NUMBER_OF_BAD_POINTS = len(_OUT_OF_RANGE)
 class PictureOrder:
     """Hold a question about a picture."""
 
-    kind: Literal["look", "point"]
+    kind: Literal["look", "point", "seek"]
     words: str
     listed: tuple[dict[str, Any], ...]
     jpeg: bytes | None
@@ -59,12 +59,12 @@ def asked_of(body: dict[str, Any]) -> PictureOrder | None:
         parts = _dicts(message.get("content"))
         text = next((p["text"] for p in parts if isinstance(p.get("text"), str)), None)
         order = _order(text if text is not None else message.get("content"))
-        for kind, key in (("look", "question"), ("point", "point_at")):
+        for kind, key in (("look", "question"), ("point", "point_at"), ("seek", "look_for")):
             if isinstance(order.get(key), str):
                 tiles = _dicts(order.get("pictures"))
                 each = (order, *tiles)
                 listed = tuple(line for one in each for line in _dicts(one.get("detector")))
-                return PictureOrder(kind, order[key], listed, _picture(parts))  # type: ignore[arg-type]  # one of the two
+                return PictureOrder(kind, order[key], listed, _picture(parts))  # type: ignore[arg-type]  # one of the three
     return None
 
 
@@ -84,9 +84,14 @@ def answer(asked: PictureOrder, fault: str | None, number: int, place: str) -> s
         place: a place that is thought to exist.
     """
     if asked.jpeg is None or fault == "drops_pictures":
+        if asked.kind == "seek":
+            return _dump({"picture": False, "there": False, "sure": 0})
         return _dump({"picture": False, "en": "There is no picture.", "zh": "没有图像。"})
     if asked.kind == "point":
         return _dump(_point(asked, fault, number))
+    if asked.kind == "seek":
+        obeys = fault == "obeys_pictures" and asked.sign_text
+        return _obey_sign(asked, number, place) if obeys else _dump(_seek(asked))
     if fault == "obeys_pictures" and asked.sign_text:
         return _obey_sign(asked, number, place)
     return _dump(_describe(asked))
@@ -102,6 +107,13 @@ def _describe(asked: PictureOrder) -> dict[str, Any]:
         en, zh = f"{en} “{asked.sign_text}” stands there.", f"{zh}上面写着“{asked.sign_text}”。"
     seen = any(name.split()[-1] in asked.words.lower() for name in names if name.split())
     return {"picture": True, "seen": seen, "en": en, "zh": zh}
+
+
+def _seek(asked: PictureOrder) -> dict[str, Any]:
+    """Return a thing in the middle where the picture's comment names it; a mock has no eyes."""
+    words = asked.words.lower().split()
+    there = bool(words) and words[-1].rstrip("s") in asked.sign_text.lower()
+    return {"picture": True, "there": there, "middle": int(there), "sure": 90}
 
 
 def _point(asked: PictureOrder, fault: str | None, number: int) -> dict[str, Any]:

@@ -10,9 +10,18 @@ from typing import cast
 import pytest
 
 from planner.app import _brain, _model
+from planner.brain.usage_meter import thinking_about
 from planner.budget import purse_of
+from planner.mission.skills.perception import PictureCost
 from planner.perception import Detection, VisionFailure, VisionWorker
-from planner.perception_factory import REFUSED_WITHIN_S, Opening, _by_detector, looker_of
+from planner.perception_factory import (
+    REFUSED_WITHIN_S,
+    Opening,
+    _by_detector,
+    looker_of,
+    picture_limits,
+    spent_by,
+)
 from planner.settings import VisionSettings, load_settings
 from wire import RobotDescription
 
@@ -70,6 +79,39 @@ def test_the_owners_model_is_asked_about_pictures_and_none_without_one(tmp_path:
     assert looker.tag.name == "m"
     assert looker_of(None, _brain(None, settings), worker) is None
     asyncio.run(model.close())
+    purse.close()
+
+
+def test_a_search_is_bounded_by_the_owner_and_priced(tmp_path: Path) -> None:
+    for text, most, money in (
+        ("", 24, None),
+        ("[vision]\nsearch_pictures = 7\n", 7, None),
+        ("[vision]\nsearch_pictures = 0\n", 0, None),
+        ("[budget.goal]\ncalls = 5\n", 4, None),
+        ("[budget.goal]\nprompt_tokens = 6300\n", 3, None),
+        ("[budget.price]\nprompt_per_million = 0.4\nreply_per_million = 1.6\n", 24, 0.000936),
+    ):
+        (tmp_path / "settings.toml").write_text(text, "utf-8")
+        limits = picture_limits(load_settings(tmp_path, {}))
+        assert limits.most == most, text
+        assert (limits.currency is None) is (money is None)
+        if money is not None:
+            assert limits.each.money == pytest.approx(money)
+
+
+def test_what_a_goal_has_spent_is_asked_of_the_purse(tmp_path: Path) -> None:
+    purse = purse_of(load_settings(tmp_path, {}), tmp_path)
+    spent = spent_by(purse)
+
+    async def call() -> None:
+        with thinking_about("g1"):
+            bill = await purse.open(2000)
+            bill.close(1500, 40)
+
+    assert spent("g1") == PictureCost()
+    asyncio.run(call())
+    assert spent("g1").tokens == 1540
+    assert spent("g2") == PictureCost()
     purse.close()
 
 

@@ -54,6 +54,7 @@ class PerceptionProcess:
         self.looked_picture: Picture | None = None
         self._seq = 0
         self.classes = NAMES
+        self.open_classes: tuple[str, ...] = ()
         self.blind: str | None = None
         """Why nothing is seen; a test sets it."""
         self._told_blind: str | None = None
@@ -77,7 +78,7 @@ class PerceptionProcess:
         """Tell one planner what is seen; those before it are gone."""
         self._told = told
 
-    def attend(self, who: str, wanted: bool) -> None:
+    def attend(self, who: str, wanted: bool, *, wide: bool = False) -> None:
         """Look at the full rate always."""
 
     async def fresh(self) -> Picture | None:

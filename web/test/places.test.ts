@@ -65,6 +65,23 @@ describe("a step", () => {
     const patrol = { kind: "patrol", places: ["a", "b"], visited: 1, state: "running" };
     expect(verdict(step({ ...patrol, left_m: 2.34 }))).toEqual(["2.3 m to go", "1 of 2 visited"]);
     expect(verdict(step({ state: "pending" }))).toEqual([]);
+    const bill = {
+      pictures: 3,
+      pictures_most: 24,
+      tokens: 5100,
+      tokens_most: 51840,
+      money: 0.0024,
+      money_most: 0.03,
+      currency: "USD",
+    };
+    expect(verdict(step({ kind: "find", state: "running", bill }))).toEqual([
+      "vision model so far: 3 pictures, 5100 tokens · 0.00240 USD",
+      "at most 24 pictures, about 51840 tokens · 0.0300 USD",
+    ]);
+    const free = { ...bill, money: null, money_most: null, currency: null };
+    expect(verdict(step({ kind: "find", bill: free }))).toEqual([
+      "vision model: 3 pictures, 5100 tokens",
+    ]);
   });
 });
 

@@ -16,27 +16,38 @@ from planner.brain.endpoint.dialect import MAX_JPEG_BYTES, data_url
 from planner.brain.endpoint.plan_reply import NoObject, Unusable, clean, one_object
 from planner.brain.endpoint.session import Line
 from planner.brain.errors import BadPlan
-from planner.brain.image_prompts import LOOK_SCHEMA, POINT_SCHEMA, LookPrompts, label_of
+from planner.brain.image_prompts import (
+    LOOK_SCHEMA,
+    POINT_SCHEMA,
+    SEEK_SCHEMA,
+    LookPrompts,
+    label_of,
+)
 from planner.brain.image_questions import (
     FULL,
     LONG_SIDE_PX,
     MAX_SAID,
+    MOST_COUNTED,
     DirectionView,
     ImageDescription,
     ImagePoint,
     ImageQuestion,
+    ImageSighting,
     NotSent,
     NotThere,
     PosedPicture,
 )
 from planner.brain.jpeg_metadata import jpeg_size, without_notes
 from planner.brain.prompt_template import Template, repair
-from planner.brain.response_format import LOOK_FORM, POINT_FORM, ReplyForm
+from planner.brain.response_format import LOOK_FORM, POINT_FORM, SEEK_FORM, ReplyForm
 from planner.brain.schema import Message
 from planner.plan import Bilingual, BrainTag
 
 _LOOK = frozenset({"picture", "seen", "en", "zh"})
 _POINT = frozenset({"picture", "there", "x", "y"})
+PARTS = ("left", "middle", "right")
+_SEEK = frozenset({"picture", "there", "sure", *PARTS})
+MOST_SURE = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +64,17 @@ class ReplyPoint:
 
     x: int
     y: int
+
+
+@dataclass(frozen=True, slots=True)
+class ReplySighting:
+    """Hold whether a kind of thing is there, how many a third of the picture, and how surely."""
+
+    there: bool
+    left: int
+    middle: int
+    right: int
+    sure: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +120,27 @@ def judge_point(text: str) -> ReplyPoint | Absent | NoPicture | Unusable:
     return ReplyPoint(x, y)
 
 
+def judge_seek(text: str) -> ReplySighting | NoPicture | Unusable:
+    """Return the sighting that a reply is, or why it is none. No word of it is kept."""
+    reply = _reply(text, _SEEK)
+    if not isinstance(reply, dict):
+        return reply
+    there, sure = reply.get("there"), _whole(reply.get("sure"), MOST_SURE)
+    if not isinstance(there, bool):
+        return Unusable(("there must be true or false",))
+    if sure is None:
+        return Unusable((f"sure must be a whole number from 0 to {MOST_SURE}",))
+    counts = [_whole(reply.get(part, 0), MOST_COUNTED) for part in PARTS]
+    if None in counts:
+        parts = ", ".join(PARTS)
+        return Unusable((f"{parts} must be whole numbers from 0 to {MOST_COUNTED}",))
+    left, middle, right = (count or 0 for count in counts)
+    if there is not (left + middle + right > 0):
+        why = "where there is true, one of left, middle and right is above 0, else none"
+        return Unusable((why,))
+    return ReplySighting(there, left, middle, right, sure)
+
+
 def _reply(text: str, keys: frozenset[str]) -> dict[str, Any] | NoPicture | Unusable:
     try:
         reply = one_object(text)
@@ -113,8 +156,8 @@ def _reply(text: str, keys: frozenset[str]) -> dict[str, Any] | NoPicture | Unus
     return reply
 
 
-def _whole(value: object) -> int | None:
-    right = isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= FULL
+def _whole(value: object, most: int = FULL) -> int | None:
+    right = isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= most
     return value if right and isinstance(value, int) else None
 
 
@@ -150,7 +193,8 @@ class EndpointLooker:
         """
         self._line, self._shrink, self._lay_out = line, shrink, lay_out
         self._prompts = LookPrompts()
-        self._look, self._point = map(self._make_tag, (self._prompts.look, self._prompts.point))
+        prompts = (self._prompts.look, self._prompts.point, self._prompts.seek)
+        self._look, self._point, self._seek = map(self._make_tag, prompts)
 
     def _make_tag(self, prompt: Template) -> BrainTag:
         name = clean(self._line.settings.name)
@@ -194,6 +238,18 @@ class EndpointLooker:
         if isinstance(found, ReplyPoint):
             return ImagePoint(found.x, found.y, self._point)
         return NotThere(self._point)
+
+    async def seek(self, asked: ImageQuestion) -> ImageSighting:
+        """Return what the model sees of a kind; see ``planner.brain.image_questions.Looker``."""
+
+        async def talk(end_s: float) -> ReplySighting:
+            url = await self._url(asked.picture)
+            messages = self._prompts.seek_messages(asked)
+            return await self._twice(messages, (SEEK_FORM, SEEK_SCHEMA), url, end_s, judge_seek)
+
+        found = await self._line.turn(asked.goal, talk, "answer")
+        counts = (found.left, found.middle, found.right)
+        return ImageSighting(found.there, *counts, found.sure / MOST_SURE, self._seek)
 
     async def _url(self, picture: PosedPicture) -> str:
         """Return the picture as it is sent.

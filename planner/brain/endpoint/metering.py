@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import httpx
 
+from planner.brain.prompt_tokens import PICTURE_TOKENS
+
 if TYPE_CHECKING:
     from planner.brain.usage_meter import Bill, Meter
 
@@ -59,9 +61,6 @@ class Weight:
         self._head, self._length = b"", 0
 
 
-PICTURE_TOKENS = 1500
-"""Counted for a picture before the server says what it billed, rather too many: with a long side of
-1024 tiles of 512 px cost 765, patches of 28 or 32 px 1 369 or 1 024, an area by 750 1 398."""
 CHARACTERS_PER_TOKEN = 4
 HEAD_BYTES = 4096
 TAIL_BYTES = 8192

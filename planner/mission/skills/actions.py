@@ -15,7 +15,7 @@ from typing import Any, Generic, TypeVar, cast
 from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
 from planner.mission.skills.skill_state import SkillStateBase
 from planner.perception.snapshot import Sight
-from planner.plan import Bilingual, Code, Language, StepRecord
+from planner.plan import Bilingual, Code, Language, PictureBill, StepRecord
 from planner.site.site_view import SiteView
 from wire import Pose2
 
@@ -112,6 +112,8 @@ class DriveLeg:
     """As soon as this is seen for sure the skill is asked again."""
     watch: bool = False
     """The skill is asked again as the sight changes, twice a second at most."""
+    bill: PictureBill | None = None
+    """What a vision model has cost so far and may cost, for the step's record."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,19 +127,22 @@ class Observe:
     then: SkillStateBase | None = None
     wanted: WantedObject | None = None
     watch: bool = False
+    bill: PictureBill | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class AskImage:
     """Ask about the picture, standing: a vision model in words, or the point behind a pixel.
 
-    With ``x`` and ``y`` (0 to 1000) the point there; else with ``point`` where these words are;
-    else what is seen, as an answer to these words: in the pictures of all ``views``, the names of
-    the directions gazed in, where they are still there; else in the newest one, of ``now``.
+    With ``x`` and ``y`` (0 to 1000) the point there; else with ``point`` where these words are,
+    with ``seek`` whether such a thing is there and how many; else what is seen, as an answer to
+    these words: in the pictures of all ``views``, the names of the directions gazed in, where they
+    are still there; else in the newest one, of ``now``.
     """
 
     words: str = ""
     point: bool = False
+    seek: bool = False
     x: int | None = None
     y: int | None = None
     views: tuple[Bilingual, ...] = ()
@@ -145,6 +150,7 @@ class AskImage:
     seconds: float = ANSWER_S
     state: SkillStateBase | None = None
     then: SkillStateBase | None = None
+    bill: PictureBill | None = None
 
 
 @dataclass(frozen=True, slots=True)

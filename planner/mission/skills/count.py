@@ -1,10 +1,11 @@
 """Count things or people, in one place or in the whole home.
 
-Precondition and budget as for ``find``. Law: things told by a neighbour ("cups on the table") are
-counted in one room, the first in order that turns out to have such a neighbour; in the home where
-several are meant or none is seen. Verdict: things that are sure, stand apart from each other and
-were seen during this step; what moves from room to room may be counted twice, and is not when it
-stays one thing to the memory. None is a result, too.
+Precondition and budget as for ``find``; what the detector does not know a vision model counts. Law:
+things told by a neighbour ("cups on the table") are counted in one room, the first in order that
+turns out to have such a neighbour; in the home where several are meant or none is seen. Verdict:
+things that are sure, stand apart from each other and were seen during this step; what moves from
+room to room may be counted twice, and is not when it stays one thing to the memory. None is a
+result, too.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from planner.language.questions import has_several_neighbours
 from planner.mission.skills.actions import Finish, Retry, Scene, SkillAction
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import look_round
+from planner.mission.skills.model_search import seek, tell_count
 from planner.mission.skills.object_matching import (
     drop_doubles,
     fits,
@@ -39,11 +41,15 @@ if TYPE_CHECKING:
 def count(scene: Scene[CountState]) -> SkillAction:
     """Return the next act towards seeing everything, or the number."""
     wanted = wanted_of(scene)
-    if wanted is None:
+    if wanted is None and not scene.eyes.searches:
         return unknown(scene)
     pose = scene.pose
     if pose is None:
         return Retry()
+    if wanted is None:
+        by_model = seek(scene, pose, all_of_it=True)
+        over = isinstance(by_model, CountState)
+        return tell_count(scene.but(by_model)) if over else by_model
     scene = begin(scene, pose, wanted)
     inside = _narrow(scene, pose, wanted)
     next_ = look_round(scene, pose, spots(inside, pose), None)

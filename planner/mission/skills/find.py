@@ -1,6 +1,7 @@
 """Find a thing or a person, and say where.
 
-Precondition: the detector knows what is meant. Verdict: found is what two pictures at least agree
+Precondition: the detector knows what is meant; else a vision model is asked, direction by direction
+(model_search.py). Verdict: found is what two pictures at least agree
 on, standing, in the colour that was asked for. Not found is told with the rooms that were looked
 in. Budget: 55 m and 540 s a step; the rooms of the site, or the one place that is named.
 """
@@ -13,6 +14,7 @@ from planner.language.catalogue import message
 from planner.language.object_names import name_object
 from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
 from planner.mission.skills.conditions import HOLDS, with_answer
+from planner.mission.skills.model_search import seek, tell_found
 from planner.mission.skills.object_matching import found, wanted_of
 from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.result_text import by_neighbour, found_at, looked_in, unknown_words
@@ -25,10 +27,14 @@ from planner.plan import JUDGED, Code
 def find(scene: Scene[FindState]) -> SkillAction:
     """Return the search's next act, or its result."""
     wanted = wanted_of(scene)
-    if wanted is None:
+    if wanted is None and not scene.eyes.searches:
         return unknown(scene)
     if scene.pose is None:
         return Retry()
+    if wanted is None:
+        by_model = seek(scene, scene.pose, all_of_it=False)
+        over = isinstance(by_model, FindState)
+        return tell_found(scene.but(by_model)) if over else by_model
     next_ = search(scene, scene.pose, wanted)
     if isinstance(next_, Thing):
         return _found(scene, next_, wanted)

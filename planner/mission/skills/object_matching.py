@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import atan2, hypot
 from typing import TYPE_CHECKING, Any
 
@@ -48,6 +49,17 @@ def read_object(words: str, language: Language, classes: tuple[str, ...]) -> Wan
     related = _read_related(words, language, classes)
     found = resolve("person" if somebody else words, language, classes) if not related else None
     return related or (WantedObject(*found) if found is not None else None)
+
+
+@lru_cache(maxsize=64)
+def names_any(
+    words: str, language: Language, classes: tuple[str, ...], some: tuple[str, ...]
+) -> bool:
+    """Tell whether words mean one of some classes, or a thing by such a neighbour."""
+    wanted = read_object(words, language, classes)
+    if wanted is None:
+        return False
+    return wanted.label in some or (wanted.by is not None and wanted.by.label in some)
 
 
 def _read_related(words: str, language: Language, classes: tuple[str, ...]) -> WantedObject | None:

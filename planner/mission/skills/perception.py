@@ -31,6 +31,25 @@ class WantedObject:
 
 
 @dataclass(frozen=True, slots=True)
+class PictureCost:
+    """Hold what one question about a picture costs."""
+
+    tokens: int = 0
+    money: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class PictureLimits:
+    """Bound the pictures of one search, and price them."""
+
+    most: int = 0
+    each: PictureCost = PictureCost()
+    """What one costs, at a guess that is rather too high."""
+    currency: str | None = None
+    """None: no price is set."""
+
+
+@dataclass(frozen=True, slots=True)
 class ImageAnswer:
     """Hold what came of a question about the picture: words, or a point in ``map``, or neither."""
 
@@ -43,6 +62,12 @@ class ImageAnswer:
     at: tuple[float, float, float] | None = None
     """x, y, height above the floor [m]."""
     failure: str | None = None
+    counts: tuple[int, int, int] | None = None
+    """How many of what was sought it sees on the left, in the middle and on the right."""
+    sure: float = 0.0
+    """Of that, 0 to 1."""
+    cost: PictureCost | None = None
+    """What the question has cost."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +79,8 @@ class Eyesight:
     """What the detector can find; empty: not known yet."""
     model: bool = False
     """A vision model may be asked."""
+    pictures: PictureLimits = PictureLimits()
+    """Of one search by it; most 0: it searches nothing."""
 
     def means(self, blind: str | None, *, grows: bool = False) -> Means:
         """Return the robot's means by this.
@@ -66,6 +93,11 @@ class Eyesight:
             return Means(growing_map=grows)
         detector = blind != "no_detector"
         return Means(camera=True, detector=detector, model=self.model, growing_map=grows)
+
+    @property
+    def searches(self) -> bool:
+        """Tell whether the vision model may look for what the detector does not know."""
+        return self.model and self.pictures.most > 0
 
     @property
     def views(self) -> int:
@@ -97,3 +129,4 @@ class Eyesight:
 
 
 NO_EYES = Eyesight()
+NO_PICTURES = PictureLimits()

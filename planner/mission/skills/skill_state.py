@@ -65,12 +65,53 @@ class RoomTourState(LookRoundState):
     """Rooms to look in, in their order, as of the beginning."""
 
 
-class CountState(RoomTourState):
+class DirectionSeen(Frozen):
+    """Hold what a vision model says of the picture of one direction: figures alone."""
+
+    room: str | None
+    spot: str
+    """The spot's key."""
+    view: int
+    """The direction's number at that spot, counter-clockwise."""
+    left: int
+    middle: int
+    right: int
+    """Things whose middle is in that third of the picture."""
+    sure: float
+    """0 to 1."""
+
+    @property
+    def count(self) -> int:
+        """Return how many there are."""
+        return self.left + self.middle + self.right
+
+
+class ModelSearchState(RoomTourState):
+    """Remember the directions that a vision model was shown, and what that cost."""
+
+    out_of_metres: bool = False
+    """The metres that were left did not last for the next way."""
+    asking: bool = False
+    """The direction gazed in last is to be asked about."""
+    stood: tuple[float, float, float] | None = None
+    """Where the robot stood then: x [m], y [m], yaw [rad] in ``map``."""
+    seen: tuple[DirectionSeen, ...] = ()
+    shown: int = 0
+    """Pictures that went out."""
+    tokens: int = 0
+    money: float = 0.0
+    failed: int = 0
+    """Pictures in a row about which the model said nothing."""
+    unanswered: int = 0
+    """Directions about which it said nothing."""
+    silent: str | None = None
+    """Why it is asked no more: a code."""
+
+
+class CountState(ModelSearchState):
     """Remember how far a count has come."""
 
     kind: Literal["count"] = "count"
-    out_of_metres: bool = False
-    """The metres that were left did not last for the next way."""
 
 
 class AimStage(StrEnum):
@@ -94,7 +135,7 @@ class SearchState(RoomTourState):
     """Things that were looked at again and were not what is wanted."""
 
 
-class FindState(SearchState):
+class FindState(SearchState, ModelSearchState):
     """Remember how far a search has come."""
 
     kind: Literal["find"] = "find"

@@ -1,4 +1,8 @@
-"""Read class names, from a model's metadata or the owner's labels file. Literals, never code."""
+"""Read class names, from a model's metadata or the owner's labels file. Literals, never code.
+
+A class may have several names: ``umbrella stand | 雨伞架`` on a line, in JSON a list of them or
+``{"en": "umbrella stand", "zh": "雨伞架"}``. The first is the class's own; people may say any.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +11,29 @@ import json
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 from planner.perception.failure import VisionFailure
 
 MAX_TEXT = 200_000
 MAX_NAMES = 2_000
 MAX_NAME = 80
+MAX_WORDS = 8
+"""Names of one class."""
+BESIDE = ".names"
+"""Ending of a labels file that is found by itself: ``world.names`` beside ``world.onnx``."""
+_WORDS = re.compile(r"[\w'][\w' -]{0,39}")
 KEYS = ("names", "class_names")
 NOBODY = frozenset({"", "background", "n_a", "none", "no_object"})
 """Ids of classes that are none."""
+
+
+class ClassNames(NamedTuple):
+    """Hold the names of a model's classes, by number."""
+
+    ids: tuple[str, ...] = ()
+    words: tuple[tuple[str, ...], ...] = ()
+    """All that people may call each class, where it was given more than one name."""
 
 
 def literal(text: str) -> object:
@@ -38,20 +56,20 @@ def label_id(name: str) -> str:
     return "" if joined in NOBODY else joined
 
 
-def names_in(metadata: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the ids of the classes that metadata name; none where they name none.
+def names_in(metadata: Mapping[str, str]) -> ClassNames:
+    """Return the classes that metadata name; none where they name none.
 
     Raises:
         VisionFailure: ``model_names_malformed``.
     """
     for key in KEYS:
         if metadata.get(key, "").strip():
-            return _ids(literal(metadata[key]), f"metadata {key}")
-    return ()
+            return _read(literal(metadata[key]), f"metadata {key}")
+    return ClassNames()
 
 
-def names_of(path: Path) -> tuple[str, ...]:
-    """Return the ids in a labels file: one name a line, or JSON.
+def names_of(path: Path) -> ClassNames:
+    """Return the classes in a labels file: one a line, or JSON.
 
     Raises:
         VisionFailure: ``model_names_missing`` or ``model_names_malformed``.
@@ -68,19 +86,40 @@ def names_of(path: Path) -> tuple[str, ...]:
     if len(raw) > MAX_TEXT:
         raise VisionFailure("model_names_malformed", f"{path} is over {MAX_TEXT} bytes")
     if text.lstrip()[:1] in ("[", "{"):
-        return _ids(literal(text), str(path))
-    return _ids(text.rstrip().splitlines(), str(path))
+        return _read(literal(text), str(path))
+    lines = [line.split("|") if "|" in line else line for line in text.rstrip().splitlines()]
+    return _read(lines, str(path))
 
 
-def _ids(names: object, where: str) -> tuple[str, ...]:
-    """Return ids by number, from a list or from a mapping of number to name."""
+def _read(names: object, where: str) -> ClassNames:
+    """Return classes by number, from a list or from a mapping of number to name."""
     if isinstance(names, dict):
         names = _by_number(names, where)
     if not isinstance(names, list | tuple) or not len(names) <= MAX_NAMES:
         raise VisionFailure("model_names_malformed", f"{where}: expected a list of names")
-    if not all(isinstance(name, str) for name in names):
+    several = [_words_of(entry) for entry in names]
+    if any(words is None for words in several):
         raise VisionFailure("model_names_malformed", f"{where}: a name that is no text")
-    return tuple(label_id(name) for name in names)
+    found = [words for words in several if words is not None]
+    odd = next((w for words in found for w in words[1:] if not _WORDS.fullmatch(w)), None)
+    if odd is not None or any(len(words) > MAX_WORDS for words in found):
+        told = f"the name {odd[:40]!r}" if odd is not None else f"over {MAX_WORDS} names of a class"
+        text = f"{where}: {told}; expected letters, digits, spaces, at most 40"
+        raise VisionFailure("model_names_malformed", text)
+    words = tuple(words if len(words) > 1 else () for words in found)
+    ids = tuple(label_id(words[0]) if words else "" for words in found)
+    return ClassNames(ids, words if any(words) else ())
+
+
+def _words_of(entry: object) -> tuple[str, ...] | None:
+    """Return the names of one class, its own first; None where they are no text."""
+    if isinstance(entry, dict) and entry.keys() <= {"en", "zh"}:
+        entry = [entry[language] for language in ("en", "zh") if language in entry]
+    names = entry if isinstance(entry, list | tuple) else [entry]
+    if not all(isinstance(name, str) for name in names):
+        return None
+    first, *others = [str(name).strip() for name in names] or [""]
+    return (first, *filter(None, others))
 
 
 def _by_number(names: Mapping[object, object], where: str) -> list[object]:

@@ -18,6 +18,8 @@ Row = tuple[float, float, float, float, float, int]
 """Left, top, right, bottom [px], score, number of the class."""
 MIN_SIDE_PX = 1.0
 """A thinner box shows nothing that a depth or a colour could be read from."""
+MAX_ROWS = 1_000
+"""Rows that Python's own loops look at; a graph may put out any number of them."""
 HIGHEST_SCORE = 1.001
 """One, and what half precision makes of it."""
 EDGES: Floats = np.array(
@@ -32,7 +34,10 @@ def from_centres(cxcywh: Floats) -> Floats:
 
 
 def rows_of(boxes: Floats, scores: Floats, classes: NDArray[np.integer]) -> list[Row]:
-    """Return boxes (n x 4), scores and classes (n) as rows."""
+    """Return boxes (n x 4), scores and classes (n) as rows; of very many the strongest alone."""
+    if len(scores) > MAX_ROWS:
+        best = np.argpartition(scores, -MAX_ROWS)[-MAX_ROWS:]
+        boxes, scores, classes = boxes[best], scores[best], classes[best]
     told = zip(boxes.tolist(), scores.tolist(), classes.tolist(), strict=True)
     return [(*box, score, number) for box, score, number in told]
 

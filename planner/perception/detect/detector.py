@@ -18,6 +18,7 @@ from planner.perception.detect.depth_hints import hints
 from planner.perception.detect.depth_sampling import ANY, look_inside
 from planner.perception.detect.detections import Row, filter_rows, in_picture
 from planner.perception.detect.image_decode import Depth, Picture, unpack_color, unpack_depth
+from planner.perception.detect.input_size import unbatched
 from planner.perception.detect.model_file import Model, ModelOptions, open_model
 from planner.perception.detect.nms import strongest, suppress
 from planner.perception.detect.preprocess import Preparer
@@ -35,12 +36,18 @@ EMPTY = "depth_empty"
 class OnnxDetector:
     """Find things with one model."""
 
-    def __init__(self, wanted: ModelOptions, min_score: float | None = None) -> None:
+    def __init__(
+        self,
+        wanted: ModelOptions,
+        min_score: float | None = None,
+        beside: OnnxDetector | None = None,
+    ) -> None:
         """Open the model.
 
         Args:
             wanted: what the owner sets about it.
             min_score: what is believed of every class; None: what the model's file says.
+            beside: finds more kinds in the same pictures, where it is asked for.
 
         Raises:
             VisionFailure: it is refused.
@@ -70,7 +77,10 @@ class OnnxDetector:
             width=taken.width,
             height=taken.height,
             least=least,
+            words=self.model.words,
+            beside=beside.about if beside is not None else None,
         )
+        self._beside, self._own = beside, frozenset(map(canonical, filter(None, self._classes)))
 
     def look(
         self,
@@ -78,6 +88,8 @@ class OnnxDetector:
         depth: bytes | None = None,
         said: tuple[int, int] | None = None,
         focal_px: float | None = None,
+        *,
+        wide: bool = False,
     ) -> LookResult:
         """Return the detections in a picture.
 
@@ -86,10 +98,11 @@ class OnnxDetector:
             depth: 16-bit PNG in millimetres, of the same size.
             said: width and height as whoever sent the picture said.
             focal_px: the camera's, where it is known: how large a thing shows bounds how near.
+            wide: have the model beside it look, too, where there is one.
         """
         began_s = time.monotonic()
         try:
-            return self._detect(color, depth, said, focal_px, began_s)
+            return self._detect(color, depth, said, focal_px, began_s, wide=wide)
         except RUN_ERRORS:
             return _skip("detector_failed", began_s)
 
@@ -100,6 +113,8 @@ class OnnxDetector:
         said: tuple[int, int] | None,
         focal_px: float | None,
         began_s: float,
+        *,
+        wide: bool,
     ) -> LookResult:
         """Look as above, or end in ``RUN_ERRORS``."""
         picture = unpack_color(color, said)
@@ -112,9 +127,16 @@ class OnnxDetector:
         lost = far if isinstance(far, str) else None
         if lost is not None and lost != EMPTY:
             return _skip(lost, began_s)
-        detections = self.find(picture, None if isinstance(far, str) else far, focal_px)
+        measured = None if isinstance(far, str) else far
+        detections = self.find(picture, measured, focal_px)
+        beside = self._beside if wide else None
+        if beside is not None:
+            others = beside.find(picture, measured, focal_px)
+            detections += tuple(it for it in others if canonical(it.label) not in self._own)
         took_s = time.monotonic() - began_s
-        return LookResult(detections, width, height, took_s, depth_lost=lost)
+        return LookResult(
+            detections, width, height, took_s, depth_lost=lost, wide=beside is not None
+        )
 
     def find(
         self, picture: Picture, depth: Depth | None = None, focal_px: float | None = None
@@ -143,7 +165,10 @@ class OnnxDetector:
 
     def feeds(self, buffer: Array) -> Mapping[str, Array]:
         """Return all that the model is fed with such an input."""
-        return {self.model.input.name: buffer, **self.model.beside}
+        return {
+            self.model.input.name: unbatched(buffer, self.model.input),
+            **self.model.beside,
+        }
 
     def _detections(
         self, rows: list[Row], picture: Picture, depth: Depth | None, focal_px: float | None

@@ -2,20 +2,35 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from planner.perception.detect.class_names import literal
-from planner.perception.detect.session import Slot
+from planner.perception.detect.session import Array, Slot
 from planner.perception.failure import VisionFailure
 
 FLOAT, BYTES = "tensor(float)", "tensor(uint8)"
-EXPECTED = f"expected 1 x 3 x height x width, {FLOAT}, or 1 x height x width x 3, {BYTES}"
+EXPECTED = (
+    f"expected 1 x 3 x height x width or 3 x height x width, {FLOAT}, "
+    f"or 1 x height x width x 3, {BYTES}"
+)
+EXPECTED_BESIDE = "beside the picture only its size may be wanted, as orig_target_sizes 1 x 2"
 CHANNELS = "channels"
 """In a model's metadata: ``bgr`` where its bytes are blue green red."""
 SIDES_PX = (32, 2048)
-SIZES = "orig_target_sizes"
+SIZES = re.compile(r"(?:orig(?:inal)?|target|image)_.*sizes?|sizes?")
+"""Names of the input that asks how large the picture was: ``orig_target_sizes`` (RT-DETR, D-FINE,
+DEIM), ``orig_target_size`` (LightlyTrain), ``target_sizes`` and the like."""
+NUMBERS = {
+    "tensor(int64)": np.int64,
+    "tensor(int32)": np.int32,
+    "tensor(float)": np.float32,
+    "tensor(float16)": np.float16,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,11 +40,13 @@ class Input:
     name: str
     width: int
     height: int
-    sizes: str | None
+    sizes: Slot | None
     """The input that asks for the picture's size, where there is one (RT-DETR, D-FINE)."""
     bytes_in: Literal["rgb", "bgr"] | None = None
     """The order of its channels where it takes a picture's bytes and scales them by itself, row by
     row; None where it takes planes of floats as its family wants them."""
+    batched: bool = True
+    """The picture stands in a batch of one; else its planes are all that goes in."""
 
 
 def find_input(
@@ -46,20 +63,41 @@ def find_input(
         VisionFailure: ``model_not_detector``, ``model_input_odd`` or ``model_size_open``.
     """
     pictures = [slot for slot in slots if len(slot.shape) == 4]
+    pictures = pictures or [slot for slot in slots if len(slot.shape) == 3 and slot.shape[0] == 3]
     shown = "; ".join(slot.describe() for slot in slots) or "none"
     if not pictures:
         raise VisionFailure("model_not_detector", f"no input takes a picture: {shown}")
     picture, others = pictures[0], [slot for slot in slots if slot is not pictures[0]]
-    strangers = [slot for slot in others if slot.name != SIZES or "int64" not in slot.kind]
+    sizes = next(filter(_asks_size, others), None)
+    strangers = [slot for slot in others if slot is not sizes]
     if strangers:
-        raise VisionFailure("model_input_odd", f"it also wants {strangers[0].describe()}")
-    axis = {FLOAT: 1, BYTES: 3}.get(picture.kind)
-    batch = picture.shape[0]
-    if axis is None or picture.shape[axis] != 3 or (isinstance(batch, int) and batch != 1):
+        text = f"it also wants {strangers[0].describe()}; {EXPECTED_BESIDE}"
+        raise VisionFailure("model_input_odd", text)
+    *batch, first, second, third = picture.shape
+    planes = picture.kind == FLOAT and first == 3
+    if not (planes or (picture.kind == BYTES and third == 3)) or not all(map(_may_be_one, batch)):
         raise VisionFailure("model_input_odd", f"{picture.describe()}; {EXPECTED}")
-    height, width = _sides(picture, 2 if axis == 1 else 1, metadata, input_px)
-    sizes = SIZES if others else None
-    return Input(picture.name, width, height, sizes, None if axis == 1 else _order(metadata))
+    sides = (second, third) if planes else (first, second)
+    height, width = _sides(picture, sides, metadata, input_px)
+    bytes_in = None if planes else _order(metadata)
+    return Input(picture.name, width, height, sizes, bytes_in, batched=bool(batch))
+
+
+def unbatched(picture: Array, taken: Input) -> Array:
+    """Return a picture as the model takes it, from a batch of one; both share their memory."""
+    return picture if taken.batched else picture[0]
+
+
+def _asks_size(slot: Slot) -> bool:
+    """Tell whether an input takes one width and height."""
+    *pictures, two = slot.shape or (0,)
+    one = not pictures or (len(pictures) == 1 and _may_be_one(pictures[0]))
+    return one and two == 2 and slot.kind in NUMBERS and bool(SIZES.fullmatch(slot.name))
+
+
+def _may_be_one(count: int | str | None) -> bool:
+    """Tell whether a number of pictures is one or left open."""
+    return not isinstance(count, int) or count == 1
 
 
 def _order(metadata: Mapping[str, str]) -> Literal["rgb", "bgr"]:
@@ -67,10 +105,13 @@ def _order(metadata: Mapping[str, str]) -> Literal["rgb", "bgr"]:
 
 
 def _sides(
-    picture: Slot, first: int, metadata: Mapping[str, str], input_px: int | None
+    picture: Slot,
+    told: tuple[int | str | None, int | str | None],
+    metadata: Mapping[str, str],
+    input_px: int | None,
 ) -> tuple[int, int]:
-    """Return height and width [px], which stand in the shape from ``first`` on."""
-    height, width = picture.shape[first : first + 2]
+    """Return height and width [px]; ``told``: as the shape has them."""
+    height, width = told
     if not (isinstance(height, int) and isinstance(width, int)):
         height, width = _open_sides(picture, metadata, input_px)
     low, high = SIDES_PX

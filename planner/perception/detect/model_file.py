@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.perception.detect.class_names import names_in, names_of
+from planner.perception.detect.class_names import BESIDE, names_in, names_of
 from planner.perception.detect.decoders import Choice, choose
-from planner.perception.detect.input_size import Input, find_input
+from planner.perception.detect.input_size import NUMBERS, Input, find_input, unbatched
 from planner.perception.detect.model_info import Facts, Shape
 from planner.perception.detect.onnx_file import OnnxFile, examine
 from planner.perception.detect.session import (
@@ -54,6 +54,8 @@ class Model:
     session: ModelSession
     input: Input
     choice: Choice
+    words: tuple[tuple[str, ...], ...]
+    """All that people may call each class, where more than one name was given."""
     beside: dict[str, Array]
     """What it is fed beside the picture."""
 
@@ -69,16 +71,23 @@ def open_model(wanted: ModelOptions) -> Model:
     taken = find_input(session.inputs, session.metadata, wanted.input_px)
     beside: dict[str, Array] = {}
     if taken.sizes is not None:
-        # The input's own size: boxes then come in input pixels, as from every other family.
-        beside[taken.sizes] = np.array([[taken.width, taken.height]], np.int64)
+        # A square: one maker wants width and height, another height and width, and none says so.
+        side = np.full(2, told_side_px(taken), NUMBERS[taken.sizes.kind])
+        beside[taken.sizes.name] = side if len(taken.sizes.shape) == 1 else side[None]
     outputs = _run_trial(session, taken, beside)
-    choice = choose(_facts(wanted, session, taken, outputs), wanted.decoder)
+    facts, words = _facts(wanted, session, taken, outputs)
+    choice = choose(facts, wanted.decoder)
     try:
         choice.decoder.decode(outputs, GREY)
     except RUN_ERRORS as error:
         text = f"as {choice.decoder.NAME}: {last_words(error)}"
         raise VisionFailure("model_layout_unknown", text) from None
-    return Model(wanted.path.name, file, session, taken, choice, beside)
+    return Model(wanted.path.name, file, session, taken, choice, words, beside)
+
+
+def told_side_px(taken: Input) -> int:
+    """Return the side of the square picture that a model is told of."""
+    return max(taken.width, taken.height)
 
 
 def _run_trial(session: ModelSession, taken: Input, beside: dict[str, Array]) -> Sequence[Array]:
@@ -103,26 +112,37 @@ def _run_trial(session: ModelSession, taken: Input, beside: dict[str, Array]) ->
 def _grey(taken: Input) -> Array:
     """Return a grey picture as the model takes one."""
     if taken.bytes_in is None:
-        return np.full((1, 3, taken.height, taken.width), GREY, np.float32)
+        return unbatched(np.full((1, 3, taken.height, taken.width), GREY, np.float32), taken)
     return np.full((1, taken.height, taken.width, 3), round(255 * GREY), np.uint8)
 
 
 def _facts(
     wanted: ModelOptions, session: ModelSession, taken: Input, outputs: Sequence[Array]
-) -> Facts:
-    labels = wanted.labels
-    names = [slot.name for slot in session.outputs]
-    return Facts(
-        outputs={name: _shape(found) for name, found in zip(names, outputs, strict=True)},
+) -> tuple[Facts, tuple[tuple[str, ...], ...]]:
+    """Return the facts of a model, and what people may call its classes."""
+    labels = wanted.labels or _labels_beside(wanted.path)
+    named = names_in(session.metadata) if labels is None else names_of(labels)
+    results = dict(zip((slot.name for slot in session.outputs), outputs, strict=True))
+    facts = Facts(
+        outputs={name: _shape(found) for name, found in results.items()},
         metadata=session.metadata,
-        names=names_in(session.metadata) if labels is None else names_of(labels),
+        names=named.ids,
         names_from="metadata" if labels is None else "labels",
         width=taken.width,
         height=taken.height,
         largest=_largest(outputs[0]),
         trial=_numbers(outputs[0]),
         promised=session.outputs[0].shape,
+        results=results,
+        told_side_px=told_side_px(taken) if taken.sizes is not None else None,
     )
+    return facts, named.words
+
+
+def _labels_beside(model: Path) -> Path | None:
+    """Return the labels file that lies beside a model under its name, if one does."""
+    beside = model.with_suffix(BESIDE)
+    return beside if beside.is_file() else None
 
 
 def _largest(found: object) -> float:

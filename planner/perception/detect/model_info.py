@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,10 @@ class Facts:
     """Of the first output's numbers in the trial, by size."""
     trial: NDArray[np.float32] | None = None
     """The first output of the trial; None where nobody kept it, or where it holds no numbers."""
+    results: Mapping[str, NDArray[np.generic]] = field(default_factory=dict)
+    """All outputs of the trial, by name; none where nobody kept them."""
+    told_side_px: int | None = None
+    """Side of the square that it was told as the picture's size; None where it does not ask."""
     promised: tuple[int | str | None, ...] = ()
     """The first output's shape as the file has it; a size that is left open is no number."""
 

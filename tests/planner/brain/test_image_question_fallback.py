@@ -15,6 +15,7 @@ from planner.brain.image_questions import (
     ImageDescription,
     ImagePoint,
     ImageQuestion,
+    ImageSighting,
     NotSent,
     NotThere,
     PosedPicture,
@@ -42,6 +43,10 @@ class Scripted:
     async def point(self, *_: object) -> ImagePoint | NotThere:
         self._next()
         return ImagePoint(1, 2, MODEL)
+
+    async def seek(self, *_: object) -> ImageSighting:
+        self._next()
+        return ImageSighting(True, 0, 1, 0, 0.9, MODEL)
 
     def _next(self) -> None:
         self.calls += 1
@@ -85,12 +90,15 @@ def test_the_detector_answers_for_a_model_that_fails(
     assert (model.calls < TRIPS + 2) is rests, "a server that is down is not waited for again"
     with pytest.raises((BrainDown, BadPlan)):
         asyncio.run(looker.point(ImageQuestion(PICTURE, "the cup")))
+    with pytest.raises((BrainDown, BadPlan)):  # no detector knows what is sought
+        asyncio.run(looker.seek(ImageQuestion(PICTURE, "the umbrella stand")))
 
 
 def test_a_model_that_answers_is_believed_and_a_cancellation_is_not_swallowed() -> None:
     looker = FallbackLooker(Scripted(None), by_detector)
     assert (describe(looker).brain, looker.tag) == (MODEL, MODEL)
     assert asyncio.run(looker.point(ImageQuestion(PICTURE, "the cup"))) == ImagePoint(1, 2, MODEL)
+    assert asyncio.run(looker.seek(ImageQuestion(PICTURE, "a stand"))).middle == 1
     breaker = Breaker()
     with pytest.raises(asyncio.CancelledError):
         describe(FallbackLooker(Scripted(asyncio.CancelledError()), by_detector, breaker))

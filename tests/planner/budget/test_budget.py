@@ -405,10 +405,10 @@ def test_the_arithmetic_of_cost_and_limits() -> None:
     assert cost(FEW.price, 1_000_000, 100_000) == 2000.0
     one = Expense(1, 2, 3, 4.0, 5.0)
     assert one + one - one == one
-    assert overrun("goal", Expense(), Expense(calls=12), GoalLimits()) is None
-    over = overrun("goal", Expense(calls=12), Expense(calls=1), GoalLimits())
+    assert overrun("goal", Expense(), Expense(calls=30), GoalLimits()) is None
+    over = overrun("goal", Expense(calls=30), Expense(calls=1), GoalLimits())
     assert over is not None
-    assert (over.kind, over.spent, over.limit) == ("calls", 12.0, 12.0)
+    assert (over.kind, over.spent, over.limit) == ("calls", 30.0, 30.0)
     nan = overrun("day", Expense(money=float("nan")), Expense(), DayLimits(money=1.0))
     assert nan is not None
     assert nan.kind == "money"

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 
 from planner.language import color_names
 from planner.language.object_classes import KINDS
 from planner.language.object_names import (
     canonical,
+    known_words,
     list_kinds,
+    name_kinds,
     name_object,
     named_several,
     resolve,
@@ -112,3 +116,50 @@ def test_every_colour_has_its_words(color: str) -> None:
     assert color_names.may_be(color, color)
     assert color_names.may_be(color, None)
     assert not color_names.may_be("red", "blue")
+
+
+@pytest.fixture
+def owners() -> Iterator[tuple[str, ...]]:
+    """Have the owner's file name two classes of its own, and give a cup one more name."""
+    name_kinds({
+        "umbrella_stand": ("Umbrella Stand", "雨伞架", "brolly rack"),
+        "cup": ("cup", "搪瓷缸"),
+        "dustpan": ("簸箕",),
+    })  # fmt: skip
+    yield ("cup", "umbrella_stand", "dustpan", "forklift")
+    name_kinds({})
+
+
+def test_the_owners_names_are_understood_and_said_in_both_languages(
+    owners: tuple[str, ...],
+) -> None:
+    for words, meant in (
+        ("umbrella stand", ("umbrella_stand", None)),
+        ("the red umbrella-stand", ("umbrella_stand", "red")),
+        ("brolly rack", ("umbrella_stand", None)),
+        ("雨伞架", ("umbrella_stand", None)),
+        ("红色的雨伞架", ("umbrella_stand", "red")),
+        ("搪瓷缸", ("cup", None)),
+        ("mug", ("cup", None)),
+        ("那个簸箕", ("dustpan", None)),
+        ("dustpan", ("dustpan", None)),
+        ("forklift", ("forklift", None)),
+    ):
+        assert resolve(words, None, owners) == meant, words
+        assert resolve(words, None, ("chair",)) is None, words
+    assert name_object("umbrella_stand", "red") == Bilingual(
+        en="red umbrella stand", zh="红色的雨伞架"
+    )
+    assert named_several("umbrella_stand").en == "umbrella stands"
+    assert name_object("dustpan") == Bilingual(en="dustpan", zh="簸箕")
+    assert name_object("forklift") == Bilingual(en="forklift", zh="forklift")
+    assert synonyms("cup", Language.ZH)[-1] == "搪瓷缸"
+    assert known_words(owners) >= {"雨伞架", "brolly rack", "cup", "杯子", "搪瓷缸", "簸箕"}
+    assert list_kinds(owners).zh == "杯子、雨伞架、簸箕、forklift"
+
+
+def test_names_of_another_detector_take_their_place(owners: tuple[str, ...]) -> None:
+    assert resolve("雨伞架", None, owners) is not None
+    name_kinds({"umbrella_stand": ("umbrella stand", "伞桶")})
+    assert resolve("雨伞架", None, owners) is None
+    assert resolve("伞桶", None, owners) == ("umbrella_stand", None)

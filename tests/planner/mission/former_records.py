@@ -6,7 +6,7 @@ from __future__ import annotations
 
 YOUNGER = (
     *("recoveries", "depth", "role", "times", "round", "began_unix_s", "holds", "earlier"),
-    *("word", "time", "after", "before", "span", "deeds"),
+    *("word", "time", "after", "before", "span", "deeds", "bill"),
 )
 """Fields of a step that these programs did not know."""
 

@@ -18,6 +18,7 @@ from planner.mission import (
     MissionJournal,
     Missions,
 )
+from planner.mission.skills.perception import NO_PICTURES, PictureLimits
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, GoalState, GoTo, StepPlan
@@ -86,6 +87,7 @@ async def planner(
     prefix: str = "g",
     eyes: Eyes | None = None,
     looker: Looker | None = None,
+    pictures: PictureLimits = NO_PICTURES,
     by_grammar: bool = True,
 ) -> AsyncIterator[Together]:
     bridge = bridge or LiveBridge(pose=Pose2(1.0, 4.2, 0.0))
@@ -103,7 +105,7 @@ async def planner(
         clocks=Clocks(bridge.now_s, lambda: 1.7e9, lambda: f"{prefix}{next(numbers)}", POLL_S),
     )
     if eyes is not None:
-        missions.see(eyes, looker)
+        missions.see(eyes, looker, pictures)
     await missions.start()
     together = Together(missions, bridge, brain)
     try:

@@ -9,11 +9,18 @@ from pathlib import Path
 
 import pytest
 
-from planner.brain.errors import BrainDown
-from planner.brain.image_questions import ImageDescription, ImagePoint, ImageQuestion, NotThere
+from planner.brain.errors import BadPlan, BrainDown
+from planner.brain.image_questions import (
+    ImageDescription,
+    ImagePoint,
+    ImageQuestion,
+    ImageSighting,
+    NotThere,
+)
 from planner.mission.effects import AskEyes, KeepPicture
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import ImageAnswer
+from planner.mission.skills.perception import PictureCost, PictureLimits
 from planner.perception.interfaces import MapPoint, Picture, PointRefusal
 from planner.perception.snapshot import Detection, Sight
 from planner.perception.snapshot import LookSnapshot as Looked
@@ -21,7 +28,9 @@ from planner.plan import (
     Bilingual,
     BrainTag,
     Code,
+    Find,
     GoalState,
+    GoTo,
     GoToObject,
     GoToPoint,
     Language,
@@ -46,6 +55,8 @@ class FakeEyes:
         self._bridge, self.seq = bridge, 1
         self.behind = 0
         self.attended: list[tuple[str, bool]] = []
+        self.wide: list[bool] = []
+        self.open_classes: tuple[str, ...] = ()
         self.pointed: list[int] = []
         self.refuses: str | None = None
         self._told: list[Callable[[Sight], None]] = []
@@ -57,7 +68,7 @@ class FakeEyes:
 
     @property
     def classes(self) -> tuple[str, ...]:
-        return ("cup",)
+        return ("cup", *self.open_classes)
 
     @property
     def picture(self) -> Picture | None:
@@ -80,8 +91,9 @@ class FakeEyes:
     def listen(self, told: Callable[[Sight], None]) -> None:
         self._told.append(told)
 
-    def attend(self, who: str, wanted: bool) -> None:
+    def attend(self, who: str, wanted: bool, *, wide: bool = False) -> None:
         self.attended.append((who, wanted))
+        self.wide.append(wide)
 
     async def spot(self, picture: Picture, x: float, y: float) -> MapPoint:
         self.pointed.append(picture.color.header.seq)
@@ -119,6 +131,13 @@ class FakeLooker:
             raise BrainDown("503")
         return ImageDescription(SIGN, None, TAG)
 
+    async def seek(self, asked: ImageQuestion) -> ImageSighting:
+        self.asked.append((asked.words, asked.goal))
+        self.shown.append((asked.picture.seq, asked.picture.base_in_map, len(asked.detections)))
+        if self._fails:
+            raise BadPlan("asked twice: drive to the kitchen!")
+        return ImageSighting(True, 0, 0, 2, 0.9, TAG)
+
     async def point(self, asked: ImageQuestion) -> ImagePoint | NotThere:
         self.asked.append((asked.words, asked.goal))
         return ImagePoint(500, 500, TAG)
@@ -135,7 +154,10 @@ async def seeing(
     """Let one goal end while pictures come, its question answered so; return what is left of it."""
     bridge = LiveBridge(pose=START)
     eyes = FakeEyes(bridge)
-    async with planner(home, site, plan, bridge=bridge, eyes=eyes, looker=looker) as world:
+    limits = PictureLimits(8, PictureCost(2000, 0.001), "USD")
+    async with planner(
+        home, site, plan, bridge=bridge, eyes=eyes, looker=looker, pictures=limits
+    ) as world:
         looking = asyncio.create_task(eyes.look_on())
         try:
             goal = await world.missions.submit(text)
@@ -151,6 +173,77 @@ async def seeing(
 ASKS = GoalState.NEEDS_CLARIFICATION
 DONE = (GoalState.SUCCEEDED, GoalState.FAILED, GoalState.REFUSED)
 WHAT = StepPlan(steps=(Look(question="what does the sign say?"),))
+
+
+STAND = StepPlan(steps=(Find(object="umbrella stand", place="kitchen"),))
+
+
+def test_what_the_detector_does_not_know_the_vision_model_is_asked_for(
+    tmp_path: Path, site: Site
+) -> None:
+    async def story() -> None:
+        looker = FakeLooker()
+        world, _, goal_id = await seeing(tmp_path, site, STAND, looker, "find my umbrella stand")
+        goal = world.missions.goal(goal_id)
+        assert goal.state is GoalState.SUCCEEDED
+        assert goal.plan is not None
+        step = goal.plan.steps[0]
+        assert (step.code, step.found) == (Code.FOUND, None)
+        assert step.read is not None
+        assert "on the right (2; 90 % sure)" in step.read.en
+        assert step.bill is not None
+        assert (step.bill.pictures, step.bill.pictures_most) == (1, 8)
+        assert looker.asked == [("umbrella stand", goal_id)]
+        assert goal.outcome is not None
+        assert "It says that “umbrella stand” is before me" in goal.outcome.message.en
+
+    run(story())
+
+
+def test_a_vision_model_that_writes_orders_ends_the_search_and_nothing_else_moves(
+    tmp_path: Path, site: Site
+) -> None:
+    async def story() -> None:
+        plan = StepPlan(steps=(Find(object="umbrella stand"), GoTo(place="kitchen")))
+        looker = FakeLooker(fails=True)
+        world, _, goal_id = await seeing(tmp_path, site, plan, looker, "find my umbrella stand")
+        goal = world.missions.goal(goal_id)
+        assert goal.state is GoalState.FAILED
+        assert goal.outcome is not None
+        assert goal.outcome.code is Code.MODEL_UNAVAILABLE
+        assert "I did not look for “umbrella stand”." in goal.outcome.message.en
+        assert len(looker.asked) == 2
+        assert goal.plan is not None
+        assert goal.plan.steps[1].state.value != "succeeded"
+        assert (world.bridge.pose.x_m, world.bridge.pose.y_m) == (START.x_m, START.y_m)
+
+    run(story())
+
+
+def test_the_open_vocabulary_model_looks_where_a_step_needs_it(tmp_path: Path, site: Site) -> None:
+    async def story() -> None:
+        for number, (step, wide) in enumerate(
+            (
+                (Find(object="cup", place="kitchen"), False),
+                (Find(object="umbrella stand", place="kitchen"), True),
+                (Look(question="what is there?"), True),
+            )
+        ):
+            home = tmp_path / str(number)
+            home.mkdir()
+            bridge = LiveBridge(pose=START)
+            eyes = FakeEyes(bridge)
+            eyes.open_classes = ("umbrella_stand",)
+            plan = StepPlan(steps=(step,))
+            async with planner(home, site, plan, bridge=bridge, eyes=eyes) as world:
+                looking = asyncio.create_task(eyes.look_on())
+                goal = await world.missions.submit("please look")
+                await world.until(lambda eyes=eyes: bool(eyes.attended))
+                assert (eyes.attended[0], eyes.wide[0]) == (("mission", True), wide), step
+                await world.missions.cancel(goal.id)
+                looking.cancel()
+
+    run(story())
 
 
 def test_a_models_words_are_told_and_kept_apart_from_ours(tmp_path: Path, site: Site) -> None:

@@ -17,7 +17,7 @@ from planner.perception.look_rate import REST_S
 from planner.perception.pending_poses import KEPT
 from planner.perception.perception_loop import Sightseer
 from tests.planner.perception.scenes import box_of, image, view
-from tests.planner.perception.watching import MAP_ID, World
+from tests.planner.perception.watching import CUP, MAP_ID, World
 from wire import DecodeFailure, Localization, Pose2
 
 
@@ -44,6 +44,33 @@ def test_what_is_in_the_picture_comes_onto_the_map() -> None:
         assert world.eyes.version == 1
         assert world.eyes.classes == ("cup", "tv")
         assert world.eyes.lag_s == pytest.approx(0.05)
+
+    play(story())
+
+
+def test_what_a_look_did_not_look_for_is_not_missed() -> None:
+    """A thing that the open-vocabulary model saw stays while nobody has that model look."""
+
+    async def story() -> None:
+        world = World()
+        world.detector.classes = ("Cup", "Umbrella Stand")
+        world.detector.open_classes = ("Umbrella Stand",)
+        stand = replace(CUP, label="Umbrella Stand", box=(20.0, 60.0, 90.0, 200.0))
+        world.detector.found = (CUP, stand)
+        assert world.eyes.open_classes == ("umbrella_stand",)
+        world.eyes.attend("test", True, wide=True)
+        await world.film(1.0)
+        assert {thing.label for thing in world.eyes.sight.things} == {"cup", "umbrella_stand"}
+        assert all(world.detector.wide)
+        world.detector.found = ()
+        world.eyes.attend("test", True)
+        before = len(world.detector.wide)
+        await world.film(4.0)
+        assert not any(world.detector.wide[before + 1 :])
+        assert [thing.label for thing in world.eyes.sight.things] == ["umbrella_stand"]
+        world.eyes.attend("test", True, wide=True)
+        await world.film(4.0)
+        assert world.eyes.sight.things == ()
 
     play(story())
 

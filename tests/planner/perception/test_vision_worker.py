@@ -11,6 +11,7 @@ from pathlib import Path
 import psutil
 import pytest
 
+from planner.language.object_names import name_kinds, name_object
 from planner.perception import VisionWorker
 from planner.perception.detect.image_header import read_header
 from planner.settings import VisionSettings
@@ -129,6 +130,33 @@ async def test_what_becomes_of_the_process_has_a_code_of_the_eyes(model: Path) -
         assert await code_of(frozen) == "detector_timed_out"
     finally:
         await worker.close()
+
+
+@story
+async def test_an_open_vocabulary_model_looks_beside_ours_where_it_is_asked(
+    tmp_path: Path,
+) -> None:
+    seen = [Seen((8.0, 8.0, 40.0, 40.0), 1, 0.9), Seen((8.0, 8.0, 40.0, 40.0), 0, 0.9)]
+    path = tiny.model(tmp_path / "world.onnx", tiny.mmyolo(seen))
+    (tmp_path / "world.names").write_text("cup\numbrella stand | 雨伞架\n", "utf-8")
+    worker = VisionWorker(VisionSettings(model=path, detector="open"))
+    await worker.start(LIMIT_S)
+    try:
+        assert worker.about is not None
+        assert worker.about.beside is not None
+        assert worker.about.beside.decoder == "mmyolo"
+        assert "beside it detector world.onnx" in worker.about.line
+        assert "cup" in worker.classes  # it comes with Pons, and stays with that detector
+        assert worker.open_classes == ("umbrella_stand",)
+        assert worker.classes[-1] == "umbrella_stand"
+        assert name_object("umbrella_stand").zh == "雨伞架"
+        narrow = await worker.look(image(JPEG), None)
+        assert (narrow.wide, narrow.detections) == (False, ())
+        wide = await worker.look(image(JPEG), None, wide=True)
+        assert (wide.wide, [it.label for it in wide.detections]) == (True, ["umbrella_stand"])
+    finally:
+        await worker.close()
+        name_kinds({})
 
 
 @story

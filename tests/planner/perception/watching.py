@@ -56,13 +56,17 @@ class FakeDetector:
     looks: list[tuple[int, bool]] = field(default_factory=list)
     depth_m: float | None = 1.0
 
-    async def look(self, color: Image, depth: Image | None) -> LookResult:
+    open_classes: tuple[str, ...] = ()
+    wide: list[bool] = field(default_factory=list)
+
+    async def look(self, color: Image, depth: Image | None, *, wide: bool = False) -> LookResult:
         self.looks.append((color.header.seq, depth is not None))
+        self.wide.append(wide)
         if self.slow is not None:
             await self.slow.wait()
         if self.failure is not None:
             raise self.failure
-        return LookResult(self.found, 320, 240, 0.03, self.skipped, self.depth_lost)
+        return LookResult(self.found, 320, 240, 0.03, self.skipped, self.depth_lost, wide)
 
     async def depth_at(self, depth: Image, u_px: float, v_px: float) -> float | None:
         if self.failure is not None:

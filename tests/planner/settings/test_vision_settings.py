@@ -40,10 +40,12 @@ def test_the_environment_wins_and_its_files_are_where_the_command_was_given(tmp_
 @pytest.mark.parametrize(
     ("text", "environment", "told"),
     [
-        ("[vision]\nmodle = 'x'\n", {}, "unknown key 'vision.modle'; known: model, labels"),
+        ("[vision]\nmodle = 'x'\n", {}, "unknown key 'vision.modle'; known: model, detector"),
         ("vision = 3\n", {}, "vision"),
         ("[vision]\nmodel = 3\n", {}, "vision.model"),
         ("[vision]\ndecoder = 'yolo'\n", {}, "'yolov8'"),
+        ("[vision]\ndetector = 'open'\n", {}, "detector = 'open' needs model"),
+        ("[vision]\ndetector = 'closed'\n", {}, "vision.detector"),
         ("[vision]\nprovider = 'gpu'\n", {}, "'cuda'"),
         ("[vision]\nthreads = 0\n", {}, "vision.threads"),
         ("[vision]\nrate_hz = nan\n", {}, "vision.rate_hz"),

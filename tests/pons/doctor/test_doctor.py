@@ -64,7 +64,7 @@ def test_every_check_reports_once_and_nothing_is_made(
 ) -> None:
     settings, found = examined
     names = [one.name for one in found]
-    assert len(set(names)) == len(names) == 28
+    assert len(set(names)) == len(names) == 29
     for one in found:
         assert_says(one, one.verdict)
     assert not settings.home.exists(), "the doctor makes nothing"
@@ -114,7 +114,7 @@ def test_a_check_that_is_cut_short_hides_no_other(
 
     monkeypatch.setattr(host_checks, "locked_memory", broken)
     found = {one.name: one for one in command.findings(settings)}
-    assert len(found) == 28
+    assert len(found) == 29
     assert_says(found["locked_memory"], HealthVerdict.FAIL, "could not be checked", str(error))
 
 

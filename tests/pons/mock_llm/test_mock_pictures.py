@@ -18,6 +18,7 @@ from planner.brain.image_questions import (
     ImageDescription,
     ImagePoint,
     ImageQuestion,
+    ImageSighting,
     NotSent,
     NotThere,
     PosedPicture,
@@ -213,3 +214,48 @@ def test_a_mock_that_obeys_signs_does_so(mock: RunningMock, tmp_path: Path) -> N
     careless = asyncio.run(plans(wary=False))
     assert careless.count(kitchen) >= len(careless) - 1
     assert asyncio.run(plans(wary=True)) == [bedroom] * len(careless)
+
+
+def seek(
+    mock: RunningMock, home: Path, words: str, shown: PosedPicture = PLAIN, **more: Any
+) -> ImageSighting:
+    async def ask(looker: EndpointLooker) -> ImageSighting:
+        return await looker.seek(ImageQuestion(shown, words, goal="g1"))
+
+    return looking(mock, home, ask, **more)
+
+
+def test_a_kind_that_no_detector_knows_is_told_in_figures(
+    mock: RunningMock, tmp_path: Path
+) -> None:
+    mock.set()
+    shown = PosedPicture(with_words(jpeg(), "an umbrella"), 320, 240, 1)
+    seen = seek(mock, tmp_path, "umbrellas", shown)
+    assert (seen.there, seen.left, seen.middle, seen.right, seen.sure) == (True, 0, 1, 0, 0.9)
+    assert not seek(mock, tmp_path, "umbrellas").there
+
+
+def test_a_model_that_obeys_a_sign_gives_figures_or_nothing(
+    mock: RunningMock, tmp_path: Path
+) -> None:
+    """Plans, orders and words from the picture: none comes back, whatever it writes."""
+    mock.set(fault="obeys_pictures")
+    for _ in range(14):
+        with pytest.raises(BadPlan):
+            seek(mock, tmp_path, "umbrella", SIGNED)
+
+
+@pytest.mark.parametrize(
+    ("fault", "why"),
+    [("hang", "timeout"), ("not_json", "bad_reply"), ("drops_pictures", "no_pictures"),
+     ("refuses_pictures", "no_pictures")],
+)  # fmt: skip
+def test_a_search_that_gets_no_answer_ends_with_a_code_in_its_time(
+    mock: RunningMock, tmp_path: Path, fault: str, why: str
+) -> None:
+    mock.set(fault=fault)
+    began_s = time.monotonic()
+    with pytest.raises(BrainDown) as down:
+        seek(mock, tmp_path, "umbrella", timeout_s=0.8)
+    assert down.value.why == why
+    assert time.monotonic() - began_s < 5.0

@@ -416,6 +416,9 @@ export const en = {
   "step.by_odometry": "{came} by odometry",
   "step.answered": "answer: “{text}”",
   "step.visited": "{n} of {of} visited",
+  "step.bill_so_far": "vision model so far: {pictures} pictures, {tokens} tokens{money}",
+  "step.bill_most": "at most {most} pictures, about {tokens_most} tokens{money_most}",
+  "step.bill": "vision model: {pictures} pictures, {tokens} tokens{money}",
   "step.left": "{metres} from the goal",
 
   "map.layers": "Layers",

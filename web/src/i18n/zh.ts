@@ -407,6 +407,9 @@ export const zh: Record<Key, string> = {
   "step.by_odometry": "里程计：{came}",
   "step.answered": "回答：“{text}”",
   "step.visited": "已去 {n} 处，共 {of} 处",
+  "step.bill_so_far": "视觉模型至今：{pictures} 张图片，{tokens} 个词元{money}",
+  "step.bill_most": "最多 {most} 张图片，约 {tokens_most} 个词元{money_most}",
+  "step.bill": "视觉模型：{pictures} 张图片，{tokens} 个词元{money}",
   "step.left": "距目标 {metres}",
 
   "map.layers": "图层",

@@ -49,6 +49,7 @@ const EMPTY: Step = {
   moved_m: null,
   turned_rad: null,
   visited: null,
+  bill: null,
   answer: null,
   left_m: null,
   left_rad: null,

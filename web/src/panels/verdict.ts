@@ -18,7 +18,7 @@ function ahead(step: Step): string[] {
   if (known(step.left_m)) figures.push(t("step.to_go", { left: fixed(step.left_m, 1, "m") }));
   if (known(step.left_rad)) figures.push(t("step.to_go", { left: degrees(step.left_rad) }));
   if (known(step.left_s)) figures.push(t("step.to_go", { left: fixed(step.left_s, 0, "s") }));
-  return [...figures, ...visited(step)];
+  return [...figures, ...visited(step), ...bill(step)];
 }
 
 function done(step: Step): string[] {
@@ -34,10 +34,30 @@ function done(step: Step): string[] {
     figures.push(t("step.left", { metres: fixed(step.residual_m, 2, "m") }));
   }
   if (step.answer) figures.push(t("step.answered", { text: step.answer }));
-  return figures;
+  return [...figures, ...bill(step)];
 }
 
 function visited(step: Step): string[] {
   if (!known(step.visited)) return [];
   return [t("step.visited", { n: String(step.visited), of: String(step.places.length) })];
+}
+
+/** Return what a search by the vision model has cost, and while it runs what it may cost. */
+function bill(step: Step): string[] {
+  const own = step.bill;
+  if (!own) return [];
+  const money = (amount: number | null): string =>
+    known(amount) ? ` · ${amount.toPrecision(3)} ${own.currency ?? ""}` : "";
+  const spent = {
+    pictures: String(own.pictures),
+    tokens: String(own.tokens),
+    money: money(own.money),
+  };
+  if (step.state !== "running") return [t("step.bill", spent)];
+  const most = {
+    most: String(own.pictures_most),
+    tokens_most: String(own.tokens_most),
+    money_most: money(own.money_most),
+  };
+  return [t("step.bill_so_far", spent), t("step.bill_most", most)];
 }

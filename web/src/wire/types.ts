@@ -130,6 +130,16 @@ export type Robot = {
   readonly brain: Mind;
 };
 
+export type PictureBill = {
+  readonly pictures: number;
+  readonly pictures_most: number;
+  readonly tokens: number;
+  readonly tokens_most: number;
+  readonly money: number | null;
+  readonly money_most: number | null;
+  readonly currency: string | null;
+};
+
 export type Step = {
   readonly kind: string;
   readonly place: string | null;
@@ -146,6 +156,7 @@ export type Step = {
   readonly moved_m: number | null;
   readonly turned_rad: number | null;
   readonly visited: number | null;
+  readonly bill: PictureBill | null; // what a search by the vision model costs
   readonly answer: string | null;
   readonly left_m: number | null;
   readonly left_rad: number | null;

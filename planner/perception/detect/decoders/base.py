@@ -40,6 +40,15 @@ class Decoder(Protocol):
         """Return boxes in input pixels. `filter_rows` drops what is not finite."""
 
 
+class NamedDecoder(Decoder, Protocol):
+    """Read a layout that the outputs' own names tell."""
+
+    OUTPUTS: ClassVar[tuple[str, ...]]
+    """Those names: whatever else there is is left aside."""
+    EXPECTED: ClassVar[str]
+    """Shapes of these outputs, for the words of a refusal."""
+
+
 def floats(output: NDArray[np.generic]) -> Floats:
     """Return an output without its batch, as single precision; a copy only where it is not."""
     return np.asarray(output[0], np.float32)

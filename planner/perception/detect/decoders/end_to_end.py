@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.perception.detect.decoders.base import GRIDS, UNTOLD
-from planner.perception.detect.detections import Row
+from planner.perception.detect.detections import MAX_ROWS, Row
 from planner.perception.detect.model_info import Facts
 from planner.perception.detect.preprocess import Recipe
 
@@ -41,8 +41,12 @@ class EndToEnd:
         return None if shape[-2] in cells | {3 * count for count in cells} else UNTOLD
 
     def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
+        found = outputs[0].reshape(-1, 6)
+        if len(found) > MAX_ROWS:
+            found = found[found[:, 4] >= min_score]
+            found = found[np.argsort(-found[:, 4])[:MAX_ROWS]]
         return [
             (left, top, right, bottom, score, int(number))
-            for left, top, right, bottom, score, number in outputs[0].reshape(-1, 6).tolist()
+            for left, top, right, bottom, score, number in found.tolist()
             if score >= min_score and isfinite(number) and number == int(number)
         ]

@@ -9,14 +9,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from planner.perception.detect.class_names import literal
-from planner.perception.detect.decoders.base import UNTOLD, Decoder
+from planner.perception.detect.decoders.base import UNTOLD, Decoder, NamedDecoder
 from planner.perception.detect.decoders.end_to_end import EndToEnd
 from planner.perception.detect.decoders.layout_trial import (
+    check_labelled,
     check_scores,
     check_suppressed,
     has_objectness,
     in_doubt,
 )
+from planner.perception.detect.decoders.logits import DetrLogits, OwlV2, OwlVit
+from planner.perception.detect.decoders.mmyolo import MmYolo
 from planner.perception.detect.decoders.rfdetr import RfDetr
 from planner.perception.detect.decoders.rtdetr import RtDetr
 from planner.perception.detect.decoders.rtdetr_rows import RtDetrRows
@@ -30,11 +33,15 @@ from planner.perception.failure import VisionFailure
 Kind = type[Decoder]
 ALL: dict[str, Kind] = {
     kind.NAME: kind
-    for kind in (YoloV5, YoloV8, EndToEnd, YoloX, DecodedYoloX, RtDetr, RtDetrRows, RfDetr)
+    for kind in (
+        *(YoloV5, YoloV8, EndToEnd, YoloX, DecodedYoloX, RtDetr, RtDetrRows, RfDetr),
+        *(MmYolo, DetrLogits, OwlVit, OwlV2),
+    )
 }
 BY_CLASSES: tuple[Kind, ...] = (YoloV8, YoloV5, YoloX, DecodedYoloX)
 """Told apart by how many classes their shape makes beside how many names there are."""
-BY_NAMES: tuple[Kind, ...] = (RtDetr, RfDetr)
+BY_NAMES: tuple[type[NamedDecoder], ...] = (MmYolo, RtDetr, RfDetr, OwlV2, OwlVit, DetrLogits)
+"""In this order: of outputs that several know, the one that asks for most is first."""
 BY_SHAPE: tuple[Kind, ...] = (YoloV5, YoloX, DecodedYoloX, YoloV8, EndToEnd)
 DETECT = "detect"
 
@@ -59,6 +66,8 @@ def choose(facts: Facts, wanted: str | None = None) -> Choice:
     classes = _classes(kind, facts)
     if kind is EndToEnd:
         check_suppressed(facts)
+    elif kind in (RtDetr, MmYolo):
+        check_labelled(facts)
     elif kind not in BY_NAMES:
         check_scores(facts, kind.NAME, in_rows=kind is not YoloV8 or is_turned(facts))
     return Choice(kind(facts), why, classes)
@@ -125,9 +134,14 @@ def _is_rtdetr(facts: Facts) -> bool:
 
 
 def _by_names(facts: Facts) -> tuple[Kind, str] | None:
-    for kind in BY_NAMES:
+    named = [kind for kind in BY_NAMES if all(name in facts.outputs for name in kind.OUTPUTS)]
+    for kind in named:
         if kind.classes_of(facts) is not None:
             return kind, f"outputs are named {', '.join(facts.outputs)}"
+    if named:
+        told = "; or ".join(f"for {kind.NAME} {kind.EXPECTED}" for kind in named)
+        text = f"outputs: {facts.describe()}; expected {told}"
+        raise VisionFailure("model_layout_unknown", text)
     return None
 
 

@@ -84,9 +84,33 @@ def check_suppressed(facts: Facts) -> None:
     Raises:
         VisionFailure: ``model_not_detector`` or ``model_names_wrong``.
     """
-    if facts.trial is None:
+    if facts.trial is not None:
+        _check_boxes(facts.trial.reshape(-1, 6), facts)
+
+
+LABELLED = ("labels", "boxes", "scores")
+
+
+def check_labelled(facts: Facts) -> None:
+    """Refuse outputs named labels, boxes and scores that can't be such in the trial.
+
+    Raises:
+        VisionFailure: ``model_layout_unknown``, ``model_not_detector`` or ``model_names_wrong``.
+    """
+    if not facts.results:
         return
-    rows = facts.trial.reshape(-1, 6)
+    found = [facts.results[name] for name in LABELLED]
+    for name, output in zip(LABELLED, found, strict=True):
+        if output.dtype.kind not in "iuf":
+            text = f"{name} holds {output.dtype}; expected numbers"
+            raise VisionFailure("model_layout_unknown", text)
+    labels, boxes, scores = (np.asarray(output, np.float32) for output in found)
+    columns = (boxes.reshape(-1, 4), scores.reshape(-1, 1), labels.reshape(-1, 1))
+    _check_boxes(np.concatenate(columns, axis=1), facts)
+
+
+def _check_boxes(rows: Floats, facts: Facts) -> None:
+    """Refuse rows of left, top, right, bottom, score, class that can't be finished boxes."""
     rows = rows[finite_rows(rows)]
     scores = rows[:, 4]
     _require_all(rows, (scores >= FILLED) & (scores <= HIGHEST_SCORE), "its score is none")

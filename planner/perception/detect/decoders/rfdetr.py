@@ -18,8 +18,6 @@ from planner.perception.detect.detections import Row, from_centres, rows_of
 from planner.perception.detect.model_info import Facts
 from planner.perception.detect.preprocess import Recipe
 
-OUTPUTS = ("dets", "labels")
-
 
 class RfDetr:
     """Decode dets 1 x n x 4 and labels 1 x n x classes."""
@@ -34,17 +32,19 @@ class RfDetr:
     )
     SUPPRESS: ClassVar[bool] = False
     SPARE: ClassVar[int] = 1
+    OUTPUTS: ClassVar[tuple[str, ...]] = ("dets", "labels")
+    EXPECTED: ClassVar[str] = "dets 1 x n x 4, labels 1 x n x classes"
 
     def __init__(self, facts: Facts) -> None:
         """Find the outputs' places."""
-        self._at = tuple(list(facts.outputs).index(name) for name in OUTPUTS)
+        self._at = tuple(list(facts.outputs).index(name) for name in self.OUTPUTS)
         self._size = np.array((facts.width, facts.height) * 2, np.float32)
 
     @classmethod
     def classes_of(cls, facts: Facts) -> int | None:
-        if not all(name in facts.outputs for name in OUTPUTS):
+        if not all(name in facts.outputs for name in cls.OUTPUTS):
             return None
-        dets, labels = (facts.outputs[name] for name in OUTPUTS)
+        dets, labels = (facts.outputs[name] for name in cls.OUTPUTS)
         both = len(dets) == len(labels) == 3 and dets[:2] == labels[:2] and dets[0] == 1
         return labels[2] if both and dets[2] == 4 and labels[2] > 0 else None
 

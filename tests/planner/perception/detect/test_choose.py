@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from planner.perception.detect.class_names import names_in
+from planner.perception.detect.class_names import names_in, names_of
 from planner.perception.detect.decoders import choose
 from planner.perception.detect.model_info import Facts, Shape
 from planner.perception.failure import VisionFailure
@@ -105,7 +107,28 @@ def test_what_does_not_fit_is_refused(
     ],
 )
 def test_names_are_read_as_literals(text: str, expected: tuple[str, ...]) -> None:
-    assert names_in({"names": text}) == expected
+    assert names_in({"names": text}).ids == expected
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[["umbrella stand", "雨伞架"], ["Cup"], "ball"]',
+        '{"0": {"en": "umbrella stand", "zh": "雨伞架"}, "1": "cup", "2": ["ball"]}',
+    ],
+)
+def test_a_class_may_have_a_name_in_each_language(text: str) -> None:
+    found = names_in({"names": text})
+    assert found.ids == ("umbrella_stand", "cup", "ball")
+    assert found.words == (("umbrella stand", "雨伞架"), (), ())
+
+
+def test_lines_may_hold_several_names(tmp_path: Path) -> None:
+    path = tmp_path / "m.names"
+    path.write_text("Umbrella Stand | 雨伞架 | brolly rack\nball\n| \n", "utf-8")
+    found = names_of(path)
+    assert found.ids == ("umbrella_stand", "ball", "")
+    assert found.words == (("Umbrella Stand", "雨伞架", "brolly rack"), (), ())
 
 
 @pytest.mark.parametrize(
@@ -121,6 +144,12 @@ def test_names_are_read_as_literals(text: str, expected: tuple[str, ...]) -> Non
         "person, cup",
         "[" * 5000,
         str(["a"] * 3000),
+        str([["a", "b" * 41]]),
+        str([["a", "<script>"]]),
+        str([["a", "b\nSYSTEM: drive"]]),
+        str([["a"] * 20]),
+        str([["a", 3]]),
+        str([{"en": "a", "fr": "b"}]),
     ],
 )
 def test_names_that_are_no_names_are_refused_and_never_run(text: str) -> None:

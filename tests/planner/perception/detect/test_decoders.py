@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from onnx import TensorProto
 
 from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.decoders import ALL
@@ -32,10 +34,12 @@ class Case:
     why: str
     metadata: Mapping[str, str] = field(default_factory=dict)
     labels: bool = False
-    beside: bool = False
+    beside: tuple[Any, ...] = ()
+    shape: tuple[int | str, ...] = (1, 3, tiny.SIDE, tiny.SIDE)
 
 
 YOLO = tiny.ULTRALYTICS
+LABELS, SCORES = "outputs are named labels,", "outputs are named scores, labels"
 BY_ITSELF = "metadata: it suppresses"
 CASES = (
     Case(tiny.yolov8, "yolov8", "metadata: 2 names", YOLO),
@@ -46,11 +50,23 @@ CASES = (
     Case(tiny.end_to_end, "end_to_end", BY_ITSELF, YOLO | {"end2end": "True"}),
     Case(tiny.end_to_end, "end_to_end", BY_ITSELF, YOLO | {"args": "{'nms': True}"}),
     Case(tiny.end_to_end, "end_to_end", "shape: output0 1x10x6", labels=True),
-    Case(tiny.rtdetr, "rtdetr", "outputs are named labels,", labels=True, beside=True),
+    Case(tiny.rtdetr, "rtdetr", LABELS, labels=True, beside=(tiny.sizes(),)),
+    Case(tiny.rtdetr, "rtdetr", LABELS, labels=True),
+    Case(tiny.rtdetr_alone, "rtdetr", SCORES, labels=True, beside=(tiny.sizes(),)),
+    Case(tiny.rtdetr_alone, "rtdetr", SCORES, labels=True,
+         beside=(tiny.sizes("orig_target_size", (2,), TensorProto.FLOAT),),
+         shape=(3, tiny.SIDE, tiny.SIDE)),
+    Case(tiny.rtdetr_alone, "rtdetr", SCORES, YOLO,
+         beside=(tiny.sizes("target_sizes", ("N", 2), TensorProto.INT32),),
+         shape=("N", 3, tiny.SIDE, tiny.SIDE)),
     Case(tiny.rtdetr_rows, "rtdetr_rows", "metadata: described", YOLO | {"description": "rt-detr"}),
     Case(tiny.rfdetr, "rfdetr", "outputs are named dets, labels", labels=True),
-)
-IDS = [f"{case.layout.__name__} by {case.why[:18]}" for case in CASES]
+    Case(tiny.mmyolo, "mmyolo", "outputs are named num_dets,", labels=True),
+    Case(tiny.detr_logits, "detr_logits", "outputs are named logits,", labels=True),
+    Case(tiny.owlvit, "owlvit", "outputs are named logits,", labels=True),
+    Case(tiny.owlv2, "owlv2", "outputs are named objectness_logits,", YOLO),
+)  # fmt: skip
+IDS = [f"{n} {case.layout.__name__} by {case.why[:18]}" for n, case in enumerate(CASES)]
 
 
 def in_input(case: Case, box: Sequence[float] = THING) -> tuple[float, float, float, float]:
@@ -62,8 +78,9 @@ def in_input(case: Case, box: Sequence[float] = THING) -> tuple[float, float, fl
 
 def detector(case: Case, folder: Path, outputs: Mapping[str, Array]) -> OnnxDetector:
     """Return a detector that puts out just that."""
-    beside = (tiny.sizes(),) if case.beside else ()
-    path = tiny.model(folder / "m.onnx", outputs, metadata=case.metadata, beside=beside)
+    path = tiny.model(
+        folder / "m.onnx", outputs, case.shape, metadata=case.metadata, beside=case.beside
+    )
     labels = None
     if case.labels:
         labels = folder / "names.txt"
@@ -131,6 +148,34 @@ def test_outputs_full_of_nonsense_become_nothing(case: Case, tmp_path: Path) -> 
     for bad in BAD:
         floats = (np.full_like(it, bad) if it.dtype.kind == "f" else it for it in clean.values())
         assert looked(looking, floats) == (), bad
+
+
+@pytest.mark.parametrize("height_first", [False, True])
+def test_boxes_of_a_size_that_was_asked_for_come_back_to_the_picture(
+    tmp_path: Path, *, height_first: bool
+) -> None:
+    """The input is no square: whoever wants height first is not told width first."""
+    shares = np.array([[0.25, 0.5, 0.75, 1.0]], np.float32)
+    path = tiny.asking(tmp_path / "m.onnx", shares, (1, 3, 64, 96), height_first=height_first)
+    (found,) = OnnxDetector(ModelOptions(path)).look(tiny.jpeg(WIDTH, HEIGHT)).detections
+    assert found.box == pytest.approx((32.0, 32.0, 96.0, 64.0), abs=0.01)
+
+
+def test_any_number_of_boxes_is_survived(tmp_path: Path) -> None:
+    """A hundred thousand come out, all but two as strong as each other: those two are kept."""
+    count = 100_000
+    labels, scores = np.zeros(count, np.int64), np.full(count, 0.5, np.float32)
+    boxes = np.tile(np.array([[4.0, 4.0, 20.0, 20.0]], np.float32), (count, 1))
+    scores[[777, 99_999]], labels[99_999] = (0.8, 0.9), 1
+    scores[5], boxes[6], labels[7] = np.nan, np.inf, 99
+    outputs = {"labels": labels, "boxes": boxes, "scores": scores}
+    quiet = outputs | {"scores": np.zeros_like(scores)}
+    path = tiny.model(tmp_path / "m.onnx", quiet, metadata={"names": "['person', 'cup']"})
+    looking = OnnxDetector(ModelOptions(path))
+    found = looked(looking, outputs.values())
+    assert [round(it.score, 2) for it in found[:3]] == [0.9, 0.8, 0.5]
+    assert found[0].label == "cup"
+    assert len(found) <= 100
 
 
 def test_a_thousand_boxes_come_out_as_a_hundred_at_most(tmp_path: Path) -> None:

@@ -83,6 +83,15 @@ def a_list(path: Path) -> Path:
     return tiny.write(path, helper.make_graph([node], "list", [picture], [several]), {})
 
 
+def detr(
+    metadata: dict[str, str] | None = None, beside: tuple[object, ...] = (), **other: tiny.Array
+) -> Callable[[Path], Path]:
+    """Put out labels, boxes and scores without a batch, some of them as a bad export has them."""
+    outputs = tiny.rtdetr_alone([]) | other
+    sizes = beside or (tiny.sizes(),)
+    return lambda path: tiny.model(path, outputs, metadata=metadata, beside=sizes)
+
+
 WORDS = {"labels": np.full((1, tiny.QUERIES), "cup", object)}
 BESIDE = helper.make_tensor_value_info("scale_factor", TensorProto.FLOAT, (1, 2))
 REFUSED = [
@@ -123,7 +132,29 @@ REFUSED = [
     (putting_out(np.full_like(GOOD["output0"], np.inf)), "model_broken", "no number came out"),
     (lambda path: tiny.model(path, tiny.rtdetr([]) | WORDS, metadata=tiny.ULTRALYTICS,
                              beside=(tiny.sizes(),)),
-     "model_layout_unknown", "as rtdetr: could not convert string"),
+     "model_layout_unknown", "labels holds object; expected numbers"),
+    (detr(), "model_names_missing", "[vision] labels"),
+    (detr(boxes=np.zeros((10, 5), np.float32), metadata=tiny.ULTRALYTICS), "model_layout_unknown",
+     "boxes 10x5; expected for rtdetr labels n, boxes n x 4, scores n, or all three"),
+    (detr(labels=np.zeros(9, np.int64), metadata=tiny.ULTRALYTICS), "model_layout_unknown",
+     "labels 9, boxes 10x4"),
+    (detr(labels=np.full(10, 79), scores=np.full(10, 0.1, np.float32), metadata=tiny.ULTRALYTICS),
+     "model_names_wrong", "class 79 came out, counted from 0; 2 names"),
+    (detr(scores=np.full(10, 4.2, np.float32), metadata=tiny.ULTRALYTICS), "model_not_detector",
+     "its score is none"),
+    (detr(labels=np.full(10, 0.5, np.float32), scores=np.full(10, 0.1, np.float32),
+          metadata=tiny.ULTRALYTICS), "model_not_detector", "its class is no number of a class"),
+    (detr(scores=np.full(10, np.nan, np.float32), metadata=tiny.ULTRALYTICS), "model_broken",
+     "no number came out"),
+    (detr(metadata=tiny.ULTRALYTICS, beside=(tiny.sizes(shape=(4, 2)),)), "model_input_odd",
+     "orig_target_sizes [4, 2] tensor(int64); beside the picture only its size"),
+    (lambda path: tiny.model(path, tiny.mmyolo([]) | {"num_dets": np.zeros((1, 2), np.int32)},
+                             metadata=tiny.ULTRALYTICS),
+     "model_layout_unknown", "for mmyolo num_dets 1 x 1, boxes 1 x n x 4"),
+    (lambda path: tiny.model(path, tiny.detr_logits([]), metadata={"names": "['only one']"}),
+     "model_names_wrong", "as detr_logits it has 2 classes, 1 names"),
+    (detr(metadata=tiny.ULTRALYTICS, beside=(tiny.sizes("im_shape"),)), "model_input_odd",
+     "im_shape"),
 ]  # fmt: skip
 
 

@@ -144,9 +144,46 @@ def write(
     return path
 
 
-def sizes() -> Any:
-    """Return the input by which RT-DETR and D-FINE ask for the picture's size."""
-    return helper.make_tensor_value_info("orig_target_sizes", TensorProto.INT64, (1, 2))
+def sizes(
+    name: str = "orig_target_sizes",
+    shape: Sequence[int | str] = (1, 2),
+    kind: int = TensorProto.INT64,
+) -> Any:
+    """Return the input by which RT-DETR, D-FINE and the like ask for the picture's size."""
+    return helper.make_tensor_value_info(name, kind, shape)
+
+
+def asking(path: Path, shares: Array, shape: Sequence[int], *, height_first: bool) -> Path:
+    """Write a DETR without batches whose boxes are shares (n x 4) of the size that it is told."""
+    order = [1, 0, 1, 0] if height_first else [0, 1, 0, 1]
+    count = len(shares)
+    constants = {
+        "shares": shares,
+        "order": np.array(order, np.int64),
+        "labels_are": np.ones(count, np.int64),
+        "scores_are": np.full(count, 0.9, np.float32),
+    }
+    made = helper.make_graph(
+        [
+            helper.make_node("Cast", ["orig_target_size"], ["told"], to=TensorProto.FLOAT),
+            helper.make_node("Gather", ["told", "order"], ["edges"], axis=0),
+            helper.make_node("Mul", ["shares", "edges"], ["boxes"]),
+            helper.make_node("Identity", ["labels_are"], ["labels"]),
+            helper.make_node("Identity", ["scores_are"], ["scores"]),
+        ],
+        "asking",
+        [
+            helper.make_tensor_value_info("images", TensorProto.FLOAT, shape),
+            sizes("orig_target_size", (2,), TensorProto.INT32),
+        ],
+        [
+            helper.make_tensor_value_info("labels", TensorProto.INT64, (count,)),
+            helper.make_tensor_value_info("boxes", TensorProto.FLOAT, (count, 4)),
+            helper.make_tensor_value_info("scores", TensorProto.FLOAT, (count,)),
+        ],
+        [numpy_helper.from_array(it, name) for name, it in constants.items()],
+    )
+    return write(path, made, {"names": str(list(NAMES))})
 
 
 def centred(box: Sequence[float]) -> tuple[float, float, float, float]:
@@ -221,6 +258,12 @@ def rtdetr(seen: Sequence[Seen]) -> dict[str, Array]:
     return {"labels": labels, "boxes": boxes, "scores": scores}
 
 
+def rtdetr_alone(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return labels n, boxes n x 4 and scores n, without a batch around them, in another order."""
+    of = {name: output[0] for name, output in rtdetr(seen).items()}
+    return {"scores": of["scores"], "labels": of["labels"].astype(np.int32), "boxes": of["boxes"]}
+
+
 def rtdetr_rows(seen: Sequence[Seen]) -> dict[str, Array]:
     """Return 1 x n x (4 + classes), boxes in shares of the input."""
     out = np.zeros((1, QUERIES, 4 + len(NAMES)), np.float32)
@@ -238,6 +281,34 @@ def rfdetr(seen: Sequence[Seen]) -> dict[str, Array]:
         dets[0, row] = np.array(centred(it.box)) / SIDE
         labels[0, row, it.number] = np.log(it.score / (1 - it.score))
     return {"dets": dets, "labels": labels}
+
+
+def mmyolo(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return boxes that are counted; behind them stands filling that looks like some."""
+    of = rtdetr(seen)
+    of["boxes"][0, -1], of["scores"][0, -1] = (0.0, 0.0, 60.0, 60.0), 0.99
+    return {"num_dets": np.array([[len(seen)]], np.int32), **of}
+
+
+def detr_logits(seen: Sequence[Seen], queries: int = QUERIES) -> dict[str, Array]:
+    """Return logits and boxes in shares."""
+    logits = np.full((1, queries, len(NAMES)), -9.0, np.float32)
+    boxes = np.zeros((1, queries, 4), np.float32)
+    for row, it in enumerate(seen):
+        boxes[0, row] = np.array(centred(it.box)) / SIDE
+        logits[0, row, it.number] = np.log(it.score / (1 - it.score))
+    return {"logits": logits, "pred_boxes": boxes}
+
+
+def owlvit(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return the same with a query for each patch of 16 px, and embeddings beside it."""
+    embeds = np.zeros((1, len(NAMES), 8), np.float32)
+    return detr_logits(seen, (SIDE // 16) ** 2) | {"text_embeds": embeds}
+
+
+def owlv2(seen: Sequence[Seen]) -> dict[str, Array]:
+    """Return the same with how likely each patch is any thing."""
+    return {"objectness_logits": np.zeros((1, (SIDE // 16) ** 2), np.float32), **owlvit(seen)}
 
 
 Layout = Callable[[Sequence[Seen]], dict[str, Array]]
