@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from ros2.nav2_velocity import OLD_S, PAUSE_S, PERIOD_S, Nav2Velocity
+from ros2.nav2_velocity import PAUSE_S, PERIOD_S, Nav2Velocity
 from ros2.operations import (
     AskType,
     NoAnswer,
@@ -16,6 +16,7 @@ from ros2.operations import (
     UnreadableMessage,
 )
 from ros2.trouble import Ros2Trouble
+from ros2.twist_topic import OLD_S
 from tests.wire.examples import STATUS
 from wire import Grant, Heartbeat, Hello, Mode, Status, Velocity
 from wire.ros2_config import Ros2Config
