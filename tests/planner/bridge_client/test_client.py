@@ -17,6 +17,7 @@ from wire import (
     LocalizerStatus,
     Odometry,
     OpRequest,
+    Nav2State,
     Pose2,
     RobotDescription,
     Scan,
@@ -125,6 +126,9 @@ class Moving(FakeBridge):
         self.odom_m += 1.0
         return Odometry(odom_id="o", seq=int(self.odom_m), stamp_s=1.0, base_in_odom=ORIGIN,
                         twist=Twist2(0.0, 0.0), yaw_rate_radps=None)  # fmt: skip
+
+    def nav2(self) -> Nav2State | None:
+        return None
 
     def localizer(self) -> LocalizerStatus | None:
         return None
