@@ -46,7 +46,12 @@ class SmallNav2:
         self.goals.append(goal)
         self.statuses.append((len(self.goals), EXECUTING, len(self.goals)))
         far = hypot(goal[0] - here[0], goal[1] - here[1]) > 1.0
-        self._left, self._began_s = list(self.via) if far else [], now_s
+        way = list(self.via) if far else []
+        if way and hypot(way[-1][0] - here[0], way[-1][1] - here[1]) < hypot(
+            way[0][0] - here[0], way[0][1] - here[1]
+        ):
+            way.reverse()
+        self._left, self._began_s = way, now_s
 
     @property
     def executes(self) -> bool:

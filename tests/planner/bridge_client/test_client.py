@@ -15,9 +15,9 @@ from tests.planner.mission.fakes import FakeBridge
 from wire import (
     Localization,
     LocalizerStatus,
+    Nav2State,
     Odometry,
     OpRequest,
-    Nav2State,
     Pose2,
     RobotDescription,
     Scan,
