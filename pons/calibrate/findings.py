@@ -247,9 +247,9 @@ def plausible(name: str, value: float, was: float) -> None:
 
 def check_limits(robot: RobotDescription, found: Sequence[CalibrationFinding]) -> None:
     """See that robot.toml may hold all of it."""
-    told = robot.model_dump()
+    told = robot.model_dump(exclude_unset=True)  # some keys may not be given where they are fixed
     for one in found:
-        told[one.table][one.key] = one.value
+        told.setdefault(one.table, {})[one.key] = one.value
     try:
         RobotDescription.model_validate(told, strict=True)
     except ValidationError as error:
