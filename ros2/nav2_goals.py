@@ -109,7 +109,7 @@ class Nav2Goals:
             ]
         if now_s - self._joined_s < SETTLE_S:
             return requests
-        wanted = self._wanted(now_s)
+        wanted = self._standing_order(now_s)
         if wanted is not None:
             return requests + self._pursue(wanted, now_s)
         return requests + self._call_off(now_s)
@@ -144,7 +144,7 @@ class Nav2Goals:
             return Ros2Trouble("ros2_unreadable", f"{self._nav2.status}: {self._unreadable}")
         return self._topic.trouble(now_s)
 
-    def _wanted(self, now_s: float) -> Nav2Goal | None:
+    def _standing_order(self, now_s: float) -> Nav2Goal | None:
         """Return the order that stands; a planner that fell silent wants nothing."""
         order = self._order
         spoke = now_s - self._ordered_s <= UNASKED_S

@@ -63,7 +63,7 @@ class Nav2Velocity:
         return self._topic.subscribe(said)
 
     @property
-    def refused(self) -> int:
+    def refusal_count(self) -> int:
         """Return how many messages could not be read."""
         return self._topic.refused
 

@@ -123,7 +123,7 @@ class SerialDrive:
         return self._port.trouble
 
     @property
-    def opened(self) -> int:
+    def times_opened(self) -> int:
         """Return how often the port was opened."""
         return self._port.opened
 

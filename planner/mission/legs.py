@@ -132,12 +132,12 @@ def abandon_route(turn: Transaction) -> None:
     if leg is None:
         return
     if leg.routes >= (NAV2_ROUTES if turn.book.nav2 else MAX_ROUTES):
-        fail_step(turn, _lost(turn))
+        fail_step(turn, _give_up_reason(turn))
         return
     turn.change(leg=None, ticket=None, routes=leg.routes + 1, route_when_standing=True)
 
 
-def _lost(turn: Transaction) -> Fail:
+def _give_up_reason(turn: Transaction) -> Fail:
     """Say why a leg is given up: by Nav2's word where Nav2 drives, else for want of a way."""
     status = turn.book.status
     why = status.leg.refusal if status is not None and status.leg is not None else None

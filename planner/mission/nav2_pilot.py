@@ -74,14 +74,14 @@ class Nav2Pilot:
 
     def left_m(self, status: Status, wanted: MotionRequest) -> float | None:
         """Return how far the goal is as the crow flies; Nav2's way is not known here."""
-        aim, pose = self._wanted(wanted), status.base_in_map
+        aim, pose = self._aim_of(wanted), status.base_in_map
         if aim is None or pose is None:
             return None
         return hypot(aim.goal.x_m - pose.x_m, aim.goal.y_m - pose.y_m)
 
     def report(self, status: Status, wanted: MotionRequest, now_s: float) -> LegReport | None:
         """Return how far the wanted leg is, as the bridge says it of a leg of waypoints."""
-        aim = self._wanted(wanted)
+        aim = self._aim_of(wanted)
         if aim is None:
             return None
         pose, state = status.base_in_map, self._ours(aim, now_s)
@@ -107,7 +107,7 @@ class Nav2Pilot:
         self, status: Status, wanted: MotionRequest, share: float, now_s: float
     ) -> tuple[Record, ...]:
         """Return what is said on a status: Nav2's goal, and a twist or that none holds."""
-        aim = self._wanted(wanted)
+        aim = self._aim_of(wanted)
         order = Nav2Goal(
             planner_id=self._me,
             seen=status.seq,
@@ -125,7 +125,7 @@ class Nav2Pilot:
         owned = status.owner is not None and status.owner.planner_id == self._me
         if not owned or status.grant is None or now_s - self._said_s < PERIOD_S:
             return ()
-        aim = self._wanted(wanted)
+        aim = self._aim_of(wanted)
         state = self._ours(aim, now_s) if aim is not None else None
         drives = state is not None and state.phase == "driving"
         if state is None or not drives or status.grant.mission != wanted.mission:
@@ -153,7 +153,7 @@ class Nav2Pilot:
             dead_man=abs(v_mps) >= _STILL or abs(w_radps) >= _STILL,
         )
 
-    def _wanted(self, wanted: MotionRequest) -> _Aim | None:
+    def _aim_of(self, wanted: MotionRequest) -> _Aim | None:
         aim = self._aim
         if aim is None or (aim.mission, aim.leg) != (wanted.mission, wanted.leg):
             return None

@@ -172,7 +172,7 @@ def try_base(
         TrialRefusal: ``trial_port`` before all else that a lost port may look like.
     """
     _require_port(drive)
-    opened = drive.opened
+    opened = drive.times_opened
     try:
         found = WheelTrial(drive, robot, pace, person, boot).run()
         if not has_base_gyro(robot):
@@ -196,7 +196,7 @@ def _require_port(drive: SerialDrive, opened: int | None = None) -> None:
     trouble = drive.trouble
     if trouble is not None:
         raise TrialRefusal("trial_port", f"{trouble.code}: {trouble.detail}")
-    if opened is not None and drive.opened != opened:
+    if opened is not None and drive.times_opened != opened:
         raise TrialRefusal("trial_port", "port_gone: it was unplugged meanwhile, and is back")
 
 
