@@ -21,7 +21,7 @@ import time
 from typing import Any, ClassVar
 
 import rclpy
-import small_nav2
+import small_nav2  # type: ignore[import-not-found]  # beside this file, where its Python looks
 from action_msgs.msg import GoalStatus, GoalStatusArray
 from geometry_msgs.msg import PoseStamped, Twist, TwistStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
