@@ -13,13 +13,13 @@ from planner.bridge_client import Course, Identity, OwnerState, on_course, on_st
 from planner.mission.activity import Driving, RouteDoubt
 from planner.mission.effects import AskRoute, Effect, Journal, MotionRequest
 from planner.mission.events import Event, Journalled, Routed, Seen
-from planner.mission.nav2_pilot import Nav2Pilot
+from planner.mission.nav2_pilot import Nav2Pilot, pilot_of
 from planner.mission.reducer import advance, motion_request
 from planner.mission.route_doubts import standing_doubt
 from planner.mission.skills import Way
 from planner.mission.state import MissionState
 from planner.navigation import FloorReport, Horizon, LegPath, RoutePoint, cut
-from wire import Nav2State, Record, Status
+from wire import Nav2State, Record, RobotDescription, Status
 
 SPIN_MPS = 0.05
 """The slowest speed that the bridge takes for a speed: a spin's one point is never driven to."""
@@ -68,12 +68,13 @@ class Following:
 class Engine:
     """Be one robot's missions in one thread.
 
-    With a pilot Nav2 drives the legs: no route is searched and no waypoint sent.
+    Where robot.toml has Nav2 drive the legs, no route is searched and no waypoint sent.
     """
 
     def __init__(
-        self, book: MissionState, identity: Identity, pilot: Nav2Pilot | None = None
+        self, book: MissionState, identity: Identity, robot: RobotDescription | None = None
     ) -> None:
+        pilot = pilot_of(robot, identity.planner_id) if robot is not None else None
         self.book = book if pilot is None else replace(book, nav2=True)
         self._pilot = pilot
         self._identity = identity if pilot is None else replace(identity, kind="external")

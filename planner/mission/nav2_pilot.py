@@ -17,6 +17,7 @@ from wire import LegReport, Mode, Nav2Goal, Nav2State, Pose2, Record, Status, Ve
 
 if TYPE_CHECKING:
     from planner.mission.effects import MotionRequest
+    from wire import RobotDescription
     from wire.ros2_config import Nav2Config
 
 OLD_S = 0.25
@@ -195,3 +196,9 @@ class Nav2Pilot:
         kept = status.blocked or bool(holding_rows(status))
         if kept or moved_m >= MOVED_M or turned_rad >= MOVED_RAD or not standing(status):
             aim.marked, aim.marked_s = pose, now_s
+
+
+def pilot_of(robot: RobotDescription, planner_id: str) -> Nav2Pilot | None:
+    """Return what drives by Nav2, where robot.toml has it so."""
+    nav2 = robot.ros2.nav2 if robot.ros2 is not None else None
+    return None if nav2 is None else Nav2Pilot(nav2, planner_id)

@@ -37,7 +37,6 @@ from planner.mission.events import (
 from planner.mission.journal_sync import Disk
 from planner.mission.loop import Loop
 from planner.mission.memory_lookup import MemoryLookup
-from planner.mission.nav2_pilot import Nav2Pilot
 from planner.mission.place_survey import RobotSurvey
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
@@ -88,9 +87,7 @@ class Missions:
         site = self.memory.site
         self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
-        nav2 = robot.ros2.nav2 if robot.ros2 is not None else None
-        pilot = Nav2Pilot(nav2, self.planner_id) if nav2 is not None else None
-        engine = Engine(MissionState(self.memory.facts), identity, pilot)
+        engine = Engine(MissionState(self.memory.facts), identity, robot)
         self._clocks, self._robot, self._brain = clocks or Clocks(), robot, brain
         self.loop = Loop(engine, link, disk, self._clocks, Surveyor(link, robot, site.grid))
         clock, self._repeats = self._clocks.monotonic, Repeats()

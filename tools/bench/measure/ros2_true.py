@@ -110,11 +110,10 @@ def _measure_way(lab: BenchLab, way: str) -> list[ReportRow]:
 
 def _rows_of_nav2(way: str, tours: list[dict[str, Any]]) -> list[ReportRow]:
     reached = ", ".join(f"{len(one['reached'])} of 3" for one in tours)
-    seconds = [s for one in tours for s in one["reached"].values()]
     note = "; ".join(f"contacts {one['contacts']}, lost {one['lost'] or '-'}" for one in tours)
     return [
         ReportRow(f"{way}: places by a stand-in for Nav2", "", "3 of 3", value=reached, note=note),
-        row_of(f"{way}: a place by it", "s", "", seconds),
+        row_of(f"{way}: a place by it", "s", "", [s for t in tours for s in t["reached"].values()]),
     ]
 
 
