@@ -135,6 +135,9 @@ class McuReader:
         self._rest = b""
         self.spoilt_bytes = 0
         """Skipped because they were part of no frame."""
+        self.foreign_frames = 0
+        """Whole frames that check, of a type or length that this protocol does not have: another
+        version of the firmware speaks."""
 
     def reset(self) -> None:
         """Forget the unfinished frame: what comes next is of another time."""
@@ -158,6 +161,7 @@ class McuReader:
                 self._rest = data[head:]
                 return found
             if end == 0 or not _checks(data[head:end]):
+                self.foreign_frames += end == 0 and _is_foreign(data, head)
                 at = head + 1  # a true frame may begin within what only looked like one
                 self.spoilt_bytes += 1
                 continue
@@ -179,6 +183,13 @@ def _end_of(data: bytes, head: int) -> int | None:
         return 0
     end = head + _FRAME.size + int(length) + _CRC.size
     return end if len(data) >= end else None
+
+
+def _is_foreign(data: bytes, head: int) -> bool:
+    """Return whether a whole frame of no type of ours begins there and checks."""
+    length = data[head + len(HEAD)]
+    end = head + _FRAME.size + length + _CRC.size
+    return len(data) >= end and _checks(data[head:end])
 
 
 def _checks(frame: bytes) -> bool:

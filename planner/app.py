@@ -93,7 +93,9 @@ class Planner:
         self._voice = VoiceParts(self.settings, self._list_spoken_names)
         self.memory.listen(self._voice.learn_names)
         self.ears, self.speaker = self._voice.recogniser(), self._voice.speaker
-        link = Link(WireBus(self._session), self.description)
+        ros2 = self.description.ros2
+        by_nav2 = ros2 is not None and ros2.nav2 is not None
+        link = Link(WireBus(self._session, nav2=by_nav2), self.description)
         self.robot = LinkedRobot(link, self.description)
         self.detector = Opening(self.settings.vision, self.description)
         self._opening: asyncio.Task[None] | None = None

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 
 from processes.priority import set_fifo
 from ros2.base_link import BaseLink
+from ros2.nav2_goals import Nav2Goals
 from ros2.node import Ros2Node
 from wire import ConfigError, load_robot
 from wire.keys import Party
@@ -61,7 +62,9 @@ def _serve(options: argparse.Namespace) -> None:
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROS2, robot.id, home) as session:
-        node = Ros2Node(BaseLink(robot, f"ros2-{secrets.token_hex(4)}"), ros2, session)
+        boot_id = f"ros2-{secrets.token_hex(4)}"
+        nav2 = Nav2Goals(ros2, ros2.nav2, boot_id) if ros2.nav2 is not None else None
+        node = Ros2Node(BaseLink(robot, boot_id), ros2, session, nav2)
         gc.collect()
         gc.freeze()
         log.info("dialling %s", ros2.peer)

@@ -30,6 +30,12 @@ _TEXTS = {
     f"{_GEOMETRY}/TransformStamped": (
         f"{_HEADER}; string child_frame_id; {_GEOMETRY}/Transform transform"
     ),
+    "unique_identifier_msgs/msg/UUID": "uint8[16] uuid",
+    "action_msgs/msg/GoalInfo": (
+        "unique_identifier_msgs/msg/UUID goal_id; builtin_interfaces/msg/Time stamp"
+    ),
+    "action_msgs/msg/GoalStatus": "action_msgs/msg/GoalInfo goal_info; int8 status",
+    "action_msgs/msg/GoalStatusArray": "action_msgs/msg/GoalStatus[] status_list",
     "tf2_msgs/msg/TFMessage": f"{_GEOMETRY}/TransformStamped[] transforms",
     "nav_msgs/msg/Odometry": (
         f"{_HEADER}; string child_frame_id; {_GEOMETRY}/PoseWithCovariance pose; "

@@ -38,6 +38,7 @@ from wire.geometry import (
     transform,
     wrap,
 )
+from wire.nav2_dialogue import Nav2Goal, Nav2Phase, Nav2State
 from wire.operator_hmac import (
     NEEDS_PROOF,
     VIRTUAL_KEY,
@@ -136,6 +137,9 @@ __all__ = [
     "Localization",
     "LocalizerStatus",
     "Mode",
+    "Nav2Goal",
+    "Nav2Phase",
+    "Nav2State",
     "Odometry",
     "OpKind",
     "OpRequest",

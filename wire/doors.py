@@ -109,6 +109,12 @@ ROS2_COPY_DOOR = Door(
     _keys(keys.DRIVE_STATE, keys.SCAN, keys.IMU, keys.ROS2_STATE),
     "a copy of what a ROS 2 base says; it hears nothing",
 )  # fmt: skip
+NAV2_DOOR = Door(
+    "nav2", Party.ROS2, (Party.PLANNER, Party.JUDGE),
+    _keys(keys.NAV2_GOAL),
+    _keys(keys.NAV2_STATE),
+    "where Nav2 is to go, and its twists, which move nothing unless the planner asks the bridge",
+)  # fmt: skip
 SIM_DOOR = Door(
     "sim", Party.ROBOT, (Party.JUDGE,),
     _keys(keys.SIM_CONTROL),
@@ -137,6 +143,7 @@ CAMERA_DOOR = Door(
 DOORS = (
     DRIVE_DOOR, ROS2_DOOR, BRIDGE_DOOR, SENSES_DOOR, LIDAR_DOOR, IMU_DOOR, ROBOT_DOOR,
     ROS2_COPY_DOOR, SCANS_DOOR, IMU_COPY_DOOR, SIM_DOOR, LOCALIZATION_DOOR, HINT_DOOR, CAMERA_DOOR,
+    NAV2_DOOR,
 )  # fmt: skip
 """In the order in which a message that passes several is said: the wheels first."""
 

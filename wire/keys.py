@@ -18,6 +18,7 @@ from wire.commands import (
     Velocity,
     Waypoints,
 )
+from wire.nav2_dialogue import Nav2Goal, Nav2State
 from wire.sensors import (
     CameraStatus,
     DriveCommand,
@@ -173,6 +174,10 @@ IMU_STATE = _from(_IM, "imu/state", ImuStatus, frozenset({_P, _J}), "2 Hz and on
                   "how well a gyro on an I2C bus is read")  # fmt: skip
 ROS2_STATE = _from(_RO, "ros2/state", Ros2Status, frozenset({_P, _J}), "2 Hz and on change",
                    "how well a ROS 2 base is heard")  # fmt: skip
+NAV2_GOAL = _from(_P, "nav2/goal", Nav2Goal, frozenset({_RO}), "on each status where Nav2 drives",
+                  "where Nav2 is to bring the robot; moves nothing by itself")  # fmt: skip
+NAV2_STATE = _from(_RO, "nav2/state", Nav2State, frozenset({_P, _J}), "10 Hz and on each twist",
+                   "what became of Nav2's goal, and its newest twist")  # fmt: skip
 CAMERA_COLOR = _from(_C, "camera/color", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "JPEG, header attached", max_bytes=IMAGE)  # fmt: skip
 CAMERA_DEPTH = _from(_C, "camera/depth", ImageHeader, frozenset({_P, _J}), "10 Hz",
@@ -198,6 +203,7 @@ COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
     *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
     LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, IMU_STATE, ROS2_STATE,
+    NAV2_GOAL, NAV2_STATE,
     CAMERA_COLOR, CAMERA_DEPTH, CAMERA_STATE, SIM_TRUTH, SIM_SCENE, SIM_CONTROL, TRIAL_ORDER,
     TRIAL_STATE,
 )  # fmt: skip

@@ -147,7 +147,7 @@ class RobotDescription(Record):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> RobotDescription:
-        wrong = "; ".join(_misfits(self.base, self.lidar))
+        wrong = "; ".join((*_misfits(self.base, self.lidar), *_shared_port(self.drive, self.lidar)))
         if wrong:
             raise ValueError(wrong)
         return self
@@ -203,6 +203,15 @@ def _misfits(base: Base, lidar: LidarConfig) -> Iterator[str]:
             "is nearer counts as being so far away, and further than base.radius_m "
             f"{base.radius_m} + {HIDDEN_BEYOND_M} - {offset_m:.3g} (lidar from the middle) it "
             "never stops the robot"
+        )
+
+
+def _shared_port(drive: DriveConfig, lidar: LidarConfig) -> Iterator[str]:
+    """Yield that base and lidar are named at one port, which one of them would find busy."""
+    if drive.port is not None and drive.port == lidar.port:
+        yield (
+            f"drive.port and lidar.port are both {drive.port}: two adapters that call themselves "
+            "alike have names below /dev/serial/by-path that differ (`pons robot find`)"
         )
 
 

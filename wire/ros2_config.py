@@ -15,6 +15,23 @@ ROS2 = "ros2"
 Topic = Annotated[str, Field(pattern=r"^/[A-Za-z][A-Za-z0-9_/]{0,126}$")]
 
 
+class Nav2Config(Record):
+    """Have Nav2 drive to the planner's goals; the part is there or it is not."""
+
+    goal_pose: Topic = "/goal_pose"
+    """geometry_msgs/PoseStamped, as Nav2's bt_navigator hears it."""
+    status: Topic = "/navigate_to_pose/_action/status"
+    """action_msgs/GoalStatusArray of the action that Nav2 makes of it."""
+    cmd_vel: Topic = "/cmd_vel_nav"
+    """What Nav2's last node says: Twist or TwistStamped. Never what the relay drives by."""
+    frame: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_/]{0,63}$")] = "map"
+    """Nav2's name of the frame that the site's map is in."""
+    within_m: Annotated[float, Field(ge=0.05, le=1.0)] = 0.35
+    """So near the goal "arrived" is said, and nowhere else; Nav2's own tolerance is 0.25 m."""
+    within_rad: Annotated[float, Field(ge=0.05, le=3.15)] = 0.35
+    """Of its heading, where that matters."""
+
+
 class Ros2Config(Record):
     """Name the way to a base that ROS 2 drives, and its topics."""
 
@@ -42,6 +59,8 @@ class Ros2Config(Record):
     """What a range of 0 means: too near to measure, or, as some drivers have it, no return."""
     imu: Topic | None = None
     """sensor_msgs/Imu, its z axis up."""
+    nav2: Nav2Config | None = None
+    """Where it is there, Nav2 drives to goals, and Pons' own route is left out (docs/ros2.md)."""
 
     @property
     def peer(self) -> str:
@@ -81,6 +100,11 @@ def wrong_ros2(ros2: Ros2Config | None, drive: str, lidar: str, *, has_imu: bool
     if drive != ROS2:
         yield f"the part ros2 is for drive.kind 'ros2', not for kind {drive!r}"
     yield from _wrong_way(ros2)
+    if ros2.nav2 is not None and ros2.nav2.cmd_vel in (ros2.cmd_vel, ros2.command):
+        yield (
+            f"ros2.nav2.cmd_vel {ros2.nav2.cmd_vel} is what the relay drives by: have Nav2 say "
+            "another topic (/cmd_vel_nav), which reaches the wheels through the bridge"
+        )
     if (lidar == ROS2) != (ros2.scan is not None):
         yield f"ros2.scan {ros2.scan!r} and lidar.kind {lidar!r} do not fit: it is for kind 'ros2'"
     if has_imu != (ros2.imu is not None):

@@ -60,6 +60,8 @@ class _KnownArduino:
     asked: deque[_AskedMove] = field(default_factory=deque)
     echo: _AskedMove = field(default_factory=lambda: _AskedMove(0, enable=False))
     heard_s: float | None = None
+    is_told: bool = False
+    """That it is out of step; said once until it is in step again."""
     left: WheelCount = field(default_factory=WheelCount)
     right: WheelCount = field(default_factory=WheelCount)
 
@@ -164,6 +166,7 @@ class ArduinoProtocol:
             echo = self._base.echo
             self._forget()
             self._base.echo = echo
+        self._base.is_told = False
         dt_s = now_s - (self._base.heard_s or now_s)
         self._base.heard_s = now_s
         left, right = self._base.left.step(counts.left), self._base.right.step(counts.right)
@@ -193,8 +196,9 @@ class ArduinoProtocol:
         )
 
     def _lose_order(self, why: str) -> None:
-        if not self._base.is_lost and self._base.heard_s is not None:
+        if not self._base.is_told and self._base.heard_s is not None:
             log.warning("base_out_of_step: %s; asked anew after a silence", why)
+            self._base.is_told = True
         self._base.is_lost = True
         self._quiet = max(self._quiet, QUIET_TICKS)
         self._base.asked.clear()

@@ -29,6 +29,8 @@ _TURN_US = 1 << 32
 _SEQ = 1 << 32
 _TICKS = 1 << 32
 _MILLI = 1000.0
+_FOREIGN = 5
+"""So many frames that check by chance in noise: odds of 2^-80."""
 
 
 class PonsMcuProtocol:
@@ -54,7 +56,7 @@ class PonsMcuProtocol:
         self._time_us = WrappedCounter(_TURN_US)
         self._left, self._right = _TickCount(), _TickCount()
         self._mcu: int | None = None
-        self._tripped = False
+        self._tripped = self._is_foreign = False
 
     def begin(self) -> bytes:
         """Forget the unfinished frame and the controller's clock; it needs no greeting."""
@@ -83,6 +85,12 @@ class PonsMcuProtocol:
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
         frames = self._reader.read(data)
+        if self._reader.foreign_frames >= _FOREIGN and not self._is_foreign:
+            self._is_foreign = True
+            log.warning(
+                "base_firmware_other: its frames check, and are of another version than this "
+                "bridge speaks: build and flash firmware/ of this version (docs/firmware.md)"
+            )
         return [self._state(frame, now_s) for frame in frames if isinstance(frame, McuState)]
 
     def _state(self, frame: McuState, now_s: float) -> DriveState:

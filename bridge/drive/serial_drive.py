@@ -122,6 +122,11 @@ class SerialDrive:
         """Return why the port is away; None while it is open."""
         return self._port.trouble
 
+    @property
+    def times_opened(self) -> int:
+        """Return how often the port was opened."""
+        return self._port.opened
+
     def read(self) -> tuple[DriveState | DecodeFailure, ...]:
         """Return the states since the last call, oldest first, at most the 4 newest."""
         self._begin_if_opened()

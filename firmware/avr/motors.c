@@ -2,7 +2,7 @@
  * do while the pins float in a reset. */
 #include <avr/io.h>
 
-#include "board.h"
+#include "../core/board.h"
 #include "config.h"
 
 #define TOP ((uint16_t)(F_CPU / 2 / PWM_HZ))

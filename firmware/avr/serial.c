@@ -2,7 +2,7 @@
 #include <avr/interrupt.h>
 #include <avr/io.h>
 
-#include "board.h"
+#include "../core/board.h"
 #include "config.h"
 
 #define BAUD_TOL 3 /* 115200 from 16 MHz is 2.1 % fast, as every Arduino is */

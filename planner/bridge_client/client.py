@@ -24,6 +24,7 @@ from wire import (
     HintVerdict,
     Localization,
     LocalizerStatus,
+    Nav2State,
     Odometry,
     OpKind,
     OpRequest,
@@ -124,6 +125,10 @@ class Link:
     def tell(self, follower: Follower) -> None:
         """Tell somebody, from now on, how the robot moves and where it is."""
         self._followers.append(follower)
+
+    def nav2(self) -> Nav2State | None:
+        """Take Nav2's newest word that was not taken yet."""
+        return self._bus.nav2()
 
     def events(self) -> tuple[Event, ...]:
         """Take the bridge's events since the last call. For people; never relied upon."""

@@ -16,6 +16,8 @@ from wire import (
     Hello,
     Localization,
     LocalizerStatus,
+    Nav2Goal,
+    Nav2State,
     Odometry,
     OpKind,
     OpRequest,
@@ -50,6 +52,9 @@ class Bus(Protocol):
     def trial(self) -> TrialState | None:
         """Take the newest word of a robot in set-up that was not taken yet."""
 
+    def nav2(self) -> Nav2State | None:
+        """Take Nav2's newest word that was not taken yet; None where Nav2 does not drive."""
+
     def odometry(self) -> Odometry | None:
         """Take the newest odometry that was not taken yet."""
 
@@ -72,7 +77,11 @@ class Bus(Protocol):
 class WireBus:
     """Join a wire session's publishers and subscribers."""
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, *, nav2: bool = False) -> None:
+        """Declare what the planner hears and says; ``nav2``: where Nav2 drives, with it, too."""
+        self._nav2 = session.subscriber(k.NAV2_STATE) if nav2 else None
+        self._nav2_goal = session.publisher(k.NAV2_GOAL) if nav2 else None
+        self._external = session.publisher(k.EXTERNAL) if nav2 else None
         self._status = session.subscriber(k.STATUS)
         self._localization = session.subscriber(k.LOCALIZATION)
         self._localizer = session.subscriber(k.LOC_STATE)
@@ -103,6 +112,9 @@ class WireBus:
     def trial(self) -> TrialState | None:
         return self._trial.newest()
 
+    def nav2(self) -> Nav2State | None:
+        return self._nav2.newest() if self._nav2 is not None else None
+
     def odometry(self) -> Odometry | None:
         return self._odometry.newest()
 
@@ -130,6 +142,10 @@ class WireBus:
                 self._hint.put(message)
             case TrialOrder():
                 self._order.put(message)
+            case Nav2Goal() if self._nav2_goal is not None:
+                self._nav2_goal.put(message)
+            case Velocity() if self._external is not None:
+                self._external.put(message)
             case _:
                 raise TypeError(f"{type(message).__name__} is no command of an owner")
 

@@ -13,12 +13,13 @@ from planner.bridge_client import Course, Identity, OwnerState, on_course, on_st
 from planner.mission.activity import Driving, RouteDoubt
 from planner.mission.effects import AskRoute, Effect, Journal, MotionRequest
 from planner.mission.events import Event, Journalled, Routed, Seen
+from planner.mission.nav2_pilot import Nav2Pilot, pilot_of
 from planner.mission.reducer import advance, motion_request
 from planner.mission.route_doubts import standing_doubt
 from planner.mission.skills import Way
 from planner.mission.state import MissionState
 from planner.navigation import FloorReport, Horizon, LegPath, RoutePoint, cut
-from wire import Record, Status
+from wire import Nav2State, Record, RobotDescription, Status
 
 SPIN_MPS = 0.05
 """The slowest speed that the bridge takes for a speed: a spin's one point is never driven to."""
@@ -65,11 +66,18 @@ class Following:
 
 
 class Engine:
-    """Be one robot's missions in one thread."""
+    """Be one robot's missions in one thread.
 
-    def __init__(self, book: MissionState, identity: Identity) -> None:
-        self.book = book
-        self._identity = identity
+    Where robot.toml has Nav2 drive the legs, no route is searched and no waypoint sent.
+    """
+
+    def __init__(
+        self, book: MissionState, identity: Identity, robot: RobotDescription | None = None
+    ) -> None:
+        pilot = pilot_of(robot, identity.planner_id) if robot is not None else None
+        self.book = book if pilot is None else replace(book, nav2=True)
+        self._pilot = pilot
+        self._identity = identity if pilot is None else replace(identity, kind="external")
         self._owner = OwnerState()
         self._path: LegPath | None = None
         self._following: Following | None = None
@@ -88,8 +96,8 @@ class Engine:
     def way_ahead(self, reach_m: float) -> WayAhead | None:
         """Return the path from the robot on; None while it is to stand."""
         following = self._following
-        if following is None or self.leg is None:
-            return None
+        if following is None or self.leg is None or self._pilot is not None:
+            return None  # where Nav2 leads it on is not known
         path, done_m = following.path, following.progress_m
         ahead = zip(path.points, path.along_m, strict=True)
         points = tuple((p.x_m, p.y_m) for p, m in ahead if done_m <= m <= done_m + reach_m)
@@ -97,6 +105,8 @@ class Engine:
 
     def status(self, status: Status, now_s: float) -> Output:
         """Judge one bridge status and answer it as the owner."""
+        if self._pilot is not None:
+            return self._status_by_nav2(self._pilot, status, now_s)
         horizon, before = self._cut(status), self._following
         off_path, left_m = False, None
         if horizon is not None and before is not None:
@@ -108,6 +118,32 @@ class Engine:
             self._identity, self._owner, status, course, self._used, now_s
         )
         return Output(messages, effects)
+
+    def _status_by_nav2(self, pilot: Nav2Pilot, status: Status, now_s: float) -> Output:
+        """Judge one status with what Nav2 makes of the leg in the place of the bridge's word."""
+        wanted = motion_request(self.book)
+        judged = status.model_copy(update={"leg": pilot.report(status, wanted, now_s)})
+        effects = self._advance(Seen(judged, False, pilot.left_m(status, wanted)), now_s)
+        self._used = status.seq
+        self._wish = wanted = motion_request(self.book)
+        self._owner, messages = on_status(
+            self._identity, self._owner, status, Course(wanted.mission), self._used, now_s
+        )
+        said = pilot.speak(status, wanted, self._speed_share(), now_s)
+        return Output((*messages, *said), effects)
+
+    def nav2(self, state: Nav2State, now_s: float) -> Output:
+        """Hear Nav2; what it asks of the wheels goes to the bridge at once, where it may."""
+        pilot, status = self._pilot, self.book.status
+        if pilot is None or status is None:
+            return Output()
+        pilot.hear(state, now_s)
+        share = self._speed_share()
+        return Output(pilot.drive(status, motion_request(self.book), share, now_s))
+
+    def _speed_share(self) -> float:
+        mission = self.book.missions.get(self.book.running or "")
+        return mission.speed_share if mission is not None else 1.0
 
     def event(self, event: Event, now_s: float) -> Output:
         """Take any other event; if it changes what is wanted, say so to the bridge at once."""
@@ -140,12 +176,29 @@ class Engine:
         self.book, effects = advance(self.book, event, now_s)
         carried: list[Effect] = []
         for effect in effects:
-            if isinstance(effect, AskRoute) and effect.way is Way.SPIN:
+            if isinstance(effect, AskRoute) and self._pilot is not None:
+                carried.extend(self._aim(self._pilot, effect, now_s))
+            elif isinstance(effect, AskRoute) and effect.way is Way.SPIN:
                 here = (RoutePoint(effect.start.x_m, effect.start.y_m, SPIN_MPS),)
                 carried.extend(self._take_route(effect, here, None, now_s))
             else:
                 carried.append(effect)
         return tuple(carried)
+
+    def _aim(self, pilot: Nav2Pilot, ask: AskRoute, now_s: float) -> tuple[Effect, ...]:
+        """Answer a leg's question for its route: Nav2 finds one itself, to a pose and no other."""
+        if ask.way in (Way.EXPLORE, Way.ASIDE):
+            return self._take_route(ask, None, "no_route", now_s)
+        ends = (ask.start, ask.goal)
+        points = tuple(RoutePoint(end.x_m, end.y_m, SPIN_MPS) for end in ends)
+        before = self._following
+        effects = self._take_route(ask, points, None, now_s)
+        taken = self._following
+        if taken is not None and taken is not before:
+            heading = ask.heading or ask.way is not Way.ROUTE
+            leg = (taken.mission, taken.leg)
+            pilot.aim(leg, ask.start, ask.goal, now_s, heading=heading)
+        return effects
 
     def _take_route(
         self,
@@ -172,6 +225,11 @@ class Engine:
         status, wanted = self.book.status, motion_request(self.book)
         if status is None or wanted == self._wish:
             return ()
+        if self._pilot is not None:
+            self._wish, course = wanted, Course(wanted.mission)
+            self._owner, messages = on_course(self._identity, self._owner, status, course, now_s)
+            said = self._pilot.speak(status, wanted, self._speed_share(), now_s)
+            return (*messages, *said)
         course = self._course(self._cut(status))
         self._owner, messages = on_course(self._identity, self._owner, status, course, now_s)
         return messages

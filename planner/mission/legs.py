@@ -32,6 +32,8 @@ from wire import Mode, Pose2, Status
 
 MAX_ROUTES = 5
 """Routes of one leg that may be lost (off the path, refused by the bridge, short of the room)."""
+NAV2_ROUTES = 2
+"""Nav2 has tried, with recoveries of its own, before it says no."""
 MAX_DETOURS_FAILED = 3
 RETRY_S = 1.0
 _ROUND = (Way.ROUTE, Way.EXPLORE)
@@ -129,10 +131,19 @@ def abandon_route(turn: Transaction) -> None:
     leg = turn.driving
     if leg is None:
         return
-    if leg.routes >= MAX_ROUTES:
-        fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
+    if leg.routes >= (NAV2_ROUTES if turn.book.nav2 else MAX_ROUTES):
+        fail_step(turn, _give_up_reason(turn))
         return
     turn.change(leg=None, ticket=None, routes=leg.routes + 1, route_when_standing=True)
+
+
+def _give_up_reason(turn: Transaction) -> Fail:
+    """Say why a leg is given up: by Nav2's word where Nav2 drives, else for want of a way."""
+    status = turn.book.status
+    why = status.leg.refusal if status is not None and status.leg is not None else None
+    if not turn.book.nav2 or why is None:
+        return Fail(Code.NO_ROUTE, "no_route")
+    return Fail(Code.NOT_REACHED, why, say(f"nav2.{why.removeprefix('nav2_')}"))
 
 
 BY_AMOUNT = frozenset({"turn", "move"})

@@ -257,6 +257,8 @@ class Loop:
         if status is not None:
             self._carry(self._engine.status(status, now_s))
             self._tell_status(status, now_s)
+        if (said := self._link.nav2()) is not None:
+            self._carry(self._engine.nav2(said, now_s))
 
     def tick(self) -> None:
         """Let the missions look at the clock, and do what is to be done now and then."""

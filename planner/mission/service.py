@@ -89,7 +89,7 @@ class Missions:
         site = self.memory.site
         self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
-        engine = Engine(MissionState(self.memory.facts), identity)
+        engine = Engine(MissionState(self.memory.facts), identity, robot)
         self._clocks, self._robot, self._brain = clocks or Clocks(), robot, brain
         self.loop = Loop(engine, link, disk, self._clocks, Surveyor(link, robot, site.grid))
         clock, self._repeats = self._clocks.monotonic, Repeats()

@@ -192,6 +192,8 @@ class MissionState:
 
     facts: SiteView
     rules: Rules = Rules()
+    nav2: bool = False
+    """Nav2 drives the legs: it searches the ways, and its recoveries are its own."""
     local_offset_s: float = 0.0
     """Of people's own clock from UTC."""
     wall_offset_s: float = 0.0

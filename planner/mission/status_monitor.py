@@ -51,6 +51,8 @@ PATIENCE_S = 20.0
 IDLE_S = 30.0
 """A leg that is streamed and neither followed nor explained by a row for so long is given up."""
 REFUSED_S = 0.5
+NAV2_BLOCKED_S = 60.0
+"""So long Nav2's own recoveries have for what the bridge lets it not drive into."""
 
 
 def on_status(turn: Transaction, status: Status, off_path: bool, left_m: float | None) -> None:
@@ -255,6 +257,9 @@ def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
         abandon_route(turn)
     elif idle_s is not None and turn.now_s - idle_s > IDLE_S:
         pause_running(turn, PauseReason.BLOCKED.value)
+    elif turn.book.nav2:
+        if blocked_s is not None and turn.now_s - blocked_s > NAV2_BLOCKED_S:
+            fail_step(turn, Fail(Code.BLOCKED, "blocked"))
     elif driving.way is Way.ROUTE:
         _recover_or_go_on(turn, status)
     elif blocked_s is not None and driving.ticket is None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from pons.calibrate.errors import CalibrationRefusal
 from pons.calibrate.gyro_track import find_track
+from pons.calibrate.odometry_radius import find_radius
 from pons.calibrate.procedure import CalibrationPlan, calibrate
 from pons.calibrate.reference import MEASURED
 from pons.calibrate.robot_toml import difference, edit_values, replace
@@ -86,6 +87,8 @@ def _measure(
         rig = CalibrationRig(operator, judge, time.monotonic, lambda: time.sleep(PUMP_S))
         if track:
             return find_track(rig, robot, plan, when, _say)
+        if robot.drive.port is not None:
+            return find_radius(rig, robot, plan, when, _say, lambda: next(metres))
         return calibrate(rig, robot, plan, when, _say, lambda: next(metres))
 
 

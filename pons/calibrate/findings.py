@@ -156,7 +156,7 @@ def findings(
         CalibrationFinding("drive", "kp", drive.kp, kp, seen.by_rule(response_s)),
         CalibrationFinding("drive", "ki_per_s", drive.ki_per_s, ki_per_s, seen.by_rule(response_s)),
     ]  # fmt: skip
-    _plausible("base.wheel_separation_m", apart_m, base.wheel_separation_m)
+    plausible("base.wheel_separation_m", apart_m, base.wheel_separation_m)
     check_limits(robot, found)
     return found
 
@@ -168,7 +168,7 @@ def radius_of(straights: Sequence[StraightRun], robot: RobotDescription) -> floa
         CalibrationRefusal: ``spread_too_wide`` or ``out_of_bounds``.
     """
     radius_m = close("base.wheel_radius_m", [run.radius_m for run in straights], RADIUS_SPREAD)
-    _plausible("base.wheel_radius_m", radius_m, robot.base.wheel_radius_m)
+    plausible("base.wheel_radius_m", radius_m, robot.base.wheel_radius_m)
     return radius_m
 
 
@@ -233,7 +233,12 @@ def _round_down(value: float, digits: int) -> float:
     return float(floor(value * 10**digits + 1e-9)) / float(10**digits)
 
 
-def _plausible(name: str, value: float, was: float) -> None:
+def plausible(name: str, value: float, was: float) -> None:
+    """See that a value is not so far from the former one that the measure must be wrong.
+
+    Raises:
+        CalibrationRefusal: ``out_of_bounds``.
+    """
     low, high = PLAUSIBLE
     if not low * was <= value <= high * was:
         text = f"{name}: {value:.4g}, {was:.4g} in robot.toml; was the measure right?"
@@ -242,9 +247,9 @@ def _plausible(name: str, value: float, was: float) -> None:
 
 def check_limits(robot: RobotDescription, found: Sequence[CalibrationFinding]) -> None:
     """See that robot.toml may hold all of it."""
-    told = robot.model_dump()
+    told = robot.model_dump(exclude_unset=True)  # some keys may not be given where they are fixed
     for one in found:
-        told[one.table][one.key] = one.value
+        told.setdefault(one.table, {})[one.key] = one.value
     try:
         RobotDescription.model_validate(told, strict=True)
     except ValidationError as error:

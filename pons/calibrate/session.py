@@ -18,11 +18,13 @@ from wire import (
     DriveState,
     Mode,
     Odometry,
+    Pose2,
     RowReport,
     Scan,
     SimTruth,
     Status,
     Velocity,
+    distance,
 )
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, ODOM, SCAN, SIM_TRUTH, STATUS, TELEOP
 
@@ -76,7 +78,8 @@ class CalibrationRig:
         self.track: DriveTrack | None = None
         self.odometry: list[Odometry] | None = None
         """Where what the bridge reckons is kept; None keeps nothing."""
-        self._yaw_rad = 0.0
+        self._odom: Pose2 | None = None
+        self._way_m = 0.0
         self._heard_s = clock()
         self._said_s = 0.0
         self._seq = 0
@@ -125,7 +128,9 @@ class CalibrationRig:
     def _hear_odometry(self) -> None:
         for odometry in self._odometry.drain().items:
             if isinstance(odometry, Odometry):
-                self._yaw_rad = odometry.base_in_odom.yaw_rad
+                pose = odometry.base_in_odom
+                self._way_m += distance(self._odom, pose) if self._odom is not None else 0.0
+                self._odom = pose
                 if self.odometry is not None:
                     self.odometry.append(odometry)
 
@@ -217,8 +222,8 @@ class CalibrationRig:
 
     def _angles(self) -> tuple[float, float]:
         state = self.state
-        if state is None:  # a drive in the bridge itself says nothing here; its odometry turns
-            return self._yaw_rad, 0.0
+        if state is None:  # a drive in the bridge itself says nothing here; its odometry moves
+            return (self._odom.yaw_rad if self._odom is not None else 0.0), self._way_m
         return state.left_rad, state.right_rad
 
     def let_go(self) -> None:

@@ -6,20 +6,18 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING
 
-from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
+from pons.doctor.finding import BilingualWords, HealthFinding, ok, warn
+from pons.doctor.running_process import hear_state, says_nothing
 from sensors.camera.health import CODES, STARTING, CameraHealth, CameraVerdict
 from wire import keys
 from wire.doors import CAMERA_DOOR
-from wire.keys import Party
-from wire.session import open_session
 from wire.sockets import Endpoints, is_listening
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from wire import CameraStatus, RobotDescription
+    from wire import RobotDescription
 
-HEAR_S = 1.5
 READ_S = 8.0
 PERIOD_S = 0.05
 
@@ -52,19 +50,9 @@ def camera(home: Path, robot: RobotDescription) -> HealthFinding:
 
 def _hear_process(home: Path, robot: RobotDescription) -> HealthFinding:
     """Report what the running process says."""
-    status: CameraStatus | None = None
-    with open_session(Party.JUDGE, robot.id, home) as session:
-        heard = session.subscriber(keys.CAMERA_STATE)
-        end_s = time.monotonic() + HEAR_S
-        while status is None and time.monotonic() < end_s:
-            time.sleep(0.02)
-            status = heard.newest()
+    status = hear_state(home, robot, keys.CAMERA_STATE)
     if status is None:
-        return fail(
-            "camera",
-            BilingualWords("its process runs and says nothing", "其进程在运行，但没有任何消息"),
-            BilingualWords("see logs/camera.log", "请查看 logs/camera.log"),
-        )
+        return says_nothing("camera")
     if status.code is not None:
         return _wrong(CameraVerdict(status.code, status.detail))
     said = f"{status.model}, {status.width} x {status.height}, {status.rate_hz:.1f} pictures/s"

@@ -7,22 +7,20 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
+from pons.doctor.running_process import hear_state
 from sensors.imu.bus import ImuTrouble, SmBus
 from sensors.imu.reader import CODES, ImuReader
 from wire import keys
 from wire.doors import IMU_COPY_DOOR
 from wire.drive_config import DRIVE_KINDS
-from wire.keys import Party
 from wire.ros2_config import ROS2
-from wire.session import open_session
 from wire.sockets import Endpoints, is_listening
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from wire import ImuStatus, RobotDescription
+    from wire import RobotDescription
 
-HEAR_S = 1.5
 READ_S = 3.0
 PERIOD_S = 0.01
 
@@ -94,13 +92,7 @@ def _trouble_of(home: Path, robot: RobotDescription) -> ImuTrouble | None:
 
 
 def _hear_process(home: Path, robot: RobotDescription) -> ImuTrouble | None:
-    status: ImuStatus | None = None
-    with open_session(Party.JUDGE, robot.id, home) as session:
-        heard = session.subscriber(keys.IMU_STATE)
-        end_s = time.monotonic() + HEAR_S
-        while status is None and time.monotonic() < end_s:
-            time.sleep(0.02)
-            status = heard.newest()
+    status = hear_state(home, robot, keys.IMU_STATE)
     if status is None:
         return ImuTrouble("imu_silent", "its process runs and says nothing: logs/imu.log")
     return None if status.code is None else ImuTrouble(status.code, status.detail)

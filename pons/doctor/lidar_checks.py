@@ -8,19 +8,17 @@ from typing import TYPE_CHECKING
 
 from devices import LastingPort, PortTrouble
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
+from pons.doctor.running_process import hear_state, says_nothing
 from sensors.lidar.health import CODES, STARTING, LidarVerdict
 from sensors.lidar.kinds import kind_of
 from sensors.lidar.reader import LidarReader
 from wire import keys
 from wire.doors import SCANS_DOOR
-from wire.keys import Party
-from wire.session import open_session
 from wire.sockets import Endpoints, is_listening
 
 if TYPE_CHECKING:
-    from wire import LidarStatus, RobotDescription
+    from wire import RobotDescription
 
-HEAR_S = 2.0
 READ_S = 5.0
 PERIOD_S = 0.005
 _PORT_FIXES = {
@@ -71,19 +69,9 @@ def lidar(home: Path, robot: RobotDescription) -> HealthFinding:
 
 def _hear_process(home: Path, robot: RobotDescription) -> HealthFinding:
     """Report what the running process says."""
-    status: LidarStatus | None = None
-    with open_session(Party.JUDGE, robot.id, home) as session:
-        heard = session.subscriber(keys.LIDAR_STATE)
-        end_s = time.monotonic() + HEAR_S
-        while status is None and time.monotonic() < end_s:
-            time.sleep(0.02)
-            status = heard.newest()
+    status = hear_state(home, robot, keys.LIDAR_STATE)
     if status is None:
-        return fail(
-            "lidar",
-            BilingualWords("its process runs and says nothing", "其进程在运行，但没有任何消息"),
-            BilingualWords("see logs/lidar.log, and start it anew", "请查看 logs/lidar.log 并重启"),
-        )
+        return says_nothing("lidar")
     if status.code is None:
         lost = f"{status.spoilt} of {status.frames + status.spoilt} frames spoilt"
         said = f"{status.model}, {status.rate_hz:.1f} turns/s, {lost}"

@@ -7,22 +7,20 @@ import time
 from typing import TYPE_CHECKING
 
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok
+from pons.doctor.running_process import hear_state, says_nothing
 from ros2 import BaseLink
 from ros2.transport_choice import open_transport
 from ros2.trouble import CODES, STARTING, Ros2Trouble
 from wire import keys
 from wire.doors import ROS2_COPY_DOOR
-from wire.keys import Party
-from wire.session import open_session
 from wire.sockets import Endpoints, is_listening
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from wire import RobotDescription, Ros2Status
+    from wire import RobotDescription
     from wire.ros2_config import Ros2Config
 
-HEAR_S = 2.0
 ASK_S = 6.0
 PERIOD_S = 0.01
 _NOBODY = ("ros2_no_server", "ros2_no_router", "ros2_no_dds")
@@ -41,19 +39,9 @@ def ros2(home: Path, robot: RobotDescription) -> HealthFinding:
 
 def _hear_process(home: Path, robot: RobotDescription, config: Ros2Config) -> HealthFinding:
     """Report what the running process says."""
-    status: Ros2Status | None = None
-    with open_session(Party.JUDGE, robot.id, home) as session:
-        heard = session.subscriber(keys.ROS2_STATE)
-        end_s = time.monotonic() + HEAR_S
-        while status is None and time.monotonic() < end_s:
-            time.sleep(PERIOD_S)
-            status = heard.newest()
+    status = hear_state(home, robot, keys.ROS2_STATE)
     if status is None:
-        return fail(
-            "ros2",
-            BilingualWords("its process runs and says nothing", "其进程在运行，但没有任何消息"),
-            BilingualWords("see logs/ros2.log, and start it anew", "请查看 logs/ros2.log 并重启"),
-        )
+        return says_nothing("ros2")
     return _describe(config, status.code, status.detail)
 
 

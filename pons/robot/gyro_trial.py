@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 STILL_S = 2.0
 FEWEST = 20
 SHAKES_RADPS = 0.1
+SILENT_S = 2.0
 GAP_S = 0.5
 """Between two readings; a turn across a longer silence is not known."""
 TURNED_RAD = 0.6
@@ -119,11 +120,14 @@ def try_gyro(imu: ImuConfig, source: GyroSource, pace: TrialPace, person: TrialP
     person.ask("gyro_left")
     turned = [0.0, 0.0, 0.0]
     last: Timed | None = None
-    count = 0
+    count, heard_s = 0, pace.now_s()
     while not person.has_answered():
         person.require_watch()
         pace.wait()
+        if pace.now_s() - heard_s > SILENT_S:
+            raise TrialRefusal("gyro_silent", f"for {SILENT_S:g} s while it was to be turned")
         for at_s, reading in source.readings():
+            heard_s = pace.now_s()
             rates = [rate - bias for rate, bias in zip(reading.gyro_radps, bias_radps, strict=True)]
             if last is not None and at_s - last[0] > GAP_S:
                 raise TrialRefusal("gyro_silent", f"for {at_s - last[0]:.1f} s while it turned")

@@ -30,7 +30,7 @@ from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
     from bridge.drive import SerialDrive
-    from pons.robot.trial_parties import TrialPerson
+    from pons.robot.trial_parties import TrialPace, TrialPerson
     from pons.robot.wheel_trial import WheelFindings
     from wire import RobotDescription, Scan
 
@@ -42,6 +42,7 @@ WHEEL_STEPS: Final = (
     "power_back", "silence",
 )  # fmt: skip
 GYRO_STEPS: Final = ("gyro_left",)
+ENDED_BY_PERSON: Final = frozenset({"trial_stopped", "trial_unwatched"})
 LIDAR_STEPS: Final = ("lidar_clear", "lidar_front", "lidar_left")
 
 
@@ -156,28 +157,48 @@ def _try_base(robot: RobotDescription, person: TrialPerson) -> tuple[WheelFindin
     drive = open_serial_drive(robot, boot, for_trial=True)
     try:
         require_brakes(drive)
-        _require_port(drive)
-        found = WheelTrial(drive, robot, _WallPace(), person, boot).run()
-        if not has_gyro(robot):
-            return found, None
-        person.tell("gyro_left", f"{found.dead_man_s:.2f} s ({found.brake_s:.2f} s)")
-        with closing(
-            I2cGyroSource(robot) if robot.imu.is_on_i2c else BaseGyroSource(drive)
-        ) as gyro:
-            return found, try_gyro(robot.imu, gyro, _WallPace(), person)
-    except TrialRefusal as refusal:
-        if refusal.code == "trial_silent":
-            _require_port(drive)  # it went meanwhile: that is the better word
-        raise
+        return try_base(drive, robot, _WallPace(), person, boot)
     finally:
         drive.close()
 
 
-def _require_port(drive: SerialDrive) -> None:
-    """Hold that the base's port is open: a bridge may wait for a cable, a person is told."""
+def try_base(
+    drive: SerialDrive, robot: RobotDescription, pace: TrialPace, person: TrialPerson, boot: str
+) -> tuple[WheelFindings, float | None]:
+    """Try a base whose port is open; the wheels are told to stand however this ends.
+
+    Raises:
+        TrialRefusal: ``trial_port`` before all else that a lost port may look like.
+    """
+    _require_port(drive)
+    opened = drive.times_opened
+    try:
+        found = WheelTrial(drive, robot, pace, person, boot).run()
+        if not has_gyro(robot):
+            return found, None
+        person.tell("gyro_left", f"{found.dead_man_s:.2f} s ({found.brake_s:.2f} s)")
+        gyro = I2cGyroSource(robot) if robot.imu.is_on_i2c else BaseGyroSource(drive)
+        with closing(gyro):
+            turned_rad = try_gyro(robot.imu, gyro, pace, person)
+        _require_port(drive, opened)
+    except TrialRefusal as refusal:
+        if refusal.code not in ENDED_BY_PERSON:
+            _require_port(drive, opened)  # it went meanwhile: that is the better word
+        raise
+    return found, turned_rad
+
+
+def _require_port(drive: SerialDrive, opened: int | None = None) -> None:
+    """Hold that the base's port is open, and was throughout: a bridge may wait for a cable.
+
+    Raises:
+        TrialRefusal: ``trial_port``.
+    """
     trouble = drive.trouble
     if trouble is not None:
         raise TrialRefusal("trial_port", f"{trouble.code}: {trouble.detail}")
+    if opened is not None and drive.times_opened != opened:
+        raise TrialRefusal("trial_port", "port_gone: it was unplugged meanwhile, and is back")
 
 
 def _try_lidar(robot: RobotDescription, person: TrialPerson, seen: str) -> str:

@@ -23,6 +23,7 @@ SPEED_RADPS = 2.0
 START_S = 15.0
 """A base that opening its port has reset needs up to eight."""
 LISTEN_S = 1.0
+SILENT_S = 2.0
 LEAST_BATTERY = 0.05
 """A supply that dips resets the controller, and what then looks wrong are not the wires."""
 POWER_S = 1.5
@@ -180,12 +181,17 @@ class WheelTrial:
         """Have a person turn a wheel forward; return the encoder's share of that.
 
         Raises:
-            TrialRefusal: ``hand_none``, ``hand_swapped``, ``hand_backwards`` or ``hand_ticks``.
+            TrialRefusal: ``hand_none``, ``hand_swapped``, ``hand_backwards``, ``hand_ticks``, or
+                ``trial_silent`` while the person turns: nobody turns a wheel that nobody counts.
         """
         before = self._hear(0.2)[-1]
         self._person.ask(f"hand_{side}")
+        heard_s = self._pace.now_s()
         while not self._person.has_answered():
-            self._tick()
+            if self._tick():
+                heard_s = self._pace.now_s()
+            elif self._pace.now_s() - heard_s > SILENT_S:
+                raise TrialRefusal("trial_silent", f"no state within {SILENT_S:g} s")
         after = self._hear(0.2)[-1]
         turned = (_angle(after, side) - _angle(before, side)) / tau
         other_side = opposite_side(side)

@@ -7,26 +7,26 @@ Exit status: 0 left when asked, 1 its home can't be written at present, 2 refuse
 
 from __future__ import annotations
 
-import argparse
 import contextlib
-import gc
 import logging
 import os
 import secrets
-import signal
 import sys
-import threading
 from functools import partial
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sensors.camera.grabber import CameraGrabber
 from sensors.camera.node import CameraProcess
 from sensors.camera.realsense import load_library
 from sensors.camera.shot import CameraTrouble
 from sensors.camera.source import open_source, without_password
-from wire import CameraConfig, ConfigError, load_robot
+from sensors.process import run_sensor
+from wire import CameraConfig, ConfigError
 from wire.keys import Party
 from wire.session import open_session
+
+if TYPE_CHECKING:
+    from sensors.process import SensorRun
 
 log = logging.getLogger("camera")
 
@@ -34,32 +34,18 @@ NICE = 5
 """A late picture is only late: everything else goes before it."""
 
 
-def _options(arguments: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m sensors.camera", description=__doc__)
-    parser.add_argument("--robot", type=Path, required=True, help="robot.toml")
-    parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
-    parser.add_argument("--site", type=Path, help="taken as every process's, and not used")
-    return parser.parse_args(arguments)
-
-
-def _serve(options: argparse.Namespace) -> None:
-    stopped = threading.Event()
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: stopped.set())
+def _serve(run: SensorRun) -> None:
     with contextlib.suppress(AttributeError, OSError):  # no Unix
         os.nice(NICE)
-    robot = load_robot(options.robot)
-    config = robot.camera
+    config = run.robot.camera
     _check(config)
-    home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     camera = CameraGrabber(partial(open_source, config))
     try:
-        with open_session(Party.CAMERA, robot.id, home) as session:
+        with open_session(Party.CAMERA, run.robot.id, run.home) as session:
             node = CameraProcess(camera, config, session, f"cam-{secrets.token_hex(4)}")
-            gc.collect()
-            gc.freeze()
+            run.settle()
             log.info("%s %s", config.kind, name_of(config))
-            node.run(stopped.is_set)
+            node.run(run.is_stopped)
     finally:
         camera.close()
 
@@ -89,13 +75,7 @@ def _check(config: CameraConfig) -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
-    try:
-        _serve(_options(arguments))
-    except ConfigError as error:
-        print(f"camera: {error}", file=sys.stderr)
-        return error.exit_status
-    return 0
+    return run_sensor("camera", __doc__, _serve, arguments)
 
 
 if __name__ == "__main__":

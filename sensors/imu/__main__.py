@@ -7,29 +7,25 @@ present, 2 refused.
 
 from __future__ import annotations
 
-import argparse
-import gc
 import logging
-import os
 import secrets
-import signal
 import sys
-import threading
 import time
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from processes.priority import set_fifo
 from sensors.imu.bus import ImuTrouble, SmBus, load_library
 from sensors.imu.reader import ImuReader
-from wire import ConfigError, keys, load_robot
+from sensors.process import run_sensor
+from wire import ConfigError, keys
 from wire.keys import Party
 from wire.session import open_session
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from sensors.process import SensorRun
     from wire.imu_config import ImuConfig
     from wire.session import Session
 
@@ -78,30 +74,17 @@ class ImuNode:
         self._state.put(self._reader.status(self._seq, now_s))
 
 
-def _options(arguments: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m sensors.imu", description=__doc__)
-    parser.add_argument("--robot", type=Path, required=True, help="robot.toml")
-    parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
-    parser.add_argument("--site", type=Path, help="taken as every process's, and not used")
-    return parser.parse_args(arguments)
-
-
-def _serve(options: argparse.Namespace) -> None:
-    stopped = threading.Event()
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: stopped.set())
-    robot = load_robot(options.robot)
-    bus = _bus_of(robot.imu)
-    home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
+def _serve(run: SensorRun) -> None:
+    imu = run.robot.imu
+    bus = _bus_of(imu)
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
-    with open_session(Party.IMU, robot.id, home) as session:
+    with open_session(Party.IMU, run.robot.id, run.home) as session:
         boot_id = f"imu-{secrets.token_hex(4)}"
-        reader = ImuReader(robot.imu, partial(SmBus, bus), boot_id, time.monotonic())
+        reader = ImuReader(imu, partial(SmBus, bus), boot_id, time.monotonic())
         node = ImuNode(reader, session)
-        gc.collect()
-        gc.freeze()
-        log.info("%s on /dev/i2c-%d", robot.imu.kind, bus)
-        node.run(stopped.is_set)
+        run.settle()
+        log.info("%s on /dev/i2c-%d", imu.kind, bus)
+        node.run(run.is_stopped)
         reader.close()
 
 
@@ -122,13 +105,7 @@ def _bus_of(imu: ImuConfig) -> int:
 
 def main(arguments: list[str] | None = None) -> int:
     """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
-    try:
-        _serve(_options(arguments))
-    except ConfigError as error:
-        print(f"imu: {error}", file=sys.stderr)
-        return error.exit_status
-    return 0
+    return run_sensor("imu", __doc__, _serve, arguments)
 
 
 if __name__ == "__main__":

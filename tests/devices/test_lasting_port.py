@@ -100,3 +100,35 @@ def test_the_user_of_a_line_may_leave_and_come_again(line: TwinLine, tmp_path: P
         port.close()
         assert line.read() == b""  # notices, and makes the line anew
     assert os.readlink(tmp_path / "line").startswith("/dev/pts/")  # noqa: PTH115
+
+
+def test_a_port_that_returns_under_another_name_is_found_by_the_name_that_lasts(
+    tmp_path: Path,
+) -> None:
+    """ttyUSB0 went and came back as ttyUSB1; the link below /dev/serial/by-id leads there."""
+    first, second = TwinLine(tmp_path / "ttyUSB0"), None
+    by_id = tmp_path / "by-id"
+    by_id.symlink_to(first_path := (tmp_path / "ttyUSB0").resolve())
+    guarded: list[Path] = []
+    port = LastingPort(by_id, 115_200, guard=lambda path: guarded.append(path.resolve()))
+    raw = LastingPort(tmp_path / "ttyUSB0.gone", 115_200)
+    try:
+        first.close()
+        by_id.unlink()
+        assert port.read() == b""
+        assert not port.write(b"lost")
+        assert until(lambda: port.trouble is not None and port.trouble.code == "port_missing")
+        second = TwinLine(tmp_path / "ttyUSB1")
+        by_id.symlink_to((tmp_path / "ttyUSB1").resolve())
+        assert until(lambda: port.opened == 2)
+        assert until(lambda: port.write(b"x"))
+        assert second.read() == b"x", "nothing of before: it may be another device"
+        assert guarded[0] == first_path
+        assert guarded[-1] == (tmp_path / "ttyUSB1").resolve(), "judged anew before it is opened"
+        assert raw.trouble is not None
+        assert "/dev/serial/by-id" in str(raw.trouble), "a name that does not last: the cure"
+    finally:
+        port.close()
+        raw.close()
+        if second is not None:
+            second.close()

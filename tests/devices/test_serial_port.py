@@ -77,6 +77,27 @@ def test_a_port_has_one_owner(line: tuple[int, Path]) -> None:
     assert run.stdout.strip() == "port_busy"
 
 
+def test_a_port_without_right_is_refused_with_the_group_as_its_cure(
+    line: tuple[int, Path],
+) -> None:
+    """By a user who is not in the port's group; root may open everything."""
+    _, path = line
+    path.chmod(0o660)
+    words = (
+        "import os, sys; from pathlib import Path; from devices import LastingPort, PortTrouble\n"
+        "os.getuid() or (os.setgroups([]), os.setgid(65534), os.setuid(65534))\n"
+        "try: LastingPort(Path(sys.argv[1]), 115200); print('mine')\n"
+        "except PortTrouble as trouble: print(trouble)"
+    )
+    if os.getuid() != 0:
+        path.chmod(0)  # its owner needs a right, too
+    run = subprocess.run(
+        [sys.executable, "-c", words, str(path)], capture_output=True, text=True, check=True
+    )
+    assert run.stdout.startswith("port_forbidden: ")
+    assert "group that owns it (often dialout)" in run.stdout
+
+
 @pytest.mark.parametrize(
     ("name", "code"),
     [("nowhere", "port_missing"), ("a_file", "port_not_serial"), ("/dev/null", "port_not_serial")],

@@ -36,10 +36,10 @@ def require(*programs: str) -> None:
             pytest.skip(f"{program} is not installed (apt: gcc gcc-avr avr-libc)")
 
 
-def build(folder: Path, target: str) -> Path:
+def build(folder: Path, target: str, *words: str) -> Path:
     """Build a target of firmware/Makefile into a folder of its own."""
     done = subprocess.run(
-        ["make", "-s", "-C", FIRMWARE, target, f"BUILD={folder}"],
+        ["make", "-s", "-C", FIRMWARE, target, f"BUILD={folder}", *words],
         capture_output=True,
         text=True,
         check=False,

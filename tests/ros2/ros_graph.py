@@ -3,7 +3,8 @@
 ``base`` drives for ever by the last twist that it got, as a base without a dead-man does, and says
 odometry at 50 Hz, and each twist as a line of JSON on stdout. ``lidar`` says three beams: too near
 to measure (minus infinity), no return, 1.5 m. ``map`` says a map once and keeps it. ``body``
-drives a simulated body behind the twin's server, and says what it senses. ``bridge``
+drives a simulated body behind the twin's server, and says what it senses. ``nav2`` is a small
+stand-in for Nav2 (small_nav2), which begins at a pose and knows points to pass. ``bridge``
 speaks rosbridge's protocol for the topics that Pons uses, on true publishers and subscriptions.
 Knows nothing of Pons.
 """
@@ -11,6 +12,7 @@ Knows nothing of Pons.
 from __future__ import annotations
 
 import asyncio
+import base64
 import json
 import math
 import sys
@@ -19,7 +21,9 @@ import time
 from typing import Any, ClassVar
 
 import rclpy
-from geometry_msgs.msg import Twist, TwistStamped
+import small_nav2  # type: ignore[import-not-found]  # beside this file, where its Python looks
+from action_msgs.msg import GoalStatus, GoalStatusArray
+from geometry_msgs.msg import PoseStamped, Twist, TwistStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
@@ -27,6 +31,8 @@ from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import String
 
 KINDS = {
+    "action_msgs/msg/GoalStatusArray": GoalStatusArray,
+    "geometry_msgs/msg/PoseStamped": PoseStamped,
     "geometry_msgs/msg/Twist": Twist,
     "geometry_msgs/msg/TwistStamped": TwistStamped,
     "nav_msgs/msg/Odometry": Odometry,
@@ -154,6 +160,62 @@ def fill(message: Any, raw: dict[str, Any]) -> None:
             setattr(message, name, value)
 
 
+class Nav2(Node):
+    """Drive to /goal_pose by /cmd_vel_nav, and say the action's status, as much as Pons hears."""
+
+    def __init__(self, start: list[float], via: list[float]) -> None:
+        super().__init__("nav2_stand_in")
+        points = list(zip(via[::2], via[1::2], strict=True))
+        self.nav2 = small_nav2.SmallNav2(via=points)
+        self.start, self.pose = start, start
+        self.told: list[Any] = []
+        self.twists = self.create_publisher(TwistStamped, "/cmd_vel_nav", 10)
+        topic = "/navigate_to_pose/_action/status"
+        self.statuses = self.create_publisher(GoalStatusArray, topic, KEPT)
+        self.create_subscription(Odometry, "/odom", self.hear_odometry, 10)
+        self.create_subscription(PoseStamped, "/goal_pose", self.hear_goal, 10)
+        self.create_timer(0.05, self.turn)
+
+    def hear_odometry(self, message: Any) -> None:
+        at, turn = message.pose.pose.position, message.pose.pose.orientation
+        x, y, yaw = self.start
+        c, s = math.cos(yaw), math.sin(yaw)
+        odom_yaw = 2.0 * math.atan2(turn.z, turn.w)
+        self.pose = [x + c * at.x - s * at.y, y + s * at.x + c * at.y, yaw + odom_yaw]
+
+    def hear_goal(self, message: Any) -> None:
+        at, turn = message.pose.position, message.pose.orientation
+        raw = {
+            "header": {"frame_id": message.header.frame_id},
+            "pose": {
+                "position": {"x": at.x, "y": at.y},
+                "orientation": {"z": turn.z, "w": turn.w},
+            },
+        }
+        self.nav2.hear(raw, time.monotonic(), (self.pose[0], self.pose[1]))
+        print(json.dumps({"goal": self.nav2.goals[-1], "pose": self.pose}), flush=True)
+
+    def turn(self) -> None:
+        twist = self.nav2.turn(time.monotonic(), *self.pose)
+        if self.nav2.statuses != self.told:
+            self.told = list(self.nav2.statuses)
+            self.statuses.publish(self.array())
+        if twist is not None:
+            message = TwistStamped()
+            message.header.stamp = self.get_clock().now().to_msg()
+            message.twist.linear.x, message.twist.angular.z = map(float, twist)
+            self.twists.publish(message)
+
+    def array(self) -> Any:
+        array = GoalStatusArray()
+        for number, status, second in self.nav2.statuses:
+            one = GoalStatus()
+            one.goal_info.goal_id.uuid = [number] * 16
+            one.goal_info.stamp.sec, one.status = second, status
+            array.status_list.append(one)
+        return array
+
+
 class Map(Node):
     """Say a map once, and keep it for those who come late: 60 by 40 cells with walls around."""
 
@@ -227,9 +289,14 @@ class Bridge(Node):
 
 
 def made_of(raw: dict[str, Any], kind: Any) -> Any:
-    """Return a string or a twist."""
+    """Return a string, a pose or a twist."""
     if kind is String:
         return String(data=raw["data"])
+    if kind is PoseStamped:
+        pose = PoseStamped()
+        fill(pose.pose, raw["pose"])
+        pose.header.frame_id = raw["header"]["frame_id"]
+        return pose
     message, twist = kind(), raw.get("twist", raw)
     inner = getattr(message, "twist", message)
     inner.linear.x, inner.angular.z = twist["linear"]["x"], twist["angular"]["z"]
@@ -240,6 +307,8 @@ def as_json(value: Any) -> Any:
     """Return a message as rosbridge writes it: what is not finite is null."""
     if hasattr(value, "get_fields_and_field_types"):
         return {name: as_json(getattr(value, name)) for name in value.get_fields_and_field_types()}
+    if getattr(value, "dtype", None) == "uint8":
+        return base64.b64encode(value.tobytes()).decode()  # as rosbridge_suite does
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, str | int | bool):
@@ -260,6 +329,10 @@ def main(arguments: list[str]) -> None:
         return
     if arguments[0] == "map":
         rclpy.spin(Map())
+        return
+    if arguments[0] == "nav2":
+        numbers = [float(word) for word in arguments[1:]]
+        rclpy.spin(Nav2(numbers[:3], numbers[3:]))
         return
     bridge = Bridge()
     threading.Thread(target=rclpy.spin, args=(bridge,), daemon=True).start()

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from ros2.nav2_velocity import OLD_S, PAUSE_S, PERIOD_S, Nav2Velocity
+from ros2.nav2_velocity import PAUSE_S, PERIOD_S, Nav2Velocity
 from ros2.operations import (
     AskType,
     NoAnswer,
@@ -16,6 +16,7 @@ from ros2.operations import (
     UnreadableMessage,
 )
 from ros2.trouble import Ros2Trouble
+from ros2.twist_topic import OLD_S
 from tests.wire.examples import STATUS
 from wire import Grant, Heartbeat, Hello, Mode, Status, Velocity
 from wire.ros2_config import Ros2Config
@@ -143,7 +144,7 @@ def test_what_is_no_twist_of_such_a_base_moves_nothing_and_is_told(wrong: dict[s
     made.hear(TopicMessage(TOPIC, twist()), 1.0)
     made.hear(TopicMessage(TOPIC, wrong), 1.01)
     assert made.velocity(status(), 1.02) is None
-    assert made.refused == 1
+    assert made.refusal_count == 1
     trouble = made.trouble(1.02)
     assert trouble is not None
     assert trouble.code == "ros2_unreadable"
@@ -184,7 +185,7 @@ def test_a_connection_that_went_takes_the_twist_along() -> None:
     assert made.velocity(status(), 2.0) is None, "its type is asked anew first"
     made = link()
     made.hear(UnreadableMessage(TOPIC, "cut"), 3.0)
-    assert made.refused == 1
+    assert made.refusal_count == 1
 
 
 def test_a_second_publisher_that_comes_later_is_named_and_not_obeyed() -> None:

@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -52,11 +53,19 @@ class Base(threading.Thread):
             for topic, message in self.server.take():
                 if topic == "/pons/command" and self.relay.hear(message["data"], now_s):
                     self.accepted.append((now_s, self.relay.twist(now_s)[0]))
+                self.hear_other(topic, message, now_s)
+            self.say_more(now_s)
             state = self.relay.state(now_s, now_s + epoch_s)
             self.server.publish("/pons/state", {"data": state})
             ticks += 1
             if ticks % 2 == 0:
                 self.server.publish("/odom", odometry(now_s))
+
+    def hear_other(self, topic: str, message: dict[str, Any], now_s: float) -> None:
+        """Hear what is no relay's."""
+
+    def say_more(self, now_s: float) -> None:
+        """Say what another node of this robot says."""
 
     def stands(self) -> bool:
         return self.relay.twist(time.monotonic()) == (0.0, 0.0, False)

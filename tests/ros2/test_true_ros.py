@@ -24,7 +24,9 @@ from pons import site
 from pons.robot_processes import free_port
 from pons.settings import LaunchSettings
 from tests.ros2.test_process import ROBOT, Bridge
-from wire import Scan, keys
+from wire import Nav2Goal, Nav2State, Pose2, Scan, keys
+from wire.keys import Party
+from wire.session import open_session
 
 NEEDS = "import rclpy, nav_msgs, websockets"
 LIMIT_S = 20.0
@@ -65,6 +67,8 @@ class Graph:
         self.environment = dict(os.environ, ROS_DOMAIN_ID=str(self.domain))
         self.processes: list[subprocess.Popen[str]] = []
         self.twists: list[dict[str, float]] = []
+        self.more = ""
+        """More of robot.toml."""
 
     def start(self, *words: str) -> subprocess.Popen[str]:
         process = subprocess.Popen(
@@ -105,7 +109,7 @@ class Graph:
             text = text.replace(f'url = "ws://127.0.0.1:{self.port}"', dds)
         if scan:
             text = text.replace("[inputs]", f'scan = "{scan}"\n[lidar]\nkind = "ros2"\n[inputs]')
-        path.write_text(text)
+        path.write_text(text + self.more)
         return path
 
     def close(self) -> None:
@@ -254,3 +258,40 @@ def test_a_map_that_was_said_before_becomes_a_site(
     refused = capsys.readouterr().err
     assert "ros2_topic_missing" in refused
     assert "请启动发布它的节点" in refused
+
+
+@by_each
+def test_nav2_hears_a_goal_and_its_word_and_twists_come_back(
+    graph: Graph, bridge: Bridge, way: str
+) -> None:
+    """By topics alone, against a stand-in node of rclpy for Nav2; Nav2 itself was not run."""
+    graph.reach(way)
+    graph.base(STAMPED)
+    graph.start(PYTHON, "tests/ros2/ros_graph.py", "nav2", "0", "0", "0")
+    graph.relay()
+    graph.more = "\n[ros2.nav2]\n"
+    graph.process()
+    heard: list[Nav2State] = []
+    with open_session(Party.PLANNER, "r1", graph.home) as planner:
+        says, hears = planner.publisher(keys.NAV2_GOAL), planner.subscriber(keys.NAV2_STATE)
+        goal, here = Pose2(2.0, 0.0, 0.0), Pose2(0.0, 0.0, 0.0)
+
+        def is_told(leg: int, done: Callable[[Nav2State], bool]) -> Callable[[], bool]:
+            order = Nav2Goal(
+                planner_id="p1", seen=1, mission="m1" if leg else None, leg=leg,
+                goal=goal if leg else None, here=here,
+            )  # fmt: skip
+
+            def look() -> bool:
+                says.put(order)
+                state = hears.newest()
+                heard.extend([] if state is None else [state])
+                return bool(heard) and done(heard[-1])
+
+            return look
+
+        bridge.until(is_told(1, lambda s: s.phase == "driving" and s.twist > 3))
+        assert (heard[-1].mission, heard[-1].leg, heard[-1].code) == ("m1", 1, None)
+        assert heard[-1].v_mps == pytest.approx(0.4)
+        bridge.until(is_told(0, lambda s: s.phase == "cancelled"))
+        bridge.until(is_told(0, lambda s: s.phase == "idle"))

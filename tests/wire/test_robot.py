@@ -67,6 +67,11 @@ MCU = "[drive]\nkind = 'pons_mcu'\nticks_per_turn = 4096\n"
         ("[lidar]\nx_m = -0.18\ny_m = 0.24", "robot_toml_invalid",
          "lidar.range_min_m 0.12 must be at most 0.05: "),
         ("[lidar]\ny_m = 0.31", "robot_toml_invalid", "outside base.radius_m 0.3: "),
+        (
+            '[drive]\nkind = "waveshare"\nport = "/dev/x"\n[lidar]\nkind = "ld19"\nport = "/dev/x"',
+            "robot_toml_invalid",
+            "both /dev/x: two adapters that call themselves alike",
+        ),
         ("[base]\nradius_m = 0.24", "robot_toml_invalid",
          "base.radius_m 0.24 must be at least 0.25, "),
         ("[base]\nradius_m = 0.1\n[lidar]\nrange_min_m = 0.2", "robot_toml_invalid",

@@ -56,6 +56,10 @@ def test_what_does_not_fit_is_refused_by_name(given: dict[str, Any], says: str) 
         ({"transport": "dds", "interface": 'lo"/>'}, "ros2.interface"),
         ({"transport": "zenoh", "router": "udp/a:1"}, "ros2.router"),
         ({"transport": "udp"}, "ros2.transport"),
+        ({**URL, "nav2": {"cmd_vel": "/cmd_vel"}}, "is what the relay drives by"),
+        ({**URL, "nav2": {"cmd_vel": "/pons/command"}}, "is what the relay drives by"),
+        ({**URL, "nav2": {"goal": "/goal_pose"}}, "ros2.nav2.goal"),
+        ({**URL, "nav2": {"within_m": 3.0}}, "ros2.nav2.within_m"),
     ],
 )
 def test_a_way_that_lacks_a_key_or_has_anothers_is_refused(

@@ -40,6 +40,7 @@ USERS = {
 GROUPS = {
     "pons": 62_000, "pons-senses": 62_001, "pons-drive": 62_002, "pons-hint": 62_003,
     "pons-scan": 62_004, "pons-base": 62_005, "pons-gyro": 62_006, "i2c": 62_007, MEMBER: 62_008,
+    "pons-goal": 62_010,
     STRANGER: 62_009,
 }  # fmt: skip
 OF_PROCESSES = {

@@ -182,7 +182,7 @@ class PlannerProcess:
         self._tasks = TickLoop(now_s)  # type: ignore[abstract]  # what needs threads or sockets
         self._brain = PacedBrain(brain, pace.brain * TICK_S)
         self._link = Link(
-            WireBus(cast("Session", port)),
+            WireBus(cast("Session", port), nav2=scene.robot.ros2 is not None),
             scene.robot,
             clock=self._tasks.time,
             new_id=self._new_id,

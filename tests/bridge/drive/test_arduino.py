@@ -181,3 +181,18 @@ def test_a_question_alone_brings_counts_and_keeps_the_dead_man() -> None:
     assert set(asked.split(b"\r")) == {b"e", b""}
     protocol.decode(b"", 1.0)
     assert [state.left_rad for state in protocol.decode(b"7 8\r\n", 1.0)] != []
+
+
+def test_a_long_silence_is_told_once_until_the_base_is_in_step_again(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    line = Line()
+    line.state()
+    for _ in range(400):
+        line.tick()
+    assert caplog.text.count("base_out_of_step") == 1
+    line.ask()
+    line.hear(answer(1, 1))
+    for _ in range(400):
+        line.tick()
+    assert caplog.text.count("base_out_of_step") == 2

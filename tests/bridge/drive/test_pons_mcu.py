@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from binascii import crc_hqx
 from dataclasses import replace
 from math import pi
+from random import Random
 
 import pytest
 from hypothesis import given
@@ -23,6 +25,12 @@ SPEEDS = st.floats(-1000.0, 1000.0)
 def command(**given: object) -> DriveCommand:
     made = DriveCommand(boot="b1", seq=7, left_radps=1.25, right_radps=-0.5, enable=True)
     return made.model_copy(update=given)
+
+
+def frame(kind: int, seq: int, payload: bytes) -> bytes:
+    """Return a frame that checks, whatever its type and length."""
+    body = bytes([len(payload), kind]) + seq.to_bytes(4, "little") + payload
+    return pons_mcu.HEAD + body + crc_hqx(body, 0).to_bytes(2, "little")
 
 
 def heard(protocol: PonsMcuProtocol, *states: McuState, now_s: float = 10.0) -> list[DriveState]:
@@ -173,3 +181,24 @@ def test_a_controller_that_took_the_torque_away_is_told_once(
     (first, *_) = heard(protocol, tripped, tripped, STATE, tripped)
     assert not first.enabled
     assert caplog.text.count("base_tripped") == 2
+
+
+@pytest.mark.parametrize(
+    ("kind", "payload"), [(0x81, bytes(44)), (0x81, bytes(36)), (0x82, bytes(41))]
+)
+def test_a_firmware_of_another_version_is_told_once_and_gives_no_state(
+    kind: int, payload: bytes, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Its frames check; their type or length is none of ours."""
+    protocol = PonsMcuProtocol(CONFIG, "b1")
+    protocol.begin()
+    for seq in range(20):
+        assert protocol.decode(frame(kind, seq, payload), 10.0 + seq / 100) == []
+    assert caplog.text.count("base_firmware_other") == 1
+
+
+def test_noise_is_no_firmware_of_another_version(caplog: pytest.LogCaptureFixture) -> None:
+    protocol, noise = PonsMcuProtocol(CONFIG, "b1"), Random(5)
+    for _ in range(2_000):
+        protocol.decode(noise.randbytes(60) + pons_mcu.HEAD + noise.randbytes(9), 10.0)
+    assert "base_firmware_other" not in caplog.text

@@ -15,6 +15,7 @@ from tests.planner.mission.fakes import FakeBridge
 from wire import (
     Localization,
     LocalizerStatus,
+    Nav2State,
     Odometry,
     OpRequest,
     Pose2,
@@ -125,6 +126,9 @@ class Moving(FakeBridge):
         self.odom_m += 1.0
         return Odometry(odom_id="o", seq=int(self.odom_m), stamp_s=1.0, base_in_odom=ORIGIN,
                         twist=Twist2(0.0, 0.0), yaw_rate_radps=None)  # fmt: skip
+
+    def nav2(self) -> Nav2State | None:
+        return None
 
     def localizer(self) -> LocalizerStatus | None:
         return None

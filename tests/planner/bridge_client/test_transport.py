@@ -70,7 +70,7 @@ def ends(home: Path) -> Iterator[tuple[Session, WireBus]]:
         open_session(Party.BRIDGE, "r1", home) as bridge,
         open_session(Party.PLANNER, "r1", home) as session,
     ):
-        yield bridge, WireBus(session)
+        yield bridge, WireBus(session, nav2=True)
 
 
 @pytest.fixture(scope="module")

@@ -31,6 +31,7 @@ from wire import (
     Localization,
     LocalizerStatus,
     Mode,
+    Nav2State,
     Odometry,
     OpKind,
     OpRequest,
@@ -288,6 +289,9 @@ class FakeBridge:
     def status(self) -> Status | None:
         pending, self.pending = self.pending, None
         return pending
+
+    def nav2(self) -> Nav2State | None:
+        return None
 
     def localizer(self) -> LocalizerStatus | None:
         return None

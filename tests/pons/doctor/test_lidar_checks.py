@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from pons.doctor import lidar_checks
+from pons.doctor import lidar_checks, running_process
 from pons.doctor.finding import HealthVerdict
 from sim.twin import LidarTwin
 from wire import LidarStatus, RobotDescription, keys
@@ -122,7 +122,7 @@ def test_a_running_process_is_asked_and_its_port_left_alone(
 def test_a_process_that_says_nothing_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(lidar_checks, "HEAR_S", 0.1)
+    monkeypatch.setattr(running_process, "HEAR_S", 0.1)
     with open_session(Party.LIDAR, "r1", tmp_path):
         found = lidar_checks.lidar(tmp_path, described(kind="ld19", port="/dev/none"))
     assert found.verdict is HealthVerdict.FAIL

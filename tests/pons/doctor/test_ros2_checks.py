@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from pons.doctor import ros2_checks
+from pons.doctor import ros2_checks, running_process
 from pons.doctor.finding import HealthVerdict
 from pons.robot_processes import free_port
 from ros2.trouble import CODES
@@ -85,7 +85,7 @@ def test_a_process_that_runs_is_heard_instead(tmp_path: Path) -> None:
 def test_a_process_that_says_nothing_is_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(ros2_checks, "HEAR_S", 0.1)
+    monkeypatch.setattr(running_process, "HEAR_S", 0.1)
     with open_session(Party.ROS2, "r1", tmp_path):
         found = ros2_checks.ros2(tmp_path, described(1))
     assert (found.verdict, "says nothing" in found.found.en) == (HealthVerdict.FAIL, True)

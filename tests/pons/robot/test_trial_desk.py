@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -15,7 +15,9 @@ from pons.robot.trial_desk import TrialDesk
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_run import plan_steps
 from pons.robot.trial_words import STEPS
+from sim.twin.line import TwinLine
 from tests.conftest import ROOT
+from tests.pons.robot.stand import START_S, TICK_S, Stand
 from wire import Proof, TrialOrder, TrialState, load_robot, sign
 from wire.imu_config import ImuConfig
 from wire.keys import TRIAL_STATE
@@ -154,3 +156,54 @@ def test_an_untried_robot_does_not_leave(tmp_path: Path) -> None:
         desk.take(TrialOrder(id="a", source="t", act="leave"))
         assert not desk.leaves
         assert desk.state().code == "trial_missing"
+
+
+@pytest.mark.e2e
+def test_a_cable_pulled_in_the_middle_of_a_pages_trial_is_told_and_nothing_is_written(
+    tmp_path: Path,
+) -> None:
+    """At a real line, in real time."""
+    with desk_at(tmp_path) as desk:
+        path = tmp_path / "robot.toml"
+        robot = load_robot(path)
+        before = path.read_text("utf-8")
+        line, stand, ending = (
+            TwinLine(Path(robot.drive.port or "")),
+            Stand(robot),
+            threading.Event(),
+        )
+        stand.wheels.end = line
+
+        def live() -> None:
+            began_s = time.monotonic()
+            while not ending.wait(TICK_S / 4):
+                while began_s + stand.time_s - START_S < time.monotonic():
+                    stand.wait()
+
+        thread = threading.Thread(target=live)
+        thread.start()
+        try:
+            proof = sign(KEY, "trial", "r1", desk.nonce, "a")
+            desk.take(TrialOrder(id="a", source="t", act="begin", proof=proof))
+            until(desk, lambda state: state.ask == 1, answered=0)
+        finally:
+            ending.set()
+            thread.join()
+            line.close()
+        state = until(desk, lambda state: state.phase == "refused", answered=0)
+        assert (state.code, state.detail[:5]) == ("trial_port", "port_")
+        assert state.cure is not None
+        assert "plug it in" in state.cure.en
+        assert path.read_text("utf-8") == before
+        assert stand.wheels.fastest_radps == 0.0
+
+
+def until(desk: TrialDesk, done: Callable[[TrialState], bool], answered: int) -> TrialState:
+    """Watch as a page does until something is so."""
+    for _ in range(1_500):
+        desk.take(TrialOrder(id="a", source="t", act="watch", answered=answered))
+        state = desk.state()
+        if done(state):
+            return state
+        threading.Event().wait(0.02)
+    raise AssertionError(f"{desk.state()}")

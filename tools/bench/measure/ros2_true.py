@@ -17,6 +17,7 @@ import sys
 import threading
 import time
 from contextlib import ExitStack, suppress
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -52,6 +53,26 @@ STEP_MPS = 1e-5
 """Each command of the line has a speed of its own, by which the base's line tells it."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Driver:
+    """Name who finds the ways, and where."""
+
+    site: Path
+    places: tuple[str, ...]
+    nodes: tuple[tuple[str, ...], ...] = ()
+    robot: str = ""
+
+
+PONS = _Driver(SITE, ROOMS)
+NAV2 = _Driver(
+    CHECKOUT / "sites" / "two_room",
+    ("living room", "kitchen", "sofa", "kitchen"),
+    (("nav2", "0.9", "0.8", "0", "1.5", "2.0", "1.5", "3.5"),),
+    "\n[ros2.nav2]\n",
+)
+"""A small stand-in for Nav2, which begins at the dock and knows the two sides of the one door."""
+
+
 def measure(lab: BenchLab) -> list[ReportRow]:
     """Measure each way: the line, then the tour, then kills and freezes."""
     if not os.environ.get("PONS_ROS2_PYTHON"):
@@ -62,8 +83,8 @@ def measure(lab: BenchLab) -> list[ReportRow]:
 def _measure_way(lab: BenchLab, way: str) -> list[ReportRow]:
     take_line = partial(_line, lab, way)
     lines = list(lab.slices(f"line.{way}", lab.count(1, 3), lambda _: take_line()))
-    take_tour = partial(_tour, lab, way)
-    tours = list(lab.slices(f"tour.{way}", 1, lambda _: take_tour()))
+    tours = list(lab.slices(f"tour.{way}", 1, lambda _: _tour(lab, way, PONS)))
+    by_nav2 = list(lab.slices(f"nav2.{way}", 1, lambda _: _tour(lab, way, NAV2)))
     faults = ("killed", "frozen", "cut") if way == "rosbridge" else ("killed", "frozen")
     zeros = {fault: _zeros_ms(lab, way, fault) for fault in faults}
     delivered = ", ".join(f"{one['delivered']} of {COMMANDS}" for one in lines)
@@ -82,8 +103,18 @@ def _measure_way(lab: BenchLab, way: str) -> list[ReportRow]:
         *(row_of(f"{way}, {fault}: zeros at the base", "ms", within, ms)
           for fault, ms in zeros.items()),
         ReportRow(f"{way}: rooms of the home", "", "7 of 7", value=rooms, note=note),
+        *_rows_of_nav2(way, by_nav2),
         row_of(f"{way}: a room", "s", "", [s for one in tours for s in one["reached"].values()]),
     ]  # fmt: skip
+
+
+def _rows_of_nav2(way: str, tours: list[dict[str, Any]]) -> list[ReportRow]:
+    reached = ", ".join(f"{len(one['reached'])} of 3" for one in tours)
+    note = "; ".join(f"contacts {one['contacts']}, lost {one['lost'] or '-'}" for one in tours)
+    return [
+        ReportRow(f"{way}: places by a stand-in for Nav2", "", "3 of 3", value=reached, note=note),
+        row_of(f"{way}: a place by it", "s", "", [s for t in tours for s in t["reached"].values()]),
+    ]
 
 
 def _zeros_ms(lab: BenchLab, way: str, fault: str) -> list[float]:
@@ -123,7 +154,7 @@ class _TrueGraph:
             self.start_node(words[0], str(GRAPH), *words)
         self.start_node("relay", str(RELAY))
 
-    def describe(self, *, imu: bool) -> Path:
+    def describe(self, *, imu: bool, more: str = "") -> Path:
         """Write robot.toml for this graph."""
         text = ROBOTS["rosbridge"].read_text("utf-8")
         reached = f'transport = "dds"\ndomain = {self.domain}\ninterface = "lo"'
@@ -133,7 +164,7 @@ class _TrueGraph:
         if not imu:
             text = re.sub(r"(?m)^imu = .*$", "", text) + "\n[inputs]\nimu = false\n"
         made = self.home / "robot.toml"
-        made.write_text(text, "utf-8")
+        made.write_text(text + more, "utf-8")
         return made
 
     def start_process(self) -> subprocess.Popen[bytes]:
@@ -232,25 +263,25 @@ def _break_line(lab: BenchLab, way: str, fault: str) -> dict[str, float]:
         return {"zero_ms": 1000 * ((zero_s() or 0.0) - broken_s)}
 
 
-def _tour(lab: BenchLab, way: str) -> dict[str, Any]:
-    """Have `pons up` drive a rclpy base with a simulated body through every room."""
+def _tour(lab: BenchLab, way: str, by: _Driver) -> dict[str, Any]:
+    """Have `pons up` drive a rclpy base with a simulated body from place to place."""
     with lab.folder() as home, lab.folder() as body_home, ExitStack() as stack:
         graph, port = _TrueGraph(way, home, stack), free_port()
         words = ("--home", str(body_home), "--robot", str(ROBOTS["rosbridge"]))
         body = subprocess.Popen(
-            child_command("sim", *words, "--site", str(SITE), "--ros2-twin", str(port)),
+            child_command("sim", *words, "--site", str(by.site), "--ros2-twin", str(port)),
             cwd=CHECKOUT, stderr=subprocess.DEVNULL,
         )  # fmt: skip
         stack.callback(_end, body)
         until(partial(_is_open, port), START_S, "the simulator's server")
-        graph.start(("body", str(port)))
+        graph.start(("body", str(port)), *by.nodes)
         judge = stack.enter_context(open_session(Party.JUDGE, "r1", body_home))
         truths, contacts = judge.subscriber(keys.SIM_TRUTH), 0
-        pons = _PonsUp(home, graph.describe(imu=True), stack)
+        pons = _PonsUp(home, graph.describe(imu=True, more=by.robot), by.site, stack)
         pons.until_armed()
         reached: dict[str, float] = {}
         lost, resumes = "", 0
-        for room in ROOMS:
+        for room in by.places:
             began_s = time.monotonic()
             said, resumed = pons.drive_to(room)
             resumes += resumed
@@ -273,9 +304,9 @@ def _is_open(port: int) -> bool:
 class _PonsUp:
     """Be a person at a terminal with a robot of metal."""
 
-    def __init__(self, home: Path, robot: Path, stack: ExitStack) -> None:
+    def __init__(self, home: Path, robot: Path, site: Path, stack: ExitStack) -> None:
         self._environment = dict(
-            os.environ, PONS_HOME=str(home), PONS_ROBOT=str(robot), PONS_SITE=str(SITE),
+            os.environ, PONS_HOME=str(home), PONS_ROBOT=str(robot), PONS_SITE=str(site),
             PONS_PORT=str(free_port()),
         )  # fmt: skip
         self.run("key", "new")
