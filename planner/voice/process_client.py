@@ -10,9 +10,10 @@ import asyncio
 import contextlib
 import logging
 from asyncio.subprocess import Process
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from planner.plan import Language
 from planner.voice.recogniser import Recognition, VoiceFailure
 from planner.voice.wav import Sound
 from processes.parent_death import worker_command
@@ -29,10 +30,23 @@ MAX_WAITING = 3
 
 
 class VoiceWorker:
-    """Hear recordings in another process, in the names of one site."""
+    """Hear recordings in another process: by the grammar in one site's names, or by a model."""
 
-    def __init__(self, names: Sequence[str], command: Sequence[str] | None = None) -> None:
+    def __init__(
+        self,
+        names: Sequence[str],
+        command: Sequence[str] | None = None,
+        model: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Take what the process is told first; nothing is started.
+
+        Args:
+            names: that the built-in grammar hears.
+            command: another program than ours.
+            model: ``sherpa``, a model's files, and ``threads``; None for the grammar.
+        """
         self._names = tuple(names)
+        self._model = dict(model or {})
         self._told: tuple[str, ...] = ()
         """The names that the process of now was started with."""
         self._command = command or worker_command("planner.voice.process_main")
@@ -41,6 +55,7 @@ class VoiceWorker:
         self._waiting = 0
         self._number = 0
         self._warming: asyncio.Task[None] | None = None
+        self._at_work: set[asyncio.Task[Recognition]] = set()
         self.left_out: tuple[str, ...] = ()
 
     @property
@@ -75,6 +90,14 @@ class VoiceWorker:
             text = f"{self._waiting} recordings are being heard; try again in a moment"
             raise VoiceFailure("voice_busy", text)
         self._waiting += 1
+        work = asyncio.create_task(self._hear_in_turn(sound, awaits_answer=awaits_answer))
+        self._at_work.add(work)
+        work.add_done_callback(self._at_work.discard)
+        work.add_done_callback(_take_failure)
+        # Who goes away leaves it at work: to end it would cost the next order a model's loading.
+        return await asyncio.shield(work)
+
+    async def _hear_in_turn(self, sound: Sound, *, awaits_answer: bool) -> Recognition:
         try:
             async with self._turn:
                 return await self._hear(sound, awaits_answer=awaits_answer)
@@ -87,6 +110,9 @@ class VoiceWorker:
             self._warming.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await self._warming
+        for work in tuple(self._at_work):
+            work.cancel()
+        await asyncio.gather(*self._at_work, return_exceptions=True)
         await self._bury()
 
     async def _warm(self) -> None:
@@ -135,7 +161,7 @@ class VoiceWorker:
             self._process = process = await spawn(self._command)
             self._told = self._names
             async with asyncio.timeout(READY_S):
-                greeting, _ = await exchange(process, pack({"names": self._told}))
+                greeting, _ = await exchange(process, pack({"names": self._told, **self._model}))
         except STREAM_ERRORS as error:
             await self._bury()
             text = f"it did not start: {str(error) or type(error).__name__}"
@@ -155,6 +181,17 @@ class VoiceWorker:
             await asyncio.shield(reap(process))
 
 
+def _take_failure(work: asyncio.Task[Recognition]) -> None:
+    """Look at a failure that nobody waits for any more, or it would be logged as forgotten."""
+    if not work.cancelled():
+        work.exception()
+
+
 def _read_answer(answer: dict[str, Any]) -> Recognition:
-    sure = answer["understood"] is True
-    return Recognition(str(answer["transcript"]), float(answer["confidence"]), sure)
+    return Recognition(
+        str(answer["transcript"]),
+        float(answer["confidence"]),
+        answer["understood"] is True,
+        Language(answer.get("language", "en")),
+        str(answer.get("by", "grammar")),
+    )

@@ -8,7 +8,7 @@ import sys
 CODE = """
 import sys
 import planner.navigation, planner.perception, planner.voice, planner.site
-print([name for name in ("numpy", "cv2", "onnxruntime", "pocketsphinx") if name in sys.modules])
+print([name for name in ("numpy", "cv2", "onnxruntime", "pocketsphinx", "sherpa_onnx") if name in sys.modules])
 """
 
 
