@@ -10,13 +10,11 @@ import unicodedata
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 import sherpa_onnx
-from numpy.typing import NDArray
 
 from planner.language.folding import has_chinese
 from planner.plan import Language
-from planner.voice.audio_preprocess import SILENT_PEAK
+from planner.voice.audio_preprocess import float_samples
 from planner.voice.recogniser import Recognition
 
 UNTOLD = 0.5
@@ -51,13 +49,11 @@ class Sherpa:
             IndexError: the model names a token that ``tokens.txt`` lacks.
         """
         del awaits_answer  # a free recogniser hears a yes as any other word
-        samples = _samples(pcm, channels)
-        if not float(np.abs(samples).max(initial=0.0)) >= SILENT_PEAK / 32_768:
+        samples = float_samples(pcm, channels, int(TAIL_S * rate_hz))
+        if samples is None:
             return Recognition("", 0.0, understood=False, by="sherpa")
         stream = self._recogniser.create_stream()
         stream.accept_waveform(rate_hz, samples)
-        # At the same rate: over another one within a stream the library ends its process.
-        stream.accept_waveform(rate_hz, np.zeros(int(TAIL_S * rate_hz), np.float32))
         stream.input_finished()
         return self._decode(stream)
 
@@ -95,9 +91,3 @@ def _clean(text: str) -> str:
     """Return one line in small letters: such models write English in capitals."""
     seen = "".join(" " if unicodedata.category(each)[0] in "CZ" else each for each in text)
     return " ".join(seen.split())[:MAX_TEXT].lower()
-
-
-def _samples(pcm: bytes, channels: int) -> NDArray[np.float32]:
-    """Return one channel from -1 to 1, without a sound card's offset."""
-    mixed = np.frombuffer(pcm, "<i2").astype(np.float32).reshape(-1, channels).mean(axis=1)
-    return np.asarray((mixed - mixed.mean()) / 32_768, np.float32)
