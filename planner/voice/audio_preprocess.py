@@ -39,11 +39,17 @@ def prepare(pcm: bytes, rate_hz: int, channels: int) -> bytes | None:
 
 def float_samples(pcm: bytes, channels: int, tail: int) -> NDArray[np.float32] | None:
     """Return one channel from -1 to 1 and ``tail`` zeros behind it, or None for silence."""
-    mono = np.frombuffer(pcm, "<i2").astype(np.float64).reshape(-1, channels).mean(axis=1)
+    mono = raw_samples(pcm, channels)
     mono -= mono.mean()  # a sound card's offset is no sound
-    if not float(np.abs(mono).max(initial=0.0)) >= SILENT_PEAK:
+    if not float(np.abs(mono).max(initial=0.0)) * 32_768.0 >= SILENT_PEAK:
         return None
-    return np.pad(mono / 32_768.0, (0, tail)).astype(np.float32)
+    return np.pad(mono, (0, tail))
+
+
+def raw_samples(pcm: bytes, channels: int) -> NDArray[np.float32]:
+    """Return one channel from -1 to 1, as it is: a piece of a recording has no mean of its own."""
+    mono = np.frombuffer(pcm, "<i2").astype(np.float32).reshape(-1, channels).mean(axis=1)
+    return np.asarray(mono / 32_768.0, np.float32)
 
 
 def quiet(samples: bytes, first_frame: int, frames: int) -> bool:

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import itertools
 import logging
 from asyncio.subprocess import Process
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from planner.language.stop import is_stop
 from planner.plan import Language
-from planner.voice.recogniser import Recognition, VoiceFailure
+from planner.voice.recogniser import Recognition, StopListener, VoiceFailure
 from planner.voice.wav import Sound
 from processes.parent_death import worker_command
 from processes.worker import STREAM_ERRORS, exchange, reap, spawn
@@ -54,6 +56,7 @@ class VoiceWorker:
         self._turn = asyncio.Lock()
         self._waiting = 0
         self._number = 0
+        self._streams = itertools.count(1)
         self._warming: asyncio.Task[None] | None = None
         self._at_work: set[asyncio.Task[Recognition]] = set()
         self.left_out: tuple[str, ...] = ()
@@ -90,19 +93,38 @@ class VoiceWorker:
             text = f"{self._waiting} recordings are being heard; try again in a moment"
             raise VoiceFailure("voice_busy", text)
         self._waiting += 1
-        work = asyncio.create_task(self._hear_in_turn(sound, awaits_answer=awaits_answer))
+        work = self._begin(sound, {"awaits_answer": awaits_answer})
+        work.add_done_callback(self._count_down)
+        return await asyncio.shield(work)
+
+    def listen(self) -> tuple[StopListener, ...]:
+        """Return what hears one recording in the same process while it is spoken."""
+        return (WorkerListener(self, next(self._streams)),)
+
+    async def hear_part(self, stream: int, sound: Sound) -> Recognition:
+        """Return what the process has heard of a recording by now, since its last pause.
+
+        Raises:
+            VoiceFailure: ``recogniser_unavailable`` or ``voice_timed_out``.
+        """
+        return await asyncio.shield(self._begin(sound, {"stream": stream}))
+
+    def _begin(self, sound: Sound, more: Mapping[str, Any]) -> asyncio.Task[Recognition]:
+        """Hear in turn. Who goes away leaves it at work: to end it would cost the next order a
+        model's loading.
+        """
+        work = asyncio.create_task(self._hear_in_turn(sound, more))
         self._at_work.add(work)
         work.add_done_callback(self._at_work.discard)
         work.add_done_callback(_take_failure)
-        # Who goes away leaves it at work: to end it would cost the next order a model's loading.
-        return await asyncio.shield(work)
+        return work
 
-    async def _hear_in_turn(self, sound: Sound, *, awaits_answer: bool) -> Recognition:
-        try:
-            async with self._turn:
-                return await self._hear(sound, awaits_answer=awaits_answer)
-        finally:
-            self._waiting -= 1
+    def _count_down(self, _: asyncio.Task[Recognition]) -> None:
+        self._waiting -= 1
+
+    async def _hear_in_turn(self, sound: Sound, more: Mapping[str, Any]) -> Recognition:
+        async with self._turn:
+            return await self._hear(sound, more)
 
     async def close(self) -> None:
         """End the process and wait until it is gone. Safe to call twice."""
@@ -122,14 +144,14 @@ class VoiceWorker:
         except VoiceFailure as failure:
             log.warning("no spoken orders: %s", failure)
 
-    async def _hear(self, sound: Sound, *, awaits_answer: bool) -> Recognition:
+    async def _hear(self, sound: Sound, more: Mapping[str, Any]) -> Recognition:
         process = await self._ready()
         self._number += 1
         head = {
             "number": self._number,
             "rate_hz": sound.rate_hz,
             "channels": sound.channels,
-            "awaits_answer": awaits_answer,
+            **more,
         }
         try:
             async with asyncio.timeout(HEAR_S):
@@ -179,6 +201,22 @@ class VoiceWorker:
         process, self._process = self._process, None
         if process is not None:
             await asyncio.shield(reap(process))
+
+
+class WorkerListener:
+    """Have a voice process hear one recording while it is spoken."""
+
+    def __init__(self, worker: VoiceWorker, stream: int) -> None:
+        self._worker, self._stream = worker, stream
+
+    async def take(self, sound: Sound) -> Recognition | None:
+        """Hear the next samples; return a stop as soon as one is heard.
+
+        Raises:
+            VoiceFailure: ``recogniser_unavailable`` or ``voice_timed_out``.
+        """
+        heard = await self._worker.hear_part(self._stream, sound)
+        return heard if heard.understood and is_stop(heard.transcript) else None
 
 
 def _take_failure(work: asyncio.Task[Recognition]) -> None:

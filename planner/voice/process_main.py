@@ -1,12 +1,14 @@
 """Run the voice process: ``planner.voice.process_main``.
 
-The first frame carries the site's names, or the files of a model, each later one a recording.
+The first frame carries the site's names, or the files of a model, each later one a recording or the
+next piece of one that is still being spoken (``stream``).
 Decoding holds the interpreter for its whole length (measured: 0.1 s for each second of speech), and
 a library may end its process over a broken file, which is why it is a process.
 """
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from dataclasses import asdict
 from functools import partial
 from typing import Any, Protocol
@@ -15,13 +17,25 @@ from planner.voice.recogniser import Recognition
 from processes.worker_main import ParentPipes, run_worker
 from processes.worker_protocol import Frame
 
+MOST_STREAMS = 8
+"""That are remembered; of more, the one that was fed longest ago is forgotten."""
+NOTHING = Recognition("", 0.0, understood=False)
+
+
+class Listener(Protocol):
+    """Hear one recording while it grows."""
+
+    def take(self, pcm: bytes) -> Recognition | None: ...
+
 
 class Engine(Protocol):
-    """Hear recordings in this process."""
+    """Hear recordings in this process, whole or as they grow."""
 
     def hear(
         self, pcm: bytes, rate_hz: int, channels: int, *, awaits_answer: bool = False
     ) -> Recognition: ...
+
+    def listener(self, rate_hz: int, channels: int) -> Listener: ...
 
 
 def main(parent: ParentPipes) -> int:
@@ -34,7 +48,7 @@ def main(parent: ParentPipes) -> int:
     except (ImportError, OSError, RuntimeError, ValueError) as error:
         return parent.refuse("recogniser_unavailable", f"{type(error).__name__}: {error}")
     parent.write({"ready": list(left_out)})
-    return parent.serve(partial(_answer, engine))
+    return parent.serve(partial(_answer, engine, OrderedDict()))
 
 
 def _load(told: dict[str, Any]) -> tuple[Engine, tuple[str, ...]]:
@@ -49,10 +63,17 @@ def _load(told: dict[str, Any]) -> tuple[Engine, tuple[str, ...]]:
     return sphinx, sphinx.language.left_out
 
 
-def _answer(engine: Engine, asked: Frame) -> Frame:
+def _answer(engine: Engine, streams: OrderedDict[int, Listener], asked: Frame) -> Frame:
     head, pcm = asked
     try:
         rate_hz, channels = int(head["rate_hz"]), int(head["channels"])
+        if "stream" in head:
+            number = int(head["stream"])
+            listener = streams.pop(number, None) or engine.listener(rate_hz, channels)
+            streams[number] = listener
+            if len(streams) > MOST_STREAMS:
+                streams.popitem(last=False)
+            return asdict(listener.take(pcm) or NOTHING), b""
         heard = engine.hear(pcm, rate_hz, channels, awaits_answer=head["awaits_answer"] is True)
         return asdict(heard), b""
     except (RuntimeError, ValueError, LookupError) as error:

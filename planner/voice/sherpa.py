@@ -14,7 +14,7 @@ import sherpa_onnx
 
 from planner.language.folding import has_chinese
 from planner.plan import Language
-from planner.voice.audio_preprocess import float_samples
+from planner.voice.audio_preprocess import float_samples, raw_samples
 from planner.voice.recogniser import Recognition
 
 UNTOLD = 0.5
@@ -22,6 +22,8 @@ UNTOLD = 0.5
 UNDERSTOOD = 0.3
 MAX_TEXT = 500
 """Characters; as many as a typed order may have."""
+PAUSE_S, LONG_PAUSE_S = 0.4, 2.0
+"""Of silence after words, and without any, that end a piece of speech: the next is read alone."""
 TAIL_S = 0.8
 """Silence behind a recording: a streaming model looks ahead, and its last word comes with it."""
 
@@ -38,7 +40,13 @@ class Sherpa:
         """
         kinds = sherpa_onnx.OnlineRecognizer
         make = kinds.from_transducer if "joiner" in paths else kinds.from_paraformer
-        self._recogniser = make(**paths, num_threads=threads)
+        self._recogniser = make(
+            **paths,
+            num_threads=threads,
+            enable_endpoint_detection=True,
+            rule1_min_trailing_silence=LONG_PAUSE_S,
+            rule2_min_trailing_silence=PAUSE_S,
+        )
 
     def hear(
         self, pcm: bytes, rate_hz: int, channels: int, *, awaits_answer: bool = False
@@ -55,13 +63,43 @@ class Sherpa:
         stream = self._recogniser.create_stream()
         stream.accept_waveform(rate_hz, samples)
         stream.input_finished()
-        return self._decode(stream)
+        return decode(self._recogniser, stream)
 
-    def _decode(self, stream: Any) -> Recognition:
-        while self._recogniser.is_ready(stream):
-            self._recogniser.decode_stream(stream)
-        told = self._recogniser.get_result_all(stream)
-        return read_result(told.text, told.ys_probs)
+    def listener(self, rate_hz: int, channels: int) -> SherpaListener:
+        """Return what hears a recording while it is being spoken."""
+        return SherpaListener(self._recogniser, rate_hz, channels)
+
+
+class SherpaListener:
+    """Decode one recording as it grows, from pause to pause."""
+
+    def __init__(self, recogniser: Any, rate_hz: int, channels: int) -> None:
+        self._recogniser, self._stream = recogniser, recogniser.create_stream()
+        self._rate_hz, self._channels = rate_hz, channels
+
+    def take(self, pcm: bytes) -> Recognition | None:
+        """Add samples; return what was heard since the last pause, None for nothing.
+
+        Raises:
+            IndexError: the model names a token that ``tokens.txt`` lacks.
+        """
+        self._stream.accept_waveform(self._rate_hz, raw_samples(pcm, self._channels))
+        heard = decode(self._recogniser, self._stream)
+        if self._recogniser.is_endpoint(self._stream):
+            self._recogniser.reset(self._stream)
+        return heard if heard.transcript else None
+
+
+def decode(recogniser: Any, stream: Any) -> Recognition:
+    """Return what a stream says by now.
+
+    Raises:
+        IndexError: the model names a token that ``tokens.txt`` lacks.
+    """
+    while recogniser.is_ready(stream):
+        recogniser.decode_stream(stream)
+    told = recogniser.get_result_all(stream)
+    return read_result(told.text, told.ys_probs)
 
 
 def read_result(text: str, token_logs: list[float]) -> Recognition:
