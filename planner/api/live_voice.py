@@ -1,9 +1,9 @@
 """Hear a recording while it is being spoken, over a WebSocket: for a stop, and for nothing else.
 
 First ``{"rate_hz": 48000}``, then samples of 16 bits and one channel in binary frames of at most
-4096 bytes, as they come from the microphone, then ``{"end": true}`` or a close. A stop is obeyed at once, before the person
-has let the button go, and told; every other word waits for the whole recording (``/v1/voice``).
-Whoever may look may stop, by voice too.
+4096 bytes, as they come from the microphone, then ``{"end": true}`` or a close. A stop is obeyed at
+once, before the person has let the button go, and told; every other word waits for the whole
+recording (``/v1/voice``). Whoever may look may stop, by voice too.
 """
 
 from __future__ import annotations
