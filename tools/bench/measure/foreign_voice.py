@@ -78,7 +78,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
 
 
 async def _time(lab: BenchLab) -> dict[str, Any]:
-    grammar = VoiceWorker(_names())
+    grammar = VoiceWorker(names())
     stop, order = _sound("stop", "en-us", 150), _sound("go to the kitchen", "en-us", 150)
     took: dict[str, list[float]] = {"alone": [], "hanging": [], "order": []}
     with _mock(Switches(fault="hang")) as hangs, _mock(Switches()) as answers:
@@ -125,7 +125,7 @@ def _mock(switches: Switches) -> Iterator[str]:
 def _hear_all(lab: BenchLab) -> dict[str, Any]:
     from planner.voice.sphinx import Sphinx
 
-    ears = Sphinx(_names())
+    ears = Sphinx(names())
     vocabulary = vocabulary_of(Site.load(CHECKOUT / "sites" / "home"))
     wrong = stops = count = 0
     for meant, sound in _recordings():
@@ -165,6 +165,7 @@ def _with_noise(sound: Sound, decibel: float, chance: random.Random) -> Sound:
     return Sound(sound.rate_hz, sound.channels, mixed.tobytes())
 
 
-def _names() -> list[str]:
+def names() -> list[str]:
+    """Return the English names of the default home."""
     site = Site.load(CHECKOUT / "sites" / "home")
     return [name for place in site.places for name in place.said_in_english]
