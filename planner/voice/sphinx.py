@@ -37,7 +37,7 @@ from processes.forked_job import ForkedJob
 _DICTIONARY = "en-us/cmudict-en-us.dict"
 _WORD = re.compile(r"[a-z']+")
 _SURE = 0.5
-_SURE_OF_PART = 0.5
+_SURE_OF_PART = 0.6
 """Of a stop that is heard in the beginning of a recording: docs/adr/0068."""
 _NARROW = {"beam": 1e-30, "pbeam": 1e-30, "wbeam": 1e-18}
 """For the free searches. The bound one loses a tenth of the orders with it."""

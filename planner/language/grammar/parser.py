@@ -20,7 +20,10 @@ from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in
 from planner.language.grammar.compound import read_compound
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
+from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
+from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY
 from planner.language.grammar.en.orders import ENGLISH
+from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, MarkedText, lexicon_of, mark_people
 from planner.language.grammar.parse_result import (
     ClauseContext,
@@ -41,6 +44,8 @@ from planner.language.grammar.sentence_text import (
 )
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
+from planner.language.grammar.zh.everyday import CHINESE_EVERYDAY
+from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.recall import read_recall
 from planner.language.stop import StopReading
@@ -69,6 +74,7 @@ _OTHER = rf"(?:{MARK}|[{HAN}])"
 _SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
 _BORDERS = re.compile(r"^[\s,.!?;:。、~]+|[\s,.!?;:。、~]+$")
 _LATIN = re.compile(r"[a-z]")
+_NAMED = re.compile(rf"[^{HAN}]{{0,8}}{MARK}[呢吗么]?[?]+")
 
 _SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
 
@@ -93,6 +99,45 @@ def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
+    made = _plan_as_said(text, vocabulary, context)
+    if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_AGAIN:
+        return made
+    plainer = _in_plain_words(text, vocabulary)
+    second = None if plainer is None else _plan_as_said(plainer, vocabulary, context)
+    return second if isinstance(second, StepPlan) else made
+
+
+_READ_AGAIN = frozenset(
+    {
+        Code.NOT_UNDERSTOOD, Code.UNKNOWN_PLACE, Code.NO_CAPABILITY, Code.INCOMPLETE,
+        Code.CONDITIONAL, Code.AMBIGUOUS,
+    }
+)  # fmt: skip
+
+
+def _in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
+    """Return a sentence in the grammar's own words; None where there are none, or where a word in
+    it holds orders back: what is taken away must carry no meaning.
+    """
+    said = normalise(text)
+    chinese = has_chinese(said)
+    courtesy, phrases = (
+        (ZH_COURTESY, CHINESE_EVERYDAY) if chinese else (EN_COURTESY, ENGLISH_EVERYDAY)
+    )
+    marked = lexicon_of(vocabulary).mark(said)
+    willing = rewrite(marked.text, courtesy)
+    if find_veto(asks_whether(willing), (ENGLISH.vetoes, CHINESE.vetoes)) is not None:
+        return None
+    if willing.rstrip().endswith("?") and _NAMED.fullmatch(willing):
+        return None  # "the kitchen?" asks
+    plain = marked.restore(rewrite(willing, phrases))
+    return plain if plain and plain != said else None
+
+
+def _plan_as_said(
+    text: str, vocabulary: Vocabulary, context: Context
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
+    """Return the plan of a sentence by its own words."""
     refused = refuse_bad_text(text)
     if refused is not None:
         return refused

@@ -1,4 +1,4 @@
-"""Measure a stop that is heard while the recording still runs: from the end of the word to the hold.
+"""Measure a stop heard while the recording still runs: from the end of the word to the hold.
 
 The robot drives in the real processes; a stop spoken by espeak-ng goes to the planner as a
 microphone's samples would, in real time, and the button is held for seconds after it. The time is
