@@ -7,6 +7,7 @@ place that a plan drives to is named by the sentence.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -126,12 +127,22 @@ def _in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
     )
     marked = lexicon_of(vocabulary).mark(said)
     willing = rewrite(marked.text, courtesy)
-    if find_veto(asks_whether(willing), (ENGLISH.vetoes, CHINESE.vetoes)) is not None:
-        return None
     if willing.rstrip().endswith("?") and _NAMED.fullmatch(willing):
         return None  # "the kitchen?" asks
-    plain = marked.restore(rewrite(willing, phrases))
+    rewritten = rewrite(willing, phrases)
+    if _held_back(rewritten) != _held_back(willing):
+        return None
+    plain = marked.restore(rewritten)
     return plain if plain and plain != said else None
+
+
+def _held_back(text: str) -> Counter[str]:
+    """Return the words of a sentence that deny, except, leave a choice, hang it on something or
+    name a speed.
+    """
+    looked_at = asks_whether(text)
+    vetoes = (*ENGLISH.vetoes, *CHINESE.vetoes)
+    return Counter(found[0] for _, veto in vetoes for found in veto.finditer(looked_at))
 
 
 def _plan_as_said(
@@ -294,7 +305,8 @@ def _apply_vetoes(
 
 
 _WHETHER = re.compile(
-    r"\b(tell (?:me|us)|check|see|look|find out|report) (?:if|whether)\b"
+    r"\b(tell (?:me|us)|check(?:ing)?|see(?:ing)?|look(?:ing)?|find(?:ing)? out|report"
+    r"|let (?:me|us) know) (?:if|whether)\b"
     r"|(?<=[看查认下])(?:一下|看)?(?:是否|是不是|有没有)"
 )
 

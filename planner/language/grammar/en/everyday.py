@@ -65,8 +65,8 @@ COURTESY = table(
 """Conditions that are none."""
 
 ENGLISH_EVERYDAY = table(
-    *((rf"\b{chat}\b", plain) for chat, plain in (
-        ("u", "you"), ("ur(?= (?:way|self))", "your"), ("plz|pls|pleas|plse", "please"),
+    *((rf"\b(?:{chat})\b", plain) for chat, plain in (
+        ("u(?! turn)", "you"), ("ur(?= (?:way|self))", "your"), ("plz|pls|pleas|plse", "please"),
         ("chek|chk", "check"), ("gimme", "give me"), ("lemme", "let me"), ("wanna", "want to"),
         ("gonna", "going to"), ("gotta", "have to"), ("im", "i am"), ("em", "them"),
         ("whats", "what is"), ("wheres", "where is"), ("thats", "that is"), ("theres", "there is"),
@@ -143,6 +143,9 @@ ENGLISH_EVERYDAY = table(
     (r"\band (?:let|tell) me(?: know)? if (?:anything|something)(?: is| looks| seems)?"
      r" (?:odd|wrong|off|strange|weird|out of place|amiss|unusual)$", ""),
     # home and rounds
+    (rf"\b(?:park|plug|dock|plonk|sit|put) yourself(?: in| down)? (?:on|at|in|into|to|by|near|next to) (?P<p>{_PLACE})",
+     r"go to \g<p>"),
+    (rf"\b(?:go |come )?back to (?P<p>{_PLACE})$", r"go to \g<p>"),
     (r"\b(?:park|plug|dock) yourself(?: in)?(?: (?:on|at|in|into|to) (?:the |your )?(?:charger|dock"
      r"|charging (?:dock|station)|station))?\b|\b(?:back|off) to (?:base|the dock|your (?:dock|charger)"
      r"|the charger)\b|\bcharge up(?: (?:at|on) (?:the |your )?(?:station|dock|charger))?"
@@ -168,6 +171,7 @@ ENGLISH_EVERYDAY = table(
     (r"\band stay there (?=(?:until|till) )", "and wait "),
     (rf"\band stay there for (?P<d>{EN_DURATION})", r"and wait \g<d>"),
     # going
+    (rf"(?P<p>{MARK}) (?=(?:turn|come|go|drive|look|wait|find|count|say|tell|check|see|ask|patrol|follow|then)\b)", r"\g<p>, "),
     (r"[, ]*\band after (?:that|this)\b", ", then"),
     (rf"\b(?:off you (?:go|trot|pop|toddle|pootle)|{_GOES}){_ASIDE} (?:to|into|in|towards?|by|at|near|next to)"
      rf" (?P<p>{_PLACE})", r"go to \g<p>"),
