@@ -105,7 +105,17 @@ def plan(
         return made
     plainer = _in_plain_words(text, vocabulary)
     second = None if plainer is None else _plan_as_said(plainer, vocabulary, context)
-    return second if isinstance(second, StepPlan) else made
+    if not isinstance(second, StepPlan):
+        return made
+    asked = made.code is Code.INCOMPLETE  # what is asked for must not be guessed, but "the rounds"
+    return made if asked and not _has_rounds_alone(second) else second
+
+
+def _has_rounds_alone(plan: StepPlan) -> bool:
+    inner = [
+        s for step in plan.steps for s in (step.steps if isinstance(step, Repeat) else (step,))
+    ]
+    return all(isinstance(step, Patrol) for step in inner)
 
 
 _READ_AGAIN = frozenset(
@@ -130,7 +140,7 @@ def _in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
     if willing.rstrip().endswith("?") and _NAMED.fullmatch(willing):
         return None  # "the kitchen?" asks
     rewritten = rewrite(willing, phrases)
-    if _held_back(rewritten) != _held_back(willing):
+    if not _held_back(willing) <= _held_back(rewritten):
         return None
     plain = marked.restore(rewritten)
     return plain if plain and plain != said else None

@@ -13,7 +13,7 @@ _BEGIN = r"(?:^|(?<=[.!?;] ))"
 _WHO = (
     r"(?:robot|robo|pons|mate|buddy|pal|love|dear|darling|honey|sweetie|sweetheart|friend|my friend"
     r"|boy|girl|lad|bro|bud|dude|man|sir|champ|chum|little (?:one|guy|fella|fellow|buddy|robot)"
-    r"|old (?:chap|boy|thing)|y'?all|there|beta|you)"
+    r"|old (?:chap|boy|thing)|y'?all|beta)"
 )
 _CALLS = (
     r"(?:hey|hi|hello|oi|yo|ahoy|ok|okay|right(?: then)?|alright|all right|so|well|now(?: then)?)"
@@ -87,9 +87,11 @@ ENGLISH_EVERYDAY = table(
     (r"^(?:is there any chance|any chance|do you think|i wonder if|i was wondering if|would it be"
      r"(?: at all)? possible(?: for)?|could i (?:trouble|bother|ask) you|can i (?:trouble|ask) you"
      r"|be a (?:dear|love|pet|star) and|be so (?:good|kind)(?: as)? to|do (?:me a favou?r|one thing)"
-     r"(?:,| and)?|i(?: would|'d)? (?:really )?(?:like|love|want|need|appreciate)(?: it if)?|(?:so )?"
-     r"what i (?:would|'d)? ?(?:like|want)(?: is)?(?: for)?|your job is|it is time)"
+     r"(?:,| and)?"
+     r"|your job is)"
      r"(?: you)?(?: could| would| can)?(?: to)? (?=[a-z])", ""),
+    (r"^(?:so )?(?:what )?i(?: would|'d)? (?:really )?(?:like|love|want|need|appreciate)(?: it if| is| is for)? you"
+     r"(?: could| would| can)?(?: to)? (?=[a-z])", ""),
     (r"^would you mind(?: awfully| terribly)? (?:checking|seeing|looking)(?: (?:whether|if))?", "check if"),
     (r"^would you mind(?: awfully| terribly)? (?:going|popping|driving|heading)\b", "go"),
     (rf"(?:^|[,.!;]+ ?)(?:{_REASON})(?:(?=$|[,.!;])|(?= go\b))", ","),
@@ -138,10 +140,14 @@ ENGLISH_EVERYDAY = table(
      r"look in \g<p>"),
     (rf"\b(?:give|get) me eyes on (?P<p>{_PLACE})", r"look at \g<p>"),
     (rf"^(?P<q>(?:is|are|how many|what|who|whose)\b[^?]*?[a-z\ue000-\ue7ff])[?,.]* {_HAVE_A_LOOK}$", r"\g<q>?"),
-    (r"^(?:where (?:is|are|on earth (?:is|are|has)|has)) (?P<t>(?:the|my|our|that) [a-z]+(?: [a-z]+)?)"
+    (r"^(?:where (?:is|are|on earth (?:is|are|has)|has)) (?P<t>(?:the|my|our|that) [a-z]+(?: [a-z]+)??)"
      rf"(?: gone| got to)?[?,.]* {_HAVE_A_LOOK}$", r"find \g<t>"),
     (r"\band (?:let|tell) me(?: know)? if (?:anything|something)(?: is| looks| seems)?"
      r" (?:odd|wrong|off|strange|weird|out of place|amiss|unusual)$", ""),
+    (rf"^(?:is|are) there (?P<t>(?:a|an|any|some) [a-z ]+?) (?:under|behind|in front of|beside|next to) (?P<p>{_PLACE})\\??$",
+     r"is there \g<t> at \g<p>?"),
+    (rf"^(?:go )?(?:look|check|see)(?: in| at| inside)? (?P<p>{_PLACE})(?: for [a-z]+)?[.,;]* (?:and )?if (?:she|he|somebody|someone"
+     r"|anybody|they)(?:'s| is| are) (?:in )?there,?", r"if there is somebody in \g<p>,"),
     # home and rounds
     (rf"\b(?:park|plug|dock|plonk|sit|put) yourself(?: in| down)? (?:on|at|in|into|to|by|near|next to) (?P<p>{_PLACE})",
      r"go to \g<p>"),
@@ -180,6 +186,6 @@ ENGLISH_EVERYDAY = table(
      r"go to \g<p>"),
     (rf"^(?:first,? )?(?:to )?(?P<p>{_PLACE})(?=(?: then| and then|,| and)+ )", r"go to \g<p>"),
     (rf"(?:(?<= then )|(?<=, )|(?<= and ))(?:to )?(?P<p>{_PLACE})(?=(?: then| and then|,| and)+ |$)", r"go to \g<p>"),
-    (rf"^(?P<a>{_PLACE}) (?P<b>{_PLACE})(?=$| {_PLACE})", r"go to \g<a>, \g<b>"),
+    (rf"(?P<a>^|, )(?P<p>{_PLACE}) (?={_PLACE}(?: {_PLACE})*$)", r"\g<a>\g<p>, "),
     (rf"^(?:to )?(?P<p>{_PLACE})[.!]*$", r"go to \g<p>"),
 )  # fmt: skip
