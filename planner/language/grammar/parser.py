@@ -16,7 +16,13 @@ from itertools import chain
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
+from planner.language.grammar.checks import (
+    TAMPERING,
+    broken_rule,
+    find_veto,
+    withholds_offers,
+    without_compounds,
+)
 from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
 from planner.language.grammar.compound import read_compound
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
@@ -150,7 +156,7 @@ def _held_back(text: str) -> Counter[str]:
     """Return the words of a sentence that deny, except, leave a choice, hang it on something or
     name a speed.
     """
-    looked_at = asks_whether(text)
+    looked_at = without_compounds(asks_whether(text))
     vetoes = (*ENGLISH.vetoes, *CHINESE.vetoes)
     return Counter(found[0] for _, veto in vetoes for found in veto.finditer(looked_at))
 

@@ -55,7 +55,7 @@ _NUMBER = (
 )
 
 COURTESY = table(
-    (rf"(?:^|,) ?if you(?: would|'d| could)? be so (?:kind|good)(?: as to)?{_END}", ""),
+    (rf"(?:^|,) ?if you(?: would|'d| could)? be so (?:kind|good)(?: as to)?{_END}", " please"),
     (rf"(?:^|,)? ?if (?:you do not mind|you would not mind|you please|you would|you could|you may"
      rf"|you can|you like|that is ok(?:ay)?|possible|it is not too much trouble){_END}", ""),
     (r"(?:^|,)? ?when(?:ever)? you(?: have| get|'ve got| have got)? (?:a|one|the|some|any) (?:moment"
@@ -72,6 +72,8 @@ ENGLISH_EVERYDAY = table(
         ("whats", "what is"), ("wheres", "where is"), ("thats", "that is"), ("theres", "there is"),
         ("d'you", "do you"), ("pleeease|pleez|pleeze", "please"), ("kichen|kitchn", "kitchen"),
     )),
+    # "The kitchen" alone names it, "kitchen" and "the kitchen, please" order
+    (rf"^(?P<p>{_PLACE}),? (?:please|pls|now|at once)[.!]*$", r"go to \g<p>"),
     # hesitation, address, courtesy
     (r"(?:^|[ ,])(?:u+h+m*|u+m+|e+r+m*|h+m+|ah+|you know(?: what)?|sort of|kind of|kinda|basically"
      r"|literally|what is it called|what do you call it|what's its name)(?=$|[ ,.!?])", " "),
@@ -187,5 +189,5 @@ ENGLISH_EVERYDAY = table(
     (rf"^(?:first,? )?(?:to )?(?P<p>{_PLACE})(?=(?: then| and then|,| and)+ )", r"go to \g<p>"),
     (rf"(?:(?<= then )|(?<=, )|(?<= and ))(?:to )?(?P<p>{_PLACE})(?=(?: then| and then|,| and)+ |$)", r"go to \g<p>"),
     (rf"(?P<a>^|, )(?P<p>{_PLACE}) (?={_PLACE}(?: {_PLACE})*$)", r"\g<a>\g<p>, "),
-    (rf"^(?:to )?(?P<p>{_PLACE})[.!]*$", r"go to \g<p>"),
+    (rf"^(?:to )?(?P<p>{MARK})[.!]*$", r"go to \g<p>"),
 )  # fmt: skip

@@ -87,7 +87,10 @@ def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
     return Steps((GoToObject(object=person, place=place),), person=person)
 
 
-_ALL = re.compile(r"every(?:one|body)|all|you all|them all|all of (?:us|you|them)")
+_ALL = re.compile(
+    r"every(?:one|body)|all|you all|them all|all of (?:us|you|them)"
+    r"|(?:(?:the|our|my|your|these|all (?:the|our)) )?(?:visitors|guests|people|children|kids)\b.*"
+)
 """Said to all who hear it: nobody is looked for."""
 
 

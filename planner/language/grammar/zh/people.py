@@ -38,7 +38,9 @@ _GREET = (
     r"(?:打(?:个|一?声)?招呼|问(?:个|声)?好|问候|打招呼|挥手|说(?:一声)?(?:你好|您好|早上好|晚上好|晚安|"
     r"再见|欢迎))"
 )
-_FOLLOW = r"(?:跟着|跟随|跟上|跟住|尾随|跟在|随着|跟)"
+_FOLLOW = (
+    r"(?!跟着?[你我他她它]?(?:念|读|说|讲|唱|学|喊|数|做))(?:跟着|跟随|跟上|跟住|尾随|跟在|随着|跟)"
+)
 _GUIDE = r"(?:带着?|领着?|引导|引领|陪同?|陪着|护送|送|指引)"
 
 
@@ -54,7 +56,7 @@ def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
     return meet(found["who"], at, reading)
 
 
-_ALL = re.compile(r"大家|所有人|各位|大伙儿?|小朋友们?|孩子们?|同学们?")
+_ALL = re.compile(r"大家|所有人|各位|大伙儿?|(?:小朋友|孩子|同学|客人|来宾|访客)们?")
 """Said to all who hear it: nobody is looked for."""
 
 
