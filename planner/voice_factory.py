@@ -8,6 +8,7 @@ from collections.abc import Callable
 from planner.plan import Language
 from planner.settings import Settings
 from planner.voice import Ears, Recogniser, VoiceAbilities, VoiceWorker
+from planner.voice.sherpa_model import open_model
 from planner.voice.speech_engines import open_speech
 from planner.voice.transcription import open_caller
 
@@ -25,19 +26,25 @@ class VoiceParts:
             names: returns the English names that may be said now.
 
         Raises:
-            ConfigError: a setting can never work; see ``open_caller`` and ``open_speech``.
+            ConfigError: a setting can never work; see ``open_caller``, ``open_model`` and
+                ``open_speech``.
         """
         self._settings, self._names = settings, names
         self._grammar = VoiceWorker(names())
         self._server = open_caller(settings.voice)
+        self._model = open_model(settings.voice)
         self.speaker = open_speech(settings.speech)
 
     def recogniser(self) -> Recogniser:
-        """Return what hears recordings: the grammar, and a server beside it where one is set."""
-        if self._server is None:
-            return self._grammar
-        log.info("recordings are heard by %s, too", self._server.host)
-        return Ears(self._grammar, self._server, "server", self._settings.voice.timeout_s)
+        """Return what hears recordings: the grammar, and beside it what the owner set."""
+        timeout_s = self._settings.voice.timeout_s
+        if self._server is not None:
+            log.info("recordings are heard by %s, too", self._server.host)
+            return Ears(self._grammar, self._server, "server", timeout_s)
+        if self._model is not None:
+            log.info("recordings are heard by the model in %s, too", self._settings.voice.folder)
+            return Ears(self._grammar, self._model, "sherpa", timeout_s)
+        return self._grammar
 
     def learn_names(self) -> None:
         """Hear the names of now from now on."""
@@ -46,9 +53,10 @@ class VoiceParts:
     def abilities(self) -> VoiceAbilities:
         """Show what is heard and spoken."""
         trouble, server = self.speaker.trouble, self._server
+        heard_by = "server" if server else "sherpa" if self._model else "grammar"
         return VoiceAbilities(
-            languages=(Language.EN,) if server is None else tuple(Language),
-            recogniser="grammar" if server is None else "server",
+            languages=(Language.EN,) if heard_by == "grammar" else tuple(Language),
+            recogniser=heard_by,
             host=None if server is None else server.host,
             speaks=self._settings.speech.engine,
             quiet=self.speaker.is_quiet,
@@ -58,11 +66,15 @@ class VoiceParts:
     def start(self) -> None:
         """Load the recogniser beside everything else, and begin to speak."""
         self._grammar.warm()
+        if self._model is not None:
+            self._model.warm()
         self.speaker.start()
 
     async def close(self) -> None:
-        """Fall silent, and end the recogniser's process."""
+        """Fall silent, and end the recognisers' processes."""
         await self.speaker.close()
         await self._grammar.close()
+        if self._model is not None:
+            await self._model.close()
         if self._server is not None:
             await self._server.close()

@@ -3,7 +3,8 @@ import hooks from "eslint-plugin-react-hooks";
 import tseslint from "typescript-eslint";
 
 export default tseslint.config(
-  { ignores: ["dist", "node_modules", "eslint.config.js"] },
+  // The worklet runs in the audio thread, without types.
+  { ignores: ["dist", "node_modules", "eslint.config.js", "**/*.worklet.js"] },
   ...tseslint.configs.strictTypeChecked,
   {
     languageOptions: {

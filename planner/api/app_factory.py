@@ -13,6 +13,7 @@ from planner.api import (
     fence,
     goals,
     health,
+    live_voice,
     localization,
     memory,
     objects,
@@ -41,9 +42,8 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, voice, operator, setup, robot, orders, places, localization, objects, memory, camera,
-    fence, usage,
-    health, websocket,
+    goals, voice, live_voice, operator, setup, robot, orders, places, localization, objects, memory,
+    camera, fence, usage, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

@@ -35,7 +35,7 @@ class VoiceSettings(_SpokenTable):
     allow_offhost: bool = False
     """Let the sound of people's voices leave this machine."""
     folder: Path | None = None
-    """A folder with a sherpa-onnx model, relative to the home folder; hears on this machine."""
+    """Of a streaming sherpa-onnx model, relative to the home folder; in place of ``url``."""
     threads: int = Field(default=1, ge=1, le=8)
     """Of the processor, for the model in ``folder``."""
 

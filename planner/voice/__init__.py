@@ -7,7 +7,7 @@ What is heard is only text. It becomes a goal on the same way as typed text, sto
 from planner.voice.abilities import VoiceAbilities
 from planner.voice.ears import STOP_DOUBT, Ears, is_spoken_stop
 from planner.voice.process_client import VoiceWorker
-from planner.voice.recogniser import Recogniser, Recognition, VoiceFailure
+from planner.voice.recogniser import Recogniser, Recognition, StopListener, VoiceFailure
 from planner.voice.speech_output import SpeechFailure, SpeechOutput, SpeechSink
 from planner.voice.wav import MAX_BYTES, MAX_SECONDS, BadSound, Sound, read_wav
 
@@ -23,6 +23,7 @@ __all__ = [
     "SpeechFailure",
     "SpeechOutput",
     "SpeechSink",
+    "StopListener",
     "VoiceAbilities",
     "VoiceFailure",
     "VoiceWorker",

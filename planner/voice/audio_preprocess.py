@@ -1,4 +1,4 @@
-"""Prepare samples for the decoder: one channel, 16 kHz, one loudness, a little noise. numpy only.
+"""Prepare samples for the decoders: one channel, 16 kHz, one loudness, a little noise. numpy only.
 
 Runs in the voice process and nowhere else.
 """
@@ -35,6 +35,21 @@ def prepare(pcm: bytes, rate_hz: int, channels: int) -> bytes | None:
     whole = np.concatenate([heard, np.zeros(int(TAIL_S * RATE_HZ))])
     whole += np.random.default_rng(0).normal(0.0, DITHER, len(whole))
     return bytes(np.clip(whole, -32_768, 32_767).astype("<i2").tobytes())
+
+
+def float_samples(pcm: bytes, channels: int, tail: int) -> NDArray[np.float32] | None:
+    """Return one channel from -1 to 1 and ``tail`` zeros behind it, or None for silence."""
+    mono = raw_samples(pcm, channels)
+    mono -= mono.mean()  # a sound card's offset is no sound
+    if not float(np.abs(mono).max(initial=0.0)) * 32_768.0 >= SILENT_PEAK:
+        return None
+    return np.pad(mono, (0, tail))
+
+
+def raw_samples(pcm: bytes, channels: int) -> NDArray[np.float32]:
+    """Return one channel from -1 to 1, as it is: a piece of a recording has no mean of its own."""
+    mono = np.frombuffer(pcm, "<i2").astype(np.float32).reshape(-1, channels).mean(axis=1)
+    return np.asarray(mono / 32_768.0, np.float32)
 
 
 def quiet(samples: bytes, first_frame: int, frames: int) -> bool:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.language.stop import is_stop
-from planner.voice.recogniser import Recogniser, Recognition, VoiceFailure
+from planner.voice.recogniser import Recogniser, Recognition, StopListener, VoiceFailure
 
 if TYPE_CHECKING:
     from planner.voice.wav import Sound
@@ -64,6 +64,10 @@ class Ears:
             for task in (near, far):
                 task.cancel()
             await asyncio.gather(near, far, return_exceptions=True)
+
+    def listen(self) -> tuple[StopListener, ...]:
+        """Return what hears a recording while it is spoken, of both."""
+        return self._grammar.listen() + self._other.listen()
 
     async def _hear_in_time(self, sound: Sound, *, awaits_answer: bool) -> Recognition:
         try:

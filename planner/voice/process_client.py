@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import itertools
 import logging
 from asyncio.subprocess import Process
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from planner.voice.recogniser import Recognition, VoiceFailure
+from planner.language.stop import is_stop
+from planner.plan import Language
+from planner.voice.recogniser import Recognition, StopListener, VoiceFailure
 from planner.voice.wav import Sound
 from processes.parent_death import worker_command
 from processes.worker import STREAM_ERRORS, exchange, reap, spawn
@@ -29,10 +32,23 @@ MAX_WAITING = 3
 
 
 class VoiceWorker:
-    """Hear recordings in another process, in the names of one site."""
+    """Hear recordings in another process: by the grammar in one site's names, or by a model."""
 
-    def __init__(self, names: Sequence[str], command: Sequence[str] | None = None) -> None:
+    def __init__(
+        self,
+        names: Sequence[str],
+        command: Sequence[str] | None = None,
+        model: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Take what the process is told first; nothing is started.
+
+        Args:
+            names: that the built-in grammar hears.
+            command: another program than ours.
+            model: ``sherpa``, a model's files, and ``threads``; None for the grammar.
+        """
         self._names = tuple(names)
+        self._model = dict(model or {})
         self._told: tuple[str, ...] = ()
         """The names that the process of now was started with."""
         self._command = command or worker_command("planner.voice.process_main")
@@ -40,7 +56,9 @@ class VoiceWorker:
         self._turn = asyncio.Lock()
         self._waiting = 0
         self._number = 0
+        self._streams = itertools.count(1)
         self._warming: asyncio.Task[None] | None = None
+        self._at_work: set[asyncio.Task[Recognition]] = set()
         self.left_out: tuple[str, ...] = ()
 
     @property
@@ -75,11 +93,38 @@ class VoiceWorker:
             text = f"{self._waiting} recordings are being heard; try again in a moment"
             raise VoiceFailure("voice_busy", text)
         self._waiting += 1
-        try:
-            async with self._turn:
-                return await self._hear(sound, awaits_answer=awaits_answer)
-        finally:
-            self._waiting -= 1
+        work = self._begin(sound, {"awaits_answer": awaits_answer})
+        work.add_done_callback(self._count_down)
+        return await asyncio.shield(work)
+
+    def listen(self) -> tuple[StopListener, ...]:
+        """Return what hears one recording in the same process while it is spoken."""
+        return (WorkerListener(self, next(self._streams)),)
+
+    async def hear_part(self, stream: int, sound: Sound) -> Recognition:
+        """Return what the process has heard of a recording by now, since its last pause.
+
+        Raises:
+            VoiceFailure: ``recogniser_unavailable`` or ``voice_timed_out``.
+        """
+        return await asyncio.shield(self._begin(sound, {"stream": stream}))
+
+    def _begin(self, sound: Sound, more: Mapping[str, Any]) -> asyncio.Task[Recognition]:
+        """Hear in turn. Who goes away leaves it at work: to end it would cost the next order a
+        model's loading.
+        """
+        work = asyncio.create_task(self._hear_in_turn(sound, more))
+        self._at_work.add(work)
+        work.add_done_callback(self._at_work.discard)
+        work.add_done_callback(_take_failure)
+        return work
+
+    def _count_down(self, _: asyncio.Task[Recognition]) -> None:
+        self._waiting -= 1
+
+    async def _hear_in_turn(self, sound: Sound, more: Mapping[str, Any]) -> Recognition:
+        async with self._turn:
+            return await self._hear(sound, more)
 
     async def close(self) -> None:
         """End the process and wait until it is gone. Safe to call twice."""
@@ -87,6 +132,9 @@ class VoiceWorker:
             self._warming.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await self._warming
+        for work in tuple(self._at_work):
+            work.cancel()
+        await asyncio.gather(*self._at_work, return_exceptions=True)
         await self._bury()
 
     async def _warm(self) -> None:
@@ -96,14 +144,14 @@ class VoiceWorker:
         except VoiceFailure as failure:
             log.warning("no spoken orders: %s", failure)
 
-    async def _hear(self, sound: Sound, *, awaits_answer: bool) -> Recognition:
+    async def _hear(self, sound: Sound, more: Mapping[str, Any]) -> Recognition:
         process = await self._ready()
         self._number += 1
         head = {
             "number": self._number,
             "rate_hz": sound.rate_hz,
             "channels": sound.channels,
-            "awaits_answer": awaits_answer,
+            **more,
         }
         try:
             async with asyncio.timeout(HEAR_S):
@@ -135,7 +183,7 @@ class VoiceWorker:
             self._process = process = await spawn(self._command)
             self._told = self._names
             async with asyncio.timeout(READY_S):
-                greeting, _ = await exchange(process, pack({"names": self._told}))
+                greeting, _ = await exchange(process, pack({"names": self._told, **self._model}))
         except STREAM_ERRORS as error:
             await self._bury()
             text = f"it did not start: {str(error) or type(error).__name__}"
@@ -155,6 +203,33 @@ class VoiceWorker:
             await asyncio.shield(reap(process))
 
 
+class WorkerListener:
+    """Have a voice process hear one recording while it is spoken."""
+
+    def __init__(self, worker: VoiceWorker, stream: int) -> None:
+        self._worker, self._stream = worker, stream
+
+    async def take(self, sound: Sound) -> Recognition | None:
+        """Hear the next samples; return a stop as soon as one is heard.
+
+        Raises:
+            VoiceFailure: ``recogniser_unavailable`` or ``voice_timed_out``.
+        """
+        heard = await self._worker.hear_part(self._stream, sound)
+        return heard if heard.understood and is_stop(heard.transcript) else None
+
+
+def _take_failure(work: asyncio.Task[Recognition]) -> None:
+    """Look at a failure that nobody waits for any more, or it would be logged as forgotten."""
+    if not work.cancelled():
+        work.exception()
+
+
 def _read_answer(answer: dict[str, Any]) -> Recognition:
-    sure = answer["understood"] is True
-    return Recognition(str(answer["transcript"]), float(answer["confidence"]), sure)
+    return Recognition(
+        str(answer["transcript"]),
+        float(answer["confidence"]),
+        answer["understood"] is True,
+        Language(answer.get("language", "en")),
+        str(answer.get("by", "grammar")),
+    )

@@ -51,6 +51,18 @@ class VoiceFailure(Exception):
         self.detail = detail
 
 
+class StopListener(Protocol):
+    """Hear one recording while it is being spoken, for a stop alone."""
+
+    async def take(self, sound: Sound) -> Recognition | None:
+        """Hear the next samples; return a stop as soon as one is heard.
+
+        Raises:
+            VoiceFailure: as ``Recogniser.hear``.
+        """
+        ...
+
+
 class Recogniser(Protocol):
     """Hear recordings, one at a time, without holding the event loop."""
 
@@ -60,4 +72,8 @@ class Recogniser(Protocol):
         Raises:
             VoiceFailure: ``recogniser_unavailable``, ``voice_busy`` or ``voice_timed_out``.
         """
+        ...
+
+    def listen(self) -> tuple[StopListener, ...]:
+        """Return what hears one recording while it is spoken; none where only whole ones are."""
         ...

@@ -31,11 +31,14 @@ from planner.voice.grammar import (
     language_of,
 )
 from planner.voice.recogniser import Recognition
+from planner.voice.stop_spotter import StopSpotter
 from processes.forked_job import ForkedJob
 
 _DICTIONARY = "en-us/cmudict-en-us.dict"
 _WORD = re.compile(r"[a-z']+")
 _SURE = 0.5
+_SURE_OF_PART = 0.6
+"""Of a stop that is heard in the beginning of a recording: docs/adr/0068."""
 _NARROW = {"beam": 1e-30, "pbeam": 1e-30, "wbeam": 1e-18}
 """For the free searches. The bound one loses a tenth of the orders with it."""
 _BREATH_FRAMES = 45
@@ -96,6 +99,36 @@ class Sphinx:
         if awaits_answer and not heard.understood and words is not None:
             return self._answer(recording, words) or heard
         return heard
+
+    def listener(self, rate_hz: int, channels: int) -> StopSpotter:
+        """Return what hears a recording while it is being spoken, for a stop alone."""
+
+        def spot(pcm: bytes) -> Recognition | None:
+            return self.spot_stop(pcm, rate_hz, channels)
+
+        return StopSpotter(rate_hz, channels, spot)
+
+    def spot_stop(self, pcm: bytes, rate_hz: int, channels: int) -> Recognition | None:
+        """Return the stop that is all that these samples say so far, or None.
+
+        Raises:
+            OSError: the system gives no process, or one crashed.
+        """
+        samples = prepare(pcm, rate_hz, channels)
+        if samples is None:
+            return None
+        with (
+            ForkedJob(lambda: _decode(self._decoder, "stops", samples)) as bound,
+            ForkedJob(lambda: _decode(self._free, "phones", samples)) as sounds,
+        ):
+            stop = bound.result()
+            if stop is None or not is_stop(stop.text):
+                return None
+            phones = sounds.result()
+        if phones is None:
+            return None
+        sure = stop_confidence(stop, phones, len(samples) / (2 * FRAME))
+        return Recognition(stop.text, round(sure, 3), understood=sure >= _SURE_OF_PART)
 
     def _order_or_stop(self, recording: _Recording) -> tuple[Recognition, DecoderResult | None]:
         """Return the reading as an order or a stop, and the everyday words found in it."""

@@ -24,6 +24,7 @@ from wire import ConfigError
 if TYPE_CHECKING:
     from planner.outbound.caller import Transport
     from planner.settings import VoiceSettings
+    from planner.voice.recogniser import StopListener
     from planner.voice.wav import Sound
 
 ROUTE = "/audio/transcriptions"
@@ -97,6 +98,10 @@ class TranscriptionServer:
             return read_transcription(await self._ask(sound))
         except CallFailure as failure:
             raise VoiceFailure(f"transcription_{failure.why}", str(failure)) from None
+
+    def listen(self) -> tuple[StopListener, ...]:
+        """Return nothing: such a server takes whole recordings."""
+        return ()
 
     async def _ask(self, sound: Sound) -> bytes:
         file = ("order.wav", as_wav(sound), "audio/wav")

@@ -1,15 +1,20 @@
-"""Check what hears and speaks beside the built-in recogniser: servers that are set, programs."""
+"""Check what hears and speaks beside the built-in recogniser: servers, a model, programs."""
 
 from __future__ import annotations
 
+import array
 import asyncio
 import os
+import random
 import shutil
+import time
 from pathlib import Path
 
 from planner.outbound import Address
 from planner.plan import Language
-from planner.settings import Settings, SpeechSettings, load_settings
+from planner.settings import Settings, SpeechSettings, VoiceSettings, load_settings
+from planner.voice import Sound, VoiceFailure, VoiceWorker
+from planner.voice.sherpa_model import open_model
 from planner.voice.speech_engines import ROUTE as SPEECH_ROUTE
 from planner.voice.speech_engines import EspeakVoice, open_speech
 from planner.voice.speech_output import SpeechFailure
@@ -26,7 +31,14 @@ _MEANWHILE = BilingualWords(
     "start the server or mend settings.toml; until then the built-in recogniser hears English",
     "请启动该服务器或修正 settings.toml；在此期间由内置识别器听英文",
 )
+_FIX_MODEL = BilingualWords(
+    "unpack a streaming model that sherpa-onnx reads into that folder (docs/voice.md); until then "
+    "the built-in recogniser hears English",
+    "请把 sherpa-onnx 可读取的流式模型解压到该文件夹（docs/voice.md）；在此期间由内置识别器听英文",
+)
 TRIED = {Language.EN: "Hello.", Language.ZH: "你好。"}
+_NOISE_HZ = 16_000
+"""A second of it is what a model is tried with."""
 
 
 def _settings(home: Path) -> Settings:
@@ -38,10 +50,13 @@ def _wrong(name: str, wrong: ConfigError) -> HealthFinding:
 
 
 def transcription(home: Path) -> HealthFinding:
-    """Connect to the server that hears; nothing is sent, so nothing is spent."""
+    """Connect to the server that hears, sending nothing, or let the model hear some noise."""
     name = "transcription"
     try:
         chosen = _settings(home).voice
+        model = open_model(chosen)
+        if model is not None:
+            return _try_model(name, chosen, model)
         if chosen.url is None:
             return ok(name, "none is set: English orders alone", "未设置：只能听英文指令")
         address = Address.parse(chosen.url, ROUTE, "voice")
@@ -53,6 +68,29 @@ def transcription(home: Path) -> HealthFinding:
     if trouble is None:
         return ok(name, f"{where} can be reached", f"{where} 可以连接")
     return warn(name, BilingualWords(f"{where}: {trouble}", f"{where}：{trouble}"), _MEANWHILE)
+
+
+def _try_model(name: str, chosen: VoiceSettings, model: VoiceWorker) -> HealthFinding:
+    chance = random.Random(0)
+    samples = array.array("h", [int(chance.gauss(0.0, 1_000.0)) for _ in range(_NOISE_HZ)])
+
+    async def hear() -> float:
+        """Return how long the loaded model takes [s]."""
+        try:
+            await model.hear(Sound(_NOISE_HZ, 1, samples.tobytes()))
+            began_s = time.monotonic()
+            await model.hear(Sound(_NOISE_HZ, 1, samples.tobytes()))
+            return time.monotonic() - began_s
+        finally:
+            await model.close()
+
+    where = f"{chosen.folder}"
+    try:
+        took_s = asyncio.run(hear())
+    except VoiceFailure as failure:
+        return warn(name, BilingualWords(f"{where}: {failure}", f"{where}：{failure}"), _FIX_MODEL)
+    return ok(name, f"the model in {where} heard 1 s of noise in {took_s:.2f} s",
+              f"{where} 中的模型用 {took_s:.2f} 秒听完 1 秒噪声")  # fmt: skip
 
 
 def speech(home: Path) -> HealthFinding:

@@ -8,7 +8,8 @@ import sys
 CODE = """
 import sys
 import planner.navigation, planner.perception, planner.voice, planner.site
-print([name for name in ("numpy", "cv2", "onnxruntime", "pocketsphinx") if name in sys.modules])
+heavy = ("numpy", "cv2", "onnxruntime", "pocketsphinx", "sherpa_onnx")
+print([name for name in heavy if name in sys.modules])
 """
 
 

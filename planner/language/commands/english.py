@@ -19,7 +19,10 @@ COURTEOUS = re.compile(
 ASKING = re.compile(r"(?!)")
 """A word at the end that asks: there is none in English."""
 POLITE = re.compile(rf"(?:{_POLITE}|(?:can|could|would|will) you)(?![\w'])")
-THANKS = re.compile(rf"(?:^| )(?:{_POLITE}|for me|right now|again)$")
+THANKS = re.compile(
+    rf"(?:^| )(?:{_POLITE}|for me|right now|again|would you|will you|could you|mate|buddy|pal|love"
+    r"|dear|darling|my friend)$"
+)
 
 _TASK = (
     r"(?:goal|mission|task|job|order|trip|drive|driving|plan|route|way|request|errand|command"
@@ -42,7 +45,8 @@ RESUME = re.compile(
     rf" (?:it|that|this|{_THE_TASK})"
     r"|(?:continue|carry on|go on|resume|keep) (?:driving|going|moving)"
     r"|(?:continue|carry on|go on) with what you were doing"
-    r"|you (?:can|may) (?:continue|resume|proceed|carry on|go on|keep going)(?: again)?"
+    r"|you (?:can|may) (?:continue|resume|proceed|carry on|go on|keep going|go)(?: again| now)?"
+    r"(?:[ ,]+(?:continue|resume|carry on|go on|keep going))?"
 )
 PAUSE = re.compile(
     rf"pause (?:for(?: now)?|here|for {_BRIEF}|{_BRIEF}|this|{_THE_TASK}|what you are doing)"
@@ -52,6 +56,8 @@ PAUSE = re.compile(
 )
 CANCEL = re.compile(
     rf"(?:cancel|abort|drop|call off) (?:it|this|that one|{_THE_TASK})|call it off"
+    r"|(?:forget (?:it|that)|scrap that|leave it)[ ,]+(?:never ?mind|i changed my mind)"
+    r"|(?:ok |okay )?(?:that(?:'s| is) enough)(?:[ ,]+(?:quit it|stop it|thank you))?"
     r"|forget (?:it|that|this|about (?:it|that|this)|what i (?:said|told you))"
     rf"|forget (?:about )?{_THE_TASK}"
     r"|never ?mind(?: (?:it|that|about (?:it|that)))?|scratch that|scrap that|don't bother"
@@ -90,7 +96,7 @@ FASTER = re.compile(
     r"|too) slow(?:ly)?|too slow"
 )
 WHERE = re.compile(
-    r"where are you(?: (?:now|at|right now|currently|at the moment))?|tell me where you are"
+    r"where are you(?: (?:now|at|right now|currently|at the moment))*|tell me where you are"
     r"|(?:what is|what's|report|tell me) your (?:current )?(?:location|position)"
     r"|(?:which|what) (?:room|place) are you (?:in|at)(?: now)?"
 )
@@ -99,6 +105,11 @@ DOING = re.compile(
     r"|where are you (?:going|driving|heading)(?: (?:to|now))?"
     r"|(?:what is|what's) (?:your|the) (?:current )?(?:status|goal|task)"
     r"|status(?: report)?|report(?: your)? status|tell me what you are doing"
+    r"|(?:are you|have you) (?:done|finished|ready|there)(?: yet| now| already)?"
+    r"|are you (?:stuck|lost|blocked|okay|ok|alright|all right)(?: or (?:something|what))?"
+    r"|why (?:did|have) you (?:stop|stopped|pause|paused|halt|halted)|why are you (?:not moving"
+    r"|standing(?: still| there)?|waiting|stopped)|how is it going|how far (?:along )?are you"
+    r"|what(?:'s| is) (?:keeping|taking) you(?: so long)?|what are you on(?: with)?"
 )
 
 _HERE = r"(?:this|here|(?:this|that|the current) (?:place|spot|location|position|point)(?: here)?)"

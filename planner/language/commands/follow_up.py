@@ -56,6 +56,23 @@ _OTHER_ZH = re.compile(
 _ALSO_BEFORE = re.compile(
     r"(?:and (?:then|also|after that)|and then also|also|after that|afterwards|and) (?P<rest>.+)"
 )
+_SAME = re.compile(
+    r"(?:now )?(?:do )?(?:the )?same(?: thing)?(?: again)? (?:in|at|for|with) (?P<rest>.+)"
+    r"|(?:and )?(?:what|how) about (?P<rest2>(?:in )?(?:the|my|our) [a-z][a-z' -]{1,30})"
+)
+_ASKS = re.compile(r"^(?:(?:and )?(?:what|how) about )|^.{1,8}呢$")
+"""What asks for one more by a question: its mark is no doubt."""
+_DONE = re.compile(
+    r"(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done|finished)"
+    r"(?: with (?:that|it|this))?|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this))?"
+    r"|that(?:'s| is) (?:done|finished))[ ,]+(?:then )?(?P<rest>.+)"
+)
+_DONE_ZH = re.compile(
+    r"(?:等你?|你)?(?:弄|做|干|忙|办|找|数|看)?完(?:了|这个|那个|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
+)
+_SAME_ZH = re.compile(
+    r"(?P<rest>.{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次|下))"
+)
 _TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
 _ALSO_ZH = re.compile(
     r"(?:然后|接着|之后|完了(?:以后|之后)?|还有|另外)[,]?(?:也|还|再)?(?P<rest>.+?)(?:也(?:去一下|去|要))?"
@@ -79,10 +96,11 @@ _CORRECTION = re.compile(
     rf"(?P<d>(?:to )?(?:the|my|our) [a-z][a-z' -]{{1,30}})"
 )
 _CORRECTION_ZH = re.compile(
-    r"(?:不对|不是|错了|搞错了|我?说错了|不不|不)[,。!！]+"
+    r"(?:(?:不对)+|不是|错了|搞错了|我?说错了|不不|不)[,。!！]+"
     r"(?P<a>(?:去|到|回|找|看看|数).+|(?:我(?:说|要|指)的?是|我是说|是|应该是).{1,12})"
     r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>[^我你您没不好行].{0,7})|我是说(?P<f>.{1,12})"
     r"|(?:不对,?)?不是[^,是]{1,10}?[,]?(?:而)?是(?P<b>.{1,12})"
+    r"|还是(?P<g>(?:去|到|回).{1,12}?)(?:好了|吧|得了)"
     r"|我(?:说|指|要)的(?:是|可是)(?P<c>.{1,12}?)(?:[,]?不是.{1,12})?"
 )
 _LEAD_ZH = re.compile(r"^(?:我(?:说|要|指|想)的?(?:可)?是|我是说|应该是|而是|是)")
@@ -93,7 +111,13 @@ def read_follow_up(text: str) -> FollowUp | None:
     """Return the word in a conversation that a sentence is, or None."""
     said = _NOISE.sub("", fold_words(text).replace("’", "'").strip(_ENDS))
     chinese = has_chinese(said)
-    if not 0 < len(said) <= MAX_READ or consents(text) is not None or _OPEN_END.search(said):
+    if not 0 < len(said) <= MAX_READ or consents(text) is not None:
+        return None
+    said = said.rstrip("?？ ") if _ASKS.search(said.rstrip("?？ ")) else said
+    done = _DONE.fullmatch(said) or _DONE_ZH.fullmatch("".join(said.split()))
+    if done is not None and not _OPEN_END.search(done["rest"]):
+        return AppendCommand(done["rest"].strip(_ENDS))
+    if _OPEN_END.search(said) and not _ASKS.search(said):
         return None
     bare = "".join(said.split()) if chinese else said
     plain = _strip(_POLITE_ZH if chinese else _POLITE, bare)
@@ -116,7 +140,7 @@ def _correction(plain: str, *, chinese: bool) -> Replace | None:
 
 def _also(bare: str, *, chinese: bool) -> AppendCommand | None:
     """Read "and then the kitchen too"; "and" alone joins nothing to a goal that ran before."""
-    patterns = (_ALSO_ZH,) if chinese else (_ALSO_BEFORE, _TOO)
+    patterns = (_ALSO_ZH, _SAME_ZH) if chinese else (_ALSO_BEFORE, _TOO, _SAME)
     rest, found = bare, False
     for pattern in patterns:
         match = pattern.fullmatch(rest)

@@ -7,6 +7,7 @@ place that a plan drives to is named by the sentence.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -15,12 +16,21 @@ from itertools import chain
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
+from planner.language.grammar.checks import (
+    TAMPERING,
+    broken_rule,
+    find_veto,
+    withholds_offers,
+    without_compounds,
+)
 from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
 from planner.language.grammar.compound import read_compound
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
+from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
+from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY
 from planner.language.grammar.en.orders import ENGLISH
+from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, MarkedText, lexicon_of, mark_people
 from planner.language.grammar.parse_result import (
     ClauseContext,
@@ -41,6 +51,8 @@ from planner.language.grammar.sentence_text import (
 )
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
+from planner.language.grammar.zh.everyday import CHINESE_EVERYDAY
+from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.recall import read_recall
 from planner.language.stop import StopReading
@@ -69,6 +81,7 @@ _OTHER = rf"(?:{MARK}|[{HAN}])"
 _SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
 _BORDERS = re.compile(r"^[\s,.!?;:。、~]+|[\s,.!?;:。、~]+$")
 _LATIN = re.compile(r"[a-z]")
+_NAMED = re.compile(rf"[^{HAN}]{{0,8}}{MARK}[呢吗么]?[?]+")
 
 _SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
 
@@ -93,6 +106,65 @@ def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
+    made = _plan_as_said(text, vocabulary, context)
+    if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_AGAIN:
+        return made
+    plainer = _in_plain_words(text, vocabulary)
+    second = None if plainer is None else _plan_as_said(plainer, vocabulary, context)
+    if not isinstance(second, StepPlan):
+        return made
+    asked = made.code is Code.INCOMPLETE  # what is asked for must not be guessed, but "the rounds"
+    return made if asked and not _has_rounds_alone(second) else second
+
+
+def _has_rounds_alone(plan: StepPlan) -> bool:
+    inner = [
+        s for step in plan.steps for s in (step.steps if isinstance(step, Repeat) else (step,))
+    ]
+    return all(isinstance(step, Patrol) for step in inner)
+
+
+_READ_AGAIN = frozenset(
+    {
+        Code.NOT_UNDERSTOOD, Code.UNKNOWN_PLACE, Code.NO_CAPABILITY, Code.INCOMPLETE,
+        Code.CONDITIONAL, Code.AMBIGUOUS,
+    }
+)  # fmt: skip
+
+
+def _in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
+    """Return a sentence in the grammar's own words; None where there are none, or where a word in
+    it holds orders back: what is taken away must carry no meaning.
+    """
+    said = normalise(text)
+    chinese = has_chinese(said)
+    courtesy, phrases = (
+        (ZH_COURTESY, CHINESE_EVERYDAY) if chinese else (EN_COURTESY, ENGLISH_EVERYDAY)
+    )
+    marked = lexicon_of(vocabulary).mark(said)
+    willing = rewrite(marked.text, courtesy)
+    if willing.rstrip().endswith("?") and _NAMED.fullmatch(willing):
+        return None  # "the kitchen?" asks
+    rewritten = rewrite(willing, phrases)
+    if not _held_back(willing) <= _held_back(rewritten):
+        return None
+    plain = marked.restore(rewritten)
+    return plain if plain and plain != said else None
+
+
+def _held_back(text: str) -> Counter[str]:
+    """Return the words of a sentence that deny, except, leave a choice, hang it on something or
+    name a speed.
+    """
+    looked_at = without_compounds(asks_whether(text))
+    vetoes = (*ENGLISH.vetoes, *CHINESE.vetoes)
+    return Counter(found[0] for _, veto in vetoes for found in veto.finditer(looked_at))
+
+
+def _plan_as_said(
+    text: str, vocabulary: Vocabulary, context: Context
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
+    """Return the plan of a sentence by its own words."""
     refused = refuse_bad_text(text)
     if refused is not None:
         return refused
@@ -249,7 +321,8 @@ def _apply_vetoes(
 
 
 _WHETHER = re.compile(
-    r"\b(tell (?:me|us)|check|see|look|find out|report) (?:if|whether)\b"
+    r"\b(tell (?:me|us)|check(?:ing)?|see(?:ing)?|look(?:ing)?|find(?:ing)? out|report"
+    r"|let (?:me|us) know) (?:if|whether)\b"
     r"|(?<=[看查认下])(?:一下|看)?(?:是否|是不是|有没有)"
 )
 

@@ -52,7 +52,8 @@ SEEN = re.compile(rf"{_YOU}{_WHERE}(?:有没有)?{_SEE}(?:过|了)(?!什么|啥|
 """Whether it was seen at all: answered from memory."""
 NOW = re.compile(
     rf"{_WHAT}(?:现在)?(?:是)?(?:放)?在(?:哪里|哪儿|哪|什么地方)(?:了)?"
-    rf"|我把{_WHAT.replace('what', 'b')}(?:放|丢|落|搁)(?:在|到)?(?:哪里|哪儿|哪|什么地方)(?:了)?"
+    rf"|我把{_WHAT.replace('what', 'b')}(?:放|丢|落|搁)(?:在|到)?(?:哪里|哪儿|哪|什么地方)"
+    r"(?:了)?(?:不|没)?"
 )
 """Asked of now: answered from memory where it knows something, else it is offered to look."""
 ANYTHING = re.compile(

@@ -24,7 +24,7 @@ SPANS = (
     ("evening", r"(?:earlier )?this evening|tonight"),
     ("night", r"last night|yesterday (?:evening|night)|during the night"),
     ("yesterday", r"(?:since )?yesterday(?: (?:morning|afternoon))?|the day before"),
-    ("today", r"(?:earlier )?today|so far today"),
+    ("today", r"(?:earlier )?today|so far today|earlier(?: on)?"),
     ("week", r"this week|(?:in )?the (?:last|past) (?:few days|week)|lately|recently"),
 )
 _THE = r"(?:the |a |an |my |our |your |any |some )?"
@@ -44,6 +44,7 @@ THING = re.compile(
     rf"|{_WHEN} was the last time (?:that )?you saw {_WHAT.replace('what', 'c')}"
     rf"|where (?:was|were) {_WHAT.replace('what', 'd')}{_LAST}"
     rf"|{_WHEN} you (?:last )?saw {_WHAT.replace('what', 'e')}{_LAST}"
+    rf"|where did (?:i|we) say {_WHAT.replace('what', 'i')} (?:was|were|is|are)"
     rf"|where {_WHAT.replace('what', 'f')} (?:was|were)"
     rf"|(?:have|had) you ever {_SEEN} {_WHAT.replace('what', 'g')}"
     rf"|when (?:was|were) {_WHAT.replace('what', 'h')} (?:last )?{_SEEN}"
@@ -52,7 +53,7 @@ NOW = re.compile(
     rf"where (?:is|are|can i find) {_WHAT}|where {_WHAT.replace('what', 'b')} (?:is|are)"
     rf"|where (?:did|have) (?:i|we) (?:leave|put|left) {_WHAT.replace('what', 'c')}"
     rf"|where (?:i|we) (?:left|put|have left|have put) {_WHAT.replace('what', 'd')}"
-    rf"|(?:have|had) you {_SEEN} {_WHAT.replace('what', 'e')}"
+    rf"|(?:have|had) you {_SEEN} {_WHAT.replace('what', 'e')}(?: anywhere| around)?"
 )
 """Asked of now: answered from memory where it knows something, else it is offered to look."""
 ANYTHING = re.compile(

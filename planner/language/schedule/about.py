@@ -40,6 +40,7 @@ _LIST = re.compile(
     rf"|have i (?:set|given)|are you keeping))?|what(?: is|'s) (?:on )?(?:the|my|your) schedule"
     rf"|(?:list|show|read|tell)(?: me)?(?: out)? {_MY}{_KINDS}|do i have (?:any )?{_KINDS}"
     rf"|(?:are there|is there) (?:any )?{_KINDS}"
+    rf"|(?:what|which) {_KINDS} (?:have i got|do i have|did i set|have i made|are on)"
 )
 _ACTS: tuple[tuple[Act, str], ...] = (
     ("remove", r"cancel|delete|remove|drop|stop|end|forget|clear|get rid of|no more|turn off"
@@ -71,7 +72,7 @@ _ZH_LIST = re.compile(
     rf"|(?:现在|目前|一共|我|都)*有(?:没有)?(?:哪些|什么|几个)?{_ZH_KINDS}(?:吗)?"
     rf"|(?:列出|列一下|显示|看看|看一下|告诉我|说说|查看|查一下){_ZH_ALL}(?:有(?:哪些|什么))?{_ZH_KINDS}"
     rf"|把{_ZH_ALL}{_ZH_KINDS}(?:都)?(?:列出来|说一下|告诉我|念一下)"
-    rf"|(?:现在|目前|我)*(?:设置?|定|安排)了(?:哪些|什么){_ZH_KINDS}"
+    rf"|(?:现在|目前|我|都)*(?:设置?|定|安排)了(?:哪些|什么){_ZH_KINDS}啊?"
 )
 _ZH_NOT = r"(?:不要|不用|不必|不需要|别|甭|停止|不)(?:再)?"
 _ZH_REMIND = re.compile(rf"{_ZH_NOT}提醒(?:我)?(?P<of>.*?)(?:了)?")

@@ -69,7 +69,7 @@ _CLOCK = re.compile(
     rf"|(?P<noon>noon|midday|midnight))(?: sharp)?{_END}"
 )
 _AT = re.compile(
-    rf"at (?:about |around |exactly )?(?P<h>{_H})(?: (?P<m>{_M}))?(?: sharp)?{_END}(?! (?:past|to)\b)"
+    rf"at (?:about |around |exactly )?(?P<h>{_H})(?: (?P<m>{_M}))?(?: sharp)?{_END}(?! (?:past|to) (?:{_H})\b)"
 )
 _IN_THE = re.compile(rf"(?:in the (?P<a>{_PART})|at (?P<b>night|noon)){_END}")
 _EVERY = re.compile(

@@ -22,7 +22,7 @@ from planner.plan import Goal, GoalState, Language
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.state_database import StateDatabase
-from planner.voice import Recognition, Sound, VoiceAbilities, VoiceFailure
+from planner.voice import Recognition, Sound, StopListener, VoiceAbilities, VoiceFailure
 from tests.planner.orders.fakes import FakeMissions, MovedClocks, standing_orders
 from tests.wire.examples import STATUS
 from wire import (
@@ -204,6 +204,7 @@ class FakeEars:
         )
         self.sounds: list[Sound] = []
         self.awaited: list[bool] = []
+        self.listeners: list[StopListener] = []
 
     async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
         self.awaited.append(awaits_answer)
@@ -211,6 +212,9 @@ class FakeEars:
         if isinstance(self.heard, VoiceFailure):
             raise self.heard
         return self.heard
+
+    def listen(self) -> tuple[StopListener, ...]:
+        return tuple(self.listeners)
 
 
 class FakeSpeech:

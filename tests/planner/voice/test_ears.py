@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.plan import Language
-from planner.voice import Ears, Recognition, Sound, VoiceFailure
+from planner.voice import Ears, Recognition, Sound, StopListener, VoiceFailure
 from planner.voice import ears as joined
 
 SECOND = Sound(16_000, 1, bytes(32_000))
@@ -25,6 +25,7 @@ class Played:
 
     def __init__(self, answer: Answered, after: int = 0) -> None:
         self.answer, self.after, self.cancelled = answer, after, False
+        self.listeners: tuple[StopListener, ...] = ()
 
     async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
         try:
@@ -39,6 +40,9 @@ class Played:
             raise self.answer
         assert self.answer is not None
         return self.answer
+
+    def listen(self) -> tuple[StopListener, ...]:
+        return self.listeners
 
 
 def heard(text: str, confidence: float = 0.9, *, by: str = "server") -> Recognition:

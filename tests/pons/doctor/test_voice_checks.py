@@ -10,6 +10,8 @@ from planner.settings import FILE
 from pons.doctor import voice_checks
 from pons.doctor.finding import HealthVerdict
 from tests.planner.voice.speech import needs_espeak
+from tests.planner.voice.test_sherpa import needs_sherpa
+from tests.planner.voice.toy_transducer import write_model
 
 
 def home(tmp_path: Path, text: str) -> Path:
@@ -38,6 +40,8 @@ def test_a_server_that_nobody_runs_is_told_and_does_no_more_harm(tmp_path: Path)
         ('[voice]\nurl = "https://voices.example/v1"\n', "voice_offhost"),
         ('[voice]\nurl = "http://169.254.169.254/v1"\n', "voice_url"),
         ('[voice]\nurl = "http://127.0.0.1/v1"\nkey_env = "NOT_SET_ANYWHERE"\n', "voice_key"),
+        ('[voice]\nfolder = "no/such"\n', "voice_folder"),
+        ('[voice]\nfolder = "x"\nurl = "http://127.0.0.1/v1"\n', "voice_contradictory"),
         ('[speech]\nengine = "espeak"\nplayer = ["no-such-program"]\n', "speech_program"),
         ('[speech]\nengine = "server"\n', "speech_incomplete"),
         ('[speech]\nquiet = "always"\n', "settings_malformed"),
@@ -51,6 +55,16 @@ def test_settings_that_refuse_to_start_are_told_by_their_code(
     found = check(home(tmp_path, text))
     assert found.verdict is HealthVerdict.FAIL
     assert code in found.found.en
+
+
+@needs_sherpa
+def test_a_model_is_really_tried(tmp_path: Path) -> None:
+    write_model(tmp_path / "ears")
+    found = voice_checks.transcription(home(tmp_path, '[voice]\nfolder = "ears"\n'))
+    assert (found.verdict, "heard 1 s of noise" in found.found.en) == (HealthVerdict.OK, True)
+    (tmp_path / "ears" / "encoder.onnx").write_bytes(b"none")
+    found = voice_checks.transcription(tmp_path)
+    assert (found.verdict, "recogniser_unavailable" in found.found.en) == (HealthVerdict.WARN, True)
 
 
 @needs_espeak

@@ -296,6 +296,7 @@ export const en = {
   "talk.both": "in English or Chinese",
   "talk.goes": "your voice is sent to {host}",
   "talk.instead": "Heard by the built-in recogniser: {text}",
+  "talk.stopped": "Stopped: a stop was heard.",
   "talk.aloud": "Read answers aloud",
   "talk.short": "Hold the button while you talk.",
   "talk.insecure": "Talking works only over https or on the robot's own computer.",

@@ -287,6 +287,7 @@ export const zh: Record<Key, string> = {
   "talk.both": "可以说中文或英文",
   "talk.goes": "录音会发送到 {host}",
   "talk.instead": "由内置识别器听到：{text}",
+  "talk.stopped": "已停止：听到了停。",
   "talk.aloud": "朗读回答",
   "talk.short": "说话时请按住按钮。",
   "talk.insecure": "只有通过 https 或在机器人本机上才能使用语音。",

@@ -94,9 +94,10 @@ export type Spoken = {
 };
 
 /** Give a goal by a recording; none where no order was heard surely enough. */
-export async function giveSpoken(wav: ArrayBuffer): Promise<Spoken> {
+export async function giveSpoken(wav: ArrayBuffer, confirm = false): Promise<Spoken> {
   const headers = { "content-type": "audio/wav", "idempotency-key": newId("page") };
-  const heard = (await call("POST", "/v1/voice", wav, headers, HEARD_MS)) as {
+  const path = confirm ? "/v1/voice?confirm=true" : "/v1/voice";
+  const heard = (await call("POST", path, wav, headers, HEARD_MS)) as {
     goal: Goal | null;
     outcome: { message: Bilingual | null };
     trouble: string | null;

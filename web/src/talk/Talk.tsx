@@ -25,7 +25,10 @@ export function Talk() {
     hush();
     hushRobot().catch(() => undefined); // it may be mute, or gone; the recording tells
     beganMs.current = performance.now();
-    recording.current = record();
+    recording.current = record(() => {
+      hush();
+      tell(t("talk.stopped"), true);
+    });
     recording.current.catch((error: unknown) => {
       phase.value = "idle";
       tell(words(error), true);
@@ -37,9 +40,10 @@ export function Talk() {
     recording.current = null;
     phase.value = "hearing";
     try {
-      const sound = await (await running).end();
+      const recorded = await running;
+      const sound = await recorded.end();
       if (performance.now() - beganMs.current < LEAST_MS) tell(t("talk.short"));
-      else await send(sound);
+      else await send(sound, recorded.stopped());
     } catch (error) {
       tell(words(error), true);
     } finally {
@@ -117,8 +121,9 @@ function Microphone() {
   );
 }
 
-async function send(sound: ArrayBuffer): Promise<void> {
-  const spoken = await giveSpoken(sound);
+/** After a stop in it, whatever else it says waits for a yes. */
+async function send(sound: ArrayBuffer, stopped: boolean): Promise<void> {
+  const spoken = await giveSpoken(sound, stopped);
   if (spoken.goal) {
     learn(spoken.goal);
     tell(t(spoken.trouble ? "talk.instead" : "goal.sent", { text: spoken.goal.text }));

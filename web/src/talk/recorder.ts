@@ -2,6 +2,7 @@
  * Record while a person talks, and return it as WAV. The microphone is opened when they begin and
  * let go when they end; nothing is kept.
  */
+import { listenLive } from "./live";
 import { RATE_HZ, wav } from "./wav";
 
 export const LONGEST_MS = 14_000; // the planner takes 15 s
@@ -22,11 +23,20 @@ export function deaf(): Deaf | null {
   return there && "OfflineAudioContext" in window ? null : "unsupported";
 }
 
-export type Recording = { readonly end: () => Promise<ArrayBuffer> };
+export type Recording = {
+  readonly end: () => Promise<ArrayBuffer>;
+  /** Whether a stop was heard in it, and obeyed, before its end. */
+  readonly stopped: () => boolean;
+};
 
-/** Begin to record. Throws CannotListen. */
-export async function record(): Promise<Recording> {
+/** Begin to record; `onStop` is called where a stop is heard meanwhile. Throws CannotListen. */
+export async function record(onStop: () => void): Promise<Recording> {
   const stream = await microphone();
+  let heardStop = false;
+  const live = listenLive(stream, () => {
+    heardStop = true;
+    onStop();
+  });
   const recorder = new MediaRecorder(stream);
   const parts: Blob[] = [];
   recorder.ondataavailable = (event) => parts.push(event.data);
@@ -40,12 +50,13 @@ export async function record(): Promise<Recording> {
   const limit = setTimeout(stop, LONGEST_MS);
   const end = async (): Promise<ArrayBuffer> => {
     clearTimeout(limit);
+    live.end();
     stop();
     await ended;
     for (const track of stream.getTracks()) track.stop();
     return wav(await samples(await new Blob(parts).arrayBuffer()));
   };
-  return { end };
+  return { end, stopped: () => heardStop };
 }
 
 async function microphone(): Promise<MediaStream> {

@@ -223,7 +223,7 @@ RULES: tuple[Rule, ...] = (
         rf"{_LOOK_VERB} (?:if|whether) (?P<what2>{_SOMEBODY}) is)(?: there)? {_HOME}",
         _offer_search,
     ),
-    rule(rf"(?:{_SOMEBODY}|any [a-z ]+?)(?: else)?{_MUST}", _question(_look)),
+    rule(rf"(?:{_SOMEBODY}|any (?!chance\b)[a-z ]+?)(?: else)?{_MUST}", _question(_look)),
     rule(
         rf"(?:{_SOMEBODY}|any [a-z ]+?(?= (?:around|here|there|in sight)))(?: else)?"
         r"(?: (?:around|about|here|there|in here|out there|in sight))?",

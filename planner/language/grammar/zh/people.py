@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from re import Match
 
 from planner.language.catalogue import say
@@ -28,16 +29,18 @@ from planner.language.grammar.step_builders import (
     place_of,
 )
 from planner.language.grammar.zh import GO, IN, PERSON, SPOT, loc
-from planner.plan import Ask, Code
+from planner.plan import Ask, Code, Say
 
 _FIND = r"(?:接到?|找到|寻找|找找看?|找一下|找|见见|见|看看|看望|探望|拜访|叫)(?:一下)?"
 _WHETHER = r"(?:(?<=找)|(?<=找看)|(?<=找一下))还?(?:有没有|是否有|是不是有|有无)"
 """Whether somebody is there is searched for where the words say so; else looking answers it."""
 _GREET = (
-    r"(?:打(?:个|一?声)?招呼|问好|问候|打招呼|挥手|说(?:一声)?(?:你好|您好|早上好|晚上好|晚安|"
+    r"(?:打(?:个|一?声)?招呼|问(?:个|声)?好|问候|打招呼|挥手|说(?:一声)?(?:你好|您好|早上好|晚上好|晚安|"
     r"再见|欢迎))"
 )
-_FOLLOW = r"(?:跟着|跟随|跟上|跟住|尾随|跟在|随着|跟)"
+_FOLLOW = (
+    r"(?!跟着?[你我他她它]?(?:念|读|说|讲|唱|学|喊|数|做))(?:跟着|跟随|跟上|跟住|尾随|跟在|随着|跟)"
+)
 _GUIDE = r"(?:带着?|领着?|引导|引领|陪同?|陪着|护送|送|指引)"
 
 
@@ -53,10 +56,17 @@ def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
     return meet(found["who"], at, reading)
 
 
+_ALL = re.compile(r"大家|所有人|各位|大伙儿?|(?:小朋友|孩子|同学|客人|来宾|访客)们?")
+"""Said to all who hear it: nobody is looked for."""
+
+
 def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading)
     is_name = "\ue900" <= found["who"][0] <= "\ue9ff"
     said = say("spoken.hello_name", name=name) if is_name else say("spoken.hello")
+    if _ALL.fullmatch(found["who"]) and read_place(found, "at") is None:
+        night = "晚安" in found[0]
+        return Steps((Say(text="晚安" if night else said.zh),))
     return meet(found["who"], read_place(found, "at"), reading, said.zh)
 
 
@@ -126,7 +136,7 @@ GUIDE: tuple[Rule, ...] = (
 """Tried ahead of what takes an arm: one verb says both."""
 
 RULES: tuple[Rule, ...] = (
-    rule(rf"{_AT}(?:和|跟|向|对|给)?{_WHO}{_GREET}", _greet),
+    rule(rf"{_AT}(?:和|跟|向|对|给)?{_WHO}(?:们)?{_GREET}", _greet),
     rule(rf"{_AT}(?:问候|欢迎|迎接){_WHO}", _greet),
     rule(rf"{_AT}(?:向|对|给|跟){_WHO}(?:做个?)?(?:自我介绍|介绍(?:一下)?你?自己)", _present),
     rule(

@@ -143,7 +143,7 @@ MOTION = {
 
 STILL = {
     # asked back
-    "kitchen": "clarify not_understood",
+    "the kitchen": "clarify not_understood",
     "come back": "clarify ambiguous",
     "回来": "clarify ambiguous",
     "go to the kitchen and fly": "clarify not_understood",

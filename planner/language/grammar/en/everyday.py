@@ -1,0 +1,193 @@
+"""Own the English phrases of everyday speech, and the plain orders that they are."""
+
+from __future__ import annotations
+
+from planner.language.grammar.everyday import table
+from planner.language.grammar.lexicon import MARK
+from planner.language.numbers import EN_DURATION, EN_LENGTH
+
+_THE = r"(?:(?:the|a|my|our|your|this|that) )?"
+_PLACE = rf"{_THE}{MARK}"
+_END = r"(?=$|[,.!?;])"
+_BEGIN = r"(?:^|(?<=[.!?;] ))"
+_WHO = (
+    r"(?:robot|robo|pons|mate|buddy|pal|love|dear|darling|honey|sweetie|sweetheart|friend|my friend"
+    r"|boy|girl|lad|bro|bud|dude|man|sir|champ|chum|little (?:one|guy|fella|fellow|buddy|robot)"
+    r"|old (?:chap|boy|thing)|y'?all|beta)"
+)
+_CALLS = (
+    r"(?:hey|hi|hello|oi|yo|ahoy|ok|okay|right(?: then)?|alright|all right|so|well|now(?: then)?)"
+)
+_GOES = (
+    r"(?:pop|nip|swing|trot|scoot|hop|roll|mosey|stroll|wander|dash|zip|trundle|wheel|toddle"
+    r"|shuffle|march|waltz|pootle|amble|bounce|whizz|race|rush|skip|jog|slide|sneak|make (?:your|a)"
+    r" (?:way|trip)|take (?:yourself|a (?:trip|walk|stroll|drive|run))|get (?:yourself|your [a-z]+)"
+    r"|bring yourself|drag yourself|move yourself|find your way|head|proceed|get|come)"
+)
+_ASIDE = (
+    r"(?: (?:on|off|over|down|up|along|out|back|round|around|across|across the hall|straight))*"
+)
+_ONE = (
+    r"(?:i|he|she|it|they|we|(?:the |my |our )?(?:baby|kids?|dog|cat|mum|dad|mom|granny|grandma))"
+)
+_REASON = (
+    rf"{_ONE}(?: is|'s| are|'re| am|'m|s)? (?:all |so |really |very |just |still )?(?:lost|missing"
+    r"|gone|asleep|sleeping|hungry|thirsty|waiting|tired|late|in a (?:hurry|rush)|cold|bored|sad"
+    r"|lonely|driving me (?:mad|crazy|nuts)|in (?:my|the|our) way|running late|starving|freezing)"
+    r"|(?:your|the) battery (?:must be|is|looks|seems) (?:nearly |almost |very |pretty )?(?:flat|low"
+    r"|dead|empty)|you (?:are|'re) in (?:my|the) way|ur (?:drunk|slow|late)"
+)
+_LOOKS = (
+    r"(?:(?:have|take) a (?:quick |little |good )?(?:nosy|nose|gander|butcher's|peek|peep|squint"
+    r"|look see|scout|poke|snoop|rummage|glance)|scope out|suss out|case|poke around|snoop around)"
+)
+_HAVE_A_LOOK = (
+    r"(?:please |now |just |could you |can you )*(?:go |come )?(?:and )?(?:have a (?:quick )?(?:look"
+    r"|search|check)|take a look|look|check|see|search|count(?: them)?|find out|hunt for it|find it"
+    r"|look for it)(?: for me| please| will you| would you| now)*"
+)
+_SAYS = r"(?:shout|yell|call out|announce|holler|proclaim)(?: out)?"
+_HOME = r"(?:house|home|flat|apartment|place|building|rooms|premises)"
+_AROUND = rf"(?: (?:of|round|around|through|about) (?:the |our |my )?(?:whole |entire )?{_HOME})?"
+_NUMBER = (
+    r"(?:five|ten|fifteen|twenty|thirty|forty|fifty|sixty|seventy|eighty|ninety|forty five"
+    r"|\d{1,3})"
+)
+
+COURTESY = table(
+    (rf"(?:^|,) ?if you(?: would|'d| could)? be so (?:kind|good)(?: as to)?{_END}", " please"),
+    (rf"(?:^|,)? ?if (?:you do not mind|you would not mind|you please|you would|you could|you may"
+     rf"|you can|you like|that is ok(?:ay)?|possible|it is not too much trouble){_END}", ""),
+    (r"(?:^|,)? ?when(?:ever)? you(?: have| get|'ve got| have got)? (?:a|one|the|some|any) (?:moment"
+     rf"|minute|sec|second|chance|time){_END}", ""),
+    (r"\bif you see (?:it|him|her|them)\b", ""),
+)  # fmt: skip
+"""Conditions that are none."""
+
+ENGLISH_EVERYDAY = table(
+    *((rf"\b(?:{chat})\b", plain) for chat, plain in (
+        ("u(?! turn)", "you"), ("ur(?= (?:way|self))", "your"), ("plz|pls|pleas|plse", "please"),
+        ("chek|chk", "check"), ("gimme", "give me"), ("lemme", "let me"), ("wanna", "want to"),
+        ("gonna", "going to"), ("gotta", "have to"), ("im", "i am"), ("em", "them"),
+        ("whats", "what is"), ("wheres", "where is"), ("thats", "that is"), ("theres", "there is"),
+        ("d'you", "do you"), ("pleeease|pleez|pleeze", "please"), ("kichen|kitchn", "kitchen"),
+    )),
+    # "The kitchen" alone names it, "kitchen" and "the kitchen, please" order
+    (rf"^(?P<p>{_PLACE}),? (?:please|pls|now|at once)[.!]*$", r"go to \g<p>"),
+    # hesitation, address, courtesy
+    (r"(?:^|[ ,])(?:u+h+m*|u+m+|e+r+m*|h+m+|ah+|you know(?: what)?|sort of|kind of|kinda|basically"
+     r"|literally|what is it called|what do you call it|what's its name)(?=$|[ ,.!?])", " "),
+    (rf"{_BEGIN}(?:like|so|and|but|now|anyway)(?:,| like| so)+ ?(?=\w)", ""),
+    (rf"{_BEGIN}{_CALLS}(?: {_WHO})?(?:,| ) ?(?=[\w\ue000-\ue7ff])", ""),
+    (rf"{_BEGIN}{_WHO}(?:(?:,|!) ?| (?=(?:go|come|drive|find|look|{MARK}|the {MARK})))", ""),
+    (rf"[, ]+{_WHO}{_END}", ""),
+    (r"[, ]+(?:for me|for us|would you|will you|could you|can you|innit|cheers|ta|got it|on the double"
+     r"|chop chop|asap|right away|straight away|quick smart|there's a (?:good )?(?:love|lad|boy)"
+     rf"|no rush|ok|okay|alright|please|pretty please|thanks|now|then){_END}", ""),
+    (r"\b(?:can|could|would|will) you (?:maybe|possibly|perhaps|please|just|kindly|quickly|maybe just)"
+     r"+ (?=\w)", "can you "),
+    (r"^(?:is there any chance|any chance|do you think|i wonder if|i was wondering if|would it be"
+     r"(?: at all)? possible(?: for)?|could i (?:trouble|bother|ask) you|can i (?:trouble|ask) you"
+     r"|be a (?:dear|love|pet|star) and|be so (?:good|kind)(?: as)? to|do (?:me a favou?r|one thing)"
+     r"(?:,| and)?"
+     r"|your job is)"
+     r"(?: you)?(?: could| would| can)?(?: to)? (?=[a-z])", ""),
+    (r"^(?:so )?(?:what )?i(?: would|'d)? (?:really )?(?:like|love|want|need|appreciate)(?: it if| is| is for)? you"
+     r"(?: could| would| can)?(?: to)? (?=[a-z])", ""),
+    (r"^would you mind(?: awfully| terribly)? (?:checking|seeing|looking)(?: (?:whether|if))?", "check if"),
+    (r"^would you mind(?: awfully| terribly)? (?:going|popping|driving|heading)\b", "go"),
+    (rf"(?:^|[,.!;]+ ?)(?:{_REASON})(?:(?=$|[,.!;])|(?= go\b))", ","),
+    (rf"(?<=\w) (?:{_REASON})$", ""),
+    (rf"(?:^|, ?)(?:she|he|it)(?:'s| is| are)? (?:still )?(?:there|here)?{_END}$", ""),
+    # where the person is
+    (rf"^i am (?:sitting |standing |lying |waiting |over )*(?:in|at|by|on|near) (?P<p>{_PLACE})[, .]*"
+     r"(?:so |and )?come (?:here|over|to me|and (?:get|find) me|find me|get me)$", r"go to \g<p>"),
+    (r"^come (?:here|over|to me|find me|and find me|and get me|get me)[, .]+(?:i am )?(?:sitting "
+     rf"|standing |lying |waiting |over )*(?:in|at|by|on|near) (?P<p>{_PLACE})$", r"go to \g<p>"),
+    (rf"\bcome (?:and )?(?:find|see|meet|join|get) me (?:in|at|by|on|near) (?P<p>{_PLACE})", r"go to \g<p>"),
+    # lengths, angles, times
+    (r"\b(?:a|one) (met(?:re|er)) and a half\b", r"1.5 \1s"),
+    (r"\b(one|two|three|four|five) and a half (met(?:re|er)s?|m)\b", r"\1.5 \2"),
+    (r"\bone\.5\b", "1.5"), (r"\btwo\.5\b", "2.5"), (r"\bthree\.5\b", "3.5"), (r"\bfour\.5\b", "4.5"),
+    (r"\b(?:a|one) quarter of an hour\b", "15 minutes"),
+    (r"\b(?:half an hour|a half hour|half hour)\b", "30 minutes"),
+    (r"\bcouple metres\b", "couple of metres"),
+    (rf"^(?P<l>{EN_LENGTH})(?: straight)? (?P<d>forwards?|backwards?|back|ahead)$", r"move \g<d> \g<l>"),
+    (rf"\b(?:back up|reverse|go backwards?|scoot back(?:wards?)?|shuffle back(?:wards?)?|move back(?:wards?)?"
+     rf"|inch back|back off)(?: a (?:bit|little|tad|touch))?,?(?: like| say| about| maybe| by| around)?"
+     rf" (?P<l>{EN_LENGTH})", r"move back \g<l>"),
+    (rf"\b(?:scoot|shuffle|inch|nudge|edge|creep|roll|scooch)(?: yourself)? (?P<d>forwards?|ahead)(?: by| about)?"
+     rf" (?P<l>{EN_LENGTH})", r"move forward \g<l>"),
+    (r"\b(?:spin|turn|twirl|whirl)(?: yourself)?(?: a?round)? once$|\bdo (?:a|one) (?:little |full |complete "
+     r"|quick )*(?:circle|spin|twirl|turn|pirouette|rotation|360)(?: on the spot)?\b"
+     r"|\b(?:do|turn|make) a (?:full )?(?:360|three sixty)\b", "turn a full circle"),
+    (r"\b(?:do|make|pull) a (?:little |quick )*(?:u turn|180|one eighty|about turn|half turn)\b|\babout face\b"
+     r"|\bface the other way\b|\bturn (?:yourself )?(?:right )?(?:around|round)(?= and\b|,|$)", "turn around"),
+    (rf"\bturn (?P<s>left|right),? (?:about |by |roughly |around |say )*(?P<n>{_NUMBER})(?= ?$|[,.])",
+     r"turn \g<s> \g<n> degrees"),
+    # people
+    (r"\b(?:tag along(?: behind| with)?|trail after|stick (?:with|to|close to)|keep close to"
+     r"|come along with|walk along with|keep pace with) ", "follow "),
+    (r"\btell (?:whoever|anyone|anybody|everyone|everybody|the people)(?:'s| is| who is|s)? in"
+     rf" (?P<p>{_PLACE}) (?:that )?(?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
+    (rf"\b{_SAYS}(?: that)? (?P<w>[^\",;]+)$", r'say "\g<w>"'),
+    (rf"\bsay (?P<w>[^\",;]*{MARK}[^\",;]*)$", r'say "\g<w>"'),
+    (r"(?<=then )tell (?:them|him|her|everyone) (?:that )?(?P<w>[^\"]+)$", r'say "\g<w>"'),
+    (r"\b(?:inform|advise) me\b", "tell me"),
+    # looking
+    (rf"\b{_LOOKS} (?:a?round|at|in|inside|into|through)? ?(?P<p>{_PLACE})"
+     r"[, ]+(?:and )?(?:tell|let|inform) me(?: know)? (?:if|whether) you (?:spot|see|find|notice)"
+     r" (?P<t>(?:my|the|a|an|any) [a-z ]+)$", r"look for \g<t> in \g<p>"),
+    (rf"\b{_LOOKS} (?:a?round|at|in|inside|into|through)? ?(?P<p>{_PLACE})(?: for (?P<t>[a-z ]+))?$",
+     r"look in \g<p>"),
+    (rf"\b(?:give|get) me eyes on (?P<p>{_PLACE})", r"look at \g<p>"),
+    (rf"^(?P<q>(?:is|are|how many|what|who|whose)\b[^?]*?[a-z\ue000-\ue7ff])[?,.]* {_HAVE_A_LOOK}$", r"\g<q>?"),
+    (r"^(?:where (?:is|are|on earth (?:is|are|has)|has)) (?P<t>(?:the|my|our|that) [a-z]+(?: [a-z]+)??)"
+     rf"(?: gone| got to)?[?,.]* {_HAVE_A_LOOK}$", r"find \g<t>"),
+    (r"\band (?:let|tell) me(?: know)? if (?:anything|something)(?: is| looks| seems)?"
+     r" (?:odd|wrong|off|strange|weird|out of place|amiss|unusual)$", ""),
+    (rf"^(?:is|are) there (?P<t>(?:a|an|any|some) [a-z ]+?) (?:under|behind|in front of|beside|next to) (?P<p>{_PLACE})\\??$",
+     r"is there \g<t> at \g<p>?"),
+    (rf"^(?:go )?(?:look|check|see)(?: in| at| inside)? (?P<p>{_PLACE})(?: for [a-z]+)?[.,;]* (?:and )?if (?:she|he|somebody|someone"
+     r"|anybody|they)(?:'s| is| are) (?:in )?there,?", r"if there is somebody in \g<p>,"),
+    # home and rounds
+    (rf"\b(?:park|plug|dock|plonk|sit|put) yourself(?: in| down)? (?:on|at|in|into|to|by|near|next to) (?P<p>{_PLACE})",
+     r"go to \g<p>"),
+    (rf"\b(?:go |come )?back to (?P<p>{_PLACE})$", r"go to \g<p>"),
+    (r"\b(?:park|plug|dock) yourself(?: in)?(?: (?:on|at|in|into|to) (?:the |your )?(?:charger|dock"
+     r"|charging (?:dock|station)|station))?\b|\b(?:back|off) to (?:base|the dock|your (?:dock|charger)"
+     r"|the charger)\b|\bcharge up(?: (?:at|on) (?:the |your )?(?:station|dock|charger))?"
+     r"|\b(?:go )?(?:get )?charge yourself(?: up)?\b|\b(?:go|head|run) (?:on )?home\b", "go charge"),
+    (rf"\b(?:do|make|take|have|go on|go for) (?:a|the|your|one|another) (?:quick |little |full )*(?:lap|round"
+     rf"|rounds|tour|sweep|circuit|patrol|walk|turn){_AROUND}(?=$|[,.!?]| \w+ times| twice| and\b)"
+     rf"|\bpatrol(?: (?:the|our|my) (?:whole |entire )?{_HOME})?(?=$|[,.!?]| \w+ times| twice| and\b)"
+     rf"|\b(?:tour|circle|walk around|go around|wander around|cruise around) (?:the|our|my) (?:whole |entire )?{_HOME}",
+     "patrol the house"),
+    (rf"\b(?:go )?(?:back and forth|to and fro|backwards and forwards) between (?P<a>{_PLACE}) and (?P<b>{_PLACE})"
+     r" (?P<n>twice|\w+ times)$", r"go to \g<a> then go to \g<b>, \g<n>"),
+    (rf"^(?:go )?to (?P<a>{_PLACE}) and back(?: again)? (?P<n>twice|\w+ times)", r"go to \g<a> then come back, \g<n>"),
+    # waiting
+    (rf"\b(?:stop|halt|pause)(?: off)? (?:at|by|in) (?P<p>{_PLACE}) for (?P<d>{EN_DURATION})",
+     r"go to \g<p> and wait \g<d>"),
+    (rf"\b(?:hang about|hang on|hang around|hold on|stick around|linger|chill|loiter|keep watch|stand guard"
+     rf"|sit tight)(?: here| there)?(?: for)?(?: about| around| roughly)? (?P<d>{EN_DURATION})", r"wait \g<d>"),
+    (rf"\b(?:wait|stay|pause|stand)(?: here| there)? for (?:about|around|roughly) (?P<d>{EN_DURATION})", r"wait \g<d>"),
+    (rf"^wait for me (?:in|at|by|near) (?P<p>{_PLACE})$", r"go to \g<p> and wait for somebody"),
+    (rf"\b(?:go |come )?(?:and )?(?:park|wait|stay|stand|sit|hang out|hang about|hover|post yourself|park yourself"
+     rf"|stand guard)(?: right)? (?:in|at|by|on|near|next to|beside) (?P<p>{_PLACE})(?= (?:and|until|till|for|then)\b|[,.]|$)",
+     r"go to \g<p> and stay there"),
+    (r"\band stay there (?=(?:until|till) )", "and wait "),
+    (rf"\band stay there for (?P<d>{EN_DURATION})", r"and wait \g<d>"),
+    # going
+    (rf"(?P<p>{MARK}) (?=(?:turn|come|go|drive|look|wait|find|count|say|tell|check|see|ask|patrol|follow|then)\b)", r"\g<p>, "),
+    (r"[, ]*\band after (?:that|this)\b", ", then"),
+    (rf"\b(?:off you (?:go|trot|pop|toddle|pootle)|{_GOES}){_ASIDE} (?:to|into|in|towards?|by|at|near|next to)"
+     rf" (?P<p>{_PLACE})", r"go to \g<p>"),
+    (rf"^(?:be |right )?(?:you )?(?:to be )?(?:next to|beside|by|at|in|near) (?P<p>{_PLACE})$", r"go to \g<p>"),
+    (rf"\bcome (?:and )?(?:play|sit|hang out|join us|help)(?: with (?:me|us))? (?:in|at|by) (?P<p>{_PLACE})$",
+     r"go to \g<p>"),
+    (rf"^(?:first,? )?(?:to )?(?P<p>{_PLACE})(?=(?: then| and then|,| and)+ )", r"go to \g<p>"),
+    (rf"(?:(?<= then )|(?<=, )|(?<= and ))(?:to )?(?P<p>{_PLACE})(?=(?: then| and then|,| and)+ |$)", r"go to \g<p>"),
+    (rf"(?P<a>^|, )(?P<p>{_PLACE}) (?={_PLACE}(?: {_PLACE})*$)", r"\g<a>\g<p>, "),
+    (rf"^(?:to )?(?P<p>{MARK})[.!]*$", r"go to \g<p>"),
+)  # fmt: skip
