@@ -106,6 +106,8 @@ class AskMemory:
     place: str | None = None
     when: Span | None = None
     deeds: bool = False
+    witnessed: bool = False
+    """Only what was seen or done counts, and no words that were told: branches hang on it."""
 
 
 @dataclass(frozen=True, slots=True)

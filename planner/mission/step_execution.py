@@ -219,7 +219,8 @@ def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp) -> None:
     until_s = turn.now_s + act.seconds
     looking = LookingUp(record=turn.next_entry, ticket=ticket, until_s=until_s)
     turn.set(tickets=ticket, activity=looking)
-    turn.emit(AskMemory(mission.id, ticket, step.object, step.place, step.span, step.deeds))
+    asked = (step.object, step.place, step.span, step.deeds, step.role in JUDGED)
+    turn.emit(AskMemory(mission.id, ticket, *asked))
 
 
 def _result(act: Finish) -> dict[str, object]:

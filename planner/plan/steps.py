@@ -176,9 +176,9 @@ class ClockTime(Frozen):
         return self
 
 
-Condition = Annotated[Look | Find | Ask | ClockTime, Field(discriminator="kind")]
-"""What may be asked before steps are chosen. A kind that answers by other means, as from memory,
-joins here, in ``CONDITIONS`` and with its own judgement in ``mission/skills/conditions.py``."""
+Condition = Annotated[Look | Find | Ask | Recall | ClockTime, Field(discriminator="kind")]
+"""What may be asked before steps are chosen; ``mission/skills/conditions.py`` judges each kind. A
+recall asks whether it is remembered as seen or done: what was merely told counts for nothing."""
 
 
 class If(Frozen):
@@ -271,7 +271,7 @@ EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for mo
 """What a plan may hold at all; a robot's own `runnable` is a part of it."""
 CONTROL = frozenset({"if", "try", "repeat"})
 """They hold steps and do nothing by themselves."""
-CONDITIONS = frozenset({"look", "find", "ask", "clock"})
+CONDITIONS = frozenset({"look", "find", "ask", "recall", "clock"})
 DRIVES = frozenset(
     {"go_to", "come_back", "return_home", "turn", "move", "patrol", "explore"}
     | {"go_to_object", "go_to_point", "find", "follow"}

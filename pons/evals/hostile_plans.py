@@ -124,11 +124,20 @@ def _step(act: Act) -> Step:
         name = "time" if ":" in what else "object" if what in _PERSONS else "word"
         return WaitFor.model_validate({name: what})
     if act.kind == "recall":
-        return Recall(object=what or None, place=act.where)
+        return _recall(what)
     if act.kind == "say":
         return Say(text=what or "hello")
     place = {"place": act.where} if act.kind == "look" else {}
     return _STEP.validate_python({"kind": act.kind, "question": what or "what is it?", **place})
+
+
+def _recall(asked: str) -> Recall:
+    """Return the step of words, ``@place`` and ``%span``."""
+    words = asked.split()
+    marks = {word[0]: word[1:] for word in words if word[0] in "@%"}
+    thing = " ".join(word for word in words if word[0] not in "@%")
+    fields = {"object": thing or None, "place": marks.get("@"), "span": marks.get("%")}
+    return Recall.model_validate(fields)
 
 
 _PERSONS = frozenset({"person", "somebody", "someone", "人"})

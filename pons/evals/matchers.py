@@ -133,6 +133,8 @@ def _act(text: str) -> Act:
     kind, *rest = text.removesuffix("?").split()
     if kind not in _KINDS:
         raise BadMatcher(f"{text!r}: unknown act {kind!r}; known: {', '.join(sorted(_KINDS))}")
+    if kind == "recall":  # the robot is not where memory is asked about
+        return Act(kind, (plain(" ".join(rest)),) if rest else (), optional=optional)
     where = next((word[1:] for word in rest if word.startswith("@")), None)
     words = " ".join(word for word in rest if not word.startswith("@"))
     if kind in ("go", "back", "home"):

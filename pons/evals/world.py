@@ -115,12 +115,22 @@ def _walk_parts(trace: _Walk, step: Step | ClockTime) -> bool:
 
 
 def _act(trace: _Walk, kind: str, fields: dict[str, Any]) -> None:
+    if kind == "recall":
+        trace.act(kind, _asked(fields))
+        return
     said = ("object", "text", "question", "word", "time", "after", "before")
     what = next((fields[name] for name in said if fields.get(name)), "")
     number = fields.get("seconds", fields.get("angle_rad", fields.get("distance_m")))
     trace.act(kind, what, number)
     if kind in ("turn", "move", "follow", "go_to_object", "go_to_point", "explore"):
         trace.here = SOMEWHERE
+
+
+def _asked(fields: dict[str, Any]) -> str:
+    """Return what memory is asked, as a suite writes it: thing, ``@`` where, ``%`` when."""
+    place, span = fields.get("place"), fields.get("span")
+    parts = (fields.get("object"), place and f"@{place}", span and f"%{span}")
+    return " ".join(part for part in parts if part)
 
 
 def site_world(folder: Path, room: str | None = None) -> EvalWorld:

@@ -17,7 +17,7 @@ from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
 from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
-from planner.language.grammar.compound import read_compound
+from planner.language.grammar.compound import PartReaders, read_compound
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
@@ -56,6 +56,7 @@ from planner.plan import (
     Language,
     Option,
     Patrol,
+    Recall,
     Refuse,
     Repeat,
     Step,
@@ -146,12 +147,18 @@ def _read_compound(
         return None
     part_of = context.model_copy(update={"moved": True})
 
-    def read(part: str) -> tuple[Step, ...] | None:
+    def read_steps(part: str) -> tuple[Step, ...] | None:
         made = _read_once(part, sentence, vocabulary, part_of, offers=False)
         return made.steps if isinstance(made, StepPlan) else None
 
-    forms = CHINESE_COMPOUND if has_chinese(said) else ENGLISH_COMPOUND
-    made = read_compound(said.strip(" ,.!?;。"), forms, read)
+    def read_memory(question: str) -> Recall | None:
+        asked = read_recall(question, vocabulary, context.room)
+        return asked.step if asked is not None and "recall" in context.runnable else None
+
+    tongue = Language.ZH if has_chinese(said) else Language.EN
+    readers = PartReaders(read_steps, read_memory, lambda place: vocabulary.name(place).of(tongue))
+    forms = CHINESE_COMPOUND if tongue is Language.ZH else ENGLISH_COMPOUND
+    made = read_compound(said.strip(" ,.!?;。"), forms, readers)
     lacks = made is None or check_plan(made, vocabulary, context.runnable, context.blind)
     return None if lacks else made
 
