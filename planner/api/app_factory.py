@@ -18,6 +18,7 @@ from planner.api import (
     objects,
     operator,
     orders,
+    pictures,
     places,
     problems,
     robot,
@@ -41,7 +42,8 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, voice, operator, setup, robot, orders, places, localization, objects, memory, camera,
+    goals, voice, operator, setup, robot, orders, places, localization, objects, memory, pictures,
+    camera,
     fence, usage,
     health, websocket,
 )  # fmt: skip

@@ -170,4 +170,5 @@ def _describe_field(name: str, shape: dict[str, Any]) -> str:
         return '"…"'
     shape = shape if "type" in shape else shape["anyOf"][0]
     low = shape.get("minimum", shape.get("exclusiveMinimum"))
-    return f"{low:g} to {shape['maximum']:g}"
+    low, high = (int(100.0 * bound) / 100.0 for bound in (low, shape["maximum"]))  # within both
+    return f"{low:g} to {high:g}"

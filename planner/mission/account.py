@@ -80,7 +80,8 @@ def place_name(facts: SiteView, mission: Mission, step: StepRecord | None) -> Bi
 def _place(mission: Mission, step: StepRecord) -> str:
     """Return the place that a step is at: of a patrol the one whose turn it is, or the last."""
     if step.places:
-        visited = len(step.places) if step.state is StepState.SUCCEEDED else mission.part
+        done = len(step.stops) if step.look else mission.part
+        visited = len(step.places) if step.state is StepState.SUCCEEDED else done
         return step.places[min(visited, len(step.places) - 1)]
     return step.place or ""
 
@@ -142,7 +143,10 @@ def _tell_arrivals(names: Sequence[Bilingual]) -> Bilingual:
 
 def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
     """Yield what came of one step; nothing of one that was not begun."""
-    if step.visited and step.places:
+    if step.stops:
+        if step.state is not StepState.SUCCEEDED:  # its own report has them all
+            yield from (stop.said for stop in step.stops)
+    elif step.visited and step.places:
         names = [_name(facts, place) for place in step.places[: step.visited]]
         yield say("account.visited", names=list_names(names))
     if step.answer is not None:

@@ -122,6 +122,18 @@ class KeepPicture:
 
 
 @dataclass(frozen=True, slots=True)
+class SavePicture:
+    """Keep the picture that a gaze at a patrol's stop has ended with, for people to look at."""
+
+    id: str
+    step: int
+    stop: int
+    place: str
+    seq: int
+    """As the camera numbers it: any other picture shows something else."""
+
+
+@dataclass(frozen=True, slots=True)
 class Journal:
     """Write these records in one transaction; answer with ``Journalled(entry)``."""
 
@@ -153,6 +165,7 @@ Effect = (
     | AskEyes
     | AskMemory
     | KeepPicture
+    | SavePicture
     | Journal
     | SayAloud
     | GoalChange

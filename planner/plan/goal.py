@@ -75,6 +75,14 @@ class Found(Frozen):
     age_s: float | None = None
 
 
+class StopReport(Frozen):
+    """Show what a patrol saw at one of its stops, or that there was no way to it."""
+
+    place: str
+    said: Bilingual
+    shut: bool = False
+
+
 class StepRecord(Frozen):
     """Show one step: its request, its state, its result and why not."""
 
@@ -95,6 +103,8 @@ class StepRecord(Frozen):
     moved_m: float | None = None  # by odometry, along the heading at the beginning of a move
     turned_rad: float | None = None  # by odometry, counter-clockwise positive
     visited: int | None = None  # places of a patrol reached so far
+    look: bool = False  # a patrol looks round at each of them
+    stops: tuple[StopReport, ...] = ()  # what came of each that is over
     x: int | None = None  # a point of the picture, 0 to 1000 from its left
     y: int | None = None  # and from its top
     found: Found | None = None  # what a step that looks has found

@@ -44,7 +44,7 @@ class ReturnHome(Frozen):
 
 
 class Wait(Frozen):
-    """Stand still for a while [s]."""
+    """Stand still [s]."""
 
     kind: Literal["wait"] = "wait"
     seconds: float = Field(gt=0.0, le=600.0)
@@ -58,14 +58,14 @@ class Say(Frozen):
 
 
 class Ask(Frozen):
-    """Ask the person and wait for the answer."""
+    """Ask the person; wait for the answer."""
 
     kind: Literal["ask"] = "ask"
     question: Words
 
 
 class Decide(Frozen):
-    """Think again with what was seen and heard."""
+    """Think again with what came so far."""
 
     kind: Literal["decide"] = "decide"
     question: Words
@@ -86,10 +86,11 @@ class MoveStraight(Frozen):
 
 
 class Patrol(Frozen):
-    """Drive to places in turn, not looking."""
+    """Drive to places in turn; look: look round at each."""
 
     kind: Literal["patrol"] = "patrol"
     places: Annotated[tuple[PlaceId, ...], Field(min_length=1, max_length=20)]
+    look: bool = False
 
 
 class Explore(Frozen):
@@ -115,7 +116,7 @@ class GoToPoint(Frozen):
 
 
 class Find(Frozen):
-    """Look for an object or a person."""
+    """Search an object or a person."""
 
     kind: Literal["find"] = "find"
     object: Label
@@ -215,7 +216,7 @@ class Repeat(Frozen):
 
 
 class WaitFor(Frozen):
-    """Stand until one of these is there."""
+    """Stand until one of them is there."""
 
     kind: Literal["wait_for"] = "wait_for"
     object: Label | None = None

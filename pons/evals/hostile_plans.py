@@ -113,6 +113,8 @@ def _step(act: Act) -> Step:
         if what == START:
             return ComeBack()
         return ReturnHome() if what == HOME else GoTo(place=what)
+    if act.kind == "watch":
+        return Patrol(places=(act.where or START,), look=True)
     if act.kind in _SEEN:
         fields = {"kind": act.kind, "object": what or "person"}
         where = {"place": act.where} if act.kind != "follow" else {}

@@ -19,10 +19,12 @@ from pons.evals.world import HOME, START, EvalEvent, walk
 
 Made = StepPlan | AnswerPlan | Clarify | Refuse
 CLOSE = 0.02
+_FREE = frozenset({"say", "watch"})
+"""May be done without being expected: words, and a look at a patrol's stop."""
 _STILL = frozenset({"clarify", "refuse", "still", "answer"})
 _KINDS = frozenset(
     {"go", "back", "home", "wait", "say", "ask", "turn", "move", "find", "count", "look"}
-    | {"follow", "decide", "approach", "recall", "waitfor", "clock"}
+    | {"follow", "decide", "approach", "recall", "waitfor", "clock", "watch"}
     | {"if", "then", "else", "try", "failing", "repeat", "until", "end"}
 )
 
@@ -137,6 +139,8 @@ def _act(text: str) -> Act:
         return Act(kind, (plain(" ".join(rest)),) if rest else (), optional=optional)
     where = next((word[1:] for word in rest if word.startswith("@")), None)
     words = " ".join(word for word in rest if not word.startswith("@"))
+    if kind == "watch":
+        return Act(kind, where=words, optional=optional)
     if kind in ("go", "back", "home"):
         places = {"back": START, "home": HOME}.get(kind, words)
         return Act("at", tuple(places.split("/")), optional=optional)
@@ -150,7 +154,7 @@ def _act(text: str) -> Act:
 def _follows(trace: tuple[EvalEvent, ...], items: tuple[Item, ...], here: str = START) -> bool:
     """Tell whether a trace does these things in order and nothing else but talk."""
     if not items:
-        return all(event.kind == "say" for event in trace)
+        return all(event.kind in _FREE for event in trace)
     head, rest = items[0], items[1:]
     if isinstance(head, tuple):
         return any(_follows(trace, (*order, *rest), here) for order in permutations(head))
@@ -165,4 +169,4 @@ def _follows(trace: tuple[EvalEvent, ...], items: tuple[Item, ...], here: str = 
         return True
     if event.kind == "at" and head.where == event.what:  # the way to where it is to be done
         return _follows(after, items, event.where)
-    return event.kind == "say" and _follows(after, items, here)
+    return event.kind in _FREE and _follows(after, items, here)

@@ -79,6 +79,8 @@ def _walk(trace: _Walk, steps: Sequence[Step | ClockTime]) -> None:
             continue
         for place in places_of(step) if step.kind not in STANDS else ():
             trace.arrive(place)
+            if isinstance(step, Patrol) and step.look:
+                trace.act("watch")
         if step.kind not in ("go_to", Patrol.model_fields["kind"].default):
             _act(trace, step.kind, step.model_dump())
 

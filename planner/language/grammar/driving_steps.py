@@ -93,7 +93,7 @@ def next_place(found: Match[str], reading: Reading) -> Meaning | None:
     if reading.going and isinstance(meaning, Steps):
         goals = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
         patrols = reading.scene.kind == "patrol" and goals
-        return Steps((Patrol(places=goals),)) if patrols else meaning
+        return Steps((Patrol(places=goals, look=reading.scene.toured),)) if patrols else meaning
     named = reading.going and phrase.startswith(("the ", "my ", "our "))
     return meaning if named else None
 
@@ -185,7 +185,15 @@ def patrol(found: Match[str], reading: Reading) -> Meaning:
         return meaning
     places = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
     often = times(found["times"]) if found.groupdict().get("times") else 1
-    return Steps((Patrol(places=places * often),))
+    return Steps((Patrol(places=places * often, look=_watches(found)),), seen=_watches(found))
+
+
+_WATCHES = re.compile(r"\b(?:patrol|rounds?|check|inspect)\b|巡|检查|看看")
+
+
+def _watches(found: Match[str]) -> bool:
+    """Tell whether a round is one to look: "patrol", and not "visit" or "drive through"."""
+    return _WATCHES.search(found[0]) is not None
 
 
 def patrol_all(found: Match[str], reading: Reading) -> Meaning:
@@ -193,7 +201,12 @@ def patrol_all(found: Match[str], reading: Reading) -> Meaning:
     rooms = tuple(entry.id for entry in reading.vocabulary.entries if entry.kind == "room")
     if not rooms:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-    return Steps((Patrol(places=rooms[:20]),))
+    return Steps((Patrol(places=rooms[:20], look=_watches(found)),), seen=_watches(found))
+
+
+def at_stops(_found: Match[str], reading: Reading) -> Meaning | None:
+    """Read "look at every stop", "tell me what you saw" behind a round that looks by itself."""
+    return Steps((), seen=True) if reading.scene.toured else None
 
 
 def in_all(found: Match[str], reading: Reading) -> Meaning | None:

@@ -228,6 +228,8 @@ def _limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> 
         if all(step.kind in runnable for step in offered):
             return replace(meaning, before=can)
         return ClauseProblem(blind, meaning.part, before=can)
+    if isinstance(meaning, Steps) and "count" not in runnable:  # nothing to look with
+        meaning = replace(meaning, steps=tuple(map(_without_look, meaning.steps)))
     lacks = (
         [s for s in meaning.steps if s.kind not in runnable] if isinstance(meaning, Steps) else []
     )
@@ -238,6 +240,10 @@ def _limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> 
     can = tuple(s for s in meaning.steps if isinstance(s, GoTo))
     can = (*can, *(GoTo(place=place) for place in patrolled))
     return ClauseProblem(code, meaning.part, before=can)
+
+
+def _without_look(step: Step) -> Step:
+    return step.model_copy(update={"look": False}) if isinstance(step, Patrol) else step
 
 
 def _apply_vetoes(

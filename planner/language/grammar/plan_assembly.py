@@ -136,7 +136,8 @@ def _join_patrols(steps: Sequence[Step]) -> tuple[Step, ...]:
     for step in steps:
         before = joined[-1] if joined else None
         if isinstance(step, Patrol) and isinstance(before, Patrol) and before.places != step.places:
-            joined[-1] = Patrol(places=(*before.places, *step.places)[:MAX_STEPS])
+            places = (*before.places, *step.places)[:MAX_STEPS]
+            joined[-1] = Patrol(places=places, look=before.look or step.look)
         else:
             joined.append(step)
     return tuple(joined)

@@ -27,6 +27,7 @@ from planner.plan import (
     Code,
     Count,
     Look,
+    Patrol,
     Refuse,
     Repeat,
     Step,
@@ -84,6 +85,7 @@ _SEES_ROUND = re.compile(
     r"\b(?:look\w*|see|seen|watch|check\w*|inspect\w*|around|there|describe)\b|\bany(?:one|body)\b"
     r"|[看瞧]|环顾|周围|四周|附近|有没有|有什么|有谁"
 )
+_WATCHES = re.compile(rf"{_ROUNDS.pattern}|{_SEES.pattern}")
 _NEARS = re.compile(
     r"\b(?:go|goes|approach|up to|walk|drive|come|near|next to|closer|meet|greet|tell|ask|say|bring"
     r"|guide|lead|take|deliver|move|head|to|follow|join|visit|reach|welcome|introduce)\b"
@@ -246,6 +248,8 @@ class _Judge:
         if isinstance(step, Look):
             looks = _SEES if step.place is not None else _SEES_ROUND
             return "" if looks.search(said) else "no word of looking"
+        if isinstance(step, Patrol) and step.look and not _WATCHES.search(said):
+            return "no word of looking on the way"
         label = getattr(step, "object", None)
         if label is None:
             return unnamed_part(step, said)
@@ -328,4 +332,5 @@ def _key(step: Step | ClockTime) -> object:
         label.casefold() if label is not None else None,
         round(angle, 1) if angle is not None else None,
         round(far, 2) if far is not None else None,
+        getattr(step, "look", False),
     )

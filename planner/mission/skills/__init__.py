@@ -30,7 +30,7 @@ from planner.mission.skills.ask import ask
 from planner.mission.skills.conditions import clock, judge_condition
 from planner.mission.skills.count import count
 from planner.mission.skills.decide import decide
-from planner.mission.skills.drive_to_place import come_back, go_to, patrol, return_home
+from planner.mission.skills.drive_to_place import come_back, go_to, return_home
 from planner.mission.skills.explore import explore
 from planner.mission.skills.find import find
 from planner.mission.skills.follow import follow
@@ -38,6 +38,7 @@ from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.go_to_point import go_to_point
 from planner.mission.skills.look import look
 from planner.mission.skills.move import move, no_room
+from planner.mission.skills.patrol import patrol
 from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
 from planner.mission.skills.recall import recall
 from planner.mission.skills.say import say

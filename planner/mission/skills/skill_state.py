@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field
 
-from planner.plan import Frozen
+from planner.plan import Frozen, StopReport
 
 Point3 = tuple[float, float, float]
 """x, y, height [m] in ``map``."""
@@ -240,6 +240,16 @@ class AskState(SkillStateBase):
     """An answer that was neither yes nor no, after which was asked once more."""
 
 
+class PatrolState(RoomTourState):
+    """Remember the stops of a patrol that are over, and the look at the one where it stands."""
+
+    kind: Literal["patrol"] = "patrol"
+    stops: tuple[StopReport, ...] = ()
+    """In their order: looked round at, or passed over."""
+    arrived_s: float | None = None
+    """Since when it stands at the next one, in time spent on the step; None: it drives there."""
+
+
 class WaitForState(SkillStateBase):
     """Remember until when is waited, and that a word was asked for."""
 
@@ -259,6 +269,7 @@ SkillState = Annotated[
     | GoToObjectState
     | GoToPointState
     | LookState
+    | PatrolState
     | WaitForState,
     Field(discriminator="kind"),
 ]
@@ -272,6 +283,7 @@ STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
         "go_to_object": GoToObjectState,
         "go_to_point": GoToPointState,
         "look": LookState,
+        "patrol": PatrolState,
         "wait_for": WaitForState,
     }
 )

@@ -244,12 +244,13 @@ def test_a_memory_that_cannot_be_read_takes_neither_branch() -> None:
 
 def test_rounds_end_once_it_is_remembered() -> None:
     world = Lockstep()
-    rounds = Repeat(times=3, steps=(Say(text="round"),), until=Recall(object="cup"))
+    rounds = Repeat(times=3, steps=(Say(text="round"),), until=Recall(object="cup", span="today"))
     goal = world.give(StepPlan(steps=(rounds,)))
     for code in (Code.NOT_REMEMBERED, Code.MEMORY_UNAVAILABLE, Code.RECALLED):
         _answer(world, goal, code, "so")
     assert world.goal(goal).state is SUCCEEDED
     assert world.said == ["round"] * 3
+    assert world.goal(goal).steps[-1].span == "today", "each round asks the same"
 
 
 def test_a_planner_killed_while_memory_is_asked_asks_anew() -> None:

@@ -162,7 +162,11 @@ export type Step = {
   readonly time: string | null;
   readonly after: string | null;
   readonly before: string | null;
+  readonly stops?: readonly Stop[]; // of a patrol that looks: what came of each that is over
 };
+
+/** What a patrol saw at one of its stops. */
+export type Stop = { readonly place: string; readonly said: Bilingual; readonly shut: boolean };
 
 export type Option = { readonly label: Bilingual; readonly text: string };
 
@@ -457,6 +461,16 @@ export type Memory = {
   readonly first_unix_s: number;
   readonly last_unix_s: number;
   readonly fits: boolean;
+};
+
+/** A picture that a patrol kept of one of its stops. */
+export type KeptPicture = {
+  readonly id: number;
+  readonly goal: string;
+  readonly step: number;
+  readonly stop: number;
+  readonly place: string;
+  readonly names: readonly Bilingual[];
 };
 
 export type Memories = { readonly memories: readonly Memory[] };

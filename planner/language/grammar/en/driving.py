@@ -6,6 +6,7 @@ from re import Match
 
 from planner.language.grammar.clauses import QUOTE
 from planner.language.grammar.driving_steps import (
+    at_stops,
     come_back,
     drive_into,
     drive_to,
@@ -197,6 +198,15 @@ RULES: tuple[Rule, ...] = (
     rule(
         rf"(?:map|{_DRAW} of) {_WHOLE} {_ALONE}|{_DRAW} {_ALONE}",
         map_alone,
+    ),
+    rule(
+        r"(?:(?:have|take) a (?:good )?(?:look|picture|photo)|look|take (?:pictures|photos))"
+        r"(?: a?round)? (?:at|in|of) (?:every|each)(?: single)?"
+        r"(?: (?:stop|room|place|one|of them))?"
+        r"|(?:tell (?:me|us)|report(?: to (?:me|us))?)(?: back)?(?: (?:at|in) the end)?"
+        r" what (?:all )?you (?:saw|see|found|find|noticed|notice)"
+        r"(?: where| there| on the way| at (?:every|each)(?: (?:stop|room|place))?)?",
+        at_stops,
     ),
     rule(
         r"(?:patrol|wander|roam|explore|cruise|make (?:a|your) rounds?)\b[^\ue000-\ue7ff]*",

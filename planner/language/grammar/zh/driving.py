@@ -6,6 +6,7 @@ from re import Match
 
 from planner.language.grammar.clauses import QUOTE
 from planner.language.grammar.driving_steps import (
+    at_stops,
     come_back,
     drive_to,
     home,
@@ -159,7 +160,16 @@ RULES: tuple[Rule, ...] = (
         r"|全屋巡逻|巡逻全屋",
         patrol_all,
     ),
+    rule(rf"把{ALL_ROOMS}(?:都|挨个)?(?:巡逻|巡检|巡视|巡查|检查)(?:一下|一遍|一圈)?", patrol_all),
     rule(rf"在?{ALL_ROOMS}", in_all),
+    rule(
+        rf"(?:在|到)?(?:{ALL_ROOMS}|每到一?(?:处|个地方|站)|每一?站)?(?:都)?"
+        r"(?:停下来)?(?:看看|看一下|看一看|瞧瞧|拍个?照片?|拍一?张照片?)"
+        r"|(?:回来)?(?:告诉我|向我报告|报告|汇报|跟我说)(?:一下)?(?:你)?(?:在哪里?)?(?:都)?"
+        r"(?:看到|看见|发现|见到)了?(?:些)?(?:什么|啥)(?:东西)?",
+        at_stops,
+    ),
+    rule(rf"在?{ALL_ROOMS}", at_stops),
     rule(
         rf"(?:自己|自动|自主)?(?:去|来|开始|继续)?(?:探索|探查|勘探)(?:一下|一遍|下)?{_WHOLE}?"
         r"|(?:自己|自动|自主)(?:去|来|开始|继续)?(?:把)?(?:地图)?"
