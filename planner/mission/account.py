@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from planner.site.site_view import SiteView
 
 DRIVEN = frozenset({"go_to", "return_home", "come_back"})
-MOTION = DRIVEN | {"turn", "move", "patrol", "explore"}
+MOTION = DRIVEN | {"stand_at", "turn", "move", "patrol", "explore"}
 BACK = frozenset({"come_back", "return_home"})
 _OVER = frozenset({StepState.SUCCEEDED, StepState.FAILED})
 _IDLE = frozenset({StepState.PENDING, StepState.SKIPPED})
@@ -234,15 +234,16 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
             return say("account.recalling")
         case "wait" | "wait_for":
             return _name_wait(step)
-        case "turn":
-            put = angle(step.angle_rad or 0.0)
-            return say("account.turning", put=put)
-        case "move":
-            put = metres(step.distance_m or 0.0)
-            return say("account.driving", put=put)
+        case "turn" | "move":
+            turns = step.kind == "turn"
+            put = angle(step.angle_rad or 0.0) if turns else metres(step.distance_m or 0.0)
+            return say("account.turning" if turns else "account.driving", put=put)
         case "patrol":
             names = [_name(facts, place) for place in step.places[step.visited or 0 :]]
             return say("account.visiting", names=list_names(names))
+        case "stand_at":
+            name = _name(facts, step.place) if step.place else say_same(text)
+            return say("account.standing", side=say(f"stand.side_{step.side}", name=name))
         case "go_to_point":
             return say("account.going_to_point")
         case "explore":

@@ -12,7 +12,7 @@ from pydantic import AwareDatetime, Field
 from planner.plan.base import Bilingual, Frozen, Language
 from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
-from planner.plan.steps import ClockTime, Span, Step
+from planner.plan.steps import ClockTime, Side, Span, Step
 from planner.plan.tree import StepNode, StepRole, list_nodes
 
 
@@ -126,6 +126,7 @@ class StepRecord(Frozen):
     began_unix_s: float | None = None  # of a repeat: when its first round began
     holds: bool | None = None  # of a condition: what it came to; None: not asked, or can't be told
     earlier: tuple[Bilingual, ...] = ()  # of a repeat: what its rounds before this one came to
+    side: Side | None = None  # of the place or thing, at which to stand
     word: str | None = None  # that is waited for
     time: str | None = None  # HH:MM that is waited for
     after: str | None = None  # HH:MM

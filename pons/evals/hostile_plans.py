@@ -29,6 +29,7 @@ from planner.plan import (
     Repeat,
     ReturnHome,
     Say,
+    StandAt,
     Step,
     StepPlan,
     Turn,
@@ -113,6 +114,10 @@ def _step(act: Act) -> Step:
         if what == START:
             return ComeBack()
         return ReturnHome() if what == HOME else GoTo(place=what)
+    if act.kind == "stand_at":
+        side, _, thing = what.partition(" ")
+        fields = {"side": side, "place": act.where, "object": thing or None}
+        return StandAt.model_validate({**fields, "distance_m": act.number})
     if act.kind == "watch":
         return Patrol(places=(act.where or START,), look=True)
     if act.kind in _SEEN:
@@ -226,6 +231,14 @@ def _change_step(step: Step, world: EvalWorld) -> Iterator[tuple[str, Step]]:
     elif isinstance(step, MoveStraight):
         yield "the other way", MoveStraight(distance_m=-step.distance_m)
         yield "too far", MoveStraight(distance_m=max(-10.0, min(10.0, 3 * step.distance_m)))
+    elif isinstance(step, StandAt):
+        side = "behind" if step.side != "behind" else "before"
+        yield "the other side", step.model_copy(update={"side": side})
+        far_m = min(5.0, 3.0 * step.distance_m) if step.distance_m else 4.0
+        yield "too far", step.model_copy(update={"distance_m": far_m})
+        if step.place is not None:
+            other = places[(places.index(step.place) + 3) % len(places)]
+            yield "elsewhere", step.model_copy(update={"place": other})
     elif isinstance(step, If | Attempt | Repeat):
         yield from _change_parts(step, world)
     elif step.kind in _SEEN:

@@ -24,7 +24,7 @@ _FREE = frozenset({"say", "watch"})
 _STILL = frozenset({"clarify", "refuse", "still", "answer"})
 _KINDS = frozenset(
     {"go", "back", "home", "wait", "say", "ask", "turn", "move", "find", "count", "look"}
-    | {"follow", "decide", "approach", "recall", "waitfor", "clock", "watch"}
+    | {"follow", "decide", "approach", "recall", "waitfor", "clock", "watch", "stand"}
     | {"if", "then", "else", "try", "failing", "repeat", "until", "end"}
 )
 
@@ -139,6 +139,10 @@ def _act(text: str) -> Act:
         return Act(kind, (plain(" ".join(rest)),) if rest else (), optional=optional)
     where = next((word[1:] for word in rest if word.startswith("@")), None)
     words = " ".join(word for word in rest if not word.startswith("@"))
+    if kind == "stand":  # side, thing, @place and metres
+        number = next((float(word) for word in words.split() if word[0].isdigit()), None)
+        said = " ".join(word for word in words.split() if not word[0].isdigit())
+        return Act("stand_at", (plain(said),), where, number, optional)
     if kind == "watch":
         return Act(kind, where=words, optional=optional)
     if kind in ("go", "back", "home"):

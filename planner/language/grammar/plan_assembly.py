@@ -40,6 +40,7 @@ from planner.plan import (
     Refuse,
     ReturnHome,
     Say,
+    StandAt,
     Step,
     StepPlan,
     Turn,
@@ -284,6 +285,10 @@ def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingua
         case GoTo():
             name = name_of(step.place)
             return say("order.go_to", name=name)
+        case StandAt(place=str(place)):
+            side = say(f"stand.side_{step.side}", name=name_of(place))
+            far = "" if step.distance_m is None else f"{step.distance_m:g}"
+            return say("order.stand_far" if far else "order.stand", side=side, far=far)
         case ComeBack() | ReturnHome() | Explore():
             return say(_ORDERS[step.kind])
         case Wait():

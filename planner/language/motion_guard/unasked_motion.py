@@ -30,6 +30,7 @@ from planner.plan import (
     Patrol,
     Refuse,
     Repeat,
+    StandAt,
     Step,
     StepNode,
     StepPlan,
@@ -251,7 +252,7 @@ class _Judge:
         if isinstance(step, Patrol) and step.look and not _WATCHES.search(said):
             return "no word of looking on the way"
         label = getattr(step, "object", None)
-        if label is None:
+        if label is None or isinstance(step, StandAt):
             return unnamed_part(step, said)
         things = _GAP.join(scope.things for scope in self._scopes)
         if not thing_named(label, things):
@@ -333,4 +334,5 @@ def _key(step: Step | ClockTime) -> object:
         round(angle, 1) if angle is not None else None,
         round(far, 2) if far is not None else None,
         getattr(step, "look", False),
+        getattr(step, "side", None),
     )

@@ -43,6 +43,7 @@ from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, Wa
 from planner.mission.skills.recall import recall
 from planner.mission.skills.say import say
 from planner.mission.skills.skill_state import STATES, SkillState, SkillStateBase, begin_state
+from planner.mission.skills.stand_at import stand_at
 from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
 from planner.mission.skills.wait_for import wait_for
@@ -51,6 +52,7 @@ from planner.plan import Code, say_same
 SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProxyType(
     {
         "go_to": go_to,
+        "stand_at": stand_at,
         "come_back": come_back,
         "return_home": return_home,
         "turn": turn,

@@ -158,6 +158,7 @@ export type Step = {
   readonly times: number | null; // rounds of a repeat, at most
   readonly round: number; // which of them runs, or was the last
   readonly holds: boolean | null; // of a condition: what it came to
+  readonly side?: string | null; // of a place or thing, at which to stand
   readonly word: string | null;
   readonly time: string | null;
   readonly after: string | null;

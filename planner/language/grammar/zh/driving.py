@@ -19,6 +19,7 @@ from planner.language.grammar.driving_steps import (
     say,
     set_out,
     stand,
+    stand_at,
     turn,
     turn_and_move,
     wait,
@@ -77,6 +78,13 @@ _WHOLE = (
 )
 
 
+_HALT = r"停下来?|停住|停|站着|站住|等着|等我"
+_PLACE_SELF = r"(?:停在|站在|站到|停到|停靠在|待在|等在)"
+_STAND = r"(?:停|站|待|等|开|走|去|移动)"
+_WHAT = rf"(?:{MARK}的)?(?:{MARK}|[^,。\ue000-\ue8ff]{{1,10}}?)"
+_SIDE_OF = r"的?(?:正?前面|正?前方|跟前|对面|旁边?|边上|后面|背后|后方|前)"
+
+
 def _greet(_found: Match[str], _reading: Reading) -> Meaning:
     return Steps((Say(text="你好"),))
 
@@ -122,6 +130,26 @@ RULES: tuple[Rule, ...] = (
     rule(
         r"(?:在?(?:这里|这儿|那里|那儿))?(?:等一下|等一等|等等|等一会儿?|稍等|等我|等着|等待|等)",
         _how_long,
+    ),
+    rule(
+        rf"{_STAND}(?:在|到)?(?P<place>{_WHAT})(?P<side>{_SIDE_OF})(?:的地方|处)?"
+        rf"(?:大约|大概|约)?{ZH_LENGTH}(?:的地方|处|远)?(?:{_HALT})?",
+        stand_at,
+    ),
+    rule(
+        rf"{_STAND}(?:在|到)?(?P<side>离|距离?)(?P<place>{_WHAT}?)(?:大约|大概|约|还有)?{ZH_LENGTH}"
+        rf"(?:的地方|处|远)?(?:{_HALT})?",
+        stand_at,
+    ),
+    rule(rf"{_PLACE_SELF}(?P<place>{_WHAT})(?P<side>{_SIDE_OF}|旁边?|边上)(?:{_HALT})?", stand_at),
+    rule(
+        rf"(?:去|到|开到|走到|移动到)(?P<place>{_WHAT})(?P<side>的?(?:正?前面|正?前方|跟前|后面|背后))"
+        rf"(?:去)?(?:{_HALT})?",
+        stand_at,
+    ),
+    rule(
+        rf"(?:转身|转过去|转)?(?P<side>面向|面对着?|朝向|正对着?|对着|转向|转过去对着)(?P<place>{_WHAT})",
+        stand_at,
     ),
     rule(rf"离开{MARK}(?:里)?", _leave),
     rule(rf"{GO}完(?P<place>{MARK})(?:以后|之后|后)?", drive_to),
