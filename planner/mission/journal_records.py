@@ -111,8 +111,10 @@ def read_mission(record: str) -> Mission:
 def _read_notes(kind: str, notes: _Notes) -> dict[str, Any] | None:
     """Return the fields of a skill's state; None where it remembered nothing yet, or never does."""
     variant = STATES.get(kind)
-    if variant is None or kind in _REMEMBERED_NOTHING or notes == _Notes():
+    if variant is None or notes == _Notes():
         return None
+    if kind in _REMEMBERED_NOTHING:
+        return {"kind": kind}
     same = variant.model_fields.keys() & type(notes).model_fields.keys() - {"stage"}
     state = {"kind": kind, **{name: getattr(notes, name) for name in same}}
     match kind:
