@@ -263,6 +263,10 @@ def _change_parts(step: If | Attempt | Repeat, world: EvalWorld) -> Iterator[tup
                 changed = (*held[:index], other, *held[index + 1 :])
                 yield f"{what} in {name}", step.model_copy(update={name: changed})
     if isinstance(step, If):
+        asked = getattr(step.when, "place", None)
+        for name in ("then", "otherwise") if asked is not None else ():
+            there = step.model_copy(update={name: (GoTo(place=asked),)})
+            yield f"where the condition asks in {name}", there
         hung = Repeat(times=10, steps=(step, GoTo(place=places[0]), GoTo(place=places[1])))
         yield "again and again", hung
 
