@@ -52,7 +52,7 @@ _NO_CAMERA = (
 )
 _CAMERA = (
     "The robot drives, looks and talks. It has no arm: refuse fetching, opening and carrying with "
-    "no_capability. Whoever or whatever is to be found is found by a step before it is gone to."
+    "no_capability. Find who or what is gone to by a step before."
 )
 _BLIND = (_NO_CAMERA, _NO_DETECTOR)
 

@@ -167,7 +167,8 @@ def _describe_field(name: str, shape: dict[str, Any]) -> str:
     if _type(shape) == "boolean":
         return "true"
     if _type(shape) == "string":
-        return '"…"'
+        return f'"{"|".join(_choices(shape))}"' if name == "side" else '"…"'
     shape = shape if "type" in shape else shape["anyOf"][0]
     low = shape.get("minimum", shape.get("exclusiveMinimum"))
-    return f"{low:g} to {shape['maximum']:g}"
+    low, high = (int(100.0 * bound) / 100.0 for bound in (low, shape["maximum"]))  # within both
+    return f"{low:g} to {high:g}"

@@ -6,12 +6,14 @@ a model wrote, or read in a picture, never does.
 
 from planner.memory.fact_check import MAX_FACT, FactRefusal, clean_fact
 from planner.memory.index_terms import index_text, match_query
+from planner.memory.pictures import MEDIA_TYPES, PictureStore
 from planner.memory.recollection import Recollection
 from planner.memory.records import (
     FACT,
     KINDS,
     PERSON,
     THING,
+    KeptPicture,
     Memo,
     MemoryLimits,
     MemoryQuery,
@@ -24,14 +26,17 @@ __all__ = [
     "FACT",
     "KINDS",
     "MAX_FACT",
+    "MEDIA_TYPES",
     "PERSON",
     "THING",
     "FactRefusal",
+    "KeptPicture",
     "Memo",
     "MemoryLimits",
     "MemoryQuery",
     "MemoryStore",
     "ObjectSighting",
+    "PictureStore",
     "Recollection",
     "SightingRecorder",
     "clean_fact",

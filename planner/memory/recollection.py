@@ -17,7 +17,7 @@ from planner.memory.records import KINDS, THING, Memo, MemoryQuery
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Sequence
 
-    from planner.memory.records import ObjectSighting
+    from planner.memory.records import KeptPicture, ObjectSighting
     from planner.memory.store import MemoryStore
 
 T = TypeVar("T")
@@ -195,6 +195,42 @@ class Recollection:
         if self._before is not None:
             await self._before()
         self.changes += len(await self._do(lambda: self._store.forget_things(thing_ids)))
+
+    async def keep_picture(self, picture: KeptPicture, data: bytes) -> None:
+        """Keep what a patrol saw at a stop; a disk that refuses is logged."""
+        taken = replace(picture, taken_unix_s=self._wall())
+        try:
+            kept = await self._run(lambda: self._store.pictures.keep(taken, data))
+        except OSError as error:
+            log.warning("memory_unwritable: %s; a picture is not kept", error.strerror)
+            return
+        self.changes += kept
+
+    async def list_pictures(self, goal: str | None = None) -> tuple[KeptPicture, ...]:
+        """Return the pictures that are kept, of one goal or of all, the newest patrol first.
+
+        Raises:
+            FactRefusal: ``memory_unavailable``.
+        """
+        return await self._do(lambda: self._store.pictures.list(self._wall(), goal))
+
+    async def picture(self, picture_id: int) -> tuple[KeptPicture, bytes] | None:
+        """Return one picture with its bytes, or None.
+
+        Raises:
+            FactRefusal: ``memory_unavailable``.
+        """
+        return await self._do(lambda: self._store.pictures.get(picture_id, self._wall()))
+
+    async def forget_picture(self, picture_id: int) -> bool:
+        """Forget one picture; return whether there was one.
+
+        Raises:
+            FactRefusal: ``memory_unavailable``.
+        """
+        gone = await self._do(lambda: self._store.pictures.forget(picture_id))
+        self.changes += gone
+        return gone
 
     def _tell_memos(self, gone: tuple[Memo, ...]) -> None:
         if gone:

@@ -69,6 +69,25 @@ class Memo:
 
 
 @dataclass(frozen=True, slots=True)
+class KeptPicture:
+    """Hold what is known of one picture that a patrol took; its bytes are apart."""
+
+    goal: str
+    step: int
+    """Of the goal's plan, in the row of all its steps."""
+    stop: int
+    """Of the patrol, in its order."""
+    place: str
+    labels: tuple[str, ...]
+    """Kinds of the things that the detector found in it, one for each."""
+    media_type: str
+    taken_unix_s: float = 0.0
+    id: int = 0
+    size: int = 0
+    """Bytes."""
+
+
+@dataclass(frozen=True, slots=True)
 class MemoryQuery:
     """Ask for what is remembered. Empty: the newest of everything."""
 
@@ -91,6 +110,13 @@ class MemoryLimits:
     facts_days: float = 365.0
     most_sightings: int = 10_000
     most_facts: int = 500
+    most_pictures: int = 60
+    pictures_mb: float = 12.0
+
+    @property
+    def most_picture_bytes(self) -> int:
+        """Return what all pictures together may have."""
+        return int(self.pictures_mb * 1e6)
 
     def age_s(self, kind: str) -> float:
         """Return how old a memory of a kind may become [s]."""

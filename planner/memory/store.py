@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner.memory.fact_check import clean_fact, refuse_fact
 from planner.memory.index_terms import index_text, match_query
+from planner.memory.pictures import PictureStore
 from planner.memory.records import FACT, KINDS, PERSON, THING, Memo, MemoryLimits
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ class MemoryStore:
 
     def __init__(self, database: StateDatabase, limits: MemoryLimits | None = None) -> None:
         self._database, self.limits = database, limits or MemoryLimits()
+        self.pictures = PictureStore(database, self.limits)
 
     # In -----------------------------------------------------------------------------------------
 
@@ -182,6 +184,7 @@ class MemoryStore:
                 )
                 _compact(connection)
             self._database.compact()
+            self.pictures.forget_kinds(sorted({memo.label for memo in gone if memo.label}))
         return tuple(gone)
 
     def forget_about(self, words: str, kinds: tuple[str, ...] = KINDS) -> tuple[Memo, ...]:
@@ -223,6 +226,7 @@ class MemoryStore:
             gone = connection.execute(f"DELETE FROM memory WHERE kind IN ({marks})", kinds).rowcount
             _compact(connection)
         self._database.compact()
+        self.pictures.forget_all(kinds)
         return int(gone)
 
     def prune(self, now_unix_s: float) -> int:
@@ -231,6 +235,7 @@ class MemoryStore:
         Raises:
             StateUnavailable: the disk refuses.
         """
+        self.pictures.prune(now_unix_s)
         old = [(kind, now_unix_s - self.limits.age_s(kind)) for kind in KINDS]
         test = " OR ".join("(kind = ? AND NOT last_s > ?)" for _ in old)
         values = tuple(value for pair in old for value in pair)

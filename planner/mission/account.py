@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from planner.site.site_view import SiteView
 
 DRIVEN = frozenset({"go_to", "return_home", "come_back"})
-MOTION = DRIVEN | {"turn", "move", "patrol", "explore"}
+MOTION = DRIVEN | {"stand_at", "turn", "move", "patrol", "explore"}
 BACK = frozenset({"come_back", "return_home"})
 _OVER = frozenset({StepState.SUCCEEDED, StepState.FAILED})
 _IDLE = frozenset({StepState.PENDING, StepState.SKIPPED})
@@ -80,7 +80,8 @@ def place_name(facts: SiteView, mission: Mission, step: StepRecord | None) -> Bi
 def _place(mission: Mission, step: StepRecord) -> str:
     """Return the place that a step is at: of a patrol the one whose turn it is, or the last."""
     if step.places:
-        visited = len(step.places) if step.state is StepState.SUCCEEDED else mission.part
+        done = len(step.stops) if step.look else mission.part
+        visited = len(step.places) if step.state is StepState.SUCCEEDED else done
         return step.places[min(visited, len(step.places) - 1)]
     return step.place or ""
 
@@ -142,7 +143,10 @@ def _tell_arrivals(names: Sequence[Bilingual]) -> Bilingual:
 
 def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
     """Yield what came of one step; nothing of one that was not begun."""
-    if step.visited and step.places:
+    if step.stops:
+        if step.state is not StepState.SUCCEEDED:  # its own report has them all
+            yield from (stop.said for stop in step.stops)
+    elif step.visited and step.places:
         names = [_name(facts, place) for place in step.places[: step.visited]]
         yield say("account.visited", names=list_names(names))
     if step.answer is not None:
@@ -230,15 +234,16 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
             return say("account.recalling")
         case "wait" | "wait_for":
             return _name_wait(step)
-        case "turn":
-            put = angle(step.angle_rad or 0.0)
-            return say("account.turning", put=put)
-        case "move":
-            put = metres(step.distance_m or 0.0)
-            return say("account.driving", put=put)
+        case "turn" | "move":
+            turns = step.kind == "turn"
+            put = angle(step.angle_rad or 0.0) if turns else metres(step.distance_m or 0.0)
+            return say("account.turning" if turns else "account.driving", put=put)
         case "patrol":
             names = [_name(facts, place) for place in step.places[step.visited or 0 :]]
             return say("account.visiting", names=list_names(names))
+        case "stand_at":
+            name = _name(facts, step.place) if step.place else say_same(text)
+            return say("account.standing", side=say(f"stand.side_{step.side}", name=name))
         case "go_to_point":
             return say("account.going_to_point")
         case "explore":

@@ -44,7 +44,8 @@ def on_arrival(turn: Transaction) -> bool:
         "residual_rad": round(leg.residual_rad, 4) if driving.heading else None,
     }
     mission = note_step(turn, mission, **figures, **residuals)
-    if mission.steps[mission.step].kind == "patrol":
+    step = mission.steps[mission.step]
+    if step.kind == "patrol" and not step.look:
         mission = note_step(turn, mission, visited=mission.part)
     carry_out(turn, mission, act_of(scene_of(turn, mission)))
     return True

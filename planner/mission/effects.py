@@ -108,6 +108,8 @@ class AskMemory:
     place: str | None = None
     when: Span | None = None
     deeds: bool = False
+    witnessed: bool = False
+    """Only what was seen or done counts, and no words that were told: branches hang on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +119,18 @@ class KeepPicture:
     id: str
     number: int
     """Of the direction, in the order of gazing; 0 begins a new look."""
+    seq: int
+    """As the camera numbers it: any other picture shows something else."""
+
+
+@dataclass(frozen=True, slots=True)
+class SavePicture:
+    """Keep the picture that a gaze at a patrol's stop has ended with, for people to look at."""
+
+    id: str
+    step: int
+    stop: int
+    place: str
     seq: int
     """As the camera numbers it: any other picture shows something else."""
 
@@ -153,6 +167,7 @@ Effect = (
     | AskEyes
     | AskMemory
     | KeepPicture
+    | SavePicture
     | Journal
     | SayAloud
     | GoalChange

@@ -85,6 +85,10 @@ _STAGES: Mapping[str, Mapping[int, str]] = MappingProxyType(
 """The numbers of schema 1; any other stands for a beginning."""
 
 
+_REMEMBERED_NOTHING = frozenset({"patrol", "stand_at"})
+"""Kinds that remember something since schema 2 alone."""
+
+
 def read_mission(record: str) -> Mission:
     """Return a goal from its record.
 
@@ -109,6 +113,8 @@ def _read_notes(kind: str, notes: _Notes) -> dict[str, Any] | None:
     variant = STATES.get(kind)
     if variant is None or notes == _Notes():
         return None
+    if kind in _REMEMBERED_NOTHING:
+        return {"kind": kind}
     same = variant.model_fields.keys() & type(notes).model_fields.keys() - {"stage"}
     state = {"kind": kind, **{name: getattr(notes, name) for name in same}}
     match kind:

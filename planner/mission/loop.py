@@ -36,7 +36,7 @@ from planner.mission.event_hub import Hub
 from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
 from planner.mission.gc_control import Collector
 from planner.mission.journal_sync import Disk
-from planner.mission.perception_requests import EyeDoor, Spent
+from planner.mission.perception_requests import EyeDoor, KeepInAlbum, Spent
 from planner.mission.reducer import asked_about_picture, looks, looks_widely
 from planner.mission.skills import Eyesight
 from planner.mission.skills.perception import NO_PICTURES, PictureLimits
@@ -142,6 +142,10 @@ class Loop:
         eyesight = Eyesight(camera, eyes.classes, model, pictures if model else NO_PICTURES)
         self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
         eyes.listen(self._on_sight)
+
+    def keep_pictures(self, album: KeepInAlbum) -> None:
+        """Keep the pictures of patrols there from now on."""
+        self._door.keep_in(album)
 
     def show_scans(self, obstacles: ScanSender) -> None:
         """Show scans to the route search from now on."""

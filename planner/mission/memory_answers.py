@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
 from planner.mission.activity import LookingUp
-from planner.mission.skills import Fail
-from planner.mission.step_execution import finish_step
-from planner.mission.step_failure import fail_step
-from planner.plan import Code, StepState
+from planner.mission.skills.conditions import judge_recalled
+from planner.mission.step_execution import carry_out
+from planner.plan import Code
 
 if TYPE_CHECKING:
     from planner.mission.events import Recalled
@@ -23,15 +22,14 @@ def on_recalled(turn: Transaction, event: Recalled) -> None:
         return
     if activity.ticket != event.ticket:
         return
-    if event.code is Code.MEMORY_UNAVAILABLE:
-        fail_step(turn, Fail(event.code, event.code.value, event.said))
-        return
-    finish_step(turn, StepState.SUCCEEDED, code=event.code, said=event.said)
+    step = mission.steps[mission.step]
+    carry_out(turn, mission, judge_recalled(step.role, event.code, event.said))
 
 
 def end_lookup_if_due(turn: Transaction) -> None:
     """End a wait for memory that has lasted too long."""
-    activity = turn.book.activity
-    if isinstance(activity, LookingUp) and turn.now_s >= activity.until_s:
-        code = Code.MEMORY_UNAVAILABLE
-        fail_step(turn, Fail(code, code.value, message(code)))
+    mission, activity = turn.running, turn.book.activity
+    if mission is None or not isinstance(activity, LookingUp) or turn.now_s < activity.until_s:
+        return
+    code, step = Code.MEMORY_UNAVAILABLE, mission.steps[mission.step]
+    carry_out(turn, mission, judge_recalled(step.role, code, message(code)))

@@ -77,7 +77,7 @@ class MemoryLookup:
         kinds: tuple[str, ...] = KINDS
         if ask.label == PERSON:
             kinds = (PERSON,)
-        elif ask.label is None and (ask.place or ask.when):
+        elif ask.witnessed or (ask.label is None and (ask.place or ask.when)):
             kinds = (THING, PERSON)
         return MemoryQuery(
             words=ask.label or "",

@@ -52,7 +52,7 @@ def key_of_deed(step: StepRecord) -> tuple[object, ...]:
     label = (step.object or "").strip().casefold()
     return (
         *(step.kind, step.place, step.places, label),
-        *(step.angle_rad, step.distance_m, step.x, step.y),
+        *(step.angle_rad, step.distance_m, step.x, step.y, step.side),
     )
 
 
@@ -63,7 +63,7 @@ def _tell(facts: SiteView, step: StepRecord) -> Bilingual:
         return say("deed.drive_to_each", names=list_names(names, "joint.and"))
     if step.angle_rad is not None:
         return say("deed.turn_by", angle=angle(step.angle_rad))
-    if step.distance_m is not None:
+    if step.kind == "move" and step.distance_m is not None:
         return say("deed.move_by", metres=metres(step.distance_m))
     if step.place and step.kind != "go_to":
         name = facts.targets[step.place].name if step.place in facts.targets else None

@@ -14,13 +14,13 @@ from math import hypot
 from planner.language.catalogue import message
 from planner.mission.activity import AskingImage, Driving, Observing
 from planner.mission.bridge_status import standing
-from planner.mission.effects import KeepPicture
+from planner.mission.effects import KeepPicture, SavePicture
 from planner.mission.legs import ask_route
 from planner.mission.queue import settle_activity
 from planner.mission.scene import scene_of
 from planner.mission.skills import DriveLeg, Fail, ImageAnswer, Observe, SkillAction, Way, act_of
 from planner.mission.skills.object_matching import fresh, list_confirmed
-from planner.mission.skills.skill_state import LookState
+from planner.mission.skills.skill_state import LookState, PatrolState
 from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -113,8 +113,12 @@ def end_gaze_if_due(turn: Transaction) -> None:
 
 
 def _end_gaze(turn: Transaction, gaze: Observing) -> None:
-    """Go on after a gaze; the picture of a look's direction is kept for a model to be shown."""
+    """Go on after a gaze; its picture is kept for people at a patrol's stop, else for a model."""
     mission, then = turn.running, gaze.then
+    if mission is not None and isinstance(then, PatrolState):
+        stop = len(then.stops)
+        place = mission.steps[mission.step].places[stop]
+        turn.emit(SavePicture(mission.id, mission.step, stop, place, gaze.look_seq))
     faced = then.faced if isinstance(then, LookState) else ()
     if mission is not None and faced and turn.book.eyes.model:
         turn.emit(KeepPicture(mission.id, len(faced) - 1, gaze.look_seq))

@@ -11,20 +11,21 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from planner.brain.errors import BadPlan, BrainDown
 from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImagePoint, ImageQuestion
 from planner.brain.image_questions import PosedPicture as Shown
+from planner.memory import MEDIA_TYPES, KeptPicture
 from planner.mission.events import Told
 from planner.mission.skills.perception import ImageAnswer, PictureCost
 from planner.perception.interfaces import PointRefusal
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
-    from planner.mission.effects import AskEyes, KeepPicture
+    from planner.mission.effects import AskEyes, KeepPicture, SavePicture
     from planner.perception.interfaces import Eyes, Picture
     from planner.perception.snapshot import Detection
 
@@ -47,6 +48,10 @@ def nothing_spent(_: str) -> PictureCost:
     return PictureCost()
 
 
+KeepInAlbum = Callable[[KeptPicture, bytes], Coroutine[Any, Any, None]]
+"""Keep one picture where people find it."""
+
+
 class EyeDoor:
     """Stand between the missions and perception."""
 
@@ -54,6 +59,7 @@ class EyeDoor:
         """Ask these eyes, and this model about their pictures."""
         self._eyes, self._looker = eyes, looker
         self._spent: Spent = nothing_spent
+        self._album: KeepInAlbum | None = None
         self._pictures: dict[str, Picture | asyncio.Task[Picture | None]] = {}
         """By goal; a task where the picture is still to come."""
         self._views: dict[str, dict[int, tuple[Shown, tuple[Detection, ...]]]] = {}
@@ -98,6 +104,23 @@ class EyeDoor:
                 _pose_picture(self._eyes, picture),
                 _detections(self._eyes, picture),
             )
+
+    def keep_in(self, album: KeepInAlbum) -> None:
+        """Keep patrols' pictures there from now on."""
+        self._album = album
+
+    def save(self, ask: SavePicture) -> Coroutine[Any, Any, None] | None:
+        """Return the work that keeps a patrol's picture, if it is the one meant and still there."""
+        picture = self._eyes.looked_picture if self._eyes is not None else None
+        if self._eyes is None or self._album is None or picture is None:
+            return None
+        data, header = picture.color.data, picture.color.header
+        media_type = MEDIA_TYPES.get(bytes(data[:2]))
+        if header.seq != ask.seq or media_type is None:
+            return None
+        labels = tuple(sorted(seen.label for seen in _detections(self._eyes, picture)))
+        kept = KeptPicture(ask.id, ask.step, ask.stop, ask.place, labels, media_type)
+        return self._album(kept, bytes(data))
 
     async def ask(self, ask: AskEyes) -> Told:
         """Return the answer to one question."""

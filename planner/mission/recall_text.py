@@ -61,7 +61,7 @@ def _name_question(facts: SiteView, ask: AskMemory) -> Bilingual:
 
 def _offer(ask: AskMemory) -> tuple[Bilingual, ...]:
     """Offer what would find out: an order, which the person must give."""
-    if not ask.label or ask.label == PERSON or ask.when is not None:
+    if not ask.label or ask.label == PERSON or ask.when is not None or ask.witnessed:
         return ()
     return (say("memory.offer", what=ask.label),)
 

@@ -222,7 +222,7 @@ def _roaming(before: tuple[StepRecord, ...], steps: tuple[StepRecord, ...]) -> B
 def _roams(step: StepRecord) -> bool:
     if step.kind == "look":
         return step.place is None and looks_round(step.text or "")
-    return step.kind in ROAMS
+    return step.kind in ROAMS or (step.kind == "stand_at" and step.object is not None)
 
 
 def _make_key(step: StepRecord) -> tuple[str, str, str | None, int | None, int | None]:

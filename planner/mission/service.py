@@ -104,6 +104,7 @@ class Missions:
     def remember_by(self, recollection: Recollection) -> None:
         """Answer from this memory, and keep in it what people say."""
         self._lookup.recollection = recollection
+        self.loop.keep_pictures(recollection.keep_picture)
 
     def see(
         self,

@@ -55,6 +55,7 @@ from planner.mission.skills import (
     Think,
     act_of,
 )
+from planner.mission.skills.skill_state import PatrolState
 from planner.mission.state import Mission
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
 from planner.mission.transaction import Transaction
@@ -74,11 +75,14 @@ def start_next(turn: Transaction) -> None:
 
 
 def _look_anew(turn: Transaction, mission: Mission) -> None:
-    """Begin a look that branches hang on again after a pause or a crash.
+    """Begin a look that branches hang on, or a patrol's, again after a pause or a crash.
 
-    What was seen before may be forgotten, or have left: half a look proves nothing.
+    What was seen before may be forgotten, or have left: half a look proves nothing. A patrol's
+    stops that are over stay so.
     """
-    step = mission.current_step
+    step, state = mission.current_step, mission.skill_state
+    if isinstance(state, PatrolState):
+        turn.put(mission, skill_state=PatrolState(stops=state.stops))
     begun = step is not None and step.state is StepState.RUNNING
     if begun and step is not None and step.role in JUDGED and step.kind in NEEDS_CAMERA:
         to_step(turn, mission, mission.step)
@@ -151,7 +155,8 @@ def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
 
 
 def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
+    more = _bill(act) | _so_far(act.state)
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, **more)
     leg = Driving(
         record=turn.next_entry,
         goal=act.goal,
@@ -175,6 +180,13 @@ def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
 def _bill(act: DriveLeg | Observe | AskImage) -> dict[str, object]:
     """Return what a search by the vision model costs, where the step is one."""
     return {} if act.bill is None else {"bill": act.bill}
+
+
+def _so_far(state: SkillStateBase | None) -> dict[str, object]:
+    """Return what a patrol has to tell before it is over: it is kept however the step ends."""
+    if not isinstance(state, PatrolState) or not state.stops:
+        return {}
+    return {"stops": state.stops, "visited": sum(not stop.shut for stop in state.stops)}
 
 
 def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
@@ -225,7 +237,8 @@ def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp) -> None:
     until_s = turn.now_s + act.seconds
     looking = LookingUp(record=turn.next_entry, ticket=ticket, until_s=until_s)
     turn.set(tickets=ticket, activity=looking)
-    turn.emit(AskMemory(mission.id, ticket, step.object, step.place, step.span, step.deeds))
+    asked = (step.object, step.place, step.span, step.deeds, step.role in JUDGED)
+    turn.emit(AskMemory(mission.id, ticket, *asked))
 
 
 def _result(act: Finish) -> dict[str, object]:

@@ -16,6 +16,7 @@ from planner.mission.effects import (
     AskRoute,
     DropBrain,
     KeepPicture,
+    SavePicture,
 )
 from planner.mission.events import Planned, Recalled, Told
 from planner.mission.perception_requests import EyeDoor
@@ -84,7 +85,8 @@ class MissionTasks:
         self._tasks: set[asyncio.Task[None]] = set()
 
     def help(
-        self, ask: AskBrain | AskRoute | AskEyes | AskMemory | KeepPicture | DropBrain
+        self,
+        ask: AskBrain | AskRoute | AskEyes | AskMemory | KeepPicture | SavePicture | DropBrain,
     ) -> None:
         """Start to think, to search or to ask about pictures; keep one; stop thinking."""
         match ask:
@@ -98,6 +100,10 @@ class MissionTasks:
                 self.spawn(self._search(ask))
             case KeepPicture():
                 self._eyes.keep(ask)
+            case SavePicture():
+                saving = self._eyes.save(ask)
+                if saving is not None:
+                    self.spawn(saving)
             case AskMemory():
                 self.spawn(self._look_up(ask))
             case AskEyes():

@@ -157,7 +157,7 @@ def _faults(
         for place in places_of(step):
             if place not in places:
                 yield Reason(code=Code.UNKNOWN_PLACE, step=index, what=place, repairable=True)
-        if step.kind == "wait_for" and step.object and "find" not in runnable:
+        if step.kind in ("wait_for", "stand_at") and step.object and "find" not in runnable:
             yield Reason(code=blind, step=index, what=step.kind, repairable=False)
         if step.kind not in runnable and step.kind != "clock":
             yield Reason(code=lacking(step, blind), step=index, what=step.kind, repairable=False)

@@ -12,7 +12,7 @@ from pydantic import AwareDatetime, Field
 from planner.plan.base import Bilingual, Frozen, Language
 from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
-from planner.plan.steps import ClockTime, Span, Step
+from planner.plan.steps import ClockTime, Side, Span, Step
 from planner.plan.tree import StepNode, StepRole, list_nodes
 
 
@@ -87,6 +87,14 @@ class PictureBill(Frozen):
     currency: str | None = None
 
 
+class StopReport(Frozen):
+    """Show what a patrol saw at one of its stops, or that there was no way to it."""
+
+    place: str
+    said: Bilingual
+    shut: bool = False
+
+
 class StepRecord(Frozen):
     """Show one step: its request, its state, its result and why not."""
 
@@ -107,6 +115,8 @@ class StepRecord(Frozen):
     moved_m: float | None = None  # by odometry, along the heading at the beginning of a move
     turned_rad: float | None = None  # by odometry, counter-clockwise positive
     visited: int | None = None  # places of a patrol reached so far
+    look: bool = False  # a patrol looks round at each of them
+    stops: tuple[StopReport, ...] = ()  # what came of each that is over
     x: int | None = None  # a point of the picture, 0 to 1000 from its left
     y: int | None = None  # and from its top
     found: Found | None = None  # what a step that looks has found
@@ -129,6 +139,7 @@ class StepRecord(Frozen):
     began_unix_s: float | None = None  # of a repeat: when its first round began
     holds: bool | None = None  # of a condition: what it came to; None: not asked, or can't be told
     earlier: tuple[Bilingual, ...] = ()  # of a repeat: what its rounds before this one came to
+    side: Side | None = None  # of the place or thing, at which to stand
     word: str | None = None  # that is waited for
     time: str | None = None  # HH:MM that is waited for
     after: str | None = None  # HH:MM

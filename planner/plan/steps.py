@@ -21,6 +21,8 @@ Span = Literal["hour", "today", "morning", "afternoon", "evening", "night", "yes
 """A time that people ask about, by the day and the clock of the home."""
 
 
+Side = Literal["before", "beside", "behind", "facing"]
+"""Where to stand to something, as seen from where one usually stands before it."""
 MAX_FOLLOW_S = 300.0
 
 
@@ -31,8 +33,24 @@ class GoTo(Frozen):
     place: PlaceId
 
 
+class StandAt(Frozen):
+    """Stand there; facing: turn to it."""
+
+    kind: Literal["stand_at"] = "stand_at"
+    place: PlaceId | None = None
+    object: Label | None = None
+    side: Side
+    distance_m: float | None = Field(default=None, ge=0.0, le=5.0)
+
+    @model_validator(mode="after")
+    def _names_one(self) -> Self:
+        if (self.place is None) is (self.object is None):
+            raise ValueError("stand_at needs place or object")
+        return self
+
+
 class ComeBack(Frozen):
-    """Drive back to where this goal was given."""
+    """Drive back to the start."""
 
     kind: Literal["come_back"] = "come_back"
 
@@ -44,7 +62,7 @@ class ReturnHome(Frozen):
 
 
 class Wait(Frozen):
-    """Stand still for a while [s]."""
+    """Stand still [s]."""
 
     kind: Literal["wait"] = "wait"
     seconds: float = Field(gt=0.0, le=600.0)
@@ -58,14 +76,14 @@ class Say(Frozen):
 
 
 class Ask(Frozen):
-    """Ask the person and wait for the answer."""
+    """Ask the person."""
 
     kind: Literal["ask"] = "ask"
     question: Words
 
 
 class Decide(Frozen):
-    """Think again with what was seen and heard."""
+    """Think again."""
 
     kind: Literal["decide"] = "decide"
     question: Words
@@ -86,10 +104,11 @@ class MoveStraight(Frozen):
 
 
 class Patrol(Frozen):
-    """Drive to places in turn, not looking."""
+    """Drive to places in turn; look: look at each."""
 
     kind: Literal["patrol"] = "patrol"
     places: Annotated[tuple[PlaceId, ...], Field(min_length=1, max_length=20)]
+    look: bool = False
 
 
 class Explore(Frozen):
@@ -115,7 +134,7 @@ class GoToPoint(Frozen):
 
 
 class Find(Frozen):
-    """Look for an object or a person."""
+    """Search a thing or person."""
 
     kind: Literal["find"] = "find"
     object: Label
@@ -123,7 +142,7 @@ class Find(Frozen):
 
 
 class Count(Frozen):
-    """Count objects or people."""
+    """Count things or people."""
 
     kind: Literal["count"] = "count"
     object: Label
@@ -131,7 +150,7 @@ class Count(Frozen):
 
 
 class Look(Frozen):
-    """Answer a question about what is seen."""
+    """Look and answer a question."""
 
     kind: Literal["look"] = "look"
     question: Words
@@ -149,7 +168,7 @@ class Recall(Frozen):
 
 
 class Follow(Frozen):
-    """Follow a person at a distance."""
+    """Follow a person."""
 
     kind: Literal["follow"] = "follow"
     object: Label
@@ -176,9 +195,9 @@ class ClockTime(Frozen):
         return self
 
 
-Condition = Annotated[Look | Find | Ask | ClockTime, Field(discriminator="kind")]
-"""What may be asked before steps are chosen. A kind that answers by other means, as from memory,
-joins here, in ``CONDITIONS`` and with its own judgement in ``mission/skills/conditions.py``."""
+Condition = Annotated[Look | Find | Ask | Recall | ClockTime, Field(discriminator="kind")]
+"""What may be asked before steps are chosen; ``mission/skills/conditions.py`` judges each kind. A
+recall asks whether it is remembered as seen or done: what was merely told counts for nothing."""
 
 
 class If(Frozen):
@@ -215,7 +234,7 @@ class Repeat(Frozen):
 
 
 class WaitFor(Frozen):
-    """Stand until one of these is there."""
+    """Stand until it is there."""
 
     kind: Literal["wait_for"] = "wait_for"
     object: Label | None = None
@@ -232,6 +251,7 @@ class WaitFor(Frozen):
 
 Step = Annotated[
     GoTo
+    | StandAt
     | ComeBack
     | ReturnHome
     | Wait
@@ -260,7 +280,7 @@ for _model in (If, Attempt, Repeat):
 _MODELS: tuple[type[Frozen], ...] = get_args(get_args(Step)[0])
 
 RUNNABLE = frozenset(
-    {"go_to", "come_back", "return_home", "turn", "move", "patrol"}
+    {"go_to", "stand_at", "come_back", "return_home", "turn", "move", "patrol"}
     | {"wait", "say", "ask", "decide", "recall", "wait_for", "if", "try", "repeat"}
 )  # what a mission can walk without eyes; `Means` says what else a robot can
 NEEDS_GROWING_MAP = frozenset({"explore"})
@@ -271,8 +291,8 @@ EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for mo
 """What a plan may hold at all; a robot's own `runnable` is a part of it."""
 CONTROL = frozenset({"if", "try", "repeat"})
 """They hold steps and do nothing by themselves."""
-CONDITIONS = frozenset({"look", "find", "ask", "clock"})
+CONDITIONS = frozenset({"look", "find", "ask", "recall", "clock"})
 DRIVES = frozenset(
-    {"go_to", "come_back", "return_home", "turn", "move", "patrol", "explore"}
+    {"go_to", "stand_at", "come_back", "return_home", "turn", "move", "patrol", "explore"}
     | {"go_to_object", "go_to_point", "find", "follow"}
 )

@@ -29,3 +29,7 @@ class MemorySettings(BaseModel):
     """The oldest go first."""
     most_facts: Annotated[int, Field(ge=0, le=10_000)] = 500
     """One more is refused."""
+    most_pictures: Annotated[int, Field(ge=0, le=1000)] = 60
+    """Of patrols; the oldest go first, and with 0 none is kept."""
+    pictures_mb: Annotated[float, Field(ge=0.0, le=1000.0)] = 12.0
+    """What they may have together."""

@@ -230,7 +230,7 @@ class KnownPlaces:
             if why_not is None:
                 good.append(kept.as_place())
         self._shown, self._places = tuple(shown), (*self.site.places, *good)
-        self._facts = facts_of(self.site, tuple(good))
+        self._facts = facts_of(self.site, tuple(good), self._radius_m)
         self._vocabulary = vocabulary_of(self.site, tuple(good))
 
     def _why_not(self, kept: TaughtPlace, known: tuple[Place, ...]) -> str | None:

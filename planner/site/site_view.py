@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from maps.growing_map import GROWING_MAP
 from planner.language.catalogue import place_name
 from planner.plan import Bilingual, Entry, Vocabulary
 from planner.site.places import Place
 from planner.site.site import Site
+from planner.site.standing_spots import StandingFloor
 from wire.geometry import Pose2
+
+RADIUS_M = 0.3
+"""Of the disc that holds a robot, where its description is not at hand."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,21 +31,29 @@ class Target:
 
 @dataclass(frozen=True, slots=True)
 class SiteView:
-    """Hold what missions know of a site. No map: routes are the navigation's."""
+    """Hold what missions know of a site. They read no map: routes are the navigation's."""
 
     targets: dict[str, Target]
     home: str
     map_id: str = ""
     grows: bool = False
     """The map is being made by driving: there may be floor that nobody saw yet."""
+    floor: StandingFloor | None = field(default=None, repr=False, compare=False)
+    """Says where a robot may stand at a side of something; None: nobody knows."""
+
+    @property
+    def radius_m(self) -> float:
+        """Return the radius of the disc that holds the robot."""
+        return self.floor.radius_m if self.floor is not None else RADIUS_M
 
 
-def facts_of(site: Site, taught: tuple[Place, ...] = ()) -> SiteView:
+def facts_of(site: Site, taught: tuple[Place, ...] = (), radius_m: float = RADIUS_M) -> SiteView:
     """Return the rooms and places of a site, and the taught ones, as targets; and its home."""
     places = (*site.places, *taught)
     targets = {place.id: _target(place) for place in places}
     grows = (site.folder / GROWING_MAP).is_file()
-    return SiteView(targets, site.home.id, site.map_id, grows)
+    floor = StandingFloor(site, radius_m)
+    return SiteView(targets, site.home.id, site.map_id, grows, floor)
 
 
 def _target(place: Place) -> Target:

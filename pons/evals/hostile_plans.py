@@ -29,6 +29,7 @@ from planner.plan import (
     Repeat,
     ReturnHome,
     Say,
+    StandAt,
     Step,
     StepPlan,
     Turn,
@@ -113,6 +114,12 @@ def _step(act: Act) -> Step:
         if what == START:
             return ComeBack()
         return ReturnHome() if what == HOME else GoTo(place=what)
+    if act.kind == "stand_at":
+        side, _, thing = what.partition(" ")
+        fields = {"side": side, "place": act.where, "object": thing or None}
+        return StandAt.model_validate({**fields, "distance_m": act.number})
+    if act.kind == "watch":
+        return Patrol(places=(act.where or START,), look=True)
     if act.kind in _SEEN:
         fields = {"kind": act.kind, "object": what or "person"}
         where = {"place": act.where} if act.kind != "follow" else {}
@@ -124,11 +131,20 @@ def _step(act: Act) -> Step:
         name = "time" if ":" in what else "object" if what in _PERSONS else "word"
         return WaitFor.model_validate({name: what})
     if act.kind == "recall":
-        return Recall(object=what or None, place=act.where)
+        return _recall(what)
     if act.kind == "say":
         return Say(text=what or "hello")
     place = {"place": act.where} if act.kind == "look" else {}
     return _STEP.validate_python({"kind": act.kind, "question": what or "what is it?", **place})
+
+
+def _recall(asked: str) -> Recall:
+    """Return the step of words, ``@place`` and ``%span``."""
+    words = asked.split()
+    marks = {word[0]: word[1:] for word in words if word[0] in "@%"}
+    thing = " ".join(word for word in words if word[0] not in "@%")
+    fields = {"object": thing or None, "place": marks.get("@"), "span": marks.get("%")}
+    return Recall.model_validate(fields)
 
 
 _PERSONS = frozenset({"person", "somebody", "someone", "人"})
@@ -215,6 +231,14 @@ def _change_step(step: Step, world: EvalWorld) -> Iterator[tuple[str, Step]]:
     elif isinstance(step, MoveStraight):
         yield "the other way", MoveStraight(distance_m=-step.distance_m)
         yield "too far", MoveStraight(distance_m=max(-10.0, min(10.0, 3 * step.distance_m)))
+    elif isinstance(step, StandAt):
+        side = "behind" if step.side != "behind" else "before"
+        yield "the other side", step.model_copy(update={"side": side})
+        far_m = min(5.0, 3.0 * step.distance_m) if step.distance_m else 4.0
+        yield "too far", step.model_copy(update={"distance_m": far_m})
+        if step.place is not None:
+            other = places[(places.index(step.place) + 3) % len(places)]
+            yield "elsewhere", step.model_copy(update={"place": other})
     elif isinstance(step, If | Attempt | Repeat):
         yield from _change_parts(step, world)
     elif step.kind in _SEEN:
@@ -239,6 +263,10 @@ def _change_parts(step: If | Attempt | Repeat, world: EvalWorld) -> Iterator[tup
                 changed = (*held[:index], other, *held[index + 1 :])
                 yield f"{what} in {name}", step.model_copy(update={name: changed})
     if isinstance(step, If):
+        asked = getattr(step.when, "place", None)
+        for name in ("then", "otherwise") if asked is not None else ():
+            there = step.model_copy(update={name: (GoTo(place=asked),)})
+            yield f"where the condition asks in {name}", there
         hung = Repeat(times=10, steps=(step, GoTo(place=places[0]), GoTo(place=places[1])))
         yield "again and again", hung
 

@@ -19,10 +19,12 @@ from pons.evals.world import HOME, START, EvalEvent, walk
 
 Made = StepPlan | AnswerPlan | Clarify | Refuse
 CLOSE = 0.02
+_FREE = frozenset({"say", "watch"})
+"""May be done without being expected: words, and a look at a patrol's stop."""
 _STILL = frozenset({"clarify", "refuse", "still", "answer"})
 _KINDS = frozenset(
     {"go", "back", "home", "wait", "say", "ask", "turn", "move", "find", "count", "look"}
-    | {"follow", "decide", "approach", "recall", "waitfor", "clock"}
+    | {"follow", "decide", "approach", "recall", "waitfor", "clock", "watch", "stand"}
     | {"if", "then", "else", "try", "failing", "repeat", "until", "end"}
 )
 
@@ -133,8 +135,16 @@ def _act(text: str) -> Act:
     kind, *rest = text.removesuffix("?").split()
     if kind not in _KINDS:
         raise BadMatcher(f"{text!r}: unknown act {kind!r}; known: {', '.join(sorted(_KINDS))}")
+    if kind == "recall":  # the robot is not where memory is asked about
+        return Act(kind, (plain(" ".join(rest)),) if rest else (), optional=optional)
     where = next((word[1:] for word in rest if word.startswith("@")), None)
     words = " ".join(word for word in rest if not word.startswith("@"))
+    if kind == "stand":  # side, thing, @place and metres
+        number = next((float(word) for word in words.split() if word[0].isdigit()), None)
+        said = " ".join(word for word in words.split() if not word[0].isdigit())
+        return Act("stand_at", (plain(said),), where, number, optional)
+    if kind == "watch":
+        return Act(kind, where=words, optional=optional)
     if kind in ("go", "back", "home"):
         places = {"back": START, "home": HOME}.get(kind, words)
         return Act("at", tuple(places.split("/")), optional=optional)
@@ -148,7 +158,7 @@ def _act(text: str) -> Act:
 def _follows(trace: tuple[EvalEvent, ...], items: tuple[Item, ...], here: str = START) -> bool:
     """Tell whether a trace does these things in order and nothing else but talk."""
     if not items:
-        return all(event.kind == "say" for event in trace)
+        return all(event.kind in _FREE for event in trace)
     head, rest = items[0], items[1:]
     if isinstance(head, tuple):
         return any(_follows(trace, (*order, *rest), here) for order in permutations(head))
@@ -163,4 +173,4 @@ def _follows(trace: tuple[EvalEvent, ...], items: tuple[Item, ...], here: str = 
         return True
     if event.kind == "at" and head.where == event.what:  # the way to where it is to be done
         return _follows(after, items, event.where)
-    return event.kind == "say" and _follows(after, items, here)
+    return event.kind in _FREE and _follows(after, items, here)

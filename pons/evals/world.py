@@ -20,6 +20,7 @@ from planner.plan import (
     Patrol,
     Repeat,
     ReturnHome,
+    StandAt,
     Step,
     StepPlan,
     Vocabulary,
@@ -78,7 +79,10 @@ def _walk(trace: _Walk, steps: Sequence[Step | ClockTime]) -> None:
             trace.arrive(START if isinstance(step, ComeBack) else HOME)
             continue
         for place in places_of(step) if step.kind not in STANDS else ():
-            trace.arrive(place)
+            if not (isinstance(step, StandAt) and step.side == "facing"):
+                trace.arrive(place)
+            if isinstance(step, Patrol) and step.look:
+                trace.act("watch")
         if step.kind not in ("go_to", Patrol.model_fields["kind"].default):
             _act(trace, step.kind, step.model_dump())
 
@@ -115,12 +119,28 @@ def _walk_parts(trace: _Walk, step: Step | ClockTime) -> bool:
 
 
 def _act(trace: _Walk, kind: str, fields: dict[str, Any]) -> None:
+    if kind == "stand_at":
+        what = " ".join(part for part in (fields["side"], fields.get("object")) if part)
+        where = fields.get("place") or trace.here
+        trace.events.append(EvalEvent(kind, what, where, fields.get("distance_m")))
+        trace.here = SOMEWHERE
+        return
+    if kind == "recall":
+        trace.act(kind, _asked(fields))
+        return
     said = ("object", "text", "question", "word", "time", "after", "before")
     what = next((fields[name] for name in said if fields.get(name)), "")
     number = fields.get("seconds", fields.get("angle_rad", fields.get("distance_m")))
     trace.act(kind, what, number)
     if kind in ("turn", "move", "follow", "go_to_object", "go_to_point", "explore"):
         trace.here = SOMEWHERE
+
+
+def _asked(fields: dict[str, Any]) -> str:
+    """Return what memory is asked, as a suite writes it: thing, ``@`` where, ``%`` when."""
+    place, span = fields.get("place"), fields.get("span")
+    parts = (fields.get("object"), place and f"@{place}", span and f"%{span}")
+    return " ".join(part for part in parts if part)
 
 
 def site_world(folder: Path, room: str | None = None) -> EvalWorld:

@@ -99,6 +99,24 @@ describe("decode", () => {
       { seq: 1, kind: "goal", change: { goal: { ...goal("a"), text: null } } },
     ],
     [
+      "a patrol's stop without words",
+      {
+        seq: 1,
+        kind: "goal",
+        change: {
+          goal: {
+            ...goal("a"),
+            plan: {
+              kind: "plan",
+              steps: [{ kind: "patrol", state: "running", stops: [{ place: "kitchen" }] }],
+              options: [],
+              text: null,
+            },
+          },
+        },
+      },
+    ],
+    [
       "steps that are no list",
       {
         seq: 1,

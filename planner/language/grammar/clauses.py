@@ -84,7 +84,9 @@ class Grammar:
 
 
 _WORDS = re.compile(
-    r"\bbefore\b|(?<!come )(?<!go )(?<!look )(?<!run )\bafter\b(?! that| this)|\bfirst\b|之前|以前|"
+    r"(?<!met[er]{2} )(?<!met[er]{2}s )(?<!cm )(?<!\dm )(?<! m )(?<!stand )(?<!stop )(?<!wait )"
+    r"(?<!park )(?<!yourself )\bbefore\b"
+    r"|(?<!come )(?<!go )(?<!look )(?<!run )\bafter\b(?! that| this)|\bfirst\b|之前|以前|"
     r"但先|但是先"
 )
 _POLITE = r"(?P<polite>(?:(?:please|robot|pons|hey|hi|ok|(?:can|could|would|will) you),? )*)"

@@ -22,6 +22,7 @@ from planner.plan import (
     Follow,
     If,
     Look,
+    Recall,
     Repeat,
     Step,
     StepPlan,
@@ -30,6 +31,8 @@ from planner.plan import (
 
 ReadSteps = Callable[[str], tuple[Step, ...] | None]
 """Return the steps of one order, or None where it is no plan."""
+NamePlace = Callable[[str], str]
+"""Return a place's name in the sentence's language, by its id."""
 MOST_CUTS = 40
 """Places at which a condition without a comma may end, tried one after the other."""
 
@@ -47,6 +50,25 @@ class ConditionParts:
 
 
 @dataclass(frozen=True, slots=True)
+class MemoryParts:
+    """Hold a condition about before: the question that memory answers."""
+
+    question: str
+    denied: bool
+    """It holds where nothing is remembered."""
+
+
+@dataclass(frozen=True, slots=True)
+class PartReaders:
+    """Hold what reads the parts of a sentence, each alone."""
+
+    steps: ReadSteps
+    memory: Callable[[str], Recall | None]
+    """Reads a question about before; None of any other."""
+    name: NamePlace
+
+
+@dataclass(frozen=True, slots=True)
 class CompoundForms:
     """Hold one language's words. Each pattern reads a normalised sentence whole."""
 
@@ -55,6 +77,11 @@ class CompoundForms:
     conditions: tuple[re.Pattern[str], ...]
     """Groups ``body`` (condition and order, in one) or ``if`` and ``then``; ``else`` or none."""
     read_condition: Callable[[str], ConditionParts | None]
+    read_memory: Callable[[str], MemoryParts | None]
+    go_there: re.Pattern[str]
+    """Group ``verb``: a drive to the place that the condition names."""
+    to_place: str
+    """Stands for it, with ``verb`` and ``name``."""
     cuts: re.Pattern[str]
     """Where a condition may end in ``body``."""
     failures: re.Pattern[str]
@@ -71,7 +98,7 @@ class CompoundForms:
     """Groups ``main``, ``number`` and ``unit``."""
 
 
-def read_compound(said: str, forms: CompoundForms, read: ReadSteps) -> StepPlan | None:
+def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPlan | None:
     """Return the plan of a sentence of such a form; None of any other."""
     if forms.trigger.search(said) is None:
         return None
@@ -79,7 +106,7 @@ def read_compound(said: str, forms: CompoundForms, read: ReadSteps) -> StepPlan 
     if slow != said:
         plain = " ".join(slow.split()).strip(" ,")
         inner = read_compound(plain, forms, read)
-        steps = inner.steps if inner is not None else read(plain)
+        steps = inner.steps if inner is not None else read.steps(plain)
         return StepPlan(steps=steps, pace="slow") if steps else None
     steps = (
         _read_failure(said, forms, read)
@@ -91,7 +118,7 @@ def read_compound(said: str, forms: CompoundForms, read: ReadSteps) -> StepPlan 
     return StepPlan(steps=steps) if steps else None
 
 
-def _read_condition(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+def _read_condition(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
     for pattern in forms.conditions:
         found = pattern.fullmatch(said)
         if found is None:
@@ -121,56 +148,93 @@ def _cut(body: str, cuts: re.Pattern[str]) -> Iterator[tuple[str, str]]:
 
 
 def _branch(
-    condition: str, order: str, other: str | None, forms: CompoundForms, read: ReadSteps
+    condition: str, order: str, other: str | None, forms: CompoundForms, read: PartReaders
 ) -> tuple[Step, ...] | None:
+    asked = _asked_of_memory(condition, forms, read) or _asked_of_eyes(condition, forms, read)
+    if asked is None:
+        return None
+    when, denied = asked
+    if when.place is not None:
+        there = forms.to_place.format(verb="{verb}", name=read.name(when.place))
+        order, other = (
+            part and forms.go_there.sub(lambda found: there.format(verb=found["verb"]), part)
+            for part in (order, other)
+        )
+    yes, no = read.steps(order or ""), read.steps(other) if other else ()
+    if yes is None or no is None:
+        return None
+    if denied:
+        yes, no = no, yes
+    return (If(when=when, then=yes, otherwise=no),)
+
+
+_WHERE_WITHIN = re.compile(r" (?:in|on|at|under|inside|near|by|behind|beside) |里|上|下|旁")
+
+
+def _asked_of_memory(
+    condition: str, forms: CompoundForms, read: PartReaders
+) -> tuple[Recall, bool] | None:
+    """Return what memory is asked, and whether it holds where nothing is remembered.
+
+    A place that is not known is no part of a thing's name: then nothing is read.
+    """
+    parts = forms.read_memory(condition.strip(" ,"))
+    asked = read.memory(parts.question) if parts is not None else None
+    if parts is None or asked is None or asked.deeds or _WHERE_WITHIN.search(asked.object or ""):
+        return None
+    return asked, parts.denied
+
+
+def _asked_of_eyes(
+    condition: str, forms: CompoundForms, read: PartReaders
+) -> tuple[Look, bool] | None:
+    """Return the look that tells a condition, and whether that holds where it says no."""
     parts = forms.read_condition(condition.strip(" ,"))
     if parts is None or resolve(parts.thing) is None:
         return None
     look = _look(parts, read)
-    yes, no = read(order), read(other) if other else ()
-    if look is None or yes is None or no is None:
-        return None
-    if parts.denied:
-        yes, no = no, yes
-    return (If(when=look, then=yes, otherwise=no),)
+    return (look, parts.denied) if look is not None else None
 
 
-def _look(parts: ConditionParts, read: ReadSteps) -> Look | None:
+def _look(parts: ConditionParts, read: PartReaders) -> Look | None:
     """Return the look that answers a question, where one does; the way there is its own.
 
     Where a place is said, it must be known: else the words are cut in the wrong spot.
     """
-    steps = read(parts.question)
+    steps = read.steps(parts.question)
     last = steps[-1] if steps else None
     if not isinstance(last, Look) or steps is None or (parts.is_placed and last.place is None):
         return None
     return last if all(step.kind in ("go_to", "look") for step in steps) else None
 
 
-def _read_failure(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+def _read_failure(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
     found = forms.failures.fullmatch(said)
     if found is None:
         return None
-    tried, instead = read(found["main"].strip(" ,;.")), read(found["else"].strip(" ,;."))
+    tried, instead = (
+        read.steps(found["main"].strip(" ,;.")),
+        read.steps(found["else"].strip(" ,;.")),
+    )
     if not tried or not instead:
         return None
     return (Attempt(steps=tried, on_failure=instead),)
 
 
-def _read_rounds(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+def _read_rounds(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
     found = forms.rounds.fullmatch(said)
     if found is None:
         return None
-    times, again = forms.count(found["times"]), read(found["main"].strip(" ,"))
+    times, again = forms.count(found["times"]), read.steps(found["main"].strip(" ,"))
     if times is None or not again:
         return None
     return (Repeat(times=times, steps=again),) if 1 <= times <= 20 else None
 
 
-def _read_follow(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+def _read_follow(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
     """Read a time for which somebody is followed; longer than a step may last it is not read."""
     found = forms.follows.fullmatch(said)
-    steps = read(found["main"].strip(" ,")) if found is not None else None
+    steps = read.steps(found["main"].strip(" ,")) if found is not None else None
     if found is None or not steps or not isinstance(steps[-1], Follow):
         return None
     far_s = seconds(found["number"], found["unit"])
@@ -179,7 +243,7 @@ def _read_follow(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step
     return (*steps[:-1], steps[-1].model_copy(update={"seconds": far_s}))
 
 
-def _read_wait(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, ...] | None:
+def _read_wait(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
     for pattern in forms.waits:
         found = pattern.fullmatch(said)
         if found is None:
@@ -187,7 +251,8 @@ def _read_wait(said: str, forms: CompoundForms, read: ReadSteps) -> tuple[Step, 
         parts = found.groupdict()
         wait = _wait(parts, forms)
         before, rest = (
-            read(parts[name].strip(" ,")) if parts.get(name) else () for name in ("before", "rest")
+            read.steps(parts[name].strip(" ,")) if parts.get(name) else ()
+            for name in ("before", "rest")
         )
         if wait is not None and before is not None and rest is not None:
             return (*before, wait, *rest)

@@ -27,6 +27,7 @@ from planner.plan import (
     Patrol,
     ReturnHome,
     Say,
+    StandAt,
     Turn,
     Wait,
 )
@@ -93,7 +94,7 @@ def next_place(found: Match[str], reading: Reading) -> Meaning | None:
     if reading.going and isinstance(meaning, Steps):
         goals = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
         patrols = reading.scene.kind == "patrol" and goals
-        return Steps((Patrol(places=goals),)) if patrols else meaning
+        return Steps((Patrol(places=goals, look=reading.scene.toured),)) if patrols else meaning
     named = reading.going and phrase.startswith(("the ", "my ", "our "))
     return meaning if named else None
 
@@ -134,6 +135,54 @@ def say(found: Match[str], reading: Reading) -> Meaning:
     if not 1 <= len(words) <= 500:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
     return Steps((Say(text=words),))
+
+
+_STANDS = {
+    "before": re.compile(r"before|in front|opposite|away|from|前|对面|离"),
+    "behind": re.compile(r"behind|back of|other side|后"),
+    "facing": re.compile(r"fac|look|turn|toward|面|朝|对|向"),
+}
+_IT = frozenset({"it", "them", "它"})
+_DOOR = re.compile(r"(?:the |a )?door|门")
+
+
+def _only_door(phrase: str, reading: Reading) -> str | None:
+    """Return the place that "the door" means, where exactly one is a door."""
+    if _DOOR.fullmatch(phrase) is None:
+        return None
+    entries = (entry for entry in reading.vocabulary.entries if entry.kind == "place")
+    doors = [e.id for e in entries if any(n.endswith((" door", "门")) for n in e.spellings)]
+    return doors[0] if len(doors) == 1 else None
+
+
+def stand_at(found: Match[str], reading: Reading) -> Meaning | None:
+    """Read the groups `place`, `side` and `length` as a side of a place or thing to stand at."""
+    groups = found.groupdict()
+    side = groups.get("side") or groups.get("side2") or ""
+    which = next((name for name, words in _STANDS.items() if words.search(side)), "beside")
+    length = groups.get("length")
+    far_m = metres(length, groups["unit"]) if length else None
+    if length and far_m is None:
+        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+    if far_m is not None and groups.get("half"):
+        far_m += _HALF_M
+    phrase = groups["place"]
+    there = reading.scene.place if phrase in _IT else _only_door(phrase, reading)
+    goal = Steps((GoTo(place=there),)) if there is not None else go_to(phrase, reading)
+    step = goal.steps[0] if isinstance(goal, Steps) else None
+    if isinstance(step, GoTo):
+        if reading.vocabulary.by_id[step.place].kind == "room":
+            return reading.problem(Code.NOT_UNDERSTOOD, found[0])
+        aim = {"place": step.place}
+    else:
+        thing = up_to(phrase, reading)
+        if thing is None or thing.thing is None:
+            return goal
+        aim = {"object": thing.thing}
+    try:
+        return Steps((StandAt.model_validate({**aim, "side": which, "distance_m": far_m}),))
+    except ValidationError:
+        return ClauseProblem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
 
 
 def turn(found: Match[str], reading: Reading) -> Meaning:
@@ -185,7 +234,15 @@ def patrol(found: Match[str], reading: Reading) -> Meaning:
         return meaning
     places = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
     often = times(found["times"]) if found.groupdict().get("times") else 1
-    return Steps((Patrol(places=places * often),))
+    return Steps((Patrol(places=places * often, look=_watches(found)),), seen=_watches(found))
+
+
+_WATCHES = re.compile(r"\b(?:patrol|rounds?|check|inspect)\b|巡|检查|看看")
+
+
+def _watches(found: Match[str]) -> bool:
+    """Tell whether a round is one to look: "patrol", and not "visit" or "drive through"."""
+    return _WATCHES.search(found[0]) is not None
 
 
 def patrol_all(found: Match[str], reading: Reading) -> Meaning:
@@ -193,7 +250,12 @@ def patrol_all(found: Match[str], reading: Reading) -> Meaning:
     rooms = tuple(entry.id for entry in reading.vocabulary.entries if entry.kind == "room")
     if not rooms:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-    return Steps((Patrol(places=rooms[:20]),))
+    return Steps((Patrol(places=rooms[:20], look=_watches(found)),), seen=_watches(found))
+
+
+def at_stops(_found: Match[str], reading: Reading) -> Meaning | None:
+    """Read "look at every stop", "tell me what you saw" behind a round that looks by itself."""
+    return Steps((), seen=True) if reading.scene.toured else None
 
 
 def in_all(found: Match[str], reading: Reading) -> Meaning | None:

@@ -13,7 +13,7 @@ from re import Match, Pattern
 
 from planner.language.grammar.lexicon import MARK, Lexicon, MarkedText
 from planner.language.grammar.small_talk import Topic, topic_of
-from planner.plan import Bilingual, Code, Find, Language, Step, Turn, Vocabulary
+from planner.plan import Bilingual, Code, Find, Language, Patrol, Step, Turn, Vocabulary
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +68,7 @@ class ClauseContext:
     person: str | None = None
     thing: str | None = None
     seen: bool = False
+    toured: bool = False  # a round that looks at every stop was ordered
     kind: str = ""  # of the last step
     met: str | None = None  # where somebody was met: "take them back"
     turned_rad: float | None = None  # by the last turn, where nothing was driven since
@@ -93,6 +94,7 @@ class ClauseContext:
             person=meaning.person or self.person,
             thing=meaning.thing or self.thing,
             seen=self.seen or meaning.seen,
+            toured=self.toured or any(isinstance(s, Patrol) and s.look for s in meaning.steps),
             kind=meaning.steps[-1].kind if meaning.steps else self.kind,
             turned_rad=_turned_rad(self.turned_rad, meaning.steps),
         )

@@ -24,7 +24,7 @@ from planner.language.grammar.checks import (
     without_compounds,
 )
 from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
-from planner.language.grammar.compound import read_compound
+from planner.language.grammar.compound import PartReaders, read_compound
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
@@ -68,6 +68,7 @@ from planner.plan import (
     Language,
     Option,
     Patrol,
+    Recall,
     Refuse,
     Repeat,
     Step,
@@ -218,12 +219,18 @@ def _read_compound(
         return None
     part_of = context.model_copy(update={"moved": True})
 
-    def read(part: str) -> tuple[Step, ...] | None:
+    def read_steps(part: str) -> tuple[Step, ...] | None:
         made = _read_once(part, sentence, vocabulary, part_of, offers=False)
         return made.steps if isinstance(made, StepPlan) else None
 
-    forms = CHINESE_COMPOUND if has_chinese(said) else ENGLISH_COMPOUND
-    made = read_compound(said.strip(" ,.!?;。"), forms, read)
+    def read_memory(question: str) -> Recall | None:
+        asked = read_recall(question, vocabulary, context.room)
+        return asked.step if asked is not None and "recall" in context.runnable else None
+
+    tongue = Language.ZH if has_chinese(said) else Language.EN
+    readers = PartReaders(read_steps, read_memory, lambda place: vocabulary.name(place).of(tongue))
+    forms = CHINESE_COMPOUND if tongue is Language.ZH else ENGLISH_COMPOUND
+    made = read_compound(said.strip(" ,.!?;。"), forms, readers)
     lacks = made is None or check_plan(made, vocabulary, context.runnable, context.blind)
     return None if lacks else made
 
@@ -293,6 +300,8 @@ def _limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> 
         if all(step.kind in runnable for step in offered):
             return replace(meaning, before=can)
         return ClauseProblem(blind, meaning.part, before=can)
+    if isinstance(meaning, Steps) and "count" not in runnable:  # nothing to look with
+        meaning = replace(meaning, steps=tuple(map(_without_look, meaning.steps)))
     lacks = (
         [s for s in meaning.steps if s.kind not in runnable] if isinstance(meaning, Steps) else []
     )
@@ -303,6 +312,10 @@ def _limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> 
     can = tuple(s for s in meaning.steps if isinstance(s, GoTo))
     can = (*can, *(GoTo(place=place) for place in patrolled))
     return ClauseProblem(code, meaning.part, before=can)
+
+
+def _without_look(step: Step) -> Step:
+    return step.model_copy(update={"look": False}) if isinstance(step, Patrol) else step
 
 
 def _apply_vetoes(

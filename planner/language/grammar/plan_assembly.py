@@ -40,6 +40,7 @@ from planner.plan import (
     Refuse,
     ReturnHome,
     Say,
+    StandAt,
     Step,
     StepPlan,
     Turn,
@@ -136,7 +137,8 @@ def _join_patrols(steps: Sequence[Step]) -> tuple[Step, ...]:
     for step in steps:
         before = joined[-1] if joined else None
         if isinstance(step, Patrol) and isinstance(before, Patrol) and before.places != step.places:
-            joined[-1] = Patrol(places=(*before.places, *step.places)[:MAX_STEPS])
+            places = (*before.places, *step.places)[:MAX_STEPS]
+            joined[-1] = Patrol(places=places, look=before.look or step.look)
         else:
             joined.append(step)
     return tuple(joined)
@@ -283,6 +285,10 @@ def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingua
         case GoTo():
             name = name_of(step.place)
             return say("order.go_to", name=name)
+        case StandAt(place=str(place)):
+            side = say(f"stand.side_{step.side}", name=name_of(place))
+            far = "" if step.distance_m is None else f"{step.distance_m:g}"
+            return say("order.stand_far" if far else "order.stand", side=side, far=far)
         case ComeBack() | ReturnHome() | Explore():
             return say(_ORDERS[step.kind])
         case Wait():

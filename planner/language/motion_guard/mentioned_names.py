@@ -166,16 +166,20 @@ _ZH = {char: float(value) for value, char in enumerate("零一二三四五六七
 }
 
 
+_TENS = re.compile(r"([一二三四五六七八九]?)十([一二三四五六七八九]?)")
+
+
 def numbers_named(text: str) -> tuple[float, ...]:
     """Return every number that a text writes, in digits or in plain words."""
     said = plain(text)
     found = [float(number) for number in re.findall(r"\d+(?:\.\d+)?", said)]
     found += [_NUMBERS[word] for word in re.findall(r"[a-z]+", said) if word in _NUMBERS]
-    for tens, ones in re.findall(r"([一二三四五六七八九]?)十([一二三四五六七八九]?)", said):
+    for tens, ones in _TENS.findall(said):
         found.append(10 * _ZH.get(tens, 1.0) + _ZH.get(ones, 0.0))
+    alone = _TENS.sub("", said)  # 三十 is thirty, and neither three nor ten
     for whole, tenths in re.findall(r"([一二两三四五六七八九\d])米([一二三四五六七八九半])", said):
         found.append(_ZH.get(whole, 0.0) + _ZH[tenths] / (1.0 if tenths == "半" else 10.0))
-    return (*found, *(_ZH[char] for char in said if char in _ZH))
+    return (*found, *(_ZH[char] for char in alone if char in _ZH))
 
 
 _PEOPLE = re.compile(

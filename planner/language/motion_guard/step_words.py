@@ -29,6 +29,7 @@ from planner.plan import (
     GoToPoint,
     MoveStraight,
     ReturnHome,
+    StandAt,
     Step,
     StepPlan,
     Turn,
@@ -102,6 +103,8 @@ def unnamed_part(step: Step | ClockTime, said: str) -> str:
             return _label(step.object, said)
         case GoToPoint():
             return "a point that no sentence names"
+        case StandAt():
+            return _stand(step, said)
         case Turn():
             return _turn(degrees(step.angle_rad), said)
         case MoveStraight():
@@ -111,6 +114,24 @@ def unnamed_part(step: Step | ClockTime, said: str) -> str:
 
 def _label(label: str, said: str) -> str:
     return "" if label_named(label, said) else f"{label!r} is not named"
+
+
+_SIDES = {
+    "before": r"before|front|ahead of|opposite|from|away|short of|(?<![之以])前|外|离|远",
+    "beside": r"beside|next to|side|\bby\b|near|close|旁|边|侧",
+    "behind": r"behind|back of|other side|(?<![然之以最])后",
+    "facing": r"\bfac|look(?:ing)? (?:at|to)|turn|toward|面向|面对|朝|对着|转向|看着",
+}
+"""Words for where to stand, by the side."""
+
+
+def _stand(step: StandAt, said: str) -> str:
+    if not re.search(_SIDES[step.side], said):
+        return f"no word of standing {step.side} it"
+    what = _label(step.object, said) if step.object is not None else ""
+    if what or step.distance_m is None:
+        return what
+    return _length(step.distance_m, said)
 
 
 def _turn(angle_deg: float, said: str) -> str:
@@ -132,11 +153,15 @@ def _move(distance_m: float, said: str) -> str:
     side, other = (_FORWARD, _BACKWARD) if distance_m > 0 else (_BACKWARD, _FORWARD)
     if re.search(other, said) and not re.search(side, said):
         return "the other way was said"
+    return _length(abs(distance_m), said)
+
+
+def _length(metres: float, said: str) -> str:
     scales = {1.0: r".", 0.01: r"cm|centi|厘米|公分"}
     numbers = [
         n * s for s, word in scales.items() if re.search(word, said) for n in numbers_named(said)
     ]
-    return _number(abs(distance_m), numbers)
+    return _number(metres, numbers)
 
 
 def _number(value: float, said: list[float]) -> str:

@@ -15,7 +15,19 @@ from dataclasses import dataclass
 
 from planner.language.grammar.parser import Context
 from planner.language.grammar.parser import plan as read_order
-from planner.language.motion_guard.mentioned_names import places_named, plain, thing_named
+from planner.language.motion_guard.branches import (
+    READ_BY_GRAMMAR,
+    asked_about,
+    branch_of,
+    hangs_on_more,
+    read_branches,
+)
+from planner.language.motion_guard.mentioned_names import (
+    find_places,
+    places_named,
+    plain,
+    thing_named,
+)
 from planner.language.motion_guard.order_scope import OrderScope, read_scope
 from planner.language.motion_guard.step_words import evidence, moves, unnamed_part
 from planner.language.questions import looks_round
@@ -27,12 +39,14 @@ from planner.plan import (
     Code,
     Count,
     Look,
+    MoveStraight,
+    Patrol,
     Refuse,
     Repeat,
+    StandAt,
     Step,
     StepNode,
     StepPlan,
-    StepRole,
     Vocabulary,
     list_nodes,
     parents_of,
@@ -83,6 +97,12 @@ _SEES = re.compile(
 _SEES_ROUND = re.compile(
     r"\b(?:look\w*|see|seen|watch|check\w*|inspect\w*|around|there|describe)\b|\bany(?:one|body)\b"
     r"|[看瞧]|环顾|周围|四周|附近|有没有|有什么|有谁"
+)
+_WATCHES = re.compile(rf"{_ROUNDS.pattern}|{_SEES.pattern}")
+_ENDS_THERE = frozenset({"go_to", "patrol", "stand_at"})
+_THERE = re.compile(
+    r"\b(?:go|get|drive|move|head|stay|wait|come|back|over|return|walk|in) there\b"
+    r"|那里|那儿|那边|过去|进去"
 )
 _NEARS = re.compile(
     r"\b(?:go|goes|approach|up to|walk|drive|come|near|next to|closer|meet|greet|tell|ask|say|bring"
@@ -139,21 +159,16 @@ def find_unasked(
     for index, node in enumerate(row):
         step = node.step
         if can_move(step):
-            upon = before or person.checked or step.kind in LOOKS or _hangs_on_more(row, index)
-            why = judge.find_fault(step, upon=upon) or judge.find_rounds(row, index)
+            upon = before or person.checked or step.kind in LOOKS or hangs_on_more(row, index)
+            asked = asked_about(row, index)
+            why = (
+                judge.find_branch(row, index)
+                or judge.find_fault(step, upon=upon, asked=asked)
+                or judge.find_rounds(row, index)
+            )
             found += [UnaskedStep(index, why)] if why else []
         before = before or step.kind == "ask"
     return tuple(found)
-
-
-_UPON = frozenset(
-    {StepRole.WHEN, StepRole.THEN, StepRole.OTHERWISE, StepRole.ON_FAILURE, StepRole.UNTIL}
-)
-
-
-def _hangs_on_more(row: tuple[StepNode, ...], index: int) -> bool:
-    """Tell whether a step is a condition, or done upon one or upon a failure alone."""
-    return any(row[i].role in _UPON for i in (index, *parents_of(row, index)))
 
 
 def can_move(step: Step | ClockTime) -> bool:
@@ -170,6 +185,7 @@ class _Judge:
         self._scopes = tuple(read_scope(words) for words in person.words)
         newest = person.words[-1] if person.words else ""
         self._own, self._hung, self._veto = _read_grammar(newest, vocabulary, person.room)
+        self._branches = read_branches(newest, vocabulary, person.room)
         if self._veto is not None and self._veto is not Code.UNSAFE:
             spared = _spare_clauses(newest, vocabulary, person.room)
             if spared is not None:  # "somebody knocks at the door, go and look"
@@ -179,8 +195,16 @@ class _Judge:
         self._at = ""
         self._repeats = any(_REPEATS.search(scope.upon) for scope in self._scopes)
 
-    def find_fault(self, step: Step | ClockTime, *, upon: bool) -> str:
-        """Return why a step is unasked; empty where it is asked."""
+    def find_fault(
+        self, step: Step | ClockTime, *, upon: bool, asked: Counter[str] | None = None
+    ) -> str:
+        """Return why a step is unasked; empty where it is asked.
+
+        Args:
+            step: what would be done.
+            upon: what stands on a condition counts.
+            asked: places that the conditions ask about on which the step hangs.
+        """
         if self._veto is not None:
             return f"the order itself is {self._veto.value}"
         if not places_of(step):
@@ -197,9 +221,21 @@ class _Judge:
             return "a question orders no drive"
         return (
             self._why_places(step, said)
+            or self._why_condition(step, said, asked or Counter())
             or self._why_kind(step, said)
             or self._why_often(step, key, said)
         )
+
+    def find_branch(self, row: tuple[StepNode, ...], index: int) -> str:
+        """Return why a step ends where the order sends the robot in the other branch, or in none.
+
+        Judged where the grammar has read the order whole, and no denial lets it be put both ways.
+        """
+        step, role = row[index].step, branch_of(row, index)
+        if self._branches is None or role is None or step.kind not in _ENDS_THERE:
+            return ""
+        wrong = next((p for p in places_of(step) if p not in self._branches[role]), None)
+        return f"{step.kind} to {wrong}, which this branch does not say" if wrong else ""
 
     def find_rounds(self, row: tuple[StepNode, ...], index: int) -> str:
         """Return why a step is done again and again though nobody ordered that."""
@@ -227,6 +263,15 @@ class _Judge:
                 return f"{step.kind} to {place} more often than named"
         return ""
 
+    def _why_condition(self, step: Step | ClockTime, said: str, asked: Counter[str]) -> str:
+        """Return why a branch drives to a place that its condition alone names."""
+        if step.kind not in _ENDS_THERE or not asked or _THERE.search(said):
+            return ""
+        named = Counter(places_named(said, self._vocabulary))
+        once = (p for p in places_of(step) if asked[p] and named[p] <= asked[p])
+        place = next(once, None)
+        return f"{step.kind} to {place}, which only the condition names" if place else ""
+
     def _arrive(self, place: str) -> None:
         """Count a drive to a place; who is there already drives no farther."""
         if place != self._at:
@@ -246,9 +291,12 @@ class _Judge:
         if isinstance(step, Look):
             looks = _SEES if step.place is not None else _SEES_ROUND
             return "" if looks.search(said) else "no word of looking"
+        if isinstance(step, Patrol) and step.look and not _WATCHES.search(said):
+            return "no word of looking on the way"
         label = getattr(step, "object", None)
-        if label is None:
-            return unnamed_part(step, said)
+        if label is None or isinstance(step, StandAt):
+            bare = self._without_sides(said) if isinstance(step, MoveStraight) else said
+            return unnamed_part(step, bare)
         things = _GAP.join(scope.things for scope in self._scopes)
         if not thing_named(label, things):
             return f"{label!r} is not named"
@@ -256,6 +304,16 @@ class _Judge:
             return "no word of going there"
         follows = step.kind != "follow" or _FOLLOWS.search(said)
         return "" if follows else "no word of following"
+
+    def _without_sides(self, said: str) -> str:
+        """Cut the sides of places: "before the sofa", 沙发前 say nothing of the robot's own way."""
+        for place in reversed(find_places(said, self._vocabulary)):
+            after = _SIDE_AFTER.match(said, place.end)
+            before = _SIDE_BEFORE.search(said, 0, place.start)
+            start = before.start() if before is not None else place.start
+            end = after.end() if after is not None else place.end
+            said = f"{said[:start]}{_GAP}{said[end:]}"
+        return said
 
     def _why_often(self, step: Step | ClockTime, key: object, said: str) -> str:
         if self._repeats or places_of(step):
@@ -265,10 +323,12 @@ class _Judge:
 
 
 _GAP = " | "
+_SIDE_AFTER = re.compile(r"的?(?:正?前[面方]?|后[面方]?|背后)")
+_SIDE_BEFORE = re.compile(
+    r"(?:in front of|before|behind|(?:front|back) of|away from) (?:(?:the|my|our|your) )?$"
+)
 _CLAUSE = re.compile(r"[,.;!?，。；！？]")
 _MOST_CLAUSES = 12
-_GRAMMAR_READS = 300
-"""Characters; in a longer text the words alone judge."""
 _ORDERS = re.compile(
     r"\b(?:go|goes|drive|come|walk|run|head|move|look|see|check|find|search|count|turn|follow|wait"
     r"|visit|swing|stop by|return|take|bring|tell|ask|patrol|rounds?|back)\b"
@@ -293,12 +353,12 @@ def _read_grammar(
 
     First those that are done anyhow, then these and what hangs on a condition or a failure.
     """
-    if len(text) > _GRAMMAR_READS:
+    if len(text) > READ_BY_GRAMMAR:
         return Counter(), Counter(), None
     read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
     if isinstance(read, StepPlan):
         row = list_nodes(read.steps)  # what hangs on something is not asked for without it
-        own = (n.step for i, n in enumerate(row) if not _hangs_on_more(row, i))
+        own = (n.step for i, n in enumerate(row) if not hangs_on_more(row, i))
         return Counter(map(_key, own)), Counter(_key(n.step) for n in row), None
     vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
     return (
@@ -328,4 +388,6 @@ def _key(step: Step | ClockTime) -> object:
         label.casefold() if label is not None else None,
         round(angle, 1) if angle is not None else None,
         round(far, 2) if far is not None else None,
+        getattr(step, "look", False),
+        getattr(step, "side", None),
     )

@@ -30,7 +30,7 @@ from planner.mission.skills.ask import ask
 from planner.mission.skills.conditions import clock, judge_condition
 from planner.mission.skills.count import count
 from planner.mission.skills.decide import decide
-from planner.mission.skills.drive_to_place import come_back, go_to, patrol, return_home
+from planner.mission.skills.drive_to_place import come_back, go_to, return_home
 from planner.mission.skills.explore import explore
 from planner.mission.skills.find import find
 from planner.mission.skills.follow import follow
@@ -38,10 +38,12 @@ from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.go_to_point import go_to_point
 from planner.mission.skills.look import look
 from planner.mission.skills.move import move, no_room
+from planner.mission.skills.patrol import patrol
 from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
 from planner.mission.skills.recall import recall
 from planner.mission.skills.say import say
 from planner.mission.skills.skill_state import STATES, SkillState, SkillStateBase, begin_state
+from planner.mission.skills.stand_at import stand_at
 from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
 from planner.mission.skills.wait_for import wait_for
@@ -50,6 +52,7 @@ from planner.plan import Code, say_same
 SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProxyType(
     {
         "go_to": go_to,
+        "stand_at": stand_at,
         "come_back": come_back,
         "return_home": return_home,
         "turn": turn,

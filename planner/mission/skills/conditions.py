@@ -1,11 +1,13 @@
 """Judge a condition by what its step came to: it holds, it does not, or that can't be told.
 
-A condition is a step like any other (a look, a search, a question, the clock) whose skill notes
+A condition is a step like any other (a look, a search, a question, memory, the clock) that notes
 ``holds`` among its figures. Laws: what can't be told chooses no branch: the step fails as
 ``unsure``, and the plan's own ``on_failure``, a brain or a person is next. A thing counts as not
-there only where all that was to be looked at was looked at. What a vision model says steers by this
-one bit alone, between steps that were written before any picture was taken (ADR 0060). A question
-is read as yes or no and nothing else; what is neither is asked once more.
+there only where all that was to be looked at was looked at. Memory is asked what was seen or done:
+what it does not know does not hold, and that is told; a memory that can't be read tells nothing.
+What a vision model says steers by this one bit alone, between steps that were written before any
+picture was taken (ADR 0060). A question is read as yes or no and nothing else; what is neither is
+asked once more.
 """
 
 from __future__ import annotations
@@ -67,6 +69,21 @@ def clock(scene: Scene[None]) -> SkillAction:
     holds = is_between(step.after, step.before, local_s)
     said = say("condition.clock", time=clock_time(local_s))
     return Finish({HOLDS: holds}, Code.SEEN, said)
+
+
+def judge_recalled(role: StepRole | None, code: Code, said: Bilingual) -> Finish | Fail:
+    """Return how a step ends that memory has answered; what is not remembered does not hold.
+
+    Args:
+        role: of the step, where another one holds it.
+        code: ``recalled``, ``not_remembered`` or ``memory_unavailable``.
+        said: the answer in words, with its age.
+    """
+    if code is not Code.MEMORY_UNAVAILABLE:
+        return Finish({HOLDS: code is Code.RECALLED} if role in JUDGED else {}, code, said)
+    if role is StepRole.WHEN:
+        return _unsure(said, {})
+    return Finish({HOLDS: None}, code, said) if role in JUDGED else Fail(code, code.value, said)
 
 
 def with_answer(act: Finish, holds: bool | None) -> Finish:

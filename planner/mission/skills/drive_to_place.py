@@ -1,17 +1,15 @@
-"""Drive to places of the site: ``go_to``, ``return_home``, ``come_back`` and ``patrol``.
+"""Drive to places of the site: ``go_to``, ``return_home`` and ``come_back``.
 
 Law: a place that is gone is not driven to, however recently it was there.
 
-Precondition: the place (for ``patrol`` each, when its turn comes) exists now; for ``come_back`` the
-pose at which the goal was accepted was known, and is on this map. Verdict: the bridge reached the
-leg, the robot stands, and for a room its pose lies inside the outline; a patrol that was paused or
-crashed goes on with the place that was next. Budget: one leg, of a patrol one a place; metres and
-seconds are the bridge's grant.
+Precondition: the place exists now; for ``come_back`` the pose at which the goal was accepted was
+known, and is on this map. Verdict: the bridge reached the leg, the robot stands, and for a room its
+pose lies inside the outline. Budget: one leg; metres and seconds are the bridge's grant.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from planner.language.catalogue import message
 from planner.mission.skills.actions import DriveLeg, Fail, Finish, Scene, SkillAction
@@ -21,7 +19,7 @@ if TYPE_CHECKING:
     from planner.site.site_view import SiteView
 
 
-def drive_to(scene: Scene[None], place: str) -> DriveLeg | Fail:
+def drive_to(scene: Scene[Any], place: str) -> DriveLeg | Fail:
     """Return the leg to a place: into a room at any heading, to anything else at its own."""
     target = scene.facts.targets.get(place)
     if target is None:
@@ -53,11 +51,3 @@ def come_back(scene: Scene[None]) -> SkillAction:
     if scene.accepted is None:
         return Fail(Code.NO_ROUTE, "no_route")
     return DriveLeg(scene.accepted, heading=True)
-
-
-def patrol(scene: Scene[None]) -> SkillAction:
-    """Return the leg to the next place, or that all were visited."""
-    places = scene.step.places
-    if scene.part >= len(places):
-        return Finish({"visited": scene.part})
-    return drive_to(scene, places[scene.part])

@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field
 
-from planner.plan import Frozen
+from planner.plan import Bilingual, Frozen, StopReport
 
 Point3 = tuple[float, float, float]
 """x, y, height [m] in ``map``."""
@@ -281,6 +281,29 @@ class AskState(SkillStateBase):
     """An answer that was neither yes nor no, after which was asked once more."""
 
 
+class PatrolState(RoomTourState):
+    """Remember the stops of a patrol that are over, and the look at the one where it stands."""
+
+    kind: Literal["patrol"] = "patrol"
+    stops: tuple[StopReport, ...] = ()
+    """In their order: looked round at, or passed over."""
+    arrived_s: float | None = None
+    """Since when it stands at the next one, in time spent on the step; None: it drives there."""
+
+
+class StandAtState(SkillStateBase):
+    """Remember the spots at a side of something, chosen once, and which of them are over."""
+
+    kind: Literal["stand_at"] = "stand_at"
+    name: Bilingual | None = None
+    at: tuple[float, float] | None = None
+    """The point of it that is faced: x [m], y [m] in ``map``; None: not chosen yet."""
+    spots: tuple[tuple[float, float, float, float, float], ...] = ()
+    """Pose (x, y, yaw) and the point that its distance counts from (x, y), each in ``map``."""
+    tried: int = 0
+    reached: bool = False
+
+
 class WaitForState(SkillStateBase):
     """Remember until when is waited, and that a word was asked for."""
 
@@ -300,6 +323,8 @@ SkillState = Annotated[
     | GoToObjectState
     | GoToPointState
     | LookState
+    | PatrolState
+    | StandAtState
     | WaitForState,
     Field(discriminator="kind"),
 ]
@@ -313,6 +338,8 @@ STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
         "go_to_object": GoToObjectState,
         "go_to_point": GoToPointState,
         "look": LookState,
+        "patrol": PatrolState,
+        "stand_at": StandAtState,
         "wait_for": WaitForState,
     }
 )

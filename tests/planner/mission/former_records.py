@@ -7,6 +7,7 @@ from __future__ import annotations
 YOUNGER = (
     *("recoveries", "depth", "role", "times", "round", "began_unix_s", "holds", "earlier"),
     *("word", "time", "after", "before", "span", "deeds", "bill"),
+    *("look", "stops", "side"),
 )
 """Fields of a step that these programs did not know."""
 

@@ -10,12 +10,16 @@ import pytest
 
 from planner.brain.scripted import Reply
 from planner.memory import MemoryStore, ObjectSighting, Recollection
-from planner.mission.events import Recalled, Tick
+from planner.mission.events import Recalled, Resume, Tick
 from planner.plan import (
+    Attempt,
     Code,
     Decide,
     GoTo,
+    If,
     Recall,
+    Repeat,
+    Say,
     StepPlan,
     StepState,
     say_same,
@@ -182,3 +186,81 @@ def test_a_brain_is_shown_what_is_named_first_and_cleaned(tmp_path: Path) -> Non
             assert len(second.what) <= 80
 
     run(story())
+
+
+CHOOSES = StepPlan(
+    steps=(
+        If(
+            when=Recall(object="red cup", place="kitchen"),
+            then=(Say(text="it was there"),),
+            otherwise=(Say(text="not seen"),),
+        ),
+    )
+)
+
+
+def test_branches_hang_on_what_was_seen_and_never_on_what_was_told(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with remembering(tmp_path, CHOOSES, CHOOSES) as (together, store):
+            store.teach("the red cup is in the kitchen", NOW_S, said_by="page")
+            unseen = await say(together, "in case you saw the red cup there, tell me, hm")
+            assert "I remember nothing of “red cup” in the kitchen." in told(unseen)
+            assert "Said: “not seen”." in told(unseen)
+            assert "find the red cup" not in told(unseen), "a condition offers nothing"
+            store.see([CUP])
+            seen = await say(together, "in case you saw the red cup by now, tell me, hm")
+            assert told(seen).startswith("I saw a red cup in the kitchen 20 minutes ago, at ")
+            assert "Said: “it was there”." in told(seen)
+            steps = seen.plan.steps if seen.plan is not None else ()
+            assert [step.holds for step in steps if step.kind == "recall"] == [True]
+            assert together.bridge.waypoints == []
+
+    run(story())
+
+
+def _answer(world: Lockstep, goal: str, code: Code, text: str) -> None:
+    world.run(0.2)
+    world.event(Recalled(goal, world.book.tickets, code, say_same(text)))
+    world.run(0.5)
+
+
+def test_a_memory_that_cannot_be_read_takes_neither_branch() -> None:
+    world = Lockstep()
+    goal = world.give(CHOOSES)
+    _answer(world, goal, Code.MEMORY_UNAVAILABLE, "The disk refuses.")
+    mission = world.goal(goal)
+    assert mission.state is FAILED
+    assert mission.outcome is not None
+    assert mission.outcome.code is Code.UNSURE
+    assert "I can't tell, so I do neither. The disk refuses." in mission.outcome.message.en
+    assert world.said == []
+    caught = Attempt(steps=CHOOSES.steps, on_failure=(Say(text="who knows"),))
+    world = Lockstep()
+    goal = world.give(StepPlan(steps=(caught,)))
+    _answer(world, goal, Code.MEMORY_UNAVAILABLE, "The disk refuses.")
+    world.run(2.0)
+    assert world.said == ["who knows"]
+
+
+def test_rounds_end_once_it_is_remembered() -> None:
+    world = Lockstep()
+    rounds = Repeat(times=3, steps=(Say(text="round"),), until=Recall(object="cup", span="today"))
+    goal = world.give(StepPlan(steps=(rounds,)))
+    for code in (Code.NOT_REMEMBERED, Code.MEMORY_UNAVAILABLE, Code.RECALLED):
+        _answer(world, goal, code, "so")
+    assert world.goal(goal).state is SUCCEEDED
+    assert world.said == ["round"] * 3
+    assert world.goal(goal).steps[-1].span == "today", "each round asks the same"
+
+
+def test_a_planner_killed_while_memory_is_asked_asks_anew() -> None:
+    world = Lockstep()
+    goal = world.give(CHOOSES)
+    world.run(0.5)
+    after = world.restart()
+    after.run(1.0)
+    after.act()
+    after.event(Resume(goal))
+    _answer(after, goal, Code.RECALLED, "In the kitchen.")
+    assert after.goal(goal).state is SUCCEEDED
+    assert after.said == ["it was there"]

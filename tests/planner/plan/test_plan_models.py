@@ -61,6 +61,7 @@ STEPS: list[dict[str, Any]] = [
     {"kind": "turn", "angle_rad": 1.5},
     {"kind": "move", "distance_m": -0.5},
     {"kind": "patrol", "places": ["kitchen", "study"]},
+    {"kind": "stand_at", "place": "kitchen", "side": "beside", "distance_m": 0.5},
     {"kind": "go_to_object", "object": "red cup"},
     {"kind": "go_to_point", "x": 500, "y": 1000},
     {"kind": "find", "object": "red cup", "place": "kitchen"},

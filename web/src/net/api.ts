@@ -4,6 +4,7 @@ import type {
   Firing,
   Goal,
   Grid,
+  KeptPicture,
   Known,
   Language,
   Memories,
@@ -233,15 +234,26 @@ export async function forgetObject(id: string): Promise<void> {
 }
 
 /** Fetch the camera's newest picture. */
-export async function fetchPicture(): Promise<Blob> {
+export const fetchPicture = (): Promise<Blob> => fetchBlob("/v1/camera.jpg");
+
+/** Fetch a picture that a patrol kept. */
+export const fetchKeptPicture = (id: number): Promise<Blob> => fetchBlob(`/v1/pictures/${id}`);
+
+async function fetchBlob(path: string): Promise<Blob> {
   const signal = AbortSignal.timeout(TIMEOUT_MS);
-  const answer = await asked("/v1/camera.jpg", {
-    headers: authorization(),
-    signal,
-    cache: "no-store",
-  });
+  const answer = await asked(path, { headers: authorization(), signal, cache: "no-store" });
   if (answer.ok) return answer.blob();
   throw refusal(answer, {});
+}
+
+/** Return the pictures that a goal's patrols kept. */
+export async function listPictures(goal: string): Promise<readonly KeptPicture[]> {
+  const shown = await call("GET", `/v1/pictures?${new URLSearchParams({ goal })}`);
+  return (shown as { readonly pictures: readonly KeptPicture[] }).pictures;
+}
+
+export async function forgetPicture(id: number): Promise<void> {
+  await call("DELETE", `/v1/pictures/${id}`);
 }
 
 /** Return what is remembered, the newest first; of a search what fits, or what comes nearest. */

@@ -5,6 +5,7 @@ import { act, answer } from "../state/acts";
 import type { Goal, Outcome, Step, Tag } from "../wire/types";
 import { DraftOf } from "./Draft";
 import { fixed } from "./format";
+import { Stops } from "./Stops";
 import { brainName, needed, reasonWords, roleWords, stepWords } from "./steps";
 import { verdict } from "./verdict";
 
@@ -31,7 +32,7 @@ export function GoalCard({ goal }: { goal: Goal }) {
       </header>
       {goal.reason && !asks && <p class="reason">{reasonWords(goal.reason)}</p>}
       <DraftOf goal={goal} />
-      {goal.plan && goal.plan.steps.length > 0 && <Steps steps={goal.plan.steps} />}
+      {goal.plan && goal.plan.steps.length > 0 && <Steps steps={goal.plan.steps} goal={goal.id} />}
       {asks && <Question goal={goal} />}
       {goal.outcome && !asks && <Ended outcome={goal.outcome} />}
       {goal.brain && <PlannedBy tag={goal.brain} />}
@@ -40,7 +41,8 @@ export function GoalCard({ goal }: { goal: Goal }) {
   );
 }
 
-export function Steps({ steps }: { steps: readonly Step[] }) {
+/** Show a plan's steps; of a goal's own plan with what its patrols saw. */
+export function Steps({ steps, goal }: { steps: readonly Step[]; goal?: string }) {
   return (
     <ol class="steps" aria-label={t("goal.steps")}>
       {steps.map((step, index) => (
@@ -61,6 +63,7 @@ export function Steps({ steps }: { steps: readonly Step[] }) {
             {step.reason && <span class="reason"> {reasonWords(step.reason)}</span>}
             {verdict(step).length > 0 && <span class="fine"> {verdict(step).join(" · ")}</span>}
             {steps.length > 1 && <Came step={step} />}
+            {goal !== undefined && <Stops goal={goal} at={index} step={step} />}
           </span>
         </li>
       ))}
@@ -70,6 +73,7 @@ export function Steps({ steps }: { steps: readonly Step[] }) {
 
 /** Say what a step came to, and beside it what a model read; a goal of one step says it as its outcome. */
 function Came({ step }: { step: Step }) {
+  if ((step.stops ?? []).length > 0 && step.state === "succeeded") return null; // told by stops
   const told = [step.said, step.read].filter((words) => words !== null && words !== undefined);
   return told.length > 0 && <span class="came">{told.map(say).join(" ")}</span>;
 }

@@ -28,6 +28,7 @@ function what(step: Step): string {
       : t("step.times", { of: `${step.times ?? 1}` });
   }
   if (step.kind === "wait_for") return step.object ?? step.word ?? step.time ?? "";
+  if (step.kind === "stand_at") return standing(step);
   if (step.kind === "clock") return `${step.after ?? ""} – ${step.before ?? ""}`;
   if (step.kind === "follow" && step.object) return step.object;
   if (typeof step.seconds === "number") return fixed(step.seconds, 0, "s");
@@ -36,6 +37,11 @@ function what(step: Step): string {
   const object = step.object ?? step.text ?? "";
   const place = nameOf(step.place) || (step.places ?? []).map(nameOf).join(", ");
   return object && place ? `${object} (${place})` : object || place;
+}
+
+function standing(step: Step): string {
+  const side = word("side", step.side ?? "before").replace("{what}", step.object ?? nameOf(step.place));
+  return typeof step.distance_m === "number" ? `${side} (${fixed(step.distance_m, 1, "m")})` : side;
 }
 
 const FAULT = /^fault\((\w+)\)$/;

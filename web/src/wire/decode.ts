@@ -135,11 +135,13 @@ function isRobot(value: unknown): value is Robot {
   );
 }
 
+const stop = (value: unknown): boolean => bag(value) && text(value.place) && words(value.said);
 const step = (value: unknown): boolean =>
   bag(value) &&
   text(value.kind) &&
   text(value.state) &&
-  [value.said, value.read].every((said) => said === undefined || said === null || words(said));
+  [value.said, value.read].every((said) => said === undefined || said === null || words(said)) &&
+  (value.stops === undefined || all(value.stops, stop));
 const option = (value: unknown): boolean => bag(value) && text(value.text) && words(value.label);
 
 export function isGoal(value: unknown): value is Goal {

@@ -169,11 +169,16 @@ export type Step = {
   readonly times: number | null; // rounds of a repeat, at most
   readonly round: number; // which of them runs, or was the last
   readonly holds: boolean | null; // of a condition: what it came to
+  readonly side?: string | null; // of a place or thing, at which to stand
   readonly word: string | null;
   readonly time: string | null;
   readonly after: string | null;
   readonly before: string | null;
+  readonly stops?: readonly Stop[]; // of a patrol that looks: what came of each that is over
 };
+
+/** What a patrol saw at one of its stops. */
+export type Stop = { readonly place: string; readonly said: Bilingual; readonly shut: boolean };
 
 export type Option = { readonly label: Bilingual; readonly text: string };
 
@@ -468,6 +473,16 @@ export type Memory = {
   readonly first_unix_s: number;
   readonly last_unix_s: number;
   readonly fits: boolean;
+};
+
+/** A picture that a patrol kept of one of its stops. */
+export type KeptPicture = {
+  readonly id: number;
+  readonly goal: string;
+  readonly step: number;
+  readonly stop: number;
+  readonly place: string;
+  readonly names: readonly Bilingual[];
 };
 
 export type Memories = { readonly memories: readonly Memory[] };

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar.compound import CompoundForms, ConditionParts
+from planner.language.grammar.compound import CompoundForms, ConditionParts, MemoryParts
 from planner.language.numbers import EN_DURATION, times
 
 _NOT = r"(?:can not|cannot|could not|do not|does not|are not able to|is not)"
@@ -57,6 +57,54 @@ def _read_condition(said: str) -> ConditionParts | None:
         denied,
         is_placed=bool(where),
     )
+
+
+_SEEN = r"(?:noticed|spotted|met|come across)"
+_EVER = r"(?:ever |already |also |just |recently )?"
+_YOU_SAW = re.compile(
+    rf"you (?P<never>never )?{_EVER}(?:saw|came across|{_SEEN}) (?P<what>.+)"
+    rf"|you (?:have|had)(?P<have_not>n't| not| never)? {_EVER}(?:seen|{_SEEN}) (?P<what_2>.+)"
+    rf"|you did(?P<did_not> not)? {_EVER}(?:see|notice|spot|meet|come across) (?P<what_3>.+)"
+)
+_PEOPLE_WERE = re.compile(
+    rf"(?:there (?P<there>was|were) )?(?P<who>{_PERSON}|{_NOBODY})"
+    r"(?(there)| (?P<verb>was|were|has been|have been|came|went|walked|entered))(?P<rest> .+)?"
+)
+_BASE = {"came": "come", "went": "go", "walked": "walk", "entered": "enter"}
+_THING_WAS = re.compile(
+    r"(?:there (?:was|were) (?P<some>.+?)|(?P<thing>.+?) (?:was|were)(?P<not> not)?)"
+    r"(?P<where> (?:in|on|at|near) .+)"
+)
+
+
+def _read_memory(said: str) -> MemoryParts | None:
+    """Return the question about before that a condition in the past tense is."""
+    saw = _YOU_SAW.fullmatch(said)
+    if saw is not None:
+        what = saw["what"] or saw["what_2"] or saw["what_3"]
+        denied = bool(saw["never"] or saw["have_not"] or saw["did_not"])
+        if (without := _NO_THING.fullmatch(what)) is not None:
+            what, denied = without["thing"], not denied
+        return MemoryParts(f"did you see {_somebody(what)}", denied)
+    were = _PEOPLE_WERE.fullmatch(said)
+    if were is not None:
+        denied, rest = re.fullmatch(_NOBODY, were["who"]) is not None, were["rest"] or ""
+        if were["there"] or were["verb"] in ("was", "were"):
+            return MemoryParts(f"was somebody{rest}", denied)
+        if were["verb"] in _BASE:
+            return MemoryParts(f"did somebody {_BASE[were['verb']]}{rest}", denied)
+        return MemoryParts(f"has somebody been{rest}", denied)
+    was = _THING_WAS.fullmatch(said)
+    if was is not None:
+        return MemoryParts(
+            f"did you see {was['some'] or was['thing']}{was['where']}", bool(was["not"])
+        )
+    return None
+
+
+def _somebody(what: str) -> str:
+    """Write "no one in the kitchen" and its like as the one that is asked about."""
+    return re.sub(rf"^{_NOBODY}\b", "anybody", what)
 
 
 def _count(words: str) -> int | None:
@@ -115,6 +163,11 @@ ENGLISH_COMPOUND = CompoundForms(
         re.compile(rf"{_NO_QUESTION}(?P<then>.+?),? {_IF} (?P<if>.+)"),
     ),
     read_condition=_read_condition,
+    read_memory=_read_memory,
+    go_there=re.compile(
+        r"\b(?P<verb>go|drive|move|head|come|return|get|walk|proceed)(?: over| back)? there\b"
+    ),
+    to_place="{verb} to the {name}",
     cuts=re.compile(rf" then | (?={_VERBS}\b)"),
     failures=re.compile(
         rf"(?:try to )?(?P<main>.+?)[,;.]? (?:and |but |or )?{_IF} {_FAILS}"

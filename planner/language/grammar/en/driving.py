@@ -6,6 +6,7 @@ from re import Match
 
 from planner.language.grammar.clauses import QUOTE
 from planner.language.grammar.driving_steps import (
+    at_stops,
     come_back,
     drive_into,
     drive_to,
@@ -19,6 +20,7 @@ from planner.language.grammar.driving_steps import (
     say,
     set_out,
     stand,
+    stand_at,
     turn,
     wait,
     wander,
@@ -84,6 +86,13 @@ _WHOLE = (
 )
 _DRAW = r"(?:make|build|draw|create) (?:a|the|your) map"
 _ALONE = r"(?:by yourself|on your own|yourself|alone|automatically|autonomously)"
+
+
+_STAND = r"(?:stand|stop|stay|wait|park(?: yourself)?|position yourself|place yourself|halt)"
+_TAKE_PLACE = rf"(?:{_STAND}|{GO}(?: (?:up|to))*)"
+_SURE_SIDE = r"(?:in front of|behind|to the (?:side|back|front) of|before)"
+_AT_SIDE = rf"(?:{_SURE_SIDE}|at the side of|beside|next to|alongside|by|opposite)"
+"""Words for a side; "go next to the sofa" is the place by the sofa that its owner chose."""
 
 
 def _come_here(found: Match[str], reading: Reading) -> Meaning:
@@ -159,6 +168,19 @@ RULES: tuple[Rule, ...] = (
         rf"(?:come|get)(?: (?:over|on))?(?: here| over)|come to (?:me|us)|{GO} to (?:me|us)|come",
         _come_here,
     ),
+    rule(
+        rf"{_TAKE_PLACE}(?: (?:exactly|about|around))? {EN_LENGTH}"
+        rf" (?P<side>{_AT_SIDE}|away from|from) (?P<place>.+)",
+        stand_at,
+    ),
+    rule(rf"{_TAKE_PLACE} (?P<side>{_AT_SIDE}) (?P<place>.+?), {EN_LENGTH}(?: away)?", stand_at),
+    rule(rf"{_STAND} (?:right |just )?(?P<side>{_AT_SIDE}) (?P<place>.+)", stand_at),
+    rule(rf"{GO} (?:right |just )?(?P<side>{_SURE_SIDE}) (?P<place>.+)", stand_at),
+    rule(
+        r"(?P<side>(?:turn(?: around)? (?:to (?:face|look at)|towards?)|face(?: towards?)?"
+        rf"|turn to)) (?P<place>{THE}{MARK}|(?:the|my|our) (?!left|right|back|front|side)[a-z ]+)",
+        stand_at,
+    ),
     rule(rf"{_HEAD} {EN_LENGTH}(?: {_WAY})?", move),
     rule(rf"(?:{_HEAD} )?(?:for )?{_WAY}(?: (?:for|by|about))*(?: {EN_LENGTH})?", move),
     rule(rf"(?P<way>reverse|back up)(?: (?:for|by|about))*(?: {EN_LENGTH})?", move),
@@ -197,6 +219,15 @@ RULES: tuple[Rule, ...] = (
     rule(
         rf"(?:map|{_DRAW} of) {_WHOLE} {_ALONE}|{_DRAW} {_ALONE}",
         map_alone,
+    ),
+    rule(
+        r"(?:(?:have|take) a (?:good )?(?:look|picture|photo)|look|take (?:pictures|photos))"
+        r"(?: a?round)? (?:at|in|of) (?:every|each)(?: single)?"
+        r"(?: (?:stop|room|place|one|of them))?"
+        r"|(?:tell (?:me|us)|report(?: to (?:me|us))?)(?: back)?(?: (?:at|in) the end)?"
+        r" what (?:all )?you (?:saw|see|found|find|noticed|notice)"
+        r"(?: where| there| on the way| at (?:every|each)(?: (?:stop|room|place))?)?",
+        at_stops,
     ),
     rule(
         r"(?:patrol|wander|roam|explore|cruise|make (?:a|your) rounds?)\b[^\ue000-\ue7ff]*",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar.compound import CompoundForms, ConditionParts
+from planner.language.grammar.compound import CompoundForms, ConditionParts, MemoryParts
 from planner.language.numbers import ZH_DURATION
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
@@ -31,6 +31,21 @@ def _read_condition(said: str) -> ConditionParts | None:
     where, thing = found["where"].strip(), found["thing"].strip()
     asks = f"{where}有没有{thing}"
     return ConditionParts(asks, thing, found["has"] != "有", is_placed=bool(where))
+
+
+_SEE = r"(?:看到|看见|见到|碰到|碰见|遇到|发现|瞧见|见)"
+_MET = rf"(?:{_SEE}|来|去|到|进|待|在)(?:过|了)"
+_PAST = rf"[^,，;；。]*?{_MET}[^,，;；。]*?"
+
+
+def _read_memory(said: str) -> MemoryParts | None:
+    """Return the question about before that a condition with 过 or 了 is."""
+    plain = re.sub(rf"{_IF}|的话$", "", said.replace("有没有", "有"))
+    if re.search(_MET, plain) is None:
+        return None
+    asked = re.sub(rf"(?:从来)?没有?(?={_SEE})", "", plain)
+    asked = re.sub(r"没有?人", "有人", asked)
+    return MemoryParts(asked, asked != plain)
 
 
 _DIGITS = {digit: value for value, digit in enumerate("零一二三四五六七八九十")} | {"两": 2}
@@ -77,6 +92,7 @@ _STAY = (
     r"(?:请|先)?(?:你)?(?:就)?(?:在这里|在这儿|在原地|留在这里)?(?:请)?等(?:着|到|待|候)?[,，]?"
     r"(?:直到|到)?"
 )
+_ORDER = r"(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开)"
 _PLACE_HAS = r"[^,，;；。]*?(?:没有|没|有)[^,，;；。]*?"
 
 CHINESE_COMPOUND = CompoundForms(
@@ -85,8 +101,17 @@ CHINESE_COMPOUND = CompoundForms(
     ),
     conditions=(
         re.compile(
+            rf"(?:请)?(?P<if>[^,，;；。]*?{_IF}{_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?)"
+            rf"{_OTHERWISE}(?P<else>.+)"
+        ),
+        re.compile(
+            rf"(?:请)?(?P<if>[^,，;；。]*?{_IF}{_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
+        ),
+        re.compile(rf"(?P<if>{_PAST})的话{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"),
+        re.compile(rf"(?P<if>{_PAST})的话{_THEN}(?P<then>{_ORDER}.+)"),
+        re.compile(
             rf"(?:请)?{_IF}?(?P<if>{_PLACE_HAS})(?:的话)?{_THEN}"
-            rf"(?P<then>(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开).+?){_OTHERWISE}(?P<else>.+)"
+            rf"(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
         ),
         re.compile(
             r"(?:请)?(?:去)?(?:看看|看一下|检查一下|看一看)(?P<if>[^,，;；。]*?(?:有没有|有无)[^,，;；。]*?)[,，;；。]"
@@ -98,18 +123,21 @@ CHINESE_COMPOUND = CompoundForms(
         ),
         re.compile(
             rf"(?:请)?{_IF}(?P<if>{_PLACE_HAS})(?:的话)?{_THEN}"
-            r"(?P<then>(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开).+)"
+            rf"(?P<then>{_ORDER}.+)"
         ),
         re.compile(
             rf"(?P<if>{_PLACE_HAS})(?:的话)[,，]?(?:就|便)"
-            r"(?P<then>(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开).+)"
+            rf"(?P<then>{_ORDER}.+)"
         ),
         re.compile(
             rf"(?P<if>[^,，;；。]+?{_IF}(?:没有|没|有)[^,，;；。]*?)(?:的话)?{_THEN}"
-            r"(?P<then>(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开).+)"
+            rf"(?P<then>{_ORDER}.+)"
         ),
     ),
     read_condition=_read_condition,
+    read_memory=_read_memory,
+    go_there=re.compile(r"(?P<verb>去|到|回到?|前往|开到)(?:那里|那儿|那边)"),
+    to_place="{verb}{name}",
     cuts=re.compile(r"(?!)"),
     failures=re.compile(
         rf"(?P<main>.+?)[,，;；。](?:{_FAILS})[,，]?(?:就|便|再)?(?:改)?(?P<else>.+)"

@@ -6,6 +6,7 @@ from re import Match
 
 from planner.language.grammar.clauses import QUOTE
 from planner.language.grammar.driving_steps import (
+    at_stops,
     come_back,
     drive_to,
     home,
@@ -18,6 +19,7 @@ from planner.language.grammar.driving_steps import (
     say,
     set_out,
     stand,
+    stand_at,
     turn,
     turn_and_move,
     wait,
@@ -76,6 +78,13 @@ _WHOLE = (
 )
 
 
+_HALT = r"停下来?|停住|停|站着|站住|等着|等我"
+_PLACE_SELF = r"(?:停在|站在|站到|停到|停靠在|待在|等在)"
+_STAND = r"(?:停|站|待|等|开|走|去|移动)"
+_WHAT = rf"(?:{MARK}的)?(?:{MARK}|[^,。\ue000-\ue8ff]{{1,10}}?)"
+_SIDE_OF = r"的?(?:正?前面|正?前方|跟前|对面|旁边?|边上|后面|背后|后方|前)"
+
+
 def _greet(_found: Match[str], _reading: Reading) -> Meaning:
     return Steps((Say(text="你好"),))
 
@@ -122,6 +131,26 @@ RULES: tuple[Rule, ...] = (
         r"(?:在?(?:这里|这儿|那里|那儿))?(?:等一下|等一等|等等|等一会儿?|稍等|等我|等着|等待|等)",
         _how_long,
     ),
+    rule(
+        rf"{_STAND}(?:在|到)?(?P<place>{_WHAT})(?P<side>{_SIDE_OF})(?:的地方|处)?"
+        rf"(?:大约|大概|约)?{ZH_LENGTH}(?:的地方|处|远)?(?:{_HALT})?",
+        stand_at,
+    ),
+    rule(
+        rf"{_STAND}(?:在|到)?(?P<side>离|距离?)(?P<place>{_WHAT}?)(?:大约|大概|约|还有)?{ZH_LENGTH}"
+        rf"(?:的地方|处|远)?(?:{_HALT})?",
+        stand_at,
+    ),
+    rule(rf"{_PLACE_SELF}(?P<place>{_WHAT})(?P<side>{_SIDE_OF}|旁边?|边上)(?:{_HALT})?", stand_at),
+    rule(
+        rf"(?:去|到|开到|走到|移动到)(?P<place>{_WHAT})(?P<side>的?(?:正?前面|正?前方|跟前|后面|背后))"
+        rf"(?:去)?(?:{_HALT})?",
+        stand_at,
+    ),
+    rule(
+        rf"(?:转身|转过去|转)?(?P<side>面向|面对着?|朝向|正对着?|对着|转向|转过去对着)(?P<place>{_WHAT})",
+        stand_at,
+    ),
     rule(rf"离开{MARK}(?:里)?", _leave),
     rule(rf"{GO}完(?P<place>{MARK})(?:以后|之后|后)?", drive_to),
     rule(r"(?:在那里|在那儿)(?:停下来?|停住|停|待命|等着|等待)|待命", stand),
@@ -159,7 +188,16 @@ RULES: tuple[Rule, ...] = (
         r"|全屋巡逻|巡逻全屋",
         patrol_all,
     ),
+    rule(rf"把{ALL_ROOMS}(?:都|挨个)?(?:巡逻|巡检|巡视|巡查|检查)(?:一下|一遍|一圈)?", patrol_all),
     rule(rf"在?{ALL_ROOMS}", in_all),
+    rule(
+        rf"(?:在|到)?(?:{ALL_ROOMS}|每到一?(?:处|个地方|站)|每一?站)?(?:都)?"
+        r"(?:停下来)?(?:看看|看一下|看一看|瞧瞧|拍个?照片?|拍一?张照片?)"
+        r"|(?:回来)?(?:告诉我|向我报告|报告|汇报|跟我说)(?:一下)?(?:你)?(?:在哪里?)?(?:都)?"
+        r"(?:看到|看见|发现|见到)了?(?:些)?(?:什么|啥)(?:东西)?",
+        at_stops,
+    ),
+    rule(rf"在?{ALL_ROOMS}", at_stops),
     rule(
         rf"(?:自己|自动|自主)?(?:去|来|开始|继续)?(?:探索|探查|勘探)(?:一下|一遍|下)?{_WHOLE}?"
         r"|(?:自己|自动|自主)(?:去|来|开始|继续)?(?:把)?(?:地图)?"

@@ -149,7 +149,7 @@ STILL = {
     "go to the kitchen and fly": "clarify not_understood",
     "go to the kitchen door": "clarify not_understood",
     "go to the sofa and follow her": "clarify incomplete",
-    "go behind the sofa": "clarify not_understood",
+    "go behind the kitchen": "clarify not_understood",
     "go near the kitchen": "clarify not_understood",
     "drive into the sofa": "clarify not_understood",
     "go to the couch in the kitchen": "clarify not_understood",

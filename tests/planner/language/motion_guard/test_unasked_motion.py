@@ -23,8 +23,10 @@ from planner.plan import (
     Look,
     MoveStraight,
     Patrol,
+    Recall,
     ReturnHome,
     Say,
+    StandAt,
     Step,
     StepPlan,
     Turn,
@@ -153,6 +155,80 @@ def test_a_condition_holds_once_somebody_has_looked() -> None:
     hung = If(when=look, then=(BATH,), otherwise=(STUDY,))
     assert unasked(order, hung) == (), "what looks first may"
     assert unasked(order, hung, KITCHEN) == (4,), "and nothing behind it"
+
+
+SEEN = Recall(object="red cup", place="kitchen")
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        "if you saw the red cup in the kitchen today, go to the study, otherwise come back",
+        "如果今天在厨房见过红杯子就去书房，否则回来",
+    ],
+)
+def test_a_place_that_only_a_condition_names_is_nowhere_to_go(order: str) -> None:
+    right = If(when=SEEN, then=(STUDY,), otherwise=(ComeBack(),))
+    assert unasked(order, right) == ()
+    for wrong in (
+        If(when=SEEN, then=(KITCHEN,), otherwise=(ComeBack(),)),
+        If(when=SEEN, then=(STUDY,), otherwise=(KITCHEN,)),
+        If(when=SEEN, then=(Patrol(places=("kitchen",)),)),
+    ):
+        assert unasked(order, wrong), "it was to be remembered, and not driven to"
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        "if there is somebody in the kitchen go to the study, otherwise go to the bathroom",
+        "如果厨房里有人就去书房，不然去卫生间",
+    ],
+)
+def test_one_branch_is_not_the_other(order: str) -> None:
+    look = Look(question="is anybody there?", place="kitchen")
+    assert unasked(order, If(when=look, then=(STUDY,), otherwise=(BATH,))) == ()
+    assert unasked(order, If(when=look, then=(BATH,), otherwise=(STUDY,))) == (2, 3)
+    assert unasked(order, If(when=look, then=(STUDY, BATH))) == (3,)
+
+
+def test_a_denied_condition_may_be_put_either_way() -> None:
+    order = "if nobody is in the kitchen go to the study"
+    for look, held in (("is anybody there?", "otherwise"), ("is nobody there?", "then")):
+        made = If.model_validate({"when": Look(question=look, place="kitchen"), held: (STUDY,)})
+        assert unasked(order, made) == ()
+
+
+def test_there_is_the_place_of_the_condition() -> None:
+    order = "if you saw the red cup in the kitchen today, go there"
+    assert unasked(order, If(when=SEEN, then=(KITCHEN,))) == ()
+    assert unasked(order, If(when=SEEN, otherwise=(KITCHEN,))) == (2,)
+
+
+def test_a_number_in_another_is_none() -> None:
+    assert unasked("跟我走三十秒", Follow(object="person"), MoveStraight(distance_m=10.0)) == (1,)
+    assert unasked("往前走十米", MoveStraight(distance_m=10.0)) == ()
+    assert unasked("往前走二十米", MoveStraight(distance_m=10.0)) == (0,)
+
+
+def test_before_something_says_nothing_of_the_robots_own_way() -> None:
+    for order in (
+        "stop one metre before the sofa",
+        "停在沙发前一米",
+        "stop 1 m in front of the sofa",
+    ):
+        assert unasked(order, MoveStraight(distance_m=1.0)) == (0,), order
+        assert unasked(order, StandAt(place="sofa", side="before", distance_m=1.0)) == ()
+        for other in ({"side": "behind"}, {"distance_m": 3.0}, {"place": "tv"}):
+            hostile = {"place": "sofa", "side": "before", "distance_m": 1.0} | other
+            assert unasked(order, StandAt.model_validate(hostile)) == (0,), (order, other)
+
+
+def test_a_look_at_each_stop_needs_a_word_of_looking() -> None:
+    rounds = Patrol(places=("kitchen", "study"), look=True)
+    assert unasked("patrol the kitchen and the study", rounds) == ()
+    assert unasked("visit the kitchen and the study", rounds) == (0,)
+    assert unasked("visit the kitchen and the study", Patrol(places=("kitchen", "study"))) == ()
 
 
 def test_a_denial_ends_with_its_clause() -> None:
