@@ -59,9 +59,9 @@ NEW_LADDER_M = 1.0
 MAX_LADDERS = 12
 """In one step: a busy home shuts a way often, but not for ever."""
 MAX_WALKER_LADDERS = 3
-"""In a row before somebody who walked up and stands: people go on in the end, and who waits for them
-is met again further on. Where people come and go, as at a door in use, the count begins anew with
-each who is seen to walk there; how often the ladder is begun in a step is the bound then."""
+"""In a row before somebody who walked up and stands: people go on in the end, and who waits for
+them is met again further on. Where people come and go, as at a door in use, the count begins anew
+with each who is seen to walk there; how often the ladder is begun in a step is the bound then."""
 MAX_GIVEN_WAY = 3
 """In one step."""
 WALKER_S = 1.0

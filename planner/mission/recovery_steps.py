@@ -166,7 +166,7 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
 
 
 def _give_up(turn: Transaction, mission: Mission, leg: Driving) -> None:
-    """Fail the step; before somebody who walked up and stands, once the ladder was climbed thrice."""
+    """Fail the step; before somebody who walked up, only once the ladder was climbed thrice."""
     again = climb_again(mission.recovery)
     if again is None:
         fail_step(turn, way_shut(turn, mission))

@@ -59,7 +59,7 @@ export function RememberedPanel() {
     >
       <h2 id="memory-title">{t("memory.title")}</h2>
       <form
-        class="names-row"
+        class="memory-form"
         role="search"
         onSubmit={(event) => {
           event.preventDefault();
@@ -74,9 +74,7 @@ export function RememberedPanel() {
           value={query.value}
           onInput={(event) => (query.value = event.currentTarget.value)}
         />
-        <span class="buttons">
-          <button type="submit">{t("memory.find")}</button>
-        </span>
+        <button type="submit">{t("memory.find")}</button>
       </form>
       {held.value !== null && memories.length === 0 && <p class="fine">{t("memory.none")}</p>}
       {near && <p class="fine">{t("memory.near")}</p>}
@@ -94,7 +92,7 @@ export function RememberedPanel() {
 function Teach() {
   return (
     <form
-      class="names-row"
+      class="memory-form"
       onSubmit={(event) => {
         event.preventDefault();
         void learn();
@@ -107,11 +105,9 @@ function Teach() {
         value={fact.value}
         onInput={(event) => (fact.value = event.currentTarget.value)}
       />
-      <span class="buttons">
-        <button type="submit" disabled={fact.value.trim() === ""}>
-          {t("memory.keep")}
-        </button>
-      </span>
+      <button type="submit" disabled={fact.value.trim() === ""}>
+        {t("memory.keep")}
+      </button>
     </form>
   );
 }
