@@ -301,9 +301,14 @@ class Loop:
         self._broken = error
 
     def _on_routed(self, ask: AskRoute, result: RouteResult | None, failure: str | None) -> None:
-        points, floor = (None, None) if result is None else (result.points, result.floor)
         now_s = self._clocks.monotonic()
-        self._carry(self._engine.take_route(ask, points, failure, now_s, floor))
+        if result is None:
+            self._carry(self._engine.take_route(ask, None, failure, now_s))
+            return
+        output = self._engine.take_route(
+            ask, result.points, failure, now_s, result.floor, result.faces
+        )
+        self._carry(output)
 
     def _carry(self, output: Output) -> None:
         """Send first, then do the rest in order."""

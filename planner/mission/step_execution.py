@@ -160,6 +160,8 @@ def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
         target=act.target,
         limit_s=act.limit_s,
         limit_m=act.limit_m,
+        sees=act.sees,
+        sees_from_m=act.sees_from_m,
         since_s=turn.now_s,
         asked_s=turn.now_s,
         state=act.state,
