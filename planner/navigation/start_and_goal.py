@@ -26,8 +26,8 @@ SHIFT_M = 0.15
 """A goal is moved by so much for the sake of room; what is meant by it stays the same."""
 
 SEES_M = 1.6
-"""So far from a point on mapped furniture the way may end, where it is seen from: half a bed, and
-room to stand."""
+"""So far from a point on mapped furniture the way may end, where just that is gone to: half a bed,
+and room to stand."""
 DEEP_M = 1.3
 """So deep in furniture a point may lie; what is deeper lies behind it."""
 SIGHT_STEP = 0.25
@@ -166,9 +166,9 @@ def _sight(mapped: Costmap, site: Site, request: RouteRequest, goal_m: Point) ->
     if not mapped.grid.contains(*at_m):
         raise RouteFailure("goal_outside_map", f"({at_m[0]:.2f}, {at_m[1]:.2f})")
     furniture = site.grid.at(*at_m) == OCCUPIED
-    far = furniture and (at_m == request.sees or _is_place(site, at_m)) and at_m == goal_m
+    far = furniture and request.sees == goal_m
     reach_m = SEES_M if far else GOAL_MOVE_M
-    faces = request.sees is not None or furniture
+    faces = request.sees is not None
     return _Sight(at_m, request.sees_from_m, reach_m, faces, furniture)
 
 
@@ -189,12 +189,6 @@ def _seen_from(
     column, row = costmap.grid.cell_of(*goal_m)
     stands = mapped is not None and mapped.free[row, column] and not costmap.free[row, column]
     return start_m if stands else None
-
-
-def _is_place(site: Site, at_m: Point) -> bool:
-    """Tell whether a point is where a place is marked: a person means the furniture there."""
-    spots = ((p.pose.x_m, p.pose.y_m) for p in site.places if p.kind == "place")
-    return at_m in spots
 
 
 def end_cells(costmap: Costmap, site: Site, goal: Pose2) -> tuple[NDArray[np.intp], ...]:

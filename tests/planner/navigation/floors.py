@@ -23,7 +23,6 @@ def drawn(
     keep_outs: tuple[Outline, ...] = (),
     zones: tuple[tuple[Outline, float], ...] = (),
     rooms: dict[str, Outline] | None = None,
-    spots: dict[str, Pose2] | None = None,
 ) -> Site:
     """Make a site from rows of '#' and '.', the first row at the top, the corner at (0, 0)."""
     per = round(square_m / CELL_M)
@@ -43,10 +42,6 @@ def drawn(
     places = [
         Place(id=name, kind="room", name=Names(en=name, zh=name), polygon=outline, pose=home.pose)
         for name, outline in (rooms or {}).items()
-    ]
-    places += [
-        Place(id=name, kind="place", name=Names(en=name, zh=name), pose=pose)
-        for name, pose in (spots or {}).items()
     ]
     fence = Fence(record, "0" * 16)
     return Site(Path("/nowhere"), grid, "0" * 16, fence, (home, *places), home)
