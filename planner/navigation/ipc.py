@@ -26,8 +26,15 @@ def read_request(frame: Frame) -> RouteRequest:
     start, goal = Pose2(**head["start"]), Pose2(**head["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in head["obstacles"])
     kinds = {name: bool(head[name]) for name in ("straight", "aside", "strict", "explore")}
-    sizes = {name: float(head[name]) for name in ("keep_right_m", "sees_from_m")}
-    return RouteRequest(start, goal, obstacles, sees=_read_point(head["sees"]), **sizes, **kinds)
+    return RouteRequest(
+        start,
+        goal,
+        obstacles,
+        keep_right_m=float(head["keep_right_m"]),
+        sees=_read_point(head["sees"]),
+        sees_from_m=float(head["sees_from_m"]),
+        **kinds,
+    )
 
 
 def result_frame(result: RouteResult) -> Frame:

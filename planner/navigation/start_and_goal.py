@@ -128,7 +128,9 @@ class _Sight:
         A wall that furniture stands against can't be told from it: where rooms are known, it is
         seen from its own room alone.
         """
-        x_m, y_m = costmap.grid.centre_of(near.columns, near.rows)  # type: ignore[arg-type]
+        grid = costmap.grid
+        x_m = grid.origin_x_m + (near.columns + 0.5) * grid.resolution_m
+        y_m = grid.origin_y_m + (near.rows + 0.5) * grid.resolution_m
         away_m = np.hypot(x_m - self.at_m[0], y_m - self.at_m[1])
         solid = _solid_on_lines(site, np.stack([x_m, y_m], axis=1), self.at_m)
         once = (np.diff(solid.astype(np.int8), axis=1) >= 0).all(axis=1)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from planner.brain.image_questions import ImageDescription, ImageQuestion, NotThere
+from planner.brain.image_questions import ImageDescription, ImageQuestion, ImageSighting, NotThere
 from planner.brain.scripted import ScriptedBrain
 from planner.plan import Bilingual, BrainTag, Code, GoTo, Look, Say, Step, StepPlan
 from tools.lockstep import LockstepWorld
@@ -36,6 +36,9 @@ class Denying:
 
     async def point(self, asked: ImageQuestion) -> NotThere:
         return NotThere(self.tag)
+
+    async def seek(self, asked: ImageQuestion) -> ImageSighting:
+        return ImageSighting(False, 0, 0, 0, 0.9, self.tag)
 
 
 def seeing(home: Path, start: Pose2, *steps: Step) -> tuple[LockstepWorld, Denying]:

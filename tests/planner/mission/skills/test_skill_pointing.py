@@ -109,14 +109,12 @@ def test_an_answer_to_another_question_is_none_to_this_point() -> None:
 
 def test_it_stands_where_the_thing_is_seen_from_and_tries_the_nearest_such_point_last() -> None:
     """The map is the route search's: each leg says what its end is to see, and how near."""
-    state, legs = ASKED.but(at=AT), []
-    for _ in range(12):
-        act = going("yes", state=state)
-        if not isinstance(act, DriveLeg):
-            break
+    legs: list[DriveLeg] = []
+    act = going("yes", state=ASKED.but(at=AT))
+    while isinstance(act, DriveLeg):
         legs.append(act)
         assert (act.sees, act.sees_from_m) == (AT[:2], NEAREST_M)
-        state = act.otherwise
+        act = going("yes", state=act.otherwise)
     assert len(legs) == len(SIDES_RAD) + 1
     assert all(hypot(leg.goal.x_m - 4.0, leg.goal.y_m - 0.5) > 0.7 for leg in legs[:-1])
     assert (legs[-1].goal.x_m, legs[-1].goal.y_m) == AT[:2], "large furniture: from where it can"
