@@ -151,7 +151,7 @@ def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
 
 
 def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill)
     leg = Driving(
         record=turn.next_entry,
         goal=act.goal,
@@ -174,13 +174,8 @@ def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
     ask_route(turn, detour=False)
 
 
-def _bill(act: DriveLeg | Observe | AskImage) -> dict[str, object]:
-    """Return what a search by the vision model costs, where the step is one."""
-    return {} if act.bill is None else {"bill": act.bill}
-
-
 def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill)
     observing = Observing(
         record=turn.next_entry,
         since_s=turn.now_s,
@@ -197,7 +192,7 @@ def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
 
 def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     """Ask about the picture, standing; the answer comes with the ticket."""
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill)
     ticket = turn.book.tickets + 1
     asking = AskingImage(
         record=turn.next_entry,
