@@ -116,12 +116,8 @@ class Planner:
         self.orders = standing_orders_of(self.settings.orders, where.home, self._state, self.goals)
         self.goals.show_scans(self._router)
         self._begin_memory()
-        self.goals.see(
-            self.eyes,
-            looker_of(self._model, self.brain, worker),
-            picture_limits(self.settings),
-            spent_by(self.budget),
-        )
+        self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
+        self.goals.loop.bound_search(picture_limits(self.settings), spent_by(self.budget))
 
     @property
     def voice(self) -> VoiceAbilities:

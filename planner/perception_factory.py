@@ -148,13 +148,13 @@ def picture_limits(settings: Settings) -> PictureLimits:
 def spent_by(purse: Purse) -> Spent:
     """Return how the purse is asked what a goal's calls have cost by now."""
 
-    def spent(goal: str) -> PictureCost:
+    def ask_purse(goal: str) -> PictureCost:
         mine = purse.usage(goal).goal
         if mine is None:
             return PictureCost()
         return PictureCost(mine.prompt_tokens + mine.reply_tokens, mine.money)
 
-    return spent
+    return ask_purse
 
 
 def _by_detector(_: str, seen: Sequence[DetectedObject]) -> tuple[Bilingual, bool | None]:

@@ -73,6 +73,10 @@ class Driving(_StepActivity):
     limit_s: float | None = None
     limit_m: float | None = None
     """The skill's budget for this leg."""
+    sees: tuple[float, float] | None = None
+    """What it is to see from its end, and face."""
+    sees_from_m: float = 0.0
+    """No nearer to it."""
     since_s: float
     """When this leg began: the step's time is counted from here."""
     asked_s: float

@@ -11,11 +11,14 @@ import asyncio
 from typing import TYPE_CHECKING, Any
 
 from planner.language.object_names import prepare
+from planner.mission.reducer import looks, looks_widely
 from planner.mission.skills.viewpoints import near_spot, spots_in
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
 
+    from planner.mission.state import MissionState
+    from planner.perception.interfaces import Eyes
     from planner.site.site_view import SiteView
 
 
@@ -51,6 +54,23 @@ class Wording:
         await asyncio.to_thread(prepare, classes)
         self._ready = classes
         self._told()
+
+
+class EyeNeeds:
+    """Have the eyes look at their full rate while a step needs them, and widely where it does."""
+
+    def __init__(self) -> None:
+        """Begin with nobody who needs them."""
+        self._told = (False, False)
+
+    def tell(self, book: MissionState, eyes: Eyes | None) -> None:
+        """Tell the eyes what is needed of them now, where that has changed."""
+        if eyes is None:
+            return
+        needs = looks(book), looks_widely(book, eyes.open_classes)
+        if needs != self._told:
+            self._told = needs
+            eyes.attend("mission", needs[0], wide=needs[1])
 
 
 def warm_up(facts: SiteView, classes: tuple[str, ...] = ()) -> None:

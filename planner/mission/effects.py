@@ -72,6 +72,10 @@ class AskRoute:
     """The fastest that this way may be driven; None: as the route says."""
     doubted: bool = False
     """Only a way round everything that is remembered helps."""
+    sees: tuple[float, float] | None = None
+    """The end is to see this point of the map, and to face it."""
+    sees_from_m: float = 0.0
+    """No nearer to it."""
     keep_right_m: float = 0.0
     """So far leave room on the left, for somebody who comes."""
 

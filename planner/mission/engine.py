@@ -7,7 +7,7 @@ at once and carry out ``effects``. Whoever answers an effect does so with anothe
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import copysign, hypot
+from math import atan2, copysign, hypot
 
 from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
 from planner.mission.activity import Driving, RouteDoubt
@@ -159,12 +159,14 @@ class Engine:
         failure: str | None,
         now_s: float,
         floor: FloorReport | None = None,
+        faces: tuple[float, float] | None = None,
     ) -> Output:
         """Take the answer to ``AskRoute``: the route's points, or the code of why there is none.
 
-        ``floor`` comes with the answer to one who explores.
+        ``floor`` comes with the answer to one who explores, ``faces`` where the end is to face
+        something: its heading is then taken from where the way really ends.
         """
-        effects = self._take_route(ask, points, failure, now_s, floor)
+        effects = self._take_route(ask, points, failure, now_s, floor, faces)
         return Output(self._speak(now_s), effects)
 
     def take_journalled(self, journal: Journal, now_s: float) -> Output:
@@ -207,11 +209,13 @@ class Engine:
         failure: str | None,
         now_s: float,
         floor: FloorReport | None = None,
+        faces: tuple[float, float] | None = None,
     ) -> tuple[Effect, ...]:
         short_m, end_m, length_m = 0.0, None, 0.0
         if points is not None:
             points = _slow_down(points, ask.speed_mps)
-            self._path = LegPath.of(points, ask.goal.yaw_rad if ask.heading else None)
+            yaw_rad = ask.goal.yaw_rad if faces is None else _bearing(points[-1], faces)
+            self._path = LegPath.of(points, yaw_rad if ask.heading else None)
             end_m, length_m = (points[-1].x_m, points[-1].y_m), self._path.length_m
             short_m = hypot(ask.goal.x_m - points[-1].x_m, ask.goal.y_m - points[-1].y_m)
         code = failure if points is None else None
@@ -277,6 +281,11 @@ class Engine:
         if wanted.leg is None or not ours or horizon is None or not horizon.points:
             return Course(wanted.mission)
         return Course(wanted.mission, wanted.leg, horizon.points, horizon.final)
+
+
+def _bearing(end: RoutePoint, faces: tuple[float, float]) -> float:
+    """Return the heading at which a robot at the end of a way faces a point [rad]."""
+    return atan2(faces[1] - end.y_m, faces[0] - end.x_m)
 
 
 def _slow_down(points: tuple[RoutePoint, ...], speed_mps: float | None) -> tuple[RoutePoint, ...]:

@@ -75,6 +75,8 @@ def ask_route(
     heading = leg.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
     ask = AskRoute(mission.id, ticket, start, goal, heading, seen, way, shut, speed_mps, doubted)
+    if own is None and way is Way.ROUTE:
+        ask = replace(ask, sees=leg.sees, sees_from_m=leg.sees_from_m)
     turn.emit(replace(ask, keep_right_m=keep_right_m))
 
 

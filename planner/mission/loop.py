@@ -21,7 +21,7 @@ from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import Progress, goal_of, progress_of
 from planner.mission.bridge_status import at_rest
 from planner.mission.clocks import Clocks
-from planner.mission.detector_words import Wording, warm_up
+from planner.mission.detector_words import EyeNeeds, Wording, warm_up
 from planner.mission.effects import (
     AskRoute,
     ClearHold,
@@ -36,10 +36,9 @@ from planner.mission.event_hub import Hub
 from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
 from planner.mission.gc_control import Collector
 from planner.mission.journal_sync import Disk
-from planner.mission.perception_requests import EyeDoor, KeepInAlbum, Spent
-from planner.mission.reducer import asked_about_picture, looks, looks_widely
+from planner.mission.perception_requests import EyeDoor, KeepInAlbum
+from planner.mission.reducer import asked_about_picture
 from planner.mission.skills import Eyesight
-from planner.mission.skills.perception import NO_PICTURES, PictureLimits
 from planner.mission.state import GoalKey, MissionState, Rules
 from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import Answers, MissionTasks, Recaller, RouteService, Think
@@ -48,7 +47,9 @@ from wire import OpRequest, Status, Waypoints
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
+    from planner.mission.perception_requests import Spent
     from planner.mission.scan_sender import ScanSender
+    from planner.mission.skills.perception import PictureLimits
     from planner.perception.interfaces import Eyes
     from planner.perception.snapshot import Sight
     from wire import CameraConfig
@@ -80,7 +81,7 @@ class Loop:
         self._progress: Progress | None = None
         self._eyes: Eyes | None = None
         self._door = EyeDoor(None)
-        self._attends = (False, False)
+        self._needs = EyeNeeds()
         self._acts: dict[str, OpRequest] = {}
         self._surveyor = surveyor
         self._obstacles: ScanSender | None = None
@@ -118,34 +119,23 @@ class Loop:
         """Bound what goals may do by themselves, before anything starts."""
         self._engine.book = replace(self._engine.book, rules=rules)
 
-    def see(
-        self,
-        eyes: Eyes,
-        looker: Looker | None,
-        camera: CameraConfig,
-        pictures: PictureLimits = NO_PICTURES,
-        spent: Spent | None = None,
-    ) -> None:
-        """Take the eyes, and the model that may be asked about their pictures.
-
-        Args:
-            eyes: what is seen.
-            looker: the model; None: there is none.
-            camera: the robot's.
-            pictures: bound one search by the model.
-            spent: returns what a goal's calls have cost by now.
-        """
+    def see(self, eyes: Eyes, looker: Looker | None, camera: CameraConfig) -> None:
+        """Take the eyes, and the model that may be asked about their pictures."""
         self._eyes = eyes
-        self._door.see(eyes, looker, spent)
+        self._door.see(eyes, looker)
         self._wording = Wording(eyes.classes, self._spawn, self._seen_anew)
-        model = looker is not None
-        eyesight = Eyesight(camera, eyes.classes, model, pictures if model else NO_PICTURES)
+        eyesight = Eyesight(camera, eyes.classes, model=looker is not None)
         self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
         eyes.listen(self._on_sight)
 
     def keep_pictures(self, album: KeepInAlbum) -> None:
         """Keep the pictures of patrols there from now on."""
         self._door.keep_in(album)
+
+    def bound_search(self, pictures: PictureLimits, spent: Spent) -> None:
+        """Bound one search by the vision model; ``spent`` tells what a goal's calls have cost."""
+        self._door.spent = spent
+        self._engine.book = replace(self.book, eyes=replace(self.book.eyes, pictures=pictures))
 
     def show_scans(self, obstacles: ScanSender) -> None:
         """Show scans to the route search from now on."""
@@ -307,9 +297,10 @@ class Loop:
         self._broken = error
 
     def _on_routed(self, ask: AskRoute, result: RouteResult | None, failure: str | None) -> None:
-        points, floor = (None, None) if result is None else (result.points, result.floor)
+        points = result.points if result is not None else None
+        floor, faces = (result.floor, result.faces) if result is not None else (None, None)
         now_s = self._clocks.monotonic()
-        self._carry(self._engine.take_route(ask, points, failure, now_s, floor))
+        self._carry(self._engine.take_route(ask, points, failure, now_s, floor, faces))
 
     def _carry(self, output: Output) -> None:
         """Send first, then do the rest in order."""
@@ -319,19 +310,9 @@ class Loop:
                 self._tell_first(message.mission)
         for effect in output.effects:
             self._do(effect)
-        self._attend()
+        self._needs.tell(self.book, self._eyes)
         if self._helpers is not None:
             self._helpers.await_answer(asked_about_picture(self.book))
-
-    def _attend(self) -> None:
-        """Have the eyes look at their full rate while a step needs them."""
-        if self._eyes is None:
-            return
-        wide = looks_widely(self.book, self._eyes.open_classes)
-        wanted = looks(self.book), wide
-        if wanted != self._attends:
-            self._attends = wanted
-            self._eyes.attend("mission", wanted[0], wide=wide)
 
     def _seen_anew(self) -> None:
         """Take what the eyes said last once more: their classes can be read now."""

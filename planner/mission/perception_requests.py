@@ -58,23 +58,16 @@ class EyeDoor:
     def __init__(self, eyes: Eyes | None, looker: Looker | None = None) -> None:
         """Ask these eyes, and this model about their pictures."""
         self._eyes, self._looker = eyes, looker
-        self._spent: Spent = nothing_spent
+        self.spent: Spent = nothing_spent
         self._album: KeepInAlbum | None = None
         self._pictures: dict[str, Picture | asyncio.Task[Picture | None]] = {}
         """By goal; a task where the picture is still to come."""
         self._views: dict[str, dict[int, tuple[Shown, tuple[Detection, ...]]]] = {}
         """By goal, and by the number of the direction."""
 
-    def see(self, eyes: Eyes, looker: Looker | None, spent: Spent | None = None) -> None:
-        """Ask these eyes from now on, and this model about their pictures.
-
-        Args:
-            eyes: show the pictures.
-            looker: the model.
-            spent: returns what a goal's calls have cost by now.
-        """
+    def see(self, eyes: Eyes, looker: Looker | None) -> None:
+        """Ask these eyes from now on, and this model about their pictures."""
         self._eyes, self._looker = eyes, looker
-        self._spent = spent or nothing_spent
 
     def note(self, goal_id: str) -> None:
         """Keep the newest picture: a plan for this goal is asked for now.
@@ -139,14 +132,14 @@ class EyeDoor:
             return await _point(eyes, meant, ask.x, ask.y)
         if self._looker is None:
             return ImageAnswer(failure="no_vision_model")
-        before = self._spent(ask.id)
+        before = self.spent(ask.id)
         try:
             answer = await self._model(self._looker, eyes, picture, ask)
         except (BrainDown, BadPlan) as failure:
             code = failure.why if isinstance(failure, BrainDown) else failure.code
             log.warning("goal %s: nobody looked at the picture: %s", ask.id, failure)
             answer = ImageAnswer(failure=code)
-        return replace(answer, cost=_cost_between(before, self._spent(ask.id)))
+        return replace(answer, cost=_cost_between(before, self.spent(ask.id)))
 
     async def _model(
         self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes

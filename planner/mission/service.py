@@ -37,7 +37,6 @@ from planner.mission.events import (
 from planner.mission.journal_sync import Disk
 from planner.mission.loop import Loop
 from planner.mission.memory_lookup import MemoryLookup
-from planner.mission.perception_requests import Spent
 from planner.mission.place_survey import RobotSurvey
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
@@ -51,7 +50,6 @@ from planner.mission.reception import (
 )
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.scan_sender import ScanObserver, ScanSender
-from planner.mission.skills.perception import NO_PICTURES, PictureLimits
 from planner.mission.standing_goals import StandingGoals
 from planner.mission.state import MissionState, Rules
 from planner.mission.surveyor import Surveyor
@@ -106,22 +104,9 @@ class Missions:
         self._lookup.recollection = recollection
         self.loop.keep_pictures(recollection.keep_picture)
 
-    def see(
-        self,
-        eyes: Eyes,
-        looker: Looker | None = None,
-        pictures: PictureLimits = NO_PICTURES,
-        spent: Spent | None = None,
-    ) -> None:
-        """See with these eyes, and ask this model about their pictures.
-
-        Args:
-            eyes: what is seen.
-            looker: the model; None: there is none.
-            pictures: bound one search by it.
-            spent: returns what a goal's calls have cost by now.
-        """
-        self.loop.see(eyes, looker, self._robot.camera, pictures, spent)
+    def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
+        """See with these eyes, and ask this model about their pictures."""
+        self.loop.see(eyes, looker, self._robot.camera)
 
     def show_scans(self, observer: ScanObserver) -> None:
         """Show scans to the route search, which remembers what the map does not know."""

@@ -155,8 +155,8 @@ def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
 
 
 def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
-    more = _bill(act) | _so_far(act.state)
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, **more)
+    more = _so_far(act.state)
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill, **more)
     leg = Driving(
         record=turn.next_entry,
         goal=act.goal,
@@ -165,6 +165,8 @@ def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
         target=act.target,
         limit_s=act.limit_s,
         limit_m=act.limit_m,
+        sees=act.sees,
+        sees_from_m=act.sees_from_m,
         since_s=turn.now_s,
         asked_s=turn.now_s,
         state=act.state,
@@ -177,11 +179,6 @@ def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
     ask_route(turn, detour=False)
 
 
-def _bill(act: DriveLeg | Observe | AskImage) -> dict[str, object]:
-    """Return what a search by the vision model costs, where the step is one."""
-    return {} if act.bill is None else {"bill": act.bill}
-
-
 def _so_far(state: SkillStateBase | None) -> dict[str, object]:
     """Return what a patrol has to tell before it is over: it is kept however the step ends."""
     if not isinstance(state, PatrolState) or not state.stops:
@@ -190,7 +187,7 @@ def _so_far(state: SkillStateBase | None) -> dict[str, object]:
 
 
 def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill)
     observing = Observing(
         record=turn.next_entry,
         since_s=turn.now_s,
@@ -207,7 +204,7 @@ def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
 
 def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     """Ask about the picture, standing; the answer comes with the ticket."""
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, **_bill(act))
+    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill)
     ticket = turn.book.tickets + 1
     asking = AskingImage(
         record=turn.next_entry,

@@ -185,6 +185,8 @@ class MissionTasks:
                 explore=ask.way is Way.EXPLORE,
                 strict=ask.doubted,
                 keep_right_m=ask.keep_right_m,
+                sees=ask.sees,
+                sees_from_m=ask.sees_from_m,
             )
             result = await self._router.route(request)
         except RouteFailure as failure:

@@ -26,8 +26,15 @@ def read_request(frame: Frame) -> RouteRequest:
     start, goal = Pose2(**head["start"]), Pose2(**head["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in head["obstacles"])
     kinds = {name: bool(head[name]) for name in ("straight", "aside", "strict", "explore")}
-    right_m = float(head["keep_right_m"])
-    return RouteRequest(start, goal, obstacles, keep_right_m=right_m, **kinds)
+    return RouteRequest(
+        start,
+        goal,
+        obstacles,
+        keep_right_m=float(head["keep_right_m"]),
+        sees=_read_point(head["sees"]),
+        sees_from_m=float(head["sees_from_m"]),
+        **kinds,
+    )
 
 
 def result_frame(result: RouteResult) -> Frame:
@@ -46,7 +53,12 @@ def read_result(frame: Frame) -> RouteResult:
         start_escaped=bool(head["start_escaped"]),
         took_s=float(head["took_s"]),
         floor=_read_floor(head["floor"]),
+        faces=_read_point(head["faces"]),
     )
+
+
+def _read_point(point: Any) -> tuple[float, float] | None:
+    return None if point is None else (float(point[0]), float(point[1]))
 
 
 def _read_floor(head: dict[str, Any] | None) -> FloorReport | None:

@@ -67,6 +67,8 @@ class RouteRequest:
     strict: bool = False  # fail, where the only way leads through what is remembered
     keep_right_m: float = 0.0  # so far leave room on the left, for somebody who comes
     explore: bool = False  # go where the map's next frontier is seen from; the goal means nothing
+    sees: tuple[float, float] | None = None  # the end is to see this point of the map, and face it
+    sees_from_m: float = 0.0  # and to stand no nearer to it
 
 
 MIN_SPEED_MPS = 0.05
@@ -103,6 +105,7 @@ class RouteResult:
     start_escaped: bool  # the way begins by leaving a place too near to an obstacle
     took_s: float  # in the search itself
     floor: FloorReport | None = None  # to a request to explore
+    faces: tuple[float, float] | None = None  # what the end sees, and is to face
 
 
 @dataclass(frozen=True, slots=True)

@@ -170,6 +170,7 @@ class Router:
             moved_goal_m=moved_m(costmap, request, ends),
             start_escaped=ends.start_escaped,
             took_s=clock() - began_s,
+            faces=ends.faces_m,
         )
 
     def _explore(
@@ -293,6 +294,7 @@ def _smooth(costmap: Costmap, line: Line) -> Line:
 
 
 def _check(request: RouteRequest) -> None:
-    ends = (request.start, request.goal)
-    if not all(isfinite(pose.x_m) and isfinite(pose.y_m) for pose in ends):
+    ends = [(pose.x_m, pose.y_m) for pose in (request.start, request.goal)]
+    ends += [request.sees] if request.sees is not None else []
+    if not all(isfinite(x_m) and isfinite(y_m) for x_m, y_m in ends):
         raise RouteFailure("route_request_malformed", "a coordinate is not a finite number")

@@ -16,7 +16,7 @@ from maps import FREE, OCCUPIED, UNKNOWN, LoadedMap, load_map
 from maps.cell_array import cell_array
 from planner.language.catalogue import say
 from planner.navigation.costmap import Costmap, Mask, static_costmap
-from planner.navigation.start_and_goal import GOAL_MOVE_M
+from planner.navigation.start_and_goal import end_cells
 from planner.plan.base import Bilingual
 from planner.site import Place, Site, SiteError
 from planner.site.fence_check import PLACE_M
@@ -116,21 +116,15 @@ def _of_place(
         yield _finding(
             "place_near_fence", place=place.id, room=f"{to_fence:.2f}", wanted=f"{PLACE_M:g}"
         )
-    if reached is None or _near(reached, row, column, site.grid.resolution_m):
+    if reached is None or bool(reached[end_cells(costmap, site, place.pose)].any()):
         return
-    loose = _reached_without_margin(site, costmap)
-    if loose is not None and _near(loose, row, column, site.grid.resolution_m):
+    loose = _without_margin(costmap)
+    loosely = _reached_in(site, loose)
+    if loosely is not None and bool(loosely[end_cells(loose, site, place.pose)].any()):
         margin = f"{margins.OBSTACLE_MARGIN_M:g}"
         yield _finding("margin_closes_way", "refused", place=place.id, margin=margin)
     else:
         yield _finding("place_unreachable", "refused", place=place.id)
-
-
-def _near(reached: Mask, row: int, column: int, resolution_m: float) -> bool:
-    """Return whether a goal there would be taken, moved by GOAL_MOVE_M at most."""
-    reach = int(GOAL_MOVE_M / resolution_m)
-    low, left = max(0, row - reach), max(0, column - reach)
-    return bool(reached[low : row + reach + 1, left : column + reach + 1].any())
 
 
 def _mark_reached(costmap: Costmap, row: int, column: int) -> Mask | None:
@@ -138,17 +132,21 @@ def _mark_reached(costmap: Costmap, row: int, column: int) -> Mask | None:
     return None if label == 0 else np.asarray(costmap.labels == label)
 
 
-def _reached_without_margin(site: Site, costmap: Costmap) -> Mask | None:
-    loose = Costmap(
+def _without_margin(costmap: Costmap) -> Costmap:
+    """Return the costmap of a robot that needs no room beside its disc."""
+    return Costmap(
         costmap.grid,
         costmap.radius_m - margins.OBSTACLE_MARGIN_M,
         costmap.occupied,
         costmap.clearance_m,
         costmap.fence_gap_m + margins.FENCE_MARGIN_M,
     )
+
+
+def _reached_in(site: Site, costmap: Costmap) -> Mask | None:
     home = site.home.pose
     column, row = site.grid.cell_of(home.x_m, home.y_m)
-    return _mark_reached(loose, row, column)
+    return _mark_reached(costmap, row, column)
 
 
 def _of_floor(site: Site, costmap: Costmap) -> Iterator[SiteFinding]:

@@ -8,10 +8,13 @@ from math import ceil, hypot
 import numpy as np
 from numpy.typing import NDArray
 
+from maps import FREE, OCCUPIED
+from maps.cell_array import cell_array
 from planner.navigation.costmap import Costmap
 from planner.navigation.route import RouteFailure, RouteRequest
 from planner.navigation.smoothing import sample
 from planner.site import Site
+from wire import Pose2
 
 ESCAPE_M = 0.6
 """A robot squeezed in deeper than this does not stand where the map says."""
@@ -22,7 +25,16 @@ pose and the map's cells err by about as much."""
 SHIFT_M = 0.15
 """A goal is moved by so much for the sake of room; what is meant by it stays the same."""
 
+SEES_M = 1.6
+"""So far from a point on mapped furniture the way may end, where just that is gone to: half a bed,
+and room to stand."""
+DEEP_M = 1.3
+"""So deep in furniture a point may lie; what is deeper lies behind it."""
+SIGHT_STEP = 0.25
+"""Of a cell: steps of a line of sight."""
+
 Cell = tuple[int, int]
+Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +45,8 @@ class Ends:
     goal: Cell
     start_escaped: bool
     goal_moved: bool
+    faces_m: Point | None = None
+    """What the goal is to see and to face; None: nothing in particular."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +79,9 @@ def choose_ends(
         site: whose rooms bound how far a goal may be moved.
         request: from where to where.
         mapped: the map alone. A goal that is free on it, and not now, has something standing on it;
-            then only floor on the robot's side of it will do, since what lies behind is not seen.
+            then only floor on the robot's side of it will do, since what lies behind is not seen. A
+            goal that is not free on it lies in furniture or too near to a wall: the end then sees
+            it on the map, so that it is not on a wall's other side.
 
     Raises:
         RouteFailure: ``start_outside_map``, ``goal_outside_map``, ``goal_blocked``,
@@ -73,7 +89,8 @@ def choose_ends(
             ``start_blocked`` or ``no_route``.
     """
     start_m, goal_m = _xy(costmap, request, "start"), _xy(costmap, request, "goal")
-    goals = _goals(costmap, site, goal_m, _seen_from(costmap, mapped, start_m, goal_m))
+    sight = _sight(costmap if mapped is None else mapped, site, request, goal_m)
+    goals = _goals(costmap, site, goal_m, _seen_from(costmap, mapped, start_m, goal_m), sight)
     starts = _starts(costmap, start_m)
     labels = costmap.labels
     joined = starts.keep(
@@ -88,7 +105,73 @@ def choose_ends(
         goal,
         start_escaped=start != costmap.grid.cell_of(*start_m),
         goal_moved=goal != costmap.grid.cell_of(*goal_m),
+        faces_m=sight.at_m if sight is not None and sight.faces else None,
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Sight:
+    """Say what the end of a way is to see on the map."""
+
+    at_m: Point
+    from_m: float = 0.0
+    """No nearer to it."""
+    reach_m: float = GOAL_MOVE_M
+    """How far the goal may be moved for it."""
+    faces: bool = True
+    in_furniture: bool = False
+    """It lies on what stands there by the map: seen is then the outside of that."""
+
+    def seen_from(self, costmap: Costmap, site: Site, near: _Near) -> NDArray[np.bool_]:
+        """Tell from which cells it is seen: free floor, then perhaps what it lies in, and it.
+
+        A wall that furniture stands against can't be told from it: where rooms are known, it is
+        seen from its own room alone.
+        """
+        grid = costmap.grid
+        x_m = grid.origin_x_m + (near.columns + 0.5) * grid.resolution_m
+        y_m = grid.origin_y_m + (near.rows + 0.5) * grid.resolution_m
+        away_m = np.hypot(x_m - self.at_m[0], y_m - self.at_m[1])
+        solid = _solid_on_lines(site, np.stack([x_m, y_m], axis=1), self.at_m)
+        once = (np.diff(solid.astype(np.int8), axis=1) >= 0).all(axis=1)
+        deep_m = solid.mean(axis=1) * away_m
+        seen = once & (deep_m <= DEEP_M) & (away_m >= self.from_m)
+        room = site.room_at(*self.at_m) if self.in_furniture else None
+        if room is not None:
+            cells = zip(x_m.tolist(), y_m.tolist(), strict=True)
+            seen &= np.array([room.contains(*xy) for xy in cells], np.bool_)
+        return np.asarray(seen, np.bool_)
+
+
+def _solid_on_lines(site: Site, starts: NDArray[np.float64], end_m: Point) -> NDArray[np.bool_]:
+    """Return what is not free floor along the lines from points (n, 2) to one, shape (n, steps)."""
+    grid = site.grid
+    longest_m = float(np.hypot(*(starts - np.asarray(end_m)).T).max(initial=0.0))
+    steps = max(2, ceil(longest_m / (SIGHT_STEP * grid.resolution_m)) + 1)
+    share = np.linspace(0.0, 1.0, steps)
+    x_m = starts[:, :1] + share * (end_m[0] - starts[:, :1])
+    y_m = starts[:, 1:] + share * (end_m[1] - starts[:, 1:])
+    column = ((x_m - grid.origin_x_m) / grid.resolution_m).astype(np.intp)
+    row = ((y_m - grid.origin_y_m) / grid.resolution_m).astype(np.intp)
+    cells = cell_array(grid)
+    inside = (column >= 0) & (column < grid.width) & (row >= 0) & (row < grid.height)
+    found = cells[np.clip(row, 0, grid.height - 1), np.clip(column, 0, grid.width - 1)]
+    return np.asarray(~inside | (found != FREE), np.bool_)
+
+
+def _sight(mapped: Costmap, site: Site, request: RouteRequest, goal_m: Point) -> _Sight | None:
+    """Return what the end is to see: as asked for, else a goal that the map leaves no room at."""
+    at_m = request.sees or goal_m
+    column, row = mapped.grid.cell_of(*goal_m)
+    if request.sees is None and mapped.free[row, column]:
+        return None
+    if not mapped.grid.contains(*at_m):
+        raise RouteFailure("goal_outside_map", f"({at_m[0]:.2f}, {at_m[1]:.2f})")
+    furniture = site.grid.at(*at_m) == OCCUPIED
+    far = furniture and request.sees == goal_m
+    reach_m = SEES_M if far else GOAL_MOVE_M
+    faces = request.sees is not None
+    return _Sight(at_m, request.sees_from_m, reach_m, faces, furniture)
 
 
 def _xy(costmap: Costmap, request: RouteRequest, which: str) -> tuple[float, float]:
@@ -110,33 +193,50 @@ def _seen_from(
     return start_m if stands else None
 
 
+def end_cells(costmap: Costmap, site: Site, goal: Pose2) -> tuple[NDArray[np.intp], ...]:
+    """Return rows and columns of the cells at which a way to a goal may end; none where none is."""
+    request, at_m = RouteRequest(goal, goal), (goal.x_m, goal.y_m)
+    try:
+        near = _goals(costmap, site, at_m, None, _sight(costmap, site, request, at_m))
+    except RouteFailure:
+        return np.empty(0, np.intp), np.empty(0, np.intp)
+    return near.rows, near.columns
+
+
 def _goals(
     costmap: Costmap,
     site: Site,
     goal_m: tuple[float, float],
     seen_from_m: tuple[float, float] | None = None,
+    sight: _Sight | None = None,
 ) -> _Near:
     """List where to end: with room to stand, where that is about as near as any free floor."""
     column, row = costmap.grid.cell_of(*goal_m)
     stands = costmap.clearance_m >= costmap.radius_m + ROOM_M
-    if costmap.free[row, column] and stands[row, column]:
-        return _only(column, row)
-    near = _free_near(costmap, goal_m, GOAL_MOVE_M)
+    here = _only(column, row)
+    sees = sight is None or bool(sight.seen_from(costmap, site, here)[0])
+    if costmap.free[row, column] and stands[row, column] and sees:
+        return here
+    near = _free_near(costmap, goal_m, GOAL_MOVE_M if sight is None else sight.reach_m)
+    if sight is not None:
+        near = near.keep(sight.seen_from(costmap, site, near))
     if seen_from_m is not None:
         near = near.keep(_on_this_side(costmap, near, goal_m, seen_from_m))
     room = site.room_at(*goal_m)
-    if room is not None:
+    if room is not None and not (sight is not None and sight.in_furniture):
         # Half a metre may reach through a wall; what was meant is on this side of it.
         centres = [
             costmap.grid.centre_of(*cell) for cell in zip(near.columns, near.rows, strict=True)
         ]
         near = near.keep(np.array([room.contains(*xy) for xy in centres], bool))
     if len(near.rows) == 0:
-        text = f"({goal_m[0]:.2f}, {goal_m[1]:.2f}), none within {GOAL_MOVE_M} m"
+        reach_m = GOAL_MOVE_M if sight is None else sight.reach_m
+        unseen = "" if sight is None else f" that sees ({sight.at_m[0]:.2f}, {sight.at_m[1]:.2f})"
+        text = f"({goal_m[0]:.2f}, {goal_m[1]:.2f}), none within {reach_m} m{unseen}"
         raise RouteFailure("goal_blocked" if seen_from_m is None else "goal_occupied", text)
     roomy = stands[near.rows, near.columns] & (near.away_m <= near.away_m[0] + SHIFT_M)
-    if costmap.free[row, column] and not roomy.any():
-        return _only(column, row)
+    if costmap.free[row, column] and not roomy.any() and sees:
+        return here
     return near.before(roomy)
 
 

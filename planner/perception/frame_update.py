@@ -52,10 +52,10 @@ def saw(
     placed = tuple(_place_all(scenery.site, view, named))
     visible = Visible(view, scenery.site.grid, named)
 
-    def expected(thing: Thing) -> bool:
+    def is_expected(thing: Thing) -> bool:
         return thing.label not in passed_over and visible(thing)
 
-    after, ids = remember(before, placed, expected, picture.taken_s)
+    after, ids = remember(before, placed, is_expected, picture.taken_s)
     here = tuple(ids.get(index, "") for index in range(len(named)))
     return after, replace(look, base_in_map=stance.base_in_map, here=here)
 

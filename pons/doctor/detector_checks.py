@@ -48,10 +48,19 @@ def detector(home: Path, robot: RobotDescription) -> HealthFinding:
     if about is None:
         found = BilingualWords("none is installed: nothing is seen", "未安装检测器：看不到任何东西")
         return warn(NAME, found, _FIX)
-    many = sum(map(bool, about.classes))
-    size = f"{about.width} x {about.height}"
-    return ok(NAME, f"{about.model}, read as {about.decoder}, {size}, {many} kinds",
-              f"{about.model}，按 {about.decoder} 读取，{size}，{many} 类")  # fmt: skip
+    told = _describe(about)
+    if about.beside is None:
+        return ok(NAME, told.en, told.zh)
+    beside = _describe(about.beside)
+    return ok(NAME, f"{told.en}; beside it {beside.en}", f"{told.zh}；另有 {beside.zh}")
+
+
+def _describe(about: DetectorInfo) -> BilingualWords:
+    many, size = sum(map(bool, about.classes)), f"{about.width} x {about.height}"
+    return BilingualWords(
+        f"{about.model}, read as {about.decoder}, {size}, {many} kinds",
+        f"{about.model}，按 {about.decoder} 读取，{size}，{many} 类",
+    )
 
 
 async def _open(chosen: VisionSettings) -> DetectorInfo | None:

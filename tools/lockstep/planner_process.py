@@ -16,6 +16,8 @@ from planner.bridge_client import Link, LinkError, StopResult, WireBus
 from planner.language.utterance import parse
 from planner.mission import Clocks, Missions
 from planner.mission.journal import JournalContents
+from planner.mission.perception_requests import nothing_spent
+from planner.mission.skills.perception import PictureCost, PictureLimits
 from planner.mission.state import GoalKey
 from planner.navigation import RouteLimits
 from planner.navigation.frontier import FrontierMemory
@@ -46,6 +48,8 @@ if TYPE_CHECKING:
     from wire import Answer, Status
     from wire.session import Session
 
+PICTURES = PictureLimits(24, PictureCost(2100))
+"""Of one search by a vision model, where a test has one."""
 WALL_OFFSET_S = 1_700_000_000.0
 """A fixed calendar, so that two runs write the same records."""
 
@@ -226,7 +230,11 @@ class PlannerProcess:
         if self._eyes is not eyes:
             self._link.tell(eyes)
         self._eyes = eyes
-        self._tasks.do(self._tasks.time(), lambda: self.missions.see(eyes, looker))
+        self._tasks.do(self._tasks.time(), lambda: self._see(eyes, looker))
+
+    def _see(self, eyes: PerceptionProcess, looker: Looker | None) -> None:
+        self.missions.see(eyes, looker)
+        self.missions.loop.bound_search(PICTURES, nothing_spent)
 
     def leave(self) -> None:
         """Be gone, as after SIGKILL."""

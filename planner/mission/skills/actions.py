@@ -114,6 +114,10 @@ class DriveLeg:
     """The skill is asked again as the sight changes, twice a second at most."""
     bill: PictureBill | None = None
     """What a vision model has cost so far and may cost, for the step's record."""
+    sees: tuple[float, float] | None = None
+    """The leg ends where this point is seen from, on the map, and faces it."""
+    sees_from_m: float = 0.0
+    """No nearer to it."""
 
 
 @dataclass(frozen=True, slots=True)

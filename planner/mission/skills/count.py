@@ -48,8 +48,9 @@ def count(scene: Scene[CountState]) -> SkillAction:
         return Retry()
     if wanted is None:
         by_model = seek(scene, pose, all_of_it=True)
-        over = isinstance(by_model, CountState)
-        return tell_count(scene.but(by_model)) if over else by_model
+        if isinstance(by_model, CountState):
+            return tell_count(scene.but(by_model))
+        return by_model
     scene = begin(scene, pose, wanted)
     inside = _narrow(scene, pose, wanted)
     next_ = look_round(scene, pose, spots(inside, pose), None)

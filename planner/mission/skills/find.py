@@ -33,8 +33,9 @@ def find(scene: Scene[FindState]) -> SkillAction:
         return Retry()
     if wanted is None:
         by_model = seek(scene, scene.pose, all_of_it=False)
-        over = isinstance(by_model, FindState)
-        return tell_found(scene.but(by_model)) if over else by_model
+        if isinstance(by_model, FindState):
+            return tell_found(scene.but(by_model))
+        return by_model
     next_ = search(scene, scene.pose, wanted)
     if isinstance(next_, Thing):
         return _found(scene, next_, wanted)

@@ -4,11 +4,12 @@ Precondition: the detector knows what is meant, or a vision model can point at i
 yes to the point (pointing.py); words that pick one out by more than kind and colour ("the small
 cup") only a model understands. The thing is found as ``find`` does, and looked at once more where
 it was seen for a moment only; the standing point is tried from this side first, then about the
-thing, and the route search moves one that lies in furniture. Verdict: the bridge reached the leg,
-and where the thing must be in view a look confirms it, or it was seen on the way and something
-hides it now; where it is too near for that, it is still remembered, which it is not when it should
-have been seen on the way and was not. When it is gone it is looked for once more, then that is
-told. Budget: as for ``find``.
+thing; the route search moves one that lies in furniture to where the thing is seen from, on the
+map, and leaves out what is behind a wall; last comes the nearest such point at all. Verdict: the
+bridge reached the leg, and where the thing must be in view a look confirms it, or it was seen on
+the way and something hides it now; where it is too near for that, it is still remembered, which it
+is not when it should have been seen on the way and was not. When it is gone it is looked for once
+more, then that is told. Budget: as for ``find``.
 """
 
 from __future__ import annotations
@@ -64,6 +65,8 @@ if TYPE_CHECKING:
 
 SHORT_M, ROBOT_M = 0.5, 0.3
 SIDES_RAD = (0.0, pi / 4, -pi / 4, pi / 2, -pi / 2, 3 * pi / 4, -3 * pi / 4, pi)
+NEAREST_M = 0.45
+"""The robot's middle never stands nearer to a thing's than so."""
 MOVED_M = 0.6
 NEAR_ENOUGH_M = 0.1
 FRESH_S = 20.0
@@ -140,16 +143,19 @@ def _short_m(state: ApproachState) -> float:
 
 
 def _drive(pose: Pose2, state: ApproachState, at: tuple[float, float, float]) -> SkillAction:
-    if state.stand >= len(SIDES_RAD):
+    if state.stand > len(SIDES_RAD):
         name = (
             name_with_article(state.label, state.color)
             if state.label is not None
             else say_same("?")
         )
         return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
-    spot, heading = short_of(pose, at[:2], _short_m(state), SIDES_RAD[state.stand])
     there, otherwise = state.but(approach=ApproachStage.FACE), state.but(stand=state.stand + 1)
-    return leg_to(pose, spot, heading, there, otherwise)
+    if state.stand == len(SIDES_RAD):  # large furniture: wherever it is seen from, and near
+        heading = bearing(pose, at[:2])
+        return leg_to(pose, at[:2], heading, there, otherwise, sees=at[:2], sees_from_m=NEAREST_M)
+    spot, heading = short_of(pose, at[:2], _short_m(state), SIDES_RAD[state.stand])
+    return leg_to(pose, spot, heading, there, otherwise, sees=at[:2], sees_from_m=NEAREST_M)
 
 
 def _judge(scene: Scene[ApproachState], pose: Pose2, wanted: WantedObject | None) -> SkillAction:

@@ -72,8 +72,13 @@ def leg_to(
     then: SkillStateBase,
     otherwise: SkillStateBase,
     wanted: WantedObject | None = None,
+    sees: tuple[float, float] | None = None,
+    sees_from_m: float = 0.0,
 ) -> DriveLeg:
-    """Return the way to a point, bounded by its distance; without a way the step goes on."""
+    """Return the way to a point, bounded by its distance; without a way the step goes on.
+
+    With ``sees`` it ends where that is seen from, no nearer to it than ``sees_from_m``.
+    """
     far_m = away_m(pose, at)
     goal = Pose2(at[0], at[1], heading if heading is not None else pose.yaw_rad)
     return DriveLeg(
@@ -84,6 +89,8 @@ def leg_to(
         then=then,
         otherwise=otherwise,
         wanted=wanted,
+        sees=sees,
+        sees_from_m=sees_from_m,
     )
 
 

@@ -174,11 +174,11 @@ def tell_found(scene: Scene[Any]) -> Finish | Fail:
     seen = seen_surely(state)
     figures: dict[str, Any] = {"rooms": state.rooms, "bill": bill(scene)}
     if seen:
-        ended = Finish(figures, Code.FOUND, _shown(scene), _read_found(scene, seen[-1]))
+        ended = Finish(figures, Code.FOUND, _tell_pictures(scene), _read_found(scene, seen[-1]))
         return with_answer(ended, True) if scene.step.role in JUDGED else ended
     if scene.step.role in JUDGED:
         figures[HOLDS] = False if _looked_at_all(scene) else None
-    looked = join((say("seek.none"), _shown(scene), *_why_not_all(scene)))
+    looked = join((say("seek.none"), _tell_pictures(scene), *_why_not_all(scene)))
     said = message(Code.NOT_FOUND, thing=say_same(scene.step.object or ""), looked=looked)
     if state.silent is not None and not state.seen:  # nothing was looked at: no room is empty
         code = Code.OUT_OF_BUDGET if state.silent == "out_of_budget" else Code.MODEL_UNAVAILABLE
@@ -207,7 +207,7 @@ def tell_count(scene: Scene[Any]) -> Finish | Fail:
     )
     if _perhaps(state):
         read = join((read, say("seek.unsure")))
-    said = join((_shown(scene), *_why_not_all(scene)))
+    said = join((_tell_pictures(scene), *_why_not_all(scene)))
     figures = {"count": low, "rooms": state.rooms, "bill": bill(scene)}
     return Finish(figures, Code.COUNTED, said, read)
 
@@ -248,7 +248,7 @@ def _read_found(scene: Scene[Any], seen: DirectionSeen) -> Bilingual:
     return say("seek.found_in", room=room, **figures) if room else say("seek.found", **figures)
 
 
-def _shown(scene: Scene[Any]) -> Bilingual:
+def _tell_pictures(scene: Scene[Any]) -> Bilingual:
     """Say how many pictures the model was shown, what they cost, and from which rooms."""
     state, paid = scene.state, bill(scene)
     names = [

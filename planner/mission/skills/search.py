@@ -24,7 +24,12 @@ from planner.mission.skills.object_matching import (
     spot_of,
     turn_to,
 )
-from planner.mission.skills.skill_state import AimStage, CountState, RoomTourState, SearchState
+from planner.mission.skills.skill_state import (
+    AimStage,
+    ModelSearchState,
+    RoomTourState,
+    SearchState,
+)
 from planner.mission.skills.viewpoints import (
     HERE,
     Viewpoint,
@@ -101,7 +106,7 @@ def affords(scene: Scene[Any], pose: Pose2, next_: object) -> bool:
     return scene.spent_m + way_m <= LAST_M
 
 
-def find_spent_budget(scene: Scene[SearchState | CountState]) -> str | None:
+def find_spent_budget(scene: Scene[SearchState] | Scene[ModelSearchState]) -> str | None:
     """Return the budget that a search has used up, or None."""
     if scene.state.out_of_metres or not scene.spent_m <= MAX_M:
         return "metres"

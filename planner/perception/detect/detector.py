@@ -18,7 +18,7 @@ from planner.perception.detect.depth_hints import hints
 from planner.perception.detect.depth_sampling import ANY, look_inside
 from planner.perception.detect.detections import Row, filter_rows, in_picture
 from planner.perception.detect.image_decode import Depth, Picture, unpack_color, unpack_depth
-from planner.perception.detect.input_size import unbatched
+from planner.perception.detect.input_size import without_batch
 from planner.perception.detect.model_file import Model, ModelOptions, open_model
 from planner.perception.detect.nms import strongest, suppress
 from planner.perception.detect.preprocess import Preparer
@@ -67,7 +67,7 @@ class OnnxDetector:
         except RUN_ERRORS as error:
             text = f"it failed on its second picture: {last_words(error)}"
             raise VisionFailure("model_broken", text) from None
-        self.about = DetectorInfo(
+        self.about: DetectorInfo = DetectorInfo(
             model=self.model.name,
             decoder=self._decoder.NAME,
             why=choice.why,
@@ -166,7 +166,7 @@ class OnnxDetector:
     def feeds(self, buffer: Array) -> Mapping[str, Array]:
         """Return all that the model is fed with such an input."""
         return {
-            self.model.input.name: unbatched(buffer, self.model.input),
+            self.model.input.name: without_batch(buffer, self.model.input),
             **self.model.beside,
         }
 

@@ -83,7 +83,7 @@ def find_input(
     return Input(picture.name, width, height, sizes, bytes_in, batched=bool(batch))
 
 
-def unbatched(picture: Array, taken: Input) -> Array:
+def without_batch(picture: Array, taken: Input) -> Array:
     """Return a picture as the model takes it, from a batch of one; both share their memory."""
     return picture if taken.batched else picture[0]
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from planner.perception.detect.class_names import BESIDE, names_in, names_of
 from planner.perception.detect.decoders import Choice, choose
-from planner.perception.detect.input_size import NUMBERS, Input, find_input, unbatched
+from planner.perception.detect.input_size import NUMBERS, Input, find_input, without_batch
 from planner.perception.detect.model_info import Facts, Shape
 from planner.perception.detect.onnx_file import OnnxFile, examine
 from planner.perception.detect.session import (
@@ -112,7 +112,7 @@ def _run_trial(session: ModelSession, taken: Input, beside: dict[str, Array]) ->
 def _grey(taken: Input) -> Array:
     """Return a grey picture as the model takes one."""
     if taken.bytes_in is None:
-        return unbatched(np.full((1, 3, taken.height, taken.width), GREY, np.float32), taken)
+        return without_batch(np.full((1, 3, taken.height, taken.width), GREY, np.float32), taken)
     return np.full((1, taken.height, taken.width, 3), round(255 * GREY), np.uint8)
 
 

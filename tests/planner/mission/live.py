@@ -18,6 +18,7 @@ from planner.mission import (
     MissionJournal,
     Missions,
 )
+from planner.mission.perception_requests import nothing_spent
 from planner.mission.skills.perception import NO_PICTURES, PictureLimits
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.perception.interfaces import Eyes
@@ -105,7 +106,8 @@ async def planner(
         clocks=Clocks(bridge.now_s, lambda: 1.7e9, lambda: f"{prefix}{next(numbers)}", POLL_S),
     )
     if eyes is not None:
-        missions.see(eyes, looker, pictures)
+        missions.see(eyes, looker)
+        missions.loop.bound_search(pictures, nothing_spent)
     await missions.start()
     together = Together(missions, bridge, brain)
     try:

@@ -53,6 +53,8 @@ class Together:
     way: WayAnswer = lambda ask: None
     ends: Pose2 | None = None
     """Where every way ends, whatever its goal."""
+    faces: tuple[float, float] | None = None
+    """What the end of every way is to face."""
     aside_m: float = 0.0
     """So far to the left leads every way that was asked for because another is doubted."""
     stays_aside: bool = False
@@ -111,7 +113,9 @@ class Together:
                 self.routes.append(effect)
                 failure = self.way(effect)
                 points = self.lay(effect) if failure is None else None
-                self.carry(self.engine.take_route(effect, points, failure, self.now_s))
+                floor, faces = None, self.faces
+                output = self.engine.take_route(effect, points, failure, self.now_s, floor, faces)
+                self.carry(output)
             case SayAloud():
                 self.said.append(effect.text)
             case ClearHold():

@@ -93,6 +93,9 @@ class Model:
     async def point(self, asked: ImageQuestion) -> Any:
         raise BrainDown("503", why="server_error")
 
+    async def seek(self, asked: ImageQuestion) -> Any:
+        raise BrainDown("503", why="server_error")
+
 
 NOTHING = Bilingual(en="Only a wall and an armchair", zh="只有墙和一把扶手椅")
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import pi
+
 import pytest
 
 from planner.mission.events import (
@@ -190,3 +192,22 @@ def test_cancel_halts_with_a_horizon_of_no_points(world: Together) -> None:
     assert outcome is not None
     assert outcome.metres is not None
     assert outcome.metres > 0.2
+
+
+def test_a_way_to_furniture_ends_at_the_heading_that_faces_it(world: Together) -> None:
+    """The heading is taken from where the way ends, not from where it was to end."""
+    plan = StepPlan(steps=(GoTo(place="dock"),))
+    for faces, ends, heading in (
+        (None, None, 1.0),  # the dock's own
+        ((3.0, 3.0), Pose2(3.0, 2.0, 0.0), pi / 2),
+    ):
+        world.faces, world.ends = faces, ends
+        goal = world.give(plan)
+        seen: set[float] = set()
+        for _ in range(600):
+            world.run(0.1)
+            points = world.bridge.horizon.points if world.bridge.horizon is not None else ()
+            seen |= {p.heading_rad for p in points if p.heading_rad is not None}
+            if world.goal(goal).state is SUCCEEDED:
+                break
+        assert {round(each, 4) for each in seen} == {round(heading, 4)}

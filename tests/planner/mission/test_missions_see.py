@@ -220,6 +220,11 @@ def test_a_vision_model_that_writes_orders_ends_the_search_and_nothing_else_move
     run(story())
 
 
+def attended(eyes: FakeEyes) -> Callable[[], bool]:
+    """Return whether somebody needed these eyes by now, as a question."""
+    return lambda: bool(eyes.attended)
+
+
 def test_the_open_vocabulary_model_looks_where_a_step_needs_it(tmp_path: Path, site: Site) -> None:
     async def story() -> None:
         for number, (step, wide) in enumerate(
@@ -238,7 +243,7 @@ def test_the_open_vocabulary_model_looks_where_a_step_needs_it(tmp_path: Path, s
             async with planner(home, site, plan, bridge=bridge, eyes=eyes) as world:
                 looking = asyncio.create_task(eyes.look_on())
                 goal = await world.missions.submit("please look")
-                await world.until(lambda eyes=eyes: bool(eyes.attended))
+                await world.until(attended(eyes))
                 assert (eyes.attended[0], eyes.wide[0]) == (("mission", True), wide), step
                 await world.missions.cancel(goal.id)
                 looking.cancel()

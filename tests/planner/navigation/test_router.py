@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise, permutations
+from itertools import groupby, pairwise, permutations
 from math import hypot, inf, nan, pi
 
 import numpy as np
@@ -224,6 +224,92 @@ def test_a_goal_never_moves_through_a_wall_into_the_next_room() -> None:
     assert failure(closed, RouteRequest(at(1.0, 3.0), goal)).code == "goal_blocked"
     without = ask(drawn(*rows, square_m=0.1), RouteRequest(at(1.0, 3.0), goal))
     assert without.points[-1].y_m > 2.0
+
+
+BED = ["." * 60] * 10 + ["." * 22 + "#" * 16 + "." * 22] * 20 + ["." * 60] * 30
+"""A bed of 1.6 by 2 m in the middle of a floor of 6 m, drawn in squares of 0.1 m."""
+MIDDLE = Pose2(3.0, 4.0, 0.0)
+
+
+def sees(site: Site, end: tuple[float, float], thing: tuple[float, float]) -> bool:
+    """Tell whether the line from an end to a thing crosses free floor, then at most the thing.
+
+    A corner that it cuts by less than 3 cm hides nothing.
+    """
+    count = int(hypot(thing[0] - end[0], thing[1] - end[1]) / 0.005) + 2
+    line = [(end[0] + s * (thing[0] - end[0]), end[1] + s * (thing[1] - end[1]))
+            for s in np.linspace(0.0, 1.0, count)]  # fmt: skip
+    runs = [(k, len(list(g))) for k, g in groupby(site.grid.at(*xy) == OCCUPIED for xy in line)]
+    *before, _ = runs
+    return all(not solid or long <= 6 for solid, long in before)
+
+
+def test_large_furniture_is_gone_to_where_it_is_seen_from_and_faced() -> None:
+    site = drawn(*BED, square_m=0.1)
+    result = ask(site, RouteRequest(at(1.0, 1.0), MIDDLE, sees=(3.0, 4.0), sees_from_m=0.45))
+    end = result.points[-1].x_m, result.points[-1].y_m
+    assert 0.8 + LIMITS.radius_m <= result.moved_goal_m <= 1.4, "beside its nearest edge"
+    assert result.faces == (3.0, 4.0)
+    assert sees(site, end, (3.0, 4.0))
+    clear_m = static_costmap(site, LIMITS.radius_m).clearance_at(np.asarray([end]))
+    assert clear_m[0] >= LIMITS.radius_m + 0.10 - 1e-6, "no end inside what it keeps clear of"
+    assert failure(site, RouteRequest(at(1.0, 1.0), MIDDLE)).code == "goal_blocked"
+
+
+def test_furniture_at_a_wall_is_never_seen_from_the_next_room() -> None:
+    """In front of the sofa more furniture stands: the nearest free floor is behind the wall."""
+    rows = [*["." * 60] * 28, "#" * 50 + "." * 10, *["." * 20 + "#" * 20 + "." * 20] * 8,
+            *["." * 12 + "#" * 36 + "." * 12] * 4, *["." * 60] * 20]  # fmt: skip
+    sofa = Pose2(3.0, 2.9, 0.0)
+    rooms: dict[str, Outline] = {
+        "above": ((0.0, 3.25), (6.0, 3.25), (6.0, 6.1), (0.0, 6.1)),
+        "below": ((0.0, 0.0), (6.0, 0.0), (6.0, 3.25), (0.0, 3.25)),
+    }
+    site = drawn(*rows, square_m=0.1, rooms=rooms)
+    result = ask(site, RouteRequest(at(1.0, 5.0), sofa, sees=(3.0, 2.9)))
+    end = result.points[-1].x_m, result.points[-1].y_m
+    assert end[1] < 3.2, "in its own room, by the door at the side"
+    assert sees(site, end, (3.0, 2.9))
+
+
+def test_a_standing_point_behind_a_wall_moves_to_where_the_thing_is_seen_or_is_refused() -> None:
+    rows = ["." * 60] * 28 + ["#" * 50 + "." * 10] + ["." * 60] * 31
+    site, thing = drawn(*rows, square_m=0.1), (3.0, 2.9)
+    behind = Pose2(3.0, 3.7, -pi / 2)
+    refused = failure(site, RouteRequest(at(1.0, 5.0), behind, sees=thing))
+    assert refused.code == "goal_blocked"
+    assert "that sees (3.00, 2.90)" in refused.message["en"]
+    before = ask(site, RouteRequest(at(1.0, 5.0), Pose2(3.0, 2.1, pi / 2), sees=thing))
+    assert before.moved_goal_m == 0.0
+    assert before.faces == thing
+    near = ask(site, RouteRequest(at(1.0, 1.0), Pose2(*thing, 0.0), sees=thing, sees_from_m=0.45))
+    end = near.points[-1]
+    assert hypot(end.x_m - 3.0, end.y_m - 2.9) >= 0.45 - 1e-6
+    assert failure(site, RouteRequest(at(1.0, 1.0), at(2.0, 2.0), sees=(nan, 1.0))).code == (
+        "route_request_malformed"
+    )
+    off = failure(site, RouteRequest(at(1.0, 1.0), at(2.0, 2.0), sees=(99.0, 1.0)))
+    assert off.code == "goal_outside_map"
+
+
+@given(st.floats(0.2, 11.8), st.floats(0.2, 9.8), st.floats(0, 2 * pi))
+def test_wherever_a_thing_is_the_way_ends_where_it_is_seen_from(
+    home: Site, home_router: Router, home_costmap: Costmap, x_m: float, y_m: float, side: float
+) -> None:
+    thing = (x_m, y_m)
+    goal = at(x_m + 0.8 * np.cos(side), y_m + 0.8 * np.sin(side))
+    start = home.home.pose
+    try:
+        result = home_router.route(RouteRequest(start, goal, sees=thing, sees_from_m=0.45))
+    except RouteFailure as failed:
+        if failed.code not in IMPOSSIBLE | {"goal_outside_map"}:
+            raise
+        return
+    end = result.points[-1].x_m, result.points[-1].y_m
+    assert hypot(end[0] - x_m, end[1] - y_m) >= 0.45 - 0.05
+    assert sees(home, end, thing)
+    assert result.moved_goal_m <= 0.5
+    check_laws(home, home_costmap, result)
 
 
 def test_a_tight_start_is_left_by_the_shortest_way_out() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot, inf, isfinite, nan, pi
+from math import atan2, cos, hypot, inf, isfinite, nan, pi, sin
 
 import pytest
 from hypothesis import given, settings
@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 
 from planner.language.object_classes import kind_of
 from planner.perception.interfaces import PointRefusal
-from planner.perception.pixel_to_map import point_on_map
+from planner.perception.pixel_to_map import OFF_WALL_M, point_on_map
 from planner.perception.projection import USUAL_SHARE, place, spot_at
 from planner.perception.raycast import first_wall_m
+from planner.site.polygon import border_distance_m
 from tests.planner.perception.scenes import CAMERA, FOCAL_PX, box_of, seen, two_room, view
 from wire import Pose2, transform
 
@@ -133,16 +134,30 @@ def test_a_pointed_pixel_leads_to_floor_or_is_refused(
     assert pointed(x, y, depth_m) == code
 
 
-def test_no_wall_is_pointed_at() -> None:
-    """All round, at eye height: whatever the depth of a wall says, no wall is driven at."""
-    site, ok = two_room(), 0
+def test_no_wall_is_pointed_at_and_furniture_by_its_near_side() -> None:
+    """All round, at eye height: whatever the depth of a wall says, no wall is driven at.
+
+    What stands inside a room, away from its outline, is furniture: the point is its near side.
+    """
+    site, walls, furniture = two_room(), 0, 0
     for degrees in range(0, 360, 5):
         yaw = degrees * pi / 180
         at = view(1.0, 1.5, yaw).camera_in_map
         wall_m = first_wall_m(site.grid, (at.x_m, at.y_m), yaw, 8.0)
         assert wall_m is not None
+        hit = at.x_m + wall_m * cos(yaw), at.y_m + wall_m * sin(yaw)
+        room = site.room_at(*hit)
+        off_wall_m = border_distance_m(room.polygon, *hit) if room and room.polygon else 0.0
         row = 500 - 1000 * FOCAL_PX * CAMERA.pitch_rad / 240  # about level with the camera
         for off_m in (-0.05, 0.0, 0.03):
-            assert pointed(500, row, wall_m + off_m, yaw) != "ok"
-        ok += 1
-    assert ok == 72
+            told = pointed(500, row, wall_m + off_m, yaw)
+            if off_wall_m < OFF_WALL_M - 0.05:
+                assert told != "ok", degrees
+                walls += 1
+            elif told == "ok":
+                furniture += 1
+                spot = point_on_map(view(1.0, 1.5, yaw), site, 500, row, wall_m + off_m)
+                assert hypot(spot.x_m - hit[0], spot.y_m - hit[1]) < 0.15
+                assert spot.z_m >= 0.3
+    assert walls > 150
+    assert furniture > 3

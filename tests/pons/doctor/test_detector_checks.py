@@ -34,6 +34,17 @@ def test_a_detr_without_batches_is_named_with_how_it_is_read(tmp_path: Path) -> 
     assert found.found.en == "m.onnx, read as rtdetr, 64 x 64, 2 kinds"
 
 
+def test_an_open_vocabulary_model_is_named_beside_ours(tmp_path: Path) -> None:
+    tiny.model(tmp_path / "world.onnx", tiny.mmyolo([]), metadata=tiny.ULTRALYTICS)
+    found = looked(tmp_path, 'model = "world.onnx"\ndetector = "open"')
+    assert found.verdict is HealthVerdict.OK, found
+    assert found.found.en.startswith("pons_home.onnx, read as end_to_end")
+    assert found.found.en.endswith("beside it world.onnx, read as mmyolo, 64 x 64, 2 kinds")
+    refused = looked(tmp_path, 'detector = "open"')
+    assert refused.verdict is HealthVerdict.FAIL
+    assert "needs model" in refused.found.en
+
+
 def test_one_that_is_refused_has_its_code_its_shapes_and_the_layouts(tmp_path: Path) -> None:
     outputs = tiny.rtdetr_alone([]) | {"boxes": np.zeros((10, 5), np.float32)}
     tiny.model(tmp_path / "m.onnx", outputs, metadata=tiny.ULTRALYTICS)

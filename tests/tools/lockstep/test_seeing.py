@@ -289,3 +289,18 @@ def test_a_point_of_the_picture_is_driven_to_on_floor_and_refused_on_a_wall(
     assert told(refused)[0] is Code.POINT_REFUSED
     assert step.reason in ("point_on_wall", "point_no_depth", "point_off_map")
     assert moved_m(world, still) < 0.01
+
+
+SOFA = (1.5, 5.6)
+"""Its middle. It is on the map; behind it stands the wall."""
+
+
+def test_a_point_on_mapped_furniture_is_driven_up_to_and_faced(world_with: World) -> None:
+    world = world_with(GoToPoint(x=500, y=860), start=Pose2(1.5, 3.7, pi / 2))
+    world.run(1.0)
+    goal = world.say("go there")
+    step = done(world, goal)
+    assert goal.state is GoalState.SUCCEEDED, (step.reason, told(goal))
+    at = world.truth
+    assert at.y_m < 5.2 - 0.3
+    assert abs(wrap(atan2(SOFA[1] - at.y_m, SOFA[0] - at.x_m) - at.yaw_rad)) < 0.35

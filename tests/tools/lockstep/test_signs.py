@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from planner.brain.image_questions import ImageDescription, ImageQuestion, NotThere
+from planner.brain.image_questions import ImageDescription, ImageQuestion, ImageSighting, NotThere
 from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.plan import (
     AnswerPlan,
@@ -64,6 +64,9 @@ class Reading:
 
     async def point(self, asked: ImageQuestion) -> NotThere:
         return NotThere(self.tag)
+
+    async def seek(self, asked: ImageQuestion) -> ImageSighting:
+        return ImageSighting(False, 0, 0, 0, 0.9, self.tag)
 
 
 def story(then: Plan, read: Bilingual) -> tuple[Goal, Obeying, list[str]]:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from math import atan2
 from typing import TYPE_CHECKING
 
 import pytest
 
-from planner.brain.image_questions import ImageDescription, ImageQuestion, NotThere
+from planner.brain.image_questions import ImageDescription, ImageQuestion, ImageSighting, NotThere
 from planner.brain.scripted import ScriptedBrain
-from planner.plan import Bilingual, BrainTag, Code, GoTo, Look, Say, Step, StepPlan
+from planner.plan import Bilingual, BrainTag, Code, Find, GoTo, Look, Say, Step, StepPlan
 from tools.lockstep import LockstepWorld
 from tools.lockstep.homes import stock_home
-from wire import Pose2
+from wire import Pose2, wrap
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,6 +37,9 @@ class Denying:
 
     async def point(self, asked: ImageQuestion) -> NotThere:
         return NotThere(self.tag)
+
+    async def seek(self, asked: ImageQuestion) -> ImageSighting:
+        return ImageSighting(False, 0, 0, 0, 0.9, self.tag)
 
 
 def seeing(home: Path, start: Pose2, *steps: Step) -> tuple[LockstepWorld, Denying]:
@@ -91,3 +95,51 @@ def test_behind_a_blocked_door_nobody_arrives_and_nothing_is_denied(
     assert "Arrived" not in errand.en
     assert looked.en == "I found no way to kitchen."
     assert model.shown == ()
+
+
+VASE = (0.4, 4.2)
+"""A kind that no detector here knows: only the model sees it, from where it is in the picture."""
+
+
+class Seeking(Denying):
+    """Be a vision model that sees one vase, and writes where it is in the picture."""
+
+    def __init__(self) -> None:
+        self.poses: list[Pose2] = []
+
+    async def seek(self, asked: ImageQuestion) -> ImageSighting:
+        pose = asked.picture.base_in_map
+        assert pose is not None
+        assert asked.words == "vase"
+        self.poses.append(pose)
+        left_rad = wrap(atan2(VASE[1] - pose.y_m, VASE[0] - pose.x_m) - pose.yaw_rad)
+        shows = pose.y_m > 3.2 and abs(left_rad) < 0.55
+        third = round(-left_rad / 0.4) if shows else None
+        left, middle, right = (int(third == side) for side in (-1, 0, 1))
+        return ImageSighting(third is not None, left, middle, right, 0.9, self.tag)
+
+
+def test_a_kind_that_only_a_model_knows_is_found_direction_by_direction(
+    tmp_path: Path, repository: Path
+) -> None:
+    """The whole way: from the kitchen through the door, a picture each, until one shows it."""
+    home = stock_home(tmp_path, repository / "sites" / "two_room", {}, {})
+    brain = ScriptedBrain([StepPlan(steps=(Find(object="vase"),))])
+    world, model = LockstepWorld(site=home, seed=3, start=KITCHEN, brain=brain), Seeking()
+    world.open_eyes(looker=model)
+    goal = world.say("find my vase")
+    world.run_until(lambda _: goal.has_ended, limit_s=240.0)
+    outcome, plan = goal.record.outcome, goal.record.plan
+    assert outcome is not None
+    assert plan is not None
+    assert outcome.code is Code.FOUND, outcome
+    assert outcome.message.en.startswith("I showed the vision model")
+    assert "“vase” is before me in the living room" in outcome.message.en
+    bill = plan.steps[0].bill
+    assert bill is not None
+    assert bill.pictures == len(model.poses) > 6, "all of the kitchen first"
+    headings = [round(pose.yaw_rad, 1) for pose in model.poses[:6]]
+    assert len(set(headings)) == 6, "another direction each time"
+    facing = wrap(atan2(VASE[1] - world.truth.y_m, VASE[0] - world.truth.x_m) - world.truth.yaw_rad)
+    assert abs(facing) < 0.6, "it stands, facing it"
+    assert world.contacts == 0

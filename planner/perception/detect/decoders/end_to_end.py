@@ -41,7 +41,7 @@ class EndToEnd:
         return None if shape[-2] in cells | {3 * count for count in cells} else UNTOLD
 
     def decode(self, outputs: Sequence[NDArray[np.generic]], min_score: float) -> list[Row]:
-        found = outputs[0].reshape(-1, 6)
+        found = np.asarray(outputs[0], np.float32).reshape(-1, 6)
         if len(found) > MAX_ROWS:
             found = found[found[:, 4] >= min_score]
             found = found[np.argsort(-found[:, 4])[:MAX_ROWS]]

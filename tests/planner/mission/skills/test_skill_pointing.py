@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import hypot, pi
 from typing import Any
 
 import pytest
@@ -17,6 +17,7 @@ from planner.mission.skills import (
     SkillAction,
     act_of,
 )
+from planner.mission.skills.go_to_object import NEAREST_M, SIDES_RAD
 from planner.mission.skills.perception import ImageAnswer
 from planner.mission.skills.skill_state import GoToObjectState, PointingStage
 from planner.plan import Bilingual, Code
@@ -104,3 +105,18 @@ def test_an_answer_to_another_question_is_none_to_this_point() -> None:
     assert isinstance(going("yes", state=ANSWER), AskImage)
     fresh = going("yes", state=ANSWER, answer=ImageAnswer(at=AT))
     assert isinstance(fresh, Question)
+
+
+def test_it_stands_where_the_thing_is_seen_from_and_tries_the_nearest_such_point_last() -> None:
+    """The map is the route search's: each leg says what its end is to see, and how near."""
+    legs: list[DriveLeg] = []
+    act = going("yes", state=ASKED.but(at=AT))
+    while isinstance(act, DriveLeg):
+        legs.append(act)
+        assert (act.sees, act.sees_from_m) == (AT[:2], NEAREST_M)
+        act = going("yes", state=act.otherwise)
+    assert len(legs) == len(SIDES_RAD) + 1
+    assert all(hypot(leg.goal.x_m - 4.0, leg.goal.y_m - 0.5) > 0.7 for leg in legs[:-1])
+    assert (legs[-1].goal.x_m, legs[-1].goal.y_m) == AT[:2], "large furniture: from where it can"
+    assert isinstance(act, Fail)
+    assert act.code is Code.NO_ROUTE

@@ -168,7 +168,7 @@ def test_any_number_of_boxes_is_survived(tmp_path: Path) -> None:
     boxes = np.tile(np.array([[4.0, 4.0, 20.0, 20.0]], np.float32), (count, 1))
     scores[[777, 99_999]], labels[99_999] = (0.8, 0.9), 1
     scores[5], boxes[6], labels[7] = np.nan, np.inf, 99
-    outputs = {"labels": labels, "boxes": boxes, "scores": scores}
+    outputs: dict[str, Array] = {"labels": labels, "boxes": boxes, "scores": scores}
     quiet = outputs | {"scores": np.zeros_like(scores)}
     path = tiny.model(tmp_path / "m.onnx", quiet, metadata={"names": "['person', 'cup']"})
     looking = OnnxDetector(ModelOptions(path))
