@@ -46,6 +46,7 @@ class Nav2Door:
         self._state: Publisher[Nav2State] = session.publisher(keys.NAV2_STATE)
         self._wanted: list[Request] = []
         self._said_s, self._twists = float("-inf"), 0
+        self._code: str | None = STARTING
 
     def open(self, now_s: float) -> None:
         """Begin anew on a connection."""
@@ -69,7 +70,11 @@ class Nav2Door:
         twists = self._goals.twists
         if twists != self._twists or due or now_s - self._said_s >= NAV2_STATE_S:
             self._twists, self._said_s = twists, now_s
-            self._state.put(self._goals.state(now_s))
+            state = self._goals.state(now_s)
+            self._state.put(state)
+            if state.code != self._code:
+                self._code = state.code
+                log.info("Nav2: %s", f"{state.code}: {state.detail}" if state.code else "heard")
         return due
 
 

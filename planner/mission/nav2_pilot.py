@@ -182,6 +182,8 @@ class Nav2Pilot:
             return "nav2_no_answer"
         if state.phase == "succeeded" and not is_there and state.phase_s > SETTLE_S:
             return "nav2_not_there"
+        if state.phase == "driving" and state.code is not None and state.phase_s > ACCEPT_S:
+            return "nav2_no_velocity"
         if state.phase == "driving" and now_s - aim.marked_s > IDLE_S:
             return "nav2_no_progress"
         return None

@@ -42,6 +42,11 @@ def _hear_process(home: Path, robot: RobotDescription, config: Ros2Config) -> He
     status = hear_state(home, robot, keys.ROS2_STATE)
     if status is None:
         return says_nothing("ros2")
+    if status.code is None and config.nav2 is not None:
+        nav2 = hear_state(home, robot, keys.NAV2_STATE)
+        if nav2 is None:
+            return says_nothing("ros2")
+        return _describe(config, nav2.code, nav2.detail)
     return _describe(config, status.code, status.detail)
 
 

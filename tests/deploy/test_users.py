@@ -122,10 +122,11 @@ def test_each_user_says_what_its_groups_let_it_and_takes_nobodys_place(
 
 
 def test_what_the_planners_user_may_say_is_what_the_bridge_lets_anybody_ask() -> None:
-    """The law that the table above shows, from the files alone; and where a person says it is."""
+    """The law that the table above shows, from the files alone; and poses: its own, and a goal."""
     said = {key for door in DOORS for key in expected("pons-planner", door)}
-    assert said == {key.path for key in BRIDGE_DOOR.hears} | {"loc/hint"}
-    assert all(key.startswith(("cmd/", "op/")) for key in said - {"loc/hint", "trial/order"})
+    beside = {"loc/hint", "nav2/goal"}
+    assert said == {key.path for key in BRIDGE_DOOR.hears} | beside
+    assert all(key.startswith(("cmd/", "op/")) for key in said - beside - {"trial/order"})
     assert "op/estop_link" not in said
     assert {key for door in DOORS for key in expected("stranger", door)} == set()
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -16,8 +17,9 @@ from ros2.trouble import CODES
 from tests.ros2.frames import robot
 from tests.ros2.test_process import Base
 from tests.wire.examples import EXAMPLES
-from wire import RobotDescription, Ros2Status, keys
-from wire.keys import Party
+from wire import Nav2State, Record, RobotDescription, Ros2Status, keys
+from wire.keys import Key, Party
+from wire.ros2_config import Nav2Config
 from wire.session import open_session
 
 TYPES = {
@@ -61,25 +63,48 @@ def test_a_base_that_speaks_is_well_and_a_bare_cmd_vel_is_not(tmp_path: Path, ba
     assert "ros2_no_relay" in found.found.en
 
 
-def test_a_process_that_runs_is_heard_instead(tmp_path: Path) -> None:
-    said = EXAMPLES[Ros2Status]
-    assert isinstance(said, Ros2Status)
+@contextmanager
+def speaking(home: Path, *said: tuple[Key[Any], Record]) -> Iterator[None]:
+    """Let the process say these again and again."""
     ending = threading.Event()
-    with open_session(Party.ROS2, "r1", tmp_path) as session:
-        state = session.publisher(keys.ROS2_STATE)
+    with open_session(Party.ROS2, "r1", home) as session:
+        publishers = [(session.publisher(key), message) for key, message in said]
 
         def say() -> None:
-            while not ending.is_set():
-                state.put(said)
-                time.sleep(0.02)
+            while not ending.wait(0.02):
+                for publisher, message in publishers:
+                    publisher.put(message)
 
-        speaking = threading.Thread(target=say, daemon=True)
-        speaking.start()
+        thread = threading.Thread(target=say, daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            ending.set()
+            thread.join()
+
+
+def test_a_process_that_runs_is_heard_instead(tmp_path: Path) -> None:
+    with speaking(tmp_path, (keys.ROS2_STATE, EXAMPLES[Ros2Status])):
         found = ros2_checks.ros2(tmp_path, described(1))
-        ending.set()
-        speaking.join()
     assert found.verdict is HealthVerdict.FAIL
     assert "ros2_no_relay" in found.found.en
+
+
+def test_where_nav2_drives_its_velocity_is_looked_at_too(tmp_path: Path) -> None:
+    by_nav2 = described(1)
+    assert by_nav2.ros2 is not None
+    ros2 = by_nav2.ros2.model_copy(update={"nav2": Nav2Config()})
+    by_nav2 = by_nav2.model_copy(update={"ros2": ros2})
+    well = EXAMPLES[Ros2Status].model_copy(update={"code": None, "detail": ""})
+    missing = {"code": "ros2_topic_missing", "detail": "the graph has no /cmd_vel_nav; start it"}
+    state = EXAMPLES[Nav2State].model_copy(update=missing)
+    with speaking(tmp_path, (keys.ROS2_STATE, well), (keys.NAV2_STATE, state)):
+        found = ros2_checks.ros2(tmp_path, by_nav2)
+    assert found.verdict is HealthVerdict.FAIL
+    assert found.found.en == "ros2_topic_missing: the graph has no /cmd_vel_nav"
+    with speaking(tmp_path, (keys.ROS2_STATE, well), (keys.NAV2_STATE, EXAMPLES[Nav2State])):
+        assert ros2_checks.ros2(tmp_path, by_nav2).verdict is HealthVerdict.OK
 
 
 def test_a_process_that_says_nothing_is_named(

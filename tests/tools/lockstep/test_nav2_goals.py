@@ -42,8 +42,8 @@ class Nav2World(LockstepWorld):
 class Graph:
     """Carry topics between the dialogue of goals and the stand-in."""
 
-    def __init__(self, world: LockstepWorld, nav2: SmallNav2) -> None:
-        self.nav2, self.lives = nav2, True
+    def __init__(self, world: LockstepWorld, nav2: SmallNav2, kind: str = TWIST) -> None:
+        self.nav2, self.lives, self._kind = nav2, True, kind
         port = world.bus.port(Party.ROS2)
         self.goals = Nav2Goals(ROS2, NAV2, "ros2-1")
         self.goals.open(world.now_s)
@@ -61,7 +61,7 @@ class Graph:
             self.goals.take(order, now_s)
         for request in self.goals.due(now_s):
             if isinstance(request, AskType):
-                for wanted in self.goals.hear(TopicType(request.topic, TWIST, 1), now_s):
+                for wanted in self.goals.hear(TopicType(request.topic, self._kind, 1), now_s):
                     assert wanted == Subscribe(NAV2.cmd_vel, TWIST)
             elif isinstance(request, Subscribe):
                 assert request == Subscribe(NAV2.status, STATUS_ARRAY, keeps=True)
@@ -79,9 +79,9 @@ class Graph:
             self._says.put(self.goals.state(now_s))
 
 
-def world_of(nav2: SmallNav2, **parts: Any) -> tuple[Nav2World, Graph]:
-    world = Nav2World(robot=ROBOT, seed=3, start=BY_THE_DOOR, **parts)
-    graph = world.graph = Graph(world, nav2)
+def world_of(nav2: SmallNav2, kind: str = TWIST) -> tuple[Nav2World, Graph]:
+    world = Nav2World(robot=ROBOT, seed=3, start=BY_THE_DOOR)
+    graph = world.graph = Graph(world, nav2, kind)
     world.run(0.5)
     return world, graph
 
@@ -179,6 +179,15 @@ def test_what_nav2_does_not_do_is_told_by_its_code(nav2: SmallNav2, reason: str)
     assert record.outcome is not None
     assert record.outcome.code is Code.NOT_REACHED
     assert world.contacts == 0
+
+
+def test_a_velocity_of_another_type_is_told_and_moves_nothing() -> None:
+    world, _ = world_of(SmallNav2(), kind="std_msgs/msg/String")
+    before = world.truth
+    goal = world.say("go to the living room")
+    world.run_until(lambda _: ended(goal), 2 * LIMIT_S)
+    assert reason_of(goal) == "nav2_no_velocity"
+    assert distance(world.truth, before) < 1e-3
 
 
 def test_somebody_elses_cancel_is_told_and_tried_again() -> None:

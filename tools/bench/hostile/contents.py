@@ -225,6 +225,8 @@ def senses(liar: Liar) -> Said:
         (keys.CAMERA_STATE, {"code": lambda _: None, "rate_hz": lambda _: 10.0}),
         (keys.IMU_STATE, {"code": lambda _: None, "rate_hz": lambda _: 100.0}),
         (keys.ROS2_STATE, {"code": lambda _: None, "odom_hz": lambda _: 50.0}),
+        (keys.NAV2_STATE, {"phase": lambda _: "driving", "v_mps": lambda _: 5.0}),
+        (keys.NAV2_GOAL, {"goal": lambda _: Pose2(0.0, 0.0, 0.0)}),
         (keys.SIM_TRUTH, {"base_in_map": lambda _: Pose2(0.0, 0.0, 0.0)}),
     ):  # fmt: skip
         said += _forge(liar, key, changes)
