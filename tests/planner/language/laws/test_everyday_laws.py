@@ -151,7 +151,8 @@ def test_a_place_alone_is_an_order_and_a_place_that_is_asked_is_none(place: str)
         "I want to go to the kitchen", "I'd like to go to the study", "I'm going to the kitchen",
         "he said go to the kitchen", "i love the kitchen", "what a kitchen", "in the kitchen?",
         "we race to the kitchen every day", "mum popped over to the study", "kitchen towels",
-        "我想去厨房", "他说去厨房", "我喜欢厨房", "厨房真大", "妈妈去厨房了", "厨房呢", "跟着我念：你好",
+        "我想去厨房", "他说去厨房", "我喜欢厨房", "厨房真大", "妈妈去厨房了", "厨房呢",
+        "跟着我念：你好",
     ],
 )  # fmt: skip
 def test_what_people_say_of_themselves_and_others_moves_nothing(text: str) -> None:
@@ -160,8 +161,8 @@ def test_what_people_say_of_themselves_and_others_moves_nothing(text: str) -> No
 
 @pytest.mark.parametrize(
     ("text", "said"),
-    [("say hello to everyone", "Hello!"), ("greet our guests", "Hello!"), ("跟大家问个好", "你好！"),
-     ("跟小朋友们说晚安", "晚安")],
+    [("say hello to everyone", "Hello!"), ("greet our guests", "Hello!"),
+     ("跟大家问个好", "你好！"), ("跟小朋友们说晚安", "晚安")],
 )  # fmt: skip
 def test_a_greeting_to_all_is_said_where_the_robot_stands(text: str, said: str) -> None:
     assert made(text) == StepPlan(steps=(Say(text=said),))
