@@ -105,7 +105,7 @@ def _write_decoder(path: Path) -> None:
     after[:, 4] = least
     after[3, [3, 4]] = least, 0.0
     for said in (4, 5, 6):
-        after[said, 3:] = least
+        after[said, [3, 4, said]] = least
     nodes = [
         helper.make_node("Gather", ["y", "last"], ["newest"], axis=1),
         helper.make_node("Gather", ["after", "newest"], ["decoder_out"], axis=0),
