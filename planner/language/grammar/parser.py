@@ -134,7 +134,11 @@ _READ_AGAIN = frozenset(
 
 def _without_sending(text: str) -> str:
     """Return "how many chairs are there, go and count" without its end, which Chinese says so."""
-    return rewrite(normalise(text), ASKED_AND_SENT) or text if has_chinese(text) else text
+    if not has_chinese(text):
+        return text
+    said = normalise(text)
+    plain = rewrite(said, ASKED_AND_SENT)
+    return text if plain == rewrite(said, ()) else plain
 
 
 def _in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
