@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict
 
 from planner.voice import Recognition
-from planner.voice.process_main import MOST_STREAMS, Listener, _answer
+from planner.voice.process_main import MOST_STREAMS, PartListener, _answer
 
 
 class Counts:
@@ -27,23 +27,23 @@ class CountingEngine:
     ) -> Recognition:
         return Recognition("whole", 0.9, understood=awaits_answer)
 
-    def listener(self, rate_hz: int, channels: int) -> Listener:
+    def listener(self, rate_hz: int, channels: int) -> PartListener:
         return Counts()
 
 
-def ask(streams: OrderedDict[int, Listener], number: int, pcm: bytes) -> dict[str, object]:
+def ask(streams: OrderedDict[int, PartListener], number: int, pcm: bytes) -> dict[str, object]:
     head = {"rate_hz": 16_000, "channels": 1, "stream": number}
     return _answer(CountingEngine(), streams, (head, pcm))[0]
 
 
 def test_each_recording_is_followed_alone() -> None:
-    streams: OrderedDict[int, Listener] = OrderedDict()
+    streams: OrderedDict[int, PartListener] = OrderedDict()
     told = [ask(streams, number, b"ab")["transcript"] for number in (1, 2, 1, 1, 2)]
     assert told == ["2", "2", "4", "6", "4"]
 
 
 def test_the_one_that_was_fed_longest_ago_is_forgotten() -> None:
-    streams: OrderedDict[int, Listener] = OrderedDict()
+    streams: OrderedDict[int, PartListener] = OrderedDict()
     for number in range(MOST_STREAMS):
         ask(streams, number, b"ab")
     ask(streams, 0, b"ab")
@@ -54,7 +54,7 @@ def test_the_one_that_was_fed_longest_ago_is_forgotten() -> None:
 
 
 def test_nothing_heard_and_a_failure_are_told_as_such() -> None:
-    streams: OrderedDict[int, Listener] = OrderedDict()
+    streams: OrderedDict[int, PartListener] = OrderedDict()
     assert ask(streams, 1, b"")["understood"] is False
     assert "IndexError" in str(ask(streams, 1, b"!!")["failed"])
     whole = {"rate_hz": 16_000, "channels": 1, "awaits_answer": True}
