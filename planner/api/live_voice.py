@@ -36,8 +36,8 @@ MIN_RATE_HZ, MAX_RATE_HZ = 8_000, 48_000
 POLICY_VIOLATION = 1008
 
 
-class _Refused(Exception):
-    """What came is no recording; ``code`` is stable."""
+class NoRecording(Exception):
+    """Refuse frames that are no recording; ``code`` is stable."""
 
     def __init__(self, code: str, detail: str) -> None:
         super().__init__(f"{code}: {detail}")
@@ -67,7 +67,7 @@ def routes(services: Services) -> APIRouter:
 async def _attend(services: Services, socket: WebSocket) -> None:
     try:
         rate_hz = _rate(await _frame(socket))
-    except _Refused as refused:
+    except NoRecording as refused:
         await _refuse(socket, refused)
         return
     feeds = [_Feed(each, rate_hz) for each in services.ears.listen()]
@@ -80,7 +80,7 @@ async def _attend(services: Services, socket: WebSocket) -> None:
         elif reading.done():
             reading.result()
         await socket.close()
-    except _Refused as refused:
+    except NoRecording as refused:
         await _refuse(socket, refused)
     finally:
         for task in (reading, *hearing):
@@ -148,7 +148,7 @@ async def _read(socket: WebSocket, feeds: list[_Feed], rate_hz: int) -> None:
     """Hand samples on until the recording ends.
 
     Raises:
-        _Refused: what came is none.
+        NoRecording: what came is none.
     """
     taken, most = 0, int(MOST_SECONDS * rate_hz) * 2
     try:
@@ -158,12 +158,12 @@ async def _read(socket: WebSocket, feeds: list[_Feed], rate_hz: int) -> None:
             if pcm is None:
                 if _content(message).get("end") is True or message["type"] != "websocket.receive":
                     return
-                raise _Refused("unknown_message", 'expected samples or {"end": true}')
+                raise NoRecording("unknown_message", 'expected samples or {"end": true}')
             taken += len(pcm)
             if len(pcm) % 2:
-                raise _Refused("sound_malformed", f"{len(pcm)} bytes are no whole samples")
+                raise NoRecording("sound_malformed", f"{len(pcm)} bytes are no whole samples")
             if taken > most:
-                raise _Refused("audio_too_long", f"at most {MOST_SECONDS:g} s")
+                raise NoRecording("audio_too_long", f"at most {MOST_SECONDS:g} s")
             for feed in feeds:
                 feed.add(pcm)
     finally:
@@ -176,7 +176,7 @@ async def _frame(socket: WebSocket) -> Mapping[str, Any]:
         async with asyncio.timeout(PATIENCE_S):
             return await socket.receive()
     except TimeoutError:
-        raise _Refused("voice_silent", f"nothing came for {PATIENCE_S:g} s") from None
+        raise NoRecording("voice_silent", f"nothing came for {PATIENCE_S:g} s") from None
 
 
 def _rate(message: Mapping[str, Any]) -> int:
@@ -184,7 +184,7 @@ def _rate(message: Mapping[str, Any]) -> int:
     if type(rate_hz) is int and MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ:
         return rate_hz
     told = f'expected {{"rate_hz": …}} of {MIN_RATE_HZ} to {MAX_RATE_HZ} first'
-    raise _Refused("rate_missing", told)
+    raise NoRecording("rate_missing", told)
 
 
 def _content(message: Mapping[str, Any]) -> dict[str, Any]:
@@ -198,7 +198,7 @@ def _content(message: Mapping[str, Any]) -> dict[str, Any]:
     return content if isinstance(content, dict) else {}
 
 
-async def _refuse(socket: WebSocket, refused: _Refused) -> None:
+async def _refuse(socket: WebSocket, refused: NoRecording) -> None:
     told = {"type": "problem", "code": refused.code, "detail": refused.detail}
     await socket.send_text(json.dumps(told))
     await socket.close(POLICY_VIOLATION, refused.code)

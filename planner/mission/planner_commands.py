@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from planner.language.catalogue import message, say
 from planner.language.commands import (
+    BatteryCommand,
     CancelCommand,
     Doing,
     Faster,
@@ -34,7 +35,7 @@ from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
-from planner.mission.spoken_status import doing, tell_position
+from planner.mission.spoken_status import doing, tell_battery, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse
 from planner.site import PlaceRefusal
@@ -154,6 +155,8 @@ class PlannerCommands:
                 return self._command_goal("resume", events.Resume, goal_to_resume(book, mission.id))
             case Doing():
                 return AnswerPlan(text=doing(book, self._loop.status_age_s, mission.id))
+            case BatteryCommand():
+                return AnswerPlan(text=tell_battery(book, self._loop.status_age_s))
             case Slower() | Faster():
                 return self._change_speed(slower=isinstance(intent, Slower))
             case _:  # where it is; nothing else comes here

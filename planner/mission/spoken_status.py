@@ -53,6 +53,19 @@ def tell_position(book: MissionState, age_s: float) -> Bilingual:
     return say("status.at", spot=spot)
 
 
+def tell_battery(book: MissionState, age_s: float) -> Bilingual:
+    """Say how far the battery is charged, or that nobody knows."""
+    status = book.status
+    if status is None or not age_s <= OLD_S:
+        return say("status.battery_silent")
+    charge = status.drive.battery
+    return (
+        say("status.no_battery")
+        if charge is None
+        else say("status.battery", percent=100.0 * charge)
+    )
+
+
 def _spot(facts: SiteView, pose: Pose2) -> Bilingual:
     room = spot_at(facts, pose).room
     near = min(

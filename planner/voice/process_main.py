@@ -22,20 +22,20 @@ MOST_STREAMS = 8
 NOTHING = Recognition("", 0.0, understood=False)
 
 
-class Listener(Protocol):
+class PartListener(Protocol):
     """Hear one recording while it grows."""
 
     def take(self, pcm: bytes) -> Recognition | None: ...
 
 
-class Engine(Protocol):
+class VoiceEngine(Protocol):
     """Hear recordings in this process, whole or as they grow."""
 
     def hear(
         self, pcm: bytes, rate_hz: int, channels: int, *, awaits_answer: bool = False
     ) -> Recognition: ...
 
-    def listener(self, rate_hz: int, channels: int) -> Listener: ...
+    def listener(self, rate_hz: int, channels: int) -> PartListener: ...
 
 
 def main(parent: ParentPipes) -> int:
@@ -51,7 +51,7 @@ def main(parent: ParentPipes) -> int:
     return parent.serve(partial(_answer, engine, OrderedDict()))
 
 
-def _load(told: dict[str, Any]) -> tuple[Engine, tuple[str, ...]]:
+def _load(told: dict[str, Any]) -> tuple[VoiceEngine, tuple[str, ...]]:
     """Return the engine and the names that it can't hear."""
     if "sherpa" in told:
         from planner.voice.sherpa import Sherpa
@@ -63,7 +63,7 @@ def _load(told: dict[str, Any]) -> tuple[Engine, tuple[str, ...]]:
     return sphinx, sphinx.language.left_out
 
 
-def _answer(engine: Engine, streams: OrderedDict[int, Listener], asked: Frame) -> Frame:
+def _answer(engine: VoiceEngine, streams: OrderedDict[int, PartListener], asked: Frame) -> Frame:
     head, pcm = asked
     try:
         rate_hz, channels = int(head["rate_hz"]), int(head["channels"])

@@ -61,18 +61,23 @@ class StopSpotter:
         whole = len(data) // self._frame_bytes * self._frame_bytes
         self._rest = data[whole:]
         for start in range(0, whole, self._frame_bytes):
-            self._add(data[start : start + self._frame_bytes])
-        if not self._is_due():
+            ended = self._add(data[start : start + self._frame_bytes])
+            # Where much comes at once a piece may begin and end in it, and is looked at whole.
+            stop = self._spot(ended) if ended else None
+            if stop is not None and stop.understood:
+                return stop
+        if not self._is_due(STEP_FRAMES):
             return None
         self._looked_at = len(self._piece)
         return self._spot(b"".join(self._piece))
 
-    def _is_due(self) -> bool:
-        fresh = len(self._piece) - self._looked_at
+    def _is_due(self, fresh_frames: int) -> bool:
+        fresh = len(self._piece) - self._looked_at >= fresh_frames
         short = len(self._piece) <= MOST_FRAMES
-        return self._open and self._loud >= LEAST_LOUD_FRAMES and fresh >= STEP_FRAMES and short
+        return self._open and self._loud >= LEAST_LOUD_FRAMES and fresh and short
 
-    def _add(self, frame: bytes) -> None:
+    def _add(self, frame: bytes) -> bytes:
+        """Add a frame; return the piece that ends with it where it was not looked at to its end."""
         loud = self._is_loud(frame)
         self._still = 0 if loud else self._still + 1
         if loud and not self._open:
@@ -82,9 +87,13 @@ class StopSpotter:
             if len(self._piece) <= MOST_FRAMES:
                 self._piece.append(frame)
         self._lead.append(frame)
+        ended = b""
         if self._still >= PAUSE_FRAMES and self._loud:
+            unseen = self._looked_at + PAUSE_FRAMES  # its last words stand before the pause
+            ended = b"".join(self._piece) if self._is_due(1) and len(self._piece) > unseen else b""
             self._open, self._piece = False, []
             self._loud = self._looked_at = 0
+        return ended
 
     def _is_loud(self, frame: bytes) -> bool:
         level = _level(frame, self._channels)

@@ -5,6 +5,7 @@ Pure, both languages, whole sentences only. The one door of this package.
 
 from planner.language.commands.command import (
     AppendCommand,
+    BatteryCommand,
     CancelCommand,
     Doing,
     Faster,
@@ -28,6 +29,7 @@ from planner.language.commands.parser import intent_of
 
 __all__ = [
     "AppendCommand",
+    "BatteryCommand",
     "CancelCommand",
     "Doing",
     "Faster",

@@ -105,6 +105,11 @@ class Doing:
 
 
 @dataclass(frozen=True, slots=True)
+class BatteryCommand:
+    """Ask for the charge of the robot's battery."""
+
+
+@dataclass(frozen=True, slots=True)
 class Slower:
     """Halve the speed cap of the running goal."""
 
@@ -131,6 +136,7 @@ Intent = (
     | OtherPlaceCommand
     | WhereCommand
     | Doing
+    | BatteryCommand
     | Slower
     | Faster
     | OrderCommand

@@ -111,6 +111,19 @@ DOING = re.compile(
     r"|standing(?: still| there)?|waiting|stopped)|how is it going|how far (?:along )?are you"
     r"|what(?:'s| is) (?:keeping|taking) you(?: so long)?|what are you on(?: with)?"
 )
+_CHARGE = r"(?:battery|charge|power|juice)"
+_YOUR = r"(?:your|the) (?:current )?"
+BATTERY = re.compile(
+    rf"how(?:'s| is| are)? {_YOUR}{_CHARGE}(?: (?:doing|level|now))?"
+    rf"|how (?:much|is) {_CHARGE}(?: level)?"
+    r"(?: (?:do you have|have you got|is)(?: left| in you)?| left)?"
+    rf"|(?:what(?:'s| is)|tell me|report) {_YOUR}(?:battery|charge)"
+    rf"(?: (?:level|status|state|percentage))?|{_YOUR}?battery (?:level|status)"
+    rf"|(?:are you|is {_YOUR}battery) (?:fully )?(?:charged|full|empty|low|flat"
+    r"|running (?:low|out))(?: yet| enough)?"
+    rf"|(?:do you have|have you got|you(?:'ve)? got|you have) enough {_CHARGE}(?: left)?"
+    r"(?: for [a-z ]{1,30})?|do you need (?:to be )?(?:charging|charged|a charge|to charge)"
+)
 
 _HERE = r"(?:this|here|(?:this|that|the current) (?:place|spot|location|position|point)(?: here)?)"
 _SPOT = r"(?:this|the current) (?:place|spot|location|position|point|corner)|here"

@@ -15,6 +15,7 @@ from types import ModuleType
 from planner.language.commands import chinese, english
 from planner.language.commands.command import (
     AppendCommand,
+    BatteryCommand,
     CancelCommand,
     Doing,
     Faster,
@@ -43,6 +44,7 @@ _SIMPLE: tuple[tuple[str, Intent], ...] = (
     ("CANCEL", CancelCommand()),
     ("WHERE", WhereCommand()),
     ("DOING", Doing()),
+    ("BATTERY", BatteryCommand()),
     ("SLOWER", Slower()),
     ("FASTER", Faster()),
 )
@@ -131,7 +133,7 @@ def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
     words = re.sub(r"[\s,]+", "" if grammar is chinese else " ", folded).strip()
     for name, intent in _SIMPLE:
         if getattr(grammar, name).fullmatch(words) is not None:
-            question = isinstance(intent, (WhereCommand, Doing))
+            question = isinstance(intent, (WhereCommand, Doing, BatteryCommand))
             return None if asks and not question else intent
     return None
 

@@ -51,7 +51,7 @@ from planner.language.grammar.sentence_text import (
 )
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
-from planner.language.grammar.zh.everyday import CHINESE_EVERYDAY
+from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.recall import read_recall
@@ -107,7 +107,7 @@ def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
-    made = _plan_as_said(text, vocabulary, context)
+    made = _plan_as_said(_without_sending(text), vocabulary, context)
     if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_AGAIN:
         return made
     plainer = _in_plain_words(text, vocabulary)
@@ -131,6 +131,15 @@ _READ_AGAIN = frozenset(
         Code.CONDITIONAL, Code.AMBIGUOUS,
     }
 )  # fmt: skip
+
+
+def _without_sending(text: str) -> str:
+    """Return "how many chairs are there, go and count" without its end, which Chinese says so."""
+    if not has_chinese(text):
+        return text
+    said = normalise(text)
+    plain = rewrite(said, ASKED_AND_SENT)
+    return text if plain == rewrite(said, ()) else plain
 
 
 def _in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:

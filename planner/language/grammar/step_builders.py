@@ -102,6 +102,14 @@ def person_of(words: str, reading: Reading) -> str | ClauseProblem:
     return label_of(words, reading) or reading.problem(Code.INCOMPLETE, words, what=WHO)
 
 
+_ALL = re.compile(
+    r"every(?:one|body)|all|you all|them all|all of (?:us|you|them)"
+    r"|(?:(?:the|our|my|your|these|all (?:the|our)) )?(?:visitors|guests|people|children|kids)\b.*"
+    r"|大家|所有人|各位|大伙儿?|(?:小朋友|孩子|同学|客人|来宾|访客)们?"
+)
+"""Who hears it where the robot stands: told without a place, nobody is looked for."""
+
+
 def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> Meaning:
     """Go to where somebody is, and look for them."""
     person, place = person_of(words, reading), place_of(where, reading)
@@ -109,6 +117,8 @@ def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> M
         return person
     if isinstance(place, ClauseProblem):
         return place
+    if saying and place is None and reading.scene.place is None and _ALL.fullmatch(words):
+        return Steps((Say(text=saying),))
     if place is None and re.search(NAME, words):
         return missing(WHERE_IS, words, reading, person)
     # Who was met is still there; who was only asked about may be nowhere.

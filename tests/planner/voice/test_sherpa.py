@@ -180,3 +180,47 @@ def test_no_probabilities_are_never_sure() -> None:
     heard = read_result(" GO  HOME ", [])
     assert (heard.transcript, heard.understood, heard.sure) == ("go home", True, False)
     assert read_result("go", [math.log(0.9)]).sure
+
+
+def pieces(sound: Sound, step_s: float = 0.1) -> list[Sound]:
+    step = int(step_s * sound.rate_hz) * 2
+    starts = range(0, len(sound.pcm), step)
+    return [Sound(sound.rate_hz, 1, sound.pcm[start : start + step]) for start in starts]
+
+
+@needs_sherpa
+@story
+async def test_a_stop_is_heard_while_it_is_spoken_and_an_order_is_not(tmp_path: Path) -> None:
+    worker = open_model(VoiceSettings(folder=write_model(tmp_path)))
+    assert worker is not None
+    try:
+        for loudness, wanted in ((LOUD, "stop"), (MIDDLING, "停"), (FAINT, None)):
+            (listener,) = worker.listen()
+            heard = [await listener.take(piece) for piece in pieces(noise(loudness, 1.0))]
+            found = [number for number, each in enumerate(heard) if each is not None]
+            if wanted is None:
+                assert found == []
+                continue
+            first = heard[found[0]]
+            assert first is not None
+            assert (first.transcript, first.by) == (wanted, "sherpa")
+            assert found[0] < 8  # of 15 pieces, 10 of them sound
+    finally:
+        await worker.close()
+
+
+@needs_sherpa
+@story
+async def test_what_follows_a_pause_is_read_alone(tmp_path: Path) -> None:
+    worker = open_model(VoiceSettings(folder=write_model(tmp_path)))
+    assert worker is not None
+    try:
+        (listener,) = worker.listen()
+        still = Sound(16_000, 1, bytes(2 * 16_000))
+        order = [await listener.take(piece) for piece in pieces(noise(FAINT, 0.8))]
+        await listener.take(still)
+        stop = [await listener.take(piece) for piece in pieces(noise(LOUD, 0.8))]
+        assert order == [None] * len(order)
+        assert any(each is not None and each.transcript == "stop" for each in stop)
+    finally:
+        await worker.close()

@@ -161,3 +161,38 @@ def test_silence_is_nothing(ears: Sphinx, pcm: bytes) -> None:
 
 def test_the_shortest_noise_is_nothing(ears: Sphinx) -> None:
     assert not ears.hear(bytes(range(256)) * 13, 16_000, 1).understood
+
+
+def heard_early(ears: Sphinx, data: bytes) -> tuple[float, str] | None:
+    """Return when a stop is heard in a recording that grows, and which [s]."""
+    sound = read_wav(data)
+    listener = ears.listener(sound.rate_hz, sound.channels)
+    pcm = sound.pcm + bytes(2 * sound.rate_hz)
+    step = 2 * (sound.rate_hz // 10)
+    for start in range(0, len(pcm), step):
+        heard = listener.take(pcm[start : start + step])
+        if heard is not None and heard.understood:
+            return (start + step) / 2 / sound.rate_hz, heard.transcript
+    return None
+
+
+@needs_espeak
+@pytest.mark.parametrize("text", ["stop", "please stop", "stop right there"])
+@pytest.mark.parametrize("voice", ["en-us", "en-us+f3"])
+def test_a_stop_is_heard_while_the_recording_goes_on(ears: Sphinx, text: str, voice: str) -> None:
+    recording = speak(text, voice)
+    early = heard_early(ears, recording)
+    assert early is not None
+    assert early[1] in ("stop", "please stop", "stop now")
+    assert early[0] <= read_wav(recording).seconds + 0.4
+
+
+@needs_espeak
+@pytest.mark.parametrize("text", ["go to the kitchen", "return home", "I like the sofa very much"])
+def test_other_words_are_no_early_stop(ears: Sphinx, text: str) -> None:
+    assert heard_early(ears, speak(text, "en-us+f3")) is None
+
+
+def test_silence_is_no_early_stop(ears: Sphinx) -> None:
+    assert heard_early(ears, wav(bytes(64_000))) is None
+    assert ears.spot_stop(bytes(3_200), 16_000, 1) is None

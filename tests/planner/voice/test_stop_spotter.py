@@ -69,6 +69,14 @@ def test_a_stop_is_returned_as_soon_as_it_is_spotted() -> None:
     assert spotter.take(sound(0.2, 5_000.0)) == STOP
 
 
+def test_a_word_that_comes_late_and_at_once_with_what_follows_is_looked_at() -> None:
+    """A process that starts takes seconds, and all that was said meanwhile comes in one piece."""
+    parts = ((0.5, 30.0), (0.5, 5_000.0), (3.0, 30.0), (0.4, 5_000.0), (2.0, 30.0))
+    found = looks(*parts, step_s=9.0)
+    assert len(found) == 2
+    assert all(0.4 <= length <= 1.5 for length in found)
+
+
 @given(
     st.lists(st.binary(max_size=5_000), max_size=30),
     st.sampled_from([(8_000, 1), (16_000, 1), (44_100, 2), (48_000, 1)]),

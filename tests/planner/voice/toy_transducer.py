@@ -27,6 +27,7 @@ STEADY = 2.0
 SURE = 12.0
 """How far a chosen symbol stands above all others."""
 
+Shape = list[int | str]
 Arrays = dict[str, NDArray[np.float32] | NDArray[np.int64]]
 
 
@@ -70,7 +71,7 @@ def _write_encoder(path: Path) -> None:
         helper.make_node("Identity", ["h"], ["next_h"]),
         helper.make_node("Identity", ["c"], ["next_c"]),
     ]
-    state = ["layers", "N", 1]
+    state: Shape = ["layers", "N", 1]
     _save(
         path,
         nodes,
@@ -105,7 +106,7 @@ def _write_decoder(path: Path) -> None:
     after[:, 4] = least
     after[3, [3, 4]] = least, 0.0
     for said in (4, 5, 6):
-        after[said, 3:] = least
+        after[said, [3, 4, said]] = least
     nodes = [
         helper.make_node("Gather", ["y", "last"], ["newest"], axis=1),
         helper.make_node("Gather", ["after", "newest"], ["decoder_out"], axis=0),
@@ -123,7 +124,7 @@ def _write_decoder(path: Path) -> None:
 
 
 def _write_joiner(path: Path) -> None:
-    width = ["N", len(SYMBOLS)]
+    width: Shape = ["N", len(SYMBOLS)]
     _save(
         path,
         [helper.make_node("Add", ["encoder_out", "decoder_out"], ["logit"])],
@@ -139,8 +140,8 @@ def _save(
     nodes: list[onnx.NodeProto],
     values: Arrays,
     *,
-    inputs: list[tuple[str, list[int | str]]],
-    outputs: list[tuple[str, list[int | str]]],
+    inputs: list[tuple[str, Shape]],
+    outputs: list[tuple[str, Shape]],
     told: dict[str, str],
     kind: int = TensorProto.FLOAT,
 ) -> None:

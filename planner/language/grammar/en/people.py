@@ -87,19 +87,10 @@ def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
     return Steps((GoToObject(object=person, place=place),), person=person)
 
 
-_ALL = re.compile(
-    r"every(?:one|body)|all|you all|them all|all of (?:us|you|them)"
-    r"|(?:(?:the|our|my|your|these|all (?:the|our)) )?(?:visitors|guests|people|children|kids)\b.*"
-)
-"""Said to all who hear it: nobody is looked for."""
-
-
 def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading) if found["who"] not in ("them", "him", "her") else ""
     called = say("spoken.hello_name", name=name).en if name[:1].isupper() else None
     said = called or told_in("spoken.hello", reading)
-    if _ALL.fullmatch(found["who"]) and read_place(found, "at") is None:
-        return Steps((Say(text=said),))
     return meet(found["who"], read_place(found, "at"), reading, said)
 
 

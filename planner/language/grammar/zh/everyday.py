@@ -33,6 +33,15 @@ COURTESY = table(
 )
 """Conditions that are none."""
 
+ASKED_AND_SENT = table(
+    (
+        rf"^(?P<q>[^?]*?(?:有没有|是不是有|几[个把盆只本张瓶台人位]|多少|在不在|有什么|有啥)[^?,。]*?)(?:呀|啊|呢)?"
+        rf"[?,。]?(?:你)?(?:{_HAVE_A_LOOK})$",
+        r"\g<q>",
+    ),
+)
+"""A question and an order to go and look: the question says all, and goes there by itself."""
+
 CHINESE_EVERYDAY = table(
     # hesitation, address, courtesy
     (r"(?:呃+|额+|嗯+|唔+|啊+(?=,)|那个(?=那个|[嗯呃,去到找看])|这个(?=这个|[嗯呃,])|就是说|怎么说呢|叫啥来着)", ""),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from re import Match
 
 from planner.language.catalogue import say
@@ -29,7 +28,7 @@ from planner.language.grammar.step_builders import (
     place_of,
 )
 from planner.language.grammar.zh import GO, IN, PERSON, SPOT, loc
-from planner.plan import Ask, Code, Say
+from planner.plan import Ask, Code
 
 _FIND = r"(?:接到?|找到|寻找|找找看?|找一下|找|见见|见|看看|看望|探望|拜访|叫)(?:一下)?"
 _WHETHER = r"(?:(?<=找)|(?<=找看)|(?<=找一下))还?(?:有没有|是否有|是不是有|有无)"
@@ -56,18 +55,12 @@ def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
     return meet(found["who"], at, reading)
 
 
-_ALL = re.compile(r"大家|所有人|各位|大伙儿?|(?:小朋友|孩子|同学|客人|来宾|访客)们?")
-"""Said to all who hear it: nobody is looked for."""
-
-
 def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading)
     is_name = "\ue900" <= found["who"][0] <= "\ue9ff"
     said = say("spoken.hello_name", name=name) if is_name else say("spoken.hello")
-    if _ALL.fullmatch(found["who"]) and read_place(found, "at") is None:
-        night = "晚安" in found[0]
-        return Steps((Say(text="晚安" if night else said.zh),))
-    return meet(found["who"], read_place(found, "at"), reading, said.zh)
+    words = "晚安" if "晚安" in found[0] and not is_name else said.zh
+    return meet(found["who"], read_place(found, "at"), reading, words)
 
 
 def _follow(found: Match[str], reading: Reading) -> Meaning:

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.language.commands import (
+    BatteryCommand,
     CancelCommand,
     Doing,
     Forget,
@@ -68,6 +69,10 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("drop it, come back", Replace("come back", now=True)),
     ("forget that, stop", Replace("stop", now=True)),
     ("go to the kitchen instead", Replace("go to the kitchen", now=False)),
+    ("how is your battery doing?", BatteryCommand()),
+    ("do you have enough charge for a patrol", BatteryCommand()),
+    ("have you finished yet?", Doing()),
+    ("that's enough, quit it", CancelCommand()),
     ("where are you?", WhereCommand()),
     ("What is your location", WhereCommand()),
     ("what are you doing right now?", Doing()),
@@ -110,6 +115,9 @@ CHINESE: tuple[tuple[str, Intent], ...] = (
     ("算了去厨房", Replace("去厨房", now=True)),
     ("算了，还是回来吧", Replace("还是回来", now=True)),
     ("改去卧室", Replace("去卧室", now=False)),
+    ("你还有多少电？", BatteryCommand()),
+    ("电还够巡逻一趟不", BatteryCommand()),
+    ("干嘛呢你", Doing()),
     ("你在哪里？", WhereCommand()),
     ("现在在哪个房间呢", WhereCommand()),
     ("你在干什么呢？", Doing()),
