@@ -266,4 +266,4 @@ def _wait(parts: dict[str, str | None], forms: CompoundForms) -> WaitFor | None:
         return WaitFor(time=hour) if hour is not None else None
     if word:  # a stop word stops: nobody could say it for anything else
         return None if is_stop(word) else WaitFor(word=word)
-    return WaitFor(object="person") if who and (resolve(who) or ("",))[0] == "person" else None
+    return WaitFor(object="person") if who else None

@@ -1,7 +1,7 @@
 """Tell what each branch of a plan hangs on, and what the order says of it. Pure.
 
-A sentence names a place in its condition, to look there, or in a branch, to go there: the guard must
-tell these apart, and one branch from the other.
+A sentence names a place in its condition, to look there, or in a branch, to go there: the guard
+must tell these apart, and one branch from the other.
 """
 
 from __future__ import annotations
