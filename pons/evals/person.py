@@ -100,7 +100,7 @@ _PLANS = frozenset({Reaction.NEW, Reaction.INSTEAD, Reaction.AFTER})
 
 
 @dataclass(frozen=True, slots=True)
-class Turn:
+class ScriptTurn:
     """Hold one turn of a script."""
 
     says: tuple[str, ...]
@@ -120,7 +120,7 @@ class Script:
     split: str
     name: str
     language: str
-    turns: tuple[Turn, ...]
+    turns: tuple[ScriptTurn, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +178,7 @@ def _fill(line: str, language: str, variant: int) -> str:
     return f"{said.replace('{T}', name)}{bar}{wanted.replace('{T}', id_)}"
 
 
-def _read_turn(line: str) -> Turn:
+def _read_turn(line: str) -> ScriptTurn:
     said, bar, wanted = line.partition(" | ")
     stays, wanted = wanted.startswith("~ "), wanted.removeprefix("~ ")
     typed, said = said.startswith("> "), said.removeprefix("> ")
@@ -193,14 +193,14 @@ def _read_turn(line: str) -> Turn:
     if not bar or (reactions & _PLANS and not plans):
         raise BadMatcher(f"{line!r}: expected a sentence, a bar, and what it comes to")
     expected = read_expectation(" | ".join(plans)) if plans else None
-    return Turn(tuple(said.split(" // ")), frozenset(reactions), expected, typed, stays)
+    return ScriptTurn(tuple(said.split(" // ")), frozenset(reactions), expected, typed, stays)
 
 
 # The robot's side -----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
-class _Heard:
+class RobotReply:
     """Hold what the person hears after one sentence."""
 
     reaction: Reaction
@@ -211,7 +211,7 @@ class _Heard:
     """No other goal goes on beside the one that was taken."""
 
 
-class Robot:
+class RobotEar:
     """Take sentences in as the planner does; drive nothing."""
 
     def __init__(self, brain: Brain, site: Site) -> None:
@@ -227,7 +227,7 @@ class Robot:
         """Return where all goals stand."""
         return self._book
 
-    async def hear(self, text: str, *, typed: bool = False) -> _Heard:
+    async def hear(self, text: str, *, typed: bool = False) -> RobotReply:
         """Return what a sentence comes to."""
         self._now_s += _TURN_S
         before = self._book
@@ -278,18 +278,18 @@ class Robot:
         open_ = [m for m in self._book.missions.values() if m.state in asking]
         return max(open_, key=lambda m: m.order, default=None)
 
-    def _tell(self, before: MissionState, goal: str, stopped: bool) -> _Heard:
+    def _tell(self, before: MissionState, goal: str, stopped: bool) -> RobotReply:
         """Return what has changed, as a person would be told."""
         if stopped:
-            return _Heard(Reaction.STOP)
+            return RobotReply(Reaction.STOP)
         taken = next((m for m in self._book.missions.values() if self._is_taken(before, m)), None)
         if taken is not None:
             plan = self._plans.get(taken.id)
             if plan is not None and plan.does in (PlanRole.CANCEL, PlanRole.ANSWER_TO):
-                return _Heard(Reaction.CANCEL)
+                return RobotReply(Reaction.CANCEL)
             runs = (GoalState.QUEUED, GoalState.RUNNING)
             alone = all(m is taken or m.state not in runs for m in self._book.missions.values())
-            return _Heard(self._role(before, taken), plan, taken.id, alone=alone)
+            return RobotReply(self._role(before, taken), plan, taken.id, alone=alone)
         mission = self._book.missions.get(goal)
         asking = self._waiting()
         if asking is not None and (mission is None or not mission.has_ended or mission is asking):
@@ -300,7 +300,7 @@ class Robot:
             )
             options = asking.plan.options if asking.plan is not None else ()
             offer = options[0].text if len(options) == 1 else ""
-            return _Heard(reaction, self._plans.get(asking.id), asking.id, offer)
+            return RobotReply(reaction, self._plans.get(asking.id), asking.id, offer)
         dropped = [
             m.id for m in self._book.missions.values()
             if m.state is GoalState.CANCELLED and before.missions.get(m.id) not in (None, m)
@@ -308,10 +308,10 @@ class Robot:
         if dropped:
             declined = self._book.missions[dropped[0]].outcome
             no = declined is not None and declined.code is Code.DECLINED
-            return _Heard(Reaction.DROPS if no else Reaction.CANCEL)
+            return RobotReply(Reaction.DROPS if no else Reaction.CANCEL)
         if mission is not None and mission.state is GoalState.SUCCEEDED:
-            return _Heard(Reaction.ANSWER)
-        return _Heard(Reaction.NO)
+            return RobotReply(Reaction.ANSWER)
+        return RobotReply(Reaction.NO)
 
     def _is_taken(self, before: MissionState, mission: Mission) -> bool:
         open_ = (GoalState.QUEUED, GoalState.RUNNING, GoalState.PAUSED)
@@ -345,7 +345,7 @@ class Robot:
             self._book, missions=missions, running=running, queue=(), activity=None
         )
 
-    async def confirm(self, goal: str, *, yes: bool) -> _Heard:
+    async def confirm(self, goal: str, *, yes: bool) -> RobotReply:
         """Return what a yes or no to a plan comes to, given by button."""
         before = self._book
         await self._on(Confirm(goal) if yes else Reply(goal, "no"))
@@ -371,7 +371,7 @@ class _Mood(StrEnum):
 
 async def converse(script: Script, brain: Brain, site: Site) -> Conversation:
     """Return how a conversation went."""
-    robot, patience, said = Robot(brain, site), PATIENCE, list[str]()
+    robot, patience, said = RobotEar(brain, site), PATIENCE, list[str]()
     for number, turn in enumerate(script.turns, 1):
         if isinstance(brain, ScriptedModel):
             brain.expect(turn)
@@ -404,7 +404,7 @@ async def converse(script: Script, brain: Brain, site: Site) -> Conversation:
     return Conversation(script, "", tuple(said), moves_wrongly=False)
 
 
-def _judge(heard: _Heard, turn: Turn, patience: int) -> tuple[_Mood, int]:
+def _judge(heard: RobotReply, turn: ScriptTurn, patience: int) -> tuple[_Mood, int]:
     """Return what the person does upon what they heard, and the patience that is left."""
     fits = heard.plan is not None and (turn.plan is None or turn.plan.fits(heard.plan))
     fulfils = heard.reaction in turn.wanted or (Reaction.INSTEAD in turn.wanted and heard.alone)
@@ -422,7 +422,7 @@ def _judge(heard: _Heard, turn: Turn, patience: int) -> tuple[_Mood, int]:
     return (_Mood.ANSWERS if answers else _Mood.REPHRASES), patience - 1
 
 
-def _is_meant(heard: _Heard, turn: Turn) -> bool:
+def _is_meant(heard: RobotReply, turn: ScriptTurn) -> bool:
     """Tell whether a yes to what is asked would do what the person wants."""
     if heard.reaction is Reaction.CONFIRMS:
         fits = heard.plan is not None and turn.plan is not None and turn.plan.fits(heard.plan)
@@ -441,7 +441,7 @@ class ScriptedModel:
 
     def __init__(self, *, whims: bool = True) -> None:
         """Choose whether it has whims."""
-        self._turn: Turn | None = None
+        self._turn: ScriptTurn | None = None
         self._plans, self._whims, self.hostile = 0, whims, 0
 
     @property
@@ -449,7 +449,7 @@ class ScriptedModel:
         """Return the double's name."""
         return BrainTag(name="scripted-model", version="1")
 
-    def expect(self, turn: Turn) -> None:
+    def expect(self, turn: ScriptTurn) -> None:
         """Be told what the person of the script wants next."""
         self._turn = turn
 

@@ -30,7 +30,7 @@ from planner.mission.skills.result_text import list_things, room_name
 from planner.mission.skills.search import make_filter
 from planner.mission.skills.skill_state import PatrolState
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_of
-from planner.plan import Bilingual, Code, StopReport, say_same
+from planner.plan import Bilingual, Code, PatrolSighting, say_same
 
 if TYPE_CHECKING:
     from wire import Pose2
@@ -85,7 +85,7 @@ def _end_stop(scene: Scene[PatrolState], said: Bilingual, *, shut: bool = False)
     """Note a stop, and return what is next."""
     stops = scene.state.stops
     place = scene.step.places[len(stops)]
-    stop = StopReport(place=place, said=said, shut=shut)
+    stop = PatrolSighting(place=place, said=said, shut=shut)
     return patrol(scene.but(PatrolState(stops=(*stops, stop))))
 
 

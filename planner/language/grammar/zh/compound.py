@@ -137,7 +137,7 @@ CHINESE_COMPOUND = CompoundForms(
     read_condition=_read_condition,
     read_memory=_read_memory,
     go_there=re.compile(r"(?P<verb>去|到|回到?|前往|开到)(?:那里|那儿|那边)"),
-    to_place="{verb}{name}",
+    to="",
     cuts=re.compile(r"(?!)"),
     failures=re.compile(
         rf"(?P<main>.+?)[,，;；。](?:{_FAILS})[,，]?(?:就|便|再)?(?:改)?(?P<else>.+)"
