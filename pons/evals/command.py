@@ -127,7 +127,9 @@ def _orders(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
 def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
     """Hold conversations with a brain and, where none is named, with a model by script as well."""
-    from pons.evals.person import ScriptedModel, converse, read_scripts, show_conversations
+    from pons.evals.person import converse, show_conversations
+    from pons.evals.person_robot import ScriptedModel
+    from pons.evals.person_scripts import read_scripts
 
     async def score(brain: Brain) -> int:
         site, right, count = Site.load(said.site), 0, 0

@@ -28,7 +28,7 @@ from planner.mission.skills.look_around import look_round
 from planner.mission.skills.object_matching import drop_doubles, list_confirmed
 from planner.mission.skills.result_text import list_things, room_name
 from planner.mission.skills.search import make_filter
-from planner.mission.skills.skill_state import PatrolState
+from planner.mission.skills.skill_state import PatrolState, SkillStateBase
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_of
 from planner.plan import Bilingual, Code, PatrolSighting, say_same
 
@@ -57,6 +57,13 @@ def patrol(scene: Scene[PatrolState]) -> SkillAction:
     if scene.pose is None:
         return Retry()
     return _look(scene, scene.pose, place)
+
+
+def so_far(state: SkillStateBase | None) -> dict[str, object]:
+    """Return what a patrol has to tell before it is over: it is kept however the step ends."""
+    if not isinstance(state, PatrolState) or not state.stops:
+        return {}
+    return {"stops": state.stops, "visited": sum(not stop.shut for stop in state.stops)}
 
 
 def _look(scene: Scene[PatrolState], pose: Pose2, place: str) -> SkillAction:

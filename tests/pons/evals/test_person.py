@@ -11,19 +11,12 @@ from planner.brain import OfflineBrain
 from planner.brain.scripted import ScriptedBrain
 from planner.plan import GoTo, StepPlan
 from planner.site import Site
-from pons.evals import person
+from pons.evals import person_scripts
 from pons.evals.cases import HELD_OUT
 from pons.evals.matchers import BadMatcher
-from pons.evals.person import (
-    FEWEST,
-    MOST,
-    Conversation,
-    Script,
-    ScriptedModel,
-    converse,
-    read_scripts,
-    show_conversations,
-)
+from pons.evals.person import PATIENCE, Conversation, converse, show_conversations
+from pons.evals.person_robot import ScriptedModel
+from pons.evals.person_scripts import FEWEST, MOST, Script, read_scripts
 from tests.conftest import ROOT
 
 SITE = Site.load(ROOT / "sites" / "home")
@@ -31,7 +24,7 @@ SITE = Site.load(ROOT / "sites" / "home")
 
 def script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *lines: str) -> Script:
     (tmp_path / "en.txt").write_text("\n## held a talk\n" + "\n".join(lines) + "\n", "utf-8")
-    monkeypatch.setattr(person, "SCRIPTS", tmp_path)
+    monkeypatch.setattr(person_scripts, "SCRIPTS", tmp_path)
     return read_scripts("en")[0]
 
 
@@ -69,7 +62,7 @@ def test_who_is_not_understood_says_it_in_other_words_as_long_as_patience_lasts(
     )
     assert not lost.right
     assert not lost.moves_wrongly
-    assert len(lost.said) == 1 + person.PATIENCE
+    assert len(lost.said) == 1 + PATIENCE
 
 
 def test_what_does_otherwise_than_meant_is_a_wrong_motion(
