@@ -143,7 +143,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"{_PLACE_SELF}(?P<place>{_WHAT})(?P<side>{_SIDE_OF}|旁边?|边上)(?:{_HALT})?", stand_at),
     rule(
-        rf"(?:去|到|开到|走到|移动到)(?P<place>{_WHAT})(?P<side>的?(?:正?前面|正?前方|跟前|后面|背后))"
+        rf"(?:去|到|开到|走到|移动到)(?P<place>{_WHAT})(?P<side>的?(?:正?前面|正?前方|后面|背后))"
         rf"(?:去)?(?:{_HALT})?",
         stand_at,
     ),
