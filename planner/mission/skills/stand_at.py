@@ -91,7 +91,7 @@ def _place(scene: Scene[StandAtState], pose: Pose2) -> _Thing | SkillAction:
         return place_gone(facts, step.place or "?")
     if step.side == "facing":
         at = (target.pose.x_m, target.pose.y_m)
-        if facts.floor is not None and not target.room:
+        if facts.floor is not None and not target.room and target.id != facts.home:  # looks away
             at = facts.floor.face_of(target.pose)
         return _Thing(target.name, at, ())
     if target.room or facts.floor is None:

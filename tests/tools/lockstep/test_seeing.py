@@ -19,6 +19,7 @@ from planner.plan import (
     GoToObject,
     GoToPoint,
     Look,
+    Patrol,
     Step,
     StepPlan,
     StepRecord,
@@ -289,3 +290,19 @@ def test_a_point_of_the_picture_is_driven_to_on_floor_and_refused_on_a_wall(
     assert told(refused)[0] is Code.POINT_REFUSED
     assert step.reason in ("point_on_wall", "point_no_depth", "point_off_map")
     assert moved_m(world, still) < 0.01
+
+
+def test_a_patrol_sees_what_stands_at_each_stop_and_tells_it_at_the_end(world_with: World) -> None:
+    world = world_with(Patrol(places=("kitchen", "living_room"), look=True), start=TO_THE_DOOR)
+    goal = world.say("patrol the kitchen and the living room and tell me what you saw")
+    step = done(world, goal, limit_s=240.0)
+    assert goal.state is GoalState.SUCCEEDED
+    assert [(stop.place, stop.shut) for stop in step.stops] == [
+        ("kitchen", False), ("living_room", False),
+    ]  # fmt: skip
+    code, english, chinese = told(goal)
+    assert code is Code.SEEN
+    kitchen, living_room = english.split("living room: ")
+    assert "cup" in kitchen
+    assert "1 person" in living_room
+    assert "1 个人" in chinese
