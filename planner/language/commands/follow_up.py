@@ -75,7 +75,8 @@ _CORRECTION = re.compile(
     rf"{_TAKEN}++{_MEANT} (?P<a>.+)|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN})"
     rf"|(?:no[ ,]+wait|no|nope|wrong room|wrong place|not that one|oops)[ ,.!;]+(?:rather )?"
     rf"(?P<c>(?:to |in |into |at )?(?:the|my|our) [a-z][a-z' -]{{1,30}}|{_DRIVE_EN})"
-    rf"|(?:no[ ,]+)?not (?:to )?(?:the|my|our) [a-z' -]{{2,24}}[,;.]? (?:but )?(?:rather )?"
+    rf"|(?:(?:no|wait|hold on|hang on)[ ,]+)*not (?:to )?(?:the|my|our) [a-z' -]{{2,24}}[,;.]?"
+    rf" (?:but )?(?:rather )?(?:i (?:want|need) you (?:to (?:go|come|be) )?(?:in |to |at )?)?"
     rf"(?P<d>(?:to )?(?:the|my|our) [a-z][a-z' -]{{1,30}})"
 )
 _CORRECTION_ZH = re.compile(
@@ -83,6 +84,8 @@ _CORRECTION_ZH = re.compile(
     r"(?P<a>(?:去|到|回|找|看看|数).+|(?:我(?:说|要|指)的?是|我是说|是|应该是).{1,12})"
     r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>[^我你您没不好行].{0,7})|我是说(?P<f>.{1,12})"
     r"|(?:不对,?)?不是[^,是]{1,10}?[,]?(?:而)?是(?P<b>.{1,12})"
+    r"|(?:(?:等一?下|等等|不对)[,。!！]+)?不是[^,是]{1,10}?[,。]我(?:是)?(?:要|想要?|让)你(?:去|到)(?P<g>.{1,12})"
+    r"|(?:不对|不是?|错了)[,。!！]+在(?P<h>.{1,8})"
     r"|我(?:说|指|要)的(?:是|可是)(?P<c>.{1,12}?)(?:[,]?不是.{1,12})?"
 )
 _LEAD_ZH = re.compile(r"^(?:我(?:说|要|指|想)的?(?:可)?是|我是说|应该是|而是|是)")
