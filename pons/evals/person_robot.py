@@ -263,5 +263,5 @@ class ScriptedModel:
         return AnswerPlan(text=words)
 
 
-_WHIM = GoTo(place="charging_dock")
+_WHIM = GoTo(place="entrance")
 """No script speaks of it."""

@@ -23,7 +23,7 @@ def _read_condition(said: str) -> ConditionParts | None:
     asked = said.replace("有没有", "有").replace("有无", "有")  # 有没有 asks, 没有 denies
     plain = re.sub(rf"^{_IF}|的话$", "", asked)
     found = re.fullmatch(
-        r"(?P<where>.*?)(?:如果|要是|假如)?(?P<has>没有|没|有)(?:一?[个只把张瓶])?(?P<thing>.+)",
+        r"(?P<where>.*?)(?:如果|要是|假如)?(?P<has>没有|没|有)(?:一?[个只把张瓶](?!子))?(?P<thing>.+)",
         plain,
     )
     if found is None:
