@@ -170,5 +170,5 @@ def _describe_field(name: str, shape: dict[str, Any]) -> str:
         return f'"{"|".join(_choices(shape))}"' if name == "side" else '"…"'
     shape = shape if "type" in shape else shape["anyOf"][0]
     low = shape.get("minimum", shape.get("exclusiveMinimum"))
-    low, high = (int(100.0 * bound) / 100.0 for bound in (low, shape["maximum"]))  # within both
-    return f"{low:g} to {high:g}"
+    told = [f"{int(100.0 * float(bound)) / 100.0:g}" for bound in (low or 0.0, shape["maximum"])]
+    return " to ".join(told)  # cut towards zero: within the bounds

@@ -22,7 +22,7 @@ from planner.language.commands import (
 )
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
-from planner.plan import Entry, GoalState, Vocabulary
+from planner.plan import Code, Entry, GoalState, Vocabulary
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
@@ -66,11 +66,23 @@ def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: floa
 
 def last_order(book: MissionState, now_unix_s: float) -> Mission | None:
     """Return the newest goal that was an order; None where it is long ago."""
-    orders = (m for m in book.missions.values() if m.steps or m.state in _SPOKEN)
+    orders = (m for m in book.missions.values() if _was_taken(m) or _was_read(m))
     newest = max(orders, key=lambda m: m.order, default=None)
     if newest is None or not now_unix_s - newest.created_unix_s <= LEANS_S:
         return None
     return newest
+
+
+def _was_taken(mission: Mission) -> bool:
+    """Tell whether a goal had steps that the robot can do."""
+    return bool(mission.steps) and mission.state is not GoalState.REFUSED
+
+
+def _was_read(mission: Mission) -> bool:
+    """Tell whether a goal without steps is an order that a brain thinks or asks about."""
+    plan = mission.plan
+    lost = plan is not None and plan.code is Code.NOT_UNDERSTOOD
+    return mission.state in _SPOKEN and not lost
 
 
 def names_of(facts: SiteView) -> Vocabulary:

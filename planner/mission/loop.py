@@ -36,7 +36,7 @@ from planner.mission.event_hub import Hub
 from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
 from planner.mission.gc_control import Collector
 from planner.mission.journal_sync import Disk
-from planner.mission.perception_requests import EyeDoor, KeepInAlbum
+from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
 from planner.mission.skills import Eyesight
 from planner.mission.state import GoalKey, MissionState, Rules
@@ -80,7 +80,7 @@ class Loop:
         self._told: tuple[object, ...] = ()
         self._progress: Progress | None = None
         self._eyes: Eyes | None = None
-        self._door = EyeDoor(None)
+        self.door = EyeDoor(None)
         self._needs = EyeNeeds()
         self._acts: dict[str, OpRequest] = {}
         self._surveyor = surveyor
@@ -122,19 +122,15 @@ class Loop:
     def see(self, eyes: Eyes, looker: Looker | None, camera: CameraConfig) -> None:
         """Take the eyes, and the model that may be asked about their pictures."""
         self._eyes = eyes
-        self._door.see(eyes, looker)
+        self.door.see(eyes, looker)
         self._wording = Wording(eyes.classes, self._spawn, self._seen_anew)
         eyesight = Eyesight(camera, eyes.classes, model=looker is not None)
         self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
         eyes.listen(self._on_sight)
 
-    def keep_pictures(self, album: KeepInAlbum) -> None:
-        """Keep the pictures of patrols there from now on."""
-        self._door.keep_in(album)
-
     def bound_search(self, pictures: PictureLimits, spent: Spent) -> None:
         """Bound one search by the vision model; ``spent`` tells what a goal's calls have cost."""
-        self._door.spent = spent
+        self.door.spent = spent
         self._engine.book = replace(self.book, eyes=replace(self.book.eyes, pictures=pictures))
 
     def show_scans(self, obstacles: ScanSender) -> None:
@@ -166,7 +162,7 @@ class Loop:
             *(self.event, self._on_routed, self._link.obstacles, self.event, self._break),
             recalled=self.event,
         )
-        self._helpers = MissionTasks(think, router, answers, self._door, recall)
+        self._helpers = MissionTasks(think, router, answers, self.door, recall)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
         local_s = float(time.localtime().tm_gmtoff)
         self.event(Restarted(kept.missions, kept.queue, offset_s, local_s))

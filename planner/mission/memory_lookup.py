@@ -51,6 +51,11 @@ class MemoryLookup:
         self.recollection: Recollection | None = None
         """Where it looks; None: nothing is remembered."""
 
+    def remember_by(self, recollection: Recollection) -> None:
+        """Look there from now on, and keep the pictures of patrols there."""
+        self.recollection = recollection
+        self._loop.door.keep_in(recollection.keep_picture)
+
     async def answer(self, ask: AskMemory) -> Recalled:
         """Return what is remembered, in words."""
         now = datetime.fromtimestamp(self._wall()).astimezone()

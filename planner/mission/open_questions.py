@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, list_names, message, say
+from planner.language.schedule import ScheduleCommand
 from planner.language.stop import is_stop
 from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
@@ -67,13 +68,19 @@ def find_offer(mission: Mission) -> str | None:
 def tell_offer(mission: Mission, question: Bilingual) -> Bilingual:
     """Return a model's question with the one order that a yes to it gives, where it hides that.
 
-    "Shall I say hello?" with “go to the bathroom” behind it would make a yes an order unheard.
+    "Shall I say hello?" with “go to the bathroom” behind it would make a yes an order unheard. A
+    standing order is told with its time: so a model proposes one, and only a person's yes keeps it.
     """
     plan, brain = mission.plan, mission.brain
     model = brain is not None and brain.name != OFFLINE
     if not model or plan is None or len(plan.options) != 1:
         return question
     order = plan.options[0].text
+    standing = parse(order).intent
+    if isinstance(standing, ScheduleCommand) and standing.when is not None:
+        what = standing.order if standing.reminder is None else order
+        proposed = say("standing.propose", order=what[:200], when=standing.words[:200])
+        return join((question, proposed))
     if order.casefold() in f"{question.en} {question.zh}".casefold():
         return question
     return say("question.offers", asked=question, order=order[:200])

@@ -41,7 +41,7 @@ _ENDS = re.compile(_ENDS_IT)
 _TAKES_BACK = re.compile(
     rf"(?:^|[,.;!|] *)(?:\w+ )?(?:no|nope|not)\b|\bnot (?:the|there|that|this)\b"
     r"|\b(?:instead|rather|wrong|i meant?|changed? (?:my|the|of)|actually|sorry|make (?:it|that))\b"
-    rf"|不对|不是|不去|不不|^不|改|换|错|而是|还是去|{_ENDS_IT}"
+    rf"|不对|不是|不去|不不|^不|改|换|错|而是|还是去|我(?:说|要|指)的是|我是说|{_ENDS_IT}"
 )
 
 

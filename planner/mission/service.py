@@ -101,8 +101,7 @@ class Missions:
 
     def remember_by(self, recollection: Recollection) -> None:
         """Answer from this memory, and keep in it what people say."""
-        self._lookup.recollection = recollection
-        self.loop.keep_pictures(recollection.keep_picture)
+        self._lookup.remember_by(recollection)
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
         """See with these eyes, and ask this model about their pictures."""

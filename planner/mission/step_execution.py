@@ -1,7 +1,6 @@
 """Walk the running mission's plan: begin steps, carry out what their skills ask, end them.
 
-When a leg is done, ``arrival`` tells. Nothing moves or speaks before the journal holds its
-beginning.
+When a leg is done, ``arrival`` tells. Nothing moves or speaks before its beginning is journalled.
 """
 
 from __future__ import annotations
@@ -55,6 +54,7 @@ from planner.mission.skills import (
     Think,
     act_of,
 )
+from planner.mission.skills.patrol import so_far
 from planner.mission.skills.skill_state import PatrolState
 from planner.mission.state import Mission
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
@@ -77,8 +77,7 @@ def start_next(turn: Transaction) -> None:
 def _look_anew(turn: Transaction, mission: Mission) -> None:
     """Begin a look that branches hang on, or a patrol's, again after a pause or a crash.
 
-    What was seen before may be forgotten, or have left: half a look proves nothing. A patrol's
-    stops that are over stay so.
+    Half a look proves nothing. A patrol's stops that are over stay so.
     """
     step, state = mission.current_step, mission.skill_state
     if isinstance(state, PatrolState):
@@ -155,7 +154,7 @@ def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
 
 
 def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
-    more = _so_far(act.state)
+    more = so_far(act.state)
     note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill, **more)
     leg = Driving(
         record=turn.next_entry,
@@ -177,13 +176,6 @@ def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
     )
     turn.set(activity=leg)
     ask_route(turn, detour=False)
-
-
-def _so_far(state: SkillStateBase | None) -> dict[str, object]:
-    """Return what a patrol has to tell before it is over: it is kept however the step ends."""
-    if not isinstance(state, PatrolState) or not state.stops:
-        return {}
-    return {"stops": state.stops, "visited": sum(not stop.shut for stop in state.stops)}
 
 
 def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:

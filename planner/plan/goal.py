@@ -87,7 +87,7 @@ class PictureBill(Frozen):
     currency: str | None = None
 
 
-class StopReport(Frozen):
+class PatrolSighting(Frozen):
     """Show what a patrol saw at one of its stops, or that there was no way to it."""
 
     place: str
@@ -116,7 +116,7 @@ class StepRecord(Frozen):
     turned_rad: float | None = None  # by odometry, counter-clockwise positive
     visited: int | None = None  # places of a patrol reached so far
     look: bool = False  # a patrol looks round at each of them
-    stops: tuple[StopReport, ...] = ()  # what came of each that is over
+    stops: tuple[PatrolSighting, ...] = ()  # what came of each that is over
     x: int | None = None  # a point of the picture, 0 to 1000 from its left
     y: int | None = None  # and from its top
     found: Found | None = None  # what a step that looks has found

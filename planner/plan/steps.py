@@ -34,7 +34,7 @@ class GoTo(Frozen):
 
 
 class StandAt(Frozen):
-    """Stand there; facing: turn to it."""
+    """Stand there; facing: turn."""
 
     kind: Literal["stand_at"] = "stand_at"
     place: PlaceId | None = None
@@ -150,7 +150,7 @@ class Count(Frozen):
 
 
 class Look(Frozen):
-    """Look and answer a question."""
+    """Look and answer."""
 
     kind: Literal["look"] = "look"
     question: Words

@@ -74,7 +74,7 @@ class StandingFloor:
             back = _ahead(face, along, deep_m) if deep_m is not None else None
             wanted = [(_ahead(back, along, off_m), back)] if back is not None else []
         else:
-            return self._free(self._beside(face, along, off_m))
+            return self._free(self._spots_at_ends(face, along, off_m))
         return self._free(wanted)
 
     def about(
@@ -88,14 +88,16 @@ class StandingFloor:
         ways = {
             "before": [(-along[0], -along[1])],
             "behind": [along],
-        }.get(side, [_left(along), _right(along)])
+        }.get(side, [_turn_left(along), _turn_right(along)])
         return self._free([(_ahead(thing, way, off_m), thing) for way in ways])
 
-    def _beside(self, face: Point, along: Point, off_m: float) -> Iterator[tuple[Point, Point]]:
+    def _spots_at_ends(
+        self, face: Point, along: Point, off_m: float
+    ) -> Iterator[tuple[Point, Point]]:
         """Yield spots next to both ends of a body, each first where its middle may be."""
         inside = _ahead(face, along, 2 * _STEP_M)
         for depth_m in (0.3, 0.1, -0.1, -self.radius_m):
-            for way in (_left(along), _right(along)):
+            for way in (_turn_left(along), _turn_right(along)):
                 wide_m = self._walk(inside, way, BODY_M, free=False)
                 if wide_m is not None:
                     edge = _ahead(face, way, wide_m)
@@ -150,11 +152,11 @@ def _ahead(at: Point, way: Point, far_m: float) -> Point:
     return at[0] + far_m * way[0], at[1] + far_m * way[1]
 
 
-def _left(way: Point) -> Point:
+def _turn_left(way: Point) -> Point:
     return -way[1], way[0]
 
 
-def _right(way: Point) -> Point:
+def _turn_right(way: Point) -> Point:
     return way[1], -way[0]
 
 

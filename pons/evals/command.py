@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 REACHED, MISSED, REFUSED = 0, 1, 2
-TALK, MEMORY, ORDERS = "talk", "memory", "orders"
+TALK, MEMORY, ORDERS, PERSON = "talk", "memory", "orders", "person"
 GOAL = 0.9
+PERSON_GOAL = 0.95
 Scored = TypeVar("Scored")
 
 
@@ -55,6 +56,8 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
         return _talk(settings, said)
     if said.suite == ORDERS:
         return _orders(settings, said)
+    if said.suite == PERSON:
+        return _person(settings, said)
     try:
         suites = load(said.suite, said.data, said.site)
         if said.guard:
@@ -122,6 +125,31 @@ def _orders(settings: LaunchSettings, said: argparse.Namespace) -> int:
         return REFUSED
 
 
+def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    """Hold conversations with a brain and, where none is named, with a model by script as well."""
+    from pons.evals.person import converse, show_conversations
+    from pons.evals.person_robot import ScriptedModel
+    from pons.evals.person_scripts import read_scripts
+
+    async def score(brain: Brain) -> int:
+        site, right, count = Site.load(said.site), 0, 0
+        for name in ("en", "zh"):
+            for each in (brain,) if said.model is not None else (brain, ScriptedModel()):
+                held = tuple([await converse(one, each, site) for one in read_scripts(name)])
+                hostile = each.hostile if isinstance(each, ScriptedModel) else 0
+                print(show_conversations(name, each.tag.name, held, hostile))
+                right, count = right + sum(h.right for h in held), count + len(held)
+                if any(h.moves_wrongly for h in held):
+                    right = -count
+        return REACHED if right >= PERSON_GOAL * count else MISSED
+
+    try:
+        return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
+    except (BadMatcher, SiteError, ConfigError) as wrong:
+        print(f"pons eval: {wrong}", file=sys.stderr)
+        return REFUSED
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="pons eval",
@@ -130,7 +158,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "suite",
         nargs="?",
-        help=f"{', '.join(suite_names())}, {TALK}, {MEMORY}, {ORDERS}, or a .tsv file",
+        help=f"{', '.join(suite_names())}, {TALK}, {MEMORY}, {ORDERS}, {PERSON}, or a .tsv file",
     )
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(

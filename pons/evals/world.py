@@ -126,7 +126,7 @@ def _act(trace: _Walk, kind: str, fields: dict[str, Any]) -> None:
         trace.here = SOMEWHERE
         return
     if kind == "recall":
-        trace.act(kind, _asked(fields))
+        trace.act(kind, _tell_question(fields))
         return
     said = ("object", "text", "question", "word", "time", "after", "before")
     what = next((fields[name] for name in said if fields.get(name)), "")
@@ -136,7 +136,7 @@ def _act(trace: _Walk, kind: str, fields: dict[str, Any]) -> None:
         trace.here = SOMEWHERE
 
 
-def _asked(fields: dict[str, Any]) -> str:
+def _tell_question(fields: dict[str, Any]) -> str:
     """Return what memory is asked, as a suite writes it: thing, ``@`` where, ``%`` when."""
     place, span = fields.get("place"), fields.get("span")
     parts = (fields.get("object"), place and f"@{place}", span and f"%{span}")

@@ -80,8 +80,8 @@ class CompoundForms:
     read_memory: Callable[[str], MemoryParts | None]
     go_there: re.Pattern[str]
     """Group ``verb``: a drive to the place that the condition names."""
-    to_place: str
-    """Stands for it, with ``verb`` and ``name``."""
+    to: str
+    """Stands between that verb and the place's name."""
     cuts: re.Pattern[str]
     """Where a condition may end in ``body``."""
     failures: re.Pattern[str]
@@ -155,17 +155,20 @@ def _branch(
         return None
     when, denied = asked
     if when.place is not None:
-        there = forms.to_place.format(verb="{verb}", name=read.name(when.place))
-        order, other = (
-            part and forms.go_there.sub(lambda found: there.format(verb=found["verb"]), part)
-            for part in (order, other)
-        )
-    yes, no = read.steps(order or ""), read.steps(other) if other else ()
+        name = read.name(when.place)
+        order = _name_there(order, name, forms)
+        other = _name_there(other, name, forms) if other else None
+    yes, no = read.steps(order), read.steps(other) if other else ()
     if yes is None or no is None:
         return None
     if denied:
         yes, no = no, yes
     return (If(when=when, then=yes, otherwise=no),)
+
+
+def _name_there(order: str, name: str, forms: CompoundForms) -> str:
+    """Return an order in which "there" is the place that its condition names."""
+    return forms.go_there.sub(lambda found: f"{found['verb']}{forms.to}{name}", order)
 
 
 _WHERE_WITHIN = re.compile(r" (?:in|on|at|under|inside|near|by|behind|beside) |里|上|下|旁")
@@ -266,4 +269,4 @@ def _wait(parts: dict[str, str | None], forms: CompoundForms) -> WaitFor | None:
         return WaitFor(time=hour) if hour is not None else None
     if word:  # a stop word stops: nobody could say it for anything else
         return None if is_stop(word) else WaitFor(word=word)
-    return WaitFor(object="person") if who and (resolve(who) or ("",))[0] == "person" else None
+    return WaitFor(object="person") if who else None

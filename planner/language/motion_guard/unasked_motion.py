@@ -13,35 +13,31 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
-from planner.language.grammar.parser import Context
-from planner.language.grammar.parser import plan as read_order
-from planner.language.motion_guard.branches import (
-    READ_BY_GRAMMAR,
-    asked_about,
-    branch_of,
-    hangs_on_more,
-    read_branches,
-)
 from planner.language.motion_guard.mentioned_names import (
     find_places,
     places_named,
-    plain,
     thing_named,
 )
 from planner.language.motion_guard.order_scope import OrderScope, read_scope
+from planner.language.motion_guard.second_reader import (
+    asked_about,
+    branch_of,
+    hangs_on_more,
+    key_of_step,
+    read_branches,
+    read_grammar,
+    spare_clauses,
+)
 from planner.language.motion_guard.step_words import evidence, moves, unnamed_part
 from planner.language.questions import looks_round
 from planner.language.yes_no import consents
 from planner.plan import (
-    EVERY_KIND,
-    Clarify,
     ClockTime,
     Code,
     Count,
     Look,
     MoveStraight,
     Patrol,
-    Refuse,
     Repeat,
     StandAt,
     Step,
@@ -53,17 +49,6 @@ from planner.plan import (
     places_of,
 )
 
-VETOES = frozenset(
-    {
-        Code.UNSAFE,
-        Code.NO_CAPABILITY,
-        Code.OUT_OF_SCOPE,
-        Code.UNKNOWN_PLACE,
-        Code.AMBIGUOUS,
-    }
-)
-"""What the grammar says of an order upon which no motion is beyond doubt. It says negated and
-conditional, too, but of the whole sentence; `order_scope` tells the part."""
 LOOKS = frozenset({"look", "find", "count"})
 """May be done to learn whether a condition holds."""
 _LEARNS = LOOKS | {"ask"}
@@ -184,10 +169,10 @@ class _Judge:
         self._vocabulary, self._room = vocabulary, person.room
         self._scopes = tuple(read_scope(words) for words in person.words)
         newest = person.words[-1] if person.words else ""
-        self._own, self._hung, self._veto = _read_grammar(newest, vocabulary, person.room)
+        self._own, self._hung, self._veto = read_grammar(newest, vocabulary, person.room)
         self._branches = read_branches(newest, vocabulary, person.room)
         if self._veto is not None and self._veto is not Code.UNSAFE:
-            spared = _spare_clauses(newest, vocabulary, person.room)
+            spared = spare_clauses(newest, vocabulary, person.room)
             if spared is not None:  # "somebody knocks at the door, go and look"
                 self._veto = None
                 self._scopes = (*self._scopes[:-1], read_scope(spared))
@@ -209,7 +194,7 @@ class _Judge:
             return f"the order itself is {self._veto.value}"
         if not places_of(step):
             self._at = ""  # wherever it leads
-        key = _key(step)
+        key = key_of_step(step)
         self._done[key] += 1
         own = self._hung if upon else self._own
         if key in own and self._done[key] <= own[key]:
@@ -327,15 +312,10 @@ _SIDE_AFTER = re.compile(r"的?(?:正?前[面方]?|后[面方]?|背后)")
 _SIDE_BEFORE = re.compile(
     r"(?:in front of|before|behind|(?:front|back) of|away from) (?:(?:the|my|our|your) )?$"
 )
-_CLAUSE = re.compile(r"[,.;!?，。；！？]")
-_MOST_CLAUSES = 12
 _ORDERS = re.compile(
     r"\b(?:go|goes|drive|come|walk|run|head|move|look|see|check|find|search|count|turn|follow|wait"
     r"|visit|swing|stop by|return|take|bring|tell|ask|patrol|rounds?|back)\b"
     r"|[去到来回看找数查转跟开走巡]"
-)
-_STATES = re.compile(
-    r"(?:some(?:body|one)|there|it|i|we|my|our|he|she|they|the)\b|好像|有人|我|听|刚才|他|她"
 )
 _ASKS = re.compile(
     r"\s*(?:how|what|which|who|whose|why|when (?:is|are|do|does|did|will)|is|are|was|were|does"
@@ -344,50 +324,3 @@ _ASKS = re.compile(
 )
 _QUIET = frozenset({"look", "find", "count", "go_to_object"})
 """Steps by which a question is answered."""
-
-
-def _read_grammar(
-    text: str, vocabulary: Vocabulary, room: str | None
-) -> tuple[Counter[object], Counter[object], Code | None]:
-    """Return the steps that the grammar reads in an order, or why nothing may move upon it.
-
-    First those that are done anyhow, then these and what hangs on a condition or a failure.
-    """
-    if len(text) > READ_BY_GRAMMAR:
-        return Counter(), Counter(), None
-    read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
-    if isinstance(read, StepPlan):
-        row = list_nodes(read.steps)  # what hangs on something is not asked for without it
-        own = (n.step for i, n in enumerate(row) if not hangs_on_more(row, i))
-        return Counter(map(_key, own)), Counter(_key(n.step) for n in row), None
-    vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
-    return (
-        Counter(),
-        Counter(),
-        read.code if vetoed and isinstance(read, Refuse | Clarify) else None,
-    )
-
-
-def _spare_clauses(text: str, vocabulary: Vocabulary, room: str | None) -> str | None:
-    """Return what is ordered beside a mere statement; None where the order itself is vetoed."""
-    clauses = [clause for clause in _CLAUSE.split(text) if clause.strip()]
-    if not 1 < len(clauses) <= _MOST_CLAUSES:
-        return None
-    orders = [clause for clause in clauses if not _STATES.match(plain(clause))]
-    vetoed = any(_read_grammar(clause, vocabulary, room)[2] for clause in orders)
-    return ", ".join(orders) if orders and not vetoed and len(orders) < len(clauses) else None
-
-
-def _key(step: Step | ClockTime) -> object:
-    """Return what a step does, however it is worded."""
-    label = getattr(step, "object", None)
-    angle, far = getattr(step, "angle_rad", None), getattr(step, "distance_m", None)
-    return (
-        step.kind,
-        places_of(step),
-        label.casefold() if label is not None else None,
-        round(angle, 1) if angle is not None else None,
-        round(far, 2) if far is not None else None,
-        getattr(step, "look", False),
-        getattr(step, "side", None),
-    )

@@ -28,9 +28,9 @@ from planner.mission.skills.look_around import look_round
 from planner.mission.skills.object_matching import drop_doubles, list_confirmed
 from planner.mission.skills.result_text import list_things, room_name
 from planner.mission.skills.search import make_filter
-from planner.mission.skills.skill_state import PatrolState
+from planner.mission.skills.skill_state import PatrolState, SkillStateBase
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_of
-from planner.plan import Bilingual, Code, StopReport, say_same
+from planner.plan import Bilingual, Code, PatrolSighting, say_same
 
 if TYPE_CHECKING:
     from wire import Pose2
@@ -59,6 +59,13 @@ def patrol(scene: Scene[PatrolState]) -> SkillAction:
     return _look(scene, scene.pose, place)
 
 
+def so_far(state: SkillStateBase | None) -> dict[str, object]:
+    """Return what a patrol has to tell before it is over: it is kept however the step ends."""
+    if not isinstance(state, PatrolState) or not state.stops:
+        return {}
+    return {"stops": state.stops, "visited": sum(not stop.shut for stop in state.stops)}
+
+
 def _look(scene: Scene[PatrolState], pose: Pose2, place: str) -> SkillAction:
     """Return the next gaze or turn at a stop; once it was looked round there, what is next."""
     lack = scene.eyes.means(scene.sight.blind, grows=scene.facts.grows).lacks("count")
@@ -85,7 +92,7 @@ def _end_stop(scene: Scene[PatrolState], said: Bilingual, *, shut: bool = False)
     """Note a stop, and return what is next."""
     stops = scene.state.stops
     place = scene.step.places[len(stops)]
-    stop = StopReport(place=place, said=said, shut=shut)
+    stop = PatrolSighting(place=place, said=said, shut=shut)
     return patrol(scene.but(PatrolState(stops=(*stops, stop))))
 
 

@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field
 
-from planner.plan import Bilingual, Frozen, StopReport
+from planner.plan import Bilingual, Frozen, PatrolSighting
 
 Point3 = tuple[float, float, float]
 """x, y, height [m] in ``map``."""
@@ -285,7 +285,7 @@ class PatrolState(RoomTourState):
     """Remember the stops of a patrol that are over, and the look at the one where it stands."""
 
     kind: Literal["patrol"] = "patrol"
-    stops: tuple[StopReport, ...] = ()
+    stops: tuple[PatrolSighting, ...] = ()
     """In their order: looked round at, or passed over."""
     arrived_s: float | None = None
     """Since when it stands at the next one, in time spent on the step; None: it drives there."""

@@ -47,7 +47,7 @@ def stand_at(scene: Scene[StandAtState]) -> SkillAction:
         if not isinstance(found, _Thing):
             return found
         if scene.step.side != "facing" and not found.spots:
-            return _none(scene, found.name)
+            return _tell_no_spot(scene, found.name)
         spots = tuple((s.pose.x_m, s.pose.y_m, s.pose.yaw_rad, *s.face) for s in found.spots)
         state = state.but(name=found.name, at=found.at, spots=spots)
     if scene.step.side == "facing":
@@ -63,7 +63,7 @@ def _drive(scene: Scene[StandAtState], pose: Pose2, state: StandAtState) -> Skil
         side = scene.step.side or "before"
         return Finish({}, Code.ARRIVED, say(f"stand.{side}", name=name, away=max(0.0, gap_m)))
     if state.tried >= len(state.spots):
-        return _none(scene, name)
+        return _tell_no_spot(scene, name)
     x_m, y_m, yaw_rad, _, _ = state.spots[state.tried]
     there, next_ = state.but(reached=True), state.but(tried=state.tried + 1)
     return leg_to(pose, (x_m, y_m), yaw_rad, there, next_)
@@ -76,7 +76,7 @@ def _face(scene: Scene[StandAtState], pose: Pose2, state: StandAtState) -> Skill
     return spin(pose, bearing(pose, at), state.but(reached=True))
 
 
-def _none(scene: Scene[StandAtState], name: Bilingual) -> Fail:
+def _tell_no_spot(scene: Scene[StandAtState], name: Bilingual) -> Fail:
     """Tell that there is no free floor where the order wants the robot."""
     far = scene.step.distance_m
     side = say(f"stand.side_{scene.step.side or 'before'}", name=name)
@@ -91,7 +91,7 @@ def _place(scene: Scene[StandAtState], pose: Pose2) -> _Thing | SkillAction:
         return place_gone(facts, step.place or "?")
     if step.side == "facing":
         at = (target.pose.x_m, target.pose.y_m)
-        if facts.floor is not None and not target.room:
+        if facts.floor is not None and not target.room and target.id != facts.home:  # looks away
             at = facts.floor.face_of(target.pose)
         return _Thing(target.name, at, ())
     if target.room or facts.floor is None:

@@ -26,7 +26,9 @@ PROBES = 8
 """Calls more, in which a server that is met for the first time may refuse a way of asking."""
 MOST_TOKENS = 100_000_000
 GOAL = "replay"
-MOTION = frozenset({"go_to", "patrol", "turn", "move", "come_back", "return_home", "explore"})
+MOTION = frozenset(
+    {"go_to", "stand_at", "patrol", "turn", "move", "come_back", "return_home", "explore"}
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,7 +32,7 @@ from pons.evals.world import EvalWorld
 
 MOST_CALLS = 40
 MOST_S = 60.0
-PROMPT_TOKENS = 3200
+PROMPT_TOKENS = 3400
 """What a call may send, taken over all calls: some 1 700, and in a repair the reply once more."""
 GOAL = "exam"
 

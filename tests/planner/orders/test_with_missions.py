@@ -8,10 +8,13 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+import pytest
+
 from planner.brain.scripted import Reply
 from planner.orders.factory import StandingOrders, standing_orders_of
 from planner.orders.interfaces import OrderClocks
 from planner.plan import (
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
@@ -166,6 +169,40 @@ def test_a_question_about_the_order_is_answered_with_its_time(tmp_path: Path) ->
             assert made.together.bridge.waypoints == []
             [kept] = made.orders.keeper.book.orders.values()
             assert kept.order == "go to the kitchen"
+
+    run(story())
+
+
+PROPOSED = Clarify(
+    code=Code.AMBIGUOUS,
+    question=Bilingual(en="Shall I look after it?", zh="要我照看吗？"),
+    options=(
+        Option(label=Bilingual(en="Yes", zh="好"), text="every day at 12:10 go to the kitchen"),
+    ),
+)
+
+
+@pytest.mark.parametrize("answer", ["yes", "no", "perhaps"])
+def test_a_model_proposes_a_standing_order_and_a_persons_yes_alone_keeps_it(
+    tmp_path: Path, answer: str
+) -> None:
+    talk = AnswerPlan(text=Bilingual(en="As you like.", zh="随你。"))
+
+    async def story() -> None:
+        async with home(tmp_path, PROPOSED, KITCHEN if answer == "yes" else talk,
+                        by_grammar=False) as made:  # fmt: skip
+            asking = await made.say(
+                "the kitchen is always such a mess", GoalState.NEEDS_CLARIFICATION
+            )
+            assert told(asking).endswith(
+                "Yes means, from now on (every day at 12:10): “go to the kitchen”."
+            ), "what a yes keeps is told, whatever the model asks"
+            assert made.orders.keeper.book.orders == {}
+            await made.together.missions.answer(asking.id, answer)
+            await made.together.reach(asking.id, *ENDED)
+            kept = [order.order for order in made.orders.keeper.book.orders.values()]
+            assert kept == (["go to the kitchen"] if answer == "yes" else [])
+            assert made.together.bridge.waypoints == []
 
     run(story())
 

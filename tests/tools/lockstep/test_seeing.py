@@ -19,6 +19,7 @@ from planner.plan import (
     GoToObject,
     GoToPoint,
     Look,
+    Patrol,
     Step,
     StepPlan,
     StepRecord,
@@ -304,3 +305,19 @@ def test_a_point_on_mapped_furniture_is_driven_up_to_and_faced(world_with: World
     at = world.truth
     assert at.y_m < 5.2 - 0.3
     assert abs(wrap(atan2(SOFA[1] - at.y_m, SOFA[0] - at.x_m) - at.yaw_rad)) < 0.35
+
+
+def test_a_patrol_sees_what_stands_at_each_stop_and_tells_it_at_the_end(world_with: World) -> None:
+    world = world_with(Patrol(places=("kitchen", "living_room"), look=True), start=TO_THE_DOOR)
+    goal = world.say("patrol the kitchen and the living room and tell me what you saw")
+    step = done(world, goal, limit_s=240.0)
+    assert goal.state is GoalState.SUCCEEDED
+    assert [(stop.place, stop.shut) for stop in step.stops] == [
+        ("kitchen", False), ("living_room", False),
+    ]  # fmt: skip
+    code, english, chinese = told(goal)
+    assert code is Code.SEEN
+    kitchen, living_room = english.split("living room: ")
+    assert "cup" in kitchen
+    assert "1 person" in living_room
+    assert "1 个人" in chinese

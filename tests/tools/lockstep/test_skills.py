@@ -17,6 +17,7 @@ from planner.plan import (
     MoveStraight,
     Patrol,
     Say,
+    StandAt,
     Step,
     StepPlan,
     StepRecord,
@@ -194,3 +195,31 @@ def test_a_turn_that_was_interrupted_ends_where_it_would_have(
     assert goal.state is GoalState.SUCCEEDED
     assert turned_deg(before, world.truth) == pytest.approx(-90, abs=4.0)
     assert step.turned_rad == pytest.approx(1.5 * pi, abs=0.1)
+
+
+def test_it_stands_so_far_before_the_sofa_and_faces_it(world_with: World) -> None:
+    stand = StandAt(place="sofa", side="before", distance_m=0.8)
+    world = world_with((stand, StandAt(place="charging_dock", side="facing")))
+    goal = world.say("stop 80 centimetres before the sofa, then face the dock")
+    before, facing = done(world, goal, limit_s=120.0)
+    assert goal.state is GoalState.SUCCEEDED
+    assert before.reached is not None
+    assert before.reached.x_m == pytest.approx(1.7, abs=0.3)
+    assert before.reached.y_m == pytest.approx(5.25 - 0.3 - 0.8, abs=0.3)
+    assert before.said is not None
+    assert before.said.en.startswith(("I stand 0.7 m", "I stand 0.8 m", "I stand 0.9 m"))
+    assert facing.said is not None
+    bearing = atan2(0.8 - world.truth.y_m, 0.9 - world.truth.x_m)
+    assert abs(degrees(sin(bearing - world.truth.yaw_rad))) < 15.0
+
+
+def test_where_there_is_no_floor_it_stays_and_says_so(world_with: World) -> None:
+    world = world_with((StandAt(place="sofa", side="behind"),))
+    before = world.truth
+    goal = world.say("stand behind the sofa")
+    (step,) = done(world, goal)
+    assert goal.state is GoalState.FAILED
+    assert step.reason == "no_spot"
+    assert goal.record.outcome is not None
+    assert "no free floor behind the sofa" in goal.record.outcome.message.en
+    assert hypot(world.truth.x_m - before.x_m, world.truth.y_m - before.y_m) < 0.01

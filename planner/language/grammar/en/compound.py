@@ -167,7 +167,7 @@ ENGLISH_COMPOUND = CompoundForms(
     go_there=re.compile(
         r"\b(?P<verb>go|drive|move|head|come|return|get|walk|proceed)(?: over| back)? there\b"
     ),
-    to_place="{verb} to the {name}",
+    to=" to the ",
     cuts=re.compile(rf" then | (?={_VERBS}\b)"),
     failures=re.compile(
         rf"(?:try to )?(?P<main>.+?)[,;.]? (?:and |but |or )?{_IF} {_FAILS}"

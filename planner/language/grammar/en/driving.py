@@ -118,7 +118,8 @@ TALK: tuple[Rule, ...] = (
     ),
     rule(r"(?P<topic>.+)", on_topic),
     rule(
-        r"hello|hi|hey|good (?:morning|afternoon|evening|day)|hello there|howdy|greetings",
+        r"(?:hello|hi|hey|good (?:morning|afternoon|evening|day)|howdy|greetings)"
+        r"(?:,? (?:there|robot|pons|again))*",
         about(Topic.HELLO),
     ),
     rule(

@@ -33,8 +33,8 @@ SEE = (
     r"确认|巡视|查一下|"
     r"查查|拍照|拍张照片?|拍一张照片?|描述一下|描述|描绘|告诉我|说说|监控|盯着|看着|留意|了解一下)"
 )
-UNIT = r"(?:个|只|张|位|把|本|台|瓶|杯|名|条|件|辆|盒|罐|双|支|口|盏)?"
-"""A measure word between a number and what is counted."""
+UNIT = r"(?:(?:个|只|张|位|把|本|台|瓶|杯|名|条|件|辆|盒|罐|双|支|口|盏)(?!子))?"
+"""A measure word between a number and what is counted; 杯子 is a thing and no measure."""
 WHETHER = r"[都还]?(?:有没有|是否有|是不是有|有无)"
 WHAT = r"[都还]?有(?:些|点)?(?:什么|啥|谁|哪些|何|甚么)"
 """What, or who, is there."""

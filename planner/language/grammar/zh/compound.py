@@ -23,7 +23,7 @@ def _read_condition(said: str) -> ConditionParts | None:
     asked = said.replace("有没有", "有").replace("有无", "有")  # 有没有 asks, 没有 denies
     plain = re.sub(rf"^{_IF}|的话$", "", asked)
     found = re.fullmatch(
-        r"(?P<where>.*?)(?:如果|要是|假如)?(?P<has>没有|没|有)(?:一?[个只把张瓶])?(?P<thing>.+)",
+        r"(?P<where>.*?)(?:如果|要是|假如)?(?P<has>没有|没|有)(?:一?[个只把张瓶](?!子))?(?P<thing>.+)",
         plain,
     )
     if found is None:
@@ -137,7 +137,7 @@ CHINESE_COMPOUND = CompoundForms(
     read_condition=_read_condition,
     read_memory=_read_memory,
     go_there=re.compile(r"(?P<verb>去|到|回到?|前往|开到)(?:那里|那儿|那边)"),
-    to_place="{verb}{name}",
+    to="",
     cuts=re.compile(r"(?!)"),
     failures=re.compile(
         rf"(?P<main>.+?)[,，;；。](?:{_FAILS})[,，]?(?:就|便|再)?(?:改)?(?P<else>.+)"

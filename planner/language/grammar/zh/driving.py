@@ -105,7 +105,10 @@ TALK: tuple[Rule, ...] = (
     rule(_WHERE, about(Topic.WHERE)),
     rule(_PLACES, about(Topic.PLACES)),
     rule(_HELP, about(Topic.HELP)),
-    rule(r"你好|您好|嗨|哈喽|早上好|早安|下午好|晚上好|大家好|你好呀", about(Topic.HELLO)),
+    rule(
+        r"(?:你好|您好|嗨|哈喽|早上好|早安|下午好|晚上好|大家好)呀?[,，]?(?:机器人|小车)?",
+        about(Topic.HELLO),
+    ),
     rule(r"谢谢(?:你|您)?|多谢|感谢|辛苦了|干得好|真棒|做得好", about(Topic.THANKS)),
     rule(r"(?P<topic>.+)", on_topic),
 )
@@ -143,7 +146,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"{_PLACE_SELF}(?P<place>{_WHAT})(?P<side>{_SIDE_OF}|旁边?|边上)(?:{_HALT})?", stand_at),
     rule(
-        rf"(?:去|到|开到|走到|移动到)(?P<place>{_WHAT})(?P<side>的?(?:正?前面|正?前方|跟前|后面|背后))"
+        rf"(?:去|到|开到|走到|移动到)(?P<place>{_WHAT})(?P<side>的?(?:正?前面|正?前方|后面|背后))"
         rf"(?:去)?(?:{_HALT})?",
         stand_at,
     ),

@@ -218,7 +218,7 @@ def test_elsewhere_it_says_what_it_will_spend_and_spends_nothing_unasked(
     for words in (
         "model.example",
         "40 calls",
-        "at most 128000 tokens",
+        "at most 136000 tokens",
         "at most 3.28 USD",
         "not_agreed",
     ):

@@ -1,7 +1,7 @@
-"""Tell what each branch of a plan hangs on, and what the order says of it. Pure.
+"""Ask the grammar, as a second reader, what an order says; tell what each branch hangs on. Pure.
 
-A sentence names a place in its condition, to look there, or in a branch, to go there: the guard must
-tell these apart, and one branch from the other.
+A sentence names a place in its condition, to look there, or in a branch, to go there: the guard
+must tell these apart, and one branch from the other.
 """
 
 from __future__ import annotations
@@ -14,7 +14,12 @@ from planner.language.grammar.parser import plan as read_order
 from planner.language.motion_guard.mentioned_names import plain
 from planner.plan import (
     EVERY_KIND,
+    Clarify,
+    ClockTime,
+    Code,
     If,
+    Refuse,
+    Step,
     StepNode,
     StepPlan,
     StepRole,
@@ -84,3 +89,68 @@ def branch_of(row: tuple[StepNode, ...], index: int) -> StepRole | None:
     """Return in which branch of the nearest condition a step stands."""
     roles = (row[at].role for at in (index, *parents_of(row, index)))
     return next((role for role in roles if role in _BRANCHES), None)
+
+
+VETOES = frozenset(
+    {
+        Code.UNSAFE,
+        Code.NO_CAPABILITY,
+        Code.OUT_OF_SCOPE,
+        Code.UNKNOWN_PLACE,
+        Code.AMBIGUOUS,
+    }
+)
+"""What the grammar says of an order upon which no motion is beyond doubt. It says negated and
+conditional, too, but of the whole sentence; `order_scope` tells the part."""
+_CLAUSE = re.compile(r"[,.;!?，。；！？]")
+_MOST_CLAUSES = 12
+_STATES = re.compile(
+    r"(?:some(?:body|one)|there|it|i|we|my|our|he|she|they|the)\b|好像|有人|我|听|刚才|他|她"
+)
+
+
+def read_grammar(
+    text: str, vocabulary: Vocabulary, room: str | None
+) -> tuple[Counter[object], Counter[object], Code | None]:
+    """Return the steps that the grammar reads in an order, or why nothing may move upon it.
+
+    First those that are done anyhow, then these and what hangs on a condition or a failure.
+    """
+    if len(text) > READ_BY_GRAMMAR:
+        return Counter(), Counter(), None
+    read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
+    if isinstance(read, StepPlan):
+        row = list_nodes(read.steps)  # what hangs on something is not asked for without it
+        own = (n.step for i, n in enumerate(row) if not hangs_on_more(row, i))
+        return Counter(map(key_of_step, own)), Counter(key_of_step(n.step) for n in row), None
+    vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
+    return (
+        Counter(),
+        Counter(),
+        read.code if vetoed and isinstance(read, Refuse | Clarify) else None,
+    )
+
+
+def spare_clauses(text: str, vocabulary: Vocabulary, room: str | None) -> str | None:
+    """Return what is ordered beside a mere statement; None where the order itself is vetoed."""
+    clauses = [clause for clause in _CLAUSE.split(text) if clause.strip()]
+    if not 1 < len(clauses) <= _MOST_CLAUSES:
+        return None
+    orders = [clause for clause in clauses if not _STATES.match(plain(clause))]
+    vetoed = any(read_grammar(clause, vocabulary, room)[2] for clause in orders)
+    return ", ".join(orders) if orders and not vetoed and len(orders) < len(clauses) else None
+
+
+def key_of_step(step: Step | ClockTime) -> object:
+    """Return what a step does, however it is worded."""
+    label = getattr(step, "object", None)
+    angle, far = getattr(step, "angle_rad", None), getattr(step, "distance_m", None)
+    return (
+        step.kind,
+        places_of(step),
+        label.casefold() if label is not None else None,
+        round(angle, 1) if angle is not None else None,
+        round(far, 2) if far is not None else None,
+        getattr(step, "look", False),
+        getattr(step, "side", None),
+    )

@@ -1,0 +1,122 @@
+"""A scripted person holds conversations: who is asked answers, who is not understood rephrases."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+
+from planner.brain import OfflineBrain
+from planner.brain.scripted import ScriptedBrain
+from planner.plan import GoTo, StepPlan
+from planner.site import Site
+from pons.evals import person_scripts
+from pons.evals.cases import HELD_OUT
+from pons.evals.matchers import BadMatcher
+from pons.evals.person import PATIENCE, Conversation, converse, show_conversations
+from pons.evals.person_robot import ScriptedModel
+from pons.evals.person_scripts import FEWEST, MOST, Script, read_scripts
+from tests.conftest import ROOT
+
+SITE = Site.load(ROOT / "sites" / "home")
+
+
+def script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *lines: str) -> Script:
+    (tmp_path / "en.txt").write_text("\n## held a talk\n" + "\n".join(lines) + "\n", "utf-8")
+    monkeypatch.setattr(person_scripts, "SCRIPTS", tmp_path)
+    return read_scripts("en")[0]
+
+
+def held(one: Script, brain: object = None) -> Conversation:
+    return asyncio.run(converse(one, brain or OfflineBrain(), SITE))  # type: ignore[arg-type]
+
+
+def test_there_are_enough_of_them_and_each_has_three_to_eight_turns() -> None:
+    scripts = (*read_scripts("en"), *read_scripts("zh"))
+    assert len(scripts) >= 150
+    assert all(FEWEST <= len(one.turns) <= MOST for one in scripts)
+    assert sum(one.split == HELD_OUT for one in scripts) >= 75
+    assert len({one.name for one in scripts}) == len(scripts)
+
+
+def test_a_conversation_goes_from_turn_to_turn(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    one = script(
+        tmp_path, monkeypatch,
+        "go to {A} | ~ new: go {A}", "no, I meant {B} | ~ instead: go {B}", "thanks | answer",
+    )  # fmt: skip
+    done = held(one)
+    assert done.right, done.fault
+    assert done.said == ("go to the kitchen", "no, I meant the study", "thanks")
+
+
+def test_who_is_not_understood_says_it_in_other_words_as_long_as_patience_lasts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = ("go to the attic // go to {A} | new: go {A}", "hello | answer", "thanks | answer")
+    assert held(script(tmp_path, monkeypatch, *told)).right
+    lost = held(
+        script(tmp_path, monkeypatch, "blorp the fnord | new: go {A}", "hi | answer", "hi | answer")
+    )
+    assert not lost.right
+    assert not lost.moves_wrongly
+    assert len(lost.said) == 1 + PATIENCE
+
+
+def test_what_does_otherwise_than_meant_is_a_wrong_motion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    one = script(tmp_path, monkeypatch, "go to {A} | new: go {B}", "hi | answer", "hi | answer")
+    done = held(one)
+    assert (done.right, done.moves_wrongly) == (False, True)
+    shown = show_conversations("en", "offline", (done,))
+    assert "0 of 1 right, 1 wrong motions" in shown
+    assert "turn 1: new" in shown
+
+
+def test_a_model_that_adds_a_drive_gets_a_no_and_the_person_says_it_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lines = [f"go to {{{place}}} | new: go {{{place}}}" for place in "ABC"]
+    one = script(tmp_path, monkeypatch, *lines)
+    model = ScriptedModel()
+    done = held(one, model)
+    assert done.right, done.fault
+    assert model.hostile == 1
+    assert done.said == (
+        "go to the kitchen", "go to the study", "go to the bedroom", "no", "go to the bedroom",
+    )  # fmt: skip
+
+
+def test_a_model_that_only_ever_drives_elsewhere_drives_nowhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    elsewhere = StepPlan(steps=(GoTo(place="bathroom"),))
+    one = script(tmp_path, monkeypatch, "go to {A} | new: go {A}", "hi | answer", "hi | answer")
+    done = held(one, ScriptedBrain([elsewhere], by_grammar=False))
+    assert not done.right
+    assert not done.moves_wrongly, "every yes was a no"
+    assert set(done.said) == {"go to the kitchen", "no"}
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [("hi | answer",), ("hi | answer",) * 9, ("hi | dances", "hi | answer", "hi | answer"),
+     ("go | new", "hi | answer", "hi | answer"), ("hi", "hi | answer", "hi | answer")],
+)  # fmt: skip
+def test_a_script_that_can_not_be_held_says_why(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lines: tuple[str, ...]
+) -> None:
+    with pytest.raises(BadMatcher):
+        script(tmp_path, monkeypatch, *lines)
+
+
+def test_most_conversations_go_as_a_person_means() -> None:
+    """One variant of each script; all of them are held by ``pons eval person``."""
+    for language in ("en", "zh"):
+        some = [one for one in read_scripts(language) if not one.name.endswith(("-2", "-3"))]
+        done = [held(one) for one in some]
+        assert sum(each.right for each in done) >= 0.9 * len(done)
+        assert not any(each.moves_wrongly for each in done)
