@@ -40,7 +40,10 @@ function what(step: Step): string {
 }
 
 function standing(step: Step): string {
-  const side = word("side", step.side ?? "before").replace("{what}", step.object ?? nameOf(step.place));
+  const side = word("side", step.side ?? "before").replace(
+    "{what}",
+    step.object ?? nameOf(step.place),
+  );
   return typeof step.distance_m === "number" ? `${side} (${fixed(step.distance_m, 1, "m")})` : side;
 }
 

@@ -219,7 +219,7 @@ def test_elsewhere_it_says_what_it_will_spend_and_spends_nothing_unasked(
         "model.example",
         "40 calls",
         "at most 136000 tokens",
-        "at most 3.28 USD",
+        "at most 3.36 USD",
         "not_agreed",
     ):
         assert words in said.err
