@@ -7,7 +7,6 @@ place that a plan drives to is named by the sentence.
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -21,16 +20,12 @@ from planner.language.grammar.checks import (
     broken_rule,
     find_veto,
     withholds_offers,
-    without_compounds,
 )
 from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
 from planner.language.grammar.compound import PartReaders, read_compound
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
-from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
-from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, MarkedText, lexicon_of, mark_people
 from planner.language.grammar.parse_result import (
     ClauseContext,
@@ -41,6 +36,7 @@ from planner.language.grammar.parse_result import (
     TopicQuestion,
     read_by,
 )
+from planner.language.grammar.plain_words import asks_whether, in_plain_words, without_sending
 from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
@@ -51,8 +47,6 @@ from planner.language.grammar.sentence_text import (
 )
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
-from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
-from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.recall import read_recall
 from planner.language.stop import StopReading
@@ -82,7 +76,6 @@ _OTHER = rf"(?:{MARK}|[{HAN}])"
 _SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
 _BORDERS = re.compile(r"^[\s,.!?;:。、~]+|[\s,.!?;:。、~]+$")
 _LATIN = re.compile(r"[a-z]")
-_NAMED = re.compile(rf"[^{HAN}]{{0,8}}{MARK}[呢吗么]?[?]+")
 
 _SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
 
@@ -107,10 +100,10 @@ def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
-    made = _plan_as_said(_without_sending(text), vocabulary, context)
+    made = _plan_as_said(without_sending(text), vocabulary, context)
     if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_AGAIN:
         return made
-    plainer = _in_plain_words(text, vocabulary)
+    plainer = in_plain_words(text, vocabulary)
     second = None if plainer is None else _plan_as_said(plainer, vocabulary, context)
     if not isinstance(second, StepPlan):
         return made
@@ -131,44 +124,6 @@ _READ_AGAIN = frozenset(
         Code.CONDITIONAL, Code.AMBIGUOUS,
     }
 )  # fmt: skip
-
-
-def _without_sending(text: str) -> str:
-    """Return "how many chairs are there, go and count" without its end, which Chinese says so."""
-    if not has_chinese(text):
-        return text
-    said = normalise(text)
-    plain = rewrite(said, ASKED_AND_SENT)
-    return text if plain == rewrite(said, ()) else plain
-
-
-def _in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
-    """Return a sentence in the grammar's own words; None where there are none, or where a word in
-    it holds orders back: what is taken away must carry no meaning.
-    """
-    said = normalise(text)
-    chinese = has_chinese(said)
-    courtesy, phrases = (
-        (ZH_COURTESY, CHINESE_EVERYDAY) if chinese else (EN_COURTESY, ENGLISH_EVERYDAY)
-    )
-    marked = lexicon_of(vocabulary).mark(said)
-    willing = rewrite(marked.text, courtesy)
-    if willing.rstrip().endswith("?") and _NAMED.fullmatch(willing):
-        return None  # "the kitchen?" asks
-    rewritten = rewrite(willing, phrases)
-    if not _held_back(willing) <= _held_back(rewritten):
-        return None
-    plain = marked.restore(rewritten)
-    return plain if plain and plain != said else None
-
-
-def _held_back(text: str) -> Counter[str]:
-    """Return the words of a sentence that deny, except, leave a choice, hang it on something or
-    name a speed.
-    """
-    looked_at = without_compounds(asks_whether(text))
-    vetoes = (*ENGLISH.vetoes, *CHINESE.vetoes)
-    return Counter(found[0] for _, veto in vetoes for found in veto.finditer(looked_at))
 
 
 def _plan_as_said(
@@ -340,26 +295,6 @@ def _apply_vetoes(
         if rule is not None:
             return unsafe(rule, text)
     return veto(found, marked, setting) if found else None
-
-
-_WHETHER = re.compile(
-    r"\b(tell (?:me|us)|check(?:ing)?|see(?:ing)?|look(?:ing)?|find(?:ing)? out|report"
-    r"|let (?:me|us) know) (?:if|whether)\b"
-    r"|(?<=[看查认下])(?:一下|看)?(?:是否|是不是|有没有)"
-)
-
-
-_A_NOT_A = re.compile(r"((?:看|查|确认)[^,。;!?]*?)([^,。;!?])不\2")
-"""看看她在不在: to be looked at, no negation."""
-
-_DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?[着了])没有?(?=[,。;!?]|$)")
-"""看看电视开着没有, 看看门关了没: likewise."""
-
-
-def asks_whether(text: str) -> str:
-    """Return the text without the "if" of a question that looking answers: no condition."""
-    plain = _DONE_OR_NOT.sub(r"\1", _A_NOT_A.sub(r"\1\2", text))
-    return _WHETHER.sub(lambda found: found[1] or "有", plain)
 
 
 def _meanings(marked: MarkedText, reading: Reading, language: Language) -> list[Meaning]:

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.language.grammar import Context, plan
-from planner.language.grammar.parser import _held_back, _in_plain_words
+from planner.language.grammar.plain_words import held_back, in_plain_words
 from planner.language.grammar.sentence_text import normalise, refuse_bad_text
 from planner.plan import EVERY_KIND, Clarify, Patrol, Refuse, Say, StepPlan, Vocabulary
 from tests.planner.language.laws.test_grammar_laws import HOME
@@ -120,9 +120,9 @@ WORDS = st.sampled_from(
 def test_no_word_that_holds_back_is_lost_in_plainer_words(words: list[str]) -> None:
     """Courtesies of a closed table aside ("if you please"), which these words can't make."""
     text = " ".join(words)
-    plain = _in_plain_words(text, HOME)
+    plain = in_plain_words(text, HOME)
     if plain is not None:
-        assert _held_back(normalise(text)) <= _held_back(normalise(plain)) + Counter()
+        assert held_back(normalise(text)) <= held_back(normalise(plain)) + Counter()
 
 
 @pytest.mark.parametrize("verb", GOES_EN)
@@ -195,5 +195,5 @@ def test_the_rounds_are_all_rooms(text: str) -> None:
 def test_plainer_words_are_made_of_any_text_without_an_error(text: str) -> None:
     if refuse_bad_text(text) is not None:
         return  # refused before
-    assert _in_plain_words(text, HOME) != ""
-    assert _in_plain_words(text, Vocabulary(entries=HOME.entries[:1])) != ""
+    assert in_plain_words(text, HOME) != ""
+    assert in_plain_words(text, Vocabulary(entries=HOME.entries[:1])) != ""
