@@ -67,8 +67,7 @@ class Loop:
     def __init__(
         self, engine: Engine, link: Link, disk: Disk, clocks: Clocks, surveyor: Surveyor
     ) -> None:
-        self.hub = Hub()
-        self.accepted = WaypointLatency()
+        self.hub, self.accepted = Hub(), WaypointLatency()
         self._engine, self._link, self._disk, self._clocks = engine, link, disk, clocks
         self._collector = Collector()
         self._key_now: GoalKey | None = None

@@ -20,11 +20,7 @@ from planner.mission.activity import (
 from planner.mission.bridge_status import cannot_move
 from planner.mission.effects import AskEyes, AskMemory, SayAloud
 from planner.mission.legs import ask_route, measure_from, settle_amounts
-from planner.mission.outcomes import (
-    ended_outcome,
-    moves,
-    thoughts,
-)
+from planner.mission.outcomes import ended_outcome, moves, thoughts
 from planner.mission.plan_walk import RoundBudget, enter
 from planner.mission.plan_walk import go_on as go_on_walking
 from planner.mission.queue import (

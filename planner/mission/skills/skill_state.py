@@ -315,19 +315,10 @@ class WaitForState(SkillStateBase):
 
 
 SkillState = Annotated[
-    AskState
-    | CountState
-    | ExploreState
-    | FindState
-    | FollowPersonState
-    | GoToObjectState
-    | GoToPointState
-    | LookState
-    | PatrolState
-    | StandAtState
-    | WaitForState,
+    AskState | CountState | ExploreState | FindState | FollowPersonState | GoToObjectState
+    | GoToPointState | LookState | PatrolState | StandAtState | WaitForState,
     Field(discriminator="kind"),
-]
+]  # fmt: skip
 STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
     {
         "ask": AskState,
