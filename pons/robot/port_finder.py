@@ -34,6 +34,7 @@ LISTEN_S: Final = 0.35
 ANSWER_S: Final = 0.3
 CHATTER_BYTES: Final = 16
 """A port that says so much unasked is one that speaks, at this speed or another."""
+MOST_BYTES: Final = CHATTER_BYTES * 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +105,7 @@ class _PortInterview:
                     raise
                 refused += 1
                 continue
-            heard[baud] = self._listen(LISTEN_S if number else boot_s, CHATTER_BYTES * 200)
+            heard[baud] = self._listen(LISTEN_S if number else boot_s, MOST_BYTES)
             self._chatter += len(heard[baud])
             found = self._recognise(baud, heard[baud], asked=False)
             if found is not None:
@@ -112,8 +113,17 @@ class _PortInterview:
         if not heard:
             return PortFinding(self._entry, "baud_unknown", detail=f"{refused} speeds refused")
         if self._chatter >= CHATTER_BYTES:
-            return self._name_chatter(heard)
+            return self._listen_again(list(heard)) or self._name_chatter(heard)
         return self._ask(list(heard)) or PortFinding(self._entry, "port_silent")
+
+    def _listen_again(self, speeds: Sequence[int]) -> PortFinding | None:
+        """Listen twice as long where something speaks: a busy computer may have read it too late."""
+        for baud in speeds:
+            self._port.set_baud(baud)
+            found = self._recognise(baud, self._listen(2 * LISTEN_S, MOST_BYTES), asked=False)
+            if found is not None:
+                return found
+        return None
 
     def _ask(self, speeds: Sequence[int]) -> PortFinding | None:
         for baud in (*speeds, *speeds):  # the first question may meet a device that boots
