@@ -117,7 +117,7 @@ class _PortInterview:
         return self._ask(list(heard)) or PortFinding(self._entry, "port_silent")
 
     def _listen_again(self, speeds: Sequence[int]) -> PortFinding | None:
-        """Listen twice as long where something speaks: a busy computer may have read it too late."""
+        """Listen longer where something speaks: a busy computer may have read it too late."""
         for baud in speeds:
             self._port.set_baud(baud)
             found = self._recognise(baud, self._listen(2 * LISTEN_S, MOST_BYTES), asked=False)
