@@ -268,7 +268,7 @@ export const zh: Record<Key, string> = {
   "memory.seen": "{at} 看到",
   "memory.on": "在{what}上",
   "memory.forgot": "已忘掉 {count} 条。",
-  "memory.forget_one": "在记忆中忘记",
+  "memory.forget_one": "忘记这条记忆",
   "memory.forget_all": "全部忘掉",
   "objects.title": "见过的物体",
   "objects.none": "还没有见过任何物体。",
