@@ -20,13 +20,14 @@ import numpy as np
 from maps import FREE, load_map
 from maps.cell_array import cell_array
 from maps.new_site import new_site
-from planner.navigation import RouteFailure, RouteRequest
+from planner.navigation import RouteFailure, RouteLimits, RouteRequest
+from planner.navigation.router import Router
+from planner.site import Site
 from pons.settings import CHECKOUT
 from tools.bench.drive_record import RecordedDrive, TourRecord
 from tools.bench.measure.domain import row_of_drives
 from tools.bench.report import ReportRow
 from tools.lockstep import LockstepWorld
-from tools.lockstep.scene import scene
 from wire import Pose2, RobotDescription
 from wire.robot import LocalizationConfig
 
@@ -94,8 +95,8 @@ def take_drive(index: int) -> dict[str, Any]:
 
 def spots_of(folder: Path, robot: RobotDescription, seed: int) -> dict[str, Pose2]:
     """Draw poses that the robot can drive to from home, by name."""
-    here, random = scene(folder, robot), Random(f"spots {seed}")
-    grid, home = here.site.grid, here.site.home.pose
+    site, random = Site.load(folder), Random(f"spots {seed}")
+    router, grid, home = Router(site, RouteLimits.of(robot)), site.grid, site.home.pose
     free = (cell_array(grid) == FREE).astype(np.uint8)
     room_m = cv2.distanceTransform(free, cv2.DIST_L2, cv2.DIST_MASK_PRECISE) * grid.resolution_m
     rows, columns = np.nonzero(room_m >= robot.base.radius_m + SPARE_M)
@@ -104,10 +105,10 @@ def spots_of(folder: Path, robot: RobotDescription, seed: int) -> dict[str, Pose
         one = random.randrange(rows.size)
         x_m, y_m = grid.centre_of(int(columns[one]), int(rows[one]))
         pose = Pose2(x_m, y_m, random.uniform(-pi, pi))
-        if not here.site.fence.allows(x_m, y_m):
+        if not site.fence.allows(x_m, y_m):
             continue
         try:
-            here.router.route(RouteRequest(home, pose))
+            router.route(RouteRequest(home, pose))
         except RouteFailure:
             continue
         spots[SPOTS[len(spots)]] = pose
