@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ros2.transport import NOTHING_MADE, LinkMessages
 from ros2.twist_topic import TwistTopic
-from wire import Grant, Heartbeat, Hello, Mode, Velocity, keys
+from wire import Grant, Heartbeat, Hello, Mode, Velocity, VelocitySequence, keys
 
 if TYPE_CHECKING:
     from ros2.operations import Answer, Request
@@ -35,7 +35,8 @@ class Nav2Velocity:
         self._topic = TwistTopic(ros2, topic)
         self._me, self._robot_hash = planner_id, robot_hash
         self._said_s = self._spoken_s = self._moved_s = -inf
-        self._missions, self._epoch, self._seq = 0, "", 0
+        self._missions = 0
+        self._numbers = VelocitySequence()
 
     def open(self, _now_s: float) -> None:
         """Begin anew: another robot may stand behind this connection."""
@@ -101,14 +102,11 @@ class Nav2Velocity:
         self._spoken_s = twist.came_s
         if not twist.is_still:
             self._moved_s = now_s
-        if status.epoch != self._epoch:
-            self._epoch, self._seq = status.epoch, 0
-        self._seq += 1
         self._said_s = now_s
         return Velocity(
             source_id=self._me,
             epoch=status.epoch,
-            seq=self._seq,
+            seq=self._numbers.take_next(status.epoch),
             seen=status.seq,
             v_mps=twist.v_mps,
             w_radps=twist.w_radps,

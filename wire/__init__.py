@@ -20,6 +20,7 @@ from wire.commands import (
     Proof,
     Stop,
     Velocity,
+    VelocitySequence,
     Waypoint,
     Waypoints,
 )
@@ -172,6 +173,7 @@ __all__ = [
     "Twist2",
     "Unwritable",
     "Velocity",
+    "VelocitySequence",
     "Waypoint",
     "Waypoints",
     "authentic",

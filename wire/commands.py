@@ -94,6 +94,20 @@ class Velocity(Record):
     dead_man: bool
 
 
+class VelocitySequence:
+    """Number the velocities of one source: from 1 on in each epoch, as the bridge counts them."""
+
+    def __init__(self) -> None:
+        self._epoch, self._seq = "", 0
+
+    def take_next(self, epoch: str) -> int:
+        """Return the number of the next velocity in this epoch."""
+        if epoch != self._epoch:
+            self._epoch, self._seq = epoch, 0
+        self._seq += 1
+        return self._seq
+
+
 OpKind = Literal["arm", "disarm", "estop", "reset", "resume"]
 
 

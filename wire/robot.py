@@ -15,7 +15,7 @@ from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from wire.base import Record
 from wire.camera_config import CameraConfig
-from wire.drive_config import DriveConfig
+from wire.drive_config import DRIVE_KINDS, DriveConfig
 from wire.errors import ConfigError
 from wire.fingerprint import fingerprint
 from wire.imu_config import ImuConfig
@@ -167,6 +167,11 @@ class RobotDescription(Record):
         Without the trial, which says something about the robot and changes nothing of it.
         """
         return fingerprint(self.model_dump_json(exclude={"trial"}).encode())
+
+    @property
+    def has_gyro(self) -> bool:
+        """Return whether metal has a gyro to read: a chip on I2C, or one that the base reports."""
+        return self.imu.is_on_i2c or DRIVE_KINDS[self.drive.kind].has_gyro
 
     @property
     def valid_trial(self) -> TrialRecord | None:

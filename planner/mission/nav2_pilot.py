@@ -13,7 +13,18 @@ from math import atan2, hypot
 from typing import TYPE_CHECKING
 
 from planner.mission.bridge_status import holding_rows, standing
-from wire import LegReport, Mode, Nav2Goal, Nav2State, Pose2, Record, Status, Velocity, wrap
+from wire import (
+    LegReport,
+    Mode,
+    Nav2Goal,
+    Nav2State,
+    Pose2,
+    Record,
+    Status,
+    Velocity,
+    VelocitySequence,
+    wrap,
+)
 
 if TYPE_CHECKING:
     from planner.mission.effects import MotionRequest
@@ -58,7 +69,7 @@ class Nav2Pilot:
         self._state: Nav2State | None = None
         self._state_s = self._said_s = float("-inf")
         self._said_twist: tuple[str, int] = ("", 0)
-        self._epoch, self._seq = "", 0
+        self._numbers = VelocitySequence()
 
     def aim(
         self, leg: tuple[str, int], start: Pose2, goal: Pose2, now_s: float, *, heading: bool
@@ -140,14 +151,11 @@ class Nav2Pilot:
         return (self._velocity(status, share * state.v_mps, share * state.w_radps, now_s),)
 
     def _velocity(self, status: Status, v_mps: float, w_radps: float, now_s: float) -> Velocity:
-        if status.epoch != self._epoch:
-            self._epoch, self._seq = status.epoch, 0
-        self._seq += 1
         self._said_s = now_s
         return Velocity(
             source_id=self._me,
             epoch=status.epoch,
-            seq=self._seq,
+            seq=self._numbers.take_next(status.epoch),
             seen=status.seq,
             v_mps=v_mps,
             w_radps=w_radps,

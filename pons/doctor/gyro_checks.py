@@ -41,7 +41,7 @@ def gyro(home: Path, robot: RobotDescription) -> HealthFinding:
         )
     if robot.drive.virtual or robot.drive.kind == ROS2:
         return ok("gyro", "comes with the drive", "随驱动提供")
-    if not (robot.imu.is_on_i2c or DRIVE_KINDS[robot.drive.kind].has_gyro):
+    if not robot.has_gyro:
         kinds = ", ".join(name for name, kind in DRIVE_KINDS.items() if kind.has_gyro)
         return fail(
             "gyro",

@@ -24,7 +24,6 @@ from pons_assets import IS_INSTALLED, ROBOT_FILE
 from sensors.lidar.kinds import kind_of
 from sensors.lidar.reader import LidarReader
 from wire import ConfigError, load_robot
-from wire.drive_config import DRIVE_KINDS
 from wire.ros2_config import ROS2
 from wire.trial_record import TrialRecord, wiring_of
 
@@ -64,8 +63,7 @@ def plan_steps(robot: RobotDescription) -> tuple[str, ...]:
 
 def has_gyro(robot: RobotDescription) -> bool:
     """Return whether robot.toml counts on a gyro: the base's own, or a chip on I2C."""
-    kind = DRIVE_KINDS[robot.drive.kind]
-    return robot.inputs.imu and (robot.imu.is_on_i2c or kind.has_gyro)
+    return robot.inputs.imu and robot.has_gyro
 
 
 def load_triable(path: Path) -> RobotDescription:

@@ -8,6 +8,7 @@ import pytest
 
 from wire import ConfigError, RobotDescription, load_robot
 from wire.drive_config import DriveConfig
+from wire.imu_config import ImuConfig
 
 
 def written(tmp_path: Path, text: str) -> Path:
@@ -131,3 +132,15 @@ def test_bytes_that_are_no_text_are_said(tmp_path: Path) -> None:
 def test_a_peak_current_below_the_continuous_one_is_refused() -> None:
     with pytest.raises(ValueError, match="must be less than"):
         DriveConfig(peak_current_a=10.0, continuous_current_a=10.0)
+
+
+def test_a_gyro_is_the_bases_own_or_a_chip_on_i2c() -> None:
+    chip = {"kind": "mpu6050", "bus": 1, "address": 0x68}
+    bare: dict[str, object] = {}
+    mcu = {"kind": "pons_mcu", "port": "/dev/x", "ticks_per_turn": 1320}
+    ugv = {"kind": "waveshare", "port": "/dev/x"}
+    for drive, imu, expected in ((mcu, bare, False), (mcu, chip, True), (ugv, bare, True)):
+        robot = RobotDescription.model_construct(
+            drive=DriveConfig.model_construct(**drive), imu=ImuConfig.model_validate(imu)
+        )
+        assert robot.has_gyro is expected

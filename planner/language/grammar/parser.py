@@ -15,12 +15,7 @@ from itertools import chain
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.checks import (
-    TAMPERING,
-    broken_rule,
-    find_veto,
-    withholds_offers,
-)
+from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
 from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
 from planner.language.grammar.compound import PartReaders, read_compound
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
