@@ -16,11 +16,14 @@ MIN_GAP_M = 0.05
 """The bridge refuses points nearer than this or farther apart than 0.25 m; the first and the last
 gap may be as short as 0.01 m."""
 MIN_END_GAP_M = 0.01
-TIGHT_SPEED_MPS = 0.20
-"""Where the disc just fits; a door of 0.90 m is passed at about 0.3 m/s."""
-ROOMY_M = 0.35
+WAY_OUT_SPEED_MPS = 0.20
+"""Where a robot begins nearer to something than its margin, until it is out."""
+TIGHT_SPEED_MPS = 0.30
+"""Where the disc just fits; a door of 0.90 m is passed at about 0.36 m/s. The bridge stops from that
+in 0.15 m, whatever stands behind the door."""
+ROOMY_M = 0.25
 """With this much between disc and wall the robot may go as fast as it can."""
-SLOWING_MPS2 = 0.3
+SLOWING_MPS2 = 0.5
 """Ahead of a slow point; gentler than any stop, so that the limiter need not act."""
 
 
@@ -53,6 +56,7 @@ def speeds(
     room = np.clip(spare_m / ROOMY_M, 0.0, 1.0)
     tight_mps = min(TIGHT_SPEED_MPS, limits.max_speed_mps)
     wanted = tight_mps + (limits.max_speed_mps - tight_mps) * room
+    wanted[spare_m < 0.0] = min(WAY_OUT_SPEED_MPS, limits.max_speed_mps)
     wanted = np.minimum(np.minimum(wanted, zone_mps), _bend_mps(line, limits))
     wanted = np.maximum(wanted, MIN_SPEED_MPS)
     gaps_m = np.hypot(*np.diff(line, axis=0).T)
