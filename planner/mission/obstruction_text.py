@@ -20,6 +20,13 @@ door sticks out of it."""
 
 def tell_obstruction(facts: SiteView, shut: ShutWay, place: Bilingual) -> Bilingual:
     """Return the sentence of a way to a place that was given up before this obstruction."""
+    if shut.gap:
+        return say(
+            "obstruction.narrow",
+            place=place,
+            width_m=shut.obstruction.width_m,
+            where=spot_of(facts, shut.obstruction.middle),
+        )
     minutes = int((shut.since_unix_s + shut.local_offset_s) // 60)
     return say(
         "obstruction.blocked",

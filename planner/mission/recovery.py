@@ -89,6 +89,8 @@ class ShutWay(Frozen):
     seen_unix_s: float
     local_offset_s: float = 0.0
     """Of people's own clock from UTC."""
+    gap: bool = False
+    """The map's own walls leave too little room there."""
     moves: bool = False
     """It walked up: it is nothing that shuts a way for long."""
     ladder: int = 0
@@ -98,7 +100,7 @@ class ShutWay(Frozen):
     @property
     def obstruction(self) -> Obstruction:
         """Return the line that stands in the way."""
-        return Obstruction(self.start, self.end)
+        return Obstruction(self.start, self.end, self.gap)
 
     def is_shut(self, now_unix_s: float) -> bool:
         """Tell whether routes lead round it now."""
@@ -235,6 +237,7 @@ def note_obstruction(
         since_unix_s=known.since_unix_s if known else now_unix_s,
         seen_unix_s=now_unix_s,
         local_offset_s=local_offset_s,
+        gap=seen.gap,
         moves=moves or (known is not None and known.moves),
         ladder=record.ladders,
         visits=known.visits + (known.ladder != record.ladders) if known else 1,

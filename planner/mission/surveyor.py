@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from planner.mission.activity import Driving
 from planner.mission.events import Surveyed
-from planner.navigation.obstruction import find_obstruction, is_seen_open
+from planner.navigation.obstruction import find_narrow, find_obstruction, is_seen_open
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -59,7 +59,8 @@ class Surveyor:
         if not scan.age_s <= FRESH_S:
             return None
         self._next_s = now_s + EVERY_S
-        ways = (way.obstruction for way in mission.recovery.shut)
+        # Beams pass a gap that is too narrow: it is never seen open.
+        ways = (way.obstruction for way in mission.recovery.shut if not way.gap)
         lidar = self._robot.lidar
         opened = tuple(way for way in ways if is_seen_open(way, scan.value, lidar, here))
         seen = None
@@ -68,7 +69,7 @@ class Surveyor:
             seen = find_obstruction(
                 *(self._link.obstacles(), path, (here.x_m, here.y_m)),
                 *(self._robot.base.radius_m, self._grid),
-            )
+            ) or find_narrow(path, (here.x_m, here.y_m), self._robot.base.radius_m, self._grid)
         if seen is None and not opened:
             return None
         moves = seen is not None and any(

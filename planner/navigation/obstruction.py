@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import atan2, ceil, cos, hypot, pi, sin
 from typing import TypeAlias
 
@@ -32,6 +33,10 @@ LEAST_SHARE = 0.8
 """Of the beams towards a place; so many must pass it before it counts as open."""
 BEHIND_M = 0.30
 """A beam passes a place that ends so far behind it."""
+NARROW_AHEAD_M = 0.6
+"""A gap between walls of the map holds the robot that stands in it or right before it."""
+NARROW_SPARE_M = 0.05
+"""On each side beyond the gate's margin: what pose, path and lidar err by together."""
 SEEN_M = 3.5
 """Farther away than this a door's width is a handful of beams."""
 
@@ -42,6 +47,8 @@ class Obstruction:
 
     start: Point
     end: Point
+    gap: bool = False
+    """Nothing stands there: the map's own walls leave too little room between the two ends."""
 
     @property
     def middle(self) -> Point:
@@ -78,6 +85,31 @@ def find_obstruction(
         return None
     seed = min(met, key=lambda point: _away_m(point, robot_xy_m))
     return _side(_grow(seed, news), robot_xy_m)
+
+
+def find_narrow(
+    path: Sequence[Point], robot_xy_m: Point, radius_m: float, grid: GridMap
+) -> Obstruction | None:
+    """Return the narrowest gap between the map's walls in the next 0.6 m of the path.
+
+    None: the walls leave the disc its margin and 0.05 m more on each side. Arguments as of
+    ``find_obstruction``.
+    """
+    ahead = _ahead(path, robot_xy_m, NARROW_AHEAD_M)
+    enough_m = 2.0 * (radius_m + OBSTACLE_MARGIN_M + NARROW_SPARE_M)
+    narrowest: Obstruction | None = None
+    for at, then in pairwise(ahead):
+        if at == then:
+            continue
+        aside_rad = atan2(then[1] - at[1], then[0] - at[0]) + pi / 2
+        left = _wall_from(at, aside_rad, enough_m, grid)
+        right = _wall_from(at, aside_rad + pi, enough_m, grid)
+        if left is None or right is None:
+            continue
+        gap = Obstruction(left, right, gap=True)
+        if gap.width_m < (narrowest.width_m if narrowest else enough_m):
+            narrowest = gap
+    return narrowest
 
 
 def points_of(obstruction: Obstruction, spacing_m: float = 0.05) -> tuple[Point, ...]:
@@ -127,15 +159,26 @@ def _bearing(here: Point, there: Point, angle_rad: float) -> float:
     return atan2(sin(bearing), cos(bearing))
 
 
-def _ahead(path: Sequence[Point], robot_xy_m: Point) -> list[Point]:
-    """Return the part of the path that begins nearest to the robot, 1.5 m of it at most."""
+def _wall_from(at: Point, towards_rad: float, most_m: float, grid: GridMap) -> Point | None:
+    """Return where a line from a point meets a cell that is not free; None: nowhere so near."""
+    step_m = grid.resolution_m / 2
+    for index in range(1, ceil(most_m / step_m) + 1):
+        x_m = at[0] + index * step_m * cos(towards_rad)
+        y_m = at[1] + index * step_m * sin(towards_rad)
+        if grid.at(x_m, y_m) != FREE:
+            return x_m, y_m
+    return None
+
+
+def _ahead(path: Sequence[Point], robot_xy_m: Point, most_m: float = AHEAD_M) -> list[Point]:
+    """Return so much of the path as begins nearest to the robot, and the robot before it."""
     if not path:
         return []
     nearest = min(range(len(path)), key=lambda index: _away_m(path[index], robot_xy_m))
     ahead, gone_m = [robot_xy_m], 0.0
     for point in path[nearest:]:
         gone_m += _away_m(point, ahead[-1])
-        if gone_m > AHEAD_M:
+        if gone_m > most_m:
             break
         ahead.append(point)
     return ahead

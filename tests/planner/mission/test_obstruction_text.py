@@ -47,6 +47,15 @@ def test_something_thin_is_not_told_as_nothing() -> None:
     assert "0.1 m wide" in tell_obstruction(SITE, way, Bilingual(en="k", zh="厨")).en
 
 
+def test_a_gap_of_the_map_is_told_as_too_narrow_with_its_width() -> None:
+    way = ShutWay(start=(0.0, -0.4), end=(0.0, 0.35), gap=True, since_unix_s=0.0, seen_unix_s=0.0)
+    said = tell_obstruction(SITE, way, Bilingual(en="kitchen", zh="厨房"))
+    assert said.en == (
+        "The way to kitchen is too narrow for me in the hall: the map's walls leave 0.75 m there."
+    )
+    assert "0.75 米" in said.zh
+
+
 def test_an_occupied_goal_names_how_near_the_robot_came() -> None:
     said = tell_occupied(Bilingual(en="kitchen", zh="厨房"), 0.62)
     assert "within 0.6 m of kitchen" in said.en

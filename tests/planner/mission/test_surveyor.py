@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import pi
 from typing import TYPE_CHECKING, cast
 
@@ -20,6 +20,7 @@ from tests.planner.navigation.floors import drawn
 from wire import Pose2, RobotDescription, Scan
 
 if TYPE_CHECKING:
+    from maps.grid import GridMap
     from planner.bridge_client import Link
 
 GRID = drawn(*("." * 40 for _ in range(40))).grid
@@ -46,8 +47,8 @@ class FakeLink:
         return self.points
 
 
-def surveyor(link: FakeLink) -> Surveyor:
-    return Surveyor(cast("Link", link), RobotDescription(), GRID)
+def surveyor(link: FakeLink, grid: GridMap = GRID) -> Surveyor:
+    return Surveyor(cast("Link", link), RobotDescription(), grid)
 
 
 def blocked(world: Together) -> Leg:
@@ -89,3 +90,20 @@ def test_a_shut_way_through_which_the_lidar_sees_is_told_open(world: Together) -
     assert told is not None
     assert told.opened == (crate,)
     assert told.obstruction is None
+
+
+def test_a_gap_of_the_map_that_holds_the_robot_is_told_and_never_seen_open(world: Together) -> None:
+    # Pillars at x from 3.25 to 3.5 m leave 0.75 m around y = 2.875 m.
+    rows = ["." * 40 if index in (27, 28, 29) else "." * 13 + "#" + "." * 26 for index in range(40)]
+    grid = drawn(*rows).grid
+    leg = blocked(world)
+    leg = replace(leg, points=straight(Pose2(3.0, 2.875, 0.0), Pose2(6.0, 2.875, 0.0)))
+    told = surveyor(FakeLink(points=()), grid).survey(world.book, leg, 10.0)
+    assert told is not None
+    assert told.obstruction is not None
+    assert told.obstruction.gap
+    assert told.obstruction.width_m == pytest.approx(0.75, abs=0.06)
+    world.event(told)
+    again = surveyor(FakeLink(points=()), grid).survey(world.book, leg, 20.0)
+    assert again is not None
+    assert again.opened == ()

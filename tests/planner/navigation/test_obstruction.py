@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 from planner.navigation.obstruction import (
     AHEAD_M,
     EXPLAINED_M,
+    NARROW_SPARE_M,
     Obstruction,
+    find_narrow,
     find_obstruction,
     is_seen_open,
     points_of,
@@ -122,3 +124,32 @@ def test_beams_without_a_return_and_places_far_away_say_nothing() -> None:
     far = Pose2(-2.6, 1.0, 0.0)
     assert atan2(0.0, DOOR.middle[0] - far.x_m) == 0.0
     assert not is_seen_open(DOOR, scan_of(None, far), LIDAR, far)
+
+
+@given(st.integers(5, 24))
+def test_a_gap_of_the_map_is_narrow_where_it_leaves_less_than_margin_and_error(cells: int) -> None:
+    # Pillars of four cells of 0.05 m on both sides of the path, 0.3 m ahead.
+    aside = (40 - cells) // 2
+    pillars, floor = "." * 12 + "####" + "." * 24, "." * 40
+    rows = [floor if aside <= row < aside + cells else pillars for row in range(40)]
+    grid = drawn(*rows, square_m=0.05).grid
+    y_m = (40 - aside - cells / 2) * 0.05
+    path = [(0.325 + 0.1 * i, y_m) for i in range(15)]
+    found = find_narrow(path, path[0], RADIUS_M, grid)
+    spare_m = cells * 0.05 - 2 * (RADIUS_M + 0.05 + NARROW_SPARE_M)
+    if spare_m > 0.05:
+        assert found is None
+    if spare_m < -0.05:
+        assert found is not None
+        assert found.gap
+        assert found.width_m == pytest.approx(cells * 0.05, abs=0.06)
+        assert found.middle[1] == pytest.approx(y_m, abs=0.05)
+
+
+def test_no_gap_is_narrow_beyond_the_next_steps_or_beside_one_wall() -> None:
+    assert find_narrow(PATH, ROBOT, RADIUS_M, HALL.grid) is None
+    far = drawn(
+        *(("." * 24 + "####" + "." * 12) for _ in range(20)), *("." * 40 for _ in range(10))
+    )
+    assert find_narrow([(0.5 + 0.1 * i, 0.5) for i in range(40)], (0.5, 0.5), 0.3, far.grid) is None
+    assert find_narrow([], ROBOT, RADIUS_M, HALL.grid) is None
