@@ -61,6 +61,10 @@ def table(name: str, brain: str, verdicts: Sequence[SentenceVerdict], left: int 
     rows += [_row(line) for line in lines(verdicts)]
     p50, p99 = _times_ms(verdicts)
     rows += ["", f"seconds a sentence: p50 {p50 / 1e3:.4f}, p99 {p99 / 1e3:.4f}"]
+    offered = [verdict.after_yes for verdict in verdicts if verdict.after_yes is not None]
+    if offered:
+        told = f"{sum(offered)} of {len(offered)} would be right after a yes to the one offer"
+        rows += [f"of those not right: {told}"]
     faults = [verdict for verdict in verdicts if not verdict.right]
     rows += ["", "not right:"] if faults else []
     rows += [
@@ -80,6 +84,8 @@ def content(
         "passed": has_passed(verdicts, left),
         "not_asked": left,
         "calls": sum(verdict.calls for verdict in verdicts),
+        "offered": sum(verdict.after_yes is not None for verdict in verdicts),
+        "right_after_yes": sum(verdict.after_yes is True for verdict in verdicts),
         "tokens": sum(verdict.tokens for verdict in verdicts),
         "ms": {"p50": round(p50, 3), "p99": round(p99, 3)},
         "groups": [_plain(line) for line in lines(verdicts)],

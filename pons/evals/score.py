@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import AsyncGenerator, Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.language.catalogue import message
 from planner.language.motion_guard.step_words import moves, wrong_motions
 from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
-from planner.plan import EVERY_KIND, Code, Refuse, StepPlan, check_plan, list_nodes
+from planner.plan import EVERY_KIND, Clarify, Code, Refuse, StepPlan, check_plan, list_nodes
 from pons.evals.cases import Case, Suite
 from pons.evals.matchers import Made
 from pons.evals.world import EvalWorld
@@ -32,6 +32,9 @@ class SentenceVerdict:
     seconds: float
     calls: int = 0
     tokens: int = 0
+    after_yes: bool | None = None
+    """Whether a yes to the one offer would have been right; None: nothing was offered, or a model
+    would have to be asked."""
 
     @property
     def right(self) -> bool:
@@ -100,7 +103,12 @@ async def _one(
         return _nothing(
             case, _no(Code.MODEL_UNAVAILABLE), f"no answer: {down.why}", clock() - began
         )
-    return judge(case, thought.plan, world, clock() - began, thought.calls, thought.tokens)
+    verdict = judge(case, thought.plan, world, clock() - began, thought.calls, thought.tokens)
+    options = thought.plan.options if isinstance(thought.plan, Clarify) else ()
+    if verdict.right or len(options) != 1 or not thought.by_grammar:
+        return verdict
+    taken = await brain.think(asked.model_copy(update={"text": options[0].text}))
+    return replace(verdict, after_yes=judge(case, taken.plan, world).right)
 
 
 def _nothing(case: Case, made: Refuse, fault: str, seconds: float) -> SentenceVerdict:

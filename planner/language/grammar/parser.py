@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from itertools import chain
 
-from planner.language.catalogue import message
+from planner.language.catalogue import message, say
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
@@ -21,6 +21,7 @@ from planner.language.grammar.compound import PartReaders, read_compound
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
+from planner.language.grammar.guessed_order import NOTHING, guess_order
 from planner.language.grammar.lexicon import MARK, MarkedText, lexicon_of, mark_people
 from planner.language.grammar.parse_result import (
     ClauseContext,
@@ -32,7 +33,7 @@ from planner.language.grammar.parse_result import (
     read_by,
 )
 from planner.language.grammar.plain_words import asks_whether, in_plain_words, without_sending
-from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
+from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
     mend,
@@ -101,9 +102,33 @@ def plan(
     plainer = in_plain_words(text, vocabulary)
     second = None if plainer is None else _plan_as_said(plainer, vocabulary, context)
     if not isinstance(second, StepPlan):
-        return made
+        return _guess(made, text, vocabulary, context)
     asked = made.code is Code.INCOMPLETE  # what is asked for must not be guessed, but "the rounds"
     return made if asked and not _has_rounds_alone(second) else second
+
+
+def _guess(
+    made: Clarify | Refuse, text: str, vocabulary: Vocabulary, context: Context
+) -> Clarify | Refuse:
+    """Offer what a sentence may mean that was not understood, where it can be guessed.
+
+    Law: a guess is a button below a question. It is an order that the grammar reads by itself.
+    """
+    if made.code is not Code.NOT_UNDERSTOOD or not isinstance(made, Clarify):
+        return made
+    lexicon = lexicon_of(vocabulary)
+    language = context.language or parse(text).language
+    order = guess_order(lexicon.mark(normalise(text)), language)
+    if order == NOTHING:  # "the kitchen is lovely": to offer a drive there would be silly
+        return made.model_copy(update={"options": ()})
+    meant = None if order is None else _plan_as_said(order, vocabulary, context)
+    if not isinstance(meant, StepPlan):
+        return made
+    button = option(meant.steps, vocabulary, lexicon, language)
+    if not _reads_back(button, vocabulary, context):
+        return made
+    question = say("grammar.guessed", order=button.label)
+    return Clarify(code=made.code, question=question, options=(button,))
 
 
 def _has_rounds_alone(plan: StepPlan) -> bool:
