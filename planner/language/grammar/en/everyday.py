@@ -61,6 +61,12 @@ COURTESY = table(
     (r"(?:^|,)? ?when(?:ever)? you(?: have| get|'ve got| have got)? (?:a|one|the|some|any) (?:moment"
      rf"|minute|sec|second|chance|time){_END}", ""),
     (r"\bif you see (?:it|him|her|them)\b", ""),
+    (r"^if (?:it is|that is) not (?:too much|any|a) (?:trouble|bother),? ", ""),
+    (rf"(?:^|,)? ?when(?:ever)? you are (?:ready|free|able|not busy){_END}", ""),
+    (r"^when(?:ever)? you are (?:ready|free|able|not busy),? ", ""),
+    (r"^(?:it(?: would|'d) be (?:so |very |really )?(?:lovely|great|nice|good|kind|wonderful|helpful)"
+     r"|i(?: would|'d) (?:be (?:so |very )?(?:grateful|glad|happy|pleased)|appreciate it|feel better"
+     r"|feel safer))(?: of you)? if you(?: could| would|'d)? (?=[a-z])", ""),
 )  # fmt: skip
 """Conditions that are none."""
 
@@ -90,7 +96,10 @@ ENGLISH_EVERYDAY = table(
      r"(?: at all)? possible(?: for)?|could i (?:trouble|bother|ask) you|can i (?:trouble|ask) you"
      r"|be a (?:dear|love|pet|star) and|be so (?:good|kind)(?: as)? to|do (?:me a favou?r|one thing)"
      r"(?:,| and)?"
-     r"|your job is)"
+     r"|your job is|might i (?:trouble|ask|bother) you|may i (?:trouble|ask|bother|have) you"
+     r"|have you got (?:a|one) (?:minute|moment|second|sec)|can you spare (?:a|one) (?:minute|moment)"
+     r"|perhaps|maybe|i was hoping|i am hoping|i hope|time for you|it is time for you|shall we"
+     r"|(?:you could )?make yourself useful and|you (?:had|'d) better|go on and|feel free)"
      r"(?: you)?(?: could| would| can)?(?: to)? (?=[a-z])", ""),
     (r"^(?:so )?(?:what )?i(?: would|'d)? (?:really )?(?:like|love|want|need|appreciate)(?: it if| is| is for)? you"
      r"(?: could| would| can)?(?: to)? (?=[a-z])", ""),

@@ -39,8 +39,13 @@ ASKED_AND_SENT = table(
         rf"[?,。]?(?:你)?(?:{_HAVE_A_LOOK})$",
         r"\g<q>",
     ),
+    (
+        r"(?:往|向|朝)?(?P<s>[左右])(?:边|面|手边)?转(?:过去|身|一下)?[,、 ](?:再)?转?(?P<n>[一二三四五六七八九十百零两\d]+)度",
+        r"向\g<s>转\g<n>度",
+    ),
 )
-"""A question and an order to go and look: the question says all, and goes there by itself."""
+"""A question and an order to go and look: the question says all, and goes there by itself. Likewise
+one turn that is told twice, first to which side and then how far."""
 
 CHINESE_EVERYDAY = table(
     # hesitation, address, courtesy
@@ -67,6 +72,11 @@ CHINESE_EVERYDAY = table(
     (r"陪(?:着)?(?P<w>我|他|她|爷爷|奶奶)(?:走走|散散步|散步|转转)", r"跟着\g<w>"),
     (r"(?:大声|高声)?(?:喊|叫|吼|嚷|宣布)(?:一声|一句|一嗓子)(?P<w>[^,。\"]{1,40})$", r"说“\g<w>”"),
     (r"(?:大声|高声)说(?P<w>[^,。\"]{1,40})$", r"说“\g<w>”"),
+    (r"^(?:请|帮我|替我|帮忙)?(?:去)?(?:跟|和|对|告诉|通知)(?P<p>[\ue000-\ue7ff])(?:里|那边)?的?(?:人|那位|大家|各位)"
+     r"(?:说|讲)?(?:一声|一下)?[,:]?(?P<w>[^,。\"]{1,40})$", r"去\g<p>说“\g<w>”"),
+    (r"^(?:请|帮我|替我|帮忙)?(?:跟|和|对|告诉|通知)(?:一下)?(?:大家|所有人|家里人|各位|他们)(?:说|讲)?(?:一声|一下)?"
+     r"[,:]?(?P<w>[^,。\"]{1,40})$", r"说“\g<w>”"),
+    (r"^(?:请|帮我|替我)?说一声(?P<w>[^,。\"]{1,20})$", r"说“\g<w>”"),
     # looking
     (rf"^(?P<q>[^?]*?(?:有没有|是不是有|几[个把盆只本张瓶台人]|多少|在不在|吗|有什么|有啥)[^?,。]*?)(?:呀|啊|呢)?[?,。]{_HAVE_A_LOOK}$", r"\g<q>"),
     (rf"^(?P<p>{MARK})(?:里|上|底下|下面|旁边)?是不是有(?:个|一个)?(?P<t>[^,。?]{{1,8}}?)(?:[?,。]?{_HAVE_A_LOOK})?$",
