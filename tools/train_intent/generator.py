@@ -12,13 +12,13 @@ from functools import cache
 from pathlib import Path
 from random import Random
 
+from planner.language.grammar.sentence_text import normalise
 from planner.language.intent.features import units_of
 
 PHRASES = Path(__file__).parent / "phrases"
 LANGUAGES = ("en", "zh")
 NONE = "none"
 NONE_SHARE = 0.35
-_FOLDED = str.maketrans("，。？！；", ",.?!;")
 _PLACES = {"{p}": "\ue000", "{q}": "\ue001"}
 
 
@@ -108,10 +108,10 @@ def _example(phrase: str, intent: str, language: str, random: Random) -> Example
         thing = f"{random.choice(('红色的', '蓝', '黑色', '那个', '大', '小'))}{thing}"
     units: list[str] = []
     tags: list[bool] = []
+    phrase = normalise(phrase)
     for part in re.split(r"(\{[pqt]\})", phrase):
         is_thing = part == "{t}"
         text = thing if is_thing else _PLACES.get(part, part)
-        text = text.translate(_FOLDED)
         if not is_thing and part not in _PLACES:
             text = _slip(text, random) if random.random() < 0.05 else text
         cut = units_of(text)

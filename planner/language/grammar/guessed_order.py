@@ -11,12 +11,14 @@ import re
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from planner.language.grammar.checks import withholds_offers
+from planner.language.grammar.checks import withholds_offers, without_compounds
+from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.plain_words import held_back
+from planner.language.grammar.plain_words import asks_whether
+from planner.language.grammar.zh.orders import CHINESE
 from planner.language.intent.features import MOST_UNITS, units_of
 from planner.language.intent.intent_model import load_intent_model
-from planner.plan import Language
+from planner.plan import Code, Language
 
 if TYPE_CHECKING:
     from planner.language.grammar.lexicon import MarkedText
@@ -48,6 +50,12 @@ ORDERS: dict[str, tuple[str, str]] = {
     "turn": ("turn around", "转身"),
 }
 """By intent, in both languages; an intent that is not here asks for nothing."""
+_DENIES_NOTHING = re.compile(
+    r"不知道?|不晓得|不清楚|[找看]不[着到见]|不见了|不早了|不放心|不好意思|走不[开动]|腿脚不好|忙不过来|听不清"
+    r"|要不(?=你|咱|我们)|差不多|\b(?:can ?not|could not) (?:find|see|reach|get up|walk|leave|come)\b"
+    r"|\b(?:do|does|did) not (?:know|remember|see|feel well)\b|\bnot sure\b|\bno idea\b"
+)
+"""Said of the person or of what is lost, it forbids nothing."""
 _OWN = re.compile(r"^(?:the|a|an|my|our|your|any|some) ")
 
 
@@ -60,12 +68,24 @@ def guess_order(marked: MarkedText, language: Language) -> str | None:
     units, model = units_of(marked.text), load_intent_model()
     if model is None or not 0 < len(units) <= MOST_UNITS:
         return None
-    if withholds_offers(marked.text) or held_back(marked.text):
+    if _holds_back(marked.text):
         return None
     guess = model.guess(units)
     if not guess.share >= SURE:
         return None
     return NOTHING if guess.intent == NONE else write_order(guess, units, marked, language)
+
+
+def _holds_back(text: str) -> bool:
+    """Tell whether a sentence denies, excepts, hangs on something or leaves a choice.
+
+    A speed does not: the order is driven as any is, and the person sees it before.
+    """
+    plain = _DENIES_NOTHING.sub("〇", text)
+    looked_at = without_compounds(asks_whether(plain))
+    vetoes = (*ENGLISH.vetoes, *CHINESE.vetoes)
+    held = any(veto.search(looked_at) for code, veto in vetoes if code is not Code.OUT_OF_SCOPE)
+    return held or withholds_offers(plain)
 
 
 def write_order(

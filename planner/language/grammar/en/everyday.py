@@ -62,8 +62,8 @@ COURTESY = table(
      rf"|minute|sec|second|chance|time){_END}", ""),
     (r"\bif you see (?:it|him|her|them)\b", ""),
     (r"^if (?:it is|that is) not (?:too much|any|a) (?:trouble|bother),? ", ""),
-    (rf"(?:^|,)? ?when(?:ever)? you are (?:ready|free|able|not busy){_END}", ""),
-    (r"^when(?:ever)? you are (?:ready|free|able|not busy),? ", ""),
+    (rf"(?:^|,)? ?when(?:ever)? you are ready{_END}", ""),
+    (r"^when(?:ever)? you are ready,? ", ""),
     (r"^(?:it(?: would|'d) be (?:so |very |really )?(?:lovely|great|nice|good|kind|wonderful|helpful)"
      r"|i(?: would|'d) (?:be (?:so |very )?(?:grateful|glad|happy|pleased)|appreciate it|feel better"
      r"|feel safer))(?: of you)? if you(?: could| would|'d)? (?=[a-z])", ""),
