@@ -80,10 +80,10 @@ def draw(random: Random, held: float = 0.0, *, from_held: bool = False) -> Examp
     phrase = random.choice(lines or list(table[source]))
     if hung:
         phrase = random.choice(_words(f"hung_{language}")).replace("…", phrase)
-    return _example(_dressed(phrase, language, random), intent, language, random)
+    return _example(_dress(phrase, language, random), intent, language, random)
 
 
-def _dressed(phrase: str, language: str, random: Random) -> str:
+def _dress(phrase: str, language: str, random: Random) -> str:
     """Return a phrase as it may be said: with an opening or an end that says nothing."""
     if language == "en":
         phrase = re.sub(

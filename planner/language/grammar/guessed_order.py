@@ -52,7 +52,8 @@ ORDERS: dict[str, tuple[str, str]] = {
 """By intent, in both languages; an intent that is not here asks for nothing."""
 _DENIES_NOTHING = re.compile(
     r"不知道?|不晓得|不清楚|[找看]不[着到见]|不见了|不早了|不放心|不好意思|走不[开动]|腿脚不好|忙不过来|听不清"
-    r"|要不(?=你|咱|我们)|差不多|\b(?:can ?not|could not) (?:find|see|reach|get up|walk|leave|come)\b"
+    r"|要不(?=你|咱|我们)|差不多"
+    r"|\b(?:can ?not|could not) (?:find|see|reach|get up|walk|leave|come)\b"
     r"|\b(?:do|does|did) not (?:know|remember|see|feel well)\b|\bnot sure\b|\bno idea\b"
 )
 """Said of the person or of what is lost, it forbids nothing."""
