@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 REACHED, MISSED, REFUSED = 0, 1, 2
-TALK, MEMORY, ORDERS, PERSON = "talk", "memory", "orders", "person"
+TALK, MEMORY, ORDERS, PERSON, TRIAL = "talk", "memory", "orders", "person", "trial"
 GOAL = 0.9
 PERSON_GOAL = 0.95
 Scored = TypeVar("Scored")
@@ -56,7 +56,7 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
         return _talk(settings, said)
     if said.suite == ORDERS:
         return _orders(settings, said)
-    if said.suite == PERSON:
+    if said.suite in (PERSON, TRIAL):
         return _person(settings, said)
     try:
         suites = load(said.suite, said.data, said.site)
@@ -126,16 +126,26 @@ def _orders(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
 
 def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
-    """Hold conversations with a brain and, where none is named, with a model by script as well."""
+    """Hold conversations with a brain and, where none is named, with a model by script as well.
+
+    A trial is for models: what it asks is beyond a grammar.
+    """
     from pons.evals.person import converse, show_conversations
     from pons.evals.person_robot import ScriptedModel
     from pons.evals.person_scripts import read_scripts
 
+    def brains(brain: Brain) -> tuple[Brain, ...]:
+        if said.model is not None:
+            return (brain,)
+        scripted = (ScriptedModel(whims=False), ScriptedModel())
+        return scripted if said.suite == TRIAL else (brain, scripted[1])
+
     async def score(brain: Brain) -> int:
         site, right, count = Site.load(said.site), 0, 0
         for name in ("en", "zh"):
-            for each in (brain,) if said.model is not None else (brain, ScriptedModel()):
-                held = tuple([await converse(one, each, site) for one in read_scripts(name)])
+            for each in brains(brain):
+                scripts = read_scripts(name, trial=said.suite == TRIAL)
+                held = tuple([await converse(one, each, site) for one in scripts])
                 hostile = each.hostile if isinstance(each, ScriptedModel) else 0
                 print(show_conversations(name, each.tag.name, held, hostile))
                 right, count = right + sum(h.right for h in held), count + len(held)
@@ -158,7 +168,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "suite",
         nargs="?",
-        help=f"{', '.join(suite_names())}, {TALK}, {MEMORY}, {ORDERS}, {PERSON}, or a .tsv file",
+        help=f"{', '.join(suite_names())}, {TALK}, {MEMORY}, {ORDERS}, {PERSON}, {TRIAL}, or a .tsv file",
     )
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(

@@ -207,7 +207,7 @@ class RobotEar:
         return self._tell(before, goal, stopped=False)
 
 
-_CLASSES = ("person", "cup", "bottle", "chair", "cat", "dog", "book", "backpack", "sports_ball")
+_CLASSES = ("person", "cup", "bottle", "chair", "cat", "dog", "book", "backpack", "ball")
 
 
 class ScriptedModel:

@@ -80,13 +80,18 @@ class Script:
     turns: tuple[ScriptTurn, ...]
 
 
-def read_scripts(language: str) -> tuple[Script, ...]:
+def read_scripts(language: str, *, trial: bool = False) -> tuple[Script, ...]:
     """Return a language's conversations, each as often as its blanks are filled.
+
+    Args:
+        language: ``en`` or ``zh``.
+        trial: those that a strong model was once tried with, instead of the others.
 
     Raises:
         BadMatcher: a script can't be read.
     """
-    text = (SCRIPTS / f"{language}.txt").read_text("utf-8")
+    name = f"trials_{language}" if trial else language
+    text = (SCRIPTS / f"{name}.txt").read_text("utf-8")
     blocks = (block for block in text.split("\n## ")[1:] if block.strip())
     return tuple(script for block in blocks for script in _read_block(block, language))
 

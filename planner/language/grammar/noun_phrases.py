@@ -22,6 +22,7 @@ _PLACE_ZH = re.compile(
     rf"(?:这个|那个|那边的|我的|我们的)?(?:(?P<room>{MARK})(?:里面?)?的?)?(?P<a>{MARK})"
     r"(?:(?P<near>的?(?:旁边|边上|附近|跟前|边|旁))|里面?|内|那边|那里|那儿|这边|这里|处)?"
 )
+_IT = re.compile(r"(?:(?:over|up|close|next) to )?(?:it|that|them|him|her)|[它他她]们?(?:那[里儿边])?")
 _DETERMINER = re.compile(r"^(?:(?:the|a|an|my|our|your) )+")
 _ZH_TAIL = re.compile(r"(?:里面?|内|那边|那里|那儿|这边|这里|旁边|附近|跟前)$")
 
@@ -29,12 +30,22 @@ _ZH_TAIL = re.compile(r"(?:里面?|内|那边|那里|那儿|这边|这里|旁边
 def go_to(phrase: str, reading: Reading) -> Meaning:
     """Return the go-to step of a place phrase, or why there is none."""
     phrase = phrase.strip(" \"'")
+    if _IT.fullmatch(phrase):
+        return _read_pronoun(phrase, reading)
     found = _PLACE_EN.fullmatch(phrase) or _PLACE_ZH.fullmatch(phrase)
     if found:
         return _read_name(found, phrase, reading)
     if re.search(MARK, phrase):
         return reading.problem(Code.NOT_UNDERSTOOD, phrase)
     return _read_unknown(phrase, reading)
+
+
+def _read_pronoun(phrase: str, reading: Reading) -> Meaning:
+    """Return the step that drives up to what the clauses before spoke of; "it" is no place."""
+    thing = reading.scene.thing or reading.scene.person
+    if thing is None or not is_known(thing, reading.things):
+        return reading.problem(Code.NOT_UNDERSTOOD, phrase)
+    return Steps((GoToObject(object=thing),), thing=thing)
 
 
 def _read_name(found: re.Match[str], phrase: str, reading: Reading) -> Meaning:

@@ -120,3 +120,24 @@ def test_most_conversations_go_as_a_person_means() -> None:
         done = [held(one) for one in some]
         assert sum(each.right for each in done) >= 0.9 * len(done)
         assert not any(each.moves_wrongly for each in done)
+
+
+def hold_trials(language: str, model: ScriptedModel) -> list[Conversation]:
+    async def hold() -> list[Conversation]:
+        return [await converse(one, model, SITE) for one in read_scripts(language, trial=True)]
+
+    return asyncio.run(hold())
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_a_model_that_answers_as_it_should_gets_through_every_trial(language: str) -> None:
+    held = hold_trials(language, ScriptedModel(whims=False))
+    assert [one.fault for one in held] == [""] * len(held)
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_a_models_whims_are_walked_in_no_trial(language: str) -> None:
+    model = ScriptedModel()
+    held = hold_trials(language, model)
+    assert model.hostile > 0
+    assert not any(one.moves_wrongly for one in held)
