@@ -168,7 +168,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "suite",
         nargs="?",
-        help=f"{', '.join(suite_names())}, {TALK}, {MEMORY}, {ORDERS}, {PERSON}, {TRIAL}, or a .tsv file",
+        help=f"{', '.join((*suite_names(), TALK, MEMORY, ORDERS, PERSON, TRIAL))}, or a .tsv file",
     )
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(

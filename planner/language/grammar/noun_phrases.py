@@ -22,7 +22,9 @@ _PLACE_ZH = re.compile(
     rf"(?:这个|那个|那边的|我的|我们的)?(?:(?P<room>{MARK})(?:里面?)?的?)?(?P<a>{MARK})"
     r"(?:(?P<near>的?(?:旁边|边上|附近|跟前|边|旁))|里面?|内|那边|那里|那儿|这边|这里|处)?"
 )
-_IT = re.compile(r"(?:(?:over|up|close|next) to )?(?:it|that|them|him|her)|[它他她]们?(?:那[里儿边])?")
+_IT = re.compile(
+    r"(?:(?:over|up|close|next) to )?(?:it|that|them|him|her)|[它他她]们?(?:那[里儿边])?"
+)
 _DETERMINER = re.compile(r"^(?:(?:the|a|an|my|our|your) )+")
 _ZH_TAIL = re.compile(r"(?:里面?|内|那边|那里|那儿|这边|这里|旁边|附近|跟前)$")
 
