@@ -106,6 +106,10 @@ _CORRECTION_ZH = re.compile(
     r"|(?:不对|不是?|错了)[,。!！]+在(?P<h>.{1,8})"
     r"|我(?:说|指|要)的(?:是|可是)(?P<c>.{1,12}?)(?:[,]?不是.{1,12})?"
 )
+_SORRY_ZH = re.compile(
+    r"^(?:[哦噢喔啊哎呀诶欸唉嗯呃]+[,。!！]*)?(?:(?:真的?|很|实在)?(?:不好意思|抱歉|对不起)(?:了|啊|呀|哈|哦)?[,。!！]*)+"
+)
+"""An apology before a correction; alone, or before a plain order, it takes nothing back."""
 _LEAD_ZH = re.compile(r"^(?:我(?:说|要|指|想)的?(?:可)?是|我是说|应该是|而是|是)")
 _LEAD = re.compile(rf"^(?:{_MEANT}) ")
 
@@ -133,7 +137,8 @@ def read_follow_up(text: str) -> FollowUp | None:
 
 
 def _correction(plain: str, *, chinese: bool) -> Replace | None:
-    found = (_CORRECTION_ZH if chinese else _CORRECTION).fullmatch(plain)
+    said = _SORRY_ZH.sub("", plain) if chinese else plain
+    found = (_CORRECTION_ZH if chinese else _CORRECTION).fullmatch(said)
     if found is None:
         return None
     rest = next(text for text in found.groups() if text is not None)

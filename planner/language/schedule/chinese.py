@@ -57,6 +57,7 @@ _WEEKLY = re.compile(
 )
 _HOURLY = re.compile(r"每(?:隔)?(?:一)?(?P<half>半)?个?(?:小时|钟头)(?:一次)?")
 _EVERY_SO = re.compile(rf"每(?:隔|过)?{ZH_DURATION}(?:一次)?")
+_EVERY_ONE = re.compile(r"每(?:(?P<minute>分)钟?|秒钟?)")
 _ONE_DAY = re.compile(
     rf"(?P<day>今天|今日|明天|明日|后天|今晚|今夜|明晚|今早|明早)|(?:下个?|这个?|本)?{_WEEK}(?P<week>{_DAY})"
 )
@@ -188,6 +189,7 @@ PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]]
     (_IN, _in),
     (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
     (_EVERY_SO, _interval),
+    (_EVERY_ONE, lambda found: (Interval(60.0 if found["minute"] else 1.0),)),
     (_WEEKLY, _weekly),
     (_EVERY, _every),
     (_ONE_DAY, _one_day),

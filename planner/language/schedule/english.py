@@ -83,6 +83,11 @@ _WEEKDAYS = re.compile(
 )
 _HOURLY = re.compile(rf"(?:(?:every|each) (?P<half>half )?(?:an )?hour|hourly){_END}")
 _EVERY_SO = re.compile(rf"every {EN_DURATION}{_END}")
+_EVERY_ONE = re.compile(
+    r"(?:every|each)(?: single)? (?:(?P<minute>minute)|second(?=,|[.!]?$| (?:go|say|drive|look|come|turn)\b))"
+    rf"{_END}"
+)
+"""Without a number; "every second day" is another thing."""
 _ONE_DAY = re.compile(
     rf"(?:(?P<today>today|this)|(?P<tonight>tonight)|(?P<after>the day after tomorrow)"
     rf"|(?P<tomorrow>tomorrow)|(?:on |next |this |coming )?(?P<day>{_DAY}))(?: (?P<part>{_PART}))?{_END}"
@@ -247,6 +252,7 @@ PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]]
     *((pattern, _event(event)) for pattern, event in _UPON),
     (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
     (_EVERY_SO, _interval),
+    (_EVERY_ONE, lambda found: (Interval(60.0 if found["minute"] else 1.0),)),
     (_EVERY, _every),
     (_WEEKDAYS, _weekdays),
     (_IN_THE, lambda found: (DayPart(found["a"] or found["b"]),)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,17 +13,24 @@ from starlette.testclient import TestClient
 from planner.api import Access
 from planner.orders.order import MAX_ORDERS
 from planner.plan import QuietHours
+from planner.plan.timing import CronRule
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import BASE, client_of
 from tests.planner.orders.fakes import NOON_UNIX_S, FakeMissions, MovedClocks, standing_orders
 
+DAY_BEFORE_SUMMER_UNIX_S = 1_806_145_200.0
+"""2027-03-27 12:00 in Berlin: at 02:00 of the next night clocks go on to 03:00."""
 VIEWER = {"Authorization": "Bearer viewer-token-viewer"}
 
 
 @pytest.fixture
-def services(tmp_path: Path) -> FakeServices:
+def clock() -> MovedClocks:
+    return MovedClocks()
+
+
+@pytest.fixture
+def services(tmp_path: Path, clock: MovedClocks) -> FakeServices:
     made = FakeServices()
-    clock = MovedClocks()
     quiet = QuietHours(22 * 60, 7 * 60)
     made.orders = standing_orders(tmp_path, clock, FakeMissions(clock, "two_room"), quiet)
     return made
@@ -109,6 +117,15 @@ def test_a_reminder_may_be_given_apart(client: TestClient) -> None:
         ({"text": "go to the moon", "when": {"in_s": 60}}, 422, "order_unclear"),
         ({"text": "fly", "when": {"in_s": 60}}, 422, "order_unclear"),
         ({"text": "stop", "when": {"in_s": 60}}, 422, "order_stops"),
+        ({"text": "今天九点去厨房"}, 422, "order_in_past"),
+        ({"text": "every second go to the kitchen"}, 422, "order_too_often"),
+        ({"text": "every minute go to the kitchen"}, 422, "order_too_often"),
+        ({"text": "每秒去厨房"}, 422, "order_too_often"),
+        ({"text": "每分钟去厨房"}, 422, "order_too_often"),
+        ({"text": "每10秒去厨房"}, 422, "order_too_often"),
+        ({"text": "every 10 seconds go to the kitchen"}, 422, "order_too_often"),
+        ({"text": "每天，每小时去厨房"}, 422, "order_nested"),
+        ({"text": "停", "when": {"in_s": 60}}, 422, "order_stops"),
         ({"text": "pause for now", "when": {"in_s": 60}}, 422, "order_is_command"),
         ({"text": "yes", "when": {"in_s": 60}}, 422, "order_is_command"),
         ({"text": "go to the kitchen", "when": {}}, 422, "invalid_request"),
@@ -135,16 +152,37 @@ def test_what_can_not_be_kept_is_refused_with_a_code(
 def test_no_more_orders_are_kept_than_a_page_can_show(
     client: TestClient, services: FakeServices
 ) -> None:
-    for number in range(MAX_ORDERS + 3):
-        services.orders.keeper.clocks  # noqa: B018  # each from its own second
-        answer = client.post(
-            "/v1/orders",
-            json={"text": "say hello", "when": {"cron": f"{number % 60} {8 + number // 60} * * *"}},
-            headers={},
-        )
-        if answer.status_code == 429:
-            break
-    assert len(services.orders.keeper.book.orders) <= MAX_ORDERS
+    keeper, portal = services.orders.keeper, client.portal
+    assert portal is not None
+    first = give(client, text="say hello", when={"cron": "0 8 * * *"})
+    (kept,) = keeper.book.orders.values()
+    for number in range(2, MAX_ORDERS + 1):  # not by HTTP: requests have a rate
+        rule = CronRule(cron=f"{number % 60} {9 + number // 60} * * *")
+        order = kept.model_copy(update={"id": f"o{number}", "number": number, "rule": rule})
+        portal.call(partial(keeper.keep, order, new=True))
+    answers = [
+        give(client, text=text, when={"cron": "0 20 * * *"}) for text in ("say hello", "去厨房")
+    ]
+    assert first.status_code == 201
+    for full in answers:
+        assert full.json()["code"] == "orders_full", full.text
+        assert full.json()["message"]["en"] != full.json()["message"]["zh"]
+    assert len(services.orders.keeper.book.orders) == MAX_ORDERS
+
+
+@pytest.mark.parametrize(
+    "text", ["tomorrow at 2:30 say hello", "明天凌晨两点半说你好", "明天2点30分说你好"]
+)
+def test_a_time_that_tomorrow_skips_is_refused(
+    services: FakeServices, client: TestClient, clock: MovedClocks, text: str
+) -> None:
+    clock.unix_s = DAY_BEFORE_SUMMER_UNIX_S
+    answer = give(client, text=text)
+    assert (answer.status_code, answer.json()["code"]) == (422, "order_time_unknown"), answer.text
+    told = answer.json()["message"]
+    assert "02:30" in told["en"]
+    assert "02:30" in told["zh"]
+    assert services.orders.keeper.book.orders == {}
 
 
 @pytest.mark.parametrize("order_id", ["o9", "o999999"])

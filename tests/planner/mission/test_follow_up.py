@@ -43,6 +43,8 @@ MEANINGS = (
     (BEDROOM, "not the bedroom, the study", "go to the study"),
     (BEDROOM, "sorry, I meant the kitchen", "go to the kitchen"),
     (BEDROOM, "不对，书房", "go to the study"),
+    (BEDROOM, "哦不好意思，我说的是书房", "go to the study"),
+    (BEDROOM, "对不起，不对，去书房", "去书房"),
     (BEDROOM, "and then the kitchen too", "go to the kitchen"),
     (BEDROOM, "the kitchen as well", "go to the kitchen"),
     (BEDROOM, "and then come back", "come back"),
@@ -104,6 +106,9 @@ def test_what_was_long_ago_is_not_meant(text: str) -> None:
         "me too",
         "不，我很好",
         "不是的",
+        "不好意思",
+        "不好意思，我很好",
+        "不好意思，去书房",
         "say hello again",
         "go to the kitchen; if you can't get in, wait in the hallway instead",
         "if the door is open, go to the study instead",
@@ -121,6 +126,7 @@ def test_what_is_no_correction_takes_nothing_back(text: str) -> None:
 
 @pytest.mark.parametrize(("text", "ends"), [
     ("no, I meant the study", True), ("不对，书房", True), ("forget that, go home", True),
+    ("哦不好意思，我说的是书房", True),
     ("and then the kitchen too", False), ("again", False), ("还有厨房", False),
 ])  # fmt: skip
 def test_a_correction_ends_what_runs_and_an_addition_waits_for_it(text: str, ends: bool) -> None:
