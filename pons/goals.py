@@ -122,6 +122,9 @@ def act(settings: LaunchSettings, verb: str, goal_id: str | None) -> int:
         print(str(trouble), file=sys.stderr)
         return EXIT_UNREACHED
     print(goal_line(goal))
+    if verb == "resume" and goal["state"] == "paused":  # a latched or unpowered robot keeps it so
+        print("still_paused: `pons why` says what is to be done first", file=sys.stderr)
+        return EXIT["refused"]
     return 0
 
 

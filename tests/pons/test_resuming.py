@@ -83,3 +83,13 @@ def test_no_other_order_is_given_a_proof(held: Held, verb: str) -> None:
     keep_key(settings)
     assert goals.act(settings, verb, "g1") == goals.EXIT_UNREACHED
     assert planner.heard == [(f"/v1/goals/g1/{verb}", {})]
+
+
+def test_a_goal_that_a_latched_robot_keeps_paused_is_told_with_the_way_on(
+    held: Held, capsys: pytest.CaptureFixture[str]
+) -> None:
+    planner, settings, _ = held
+    keep_key(settings)
+    planner.done = "paused"
+    assert goals.act(settings, "resume", "g1") == goals.EXIT["refused"]
+    assert "pons why" in capsys.readouterr().err
