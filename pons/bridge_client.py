@@ -97,6 +97,20 @@ def ask_direct(settings: LaunchSettings, kind: OpKind) -> Answer:
         return _until_answered(settings, lambda: mouth.put(request), ears, request_id, kind)
 
 
+def resume_request(settings: LaunchSettings) -> OpRequest:
+    """Return a resume with the operator's proof, for a planner to relay with a goal's order.
+
+    Raises:
+        NoBridge, ConfigError: as ``ask_direct``.
+    """
+    robot_id = load_robot(settings.robot).id
+    with open_session(Party.OPERATOR, robot_id, settings.home) as session:
+        status = _first_status(settings, session.subscriber_to_any_robot(STATUS), robot_id)
+        _believe(settings)  # before a proof is made: whoever has it may use it once
+        key = load_operator_key(settings.home, virtual=status.drive.virtual)
+        return signed_request(key, "resume", status, "cli", f"cli-{secrets.token_hex(6)}")
+
+
 def fence_direct(settings: LaunchSettings, text: str) -> Answer:
     """Ask the bridge itself to put a fence in force, with a proof that binds this text.
 

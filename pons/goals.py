@@ -102,22 +102,73 @@ def language_of(text: str) -> str:
 def act(settings: LaunchSettings, verb: str, goal_id: str | None) -> int:
     """Cancel, pause or resume a goal: the named one, else the one that it must mean.
 
-    Without a planner there is no goal, but another brain, which a person may let go on.
+    Where no goal is paused, a resume clears what holds the robot; so it does without a planner,
+    when another brain drives, which a person may let go on.
     """
     try:
         chosen = goal_id or _meant_goal(settings, verb)
         if chosen is None:
+            if verb == "resume" and _is_held(settings):
+                return _ask_bridge(settings)
             print(f"no_goal: there is nothing to {verb}", file=sys.stderr)
             return 1
-        goal = call(settings, "POST", f"/v1/goals/{chosen}/{verb}", {})
+        act_on = _resume if verb == "resume" else _post
+        goal = act_on(settings, f"/v1/goals/{chosen}/{verb}")
     except (PlannerDown, PlannerProblem) as trouble:
         if verb == "resume" and goal_id is None and isinstance(trouble, PlannerDown):
-            from pons import operator
-
-            return operator.ask(settings, "resume")
+            return _ask_bridge(settings)
         return _trouble(trouble)
+    except _NoProof as trouble:
+        print(str(trouble), file=sys.stderr)
+        return EXIT_UNREACHED
     print(goal_line(goal))
+    if verb == "resume" and goal["state"] == "paused":  # a latched or unpowered robot keeps it so
+        print("still_paused: `pons why` says what is to be done first", file=sys.stderr)
+        return EXIT["refused"]
     return 0
+
+
+class _NoProof(Exception):
+    """This user can't prove to be the operator: no key that counts, or no bridge to sign for."""
+
+
+def _post(settings: LaunchSettings, path: str) -> dict[str, Any]:
+    answer: dict[str, Any] = call(settings, "POST", path, {})
+    return answer
+
+
+def _resume(settings: LaunchSettings, path: str) -> dict[str, Any]:
+    """Resume a goal; of a held robot of metal, with a proof that the planner can't make.
+
+    Raises:
+        PlannerDown, PlannerProblem: as ``call``.
+        _NoProof: a proof is needed, and can't be made here.
+    """
+    try:
+        return _post(settings, path)
+    except PlannerProblem as refused:
+        if refused.code != "operator_proof_needed":
+            raise
+    from pons.bridge_client import NoBridge, resume_request
+    from wire import ConfigError
+
+    try:
+        request = resume_request(settings)
+    except (NoBridge, ConfigError) as trouble:
+        raise _NoProof(str(trouble)) from None
+    proof = request.model_dump(mode="json", include={"id", "proof"})
+    answer: dict[str, Any] = call(settings, "POST", path, {"operator": proof})
+    return answer
+
+
+def _is_held(settings: LaunchSettings) -> bool:
+    return bool((call(settings, "GET", "/v1/robot").get("status") or {}).get("held"))
+
+
+def _ask_bridge(settings: LaunchSettings) -> int:
+    from pons import operator
+
+    return operator.ask(settings, "resume")
 
 
 _MEANT = {

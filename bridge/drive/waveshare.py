@@ -43,6 +43,11 @@ _DIGITS = 4
 _SLIP_M = 0.03
 """Two whole centimetres may hide three."""
 _OLDEST_S = 0.25
+_SURGE_MPS2 = 3.0
+"""A wheel of this weight class gains less, but for one that is lifted or hits something."""
+_SURGE_SLACK_MPS = 0.15
+_SURGE_S = 0.1
+"""Two reports' time. After a longer gap a speed is not more likely to be true."""
 _TROUBLE = {
     "base_no_encoders": "it reports no way of its wheels (odl, odr): a WAVE ROVER or a board with "
     "ugv_base_general has no encoders, and Pons drives nothing that it can't measure",
@@ -86,9 +91,10 @@ class _KnownBase:
     sent: deque[tuple[str, float, float]] = field(default_factory=lambda: deque(maxlen=KEPT))
     """Tags with the speeds that went with them."""
     heard_s: float | None = None
-    ways: tuple[int, int] | None = None
-    odd: tuple[int, int] | None = None
-    """Ways that no wheel can have come; believed if the next report agrees."""
+    last: UgvReport | None = None
+    """The newest that was believed."""
+    odd: UgvReport | None = None
+    """One that no wheel can have come to from there; believed if the next report agrees."""
     left: BoundedPath = field(default_factory=BoundedPath)
     right: BoundedPath = field(default_factory=BoundedPath)
     echo_boot: str | None = None
@@ -187,7 +193,7 @@ class WaveshareProtocol:
         if heard_s is not None and now_s - heard_s > SILENT_S:
             self._note_start(f"it was silent for {now_s - heard_s:.1f} s")
             self._base.heard_s = now_s
-        if not self._follows(report.ways_cm, now_s - (heard_s or now_s)):
+        if not self._follows(report, now_s - (heard_s or now_s)):
             return None
         if not self._base.is_set:
             self._base.waited += 1
@@ -197,18 +203,23 @@ class WaveshareProtocol:
         self._say(None)
         return report.ways_cm
 
-    def _follows(self, ways: tuple[int, int], dt_s: float) -> bool:
-        """Tell whether wheels can have come so far; a jump that lasts is a base that began anew."""
-        last, odd = self._base.ways, self._base.odd
-        most_cm = 100.0 * (2 * waveshare.FASTEST_MPS * dt_s + _SLIP_M)
-        if last is None or _near(ways, last, most_cm):
-            self._base.ways, self._base.odd = ways, None
+    def _follows(self, report: UgvReport, dt_s: float) -> bool:
+        """Tell whether wheels can have come to this; what lasts is true, however odd.
+
+        Lines have no checksum: a flipped bit makes 2.3 m/s of 0.3. A jump of the ways that lasts is
+        a base that began anew, one of the speeds a wheel that was lifted, hit something or runs
+        away, which is so told one report later, and by ENC_STALE before where reports are lost.
+        """
+        last, odd = self._base.last, self._base.odd
+        if last is None or _can_follow(last, report, dt_s):
+            self._base.last, self._base.odd = report, None
             return True
-        if odd is None or not _near(ways, odd, most_cm):
-            self._base.odd = ways
+        if odd is None or not _can_follow(odd, report, dt_s):
+            self._base.odd = report
             return False
-        self._note_start(f"its ways jumped from {last} to {ways} cm")
-        self._base.ways = ways
+        if not _is_near_way(last, report, dt_s):
+            self._note_start(f"its ways jumped from {last.ways_cm} to {report.ways_cm} cm")
+        self._base.last, self._base.odd = report, None
         return True
 
     def _state(self, report: UgvReport, ways_cm: tuple[int, int], now_s: float) -> DriveState:
@@ -272,5 +283,16 @@ class WaveshareProtocol:
         self._trouble = code
 
 
-def _near(a: tuple[int, int], b: tuple[int, int], most_cm: float) -> bool:
-    return abs(a[0] - b[0]) <= most_cm and abs(a[1] - b[1]) <= most_cm
+def _can_follow(before: UgvReport, after: UgvReport, dt_s: float) -> bool:
+    most_mps = _SURGE_SLACK_MPS + _SURGE_MPS2 * min(max(dt_s, 0.0), _SURGE_S)
+    return (
+        _is_near_way(before, after, dt_s)
+        and abs(after.left_mps - before.left_mps) <= most_mps
+        and abs(after.right_mps - before.right_mps) <= most_mps
+    )
+
+
+def _is_near_way(before: UgvReport, after: UgvReport, dt_s: float) -> bool:
+    most_cm = 100.0 * (2 * waveshare.FASTEST_MPS * dt_s + _SLIP_M)
+    pairs = zip(before.ways_cm or (), after.ways_cm or (), strict=True)
+    return all(abs(one - other) <= most_cm for one, other in pairs)

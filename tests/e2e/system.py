@@ -27,7 +27,9 @@ ROOT = Path(__file__).resolve().parents[2]
 TWO_ROOM = ROOT / "sites" / "two_room"
 HOME_SITE = ROOT / "sites" / "home"
 CHILDREN = ("sim", "localization", "bridge", "planner", "sim.camera")
-START_LIMIT_S = 40.0
+START_LIMIT_S = 80.0
+"""Alone on two cores a robot is up in 3 s, three that start at once in 11 s; beside a gate's other
+work that was more than 40 s, and a story told again costs more than waiting."""
 GONE_LIMIT_S = 10.0
 ENDED = ("succeeded", "failed", "refused", "cancelled")
 

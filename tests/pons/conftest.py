@@ -1,15 +1,18 @@
-"""One drive through both rooms, for all that makes or mends a map of it."""
+"""A planner of goals; one drive through both rooms, for all that makes or mends a map of it."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from pons.settings import LaunchSettings
+from pons.settings import LaunchSettings, load
 from pons_assets import ROBOT_FILE
 from tests.bridge.recorded import Taken, stream_of, written
 from tests.pons.drives import Drive, keep_ticks
+from tests.pons.served_goals import Planner, served_goals
 from tools.lockstep import LockstepWorld
 
 
@@ -18,6 +21,13 @@ def settings(tmp_path: Path) -> LaunchSettings:
     return LaunchSettings(
         home=tmp_path / "home", robot=ROBOT_FILE, site=tmp_path, host="127.0.0.1", port=1
     )
+
+
+@pytest.fixture
+def served() -> Iterator[tuple[Planner, LaunchSettings]]:
+    planner = Planner()
+    with served_goals(planner) as port:
+        yield planner, replace(load(), host="127.0.0.1", port=port)
 
 
 @pytest.fixture(scope="session")

@@ -18,17 +18,23 @@ PERIOD_S = 0.02
 class StandingBridge(threading.Thread):
     """Accept every request of one robot and keep what was asked, until closed."""
 
-    def __init__(self, home: Path, robot_id: str) -> None:
+    def __init__(self, home: Path, robot_id: str, *, virtual: bool = True) -> None:
         super().__init__(daemon=True)
         self._session = open_session(Party.BRIDGE, robot_id, home)
         self._ears = {key.path: self._session.subscriber(key) for key in (STOP, *OPS)}
         self._mouth = self._session.publisher(STATUS)
         example = EXAMPLES[Status]
         assert isinstance(example, Status)
-        self._status = example.model_copy(update={"robot": robot_id, "answers": ()})
+        drive = example.drive.model_copy(update={"virtual": virtual})
+        self._status = example.model_copy(update={"robot": robot_id, "answers": (), "drive": drive})
         self._over = threading.Event()
         self.asked: list[str] = []
         """The path of each request, once for each id."""
+
+    @property
+    def nonce(self) -> str:
+        """Return what proofs are made for."""
+        return self._status.nonce
 
     def run(self) -> None:
         answers: dict[str, Answer] = {}

@@ -189,8 +189,7 @@ class BenchRobot:
     def end_bridge(self) -> dict[str, Any]:
         """End the tapped bridge and return what it noted."""
         self.children["bridge"].stop(PATIENCE_S)
-        noted: dict[str, Any] = json.loads((self.settings.home / "tap.json").read_text("utf-8"))
-        return noted
+        return read_tap(self.settings.home)
 
     def describe(self) -> str:
         """Say in a line what the bridge said last."""
@@ -219,6 +218,12 @@ class BenchRobot:
         if not self._is_mode(Mode.HOLD):
             self.operate("arm")
         return self._is_mode(Mode.HOLD)
+
+
+def read_tap(home: Path) -> dict[str, Any]:
+    """Return what the tapped bridge of a home noted by its end."""
+    noted: dict[str, Any] = json.loads((home / "tap.json").read_text("utf-8"))
+    return noted
 
 
 def write_description(home: Path, limits: Mapping[str, float]) -> Path:

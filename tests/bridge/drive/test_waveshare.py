@@ -163,6 +163,37 @@ def test_a_spoilt_way_is_left_out_and_a_lasting_one_is_a_reset(
     assert after.echo_boot is None
 
 
+@pytest.mark.parametrize("spoilt", [{"L": 2.1}, {"R": 0.7}, {"L": -0.7}, {"L": 3.1, "R": 3.2}])
+@pytest.mark.parametrize("gap_s", [0.05, 1.0], ids=str)
+def test_a_spoilt_speed_is_left_out(spoilt: dict[str, float], gap_s: float) -> None:
+    protocol = begun()
+    for k in range(3):
+        one(protocol, report(k), 1.0 + 0.05 * k)
+    at_s = 1.1 + gap_s
+    assert protocol.decode(report(3, **spoilt), at_s) == []
+    assert one(protocol, report(4), at_s + 0.05).left_radps == pytest.approx(2.5)
+
+
+def test_a_wheel_that_runs_away_is_told_one_report_later_and_is_no_reset(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    protocol = begun()
+    boot = one(protocol, report(0), 1.0).boot_id
+    assert protocol.decode(report(4, L=1.3), 1.05) == []
+    state = one(protocol, report(10, L=1.4), 1.1)
+    assert state.left_radps == pytest.approx(35.0)
+    assert state.boot_id == boot
+    assert one(protocol, report(17, L=1.4), 1.15).left_radps == pytest.approx(35.0)
+    assert "base_reset" not in caplog.text
+
+
+def test_a_wheel_that_speeds_up_as_wheels_do_is_told_at_once() -> None:
+    protocol = begun()
+    for k in range(9):  # 5 m/s2, as no base of this class
+        mps = round(0.25 * k, 3)
+        one(protocol, report(k, L=mps, R=mps), 1.0 + 0.05 * k)
+
+
 @pytest.mark.parametrize("said", [b"UGV started.\r\n", b"Device connected!\r\n"])
 def test_a_base_that_says_it_starts_is_reset(said: bytes, caplog: pytest.LogCaptureFixture) -> None:
     protocol = begun()
