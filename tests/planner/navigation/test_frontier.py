@@ -28,13 +28,14 @@ from planner.navigation.start_and_goal import Cell
 from planner.site import Site
 from tests.planner.navigation.floors import drawn
 from wire import Pose2
+from wire.fence import Outline
 
 MARKS = {"#": OCCUPIED, ".": FREE, "?": UNKNOWN}
 
 
-def sketched(*rows: str, square_m: float = 0.25) -> Site:
+def sketched(*rows: str, square_m: float = 0.25, keep_outs: tuple[Outline, ...] = ()) -> Site:
     """Make a site from rows of '#', '.' and '?', the first row at the top."""
-    site, per = drawn(*rows, square_m=square_m), round(square_m / 0.05)
+    site, per = drawn(*rows, square_m=square_m, keep_outs=keep_outs), round(square_m / 0.05)
     cells = b"".join(
         bytes(MARKS[mark] for mark in row for _ in range(per)) * per for row in reversed(rows)
     )
@@ -73,6 +74,15 @@ def test_an_open_door_is_looked_through_and_not_driven_through() -> None:
     assert not found.floor.explored
     end = found.points[-1]
     assert end.x_m < 2.25, "on this side of the door"
+
+
+def test_to_a_frontier_behind_a_fence_there_is_no_way() -> None:
+    corridor = ("#" * 40, *["." * 28 + "?" * 12] * 6, "#" * 40)
+    across: Outline = ((3.0, -0.5), (3.5, -0.5), (3.5, 2.5), (3.0, 2.5))
+    free, fenced = sketched(*corridor), sketched(*corridor, keep_outs=(across,))
+    assert explore(free, 0.75, 1.0).points[-1].x_m > 3.5
+    with pytest.raises(RouteFailure, match="no_route"):
+        explore(fenced, 0.75, 1.0)
 
 
 def test_who_stands_in_the_door_does_not_make_what_lies_behind_it_explored() -> None:
