@@ -66,7 +66,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     """Take rounds of all drives; then send each one's commands through a pseudo-terminal."""
     count = lab.count(2, ROUNDS)
     rounds = list(lab.slices("round", count, lambda index: take_round(lab, index)))
-    rows = _tick_rows(rounds)
+    rows = tick_rows(rounds)
     for kind in MESSAGES:
         runs = lab.slices(f"bytes.{kind}", 1, partial(_bytes_slice, kind))
         taken_ms = [one for run in runs for one in run]
@@ -117,7 +117,7 @@ def _processes(home: Path, kind: str) -> RobotProcesses:
     return RobotProcesses(settings, names, modules={"bridge": TAPPED}, arguments=more)
 
 
-def _tick_rows(rounds: list[dict[str, list[float]]]) -> list[ReportRow]:
+def tick_rows(rounds: list[dict[str, list[float]]]) -> list[ReportRow]:
     """Set each drive beside the simulated one of the same round.
 
     A drive may be later by no more than the simulated one differs from slice to slice.
