@@ -19,9 +19,9 @@ MIN_END_GAP_M = 0.01
 WAY_OUT_SPEED_MPS = 0.20
 """Where a robot begins nearer to something than its margin, until it is out."""
 TIGHT_SPEED_MPS = 0.30
-"""Where the disc just fits; a door of 0.90 m is passed at about 0.36 m/s. The bridge stops from
-that in 0.15 m, whatever stands behind the door."""
-ROOMY_M = 0.25
+"""Where the disc just fits; a door of 0.90 m is passed at about 0.34 m/s. The bridge stops from
+that in 0.14 m, whatever stands behind the door."""
+ROOMY_M = 0.35
 """With this much between disc and wall the robot may go as fast as it can."""
 SLOWING_MPS2 = 0.5
 """Ahead of a slow point; gentler than any stop, so that the limiter need not act."""
