@@ -13,7 +13,7 @@ from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.checks import without_compounds
 from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
-from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY
+from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, lexicon_of
@@ -27,11 +27,12 @@ _NAMED = re.compile(rf"[^{HAN}]{{0,8}}{MARK}[呢吗么]?[?]+")
 
 
 def without_sending(text: str) -> str:
-    """Return "how many chairs are there, go and count" without its end, which Chinese says so."""
-    if not has_chinese(text):
-        return text
+    """Return "how many chairs are there, go and count" without its end, which Chinese says so.
+
+    Likewise one turn that is told twice: "turn round and face the other way".
+    """
     said = normalise(text)
-    plain = rewrite(said, ASKED_AND_SENT)
+    plain = rewrite(said, ASKED_AND_SENT if has_chinese(text) else TOLD_TWICE)
     return text if plain == rewrite(said, ()) else plain
 
 

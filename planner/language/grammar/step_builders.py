@@ -157,6 +157,13 @@ def guide(words: str, start: str | None, end: str | None, reading: Reading) -> M
     return Steps((*found.steps, Say(text=come), GoTo(place=to)), person=found.person)
 
 
+_ANYTHING = re.compile(
+    r"(?:(?:the|my|our|that|this) )?"
+    r"(?:things?|thing(?:y|ie|ies)|thingumm?[a-z]*|stuff|whatsit|doodah)|[那这]?个?东西"
+)
+"""Whoever says no more of a thing has to be asked which."""
+
+
 def find(words: str, where: str | None, reading: Reading) -> Meaning:
     """Go to a place and look for a thing there; for a place, go there."""
     if re.fullmatch(rf"(?:(?:the|my|our) )?{MARK}", words) and where is None:
@@ -168,7 +175,7 @@ def find(words: str, where: str | None, reading: Reading) -> Meaning:
         thing = reading.scene.thing or reading.scene.person
     else:
         thing = label_of(words, reading)
-    if not thing:
+    if not thing or _ANYTHING.fullmatch(thing):
         return missing(WHO, words, reading)
     if _DONE.search(thing) or ASIDE.search(thing):
         return replace(reading.problem(Code.NOT_UNDERSTOOD, words), places=())

@@ -70,6 +70,14 @@ COURTESY = table(
 )  # fmt: skip
 """Conditions that are none."""
 
+TOLD_TWICE = table(
+    (r"\bturn (?:yourself )?(?:a?round|about)[, ]+(?:and |so (?:that )?you (?:are |can )?)?fac(?:e|ing)"
+     r" (?:the other way|away)\b", "turn around"),
+    (r"\bface the other way[, ]+(?:so |that is |i\.e\. |and )?(?:turn )?(?:a?round )?(?:by )?"
+     r"(?:180|one hundred and eighty) degrees\b", "turn around"),
+)  # fmt: skip
+"""One turn in two clauses: read as two, the robot would stand as it stood."""
+
 ENGLISH_EVERYDAY = table(
     *((rf"\b(?:{chat})\b", plain) for chat, plain in (
         ("u(?! turn)", "you"), ("ur(?= (?:way|self))", "your"), ("plz|pls|pleas|plse", "please"),

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from planner.language.grammar import Context, plan
 from planner.language.grammar.plain_words import held_back, in_plain_words
 from planner.language.grammar.sentence_text import normalise, refuse_bad_text
-from planner.plan import EVERY_KIND, Clarify, Patrol, Refuse, Say, StepPlan, Vocabulary
+from planner.plan import EVERY_KIND, Clarify, Code, Patrol, Refuse, Say, StepPlan, Vocabulary
 from tests.planner.language.laws.test_grammar_laws import HOME
 
 WHOLE = Context(runnable=EVERY_KIND)
@@ -201,3 +201,27 @@ def test_plainer_words_are_made_of_any_text_without_an_error(text: str) -> None:
         return  # refused before
     assert in_plain_words(text, HOME) != ""
     assert in_plain_words(text, Vocabulary(entries=HOME.entries[:1])) != ""
+
+
+@pytest.mark.parametrize(
+    ("text", "turns"),
+    [
+        ("turn round and face the other way", 1),
+        ("drive to the sofa and face the other way, so turn by 180 degrees", 1),
+        ("往右边转,转九十度", 1),
+        ("turn around, then turn around again", 2),
+    ],
+)
+def test_one_turn_that_is_told_twice_is_one(text: str, turns: int) -> None:
+    made = plan(text, HOME, WHOLE)
+    assert isinstance(made, StepPlan)
+    assert [step.kind for step in made.steps].count("turn") == turns
+
+
+@pytest.mark.parametrize(
+    "text", ["find my thingy", "find the thing in the kitchen", "帮我找一下那个东西"]
+)
+def test_who_says_no_more_of_a_thing_is_asked_which(text: str) -> None:
+    made = plan(text, HOME, WHOLE)
+    assert isinstance(made, Clarify)
+    assert made.code is Code.INCOMPLETE
