@@ -155,6 +155,12 @@ PAST_ENGLISH: tuple[Rule, ...] = (
     rule(rf"(?:{_TELLS} (?:if|whether) )?(?:have|had) (?:you|we) (?!seen\b).*", _no_order),
     rule(rf"(?:{_TELLS} (?:if|whether) )?(?:have|had) (?:you|we) seen .*{MARK}.*", _no_order),
     rule(rf"{_TELLS} (?:if|whether) you (?:have |had )?{_DONE}\b.*", _no_order),
+    rule(
+        r"who (?:has |have |had )?(?:left|put|took|taken|moved|broken?|ate|eaten|used|made|did|done"
+        r"|drank|drunk|spil(?:t|led)|dropped|turned|switched|opened|closed|shut|locked"
+        r"|forgot(?:ten)?|stole|hid)\b.*",
+        _no_order,  # what was done is not to be seen
+    ),
 )
 
 PAST_CHINESE: tuple[Rule, ...] = (

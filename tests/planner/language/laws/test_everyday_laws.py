@@ -225,3 +225,8 @@ def test_who_says_no_more_of_a_thing_is_asked_which(text: str) -> None:
     made = plan(text, HOME, WHOLE)
     assert isinstance(made, Clarify)
     assert made.code is Code.INCOMPLETE
+
+
+@pytest.mark.parametrize("text", ["who left the cup on the sofa?", "who has moved the chair?"])
+def test_who_did_something_is_nothing_to_go_and_see(text: str) -> None:
+    assert not isinstance(plan(text, HOME, WHOLE), StepPlan)
