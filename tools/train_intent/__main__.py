@@ -17,9 +17,10 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
+from planner.language.grammar.guessed_order import NONE
 from planner.language.intent.features import sentence_features, unit_features
 from planner.language.intent.intent_model import MODEL, VERSION
-from tools.train_intent.generator import NONE, Example, draw, intents
+from tools.train_intent.generator import Example, draw, intents
 from tools.train_intent.network import EMBEDDED, HIDDEN, IntentNetwork
 
 HELD = 0.25

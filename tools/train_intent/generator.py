@@ -12,12 +12,12 @@ from functools import cache
 from pathlib import Path
 from random import Random
 
+from planner.language.grammar.guessed_order import NONE
 from planner.language.grammar.sentence_text import normalise
 from planner.language.intent.features import units_of
 
 PHRASES = Path(__file__).parent / "phrases"
 LANGUAGES = ("en", "zh")
-NONE = "none"
 NONE_SHARE = 0.35
 _PLACES = {"{p}": "\ue000", "{q}": "\ue001"}
 

@@ -61,15 +61,12 @@ class IntentModel:
         top = max(scores)
         best = scores.index(top)
         share = 1.0 / sum(exp(score - top) for score in scores)
-        return Guess(self.intents[best], share, tuple(map(self._names_thing, _places(units))))
+        things = tuple(self._names_thing(units, at) for at in range(len(units)))
+        return Guess(self.intents[best], share, things)
 
-    def _names_thing(self, at: tuple[Sequence[str], int]) -> bool:
-        total = sum(self.tags[bucket] for bucket in unit_features(*at))
+    def _names_thing(self, units: Sequence[str], at: int) -> bool:
+        total = sum(self.tags[bucket] for bucket in unit_features(units, at))
         return total * self.tag_scale + self.tag_bias > 0.0
-
-
-def _places(units: Sequence[str]) -> list[tuple[Sequence[str], int]]:
-    return [(units, at) for at in range(len(units))]
 
 
 def _weigh(row: Sequence[float], values: Sequence[float]) -> float:
