@@ -10,31 +10,33 @@ Laws, which the bridge's rows rely on:
   whether the map agrees, and falls with time and metres since the last scan that did.
 - No good message displaces the robot without a poor one before it (localization.jump_law).
 - A search's or a person's word counts only once a scan after it fits too.
+- Scans that odometry explains move the pose by what they tell beyond it (localization.pose_fusion).
 """
 
 from __future__ import annotations
 
 from enum import StrEnum
-from math import radians
+from math import hypot, radians
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from localization.correlative_search import WindowSearch
+from localization.correlative_search import WINDOW_M, WINDOW_RAD
 from localization.deskew import PointCloud, deskew, sweep_s
 from localization.global_search import Candidate, is_sure
 from localization.jump_law import JumpLaw
 from localization.localizer_status import bounded_score
 from localization.odometry_integration import OdometryTrail
-from localization.quality import ENOUGH_SCORE, quality_of, scores
+from localization.pose_fusion import PoseFusion, pose_array
+from localization.quality import ENOUGH_SCORE, KEPT_SCORE, quality_of
 from localization.relocation import OpenSearch, PlacedBase, SearchRequest
-from localization.scan_matching import align
+from localization.scan_fit import BETTER, ScanFitter
 from wire import HintVerdict, Localization, Pose2, PoseHint, between, compose, inverse
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
     from localization.distance_field import DistanceField
+    from localization.scan_fit import ScanFit
     from wire import HintCode, Odometry, Scan
     from wire.lidar_config import LidarConfig
 
@@ -42,14 +44,10 @@ if TYPE_CHECKING:
 
 FEW_RETURNS = 30
 """A scan with fewer says nothing: a cover, fog, an empty hall."""
-DOUBTED_SCORE = 0.8
-"""Below it the window around the pose is searched too; homes as mapped give 0.84 and more."""
-DOUBT_PAUSE_S = 0.5
-"""Between two such searches while the score is enough: among people it stays below for long."""
 TURNED_RAD = radians(6.0)
 """Since the last scan: beyond it Gauss-Newton alone may settle beside the truth."""
-BETTER = 0.05
-"""The window's pose counts where its score leads by so much."""
+ALIKE = 0.03
+"""Between the matched pose and odometry's, the fused one counts where its score lacks no more."""
 BAD_SCANS = 3
 OLDEST_S = 0.25
 """Odometry older than this carries no pose; the bridge calls 0.3 s POSE_LOST."""
@@ -77,10 +75,8 @@ class Localizer:
     """Hold one robot's pose in one map."""
 
     def __init__(self, field: DistanceField, lidar: LidarConfig, map_id: str) -> None:
-        self._field, self._lidar, self._map_id = field, lidar, map_id
-        self._lidar_m = (lidar.x_m, lidar.y_m)
-        self._window = WindowSearch.of_field(field)
-        self._window_s = -DOUBT_PAUSE_S
+        self._lidar, self._map_id = lidar, map_id
+        self._fitter = ScanFitter(field, (lidar.x_m, lidar.y_m))
         self._trail = OdometryTrail()
         self._odometry: Odometry | None = None
         self._scan: Scan | None = None
@@ -97,6 +93,9 @@ class Localizer:
         self._accepted_at = (0.0, 0.0, 0.0)
         """Stamp [s], metres of wheels and slip [rad] at the last accepted scan."""
         self._blind_axis_m = 0.0
+        self._fusion = PoseFusion()
+        self._spread_at = (0.0, 0.0)
+        """Metres of wheels and slip [rad] at the last scan that was fitted."""
         self._bad = 0
         self._open: OpenSearch | None = None
         self._searched_s = -SEARCH_PAUSE_S
@@ -144,17 +143,36 @@ class Localizer:
             return
         self._open = None
         self.candidates = candidates
+        best = candidates[0] if candidates else None
         if search.hint is not None:
             # A pose that scans confirm yields only to one that they confirm as well.
             least = self.score - BETTER if self.state is LocalizerState.TRACKING else ENOUGH_SCORE
-            fits = bool(candidates) and candidates[0].score >= max(ENOUGH_SCORE, least)
+            fits = best is not None and best.score >= max(ENOUGH_SCORE, least)
             if not fits:
-                self._answer_hint("does_not_fit", candidates[0].score if candidates else 0.0)
+                self._answer_hint("does_not_fit", best.score if best else 0.0)
         else:
-            fits = is_sure(candidates)
-        if fits:
-            placed = PlacedBase(Pose2(*candidates[0].pose), search.carried)
+            known = self._where_it_was(candidates, search.carried)
+            fits = known is not None or is_sure(candidates)
+            best = known or best
+        if fits and best is not None:
+            placed = PlacedBase(Pose2(*best.pose), search.carried)
             self._trial = (placed, search.hint)
+
+    def _where_it_was(self, candidates: tuple[Candidate, ...], carried: Pose2) -> Candidate | None:
+        """Return the place where the robot was lost a few turns of its wheels ago, if it fits.
+
+        No lead over places that look alike is asked for then, but none of them may fit better.
+        """
+        if self._placed is None or not self._unseen_m() <= UNSEEN_M:
+            return None
+        here, least = self._placed.at(carried), ENOUGH_SCORE
+        for one in candidates:
+            least = max(least, one.score - BETTER)
+            off = between(here, Pose2(*one.pose))
+            near = hypot(off.x_m, off.y_m) <= WINDOW_M and abs(off.yaw_rad) <= WINDOW_RAD
+            if near and one.score >= least:
+                return one
+        return None
 
     def search_request(self) -> SearchRequest | None:
         """Return the question for the search process, once; None while there is none."""
@@ -192,11 +210,13 @@ class Localizer:
         if self._placed is None or self.state is LocalizerState.LOST:
             self._search(cloud, carried, now_s)
             return
-        predicted = self._placed.at(carried)
-        pose, score, free_axis = self._fit(cloud, predicted, carried)
-        self.score = score
-        if score >= ENOUGH_SCORE:
-            self._accept(cloud, PlacedBase(pose, carried), score, free_axis)
+        predicted = pose_array(self._placed.at(carried))
+        turned_rad = abs(between(self._placed.carried, carried).yaw_rad)
+        self._carry_spread(cloud, turned_rad)
+        fit = self._fitter.near(cloud, predicted, self._fusion, turned=turned_rad > TURNED_RAD)
+        self.score = fit.score
+        if fit.score >= KEPT_SCORE:
+            self._accept(cloud, self._fuse(cloud, predicted, fit), carried, fit)
             return
         self._bad += 1
         self.state = LocalizerState.COASTING
@@ -204,42 +224,34 @@ class Localizer:
             self.state, self.candidates = LocalizerState.LOST, ()
             self._search(cloud, carried, now_s)
 
-    def _fit(
-        self, cloud: PointCloud, predicted: Pose2, carried: Pose2
-    ) -> tuple[Pose2, float, Floats]:
-        """Return the pose that fits a scan best near a prediction, its score and free axis."""
-        pose, score, axis = self._align(cloud, _array(predicted), redescending=True)
-        turned = self._placed is not None and (
-            abs(between(self._placed.carried, carried).yaw_rad) > TURNED_RAD
-        )
-        doubted = score < DOUBTED_SCORE and cloud.stamp_s - self._window_s >= DOUBT_PAUSE_S
-        if turned or doubted or score < ENOUGH_SCORE:
-            self._window_s = cloud.stamp_s
-            start = self._window.best(cloud.points_m, _array(predicted))
-            other, rated, other_axis = self._align(cloud, start)
-            if rated > score + BETTER:
-                return other, rated, other_axis
-        return pose, score, axis
+    def _carry_spread(self, cloud: PointCloud, turned_rad: float) -> None:
+        metres, slip_rad = self._trail.counters_at(cloud.stamp_s)
+        last_m, last_slip_rad = self._spread_at
+        self._spread_at = metres, slip_rad
+        slipped_rad = max(0.0, slip_rad - last_slip_rad)
+        self._fusion.carry(max(0.0, metres - last_m), turned_rad, slipped_rad)
 
-    def _align(
-        self, cloud: PointCloud, start: Floats, *, redescending: bool = False
-    ) -> tuple[Pose2, float, Floats]:
-        result = align(self._field, cloud.points_m, start[None], redescending=redescending)
-        score = float(scores(self._field, cloud.points_m, self._lidar_m, result.poses)[0])
-        x_m, y_m, yaw = result.poses[0].tolist()
-        return Pose2(x_m, y_m, yaw), score, result.free_axis[0]
+    def _fuse(self, cloud: PointCloud, predicted: Floats, fit: ScanFit) -> Floats:
+        """Return the pose between the carried and the matched one, or the matched one.
 
-    def _accept(
-        self, cloud: PointCloud, placed: PlacedBase, score: float, free_axis: Floats
-    ) -> None:
+        That is where the scan tells the two apart: then odometry was wrong.
+        """
+        fused = self._fusion.fuse(predicted, fit.pose, fit.information)
+        if self._fitter.score(cloud, fused) >= fit.score - ALIKE:
+            return fused
+        self._fusion.restart()
+        return fit.pose
+
+    def _accept(self, cloud: PointCloud, pose: Floats, carried: Pose2, fit: ScanFit) -> None:
+        placed = PlacedBase(Pose2(*pose.tolist()), carried)
         last, self._placed = self._placed, placed
-        held = not free_axis.any()
+        held = not fit.free_axis.any()
         if held or last is None or self.state is not LocalizerState.TRACKING:
             self._blind_axis_m = 0.0
         else:
             x_m, y_m = placed.in_map.x_m - last.in_map.x_m, placed.in_map.y_m - last.in_map.y_m
-            self._blind_axis_m += abs(float(free_axis @ (x_m, y_m)))
-        self.state, self.score, self._accepted_score = LocalizerState.TRACKING, score, score
+            self._blind_axis_m += abs(float(fit.free_axis @ (x_m, y_m)))
+        self.state, self.score, self._accepted_score = LocalizerState.TRACKING, fit.score, fit.score
         self._accepted_at = (cloud.stamp_s, *self._trail.counters_at(cloud.stamp_s))
         self._bad = 0
 
@@ -252,16 +264,7 @@ class Localizer:
     def _ask(self, cloud: PointCloud, carried: Pose2, now_s: float, hint: PoseHint | None) -> None:
         self._requests += 1
         self._searched_s = now_s
-        self._request = SearchRequest(self._requests, cloud.points_m)
-        if hint is not None:
-            self._request = SearchRequest(
-                self._requests,
-                cloud.points_m,
-                hint.pose,
-                hint.radius_m,
-                hint.any_heading,
-                hint.outline,
-            )
+        self._request = SearchRequest.of_hint(self._requests, cloud.points_m, hint)
         self._open = OpenSearch(self._request, carried, now_s, hint)
 
     def _try_answer(self, cloud: PointCloud, carried: Pose2) -> bool:
@@ -269,13 +272,14 @@ class Localizer:
         if self._trial is None:
             return False
         (placed, hint), self._trial = self._trial, None
-        pose, score, axis = self._align(cloud, _array(placed.at(carried)))
-        fits = score >= ENOUGH_SCORE
+        fit = self._fitter.align(cloud, pose_array(placed.at(carried)))
+        fits = fit.score >= ENOUGH_SCORE
         if fits:
             self._blind_axis_m = 0.0
-            self._accept(cloud, PlacedBase(pose, carried), score, axis)
+            self._fusion.restart()
+            self._accept(cloud, fit.pose, carried, fit)
         if hint is not None:
-            self._answer_hint("accepted" if fits else "does_not_fit", score)
+            self._answer_hint("accepted" if fits else "does_not_fit", fit.score)
         return fits
 
     def _answer_hint(self, code: HintCode, score: float | None = None) -> None:
@@ -297,6 +301,7 @@ class Localizer:
             self._placed = PlacedBase(in_map, Pose2(0.0, 0.0, 0.0))
         self._trail.clear()
         self._accepted_at = (self._accepted_at[0], 0.0, 0.0)
+        self._spread_at = (0.0, 0.0)
         self._open = self._trial = None
         self._answer_hint("no_answer")
         self._jump_law.clear()
@@ -337,7 +342,3 @@ class Localizer:
             quality=quality,
             map_id=self._map_id,
         )
-
-
-def _array(pose: Pose2) -> Floats:
-    return np.array((pose.x_m, pose.y_m, pose.yaw_rad))

@@ -29,6 +29,13 @@ class SearchRequest:
     any_heading: bool = False
     outline: tuple[tuple[float, float], ...] = ()
 
+    @classmethod
+    def of_hint(cls, number: int, points_m: Floats, hint: PoseHint | None) -> SearchRequest:
+        """Return the question where a person says that the robot is, or about the whole map."""
+        if hint is None:
+            return cls(number, points_m)
+        return cls(number, points_m, hint.pose, hint.radius_m, hint.any_heading, hint.outline)
+
 
 @dataclass(frozen=True, slots=True)
 class PlacedBase:

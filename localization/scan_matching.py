@@ -27,6 +27,8 @@ SETTLED_M, SETTLED_RAD = 2e-4, 2e-4
 """A step below these changes nothing that a robot could notice."""
 LARGEST_STEP_M, LARGEST_STEP_RAD = 0.2, 0.2
 """Of one iteration: beyond it the linearization of the field says nothing."""
+LEAST_VARIANCE_M2 = 0.01**2
+"""Of a residual: a map of cells is no better, however well a scan fits it."""
 FLAT_SHARE = 0.02
 """A direction in which the weighted normals hold less than this share of a point each is free: the
 axis of a corridor. There the scan says nothing, and the predicted pose is kept."""
@@ -47,6 +49,9 @@ class Alignment:
     """Shape (starts, 3): x [m], y [m], yaw [rad] in ``map``."""
     free_axis: Floats
     """Shape (starts, 2): unit vector in ``map`` along which the scan holds nothing; else zeros."""
+    information: Floats
+    """Shape (starts, 3, 3): J^T W J over the residuals' weighted variance, in x, y [1/m2] and yaw.
+    What one scan would tell if its beams erred independently, which they do not."""
 
 
 def to_map(poses: Floats, points_m: Floats) -> tuple[Floats, Floats]:
@@ -81,22 +86,29 @@ def align(
     """
     poses = np.array(starts, np.float64).reshape(-1, 3)
     free_axis = np.zeros((len(poses), 2))
+    information = np.zeros((len(poses), 3, 3))
     if not len(points_m):
-        return Alignment(poses, free_axis)
+        return Alignment(poses, free_axis, information)
     for _ in range(iterations):
-        hessian, gradient = _normal_equations(field, points_m, poses, loss_m, redescending)
+        hessian, gradient, variance_m2 = _normal_equations(
+            field, points_m, poses, loss_m, redescending
+        )
+        information = hessian / np.maximum(variance_m2, LEAST_VARIANCE_M2)[:, None, None]
         step, free_axis = _solve(hessian, gradient, len(points_m))
         poses += step
         if np.all(np.abs(step[:, :2]) < SETTLED_M) and np.all(np.abs(step[:, 2]) < SETTLED_RAD):
             break
     poses[:, 2] = np.arctan2(np.sin(poses[:, 2]), np.cos(poses[:, 2]))
-    return Alignment(poses, free_axis)
+    return Alignment(poses, free_axis, information)
 
 
 def _normal_equations(
     field: DistanceField, points_m: Floats, poses: Floats, loss_m: float, redescending: bool
-) -> tuple[Floats, Floats]:
-    """Return J^T W J (starts, 3, 3) and J^T W d (starts, 3) of the iteratively reweighted sum."""
+) -> tuple[Floats, Floats, Floats]:
+    """Return J^T W J (starts, 3, 3), J^T W d (starts, 3) and the weighted mean of d^2 (starts).
+
+    Of the iteratively reweighted sum.
+    """
     x_m, y_m = to_map(poses, points_m)
     distance, by_x, by_y = field.distance_and_gradient(x_m, y_m)
     by_yaw = by_y * (x_m - poses[:, 0:1]) - by_x * (y_m - poses[:, 1:2])
@@ -104,7 +116,12 @@ def _normal_equations(
     weight = np.exp(-0.5 * scaled) if redescending else 1.0 / (1.0 + scaled)
     jacobian = np.stack((by_x, by_y, by_yaw), axis=1)
     weighted = jacobian * weight[:, None, :]
-    return weighted @ jacobian.transpose(0, 2, 1), (weighted @ distance[:, :, None])[:, :, 0]
+    total = np.maximum(weight.sum(axis=1), 1e-9)
+    return (
+        weighted @ jacobian.transpose(0, 2, 1),
+        (weighted @ distance[:, :, None])[:, :, 0],
+        (weight * distance * distance).sum(axis=1) / total,
+    )
 
 
 def _solve(hessian: Floats, gradient: Floats, count: int) -> tuple[Floats, Floats]:

@@ -7,7 +7,7 @@ from math import hypot, pi
 
 import pytest
 
-from localization.global_search import Candidate, GlobalSearch, SearchArea
+from localization.global_search import GlobalSearch, SearchArea
 from localization.localizer import (
     ANSWER_S,
     OLDEST_S,
@@ -15,7 +15,15 @@ from localization.localizer import (
     LocalizerState,
 )
 from localization.quality import POOR_QUALITY
-from tests.localization.rooms import MAP_ID, ROOM, Boxes, cast, field_of, odometry_of, scan_of
+from tests.localization.rooms import (
+    MAP_ID,
+    ROOM,
+    Boxes,
+    cast,
+    field_of,
+    odometry_of,
+    scan_of,
+)
 from wire import (
     IDENTITY,
     STILL,
@@ -234,89 +242,6 @@ def test_another_odometry_goes_on_from_the_place(drive: Drive) -> None:
     assert drive.said[-1].odom_id == "bridge-2"
     assert drive.error_m() < 0.03
     assert drive.localizer.state is LocalizerState.TRACKING
-
-
-def test_a_persons_word_counts_where_scans_agree(drive: Drive) -> None:
-    drive.searching = False
-    drive.true = ELSEWHERE
-    drive.run(1.0)
-    assert drive.localizer.state is LocalizerState.LOST
-    drive.searching = True
-    drive.localizer.hear_hint(hint("here-1", Pose2(4.6, 3.3, -1.7), 1.0))
-    drive.run(0.5)
-    answer = drive.localizer.hint_answer
-    assert answer is not None
-    assert (answer.id, answer.code) == ("here-1", "accepted")
-    assert drive.error_m() < 0.03
-    drive.localizer.hear_hint(hint("here-2", Pose2(1.0, 1.0, 0.0), 0.3))
-    drive.run(0.5)
-    assert drive.localizer.hint_answer is not None
-    assert drive.localizer.hint_answer.code == "does_not_fit"
-    assert drive.error_m() < 0.03, "the pose stays"
-
-
-def test_who_says_where_need_not_say_which_way_it_looks(drive: Drive) -> None:
-    drive.searching = False
-    drive.true = ELSEWHERE
-    drive.run(1.0)
-    drive.searching = True
-    drive.localizer.hear_hint(hint("here-1", Pose2(4.4, 3.0, 0.0), 1.2, any_heading=True))
-    drive.run(0.5)
-    assert drive.localizer.hint_answer is not None
-    assert drive.localizer.hint_answer.code == "accepted"
-    assert drive.error_m() < 0.03
-
-
-def test_a_pose_that_scans_confirm_yields_to_none_that_they_confirm_less(drive: Drive) -> None:
-    """The person says the other end of a room that looks much alike: the scan decides."""
-    drive.localizer.hear_hint(hint("here-1", Pose2(4.4, 2.0, 0.0), 1.5, any_heading=True))
-    drive.run(0.5)
-    assert drive.localizer.hint_answer is not None
-    assert drive.localizer.hint_answer.code == "does_not_fit"
-    assert drive.error_m() < 0.03
-    assert min(one.quality for one in drive.said) >= 0.0
-
-
-def test_the_same_hint_said_again_is_answered_once(drive: Drive) -> None:
-    word = hint("here-1", START, 1.0)
-    for _ in range(5):
-        drive.localizer.hear_hint(word)
-        drive.run(0.1)
-    answered = drive.localizer.hint_answer
-    drive.localizer.hear_hint(word)
-    drive.run(0.5)
-    assert drive.localizer.hint_answer is answered
-
-
-def test_a_thousand_hints_a_second_move_the_pose_nowhere_and_cost_one_answer_each(
-    drive: Drive,
-) -> None:
-    for number in range(1000):
-        drive.localizer.hear_hint(hint(f"here-{number}", Pose2(4.4, 2.0, 0.0), 0.3))
-        if number % 100 == 0:
-            drive.run(0.1)
-    drive.run(0.5)
-    assert drive.localizer.hint_answer is not None
-    assert drive.localizer.hint_answer.code == "does_not_fit"
-    assert drive.error_m() < 0.03
-
-
-def test_a_persons_word_is_refused_in_motion_and_before_a_scan(drive: Drive) -> None:
-    Drive().localizer.hear_hint(hint("a", START, 1.0))
-    early = Drive().localizer
-    early.hear_hint(hint("here-1", START, 1.0))
-    assert early.hint_answer is not None
-    assert early.hint_answer.code == "no_scan"
-    drive.turn(Pose2(0.02, 0.0, 0.0))
-    drive.localizer.hear_hint(hint("here-2", START, 1.0))
-    assert drive.localizer.hint_answer is not None
-    assert drive.localizer.hint_answer.code == "moving"
-
-
-def test_answers_that_nobody_waits_for_change_nothing(drive: Drive) -> None:
-    drive.localizer.hear_candidates(999, (Candidate((1.0, 1.0, 0.0), 1.0),))
-    drive.run(0.3)
-    assert drive.error_m() < 0.03
 
 
 @pytest.mark.parametrize("stamp_s", [0.0, 1e9, 102.0])

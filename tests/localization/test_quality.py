@@ -12,6 +12,7 @@ from localization.quality import (
     ENOUGH_SCORE,
     FADING_M,
     FADING_S,
+    KEPT_SCORE,
     passed_share,
     quality_of,
     scores,
@@ -50,7 +51,8 @@ def test_no_returns_are_no_score() -> None:
 
 
 def test_the_threshold_of_scans_is_the_bridges_threshold_of_quality() -> None:
-    assert quality_of(ENOUGH_SCORE, 0.0, 0.0, 0.0) == pytest.approx(0.5)
+    assert quality_of(KEPT_SCORE, 0.0, 0.0, 0.0) == pytest.approx(0.5)
+    assert KEPT_SCORE < ENOUGH_SCORE, "placing asks for more than keeping"
     assert quality_of(1.0, 0.0, 0.0, 0.0) == 1.0
     for faded in ((FADING_S, 0.0, 0.0), (0.0, FADING_M, 0.0), (0.0, 0.0, BLIND_AXIS_M)):
         assert quality_of(1.0, *faded) == pytest.approx(0.5)

@@ -1,0 +1,143 @@
+"""Laws of placing a robot anew: by a person's word, or where it was lost without having driven."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from localization.global_search import Candidate, GlobalSearch
+from localization.localizer import Localizer, LocalizerState
+from localization.relocation import PlacedBase, SearchRequest
+from tests.localization.rooms import MAP_ID, TWINS, field_of
+from tests.localization.test_localizer import ELSEWHERE, START, Drive, drive, hint
+from wire import Pose2
+from wire.lidar_config import LidarConfig
+
+__all__ = ["drive"]
+UNDER_A_COAT = tuple(
+    (START.x_m + x0, START.y_m + y0, START.x_m + x1, START.y_m + y1)
+    for x0, y0, x1, y1 in (
+        (-0.4, -0.4, 0.5, -0.3), (-0.4, 0.3, 0.5, 0.4),
+        (-0.4, -0.4, -0.3, 0.4), (0.4, -0.4, 0.5, 0.4),
+    )
+)  # fmt: skip
+
+
+def test_a_place_is_carried_on_by_odometry() -> None:
+    placed = PlacedBase(Pose2(1.0, 2.0, 0.0), Pose2(5.0, 5.0, 0.0))
+    assert placed.at(Pose2(5.5, 5.0, 0.0)) == Pose2(1.5, 2.0, 0.0)
+    assert placed.at(Pose2(5.0, 5.0, 0.0)) == placed.in_map
+
+
+def test_a_question_without_a_hint_is_about_the_whole_map() -> None:
+    points_m = np.zeros((2, 2))
+    assert SearchRequest.of_hint(3, points_m, None).around is None
+    asked = SearchRequest.of_hint(3, points_m, hint("a", START, 0.7, any_heading=True))
+    assert (asked.around, asked.radius_m, asked.any_heading) == (START, 0.7, True)
+
+
+@pytest.mark.parametrize("carried_to", [None, Pose2(6.9, 1.9, 2.0)])
+def test_of_rooms_that_look_alike_a_robot_that_drove_nowhere_is_in_the_one_it_was_in(
+    carried_to: Pose2 | None,
+) -> None:
+    """Lost under a coat that lay on it; and where it was carried away meanwhile, it stays lost."""
+    field = field_of(TWINS, 8.0, 3.0)
+    drive = Drive()
+    drive.search, drive.localizer = GlobalSearch(field), Localizer(field, LidarConfig(), MAP_ID)
+    drive.boxes = TWINS
+    drive.localizer.hear_hint(hint("here", START, 1.0))
+    drive.run(0.3)
+    drive.localizer.hear_hint(hint("here-1", START, 1.0))
+    drive.run(1.0)
+    assert drive.error_m() < 0.03
+    drive.boxes = UNDER_A_COAT
+    drive.run(1.0)
+    assert drive.localizer.state is LocalizerState.LOST
+    drive.boxes, drive.true = TWINS, carried_to or START
+    drive.run(2.0)
+    found = LocalizerState.TRACKING if carried_to is None else LocalizerState.LOST
+    assert drive.localizer.state is found
+    assert carried_to is not None or drive.error_m() < 0.03
+
+
+def test_a_persons_word_counts_where_scans_agree(drive: Drive) -> None:
+    drive.searching = False
+    drive.true = ELSEWHERE
+    drive.run(1.0)
+    assert drive.localizer.state is LocalizerState.LOST
+    drive.searching = True
+    drive.localizer.hear_hint(hint("here-1", Pose2(4.6, 3.3, -1.7), 1.0))
+    drive.run(0.5)
+    answer = drive.localizer.hint_answer
+    assert answer is not None
+    assert (answer.id, answer.code) == ("here-1", "accepted")
+    assert drive.error_m() < 0.03
+    drive.localizer.hear_hint(hint("here-2", Pose2(1.0, 1.0, 0.0), 0.3))
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is not None
+    assert drive.localizer.hint_answer.code == "does_not_fit"
+    assert drive.error_m() < 0.03, "the pose stays"
+
+
+def test_who_says_where_need_not_say_which_way_it_looks(drive: Drive) -> None:
+    drive.searching = False
+    drive.true = ELSEWHERE
+    drive.run(1.0)
+    drive.searching = True
+    drive.localizer.hear_hint(hint("here-1", Pose2(4.4, 3.0, 0.0), 1.2, any_heading=True))
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is not None
+    assert drive.localizer.hint_answer.code == "accepted"
+    assert drive.error_m() < 0.03
+
+
+def test_a_pose_that_scans_confirm_yields_to_none_that_they_confirm_less(drive: Drive) -> None:
+    """The person says the other end of a room that looks much alike: the scan decides."""
+    drive.localizer.hear_hint(hint("here-1", Pose2(4.4, 2.0, 0.0), 1.5, any_heading=True))
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is not None
+    assert drive.localizer.hint_answer.code == "does_not_fit"
+    assert drive.error_m() < 0.03
+    assert min(one.quality for one in drive.said) >= 0.0
+
+
+def test_the_same_hint_said_again_is_answered_once(drive: Drive) -> None:
+    word = hint("here-1", START, 1.0)
+    for _ in range(5):
+        drive.localizer.hear_hint(word)
+        drive.run(0.1)
+    answered = drive.localizer.hint_answer
+    drive.localizer.hear_hint(word)
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is answered
+
+
+def test_a_thousand_hints_a_second_move_the_pose_nowhere_and_cost_one_answer_each(
+    drive: Drive,
+) -> None:
+    for number in range(1000):
+        drive.localizer.hear_hint(hint(f"here-{number}", Pose2(4.4, 2.0, 0.0), 0.3))
+        if number % 100 == 0:
+            drive.run(0.1)
+    drive.run(0.5)
+    assert drive.localizer.hint_answer is not None
+    assert drive.localizer.hint_answer.code == "does_not_fit"
+    assert drive.error_m() < 0.03
+
+
+def test_a_persons_word_is_refused_in_motion_and_before_a_scan(drive: Drive) -> None:
+    Drive().localizer.hear_hint(hint("a", START, 1.0))
+    early = Drive().localizer
+    early.hear_hint(hint("here-1", START, 1.0))
+    assert early.hint_answer is not None
+    assert early.hint_answer.code == "no_scan"
+    drive.turn(Pose2(0.02, 0.0, 0.0))
+    drive.localizer.hear_hint(hint("here-2", START, 1.0))
+    assert drive.localizer.hint_answer is not None
+    assert drive.localizer.hint_answer.code == "moving"
+
+
+def test_answers_that_nobody_waits_for_change_nothing(drive: Drive) -> None:
+    drive.localizer.hear_candidates(999, (Candidate((1.0, 1.0, 0.0), 1.0),))
+    drive.run(0.3)
+    assert drive.error_m() < 0.03
