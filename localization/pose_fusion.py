@@ -27,7 +27,7 @@ BEAMS_A_FACT = 20.0
 """Beams that err together: neighbours meet one wall, whose cells on the map are all off alike."""
 LEAST_SCAN_M, LEAST_SCAN_RAD = 0.004, radians(0.1)
 """No scan places a robot better than this."""
-DRIFT_M, DRIFT_RAD = 0.003, radians(0.1)
+DRIFT_M, DRIFT_RAD = 0.002, radians(0.05)
 """Spread that each scan adds, however little the wheels turned: people lean on robots."""
 DRIFT_PER_M, DRIFT_PER_RAD = 0.10, 0.05
 """Wheels 5 % wrong and a gyro's scale, twice: what is carried errs alike from scan to scan."""

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from localization.correlative_search import WindowSearch
 from localization.quality import KEPT_SCORE, scores
 from localization.scan_matching import align
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from localization.deskew import PointCloud
@@ -29,6 +30,9 @@ DOUBT_PAUSE_S = 0.5
 BETTER, FAR_BETTER = 0.05, 0.15
 """The window's pose counts where its score leads by so much; the second, where odometry can't have
 erred so far: a wardrobe that was moved by 0.2 m pulls the robot with it by a lead of 0.07."""
+
+NOTHING = np.zeros((3, 3))
+"""What a scan tells of a pose that it was not fitted to."""
 
 
 class ScanFit(NamedTuple):
@@ -68,6 +72,10 @@ class ScanFitter:
             turned: whether the robot turned so far that Gauss-Newton alone may settle beside it.
         """
         fit = self.align(cloud, predicted, redescending=True)
+        if not fusion.expects(predicted, fit.pose):
+            carried = self.score(cloud, predicted)
+            if fit.score <= carried + FAR_BETTER:
+                fit = fit._replace(pose=predicted, score=carried, information=NOTHING)
         doubted = fit.score < DOUBTED_SCORE and cloud.stamp_s - self._window_s >= DOUBT_PAUSE_S
         if turned or doubted or fit.score < KEPT_SCORE:
             self._window_s = cloud.stamp_s

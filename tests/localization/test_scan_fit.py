@@ -27,6 +27,15 @@ def fitter() -> ScanFitter:
     return ScanFitter(FITTER_FIELD, (0.0, 0.0))
 
 
+def settled_at(pose: Pose2) -> PoseFusion:
+    """Return the spread of a robot that stood while thirty scans agreed."""
+    fusion = PoseFusion()
+    for _ in range(30):
+        fusion.carry(0.0, 0.0, 0.0)
+        fusion.fuse(pose_array(pose), pose_array(pose), np.diag((1e5, 1e5, 1e5)))
+    return fusion
+
+
 def test_a_near_prediction_ends_at_the_truth() -> None:
     fit = fitter().near(cloud(), np.array((2.66, 1.64, 0.43)), PoseFusion(), turned=False)
     assert fit.pose == pytest.approx(pose_array(TRUE), abs=0.02)
@@ -49,10 +58,7 @@ def test_a_little_more_agreement_0_3_m_away_moves_no_robot_whose_wheels_stood() 
     shares = (np.linspace(0, 179, count).astype(int) for count in (90, 120))
     points_m = np.vstack([one[share] for one, share in zip((here, aside), shares, strict=True)])
     scan = PointCloud(100.0, points_m, len(points_m))
-    one, standing = fitter(), PoseFusion()
-    for _ in range(30):
-        standing.carry(0.0, 0.0, 0.0)
-        standing.fuse(pose_array(TRUE), pose_array(TRUE), np.diag((1e5, 1e5, 1e5)))
+    one, standing = fitter(), settled_at(TRUE)
     lured = one.near(scan, pose_array(TRUE), PoseFusion(), turned=True)
     stayed = one.near(scan, pose_array(TRUE), standing, turned=True)
     assert BETTER < lured.score - stayed.score < FAR_BETTER
@@ -61,6 +67,19 @@ def test_a_little_more_agreement_0_3_m_away_moves_no_robot_whose_wheels_stood() 
     at_a_loss = PointCloud(100.0, aside, len(aside))
     moved = one.near(at_a_loss, pose_array(TRUE), standing, turned=True)
     assert moved.pose == pytest.approx(pose_array(ASIDE), abs=0.03), "somebody pushed the robot"
+
+
+def test_gauss_newton_takes_a_robot_no_farther_than_its_wheels_may_have() -> None:
+    near_by = Pose2(2.6, 1.87, 0.4)
+    here, aside = points_of(cast(ROOM, TRUE)), points_of(cast(ROOM, near_by))
+    points_m = np.vstack((here[::3], aside[::2]))
+    scan = PointCloud(100.0, points_m, len(points_m))
+    one, standing = fitter(), settled_at(TRUE)
+    assert np.hypot(*(one.align(scan, pose_array(TRUE)).pose - pose_array(TRUE))[:2]) > 0.07
+    stayed = one.near(scan, pose_array(TRUE), standing, turned=False)
+    assert stayed.pose.tolist() == pose_array(TRUE).tolist()
+    assert stayed.score == one.score(scan, pose_array(TRUE))
+    assert not stayed.information.any()
 
 
 def test_the_score_is_that_of_the_pose() -> None:
