@@ -159,7 +159,7 @@ def test_no_more_orders_are_kept_than_a_page_can_show(
     for number in range(2, MAX_ORDERS + 1):  # not by HTTP: requests have a rate
         rule = CronRule(cron=f"{number % 60} {9 + number // 60} * * *")
         order = kept.model_copy(update={"id": f"o{number}", "number": number, "rule": rule})
-        portal.call(partial(keeper.keep, order, new=True))
+        portal.call(partial(keeper.keep, order))
     answers = [
         give(client, text=text, when={"cron": "0 20 * * *"}) for text in ("say hello", "去厨房")
     ]
