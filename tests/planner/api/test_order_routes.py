@@ -128,6 +128,10 @@ def test_a_reminder_may_be_given_apart(client: TestClient) -> None:
         ({"text": "停", "when": {"in_s": 60}}, 422, "order_stops"),
         ({"text": "pause for now", "when": {"in_s": 60}}, 422, "order_is_command"),
         ({"text": "yes", "when": {"in_s": 60}}, 422, "order_is_command"),
+        ({"text": "if you see a cup, " * 4 + "say hello", "when": {"in_s": 60}}, 422,
+         "order_not_understood"),
+        ({"text": "如果看到杯子，就" * 4 + "说你好", "when": {"in_s": 60}}, 422,
+         "order_not_understood"),
         ({"text": "go to the kitchen", "when": {}}, 422, "invalid_request"),
         ({"text": "x", "when": {"in_s": 60, "every_s": 900}}, 422, "invalid_request"),
         ({"text": "x", "when": {"event": "full_moon"}}, 422, "invalid_request"),
@@ -147,6 +151,18 @@ def test_what_can_not_be_kept_is_refused_with_a_code(
     if code.startswith("order_"):
         told = answer.json()["message"]
         assert told["en"] != told["zh"]
+
+
+@pytest.mark.parametrize("path", ["/v1/orders", "/v1/goals", "/v1/memory/facts", "/v1/places"])
+@pytest.mark.parametrize("body", ['{"text":%s}', '{"text":"say hello","when":%s,"name":%s}'])
+def test_a_body_that_is_nested_without_end_is_refused_with_a_code(
+    client: TestClient, services: FakeServices, path: str, body: str
+) -> None:
+    deep = body.replace("%s", "[" * 20_000 + "]" * 20_000)
+    answer = client.post(path, content=deep, headers={"content-type": "application/json"})
+    assert (answer.status_code, answer.json()["code"]) == (400, "malformed_json")
+    assert "nested too deep" in answer.json()["detail"]
+    assert services.goals.calls == []
 
 
 def test_no_more_orders_are_kept_than_a_page_can_show(
