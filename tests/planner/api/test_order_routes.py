@@ -186,6 +186,21 @@ def test_no_more_orders_are_kept_than_a_page_can_show(
     assert len(services.orders.keeper.book.orders) == MAX_ORDERS
 
 
+@pytest.mark.slow
+def test_a_thousand_orders_at_once_are_a_few_and_each_other_says_why(
+    client: TestClient, services: FakeServices
+) -> None:
+    answers = [
+        give(client, text="say hello", when={"cron": f"{n % 60} {8 + n // 60 % 12} * * *"})
+        for n in range(1000)
+    ]
+    made = [each for each in answers if each.status_code == 201]
+    assert 0 < len(made) == len(services.orders.keeper.book.orders) <= MAX_ORDERS
+    codes = {each.json()["code"] for each in answers if not each.is_success}
+    assert codes <= {"too_many_goals", "orders_full"}
+    assert "too_many_goals" in codes
+
+
 @pytest.mark.parametrize(
     "text", ["tomorrow at 2:30 say hello", "明天凌晨两点半说你好", "明天2点30分说你好"]
 )
