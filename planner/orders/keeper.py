@@ -142,6 +142,8 @@ class OrderKeeper:
         self._open[firing.order] = given
         if given != firing:
             self._ledger.ask(End(order, given))
+        if order.reminder is not None and self.goals.outcome(goal) is None:
+            self._announcer.tell_reminder(order, given)  # it may not have been said to its end
 
     def _unix_s(self) -> float:
         return self.clocks.unix()

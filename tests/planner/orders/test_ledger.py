@@ -137,6 +137,26 @@ def test_a_kill_at_any_write_doubles_nothing_and_loses_nothing(tmp_path: Path) -
     asyncio.run(story())
 
 
+def test_a_reminder_whose_goal_a_kill_cut_off_is_told_at_the_next_start(tmp_path: Path) -> None:
+    async def story() -> None:
+        clock = MovedClocks()
+        missions = MortalMissions(clock)
+        made = await kept_in(tmp_path, clock, missions)
+        text = "remind me in 20 minutes to take the cake out"
+        await made.orders.intake.give(order_of_text(text, None, "test"), "thought")
+        missions.fate = Fate(1)  # after its goal was written, before its words were told
+        with pytest.raises(Death):
+            await made.run_s(1201.0, 10.0)
+        assert missions.told() == []
+        await kept_in(tmp_path, clock, missions)
+        assert missions.told() == [("reminder", "reminder")]
+        missions.end("goal-1")
+        await kept_in(tmp_path, clock, missions)
+        assert len(missions.told()) == 1
+
+    asyncio.run(story())
+
+
 def test_a_pause_holds_from_the_moment_it_is_said(tmp_path: Path) -> None:
     async def story() -> None:
         kept = await kept_in(tmp_path)
