@@ -46,7 +46,7 @@ ENDED = ("succeeded", "failed", "refused", "cancelled")
 
 def measure(lab: BenchLab) -> list[ReportRow]:
     """Kill planners, six to a robot."""
-    slices = lab.slices("planner", lab.count(1, 4), lambda i: _rounds(lab, i))
+    slices = lab.slices("planner", lab.count(1, 8), lambda i: _rounds(lab, i))
     rounds = [one for told in slices for one in told]
     return rows_of(rounds)
 
