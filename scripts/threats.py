@@ -81,6 +81,23 @@ THREATS = (
         ),
     ),
     Threat(
+        "A yes of somebody who may only look, or of the model itself, to a plan that waits for a person",
+        "The viewer's token gets 403 `operator_needed` on every way to say yes; what a model says, offers or fills in is nobody's answer, and an order that its yes would begin waits again",
+        (
+            "planner/api/test_real_missions.py::test_a_viewers_yes_to_an_open_confirmation_is_refused_and_an_operators_drives",
+            "planner/api/test_real_missions.py::test_a_model_that_says_yes_itself_confirms_nothing",
+            "planner/api/test_real_missions.py::test_a_model_that_decides_upon_its_own_question_does_not_answer_it",
+        ),
+    ),
+    Threat(
+        "Plans and bodies that are nested without end",
+        "A plan's steps stand 3 deep at most (`bad_plan`, an order is `order_not_understood`); a body that no parser of ours goes down is 400 `malformed_json`",
+        (
+            "planner/api/test_real_missions.py::test_conditions_that_a_model_nests_beyond_the_bound_are_refused_as_goal_and_as_order",
+            "planner/api/test_order_routes.py::test_a_body_that_is_nested_without_end_is_refused_with_a_code",
+        ),
+    ),
+    Threat(
         "An address that is told of standing orders hangs, redirects or fails",
         "Three tries in 12 s beside everything else, 32 messages wait at most, no redirect is followed, the URL is never logged",
         (

@@ -158,8 +158,10 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
     code = _CODES.get(status, f"http_{status}")
     headers = dict(error.headers or {})
     detail = f"{asked}: {error.detail}"
-    if status == 400:  # the framework's only one: bytes that are no text
-        detail = f"{asked}: the body is no text in UTF-8; expected a JSON object"
+    if status == 400:  # the framework's only one: bytes that json can't read, for two reasons
+        nested = isinstance(error.__cause__, RecursionError)
+        why = "is nested too deep" if nested else "is no text in UTF-8"
+        detail = f"{asked}: the body {why}; expected a JSON object"
     elif status == 404:
         detail = f"no route {asked}; /openapi.json lists what exists"
     elif status == 405:

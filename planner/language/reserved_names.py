@@ -21,7 +21,7 @@ _HARMLESS = frozenset(
 _FUNCTION = re.compile(
     r"\b(?:and|or|then|to|from|into|please|not|no|go|come|drive|move|wait|back|here|there|it|home"
     r"|base|all|everything|everywhere|me|you|stop|first|last|left|right|forwards?|around)\b"
-    r"|然后|接着|之后|以后|之前|以前|或者|还是|如果|要是|[别不没勿莫]"
+    r"|然后|接着|之后|以后|之前|以前|或者|还是|如果|要是|跟着|跟我|提醒|[别不没勿莫]"
 )
 _ALONE = re.compile(
     r"(?:[去到来回走停等请先再就把的里了吧吗我你他她它这那家和跟与])+|这里|那里|原地"

@@ -144,7 +144,7 @@ class OrderIntake:
                 source=new.source, allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
             )  # fmt: skip
             try:
-                await self._keeper.keep(order, new=True)
+                await self._keeper.keep(order)
             except StateUnavailable as error:
                 raise OrderRefusal("orders_unwritable", str(error)) from None
         return order
@@ -200,14 +200,10 @@ class OrderIntake:
             order = self.find(order_id)
             if order.ended:
                 raise OrderRefusal("order_ended", order_id)
-            now_s = self._keeper.clocks.unix()
-            handled_s = order.handled_unix_s if paused else max(order.handled_unix_s, now_s)
-            changed = order.model_copy(update={"paused": paused, "handled_unix_s": handled_s})
             try:
-                await self._keeper.keep(changed)
+                return await self._keeper.pause(order_id, paused=paused)
             except StateUnavailable as error:
                 raise OrderRefusal("orders_unwritable", str(error)) from None
-        return changed
 
     async def remove(self, order_id: str) -> StandingOrder:
         """Forget an order. Raises OrderRefusal: ``unknown_order``, ``orders_unwritable``."""

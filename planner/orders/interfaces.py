@@ -36,14 +36,22 @@ class GoalGiver(Protocol):
     def cancel(self, goal_id: str) -> None: ...
 
 
+def read_elapsed_s() -> float:
+    """Return a monotonic time that goes on while the machine is suspended, where it has one [s]."""
+    return time.clock_gettime(getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC))
+
+
 @dataclass(frozen=True, slots=True)
 class OrderClocks:
-    """Give the two clocks, and ids."""
+    """Give the clocks, and ids."""
 
     monotonic: Callable[[], float] = time.monotonic
+    """The missions' clock, by which a status is fresh: it stands while the machine is suspended."""
     unix: Callable[[], float] = time.time
     new_id: Callable[[], str] = lambda: f"g-{uuid.uuid4().hex[:12]}"
+    elapsed: Callable[[], float] = read_elapsed_s
+    """Beside it the wall clock is judged: a suspended hour is an hour, not a clock put on."""
 
     def read(self) -> ClockReading:
-        """Return now on both."""
-        return ClockReading(self.unix(), self.monotonic())
+        """Return now on wall clock and elapsed time."""
+        return ClockReading(self.unix(), self.elapsed())

@@ -1,8 +1,8 @@
 """Run the standing orders: tick, write down, give goals, tell. The shell around the scheduler.
 
-Ten times a second the scheduler is told clocks and world; what it asks is done in order by one
-task, so that a slow disk delays standing orders and nothing else. Every firing is on disk before
-its goal is given.
+Ten times a second the scheduler is told clocks and world; what it asks is written down by the
+ledger and then done in order by one task, so that a slow disk delays standing orders and nothing
+else. Every firing is on disk before its goal is given.
 """
 
 from __future__ import annotations
@@ -11,13 +11,14 @@ import asyncio
 import contextlib
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner.mission.errors import MissionError
 from planner.orders import world
 from planner.orders.announcer import OrderAnnouncer
 from planner.orders.interfaces import GoalGiver, OrderClocks
+from planner.orders.ledger import End, FiringLedger, LedgerEntry
 from planner.orders.order import SOURCE, Firing, FiringState, StandingOrder, key_of
 from planner.orders.scheduler import (
     INTERRUPTED,
@@ -33,6 +34,7 @@ from planner.orders.scheduler import (
 )
 from planner.orders.watch import Watch, notice
 from planner.plan import Bilingual, GoalState
+from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
     from datetime import tzinfo
@@ -53,14 +55,6 @@ MOST_ENDED = 20
 """Orders that were due once and are over stay so many, to be looked up."""
 
 
-@dataclass(frozen=True, slots=True)
-class End:
-    """Write down how a firing's goal ended."""
-
-    order: StandingOrder
-    firing: Firing
-
-
 class OrderKeeper:
     """Own the order book while the planner runs."""
 
@@ -78,10 +72,9 @@ class OrderKeeper:
         self.book = OrderBook(zone, quiet)
         self.version = 0
         """Rises with every change."""
-        self.trouble: str | None = None
-        """Why nothing can be written down, or None."""
         self.failure: BaseException | None = None
         self._store, self.goals = store, goals
+        self._ledger = FiringLedger(store, lambda: self.book.orders)
         self.clocks, self._report = clocks or OrderClocks(), report
         self._announcer = OrderAnnouncer(goals.publish, notifier, zone, self._unix_s)
         self._open: dict[str, Firing] = {}
@@ -89,7 +82,6 @@ class OrderKeeper:
         self._watch = Watch()
         self._ended: frozenset[str] | None = None
         self._done = self._failed = 0
-        self._work: asyncio.Queue[Fire | Note | Keep | End] = asyncio.Queue()
         self._seen_s = float("-inf")
         self._tasks: list[asyncio.Task[None]] = []
         self.lock = asyncio.Lock()
@@ -108,7 +100,8 @@ class OrderKeeper:
         for order in orders:
             self.book = put(self.book, order)
         for firing in firings:
-            await self._take_up(firing)
+            self._take_up(firing)
+        await self.work_off()
         if rounds:
             self._tasks = [
                 asyncio.create_task(self._guard(self._tick_on()), name="standing orders"),
@@ -132,19 +125,25 @@ class OrderKeeper:
             log.exception("the standing orders ended")
             raise
 
-    async def _take_up(self, firing: Firing) -> None:
+    @property
+    def trouble(self) -> str | None:
+        """Return why nothing can be written down, or None."""
+        return self._ledger.trouble
+
+    def _take_up(self, firing: Firing) -> None:
         order = self.book.orders.get(firing.order)
         goal = firing.goal or self.goals.find(key_of(firing.order, firing.serial))
         if order is None:
             return
-        if goal is not None:
-            self._open[firing.order] = firing.model_copy(
-                update={"state": FiringState.GIVEN, "goal": goal}
-            )
+        if goal is None:
+            self._miss(order, firing, INTERRUPTED)
             return
-        missed = firing.model_copy(update={"state": FiringState.MISSED, "reason": INTERRUPTED})
-        await self._write_end(missed)
-        self._announcer.tell_missed(order, missed)
+        given = firing.model_copy(update={"state": FiringState.GIVEN, "goal": goal})
+        self._open[firing.order] = given
+        if given != firing:
+            self._ledger.ask(End(order, given))
+        if order.reminder is not None and self.goals.outcome(goal) is None:
+            self._announcer.tell_reminder(order, given)  # it may not have been said to its end
 
     def _unix_s(self) -> float:
         return self.clocks.unix()
@@ -158,20 +157,20 @@ class OrderKeeper:
 
     def turn(self) -> None:
         """Look at clocks and world once, and have done what follows."""
-        now, book = self.clocks.read(), self.goals.book
+        now, awake_s, book = self.clocks.read(), self.clocks.monotonic(), self.goals.book
         ended, done, failed = world.count_ended(book.missions, self._ended or frozenset())
         if self._ended is not None:
             self._done, self._failed = self._done + done, self._failed + failed
         self._ended = ended
-        facts = world.facts_now(book, self._report(), now.monotonic_s, self._done, self._failed)
-        self._watch, happened = notice(self._watch, facts, now.monotonic_s)
-        told = RobotView(world.hindrance(book, now.monotonic_s), self._busy(book), happened)
+        facts = world.facts_now(book, self._report(), awake_s, self._done, self._failed)
+        self._watch, happened = notice(self._watch, facts, awake_s)
+        told = RobotView(world.hindrance(book, awake_s), self._busy(book), happened)
         self.book, effects = tick(self.book, told, now)
         for effect in effects:
             if isinstance(effect, Fire):  # from now on, not from when it is written
                 self._give_up(self._open.get(effect.order.id))
                 self._open[effect.order.id] = effect.firing
-            self._work.put_nowait(effect)
+            self._ledger.ask(effect)
         self._follow_goals()
 
     def _busy(self, book: MissionState) -> frozenset[str]:
@@ -186,66 +185,63 @@ class OrderKeeper:
 
     async def _work_on(self) -> None:
         while True:
-            try:
-                async with asyncio.timeout(1.0):
-                    effect = await self._work.get()
-            except TimeoutError:
-                await self._note_clock()
-                continue
-            await self.carry_out(effect)
+            await self._ledger.wait(1.0)
+            await self.work_off()
+            await self._note_clock()
 
     async def work_off(self) -> None:
-        """Do all that is asked for until now; for whoever turns the rounds."""
-        while not self._work.empty():
-            await self.carry_out(self._work.get_nowait())
+        """Write down all that is asked for until now, and do it."""
+        while entries := await self._ledger.write():
+            for entry in entries:
+                await self._do(entry)
+            if not entries[-1].is_written:  # what the disk owes is tried again later
+                return
 
-    async def carry_out(self, effect: Fire | Note | Keep | End) -> None:
-        """Write it down, then do it."""
-        if effect.order.id not in self.book.orders:  # removed meanwhile
-            self._open.pop(effect.order.id, None)
+    async def _do(self, entry: LedgerEntry) -> None:
+        request = entry.request
+        order = self.book.orders.get(request.order.id)  # as it is by now
+        if order is None:  # removed meanwhile
             return
-        order = self.book.orders[effect.order.id]  # as it is by now
-        match effect:
-            case Fire(_, firing):
+        match request:
+            case Fire(_, firing) if entry.is_written:
                 await self._fire(order, firing)
+            case Fire(_, firing):
+                self._miss(order, firing, UNWRITABLE)
             case Note(_, firing):
-                kept = await self._keep(order, firing)
-                new = kept is None or kept.count == firing.count  # the first in a row is told
+                new = entry.kept is None or entry.kept.count == firing.count  # first in a row
                 if firing.state is FiringState.MISSED and new:
                     self._announcer.tell_missed(order, firing)
-            case Keep():
-                await self._keep(order)
-            case End(_, firing):
-                await self._write_end(firing)
+                if not entry.is_written:
+                    self._ledger.ask_again(End(order, firing))
+            case Keep() | End() if not entry.is_written:
+                self._ledger.ask_again(request)
+                return
         self.publish_change()
 
     async def _fire(self, order: StandingOrder, firing: Firing) -> None:
-        await self._keep(order, firing)
-        if self.trouble is not None:
-            await self._miss(order, firing, UNWRITABLE)
-            return
         key, source = key_of(order.id, firing.serial), f"{SOURCE}{order.id}"
         try:
             goal = await self.goals.give(
                 self.clocks.new_id(), order.order, order.language, key, source
             )
         except MissionError as refused:
-            await self._miss(order, firing, refused.code)
+            self._miss(order, firing, refused.code)
             return
         given = firing.model_copy(update={"state": FiringState.GIVEN, "goal": goal})
         self._open[order.id] = given
-        await self._write_end(given)
+        self._ledger.ask(End(order, given))
         if order.reminder is not None:
             self._announcer.tell_reminder(order, firing)
 
-    async def _miss(self, order: StandingOrder, firing: Firing, why: str) -> None:
+    def _miss(self, order: StandingOrder, firing: Firing, why: str) -> None:
+        """Tell that a run which was begun is missed after all, and count it so."""
         self._open.pop(order.id, None)
         missed = firing.model_copy(update={"state": FiringState.MISSED, "reason": why})
-        counted = order.model_copy(
+        counted = self.book.orders[order.id].model_copy(
             update={"fired": max(0, order.fired - 1), "missed": order.missed + 1}
         )
         self.book = replace(self.book, orders={**self.book.orders, order.id: counted})
-        await self._keep(counted, missed)
+        self._ledger.ask(End(counted, missed))
         self._announcer.tell_missed(counted, missed)
 
     def _follow_goals(self) -> None:
@@ -274,27 +270,12 @@ class OrderKeeper:
         words = outcome.message if outcome is not None else Bilingual(en=code, zh=code)
         ended = firing.model_copy(update={"state": FiringState.ENDED, "code": code, "told": words})
         self._asked.discard(mission.id)
-        self._work.put_nowait(End(order, ended))
+        self._ledger.ask(End(order, ended))
         done = mission.state is GoalState.SUCCEEDED
         if not (done and order.reminder is not None):  # its words were told as it fired
             kind = "done" if done else "failed"
             self._announcer.tell_outcome(order, kind, code, words, firing)
         self.publish_change()
-
-    # Disk ---------------------------------------------------------------------------------------
-
-    async def _keep(self, order: StandingOrder, firing: Firing | None = None) -> Firing | None:
-        try:
-            kept = await asyncio.to_thread(self._store.keep, order, firing)
-        except OSError as error:
-            self._complain(error)
-            return None
-        self.trouble = None
-        return kept
-
-    async def _write_end(self, firing: Firing) -> None:
-        with contextlib.suppress(OSError):
-            await asyncio.to_thread(self._store.end, firing)
 
     async def _note_clock(self) -> None:
         """Write down how far the clock is: a later start behind it is not believed."""
@@ -303,33 +284,52 @@ class OrderKeeper:
             return
         self._seen_s = now.monotonic_s
         with contextlib.suppress(OSError):
-            await asyncio.to_thread(self._store.see, now.unix_s)
-
-    def _complain(self, error: OSError) -> None:
-        if self.trouble is None:
-            log.error("orders_unwritable: %s", error)
-        self.trouble = str(error)
+            await self._ledger.see(now.unix_s)
 
     # Orders -------------------------------------------------------------------------------------
 
-    async def keep(self, order: StandingOrder, *, new: bool = False) -> None:
-        """Keep an order that a person gave or changed; on return it is on disk.
+    async def keep(self, order: StandingOrder) -> None:
+        """Keep an order that a person gives; on return it is on disk.
 
         Raises:
             StateUnavailable: it can't be written; nothing has changed.
         """
-        await asyncio.to_thread(self._store.keep, order, None, self.clocks.unix())
-        self.book = add(self.book, order) if new else put(self.book, order)
+        await self._ledger.keep(order, seen_unix_s=self.clocks.unix())
+        self.book = add(self.book, order)
         over = [o for o in self.book.orders.values() if o.ended and o.id not in self._open]
         for old in sorted(over, key=lambda o: o.number)[: max(0, len(over) - MOST_ENDED)]:
-            await asyncio.to_thread(self._store.remove, old.id)
+            await self._ledger.remove(old.id)
             self.book = drop(self.book, old.id)
         self.publish_change()
 
+    async def pause(self, order_id: str, *, paused: bool) -> StandingOrder:
+        """Pause an order, or resume it: what was due while it was paused is over.
+
+        It changes at once, so that no run begins while it is being written.
+
+        Raises:
+            StateUnavailable: it can't be written; it is paused or not as before.
+        """
+        before = self.book.orders[order_id]
+        handled_s = before.handled_unix_s
+        if before.paused and not paused:
+            handled_s = max(handled_s, self.clocks.unix())
+        changed = before.model_copy(update={"paused": paused, "handled_unix_s": handled_s})
+        self.book = put(self.book, changed)
+        try:
+            await self._ledger.keep(changed)
+        except StateUnavailable:
+            now = self.book.orders[order_id]
+            self.book = put(self.book, now.model_copy(update={"paused": before.paused}))
+            raise
+        self.publish_change()
+        return changed
+
     async def remove(self, order_id: str) -> None:
         """Forget an order. Raises StateUnavailable."""
-        await asyncio.to_thread(self._store.remove, order_id)
+        await self._ledger.remove(order_id)
         self.book = drop(self.book, order_id)
+        self._open.pop(order_id, None)
         self.publish_change()
 
     async def history(self, order_id: str, most: int) -> tuple[Firing, ...]:

@@ -8,8 +8,9 @@ Laws, each held by a test:
 - Nothing fires while the robot is held, disarmed or paused by a person.
 
 Time has two clocks: ``unix_s``, by which people live and which may jump, and ``monotonic_s``, which
-never does. Where they part by over a second, the clock was put right: rules that were counted from
-an instant ("in 20 minutes") move along, times of day stay.
+never does, and goes on while the machine is suspended. Where they part by over a second, the clock
+was put right: rules that were counted from an instant ("in 20 minutes") move along, times of day
+stay.
 """
 
 from __future__ import annotations
@@ -36,6 +37,8 @@ BACK_S = 26 * 3600.0
 UNSET_S = 600.0
 """A clock that is behind what was written down before is not believed for so long."""
 BEHIND_S = 60.0
+NEVER_SET_UNIX_S = 1_793_491_200.0
+"""2026-11-01, before this was written: a clock that shows less was reset, and is not set yet."""
 MOST_COUNTED = 1000
 """Missed runs that are counted; more are "at least so many"."""
 BRIDGE_SILENT = "bridge_silent"
@@ -145,6 +148,7 @@ def tick(
     """Return the book after this instant, and what is to be done. Same arguments, same answer."""
     effects: list[Effect] = []
     book = _follow_clock(book, now, effects)
+    book = _believe_clock(book, now, effects)
     for name, due_s in sorted(book.due.items(), key=lambda item: item[1]):
         if due_s > now.unix_s:
             break
@@ -178,6 +182,26 @@ def _follow_clock(book: OrderBook, now: ClockReading, effects: list[Effect]) -> 
     return book
 
 
+def _believe_clock(book: OrderBook, now: ClockReading, effects: list[Effect]) -> OrderBook:
+    """Have orders be due again that were handled by a clock far ahead, which a start has put right.
+
+    The process that was there then saw no step, and without this they would wait for that year.
+    """
+    if not (book.unset and _alive_s(book, now) >= UNSET_S and now.unix_s >= NEVER_SET_UNIX_S):
+        return book
+    for order in tuple(book.orders.values()):
+        ahead_s = order.handled_unix_s - now.unix_s
+        if ahead_s > BACK_S and not order.ended:
+            moved = _move_along(order, -ahead_s, now)
+            book = replace(put(book, moved), unset=False, floor_unix_s=now.unix_s)
+            effects.append(Keep(moved))
+    return book
+
+
+def _alive_s(book: OrderBook, now: ClockReading) -> float:
+    return now.monotonic_s - book.began.monotonic_s if book.began is not None else 0.0
+
+
 def _move_along(order: StandingOrder, step_s: float, now: ClockReading) -> StandingOrder:
     rule = order.rule
     if isinstance(rule, AtRule) and rule.relative and not order.ended:
@@ -195,7 +219,7 @@ def _move_along(order: StandingOrder, step_s: float, now: ClockReading) -> Stand
 
 def _waits(book: OrderBook, order: StandingOrder, world: RobotView, now: ClockReading) -> bool:
     """Tell whether nothing can be said of a run yet."""
-    alive_s = now.monotonic_s - book.began.monotonic_s if book.began is not None else 0.0
+    alive_s = _alive_s(book, now)
     relative = isinstance(order.rule, EveryRule) or getattr(order.rule, "relative", False)
     if book.unset and not (relative and order.id in book.fresh):
         return alive_s < UNSET_S

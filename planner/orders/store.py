@@ -16,6 +16,7 @@ from wire import ConfigError
 
 if TYPE_CHECKING:
     import sqlite3
+    from collections.abc import Iterable
 
     from planner.state_database import StateDatabase
 
@@ -60,12 +61,20 @@ class OrderStore:
         return orders, firings, float(seen[0][0]) if seen else 0.0
 
     def keep(
-        self, order: StandingOrder, firing: Firing | None = None, seen_unix_s: float | None = None
-    ) -> Firing | None:
-        """Write an order, and with it a firing; what is missed in a row is one entry.
+        self,
+        orders: Iterable[StandingOrder],
+        firings: Iterable[Firing] = (),
+        seen_unix_s: float | None = None,
+    ) -> tuple[Firing, ...]:
+        """Write orders and firings in one transaction; what is missed in a row is one entry.
+
+        Args:
+            orders: as they are by now.
+            firings: of these orders, oldest first.
+            seen_unix_s: how far the clock is, where that is to be written.
 
         Returns:
-            The firing as it is kept: with the count of those before that came to the same.
+            The firings as they are kept: with the count of those before that came to the same.
 
         Raises:
             StateUnavailable: it can't be written; nothing has changed.
@@ -73,26 +82,14 @@ class OrderStore:
         with self._database.change() as connection:
             for statement in filter(str.strip, _SCHEMA.split(";")):
                 connection.execute(statement)
-            connection.execute(
-                "REPLACE INTO standing_orders VALUES (?, ?, ?)",
-                (order.id, order.number, order.model_dump_json()),
-            )
+            for order in orders:
+                connection.execute(
+                    "REPLACE INTO standing_orders VALUES (?, ?, ?)",
+                    (order.id, order.number, order.model_dump_json()),
+                )
             if seen_unix_s is not None:
                 _see(connection, seen_unix_s)
-            return None if firing is None else _put(connection, firing)
-
-    def end(self, firing: Firing) -> None:
-        """Write what became of a firing.
-
-        Raises:
-            StateUnavailable: it can't be written.
-        """
-        with self._database.change() as connection:
-            kept = connection.execute(
-                "SELECT 1 FROM standing_orders WHERE id = ?", (firing.order,)
-            ).fetchone()
-            if kept is not None:
-                _put(connection, firing)
+            return tuple(_put(connection, firing) for firing in firings)
 
     def see(self, unix_s: float) -> None:
         """Write how far the clock is.

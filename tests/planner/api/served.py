@@ -19,7 +19,7 @@ from tests.planner.api.fakes import FakeServices, two_room
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
-    from starlette.types import Receive, Scope, Send
+    from starlette.types import ASGIApp, Receive, Scope, Send
 
     from planner.api.interfaces import Services
 
@@ -58,6 +58,12 @@ def _routes(access: Access) -> FastAPI:
 
 def client_of(services: FakeServices, access: Access = LOCAL) -> TestClient:
     """Return a client of these services, with an address of its own; two at once do not meet."""
+    app = app_of(services, access)
+    return TestClient(app, base_url=BASE, client=(f"10.0.0.{next(_ADDRESSES)}", 50_000))
+
+
+def app_of(services: FakeServices, access: Access = LOCAL) -> ASGIApp:
+    """Return an application that serves these services, in the caller's own event loop."""
     own: list[FastAPI] = []
 
     async def app(scope: Scope, receive: Receive, send: Send) -> None:
@@ -68,4 +74,4 @@ def client_of(services: FakeServices, access: Access = LOCAL) -> TestClient:
 
     if services.site is not two_room():
         raise ValueError("routes that are built once show the site of two rooms alone")
-    return TestClient(app, base_url=BASE, client=(f"10.0.0.{next(_ADDRESSES)}", 50_000))
+    return app

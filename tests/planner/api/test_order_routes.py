@@ -128,6 +128,10 @@ def test_a_reminder_may_be_given_apart(client: TestClient) -> None:
         ({"text": "停", "when": {"in_s": 60}}, 422, "order_stops"),
         ({"text": "pause for now", "when": {"in_s": 60}}, 422, "order_is_command"),
         ({"text": "yes", "when": {"in_s": 60}}, 422, "order_is_command"),
+        ({"text": "if you see a cup, " * 4 + "say hello", "when": {"in_s": 60}}, 422,
+         "order_not_understood"),
+        ({"text": "如果看到杯子，就" * 4 + "说你好", "when": {"in_s": 60}}, 422,
+         "order_not_understood"),
         ({"text": "go to the kitchen", "when": {}}, 422, "invalid_request"),
         ({"text": "x", "when": {"in_s": 60, "every_s": 900}}, 422, "invalid_request"),
         ({"text": "x", "when": {"event": "full_moon"}}, 422, "invalid_request"),
@@ -149,6 +153,18 @@ def test_what_can_not_be_kept_is_refused_with_a_code(
         assert told["en"] != told["zh"]
 
 
+@pytest.mark.parametrize("path", ["/v1/orders", "/v1/goals", "/v1/memory/facts", "/v1/places"])
+@pytest.mark.parametrize("body", ['{"text":%s}', '{"text":"say hello","when":%s,"name":%s}'])
+def test_a_body_that_is_nested_without_end_is_refused_with_a_code(
+    client: TestClient, services: FakeServices, path: str, body: str
+) -> None:
+    deep = body.replace("%s", "[" * 20_000 + "]" * 20_000)
+    answer = client.post(path, content=deep, headers={"content-type": "application/json"})
+    assert (answer.status_code, answer.json()["code"]) == (400, "malformed_json")
+    assert "nested too deep" in answer.json()["detail"]
+    assert services.goals.calls == []
+
+
 def test_no_more_orders_are_kept_than_a_page_can_show(
     client: TestClient, services: FakeServices
 ) -> None:
@@ -159,7 +175,7 @@ def test_no_more_orders_are_kept_than_a_page_can_show(
     for number in range(2, MAX_ORDERS + 1):  # not by HTTP: requests have a rate
         rule = CronRule(cron=f"{number % 60} {9 + number // 60} * * *")
         order = kept.model_copy(update={"id": f"o{number}", "number": number, "rule": rule})
-        portal.call(partial(keeper.keep, order, new=True))
+        portal.call(partial(keeper.keep, order))
     answers = [
         give(client, text=text, when={"cron": "0 20 * * *"}) for text in ("say hello", "去厨房")
     ]
@@ -168,6 +184,21 @@ def test_no_more_orders_are_kept_than_a_page_can_show(
         assert full.json()["code"] == "orders_full", full.text
         assert full.json()["message"]["en"] != full.json()["message"]["zh"]
     assert len(services.orders.keeper.book.orders) == MAX_ORDERS
+
+
+@pytest.mark.slow
+def test_a_thousand_orders_at_once_are_a_few_and_each_other_says_why(
+    client: TestClient, services: FakeServices
+) -> None:
+    answers = [
+        give(client, text="say hello", when={"cron": f"{n % 60} {8 + n // 60 % 12} * * *"})
+        for n in range(1000)
+    ]
+    made = [each for each in answers if each.status_code == 201]
+    assert 0 < len(made) == len(services.orders.keeper.book.orders) <= MAX_ORDERS
+    codes = {each.json()["code"] for each in answers if not each.is_success}
+    assert codes <= {"too_many_goals", "orders_full"}
+    assert "too_many_goals" in codes
 
 
 @pytest.mark.parametrize(

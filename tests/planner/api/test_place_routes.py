@@ -85,6 +85,10 @@ JSON = {"content-type": "application/json"}
     [
         ("POST", "", {"name": {}}, 422, "place_name_malformed"),
         ("POST", "", {"name": {"en": "stop"}}, 422, "place_name_reserved"),
+        ("POST", "", {"name": {"en": "go to the kitchen"}}, 422, "place_name_reserved"),
+        ("POST", "", {"name": {"en": "every day at eight"}}, 422, "place_name_reserved"),
+        ("POST", "", {"name": {"zh": "跟着我"}}, 422, "place_name_reserved"),
+        ("POST", "", {"name": {"en": "<b>nook</b>"}}, 422, "place_name_malformed"),
         ("POST", "", {"name": {"en": "Kitchen"}}, 409, "place_name_taken"),
         ("POST", "", {"name": {"en": "x"}, "speed": 1}, 422, "invalid_request"),
         ("POST", "", {"name": {"en": "y"}, "point": {"x_m": 9, "y_m": 99}}, 422, None),

@@ -13,8 +13,14 @@ from planner.brain.interface import ThinkRequest
 from planner.brain.prompt import BUDGET_TOKENS, Prompt
 from planner.brain.prompt_template import as_json
 from planner.brain.prompt_tokens import count_tokens, tokens
-from planner.brain.situation import MAX_RECENT, OpenQuestion, RecentGoal, Situation
-from planner.brain.situation_text import tell_situation
+from planner.brain.situation import (
+    MAX_RECENT,
+    OpenQuestion,
+    RecentGoal,
+    RememberedItem,
+    Situation,
+)
+from planner.brain.situation_text import MAX_REMEMBERED, tell_situation
 from planner.plan import EVERY_KIND, NEEDS_GROWING_MAP, Language
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
@@ -55,6 +61,37 @@ def test_five_goals_fit_beside_names_in_both_languages() -> None:
     assert told["now"]["question"]["asked"].startswith("Which room")
     assert (told["now"]["battery"], told["now"]["heading_deg"]) == ("83 %", -93)
     assert "洗手间" in messages[0]["content"], "a nickname in Chinese is told, too"
+
+
+SEEN = tuple(
+    RememberedItem(what=what, place=place, minutes=7 * age)
+    for age, (what, place) in enumerate(
+        (what, place)
+        for what in ("red cup", "blue backpack", "laptop", "umbrella")
+        for place in ("kitchen", "living_room", "study", "bedroom", "hallway")
+    )
+)
+KEYS = "the keys of the cellar are under the blue book on the shelf"
+
+
+def test_twenty_things_seen_and_five_goals_are_told_whole_to_a_robot_at_rest() -> None:
+    idle = {"running": None, "step": None, "queue": (), "more": 0, "question": None}
+    messages = sent(BUSY.model_copy(update={**idle, "remembered": SEEN}), "where is my red cup?")
+    told = json.loads(messages[1]["content"])
+    assert tokens(messages) <= BUDGET_TOKENS
+    assert len(told["recent"]) == MAX_RECENT
+    assert sum(map(len, told["remembered"]["seen"].values())) == len(SEEN) == MAX_REMEMBERED
+
+
+@pytest.mark.parametrize("said", [0, 5, 20])
+def test_whatever_is_remembered_a_request_is_within_the_budget(said: int) -> None:
+    facts = tuple(RememberedItem(what=f"{KEYS} {n}", said=True, minutes=n) for n in range(said))
+    remembered = (*facts, *SEEN)[:MAX_REMEMBERED]
+    messages = sent(BUSY.model_copy(update={"remembered": remembered}), "where are my keys?")
+    told = json.loads(messages[1]["content"])
+    assert tokens(messages) <= BUDGET_TOKENS
+    assert told["recent"], "what gives way is the oldest of whichever are more"
+    assert told["remembered"]
 
 
 def test_what_stands_reaches_no_rule() -> None:

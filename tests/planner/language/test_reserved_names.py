@@ -25,6 +25,14 @@ ORDERS = (
     *("come back", "wait 5 seconds", "go to the desk", "kitchen and bedroom", "here", "home"),
     *("if nobody is there", "ignore all rules", "kitchn", "follow me", "left"),
     *("停", "别动", "别去", "不要", "继续", "算了", "这里", "去", "厨房然后卧室", "如果", "我的"),
+    *(
+        "跟着我",
+        "跟我来",
+        "提醒我",
+        "每天八点",
+        "every day at eight",
+        "remind me at nine",
+    ),
 )
 
 

@@ -39,19 +39,28 @@ READY = STATUS.model_copy(update={"mode": Mode.HOLD, "held": None, "rows": ()})
 
 @dataclass
 class MovedClocks:
-    """Be both clocks, moved by hand."""
+    """Be all clocks, moved by hand."""
 
     unix_s: float = NOON_UNIX_S
     monotonic_s: float = 5000.0
+    suspended_s: float = 0.0
+    """For so long the machine slept: elapsed time went on, monotonic time stood."""
     numbers: Any = field(default_factory=lambda: count(1))
 
     def pass_s(self, seconds: float) -> None:
         self.unix_s += seconds
         self.monotonic_s += seconds
 
+    def suspend(self, seconds: float) -> None:
+        self.unix_s += seconds
+        self.suspended_s += seconds
+
     def clocks(self) -> OrderClocks:
         return OrderClocks(
-            lambda: self.monotonic_s, lambda: self.unix_s, lambda: f"goal-{next(self.numbers)}"
+            lambda: self.monotonic_s,
+            lambda: self.unix_s,
+            lambda: f"goal-{next(self.numbers)}",
+            lambda: self.monotonic_s + self.suspended_s,
         )
 
 
@@ -156,11 +165,12 @@ async def kept_in(
     missions: FakeMissions | None = None,
     quiet: QuietHours | None = None,
     notifier: Notifier | None = None,
+    database: StateDatabase | None = None,
 ) -> Kept:
     """Return standing orders of a home folder, taken up, with rounds turned by hand."""
     clock = clock or MovedClocks()
     missions = missions or FakeMissions(clock)
-    orders = standing_orders(home, clock, missions, quiet, notifier)
+    orders = standing_orders(home, clock, missions, quiet, notifier, database)
     await orders.keeper.start(rounds=False)
     return Kept(orders, missions, clock)
 
@@ -171,7 +181,8 @@ def standing_orders(
     missions: FakeMissions,
     quiet: QuietHours | None = None,
     notifier: Notifier | None = None,
+    database: StateDatabase | None = None,
 ) -> StandingOrders:
-    store = OrderStore(StateDatabase(home))
+    store = OrderStore(database or StateDatabase(home))
     keeper = OrderKeeper(store, missions, BERLIN, quiet, notifier, clock.clocks())
     return StandingOrders(OrderIntake(keeper, missions), keeper)

@@ -187,10 +187,13 @@ def test_a_firing_that_was_cut_off_after_its_goal_is_found_again(tmp_path: Path)
         kept = await kept_in(tmp_path)
         order = await give(kept, "every day at 12:01 go to the kitchen")
 
-        async def die(_: Any) -> None:
+        give_goal = kept.missions.give
+
+        async def die(*given: Any) -> str:
+            await give_goal(*given)
             raise KeyboardInterrupt
 
-        kept.orders.keeper._write_end = die  # type: ignore[method-assign, assignment]
+        kept.missions.give = die  # type: ignore[method-assign, assignment]
         with pytest.raises(KeyboardInterrupt):
             await kept.run_s(61.0)
         again = await kept_in(tmp_path, kept.clock, kept.missions)

@@ -2,72 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.orders.order import FiringState, StandingOrder
+from planner.orders.order import FiringState
 from planner.orders.rule import next_due, settle
 from planner.orders.scheduler import (
     LATE_S,
     ClockReading,
     Fire,
-    Note,
     OrderBook,
     RobotView,
     add,
     put,
     tick,
 )
-from planner.plan import Language
 from planner.plan.timing import AtRule, CronRule, EveryRule, InRule, Rule, WorldEvent
 from planner.plan.timing import EventRule as Upon
 from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S
-
-
-def order(number: int, rule: Rule, now_s: float = NOON_UNIX_S) -> StandingOrder:
-    return StandingOrder(
-        id=f"o{number}", number=number, text="t", order="say hello", language=Language.EN,
-        rule=rule, created_unix_s=now_s, handled_unix_s=now_s,
-    )  # fmt: skip
-
-
-@dataclass
-class Player:
-    """Play a life: a disk that keeps orders, a process that may die, clocks that may jump."""
-
-    orders: dict[str, StandingOrder]
-    unix_s: float = NOON_UNIX_S
-    monotonic_s: float = 1000.0
-    book: OrderBook = field(default_factory=lambda: OrderBook(BERLIN))
-    fired: list[tuple[str, float, float]] = field(default_factory=list)
-    """Which, when it was due, when it fired."""
-    told: list[tuple[str, float, float, int]] = field(default_factory=list)
-    """Which, the first due and the last of these, how many."""
-
-    def start(self) -> None:
-        self.book = OrderBook(BERLIN, floor_unix_s=0.0)
-        for kept in self.orders.values():
-            self.book = put(self.book, kept)
-
-    def tick(self, world: RobotView = RobotView()) -> None:  # noqa: B008  # frozen
-        now = ClockReading(self.unix_s, self.monotonic_s)
-        self.book, effects = tick(self.book, world, now)
-        for effect in effects:
-            self.orders[effect.order.id] = effect.order
-            if isinstance(effect, Fire):
-                due_s = effect.firing.due_unix_s
-                self.fired.append((effect.order.id, due_s, self.unix_s))
-            elif isinstance(effect, Note):
-                told = effect.firing
-                last_s = told.until_unix_s or told.due_unix_s
-                self.told.append((told.order, told.due_unix_s, last_s, told.count))
-
-    def pass_s(self, seconds: float) -> None:
-        self.unix_s += seconds
-        self.monotonic_s += seconds
-
+from tests.planner.orders.player import Player, order
 
 _RULES = st.one_of(
     st.sampled_from(

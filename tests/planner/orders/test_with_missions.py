@@ -78,7 +78,10 @@ async def home(
         numbers = iter(range(1000))
         # The two clocks part by design: the missions' is the bridge's, the orders' the test's.
         orders.keeper.clocks = OrderClocks(
-            bridge.now_s, lambda: made.unix_s, lambda: f"{prefix}-order-{next(numbers)}"
+            bridge.now_s,
+            lambda: made.unix_s,
+            lambda: f"{prefix}-order-{next(numbers)}",
+            bridge.now_s,
         )
         await orders.keeper.start(rounds=False)
         try:

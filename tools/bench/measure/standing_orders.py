@@ -157,7 +157,7 @@ def _kills() -> list[ReportRow]:
     with tempfile.TemporaryDirectory() as folder:
         home = Path(folder)
         order = replace_rule(_order(1, EveryRule(seconds=0.5, anchor_unix_s=time.time())))
-        OrderStore(StateDatabase(home)).keep(order)
+        OrderStore(StateDatabase(home)).keep([order])
         log = home / "given"
         for _ in range(KILLS):
             program = [sys.executable, "-m", "tools.bench.order_keeper_process", str(home)]
