@@ -44,8 +44,7 @@ def grade(exam: Exam) -> Grade:
     """Return the grade of an exam."""
     answered = [m for m in exam.marked if m.result not in ("not_asked", "no_answer")]
     if not answered:
-        why = BilingualWords("it answered nothing", "没有任何应答")
-        return Grade("F", (GradeReason("F", why),))
+        return Grade("F", (GradeReason("F", _why_nothing(exam)),))
     found = [
         *_parts(exam),
         *_ladder(exam),
@@ -55,6 +54,17 @@ def grade(exam: Exam) -> Grade:
     ]
     found.sort(key=lambda reason: -GRADES.index(reason.most))
     return Grade(found[0].most if found else "A", tuple(found))
+
+
+def _why_nothing(exam: Exam) -> BilingualWords:
+    """Tell a model that never answered from one that had no time left for the orders."""
+    asked = any(m.result == "no_answer" for m in exam.marked)
+    if asked or not any(rung.taken for rung in exam.rungs):
+        return BilingualWords("it answered nothing", "没有任何应答")
+    return BilingualWords(
+        f"too slow: {exam.took_s:.0f} s went by before the first order was answered",
+        f"太慢：{exam.took_s:.0f} 秒内没有答完第一条指令",
+    )
 
 
 def _parts(exam: Exam) -> Iterator[GradeReason]:

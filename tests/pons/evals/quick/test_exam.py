@@ -157,6 +157,25 @@ def test_the_exam_ends_at_its_caps_and_at_the_days(
     assert grade(exam).letter != "A"
 
 
+def test_a_slow_model_has_time_left_for_the_orders(mock: RunningMock, tmp_path: Path) -> None:
+    """By this clock each call takes 16 s, so that four rungs would take the whole minute."""
+    before = mock.set()["calls"]
+    model = ModelSettings(url=mock.url, name="mock")
+    exam = asyncio.run(
+        examine(
+            Settings(model=model),
+            model,
+            tmp_path,
+            None,
+            Caps(),
+            lambda: 16.0 * (mock.report()["calls"] - before),
+        )
+    )
+    assert [rung.asked for rung in exam.rungs] == [True, True, False, False]
+    assert [m.result for m in exam.marked[:3]] == ["right", "right", "not_asked"]
+    assert "json_object not asked · prompt not asked" in show.table(exam, grade(exam), None)
+
+
 def test_the_command_shows_a_table_and_json(
     mock: RunningMock,
     tmp_path: Path,
@@ -248,7 +267,7 @@ def exam_of(marks: str = "", seconds: float = 1.0, calls: int = 1, *, strict: bo
         for q, r in zip(QUESTIONS, given, strict=True)
     ]
     rungs = STRICT if strict else (replace(STRICT[0], right=False),)
-    return Exam("m", "h", rungs, tuple(marked))
+    return Exam("m", "h", rungs, tuple(marked), took_s=60.0)
 
 
 @pytest.mark.parametrize(
@@ -267,6 +286,7 @@ def exam_of(marks: str = "", seconds: float = 1.0, calls: int = 1, *, strict: bo
         (exam_of(calls=2), "B", "more than one call"),
         (exam_of("...............-"), "B", "1 of 16 orders not asked"),
         (exam_of("....------------"), "C", "12 of 16"),
+        (exam_of("-" * len(QUESTIONS)), "F", "too slow: 60 s"),
     ],
 )
 def test_the_grade_is_the_worst_that_was_found(exam: Exam, letter: str, told: str) -> None:
