@@ -9,14 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from planner.brain import BadPlan, BrainDown, ScriptedBrain
+from planner.brain import BadPlan, BrainDown, OfflineBrain, ScriptedBrain
 from planner.budget.ledger import MAX_ID
 from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
 from pons.evals.cases import Case
 from pons.evals.category_rules import LAWS
 from pons.evals.matchers import read_expectation
-from pons.evals.report import has_passed
+from pons.evals.report import GuardCount, content, guard_count, has_passed, table
 from pons.evals.score import score
 from pons.evals.suites import load
 from tests.pons.mock_llm.mocks import running_mock
@@ -124,6 +124,28 @@ def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
     assert [verdict.right for verdict in verdicts] == [False, False, False]
     assert [bool(verdict.wrong) for verdict in verdicts] == [True, False, False]
     assert not has_passed(verdicts)
+
+
+def test_the_guard_is_counted_beside_a_models_wrong_motions(suite: str) -> None:
+    """The first sentence asks for the kitchen and the second for the study; the third forbids."""
+    (ours,) = load(suite)
+    drive = StepPlan(steps=(GoTo(place="study"),))
+    verdicts = asyncio.run(score(ours, ScriptedBrain([drive], by_grammar=False)))
+    assert [verdict.needs_yes for verdict in verdicts] == [True, False, True]
+    assert guard_count(verdicts) == GuardCount(moving=3, needs_yes=2, wrong=2, walked_unasked=0)
+    assert "of 3 plans that move 2 wait for a yes; of 2 that move wrongly 0 do not" in table(
+        "mine", "scripted", verdicts
+    )
+    offline = asyncio.run(score(ours, OfflineBrain()))
+    assert guard_count(offline).moving == 0, "the grammar is not held to the guard"
+
+
+def test_why_a_model_decided_nothing_is_counted(suite: str) -> None:
+    (ours,) = load(suite)
+    troubles = [BadPlan("no"), BrainDown("late", why="timeout"), BrainDown("late", why="timeout")]
+    verdicts = asyncio.run(score(ours, ScriptedBrain(replies=troubles)))
+    assert "no decision: timeout 2, bad_plan 1" in table("mine", "scripted", verdicts)
+    assert content("mine", "scripted", verdicts)["no_decision"] == {"timeout": 2, "bad_plan": 1}
 
 
 @pytest.mark.parametrize(
