@@ -9,12 +9,21 @@ from pathlib import Path
 
 import pytest
 
-from planner.brain import BadPlan, BrainDown, OfflineBrain, ScriptedBrain
+from planner.brain import (
+    BadPlan,
+    BrainDown,
+    OfflineBrain,
+    ScriptedBrain,
+    ThinkRequest,
+    ThinkResult,
+)
+from planner.brain.streamed_draft import Hear
 from planner.budget.ledger import MAX_ID
 from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
 from pons.evals.cases import Case
 from pons.evals.category_rules import LAWS
+from pons.evals.command import score_whole
 from pons.evals.matchers import read_expectation
 from pons.evals.report import GuardCount, content, guard_count, has_passed, table
 from pons.evals.score import score
@@ -86,6 +95,25 @@ def test_a_spent_budget_keeps_what_was_scored(
         assert "2 of 2 calls" in shown.err
         assert main(words) == 2
         assert capsys.readouterr().out == ""
+
+
+class InterruptedBrain(ScriptedBrain):
+    """Be interrupted at the second sentence, as asyncio.run does it on Ctrl-C."""
+
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
+        task = asyncio.current_task()
+        if self.asked and task is not None:
+            task.cancel()
+            await asyncio.Event().wait()
+        return await super().think(request, hear)
+
+
+def test_ctrl_c_keeps_what_was_scored(suite: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (ours,) = load(suite)
+    brain = InterruptedBrain([StepPlan(steps=(GoTo(place="kitchen"),))])
+    _, [scored] = asyncio.run(score_whole((ours,), brain))
+    assert ([verdict.right for verdict in scored.verdicts], scored.left) == ([True], 2)
+    assert "interrupted" in capsys.readouterr().err
 
 
 def test_each_sentence_of_each_run_is_a_goal_of_its_own(tmp_path: Path) -> None:
