@@ -142,8 +142,8 @@ async def _try_mode(room: _Room, mode: JsonMode) -> ModeResult:
 
 
 async def _answers(room: _Room, mode: JsonMode | None) -> tuple[MarkedAnswer, ...]:
-    if mode is None:
-        return tuple(MarkedAnswer(question, "no_answer") for question in QUESTIONS)
+    if mode is None:  # nothing was taken: to ask the rest would be more of the same
+        return tuple(MarkedAnswer(question, "not_asked") for question in QUESTIONS)
     marked = []
     brain = room.brain(mode)
     try:

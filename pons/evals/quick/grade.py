@@ -57,14 +57,18 @@ def grade(exam: Exam) -> Grade:
 
 
 def _why_nothing(exam: Exam) -> BilingualWords:
-    """Tell a model that never answered from one that had no time left for the orders."""
-    asked = any(m.result == "no_answer" for m in exam.marked)
-    if asked or not any(rung.taken for rung in exam.rungs):
-        return BilingualWords("it answered nothing", "没有任何应答")
-    return BilingualWords(
-        f"too slow: {exam.took_s:.0f} s went by before the first order was answered",
-        f"太慢：{exam.took_s:.0f} 秒内没有答完第一条指令",
-    )
+    """Tell a model that never answered from a slow one, and from one with no time for orders."""
+    if any(rung.taken for rung in exam.rungs) and all(m.result == "not_asked" for m in exam.marked):
+        return BilingualWords(
+            f"too slow: {exam.took_s:.0f} s went by before the first order was answered",
+            f"太慢：{exam.took_s:.0f} 秒内没有答完第一条指令",
+        )
+    if any(rung.why.startswith("timeout") for rung in exam.rungs):
+        return BilingualWords(
+            "it answered nothing in time: it hangs, or timeout_s in [model] is too short",
+            "没有及时应答：模型没有反应，或 [model] 的 timeout_s 对它太短",
+        )
+    return BilingualWords("it answered nothing", "没有任何应答")
 
 
 def _parts(exam: Exam) -> Iterator[GradeReason]:

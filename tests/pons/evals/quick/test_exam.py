@@ -87,6 +87,7 @@ def test_a_good_model_takes_every_mode_and_pays_for_its_calls(
         ("no_schema", {"prompt"}, "BCD"),
         ("garbage", set(), "F"),
         ("hang", set(), "F"),
+        ("status", set(), "F"),
     ],
 )
 def test_a_model_with_a_fault_is_graded_down(
@@ -98,6 +99,21 @@ def test_a_model_with_a_fault_is_graded_down(
     found = grade(exam)
     assert found.letter in letters
     assert all(reason.words.en and reason.words.zh for reason in found.reasons)
+    if not any(rung.taken for rung in exam.rungs):
+        assert {m.result for m in exam.marked} == {"not_asked"}, "no order was asked"
+
+
+def test_a_model_that_is_too_slow_is_told_from_one_that_is_gone(
+    mock: RunningMock, tmp_path: Path
+) -> None:
+    told = []
+    for switches in ({"fault": "hang"}, {"fault": "status", "status": 500}):
+        mock.set(**switches)
+        model = ModelSettings(url=mock.url, name="mock", timeout_s=0.5)
+        exam = asyncio.run(examine(Settings(model=model), model, tmp_path, None, Caps()))
+        told.append(grade(exam).reasons[0].words.en)
+    assert "timeout_s in [model]" in told[0]
+    assert told[1] == "it answered nothing"
 
 
 TAG = BrainTag(name="m", version="1")
