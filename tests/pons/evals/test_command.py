@@ -51,6 +51,13 @@ def test_our_own_suites_reach_the_goal(capsys: pytest.CaptureFixture[str]) -> No
     assert "held out" in shown
 
 
+@pytest.mark.parametrize("name", ["chat_en", "chat_zh"])
+def test_what_asks_for_nothing_moves_nothing(name: str) -> None:
+    (ours,) = load(name)
+    verdicts = asyncio.run(score(ours, OfflineBrain()))
+    assert [verdict.case.text for verdict in verdicts if not verdict.right] == []
+
+
 def test_results_as_json(suite: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["eval", suite, "--json"]) == 0
     (result,) = json.loads(capsys.readouterr().out)["suites"]
