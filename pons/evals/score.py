@@ -110,7 +110,8 @@ async def _one(
         raise
     except BadPlan as rejected:
         made = _no(Code.BAD_PLAN, why=str(rejected)[:200])
-        return _nothing(case, made, f"no plan: {rejected}", clock() - began, rejected.code)
+        none = _nothing(case, made, f"no plan: {rejected}", clock() - began, rejected.code)
+        return replace(none, calls=rejected.calls, tokens=rejected.tokens)
     except BrainDown as down:
         return _nothing(
             case, _no(Code.MODEL_UNAVAILABLE), f"no answer: {down.why}", clock() - began, down.why

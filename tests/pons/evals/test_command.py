@@ -150,6 +150,20 @@ def test_no_decision_is_right_nowhere(suite: str, trouble: Exception) -> None:
     assert not any(verdict.right for verdict in verdicts)
 
 
+def test_what_bad_plans_cost_is_counted(
+    suite: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each sentence is asked twice; 48 of 72 sentences once were, and told to have cost nothing."""
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    with running_mock() as mock:
+        mock.set(fault="garbage")
+        assert main(["eval", suite, "--json", "--model", f"m@{mock.url}"]) == 1
+        [result] = json.loads(capsys.readouterr().out)["suites"]
+        assert result["no_decision"] == {"bad_plan": 3}
+        assert result["calls"] == mock.report()["calls"] == 6
+        assert result["tokens"] > 0
+
+
 def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
     """A wrong drive, no plan and no answer are three faults; only the first would have moved."""
     (ours,) = load(suite)
