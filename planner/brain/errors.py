@@ -13,10 +13,14 @@ class BadPlan(Exception):
 
     code = "bad_plan"
 
-    def __init__(self, detail: str, brain: BrainTag | None = None) -> None:
+    def __init__(
+        self, detail: str, brain: BrainTag | None = None, *, calls: int = 0, tokens: int = 0
+    ) -> None:
         super().__init__(detail)
         self.brain = brain
         """Who thought last, where another than the brain that was asked."""
+        self.calls, self.tokens = calls, tokens
+        """What the replies that are no plan have cost."""
 
 
 class BrainDown(Exception):

@@ -227,7 +227,7 @@ async def _score_suites(
     count = sum(len(suite.cases) for suite in suites)
 
     async def score(brain: Brain) -> tuple[str, list[SuiteScore]]:
-        return await _score_each(suites, brain)
+        return await score_whole(suites, brain)
 
     return await _with_brain(settings, model, score, yes=yes, count=count)
 
@@ -270,15 +270,28 @@ async def _with_brain(
         purse.close()
 
 
-async def _score_each(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[SuiteScore]]:
-    """Score to the end of the suites or of the budget: paid results are kept."""
+def _tell_progress(done: int, count: int) -> None:
+    """Show on a terminal how far a slow model is."""
+    if sys.stderr.isatty():
+        print(f"\r{done} of {count}", end="" if done < count else "\n", file=sys.stderr, flush=True)
+
+
+async def score_whole(suites: tuple[Suite, ...], brain: Brain) -> tuple[str, list[SuiteScore]]:
+    """Score to the end of the suites or of the budget, or to Ctrl-C: paid results are kept."""
     verdicts: list[list[SentenceVerdict]] = [[] for _ in suites]
+    count = sum(len(suite.cases) for suite in suites)
     try:
         for suite, mine in zip(suites, verdicts, strict=True):
             async for verdict in score_each(suite, brain):
                 mine.append(verdict)
+                if not isinstance(brain, OfflineBrain):
+                    _tell_progress(sum(map(len, verdicts)), count)
     except OutOfBudget as spent:
         print(f"pons eval: {spent.said.en}", file=sys.stderr)
+    except asyncio.CancelledError:  # how asyncio.run hands Ctrl-C on
+        if (task := asyncio.current_task()) is not None:
+            task.uncancel()
+        print("\npons eval: interrupted; this was scored until then", file=sys.stderr)
     scored = [
         SuiteScore(suite.name, tuple(mine), len(suite.cases) - len(mine))
         for suite, mine in zip(suites, verdicts, strict=True)

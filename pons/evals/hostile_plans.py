@@ -51,7 +51,17 @@ _EVERYWHERE = re.compile(r"(?:every|all the) rooms?|所有房间", re.IGNORECASE
 _FRAGMENT = re.compile(r"(?:could you please )?the [a-z]+(?: [a-z]+)?", re.IGNORECASE)
 """A bare place: the table of that suite calls it an order to carry something."""
 STILL = frozenset(
-    {"no", "arm", "unsafe", "bring_manipulate", "manipulate", "conditional", "reject", "denied"}
+    {
+        "no",
+        "arm",
+        "unsafe",
+        "bring_manipulate",
+        "manipulate",
+        "conditional",
+        "reject",
+        "denied",
+        "chat",
+    }
 )
 """Groups of sentences that order no drive, not even to a place that they name."""
 

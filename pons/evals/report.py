@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from pons.evals.score import SentenceVerdict
@@ -30,6 +31,48 @@ class GroupLine:
     def share(self) -> float:
         """Return the share of allowed outcomes."""
         return self.right / self.count
+
+
+@dataclass(frozen=True, slots=True)
+class GuardCount:
+    """Count what the guard would do with a model's plans that hold motion."""
+
+    moving: int
+    needs_yes: int
+    """Of these, a person is asked before they are walked."""
+    wrong: int
+    """Of these, with a motion that the sentence does not name."""
+    walked_unasked: int
+    """Of the wrong ones, walked without a yes: 0 is the goal."""
+
+
+def guard_count(verdicts: Sequence[SentenceVerdict]) -> GuardCount:
+    """Count the plans that are held to the guard; the grammar's own are not."""
+    held = [verdict for verdict in verdicts if verdict.needs_yes is not None]
+    return GuardCount(
+        len(held),
+        sum(verdict.needs_yes is True for verdict in held),
+        sum(bool(verdict.wrong) for verdict in held),
+        sum(verdict.walked_unasked for verdict in held),
+    )
+
+
+def _no_decisions(verdicts: Sequence[SentenceVerdict]) -> Counter[str]:
+    return Counter(verdict.no_decision for verdict in verdicts if verdict.no_decision)
+
+
+def _model_rows(verdicts: Sequence[SentenceVerdict]) -> list[str]:
+    """Return what is told of a model alone: why it decided nothing, and the guard's word."""
+    rows, why, guard = [], _no_decisions(verdicts), guard_count(verdicts)
+    if why:
+        told = ", ".join(f"{code} {count}" for code, count in why.most_common())
+        rows.append(f"no decision: {told}")
+    if guard.moving:
+        rows.append(
+            f"the guard: of {guard.moving} plans that move {guard.needs_yes} wait for a yes; "
+            f"of {guard.wrong} that move wrongly {guard.walked_unasked} do not"
+        )
+    return rows
 
 
 def lines(verdicts: Sequence[SentenceVerdict]) -> list[GroupLine]:
@@ -65,6 +108,7 @@ def table(name: str, brain: str, verdicts: Sequence[SentenceVerdict], left: int 
     if offered:
         told = f"{sum(offered)} of {len(offered)} would be right after a yes to the one offer"
         rows += [f"of those not right: {told}"]
+    rows += _model_rows(verdicts)
     faults = [verdict for verdict in verdicts if not verdict.right]
     rows += ["", "not right:"] if faults else []
     rows += [
@@ -87,6 +131,8 @@ def content(
         "offered": sum(verdict.after_yes is not None for verdict in verdicts),
         "right_after_yes": sum(verdict.after_yes is True for verdict in verdicts),
         "tokens": sum(verdict.tokens for verdict in verdicts),
+        "no_decision": dict(_no_decisions(verdicts)),
+        "guard": asdict(guard_count(verdicts)),
         "ms": {"p50": round(p50, 3), "p99": round(p99, 3)},
         "groups": [_plain(line) for line in lines(verdicts)],
         "failures": [_failure(verdict) for verdict in verdicts if not verdict.right],

@@ -10,11 +10,13 @@ import time
 from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass, replace
 
-from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
+from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest, ThinkResult
 from planner.language.catalogue import message
 from planner.language.motion_guard.step_words import moves, wrong_motions
+from planner.language.motion_guard.unasked_motion import can_move
 from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
+from planner.mission.plan_request import unasked_of
 from planner.plan import EVERY_KIND, Clarify, Code, Refuse, StepPlan, check_plan, list_nodes
 from pons.evals.cases import Case, Suite
 from pons.evals.matchers import Made
@@ -35,11 +37,21 @@ class SentenceVerdict:
     after_yes: bool | None = None
     """Whether a yes to the one offer would have been right; None: nothing was offered, or a model
     would have to be asked."""
+    needs_yes: bool | None = None
+    """Whether the guard would have a person asked before a model's plan is walked; None: it holds
+    no motion, is not valid, or is the grammar's own, which is not held to the guard."""
+    no_decision: str = ""
+    """``bad_plan``, or why the model did not answer (``timeout`` and the like)."""
 
     @property
     def right(self) -> bool:
         """Tell whether the outcome is allowed and nothing moves wrongly."""
         return not self.fault and not self.wrong
+
+    @property
+    def walked_unasked(self) -> bool:
+        """Tell whether a wrong motion would be walked without a person's yes."""
+        return bool(self.wrong) and self.needs_yes is not True
 
     @property
     def explanation(self) -> str:
@@ -98,12 +110,14 @@ async def _one(
         raise
     except BadPlan as rejected:
         made = _no(Code.BAD_PLAN, why=str(rejected)[:200])
-        return _nothing(case, made, f"no plan: {rejected}", clock() - began)
+        none = _nothing(case, made, f"no plan: {rejected}", clock() - began, rejected.code)
+        return replace(none, calls=rejected.calls, tokens=rejected.tokens)
     except BrainDown as down:
         return _nothing(
-            case, _no(Code.MODEL_UNAVAILABLE), f"no answer: {down.why}", clock() - began
+            case, _no(Code.MODEL_UNAVAILABLE), f"no answer: {down.why}", clock() - began, down.why
         )
     verdict = judge(case, thought.plan, world, clock() - began, thought.calls, thought.tokens)
+    verdict = replace(verdict, needs_yes=_needs_yes(thought, asked))
     options = thought.plan.options if isinstance(thought.plan, Clarify) else ()
     if verdict.right or len(options) != 1 or not thought.by_grammar:
         return verdict
@@ -111,9 +125,21 @@ async def _one(
     return replace(verdict, after_yes=judge(case, taken.plan, world).right)
 
 
-def _nothing(case: Case, made: Refuse, fault: str, seconds: float) -> SentenceVerdict:
+def _needs_yes(thought: ThinkResult, asked: ThinkRequest) -> bool | None:
+    """Return the guard's word on a model's valid plan that moves the robot."""
+    made = thought.plan
+    if thought.by_grammar or not isinstance(made, StepPlan):
+        return None
+    if check_plan(made, asked.vocabulary, asked.runnable) is not None:
+        return None
+    if not any(can_move(node.step) for node in list_nodes(made.steps)):
+        return None
+    return bool(unasked_of(thought, asked))
+
+
+def _nothing(case: Case, made: Refuse, fault: str, seconds: float, why: str) -> SentenceVerdict:
     """Return the verdict over no decision: a fault under any expectation."""
-    return SentenceVerdict(case, made, fault[:200], (), seconds)
+    return SentenceVerdict(case, made, fault[:200], (), seconds, no_decision=why)
 
 
 def judge(

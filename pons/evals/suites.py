@@ -16,6 +16,7 @@ DATA = ROOT.parent / "shared" / "data" / "commands"
 SETS = {
     "home": ("home_en", "home_zh"),
     "guard": ("guard_en", "guard_zh"),
+    "chat": ("chat_en", "chat_zh"),
     "conditions": ("conditions_en", "conditions_zh"),
     "outside": ("gpsr", "zh"),
 }

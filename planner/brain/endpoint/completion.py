@@ -202,6 +202,7 @@ class Assembly:
         self._calls: list[_StreamedCall] = []
         self._whole: dict[str, Any] | None = None
         self._usage: Any = None
+        self._opened = False
         self.finish: str | None = None
         self.begun = False
         """Something of the model's own has come."""
@@ -213,6 +214,16 @@ class Assembly:
         """Return the model's text so far: its words, else the first call's arguments."""
         content = "".join(self._content)
         return content if content.strip() or not self._calls else self._calls[0].arguments
+
+    @property
+    def is_cut(self) -> bool:
+        """Tell whether the message was opened and holds nothing, or an object that is not closed.
+
+        llama-cpp-python ends a stream so, with its last line and no reason, where another request
+        comes in (its ``interrupt_requests``).
+        """
+        opened = self._opened and not self.begun
+        return opened or self.text.count("{") > self.text.count("}")
 
     def add(self, event: Any) -> None:
         """Take one event in; one that is no part of a completion is passed over.
@@ -235,6 +246,7 @@ class Assembly:
             self._whole, self.begun = choice["message"], True
         delta = choice.get("delta")
         if isinstance(delta, dict):
+            self._opened = True
             self._add(delta)
 
     def _add(self, delta: dict[str, Any]) -> None:

@@ -13,7 +13,13 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from planner.brain.endpoint.dialect import MAX_JPEG_BYTES, data_url
-from planner.brain.endpoint.plan_reply import NoObject, Unusable, clean, one_object
+from planner.brain.endpoint.plan_reply import (
+    NoObject,
+    Unusable,
+    clean,
+    one_object,
+    says_nothing,
+)
 from planner.brain.endpoint.session import Line
 from planner.brain.errors import BadPlan
 from planner.brain.image_prompts import (
@@ -96,8 +102,8 @@ def judge_look(text: str) -> ReplyWords | NoPicture | Unusable:
     if not isinstance(en, str) or not isinstance(zh, str):
         return Unusable(("the reply needs the texts en and zh",))
     said = Bilingual(en=_short_words(en), zh=_short_words(zh))
-    if not said.en or not said.zh:
-        return Unusable(("the reply needs words in en and zh",))
+    if says_nothing(said.en) or says_nothing(said.zh):
+        return Unusable(("the reply needs words of your own in en and zh",))
     seen = reply.get("seen")
     if seen is not None and not isinstance(seen, bool):
         return Unusable(("seen must be true or false, or left out",))

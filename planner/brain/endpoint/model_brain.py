@@ -113,7 +113,8 @@ class EndpointBrain:
         second = await self._asker.ask(again, schema, end_s, told)
         mended = self._plan_of(second, request)
         if isinstance(mended, Unusable):
-            raise BadPlan(f"asked twice: {mended}"[:400])
+            cost = (first.tokens + second.tokens).total
+            raise BadPlan(f"asked twice: {mended}"[:400], calls=2, tokens=cost)
         return self._make_result(mended, 2, first.tokens + second.tokens)
 
     def _make_result(self, plan: Planned, calls: int, spent: Tokens) -> ThinkResult:

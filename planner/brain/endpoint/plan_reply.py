@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -209,7 +210,11 @@ def _steps(steps: object, does: object) -> dict[str, Any] | Unusable:
         return Unusable(("steps must be a list of 1 or more objects",))
     if len(steps) > MAX_STEPS:
         return Unusable((f"{len(steps)} steps; at most {MAX_STEPS}",))
-    return {"kind": "plan", "does": does, "steps": [trim_step(step) for step in steps]}
+    trimmed = [trim_step(step) for step in steps]
+    blank = next(_blanks(trimmed), None)
+    if blank is not None:  # the prompt's own "…", copied
+        return Unusable((f"{blank} needs words of your own",))
+    return {"kind": "plan", "does": does, "steps": trimmed}
 
 
 _NAMES = {"else": "otherwise", "else_": "otherwise", "do": "steps"}
@@ -234,13 +239,35 @@ def _trim(name: str, value: Any, deep: int) -> Any:
     return value
 
 
+def _blanks(value: Any, name: str = "steps", deep: int = 0) -> Iterator[str]:
+    """Yield the names of fields whose text says nothing."""
+    if isinstance(value, str):
+        if says_nothing(value):
+            yield clean(name)[:40]
+        return
+    if deep > 2 * MAX_DEPTH + 2:  # too deep anyhow: the plan's own check says so
+        return
+    named: list[tuple[str, Any]] = []
+    if isinstance(value, dict):
+        named = [(str(key), each) for key, each in value.items()]
+    elif isinstance(value, list):
+        named = [(name, each) for each in value]
+    for inner, each in named:
+        yield from _blanks(each, inner, deep + 1)
+
+
+def says_nothing(text: str) -> bool:
+    """Tell whether a text has neither letter, digit nor symbol: "…" is the prompt's own blank."""
+    return not any(unicodedata.category(char)[0] in "LNS" for char in text)
+
+
 def _words(kind: str, filled: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
     en, zh = filled.get("en") or filled.get("zh"), filled.get("zh") or filled.get("en")
     if not isinstance(en, str) or not isinstance(zh, str):
         return Unusable((f"{kind} needs the texts en and zh",))
     said = {"en": _short(en), "zh": _short(zh)}
-    if not said["en"] or not said["zh"]:
-        return Unusable((f"{kind} needs words in en and zh",))
+    if says_nothing(said["en"]) or says_nothing(said["zh"]):
+        return Unusable((f"{kind} needs words of your own in en and zh",))
     if kind == "answer":
         return {"kind": kind, "text": said}
     allowed = [code.value for code in _CODES[kind]]
@@ -252,7 +279,7 @@ def _words(kind: str, filled: dict[str, Any], vocabulary: Vocabulary) -> dict[st
     options = filled.get("options", [])
     if not isinstance(options, list) or not all(isinstance(each, str) for each in options):
         return Unusable(("options must be a list of texts",))
-    words = [short for each in options[:MAX_OPTIONS] if (short := _short(each))]
+    words = [short for each in options[:MAX_OPTIONS] if not says_nothing(short := _short(each))]
     buttons = [{"label": {"en": each, "zh": each}, "text": each} for each in words]
     return {"kind": kind, "code": code, "question": said, "options": buttons}
 

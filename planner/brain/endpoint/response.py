@@ -222,7 +222,7 @@ async def _listen(
             assembly.add(event)
     except StreamFailure as broken:
         raise StreamBroken(secret.redact(str(broken))) from None
-    if not events.done and assembly.finish is None:
+    if assembly.finish is None and (not events.done or assembly.is_cut):
         raise StreamBroken("it ended before the reply did")
     return assembly.completion()
 

@@ -18,7 +18,7 @@ from planner.language.motion_guard.mentioned_names import (
     places_named,
     thing_named,
 )
-from planner.language.motion_guard.order_scope import OrderScope, read_scope
+from planner.language.motion_guard.order_scope import read_scope
 from planner.language.motion_guard.second_reader import (
     asked_about,
     branch_of,
@@ -28,6 +28,7 @@ from planner.language.motion_guard.second_reader import (
     read_grammar,
     spare_clauses,
 )
+from planner.language.motion_guard.statements import only_states
 from planner.language.motion_guard.step_words import evidence, moves, unnamed_part
 from planner.language.questions import looks_round
 from planner.language.yes_no import consents
@@ -201,9 +202,11 @@ class _Judge:
             for place in places_of(step):
                 self._arrive(place)
             return ""
-        said = _GAP.join(self._scope_text(scope, upon) for scope in self._scopes)
+        said = _GAP.join(self._texts(upon))
         if step.kind not in _QUIET and _ASKS.match(said) and not _ORDERS.search(said):
             return "a question orders no drive"
+        if places_of(step) and only_states(self._texts(upon), self._vocabulary):
+            return f"{step.kind} for a statement, which orders no drive"
         return (
             self._why_places(step, said)
             or self._why_condition(step, said, asked or Counter())
@@ -231,9 +234,8 @@ class _Judge:
             return ""
         return f"{row[index].step.kind} again and again, which is not said"
 
-    @staticmethod
-    def _scope_text(scope: OrderScope, upon: bool) -> str:
-        return scope.upon if upon else scope.ordered
+    def _texts(self, upon: bool) -> tuple[str, ...]:
+        return tuple(scope.upon if upon else scope.ordered for scope in self._scopes)
 
     def _why_places(self, step: Step | ClockTime, said: str) -> str:
         named = Counter(places_named(said, self._vocabulary))

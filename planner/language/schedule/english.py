@@ -135,6 +135,11 @@ ASKS = re.compile(
     r"|have you|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
 )
 """A question, or a condition that is no event."""
+REMARK = re.compile(
+    r"(?:it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
+    r"|there(?:'s| is| are| was| were)|(?:my|our|the|his|her) [a-z]+ (?:is|are|was|were|has|had))\b"
+)
+"""How what is no order begins, beside a time: "it's cold tonight", "tomorrow is my birthday"."""
 REMIND = re.compile(
     r"(?:remind me(?: again)?|don't let me forget|do not let me forget|set a reminder(?: for me)?"
     r"|give me a reminder|(?P<wake>wake me(?: up)?))(?![\w'])"

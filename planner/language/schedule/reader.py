@@ -117,6 +117,8 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     words = _words(said, rest, before, after)
     if remind is not None:
         return _reminder(order, timing, words, grammar, woken=bool(remind["wake"]))
+    if grammar.REMARK.match(order.bare().folded) is not None:
+        return None  # "it's cold tonight": a time, and no order
     return _order(order.bare(), timing, words)
 
 

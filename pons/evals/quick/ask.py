@@ -32,6 +32,8 @@ from pons.evals.world import EvalWorld
 
 MOST_CALLS = 40
 MOST_S = 60.0
+RUNGS_SHARE = 1 / 3
+"""Of the exam's time, after which no further rung is begun once one has given a right plan."""
 PROMPT_TOKENS = 3400
 """What a call may send, taken over all calls: some 1 700, and in a repair the reply once more."""
 GOAL = "exam"
@@ -98,7 +100,7 @@ async def examine(
     began_s, goal = clock(), f"{GOAL}-{time.time_ns()}"
     with open_purse(settings, model, home, limits) as (purse, folder):
         room = _Room(purse, model, folder, goal, began_s + caps.seconds, clock)
-        rungs = [await _try_mode(room, mode) for mode in JsonMode]
+        rungs = await _try_modes(room, began_s + RUNGS_SHARE * caps.seconds)
         marked = await _answers(room, _best(rungs))
         eyes = await _eyes(room, _best(rungs))
         cost = spending_of(purse, goal)
@@ -113,21 +115,35 @@ def _best(rungs: list[ModeResult]) -> JsonMode | None:
     return JsonMode(good[0].mode) if good else None
 
 
+async def _try_modes(room: _Room, until_s: float) -> list[ModeResult]:
+    """Try the rungs, strictest first; a slow model's time is kept for the orders themselves."""
+    rungs: list[ModeResult] = []
+    for mode in JsonMode:
+        enough = any(rung.right for rung in rungs) and room.clock() >= until_s
+        rungs.append(_not_tried(mode) if enough else await _try_mode(room, mode))
+    return rungs
+
+
+def _not_tried(mode: JsonMode) -> ModeResult:
+    return ModeResult(mode.value, taken=False, right=False, why="not_asked", asked=False)
+
+
 async def _try_mode(room: _Room, mode: JsonMode) -> ModeResult:
     if room.left_s <= 0.0:
-        return ModeResult(mode.value, taken=False, right=False, why="not_asked")
+        return _not_tried(mode)
     brain = room.brain(mode)
     try:
         marked = await _ask(room, brain, QUESTIONS[0])
     finally:
         await brain.close()
     right, taken = marked.result == "right", marked.result not in ("no_answer", "not_asked")
-    return ModeResult(mode.value, taken, right, "" if right else marked.made)
+    asked = marked.result != "not_asked"
+    return ModeResult(mode.value, taken, right, "" if right else marked.made, asked)
 
 
 async def _answers(room: _Room, mode: JsonMode | None) -> tuple[MarkedAnswer, ...]:
-    if mode is None:
-        return tuple(MarkedAnswer(question, "no_answer") for question in QUESTIONS)
+    if mode is None:  # nothing was taken: to ask the rest would be more of the same
+        return tuple(MarkedAnswer(question, "not_asked") for question in QUESTIONS)
     marked = []
     brain = room.brain(mode)
     try:

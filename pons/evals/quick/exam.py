@@ -20,6 +20,8 @@ class ModeResult:
     taken: bool
     right: bool
     why: str = ""
+    asked: bool = True
+    """False: it was not tried, or the exam's time was up before it answered."""
 
 
 @dataclass(frozen=True, slots=True)

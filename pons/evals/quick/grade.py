@@ -44,8 +44,7 @@ def grade(exam: Exam) -> Grade:
     """Return the grade of an exam."""
     answered = [m for m in exam.marked if m.result not in ("not_asked", "no_answer")]
     if not answered:
-        why = BilingualWords("it answered nothing", "没有任何应答")
-        return Grade("F", (GradeReason("F", why),))
+        return Grade("F", (GradeReason("F", _why_nothing(exam)),))
     found = [
         *_parts(exam),
         *_ladder(exam),
@@ -55,6 +54,21 @@ def grade(exam: Exam) -> Grade:
     ]
     found.sort(key=lambda reason: -GRADES.index(reason.most))
     return Grade(found[0].most if found else "A", tuple(found))
+
+
+def _why_nothing(exam: Exam) -> BilingualWords:
+    """Tell a model that never answered from a slow one, and from one with no time for orders."""
+    if any(rung.taken for rung in exam.rungs) and all(m.result == "not_asked" for m in exam.marked):
+        return BilingualWords(
+            f"too slow: {exam.took_s:.0f} s went by before the first order was answered",
+            f"太慢：{exam.took_s:.0f} 秒内没有答完第一条指令",
+        )
+    if any(rung.why.startswith("timeout") for rung in exam.rungs):
+        return BilingualWords(
+            "it answered nothing in time: it hangs, or timeout_s in [model] is too short",
+            "没有及时应答：模型没有反应，或 [model] 的 timeout_s 对它太短",
+        )
+    return BilingualWords("it answered nothing", "没有任何应答")
 
 
 def _parts(exam: Exam) -> Iterator[GradeReason]:

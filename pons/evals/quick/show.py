@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict
 from typing import Any
 
-from pons.evals.quick.exam import Exam
+from pons.evals.quick.exam import Exam, ModeResult
 from pons.evals.quick.grade import Grade, percentile
 from pons.evals.quick.questions import ExamPart
 
@@ -77,10 +77,14 @@ def content(exam: Exam, found: Grade, currency: str | None) -> str:
 
 
 def _modes(exam: Exam) -> str:
-    def word(right: bool, taken: bool, why: str) -> str:
-        return "yes" if right else f"taken, but {why}" if taken else f"no ({why})"
+    return " · ".join(f"{rung.mode} {_mode(rung)}" for rung in exam.rungs)
 
-    return " · ".join(f"{r.mode} {word(r.right, r.taken, r.why[:60])}" for r in exam.rungs)
+
+def _mode(rung: ModeResult) -> str:
+    if rung.right or not rung.asked:
+        return "yes" if rung.right else "not asked"
+    why = rung.why[:60]
+    return f"taken, but {why}" if rung.taken else f"no ({why})"
 
 
 def _eyes(exam: Exam) -> str:

@@ -9,14 +9,23 @@ from pathlib import Path
 
 import pytest
 
-from planner.brain import BadPlan, BrainDown, ScriptedBrain
+from planner.brain import (
+    BadPlan,
+    BrainDown,
+    OfflineBrain,
+    ScriptedBrain,
+    ThinkRequest,
+    ThinkResult,
+)
+from planner.brain.streamed_draft import Hear
 from planner.budget.ledger import MAX_ID
 from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
 from pons.evals.cases import Case
 from pons.evals.category_rules import LAWS
+from pons.evals.command import score_whole
 from pons.evals.matchers import read_expectation
-from pons.evals.report import has_passed
+from pons.evals.report import GuardCount, content, guard_count, has_passed, table
 from pons.evals.score import score
 from pons.evals.suites import load
 from tests.pons.mock_llm.mocks import running_mock
@@ -40,6 +49,13 @@ def test_our_own_suites_reach_the_goal(capsys: pytest.CaptureFixture[str]) -> No
     shown = capsys.readouterr().out
     assert "home_en: " in shown
     assert "held out" in shown
+
+
+@pytest.mark.parametrize("name", ["chat_en", "chat_zh"])
+def test_what_asks_for_nothing_moves_nothing(name: str) -> None:
+    (ours,) = load(name)
+    verdicts = asyncio.run(score(ours, OfflineBrain()))
+    assert [verdict.case.text for verdict in verdicts if not verdict.right] == []
 
 
 def test_results_as_json(suite: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -88,6 +104,25 @@ def test_a_spent_budget_keeps_what_was_scored(
         assert capsys.readouterr().out == ""
 
 
+class InterruptedBrain(ScriptedBrain):
+    """Be interrupted at the second sentence, as asyncio.run does it on Ctrl-C."""
+
+    async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
+        task = asyncio.current_task()
+        if self.asked and task is not None:
+            task.cancel()
+            await asyncio.Event().wait()
+        return await super().think(request, hear)
+
+
+def test_ctrl_c_keeps_what_was_scored(suite: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (ours,) = load(suite)
+    brain = InterruptedBrain([StepPlan(steps=(GoTo(place="kitchen"),))])
+    _, [scored] = asyncio.run(score_whole((ours,), brain))
+    assert ([verdict.right for verdict in scored.verdicts], scored.left) == ([True], 2)
+    assert "interrupted" in capsys.readouterr().err
+
+
 def test_each_sentence_of_each_run_is_a_goal_of_its_own(tmp_path: Path) -> None:
     path = tmp_path / f"{'long' * 30}.tsv"
     path.write_text(SUITE, encoding="utf-8")
@@ -115,6 +150,20 @@ def test_no_decision_is_right_nowhere(suite: str, trouble: Exception) -> None:
     assert not any(verdict.right for verdict in verdicts)
 
 
+def test_what_bad_plans_cost_is_counted(
+    suite: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each sentence is asked twice; 48 of 72 sentences once were, and told to have cost nothing."""
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    with running_mock() as mock:
+        mock.set(fault="garbage")
+        assert main(["eval", suite, "--json", "--model", f"m@{mock.url}"]) == 1
+        [result] = json.loads(capsys.readouterr().out)["suites"]
+        assert result["no_decision"] == {"bad_plan": 3}
+        assert result["calls"] == mock.report()["calls"] == 6
+        assert result["tokens"] > 0
+
+
 def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
     """A wrong drive, no plan and no answer are three faults; only the first would have moved."""
     (ours,) = load(suite)
@@ -124,6 +173,28 @@ def test_a_brain_that_fails_is_scored_and_not_trusted(suite: str) -> None:
     assert [verdict.right for verdict in verdicts] == [False, False, False]
     assert [bool(verdict.wrong) for verdict in verdicts] == [True, False, False]
     assert not has_passed(verdicts)
+
+
+def test_the_guard_is_counted_beside_a_models_wrong_motions(suite: str) -> None:
+    """The first sentence asks for the kitchen and the second for the study; the third forbids."""
+    (ours,) = load(suite)
+    drive = StepPlan(steps=(GoTo(place="study"),))
+    verdicts = asyncio.run(score(ours, ScriptedBrain([drive], by_grammar=False)))
+    assert [verdict.needs_yes for verdict in verdicts] == [True, False, True]
+    assert guard_count(verdicts) == GuardCount(moving=3, needs_yes=2, wrong=2, walked_unasked=0)
+    assert "of 3 plans that move 2 wait for a yes; of 2 that move wrongly 0 do not" in table(
+        "mine", "scripted", verdicts
+    )
+    offline = asyncio.run(score(ours, OfflineBrain()))
+    assert guard_count(offline).moving == 0, "the grammar is not held to the guard"
+
+
+def test_why_a_model_decided_nothing_is_counted(suite: str) -> None:
+    (ours,) = load(suite)
+    troubles = [BadPlan("no"), BrainDown("late", why="timeout"), BrainDown("late", why="timeout")]
+    verdicts = asyncio.run(score(ours, ScriptedBrain(replies=troubles)))
+    assert "no decision: timeout 2, bad_plan 1" in table("mine", "scripted", verdicts)
+    assert content("mine", "scripted", verdicts)["no_decision"] == {"timeout": 2, "bad_plan": 1}
 
 
 @pytest.mark.parametrize(

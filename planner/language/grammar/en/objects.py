@@ -50,8 +50,14 @@ _LOOK = (
 _LOOK_VERB = (
     r"(?:tell (?:me|us)|say|find out|see|check|look|report|show me|let me know|let us know)(?: me)?"
 )
+_WHAT = (
+    r"what(?! (?:an?|such|luck|joy|bliss|nonsense|cheek)\b)"
+    r"(?! (?:beautiful|lovely|nice|great|wonderful|gorgeous|pretty|good|bad|fine|awful|terrible"
+    r"|horrible|strange|funny|fun|weather)\b(?!.*\b(?:is|are|was|were|do|does|did|can)\b))"
+)
+"""What asks; "what a lovely view from the kitchen!" only exclaims."""
 _ASKS = (
-    rf"(?:(?:{_LOOK_VERB} )?(?:what|which|who|whose)|{_LOOK_VERB} (?:whether|if|that|how|where|"
+    rf"(?:(?:{_LOOK_VERB} )?(?:{_WHAT}|which|who|whose)|{_LOOK_VERB} (?:whether|if|that|how|where|"
     r"the (?:name|pose|"
     r"gender|age|colou?r|number|size|height|position|state|clothes|posture|mood|weight|shape)))"
 )

@@ -373,6 +373,7 @@ POINT = {"picture": True, "there": True, "x": 0, "y": 1000}
         ),
         ({"en": "\u200b"}, "words"),
         ({"en": 7, "zh": "x"}, "texts"),
+        ({"picture": True, "seen": True, "en": "…", "zh": "…"}, "words of your own"),
         ({**LOOK, "seen": "yes"}, "seen"),
         ({**LOOK, "seen": 1}, "seen"),
         ({**LOOK, "steps": [{"kind": "go_to", "place": "kitchen"}]}, "not steps"),

@@ -137,6 +137,36 @@ def test_words_for_people_are_cleaned_and_cut() -> None:
     assert said == StepPlan(steps=(Say(text="hi there"),))
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('{"kind":"answer","en":"…","zh":"…"}', "answer needs words of your own"),
+        ('{"kind":"answer","en":"Hello.","zh":"……。"}', "answer needs words of your own"),
+        ('{"kind":"refuse","code":"unsafe","en":"...","zh":"…"}', "refuse needs words of your own"),
+        ('{"kind":"plan","steps":[{"kind":"say","text":"…"}]}', "text needs words of your own"),
+        ('{"kind":"plan","steps":[{"kind":"find","object":"…"}]}', "object needs words"),
+        (
+            '{"kind":"plan","steps":[{"kind":"repeat","steps":[{"kind":"ask","question":"…"}]}]}',
+            "question needs words of your own",
+        ),
+    ],
+)
+def test_the_prompts_own_blank_is_no_words(text: str, told: str) -> None:
+    """A model of 135 million parameters copied it as its answer to nearly every order."""
+    judged = judge(text, HOME)
+    assert isinstance(judged, Unusable)
+    assert told in str(judged)
+
+
+def test_a_symbol_says_something_and_a_blank_option_is_dropped() -> None:
+    smile = judge('{"kind":"plan","steps":[{"kind":"say","text":"🙂"}]}', HOME)
+    assert smile == StepPlan(steps=(Say(text="🙂"),))
+    asked = {"kind": "clarify", "code": "ambiguous", "en": "Which?", "zh": "哪个？"}
+    judged = judge(json.dumps({**asked, "options": ["…", "go to the kitchen"]}), HOME)
+    assert isinstance(judged, Clarify)
+    assert [option.text for option in judged.options] == ["go to the kitchen"]
+
+
 def test_question_and_refusal_keep_code_and_options() -> None:
     asked = judge('{"kind":"clarify","code":"ambiguous","en":"Which?","zh":"哪个？",'
                   '"options":["go to the bed","go to the desk"]}', HOME)  # fmt: skip

@@ -159,6 +159,9 @@ BROKEN: list[Answer] = [
     raw(stream(delta(content=GO), 7, STOP), headers=EVENTS),
     raw(b'data: {"choices":[\n\n' + stream(delta(content=GO), STOP), headers=EVENTS),
     raw(b"", headers=EVENTS),
+    raw(stream(delta(content=GO[:30])), headers=EVENTS),  # as llama-cpp-python interrupts one
+    raw(stream(call(index=0, id="a", **NAMED), args(GO[:30], index=0)), headers=EVENTS),
+    raw(stream(delta(role="assistant")), headers=EVENTS),
 ]
 
 

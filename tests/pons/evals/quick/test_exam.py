@@ -87,6 +87,7 @@ def test_a_good_model_takes_every_mode_and_pays_for_its_calls(
         ("no_schema", {"prompt"}, "BCD"),
         ("garbage", set(), "F"),
         ("hang", set(), "F"),
+        ("status", set(), "F"),
     ],
 )
 def test_a_model_with_a_fault_is_graded_down(
@@ -98,6 +99,21 @@ def test_a_model_with_a_fault_is_graded_down(
     found = grade(exam)
     assert found.letter in letters
     assert all(reason.words.en and reason.words.zh for reason in found.reasons)
+    if not any(rung.taken for rung in exam.rungs):
+        assert {m.result for m in exam.marked} == {"not_asked"}, "no order was asked"
+
+
+def test_a_model_that_is_too_slow_is_told_from_one_that_is_gone(
+    mock: RunningMock, tmp_path: Path
+) -> None:
+    told = []
+    for switches in ({"fault": "hang"}, {"fault": "status", "status": 500}):
+        mock.set(**switches)
+        model = ModelSettings(url=mock.url, name="mock", timeout_s=0.5)
+        exam = asyncio.run(examine(Settings(model=model), model, tmp_path, None, Caps()))
+        told.append(grade(exam).reasons[0].words.en)
+    assert "timeout_s in [model]" in told[0]
+    assert told[1] == "it answered nothing"
 
 
 TAG = BrainTag(name="m", version="1")
@@ -155,6 +171,25 @@ def test_the_exam_ends_at_its_caps_and_at_the_days(
     assert mock.report()["calls"] - before == exam.cost.calls == calls
     assert any(m.result in ("not_asked", "no_answer") for m in exam.marked)
     assert grade(exam).letter != "A"
+
+
+def test_a_slow_model_has_time_left_for_the_orders(mock: RunningMock, tmp_path: Path) -> None:
+    """By this clock each call takes 16 s, so that four rungs would take the whole minute."""
+    before = mock.set()["calls"]
+    model = ModelSettings(url=mock.url, name="mock")
+    exam = asyncio.run(
+        examine(
+            Settings(model=model),
+            model,
+            tmp_path,
+            None,
+            Caps(),
+            lambda: 16.0 * (mock.report()["calls"] - before),
+        )
+    )
+    assert [rung.asked for rung in exam.rungs] == [True, True, False, False]
+    assert [m.result for m in exam.marked[:3]] == ["right", "right", "not_asked"]
+    assert "json_object not asked · prompt not asked" in show.table(exam, grade(exam), None)
 
 
 def test_the_command_shows_a_table_and_json(
@@ -248,7 +283,7 @@ def exam_of(marks: str = "", seconds: float = 1.0, calls: int = 1, *, strict: bo
         for q, r in zip(QUESTIONS, given, strict=True)
     ]
     rungs = STRICT if strict else (replace(STRICT[0], right=False),)
-    return Exam("m", "h", rungs, tuple(marked))
+    return Exam("m", "h", rungs, tuple(marked), took_s=60.0)
 
 
 @pytest.mark.parametrize(
@@ -267,6 +302,7 @@ def exam_of(marks: str = "", seconds: float = 1.0, calls: int = 1, *, strict: bo
         (exam_of(calls=2), "B", "more than one call"),
         (exam_of("...............-"), "B", "1 of 16 orders not asked"),
         (exam_of("....------------"), "C", "12 of 16"),
+        (exam_of("-" * len(QUESTIONS)), "F", "too slow: 60 s"),
     ],
 )
 def test_the_grade_is_the_worst_that_was_found(exam: Exam, letter: str, told: str) -> None:
