@@ -7,6 +7,7 @@ import asyncio
 import os
 import sys
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -132,7 +133,9 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
     """
     from pons.evals.person import converse, show_conversations
     from pons.evals.person_robot import ScriptedModel
-    from pons.evals.person_scripts import read_scripts
+    from pons.evals.person_scripts import Batch, read_scripts
+
+    batches = (Batch.TRIAL,) if said.suite == TRIAL else (Batch.OWN, Batch.THIRD)
 
     def brains(brain: Brain) -> tuple[Brain, ...]:
         if said.model is not None:
@@ -142,12 +145,12 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
     async def score(brain: Brain) -> int:
         site, right, count = Site.load(said.site), 0, 0
-        for name in ("en", "zh"):
+        for name, batch in product(("en", "zh"), batches):
             for each in brains(brain):
-                scripts = read_scripts(name, trial=said.suite == TRIAL)
+                scripts = read_scripts(name, batch)
                 held = tuple([await converse(one, each, site) for one in scripts])
                 hostile = each.hostile if isinstance(each, ScriptedModel) else 0
-                print(show_conversations(name, each.tag.name, held, hostile))
+                print(show_conversations(f"{batch}{name}", each.tag.name, held, hostile))
                 right, count = right + sum(h.right for h in held), count + len(held)
                 if any(h.moves_wrongly for h in held):
                     right = -count

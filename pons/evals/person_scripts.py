@@ -37,6 +37,16 @@ _BLANKS = {
 }  # fmt: skip
 
 
+class Batch(StrEnum):
+    """Name conversations that were written together, as their files' names begin."""
+
+    OWN = ""
+    TRIAL = "trials_"
+    """Those that a strong model was once tried with."""
+    THIRD = "talks_3_"
+    """Written before the grammar was read, and held once before anything was mended for them."""
+
+
 class Reaction(StrEnum):
     """Say what a sentence came to."""
 
@@ -80,18 +90,17 @@ class Script:
     turns: tuple[ScriptTurn, ...]
 
 
-def read_scripts(language: str, *, trial: bool = False) -> tuple[Script, ...]:
-    """Return a language's conversations, each as often as its blanks are filled.
+def read_scripts(language: str, batch: Batch = Batch.OWN) -> tuple[Script, ...]:
+    """Return a language's conversations of a batch, each as often as its blanks are filled.
 
     Args:
         language: ``en`` or ``zh``.
-        trial: those that a strong model was once tried with, instead of the others.
+        batch: which of them.
 
     Raises:
         BadMatcher: a script can't be read.
     """
-    name = f"trials_{language}" if trial else language
-    text = (SCRIPTS / f"{name}.txt").read_text("utf-8")
+    text = (SCRIPTS / f"{batch}{language}.txt").read_text("utf-8")
     blocks = (block for block in text.split("\n## ")[1:] if block.strip())
     return tuple(script for block in blocks for script in _read_block(block, language))
 
