@@ -13,8 +13,8 @@ from planner.plan import AnswerPlan, Code, Refuse, say_same
 
 if TYPE_CHECKING:
     from planner.memory import Recollection
-    from planner.mission.loop import Loop
     from planner.mission.memory_lookup import MemoryLookup
+    from planner.mission.planner_commands import GoalBook
     from planner.site.known_places import KnownPlaces
 
 SPOKEN_BY = "sentence"
@@ -23,7 +23,7 @@ SPOKEN_BY = "sentence"
 class FactCommands:
     """Carry out "remember that …" and "forget what I said about …"."""
 
-    def __init__(self, lookup: MemoryLookup | None, places: KnownPlaces, loop: Loop) -> None:
+    def __init__(self, lookup: MemoryLookup | None, places: KnownPlaces, loop: GoalBook) -> None:
         self._lookup, self._places, self._loop = lookup, places, loop
 
     async def carry_out(self, intent: TeachFact | ForgetFacts) -> AnswerPlan | Refuse:
