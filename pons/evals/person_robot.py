@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from planner.site.site import Site
 
 from pons.evals.person_commands import PersonCommands
+from pons.evals.person_pose import pose_after, standing_status
 from pons.evals.person_scripts import PLANS, Reaction, ScriptTurn
 
 _NOW_S = 1000.0
@@ -76,7 +77,9 @@ class RobotEar:
         """Take the brain and the site."""
         self._brain, self._site = brain, site
         eyes = Eyesight(CameraConfig(), _CLASSES)
-        self._book = MissionState(facts_of(site), eyes=eyes, sight=Sight())
+        facts = facts_of(site)
+        self._book = MissionState(facts, eyes=eyes, sight=Sight())
+        self._pose = facts.targets[facts.home].pose
         self._plans: dict[str, StepPlan] = {}
         self._ids, self._now_s = count(), _NOW_S
         self._commands = PersonCommands(self._think, site, self)
@@ -103,6 +106,8 @@ class RobotEar:
     async def hear(self, text: str, *, typed: bool = False) -> RobotReply:
         """Return what a sentence comes to."""
         self._now_s += _TURN_S
+        status = standing_status(self._pose)
+        self._book = replace(self._book, status=status, status_s=self._now_s)
         before = self._book
         waiting = self._waiting()
         said = parse(text)
@@ -211,6 +216,8 @@ class RobotEar:
             if mission.state in (GoalState.QUEUED, GoalState.RUNNING, GoalState.PAUSED):
                 runs = stays and (id_ == goal or mission.state is GoalState.RUNNING)
                 state = GoalState.RUNNING if runs else GoalState.SUCCEEDED
+                if not runs:
+                    self._pose = pose_after(self._book.facts, mission, self._pose)
                 missions[id_] = mission.model_copy(update={"state": state})
         running = next((m.id for m in missions.values() if m.state is GoalState.RUNNING), None)
         self._book = replace(
