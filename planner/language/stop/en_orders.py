@@ -31,6 +31,11 @@ ORDER = re.compile(
     r"(?: (?:and|then|but|because)\b.*)?"
 )
 """A whole clause that orders a stop, whatever follows it."""
+_SOMEBODYS = ("the", "a", "my", "our", "your")
+CALL = re.compile(
+    "".join(rf"(?<!\b{word} )" for word in _SOMEBODYS) + r"(?<![a-z0-9])(?:robot|pons)(?![a-z0-9'])"
+)
+"""The robot's name where it is called, in the middle of anything that is said."""
 ONLY_COURTESY = re.compile(rf"(?:{_COURTESY}|quick)(?: (?:{_COURTESY}))*")
 
 # Quitting is said of searching, counting, following, patrolling and driving, never of waiting:
