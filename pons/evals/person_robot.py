@@ -125,7 +125,9 @@ class RobotEar:
         await self._on(heard.given)
         if heard.takes_back is not None:
             await self._on(Cancel(heard.takes_back))
-        return self._tell(before, goal, heard.stops and heard.given.stop)
+        made = self._book.missions.get(goal)
+        stopped = made is not None and made.has_ended and goal not in self._plans
+        return self._tell(before, goal, heard.stops and (heard.given.stop or stopped))
 
     async def _on(self, event: Event) -> None:
         self._book, effects = advance(self._book, event, self._now_s)

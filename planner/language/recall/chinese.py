@@ -48,7 +48,10 @@ THING = re.compile(
     rf"|{_WHAT.replace('what', 'f')}(?:之前|原来|本来|刚才|当时)(?:是)?(?:放)?在(?:哪里|哪儿|哪"
     rf"|什么地方)"
 )
-SEEN = re.compile(rf"{_YOU}{_WHERE}(?:有没有)?{_SEE}(?:过|了)(?!什么|啥|些|谁){_WHAT}(?:没有|没)?")
+SEEN = re.compile(
+    rf"(?:我们?的)?{_WHAT.replace('what', 'b')},?(?:你|您)(?:有没有)?{_SEE}(?:过|到)了?(?:没有?)?"
+    rf"|{_YOU}{_WHERE}(?:有没有)?{_SEE}(?:过|了)(?!什么|啥|些|谁){_WHAT}(?:没有|没)?"
+)
 """Whether it was seen at all: answered from memory."""
 NOW = re.compile(
     rf"{_WHAT}(?:现在)?(?:是)?(?:放)?在(?:哪里|哪儿|哪|什么地方)(?:了)?"
@@ -60,6 +63,8 @@ ANYTHING = re.compile(
     rf"{_YOU}{_WHERE}{_SEE}(?:过|了)?(?:些)?(?:什么|啥)(?:东西)?(?:了)?"
     rf"|{_AT.replace('at', 'at2')}(?:都)?(?:有|有过|放着)(?:些)?(?:什么|啥)(?:东西)?"
     r"|发生(?:了|过)(?:些)?什么(?:事)?"
+    rf"|{_YOU.replace('有', '')}{_WHERE.replace('at', 'at3').replace('here', 'here3')}"
+    rf"(?P<asks>有没有|有){_SEE}(?:过|了)?(?:些)?(?:什么|啥)(?:东西|异常|情况|新的?)?(?:没有|没)?"
 )
 _SOMEBODY = r"(?:有谁|谁|有没有人|是否有人|有人|什么人|哪些人|有没有谁|有客人)"
 _COME = r"(?:来|去|到|进|进来|进入|经过|路过|待|呆)"

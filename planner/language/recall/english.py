@@ -60,6 +60,8 @@ ANYTHING = re.compile(
     rf"what (?:all )?(?:did you {_SEE}|have you {_SEEN}|(?:was|were)(?: there)?|you saw|you"
     rf" have {_SEEN}"
     r"|was going on|happened)"
+    rf"|(?:did you {_SEE}|have you {_SEEN}) (?:any|some)thing(?: else)?"
+    r"(?: (?:interesting|odd|strange|unusual|new|special|wrong|there))?"
 )
 PERSON = re.compile(
     rf"(?:when|how long ago) (?:was|were|did you see) (?:there )?(?:{_SOMEBODY})(?: there)?"

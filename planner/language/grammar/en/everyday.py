@@ -149,7 +149,9 @@ ENGLISH_EVERYDAY = table(
      rf" (?P<p>{_PLACE}) (?:that )?(?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
     (rf"\b{_SAYS}(?: that)? (?P<w>[^\",;]+)$", r'say "\g<w>"'),
     (rf"\bsay (?P<w>[^\",;]*{MARK}[^\",;]*)$", r'say "\g<w>"'),
-    (r"(?<=then )tell (?:them|him|her|everyone) (?:that )?(?P<w>[^\"]+)$", r'say "\g<w>"'),
+    (r"(?<=then )tell (?:them|him|her|everyone) (?:that )?(?P<w>[^\",;]+?)(?=$|[,;])", r'say "\g<w>"'),
+    (r"^(?P<c>if\b[^\"]+?)[, ]+(?:then )?tell (?:them|him|her|everyone|everybody) (?:that )?"
+     r"(?P<w>[^\",;]+?)(?=$|[,;]? ?(?:otherwise|or else|else|if not)\b)", r'\g<c>, say "\g<w>"'),
     (r"\b(?:inform|advise) me\b", "tell me"),
     # looking
     (rf"\b{_LOOKS} (?:a?round|at|in|inside|into|through)? ?(?P<p>{_PLACE})"

@@ -97,7 +97,7 @@ _COURTESY = (
     r"get) you to|"
     r"i (?:want|need|would like|would love) you to|i would like it for you to|go ahead|try to|"
     r"let us|"
-    r"you (?:should|must|can|may|need to|have to)|you|and|also|then|next|thanks|thank you|"
+    r"you (?:should|must|can|may|need to|have to)|you(?! (?:are|were|was)\b)|and|also|then|next|thanks|thank you|"
     r"be so kind as to|"
     r"do me a favou?r|i was wondering|dear|my friend|buddy|immediately|quietly|"
     rf"go and(?= (?:{_ORDER_VERBS}))|go(?= (?:{_ORDER_VERBS}))|come and(?= \w)|"
