@@ -135,7 +135,7 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
     from pons.evals.person_robot import ScriptedModel
     from pons.evals.person_scripts import Batch, read_scripts
 
-    batches = (Batch.TRIAL,) if said.suite == TRIAL else (Batch.OWN, Batch.THIRD)
+    batches = (Batch.TRIAL,) if said.suite == TRIAL else (Batch.OWN, Batch.THIRD, Batch.FOURTH)
 
     def brains(brain: Brain) -> tuple[Brain, ...]:
         if said.model is not None:

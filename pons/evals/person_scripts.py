@@ -45,6 +45,8 @@ class Batch(StrEnum):
     """Those that a strong model was once tried with."""
     THIRD = "talks_3_"
     """Written before the grammar was read, and held once before anything was mended for them."""
+    FOURTH = "talks_4_"
+    """Written after that, held once, and nothing was mended for them."""
 
 
 class Reaction(StrEnum):
