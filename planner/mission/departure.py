@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.mission.follow_up import LEANS_S
 from planner.mission.outcomes import moves
-from planner.mission.standing_goals import is_of_order
+from planner.mission.state import ORDER_SOURCE
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
@@ -39,7 +39,8 @@ def departure_of(book: MissionState, now_s: float) -> Point | None:
         return None
     now_unix_s = now_s + book.wall_offset_s
     for order in sorted(book.missions.values(), key=lambda m: -m.order):
-        if not order.steps or order.state is GoalState.REFUSED or is_of_order(order):
+        by_schedule = order.source.startswith(ORDER_SOURCE)
+        if not order.steps or order.state is GoalState.REFUSED or by_schedule:
             continue
         begin = order.accepted_at
         if begin is None or order.map_id != book.facts.map_id:

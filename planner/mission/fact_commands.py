@@ -13,8 +13,8 @@ from planner.plan import AnswerPlan, Code, Refuse, say_same
 
 if TYPE_CHECKING:
     from planner.memory import Recollection
+    from planner.mission.goal_book import GoalBook
     from planner.mission.memory_lookup import MemoryLookup
-    from planner.mission.planner_commands import GoalBook
     from planner.site.known_places import KnownPlaces
 
 SPOKEN_BY = "sentence"

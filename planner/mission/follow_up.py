@@ -38,6 +38,10 @@ _HEDGE = re.compile(
     re.IGNORECASE,
 )
 """A guess about where something is, said of a place that takes another's place."""
+_ASIDE = re.compile(
+    r"^(?:by|near|beside|next to|on) |(?:旁边|边上|附近|那边|那里|那儿|这边)$", re.IGNORECASE
+)
+"""Beside a place that takes another's place: the last order says at which side of it."""
 _ORDERS = re.compile(
     r"(?:please )?(?:go|drive|come|move|head|return|turn|look|find|search|count|follow|patrol|wait"
     r"|visit|check|say|tell|ask|take|bring|get|see|stop|have a look|pop)\b"
@@ -54,11 +58,12 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
     if not isinstance(intent, LeaningCommand | Replace):
         return text
     if isinstance(intent, RepeatCommand):
-        return _again(last.order_text, intent.times) if last is not None else text
+        return _repeat_order(last.order_text, intent.times) if last is not None else text
     if isinstance(intent, OtherPlaceCommand):
         return _other_place(book.facts, last) or text
     rest = _innermost(intent.rest)
-    place = place_alone(rest, names_of(book.facts))
+    names = names_of(book.facts)
+    place = place_alone(rest, names) or place_alone(_ASIDE.sub("", rest), names)
     if place is None:
         takes_back = isinstance(intent, Replace) and not intent.corrects
         return rest if takes_back or _ORDERS.match(plain(rest)) else text
@@ -110,7 +115,7 @@ def names_of(facts: SiteView) -> Vocabulary:
     )
 
 
-def _again(order: str, times: int) -> str:
+def _repeat_order(order: str, times: int) -> str:
     """Return an order, or so many rounds of it."""
     if times == 1:
         return order

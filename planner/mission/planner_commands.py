@@ -46,11 +46,11 @@ from planner.site.pose_hint import hint_in
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
+    from planner.mission.goal_book import GoalBook
     from planner.mission.memory_lookup import MemoryLookup
     from planner.mission.standing_goals import OrderDesk
-    from planner.mission.state import Mission, MissionState
+    from planner.mission.state import Mission
     from planner.mission.tasks import Think
     from planner.site.known_places import KnownPlaces
     from planner.site.places import Place
@@ -67,21 +67,6 @@ class HintLink(Protocol):
 
     async def hint(self, hint: PoseHint) -> HintVerdict | None:
         """Bring a person's word; return the verdict, or None where none came in time."""
-
-
-class GoalBook(Protocol):
-    """Tell where all goals stand, and obey commands about them, as the loop does."""
-
-    @property
-    def book(self) -> MissionState:
-        """Return where all goals stand."""
-
-    @property
-    def status_age_s(self) -> float:
-        """Return the age of the bridge's newest status."""
-
-    def obey(self, command: Command) -> MissionError | None:
-        """Obey a command at once, or return why it can't be obeyed."""
 
 
 class PlannerCommands:

@@ -39,6 +39,9 @@ _ABOUT_THING_ZH = re.compile(
     r"(?P<head>(?:请|那|那就|好|你|,|再|帮我)*(?:去[^,找]{1,8})?(?:帮我)?(?:找|数|寻找)(?:一?下|一?找)?)"
     r"(?:它们?|他们?|她们?)(?P<rest>)"
 )
+_SEEK_ZH = re.compile(
+    r"(?:再|那|那就|然后|也|请|帮我|,)*(?P<head>去[^,找看]{1,8})(?:找一?找看?|找一下|找看看)"
+)
 _WAS_ZH = re.compile(
     r"(?:它|他|她|那)?(?:是)?在(?P<where>[^,看见找]{1,8}?)(?:看到|看见|见到|找到|发现)的"
 )
@@ -61,14 +64,17 @@ def name_pronouns(text: str, last: Mission, facts: SiteView) -> str:
         return _found_in_chinese(found["what"], last) or text
     said = said.removesuffix("吗").removesuffix("呢") if chinese else said
     thing, place = _thing_of(last, chinese=chinese), _place_of(last, facts, chinese=chinese)
-    return _named(said, thing, place, chinese=chinese) or text
+    return _write_out(said, thing, place, chinese=chinese) or text
 
 
-def _named(said: str, thing: str | None, place: str | None, *, chinese: bool) -> str | None:
+def _write_out(said: str, thing: str | None, place: str | None, *, chinese: bool) -> str | None:
     sought = (_ABOUT_THING_ZH if chinese else _ABOUT_THING).fullmatch(said)
     if sought is not None and thing is not None:
         gap = "" if chinese else " the "
         return f"{sought['head']}{gap}{thing}{sought['rest']}"
+    in_room = _SEEK_ZH.fullmatch(said) if chinese and thing is not None else None
+    if in_room is not None:
+        return f"{in_room['head']}找{thing}"
     was = (_WAS_ZH if chinese else _WAS).fullmatch(said)
     if was is not None and thing is not None:
         where = was["where"]

@@ -33,6 +33,8 @@ from planner.plan import (
 from planner.site.site_view import SiteView
 from wire import Status
 
+ORDER_SOURCE = "order:"
+"""What the source of every goal of a standing order begins with."""
 MAX_OPEN = 33
 """Goals that have not ended: one running and 32 that wait."""
 MAX_ENDED = 200

@@ -133,9 +133,13 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
     """
     from pons.evals.person import converse, show_conversations
     from pons.evals.person_robot import ScriptedModel
-    from pons.evals.person_scripts import Batch, read_scripts
+    from pons.evals.person_scripts import ScriptSet, read_scripts
 
-    batches = (Batch.TRIAL,) if said.suite == TRIAL else (Batch.OWN, Batch.THIRD, Batch.FOURTH)
+    sets = (
+        (ScriptSet.TRIAL,)
+        if said.suite == TRIAL
+        else (ScriptSet.OWN, ScriptSet.THIRD, ScriptSet.FOURTH)
+    )
 
     def brains(brain: Brain) -> tuple[Brain, ...]:
         if said.model is not None:
@@ -145,12 +149,12 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
     async def score(brain: Brain) -> int:
         site, right, count = Site.load(said.site), 0, 0
-        for name, batch in product(("en", "zh"), batches):
+        for name, script_set in product(("en", "zh"), sets):
             for each in brains(brain):
-                scripts = read_scripts(name, batch)
+                scripts = read_scripts(name, script_set)
                 held = tuple([await converse(one, each, site) for one in scripts])
                 hostile = each.hostile if isinstance(each, ScriptedModel) else 0
-                print(show_conversations(f"{batch}{name}", each.tag.name, held, hostile))
+                print(show_conversations(f"{script_set}{name}", each.tag.name, held, hostile))
                 right, count = right + sum(h.right for h in held), count + len(held)
                 if any(h.moves_wrongly for h in held):
                     right = -count

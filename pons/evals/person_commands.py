@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from planner.brain.situation import RememberedItem
 from planner.language.commands import ForgetFacts, Intent, TeachFact
+from planner.language.recall import read_recall
 from planner.language.schedule import ScheduleCommand
 from planner.memory.index_terms import read_terms
 from planner.mission.events import Planned
@@ -19,7 +20,7 @@ from planner.site.known_places import KnownPlaces
 if TYPE_CHECKING:
     from planner.language.schedule import ChangeOrders, OrderCommand
     from planner.mission.effects import AskBrain
-    from planner.mission.planner_commands import GoalBook
+    from planner.mission.goal_book import GoalBook
     from planner.mission.state import Mission
     from planner.mission.tasks import Think
     from planner.plan import Language, StepRecord, Vocabulary
@@ -49,9 +50,10 @@ class PersonCommands(PlannerCommands):
 
     async def remember(self, ask: AskBrain, vocabulary: Vocabulary) -> tuple[RememberedItem, ...]:
         """Return the facts that were told."""
-        del vocabulary
+        question = read_recall(ask.text, vocabulary, ask.room)
+        named = (question.step.object if question is not None else None) or ask.text
         return tuple(
-            RememberedItem(what=each, said=True, fits=_shares_terms(each, ask.text))
+            RememberedItem(what=each, said=True, fits=_shares_terms(each, named))
             for each in self.facts
         )
 

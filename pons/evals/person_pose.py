@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission
     from planner.site.site_view import SiteView
 
-_STAYS = frozenset({"recall", "stand_at"})
-"""A side of a thing is not worked out here: where the robot stood already, it would be done."""
+ASIDE_M = 0.7
+"""A side of a thing is not worked out here: so far from it the robot stands then."""
 _NONE, _STILL = "0" * 16, Twist2(0.0, 0.0)
 
 
@@ -35,8 +35,10 @@ def pose_after(facts: SiteView, mission: Mission, before: Pose2) -> Pose2:
         place = step.places[-1] if step.places else place
         if step.kind == "come_back":
             pose = Pose2(*back) if back is not None else pose
-        elif step.kind not in _STAYS and (target := facts.targets.get(place or "")) is not None:
-            pose = target.pose
+        elif step.kind != "recall" and (target := facts.targets.get(place or "")) is not None:
+            aside_m = ASIDE_M if step.kind == "stand_at" else 0.0
+            at = target.pose
+            pose = Pose2(at.x_m + aside_m, at.y_m + aside_m, at.yaw_rad)
     return pose
 
 

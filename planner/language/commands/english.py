@@ -58,7 +58,8 @@ PAUSE = re.compile(
 CANCEL = re.compile(
     rf"(?:cancel|abort|drop|call off) (?:it|this|that one|{_THE_TASK})|call it off"
     r"|(?:forget (?:it|that)|scrap that|leave it)[ ,]+(?:never ?mind|i changed my mind)"
-    r"|(?:ok |okay )?(?:that(?:'s| is) enough)(?:[ ,]+(?:quit it|stop it|thank you))?"
+    r"|(?:ok |okay )?(?:that(?:'s| is) )?(?:far |quite |good )?enough(?: now)?"
+    r"(?:[ ,]+(?:quit it|stop it|thank you))?"
     r"|forget (?:it|that|this|about (?:it|that|this)|what i (?:said|told you))"
     rf"|forget (?:about )?{_THE_TASK}"
     r"|never ?mind(?: (?:it|that|about (?:it|that)))?|scratch that|scrap that|don't bother"

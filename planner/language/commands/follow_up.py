@@ -84,7 +84,7 @@ _DONE_ZH = re.compile(
     r"(?:等你?|你)?(?:[弄做干忙办找数看说转走跑去查绕]|巡[逻视查]|检查|探索)?完(?:了|这个|那个|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
 )
 _SAME_ZH = re.compile(
-    r"(?P<rest>.{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次|下))"
+    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次|下))"
 )
 _TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
 _ALSO_ZH = re.compile(
@@ -92,6 +92,7 @@ _ALSO_ZH = re.compile(
     r"|(?P<rest2>.{1,12}?)也(?:要)?(?:去一下|去一趟|去|看看|看一下|要)"
 )
 
+_ONWARD = re.compile(r"^(?:on|over|off|back)(?: again)? (?=(?:in)?to )")
 _TAKEN = (
     r"(?:(?:no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong|not that(?: one| room)?"
     r"|actually)[ ,.!;]+)"
@@ -107,18 +108,23 @@ _GO_THERE = (
 _CORRECTION = re.compile(
     rf"{_TAKEN}++{_MEANT} (?P<a>.+?){_GO_THERE}"
     rf"|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN}?){_GO_THERE}"
-    r"|(?:(?:no|nope|nah|wrong room|wrong place|not that one|oops)[ ,.!;]+(?:wait[ ,.!;]+)?)+"
+    r"|(?:(?:no|nope|nah|wrong room|wrong place|not that one|not (?:t?here)|oops)[ ,.!;]+"
+    r"(?:wait[ ,.!;]+)?)+"
     r"(?:rather |try |better |instead )?"
-    rf"(?P<c>(?:to |in |into |at )?(?:the|my|our) [a-z][a-z' -]{{1,30}}?|{_DRIVE_EN})"
+    rf"(?P<c>(?:to |in |into |at |by |near |beside |next to )?(?:the|my|our) [a-z][a-z' -]{{1,30}}?"
+    rf"|{_DRIVE_EN})"
     r"(?: first| instead| rather)?"
     rf"|(?:(?:no|wait|hold on|hang on)[ ,]+)*not (?:to )?(?:the|my|our) [a-z' -]{{2,24}}[,;.]?"
     rf" (?:but )?(?:rather )?(?:i (?:want|need) you (?:to (?:go|come|be) )?(?:in |to |at )?)?"
     rf"(?P<d>(?:to )?(?:the|my|our) [a-z][a-z' -]{{1,30}})"
+    r"|(?:(?:oh|ah|no|sorry|wait|hang on|hold on)[ ,.!;]+)*"
+    r"(?P<k>(?:to |in )?(?:the|my|our) [a-z][a-z' -]{1,30}?)[ ,]+i meant?"
 )
 _CORRECTION_ZH = re.compile(
     r"(?:(?:不对)+|不是|错了|搞错了|我?说错了|不不|不)[,。!！]+"
     r"(?P<a>(?:去|到|回|找|看看|数).+|(?:我(?:说|要|指)的?是|我是说|是|应该是).{1,12})"
-    r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>(?!应该|可能|好像|大概|也许|多半|在)[^我你您没不好行].{0,7})|我是说(?P<f>.{1,12})"
+    r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>(?!应该|可能|好像|大概|也许|多半|在)[^我你您没不好行].{0,7})"
+    r"|(?:(?:等等|等一?下|不)[,。!！]+)?我是说(?P<f>.{1,12})"
     r"|(?:不对,?)?不是[^,是]{1,10}?[,]?(?:而)?是(?P<b>.{1,12})"
     r"|还是(?P<g>(?:去|到|回).{1,12}?)(?:好了|吧|得了)"
     r"|(?:(?:等一?下|等等|不对)[,。!！]+)?不是[^,是]{1,10}?[,。]我(?:是)?(?:要|想要?|让)你(?:去|到)(?P<i>.{1,12})"
@@ -186,6 +192,7 @@ def _also(bare: str, *, chinese: bool) -> AppendCommand | None:
         if match is not None:
             rest, found = next(t for t in match.groups() if t is not None), True
     rest = _strip(_POLITE_ZH if chinese else _POLITE, rest).strip(_ENDS)
+    rest = _ONWARD.sub("", rest)
     return AppendCommand(rest) if found and rest and consents(rest) is None else None
 
 

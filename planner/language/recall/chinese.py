@@ -54,7 +54,7 @@ SEEN = re.compile(
 )
 """Whether it was seen at all: answered from memory."""
 NOW = re.compile(
-    rf"{_WHAT}(?:现在)?(?:是)?(?:放)?在(?:哪里|哪儿|哪|什么地方)(?:了)?"
+    rf"{_WHAT}(?:现在)?(?:是)?(?:(?:放)?在|[放搁丢落][在到]?)(?:哪里|哪儿|哪|什么地方)(?:了)?"
     rf"|我把{_WHAT.replace('what', 'b')}(?:放|丢|落|搁)(?:在|到)?(?:哪里|哪儿|哪|什么地方)"
     r"(?:了)?(?:不|没)?"
 )

@@ -16,7 +16,7 @@ LEAD = re.compile(
     r"(?:(?:please )?(?:tell|remind) (?:me|us)[ ,]+(?:again )?|do you (?:happen to )?know )?"
 )
 REMEMBERS = re.compile(r"(?:do|can|could) you (?:still )?(?:remember|recall) |remember (?=wh)")
-TAIL = re.compile(r"(?:[ ,]+(?:please|now|thanks|thank you|again|at all|robot|pons))+$")
+TAIL = re.compile(r"(?:[ ,]+(?:please|(?<!just )now|thanks|thank you|again|at all|robot|pons))+$")
 SPANS = (
     ("hour", r"(?:with)?in the (?:last|past) (?:half )?hour|just now|a moment ago|a minute ago"),
     ("morning", r"(?:earlier )?this morning"),

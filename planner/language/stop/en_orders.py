@@ -12,7 +12,8 @@ _STOP = r"s+t+o+p+|sotp|stpo|tsop|h+a+l+t+|f+r+e+z+e+"
 _COURTESY = (
     r"please|pls|plz|kindly|just|now|right now|right away|immediately|instantly|at once|asap"
     r"|robot|pons|car|you|hey|hi|ok|okay|oh|no|wait|whoa|quick|quickly|fast|thanks|thank you"
-    r"|(?:can|could|would|will) you|you (?:can|may|must|should|need to|have to)"
+    r"|(?:that is )?(?:far |quite )?enough|(?:can|could|would|will) you"
+    r"|you (?:can|may|must|should|need to|have to)"
     r"|i said|i want you to|i need you to|i would like you to|i told you to|let us|for me|all"
 )
 _PHRASE = (

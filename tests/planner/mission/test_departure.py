@@ -16,7 +16,7 @@ from planner.mission.events import Cancel, Submitted
 from planner.mission.follow_up import LEANS_S
 from planner.mission.plan_request import thinker
 from planner.mission.reducer import advance
-from planner.mission.standing_goals import ORDER_SOURCE
+from planner.mission.state import ORDER_SOURCE
 from planner.plan import Clarify, ComeBack, GoTo, Language, Plan, Say, StepPlan
 from tests.planner.brain.conftest import HOME
 from tests.planner.mission.driving import QUEUED, RUNNING, SUCCEEDED

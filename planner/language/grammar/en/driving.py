@@ -127,12 +127,14 @@ TALK: tuple[Rule, ...] = (
         about(Topic.HELLO),
     ),
     rule(
-        r"(?:good night|(?:good)?bye(?:[ -]bye)?|see you(?: (?:later|tomorrow|soon))?)"
+        r"(?:good night|(?:good)?bye(?:[ -]bye)?)"
         r"(?:,? (?:then|robot|pons|everyone|all))*",
         about(Topic.BYE),
     ),
     rule(
-        r"(?:many )?thanks?(?: you)?(?: (?:very|so) much| a (?:lot|bunch|million)| again)?|cheers"
+        r"(?:many )?thanks?(?: you)?(?: (?:very|so) much| a (?:lot|bunch|million)| again)?"
+        r"(?: (?:mate|buddy|pal|robot|pons|dear|love|my friend))?|cheers(?: mate)?"
+        r"|you(?:'ve)? (?:did|done) (?:(?:so |very |really )?(?:well|great|good|fine)|it)"
         rf"|well done|{_FINE}(?: (?:job|work|robot|boy|girl|stuff|one))?"
         r"|(?:you(?:'re| are)|that(?:'s| is| was)) (?:so |very |really |just )?(?:(?:a|the|an) )?"
         rf"{_FINE}(?: (?:robot|help|job|work|one))?"

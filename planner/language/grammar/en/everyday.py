@@ -142,6 +142,8 @@ ENGLISH_EVERYDAY = table(
      r"|\bface the other way\b|\bturn (?:yourself )?(?:right )?(?:around|round)(?= and\b|,|$)", "turn around"),
     (rf"\bturn (?P<s>left|right),? (?:about |by |roughly |around |say )*(?P<n>{_NUMBER})(?= ?$|[,.])",
      r"turn \g<s> \g<n> degrees"),
+    (rf"\b(?:drive|go|move|roll|carry|keep going|keep driving) on(?: for)? (?P<l>{EN_LENGTH})$",
+     r"move forward \g<l>"),
     # people
     (r"\b(?:tag along(?: behind| with)?|trail after|stick (?:with|to|close to)|keep close to"
      r"|come along with|walk along with|keep pace with) ", "follow "),

@@ -6,13 +6,14 @@ A clause is read whole or not at all; the rules name every character that they p
 from __future__ import annotations
 
 import re
+from re import Match
 
 from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_ZH
 from planner.language.grammar.clauses import Grammar
 from planner.language.grammar.driving_steps import next_place, say
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.parse_result import lacks, rule, unread
+from planner.language.grammar.parse_result import Meaning, Reading, Steps, lacks, rule, unread
 from planner.language.grammar.unsupported import lacks_arm
 from planner.language.grammar.zh import ALL_ROOMS, GO, IN, SEE, VERB, driving, objects, people
 from planner.plan import Code
@@ -78,6 +79,17 @@ _THANKS = (
     r"哟|please|即可|就行|就好|就可以了?"
 )
 
+
+def _tell_nothing(found: Match[str], reading: Reading) -> Meaning | None:
+    """Understand nothing where there is nothing that could be told.
+
+    Who comes back tells what came of the order by itself.
+    """
+    if reading.scene.kind == "come_back":
+        return Steps(())
+    return None if reading.scene.seen else unread(found, reading)
+
+
 CHINESE = Grammar(
     asked=re.compile(r"(?:能|可以)([^,;.!?。]*)吗(?=[,;.!?。]|$)"),
     vetoes=(
@@ -110,6 +122,7 @@ CHINESE = Grammar(
         rule(rf"{_NO_LOOK}(?!{_WITH_ARM}).*{_ARM}.*", unread),
         rule(rf"{_NO_LOOK}.*{_ARM}.*", lacks_arm),
         *unsupported.ASIDE_CHINESE,
+        rule(r"告诉我(?:一声|一下)?", _tell_nothing),
         *people.RULES,
         *objects.RULES,
         *driving.RULES[-2:],
