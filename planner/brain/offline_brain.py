@@ -39,6 +39,7 @@ class OfflineBrain:
             runnable=request.runnable,
             blind=request.blind,
             things=request.things,
+            departed=request.departed,
             remembers=request.situation is not None
             and any(item.fits for item in request.situation.remembered),
         )

@@ -13,7 +13,7 @@ from planner.plan import AnswerPlan, Code, Refuse, say_same
 
 if TYPE_CHECKING:
     from planner.memory import Recollection
-    from planner.mission.loop import Loop
+    from planner.mission.goal_book import GoalBook
     from planner.mission.memory_lookup import MemoryLookup
     from planner.site.known_places import KnownPlaces
 
@@ -23,7 +23,7 @@ SPOKEN_BY = "sentence"
 class FactCommands:
     """Carry out "remember that …" and "forget what I said about …"."""
 
-    def __init__(self, lookup: MemoryLookup | None, places: KnownPlaces, loop: Loop) -> None:
+    def __init__(self, lookup: MemoryLookup | None, places: KnownPlaces, loop: GoalBook) -> None:
         self._lookup, self._places, self._loop = lookup, places, loop
 
     async def carry_out(self, intent: TeachFact | ForgetFacts) -> AnswerPlan | Refuse:

@@ -22,6 +22,7 @@ from planner.language.commands import (
 )
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
+from planner.mission.pronouns import name_pronouns
 from planner.plan import Code, Entry, GoalState, Vocabulary
 
 if TYPE_CHECKING:
@@ -31,24 +32,38 @@ if TYPE_CHECKING:
 LEANS_S = 1800.0
 """Half an hour: after it, "again" means nothing that a person could be held to."""
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
+_HEDGE = re.compile(
+    r"^(?:it|he|she|they) (?:should|must|might|could|may|has to) be (?=(?:in|at|on) )"
+    r"|^(?:它|他|她)?(?:应该|可能|好像|大概|也许|多半)(?:是)?(?:在|放在)?",
+    re.IGNORECASE,
+)
+"""A guess about where something is, said of a place that takes another's place."""
+_ASIDE = re.compile(
+    r"^(?:by|near|beside|next to|on) |(?:旁边|边上|附近|那边|那里|那儿|这边)$", re.IGNORECASE
+)
+"""Beside a place that takes another's place: the last order says at which side of it."""
 _ORDERS = re.compile(
     r"(?:please )?(?:go|drive|come|move|head|return|turn|look|find|search|count|follow|patrol|wait"
-    r"|visit|check|say|tell|ask|take|bring|get|see|stop)\b|[去到回来找看数转跟等说告问巡走开带拿停]"
+    r"|visit|check|say|tell|ask|take|bring|get|see|stop|have a look|pop)\b"
+    r"|[去到回来找看数转跟等说告问巡走开带拿停]"
 )
 
 
 def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
     """Return the order that a sentence is, in words that lean on nothing."""
     intent: Intent | None = intent_of(text)
+    last = last_order(book, now_unix_s)
+    if intent is None and last is not None:
+        return name_pronouns(text, last, book.facts)
     if not isinstance(intent, LeaningCommand | Replace):
         return text
-    last = last_order(book, now_unix_s)
     if isinstance(intent, RepeatCommand):
-        return last.order_text if last is not None else text
+        return _repeat_order(last.order_text, intent.times) if last is not None else text
     if isinstance(intent, OtherPlaceCommand):
         return _other_place(book.facts, last) or text
     rest = _innermost(intent.rest)
-    place = place_alone(rest, names_of(book.facts))
+    names = names_of(book.facts)
+    place = place_alone(rest, names) or place_alone(_ASIDE.sub("", rest), names)
     if place is None:
         takes_back = isinstance(intent, Replace) and not intent.corrects
         return rest if takes_back or _ORDERS.match(plain(rest)) else text
@@ -100,10 +115,20 @@ def names_of(facts: SiteView) -> Vocabulary:
     )
 
 
+def _repeat_order(order: str, times: int) -> str:
+    """Return an order, or so many rounds of it."""
+    if times == 1:
+        return order
+    ends = order.rstrip(" .!,;。！，；")
+    return f"{ends}{times}次" if has_chinese(order) else f"{ends} {times} times"
+
+
 def _innermost(rest: str) -> str:
-    """Return the order in "no, not the kitchen, the study"."""
+    """Return the order in "no, not the kitchen, the study", without "it should be"."""
     inner = intent_of(rest)
-    return _innermost(inner.rest) if isinstance(inner, Replace | AppendCommand) else rest
+    if isinstance(inner, Replace | AppendCommand):
+        return _innermost(inner.rest)
+    return _HEDGE.sub("", rest)
 
 
 def _with_place(facts: SiteView, order: str, place: str, said: str) -> str | None:

@@ -6,6 +6,7 @@ from planner.language.catalogue import join, message, say
 from planner.language.utterance import parse
 from planner.mission.activity import Thinking
 from planner.mission.conversation import situation_of
+from planner.mission.departure import departure_of, find_robot, way_back_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.follow_up import meaning_of
@@ -83,7 +84,6 @@ def submit(turn: Transaction, event: Submitted) -> None:
         make_room(turn, event.text)
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
     turn.set(order=order)
-    pose = turn.book.status.base_in_map if turn.book.status is not None else None
     meant = "" if event.local else meaning_of(turn.book, event.text, now_unix_s)
     mission = Mission(
         id=event.id,
@@ -99,7 +99,8 @@ def submit(turn: Transaction, event: Submitted) -> None:
         given_under_hold=hold_now(turn),
         source=event.source,
         map_id=turn.book.facts.map_id,
-        accepted_at=(pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None,
+        accepted_at=find_robot(turn.book),
+        departed_at=departure_of(turn.book, turn.now_s),
         created_unix_s=now_unix_s,
         updated_unix_s=now_unix_s,
     )
@@ -136,6 +137,7 @@ def _think(turn: Transaction, mission: Mission) -> None:
     room = spot_at(turn.book.facts, pose).room
     turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
                        order=mission.order_text, exchanges=exchanges_of(mission),
+                       departed=mission.departed_at is not None,
                        situation=situation_of(turn.book, mission, turn.now_s)))  # fmt: skip
 
 
@@ -155,7 +157,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         _end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True, also=also)
         return
     if plan is None:
-        outcome = event.failure or _bad_plan("no answer")
+        unsaid = Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why="no answer"))
+        outcome = event.failure or unsaid
         unavailable = outcome.code is Code.MODEL_UNAVAILABLE
         mission = turn.put(mission, brain=event.brain)
         cause = BrainCause.FAILS if unavailable else BrainCause.REFUSES
@@ -181,7 +184,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
             said = Outcome(code=plan.code, message=told)
             turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
-            mission = turn.put(mission, speed_share=share_of(plan))
+            share, back = share_of(plan), way_back_of(mission)
+            mission = turn.put(mission, speed_share=share, accepted_at=back)
             _walkable(turn, assume_role(turn, mission, plan.does), event.unasked)
 
 
@@ -224,10 +228,6 @@ def _walkable(turn: Transaction, mission: Mission, unasked: tuple[int, ...]) -> 
         turn.move_to(mission, BrainCause.NEEDS_YES)
     else:
         ready(turn, mission, BrainCause.PLANS)
-
-
-def _bad_plan(why: str) -> Outcome:
-    return Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
 
 
 def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
@@ -338,7 +338,7 @@ def _forget_poses(turn: Transaction, mission: Mission) -> None:
         said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
         finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "map_changed")
     elif mission.map_id:
-        mission = turn.put(mission, accepted_at=None, skill_state=None)
+        mission = turn.put(mission, accepted_at=None, departed_at=None, skill_state=None)
         if mission.state is GoalState.PAUSED:
             turn.put(mission, outcome=Outcome(code=Code.NOT_REACHED, message=MAP_CHANGED))
     turn.put(turn.book.missions[mission.id], map_id=turn.book.facts.map_id)

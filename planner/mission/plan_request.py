@@ -133,6 +133,7 @@ def thinker(
             observed=ask.observed,
             replan=ask.replan,
             order=ask.order if ask.exchanges else "",
+            departed=ask.departed,
             exchanges=ask.exchanges,
             situation=_situation(ask, clock, remembered),
         )

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from planner.mission.events import Command, Submitted
-    from planner.mission.loop import Loop
+    from planner.mission.goal_book import GoalBook
     from planner.mission.memory_lookup import MemoryLookup
     from planner.mission.standing_goals import OrderDesk
     from planner.mission.state import Mission
@@ -76,7 +76,7 @@ class PlannerCommands:
         self,
         think: Think,
         memory: KnownPlaces,
-        loop: Loop,
+        loop: GoalBook,
         link: HintLink,
         lookup: MemoryLookup | None = None,
     ) -> None:

@@ -19,7 +19,7 @@ from planner.mission.motion_consent import key_of_deed
 from planner.mission.open_questions import has_room
 from planner.mission.outcomes import moves
 from planner.mission.plan_check import unwalkable
-from planner.mission.state import GoalKey, Mission, MissionState
+from planner.mission.state import ORDER_SOURCE, GoalKey, Mission, MissionState
 from planner.mission.transitions import FIRST
 from planner.plan import (
     STEPLESS,
@@ -38,9 +38,6 @@ if TYPE_CHECKING:
     from planner.mission.loop import Loop
     from planner.mission.reception import Repeats
     from planner.mission.tasks import Think
-
-ORDER_SOURCE = "order:"
-"""What the source of every goal of a standing order begins with."""
 
 
 class OrderDesk(Protocol):

@@ -33,6 +33,8 @@ from planner.plan import (
 from planner.site.site_view import SiteView
 from wire import Status
 
+ORDER_SOURCE = "order:"
+"""What the source of every goal of a standing order begins with."""
 MAX_OPEN = 33
 """Goals that have not ended: one running and 32 that wait."""
 MAX_ENDED = 200
@@ -102,7 +104,10 @@ class Mission(Frozen):
     leg: int = 0
     """The newest leg of this mission; legs only rise."""
     accepted_at: tuple[float, float, float] | None = None
-    """Where the robot stood when the goal was accepted: x [m], y [m], yaw [rad] in ``map``."""
+    """Where the robot stood when the goal was accepted: x [m], y [m], yaw [rad] in ``map``. Where
+    the goal begins with coming back: when the order before it was given."""
+    departed_at: tuple[float, float, float] | None = None
+    """Where the robot stood when the order before was given, where that is beyond doubt."""
     speed_share: float = Field(default=1.0, ge=0.0, le=1.0)
     """Of the planned speeds' cap: a person said "slow down" while it ran."""
     metres: float = 0.0

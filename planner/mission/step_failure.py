@@ -184,6 +184,7 @@ def think(turn: Transaction, mission: Mission) -> None:
             mission.replans,
             order=mission.order_text,
             exchanges=exchanges_of(mission),
+            departed=mission.departed_at is not None,
             situation=situation_of(turn.book, mission, turn.now_s),
         )
     )

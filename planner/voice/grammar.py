@@ -69,6 +69,9 @@ _OTHER_STOPS = (
 OTHER_STOPS = _file(any_of(*_OTHER_STOPS))
 """Other ways to say stop, for a third look: beside the plain ones they would take their score. One
 short word alone ("freeze", "halt") is found in too many other sentences."""
+_CALLED_STOPS = ("robot stop", "hey robot stop", "robot please stop")
+EARLY_STOPS = _file(any_of(*_STOPS, *_CALLED_STOPS))
+"""The grammar of what stops while it is being said, at the beginning of a piece of speech."""
 _ANSWERS = (
     *("yes", "yes please", "go ahead", "please do"),
     *("no", "no thanks", "no thank you", "no please don't"),
@@ -104,6 +107,11 @@ def is_answer(transcript: str) -> bool:
 def is_stop(transcript: str) -> bool:
     """Tell whether a transcript is one of the stops that are in every grammar."""
     return transcript in _STOPS
+
+
+def is_early_stop(transcript: str) -> bool:
+    """Tell whether a transcript is one of the stops that are heard before the speech has ended."""
+    return transcript in _STOPS or transcript in _CALLED_STOPS
 
 
 def language_of(names: Sequence[str], pronounced: Callable[[str], bool]) -> SpokenLanguage:

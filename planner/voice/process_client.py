@@ -14,7 +14,7 @@ from asyncio.subprocess import Process
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from planner.language.stop import is_stop
+from planner.language.stop import calls_stop, is_stop
 from planner.plan import Language
 from planner.voice.recogniser import Recognition, StopListener, VoiceFailure
 from planner.voice.wav import Sound
@@ -216,7 +216,8 @@ class WorkerListener:
             VoiceFailure: ``recogniser_unavailable`` or ``voice_timed_out``.
         """
         heard = await self._worker.hear_part(self._stream, sound)
-        return heard if heard.understood and is_stop(heard.transcript) else None
+        stops = is_stop(heard.transcript) or calls_stop(heard.transcript)
+        return heard if heard.understood and stops else None
 
 
 def _take_failure(work: asyncio.Task[Recognition]) -> None:

@@ -23,10 +23,12 @@ from planner.voice.confidence import DecoderResult, confidence, long_pauses, sto
 from planner.voice.dictionary import Dictionary
 from planner.voice.grammar import (
     ANSWERS,
+    EARLY_STOPS,
     OTHER_STOPS,
     STOPS,
     SpokenLanguage,
     is_answer,
+    is_early_stop,
     is_stop,
     language_of,
 )
@@ -76,6 +78,7 @@ class Sphinx:
             model = pocketsphinx.NGramModel(self._free.config, self._free.logmath, str(likely))
         self._decoder.add_jsgf_string("orders", self.language.jsgf)
         self._decoder.add_jsgf_string("stops", STOPS)
+        self._decoder.add_jsgf_string("early_stops", EARLY_STOPS)
         self._decoder.add_jsgf_string("other_stops", OTHER_STOPS)
         self._decoder.add_jsgf_string("answers", ANSWERS)
         self._free.add_allphone_file("phones", None)
@@ -118,11 +121,11 @@ class Sphinx:
         if samples is None:
             return None
         with (
-            ForkedJob(lambda: _decode(self._decoder, "stops", samples)) as bound,
+            ForkedJob(lambda: _decode(self._decoder, "early_stops", samples)) as bound,
             ForkedJob(lambda: _decode(self._free, "phones", samples)) as sounds,
         ):
             stop = bound.result()
-            if stop is None or not is_stop(stop.text):
+            if stop is None or not is_early_stop(stop.text):
                 return None
             phones = sounds.result()
         if phones is None:

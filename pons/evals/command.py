@@ -7,6 +7,7 @@ import asyncio
 import os
 import sys
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -132,7 +133,13 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
     """
     from pons.evals.person import converse, show_conversations
     from pons.evals.person_robot import ScriptedModel
-    from pons.evals.person_scripts import read_scripts
+    from pons.evals.person_scripts import ScriptSet, read_scripts
+
+    sets = (
+        (ScriptSet.TRIAL,)
+        if said.suite == TRIAL
+        else (ScriptSet.OWN, ScriptSet.THIRD, ScriptSet.FOURTH)
+    )
 
     def brains(brain: Brain) -> tuple[Brain, ...]:
         if said.model is not None:
@@ -142,12 +149,12 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
     async def score(brain: Brain) -> int:
         site, right, count = Site.load(said.site), 0, 0
-        for name in ("en", "zh"):
+        for name, script_set in product(("en", "zh"), sets):
             for each in brains(brain):
-                scripts = read_scripts(name, trial=said.suite == TRIAL)
+                scripts = read_scripts(name, script_set)
                 held = tuple([await converse(one, each, site) for one in scripts])
                 hostile = each.hostile if isinstance(each, ScriptedModel) else 0
-                print(show_conversations(name, each.tag.name, held, hostile))
+                print(show_conversations(f"{script_set}{name}", each.tag.name, held, hostile))
                 right, count = right + sum(h.right for h in held), count + len(held)
                 if any(h.moves_wrongly for h in held):
                     right = -count

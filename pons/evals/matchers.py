@@ -149,6 +149,8 @@ def _act(text: str) -> Act:
         places = {"back": START, "home": HOME}.get(kind, words)
         return Act("at", tuple(places.split("/")), optional=optional)
     if kind in ("wait", "turn", "move", "repeat"):
+        if kind == "repeat" and not words:  # as often as it takes
+            return Act(kind, optional=optional)
         number = radians(float(words)) if kind == "turn" else float(words)
         return Act(kind, number=number, optional=optional)
     kind = {"approach": "go_to_object", "waitfor": "wait_for"}.get(kind, kind)

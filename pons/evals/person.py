@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from planner.brain import Brain
     from planner.site.site import Site
 
+from planner.language.motion_guard.step_words import moves
 from pons.evals.person_robot import RobotEar, RobotReply, ScriptedModel
 from pons.evals.person_scripts import PLANS, Reaction, Script, ScriptTurn
 
@@ -77,7 +78,7 @@ async def converse(script: Script, brain: Brain, site: Site) -> Conversation:
             elif heard is not None:
                 mood, patience = _judge(heard, turn, patience)
         if mood is _Mood.GIVES_UP or heard is None:
-            wrong = heard is not None and heard.reaction in PLANS
+            wrong = heard is not None and heard.reaction in PLANS and _moves(heard)
             what = f"turn {number}: {heard.reaction if heard else 'nothing'}"
             plan = heard.plan.steps if heard is not None and heard.plan is not None else ()
             told = "; ".join(str(step.model_dump(exclude_defaults=True)) for step in plan)
@@ -85,6 +86,11 @@ async def converse(script: Script, brain: Brain, site: Site) -> Conversation:
         if heard.reaction in PLANS:
             robot.settle(heard.goal, stays=turn.stays)
     return Conversation(script, "", tuple(said), moves_wrongly=False)
+
+
+def _moves(heard: RobotReply) -> bool:
+    """Tell whether what was accepted moves the robot: words alone do not."""
+    return heard.plan is None or any(moves(step) for step in heard.plan.steps)
 
 
 def _judge(heard: RobotReply, turn: ScriptTurn, patience: int) -> tuple[_Mood, int]:

@@ -8,15 +8,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import count
+from math import inf
 from typing import TYPE_CHECKING
 
 from planner.brain.interface import ThinkResult
-from planner.language.commands import CancelCommand
 from planner.language.utterance import parse
+from planner.mission.allowed_commands import refusal
 from planner.mission.effects import AskBrain
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Stopped, Submitted
 from planner.mission.plan_request import thinker
-from planner.mission.reception import goal_to_end, receive, receive_answer
+from planner.mission.reception import receive, receive_answer
 from planner.mission.reducer import advance
 from planner.mission.skills import Eyesight
 from planner.mission.state import MissionState
@@ -44,10 +45,13 @@ if TYPE_CHECKING:
     from planner.brain.interface import ThinkRequest
     from planner.brain.streamed_draft import Hear
     from planner.mission.effects import Effect
-    from planner.mission.events import Event
+    from planner.mission.errors import MissionError
+    from planner.mission.events import Command, Event
     from planner.mission.state import Mission
     from planner.site.site import Site
 
+from pons.evals.person_commands import PersonCommands
+from pons.evals.person_pose import pose_after, standing_status
 from pons.evals.person_scripts import PLANS, Reaction, ScriptTurn
 
 _NOW_S = 1000.0
@@ -73,18 +77,37 @@ class RobotEar:
         """Take the brain and the site."""
         self._brain, self._site = brain, site
         eyes = Eyesight(CameraConfig(), _CLASSES)
-        self._book = MissionState(facts_of(site), eyes=eyes, sight=Sight())
+        facts = facts_of(site)
+        self._book = MissionState(facts, eyes=eyes, sight=Sight())
+        self._pose = facts.targets[facts.home].pose
         self._plans: dict[str, StepPlan] = {}
         self._ids, self._now_s = count(), _NOW_S
+        self._commands = PersonCommands(self._think, site, self)
+        self._left: list[Effect] = []
 
     @property
     def book(self) -> MissionState:
         """Return where all goals stand."""
         return self._book
 
+    @property
+    def status_age_s(self) -> float:
+        """Return an age without end: no bridge is heard."""
+        return inf
+
+    def obey(self, command: Command) -> MissionError | None:
+        """Obey a command to the planner itself at once."""
+        error = refusal(self._book, command)
+        if error is None:
+            self._book, effects = advance(self._book, command, self._now_s)
+            self._left += effects
+        return error
+
     async def hear(self, text: str, *, typed: bool = False) -> RobotReply:
         """Return what a sentence comes to."""
         self._now_s += _TURN_S
+        status = standing_status(self._pose)
+        self._book = replace(self._book, status=status, status_s=self._now_s)
         before = self._book
         waiting = self._waiting()
         said = parse(text)
@@ -102,7 +125,9 @@ class RobotEar:
         await self._on(heard.given)
         if heard.takes_back is not None:
             await self._on(Cancel(heard.takes_back))
-        return self._tell(before, goal, heard.stops and heard.given.stop)
+        made = self._book.missions.get(goal)
+        stopped = made is not None and made.has_ended and goal not in self._plans
+        return self._tell(before, goal, heard.stops and (heard.given.stop or stopped))
 
     async def _on(self, event: Event) -> None:
         self._book, effects = advance(self._book, event, self._now_s)
@@ -112,21 +137,20 @@ class RobotEar:
     async def _carry(self, effect: Effect) -> None:
         if not isinstance(effect, AskBrain):
             return
-        if isinstance(
-            parse(effect.text).intent, CancelCommand
-        ):  # the planner's own, before any brain
-            ended = goal_to_end(self._book, effect.id)
-            done = AnswerPlan(text=say_same("done"))
-            await self._on(Planned(effect.id, done))
-            if ended is not None:
-                await self._on(Cancel(ended))
-            return
-        means = Means(camera=True, detector=True)
-        think = thinker(self._brain, vocabulary_of(self._site), None, means, _CLASSES)
-        planned: Planned = await think(effect)
+        planned = await self._commands.think(effect)
         if isinstance(planned.plan, StepPlan):
             self._plans[effect.id] = planned.plan
         await self._on(planned)
+        while self._left:
+            await self._carry(self._left.pop(0))
+
+    async def _think(self, ask: AskBrain) -> Planned:
+        means = Means(camera=True, detector=True)
+        remember = self._commands.remember
+        think = thinker(
+            self._brain, vocabulary_of(self._site), None, means, _CLASSES, remember=remember
+        )
+        return await think(ask)
 
     def _waiting(self) -> Mission | None:
         asking = (GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION)
@@ -194,6 +218,8 @@ class RobotEar:
             if mission.state in (GoalState.QUEUED, GoalState.RUNNING, GoalState.PAUSED):
                 runs = stays and (id_ == goal or mission.state is GoalState.RUNNING)
                 state = GoalState.RUNNING if runs else GoalState.SUCCEEDED
+                if not runs:
+                    self._pose = pose_after(self._book.facts, mission, self._pose)
                 missions[id_] = mission.model_copy(update={"state": state})
         running = next((m.id for m in missions.values() if m.state is GoalState.RUNNING), None)
         self._book = replace(

@@ -37,6 +37,18 @@ _BLANKS = {
 }  # fmt: skip
 
 
+class ScriptSet(StrEnum):
+    """Name conversations that were written together, as their files' names begin."""
+
+    OWN = ""
+    TRIAL = "trials_"
+    """Those that a strong model was once tried with."""
+    THIRD = "talks_3_"
+    """Written before the grammar was read; their first run is in docs/eval.md."""
+    FOURTH = "talks_4_"
+    """Written once the third were mended; their first run is in docs/eval.md."""
+
+
 class Reaction(StrEnum):
     """Say what a sentence came to."""
 
@@ -80,18 +92,17 @@ class Script:
     turns: tuple[ScriptTurn, ...]
 
 
-def read_scripts(language: str, *, trial: bool = False) -> tuple[Script, ...]:
-    """Return a language's conversations, each as often as its blanks are filled.
+def read_scripts(language: str, script_set: ScriptSet = ScriptSet.OWN) -> tuple[Script, ...]:
+    """Return a language's conversations of a set, each as often as its blanks are filled.
 
     Args:
         language: ``en`` or ``zh``.
-        trial: those that a strong model was once tried with, instead of the others.
+        script_set: which of them.
 
     Raises:
         BadMatcher: a script can't be read.
     """
-    name = f"trials_{language}" if trial else language
-    text = (SCRIPTS / f"{name}.txt").read_text("utf-8")
+    text = (SCRIPTS / f"{script_set}{language}.txt").read_text("utf-8")
     blocks = (block for block in text.split("\n## ")[1:] if block.strip())
     return tuple(script for block in blocks for script in _read_block(block, language))
 

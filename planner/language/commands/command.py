@@ -86,7 +86,9 @@ class AppendCommand:
 
 @dataclass(frozen=True, slots=True)
 class RepeatCommand:
-    """Do the last goal once more."""
+    """Do the last goal once more, or several times."""
+
+    times: int = 1
 
 
 @dataclass(frozen=True, slots=True)

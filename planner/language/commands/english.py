@@ -53,11 +53,13 @@ PAUSE = re.compile(
     r"|(?:hold on|hang on)(?: (?:a|one) (?:moment|second|sec|minute))?"
     r"|(?:a|one|just a) (?:moment|sec)"
     r"|just a (?:second|minute)|give me a (?:moment|second|sec|minute)|take a break"
+    r"|wait (?:just )?a (?:second|sec|moment|bit)"
 )
 CANCEL = re.compile(
     rf"(?:cancel|abort|drop|call off) (?:it|this|that one|{_THE_TASK})|call it off"
     r"|(?:forget (?:it|that)|scrap that|leave it)[ ,]+(?:never ?mind|i changed my mind)"
-    r"|(?:ok |okay )?(?:that(?:'s| is) enough)(?:[ ,]+(?:quit it|stop it|thank you))?"
+    r"|(?:ok |okay )?(?:that(?:'s| is) )?(?:far |quite |good )?enough(?: now)?"
+    r"(?:[ ,]+(?:quit it|stop it|thank you))?"
     r"|forget (?:it|that|this|about (?:it|that|this)|what i (?:said|told you))"
     rf"|forget (?:about )?{_THE_TASK}"
     r"|never ?mind(?: (?:it|that|about (?:it|that)))?|scratch that|scrap that|don't bother"
@@ -69,6 +71,13 @@ CANCEL = re.compile(
 )
 TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
 """What may stand before the order that comes in place of the current one."""
+REASON = re.compile(
+    r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|remember(?:ed)?|know|did|done"
+    r"|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
+    r"|(?:it|that|they|she|he)(?:'s| is| are|'re| was| were) (?:already |right |all |not )*"
+    r"(?:fine|ok|okay|here|right|found|done|sorted|important|needed|gone|too late)\b[a-z' ]*"
+)
+"""Why something is taken back, said behind it: it orders nothing."""
 DENIES = re.compile(r"(?:don't|do not) (?:go|bother)\b.*|drop (?:it|this|that one)")
 """Of these, what means the whole sentence where it goes on with "and": "don't go and turn left"."""
 GOES_ON = re.compile(r"(?:and|or|then)\b")
@@ -84,14 +93,16 @@ INSTEAD = re.compile(
     rf"|(?P<rest2>(?:go|come|drive|move|return|head|wait|turn|patrol)\b{_ONE_ORDER}),? instead"
 )
 _SPEED = r"(?: (?:a (?:little|bit|lot)|a little bit|much|even|still|down|up|more))*"
+_SOME = r"(?:you (?:can|may) )?(?:(?:a (?:little|bit|lot|little bit)|much|even|still|some) )?"
 SLOWER = re.compile(
-    rf"(?:slow down|ease off|ease up|easy does it)(?: a (?:little|bit)| there| now)*"
-    rf"|(?:(?:go|drive|move|roll)(?: a (?:little|bit)| much)? )?(?:slower|more slowly){_SPEED}"
+    rf"{_SOME}(?:(?:slow down|ease off|ease up|easy does it)(?: a (?:little|bit)| there| now)*"
+    rf"|(?:(?:go|drive|move|roll)(?: a (?:little|bit)| much)? )?(?:slower|more slowly){_SPEED})"
     r"|(?:not|do(?: not|n't) (?:go|drive|move)) (?:so|that|too) fast|reduce (?:your |the )?speed"
     r"|(?:that is |that's |you are |you're |it is )?(?:way |much |going |driving )?too fast"
 )
 FASTER = re.compile(
-    rf"(?:speed up|hurry up|faster){_SPEED}|(?:go|drive|move)(?: a (?:little|bit))? faster{_SPEED}"
+    rf"{_SOME}(?:(?:speed up|hurry up|faster|quicker){_SPEED}|(?:go|drive|move)"
+    rf"(?: a (?:little|bit))? (?:faster|quicker){_SPEED})"
     r"|(?:normal|full|usual) speed(?: again)?|(?:not|do(?: not|n't) (?:go|drive|move)) (?:so|that"
     r"|too) slow(?:ly)?|too slow"
 )
@@ -119,8 +130,8 @@ BATTERY = re.compile(
     r"(?: (?:do you have|have you got|is)(?: left| in you)?| left)?"
     rf"|(?:what(?:'s| is)|tell me|report) {_YOUR}(?:battery|charge)"
     rf"(?: (?:level|status|state|percentage))?|{_YOUR}?battery (?:level|status)"
-    rf"|(?:are you|is {_YOUR}battery) (?:fully )?(?:charged|full|empty|low|flat"
-    r"|running (?:low|out))(?: yet| enough)?"
+    rf"|(?:are you|is {_YOUR}battery) (?:fully |already |still )?(?:charged|full|empty|low|flat"
+    rf"|running (?:low|out)|(?:running )?(?:low|out) (?:on|of) {_CHARGE})(?: yet| enough| already)?"
     rf"|(?:do you have|have you got|you(?:'ve)? got|you have) enough {_CHARGE}(?: left)?"
     r"(?: for [a-z ]{1,30})?|do you need (?:to be )?(?:charging|charged|a charge|to charge)"
 )

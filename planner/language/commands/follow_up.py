@@ -16,6 +16,7 @@ from planner.language.commands.command import (
     Replace,
 )
 from planner.language.folding import fold_words, has_chinese
+from planner.language.numbers import TIMES, chinese_number, times
 from planner.language.yes_no import consents
 
 MAX_READ = 120
@@ -23,24 +24,33 @@ MAX_READ = 120
 FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | Replace
 _ENDS = " .!,;:。~…，；！"
 _PLEASE = r"(?:please|pls|ok|okay|robot|pons|hey|um|uh|well|oh|now|and|just|thanks)"
-_NOISE = re.compile(r"^(?:(?:um+|uh+|er+|hm+|well|ok|okay|hey|robot|pons|please|嗯|呃|请)[ ,]+)+")
+_NOISE = re.compile(r"^(?:(?:um+|uh+|er+|h+m+|well|ok|okay|hey|robot|pons|please|嗯|呃|请)[ ,]+)+")
 _POLITE = re.compile(rf"(?:(?:{_PLEASE}|(?:can|could|would|will) you)[ ,]+)+|(?:[ ,]+{_PLEASE})+$")
 _POLITE_END = re.compile(rf"(?:(?<! as)[ ,]+{_PLEASE})+$")
-_POLITE_ZH = re.compile(r"^(?:请|麻烦你?|那个?|嗯|呃|好|机器人|,)+|(?:吧|呀|啊|哦|谢谢|,)+$")
+_POLITE_ZH = re.compile(
+    r"^(?:请|麻烦你?|那个?|[嗯呃哎诶欸唉哦噢喔啊]|哎呀|好|机器人|,)+|(?:吧|呀|啊|哦|谢谢|,)+$"
+)
 _OPEN_END = re.compile(
     r"\b(?:if|unless|when|whenever|until|otherwise|or|because|whether)\b|\?|[;:]"
-    r"|如果|要是|假如|除非|的话|否则|还是|吗$|呢$|？"
+    r"|如果|要是|假如|除非|的话|否则|(?<=.)还是|吗$|呢$|？"
 )
 """With these a sentence is more than one word in a conversation."""
 
+_ANY_VERB_ZH = r"(?:[来做去走跑试数找看说转念读退绕问查跟等]|执行|巡[逻视]|检查|转[身圈]|前进|后退)"
 _AGAIN = re.compile(
     r"(?:do |try |go |run )?(?:(?:it|that|this|the same(?: thing)?) )?"
     r"(?:again|once more|one more time|another time)"
     r"|(?:repeat|redo) (?:it|that|this)(?: again| once more)?|(?:the )?same (?:thing )?again"
     r"|repeat(?: the)?(?: last)? (?:goal|order|task|drive)"
 )
+_MORE = re.compile(
+    rf"(?:do |go |try )?(?:(?:it|that|this|the same(?: thing)?) )?(?:"
+    rf"(?:again )?{TIMES}(?: more| again)?|(?P<more>two|three|four|[2-9]) more(?: times)?"
+    r"|(?P<more2>two|three|four|[2-9]) more times)"
+)
+_MORE_ZH = re.compile(rf"再{_ANY_VERB_ZH}?(?P<times>[二两三四五六七八九]|[2-9])(?:次|遍|趟|回)")
 _AGAIN_ZH = re.compile(
-    r"(?:再|重新?)(?:来|做|去|走|跑|试|执行|数|找|看|说|巡逻)?(?:一)?(?:次|遍|趟|回)|(?:重新?|再)(?:来|做|试|执行)(?:过)?"
+    rf"(?:再|重新?){_ANY_VERB_ZH}?(?:一)?(?:次|遍|趟|回)|(?:重新?|再)(?:来|做|试|执行)(?:过)?"
     r"|重复(?:一)?(?:次|遍)|同样(?:的)?再来(?:一)?(?:次|遍)?|老样子再来(?:一)?(?:次|遍)?"
 )
 _OTHER = re.compile(
@@ -59,8 +69,11 @@ _ALSO_BEFORE = re.compile(
 _SAME = re.compile(
     r"(?:now )?(?:do )?(?:the )?same(?: thing)?(?: again)? (?:in|at|for|with) (?P<rest>.+)"
     r"|(?:and )?(?:what|how) about (?P<rest2>(?:in )?(?:the|my|our) [a-z][a-z' -]{1,30})"
+    r"|and (?P<rest3>(?:in |at )?(?:the|my|our) [a-z][a-z' -]{1,30})"
 )
-_ASKS = re.compile(r"^(?:(?:and )?(?:what|how) about )|^.{1,8}呢$")
+_ASKS = re.compile(
+    r"^(?:(?:and )?(?:what|how) about )|^and (?:in |at )?(?:the|my|our) [a-z' -]+$|^.{1,8}呢$"
+)
 """What asks for one more by a question: its mark is no doubt."""
 _DONE = re.compile(
     r"(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done|finished)"
@@ -68,10 +81,10 @@ _DONE = re.compile(
     r"|that(?:'s| is) (?:done|finished))[ ,]+(?:then )?(?P<rest>.+)"
 )
 _DONE_ZH = re.compile(
-    r"(?:等你?|你)?(?:弄|做|干|忙|办|找|数|看)?完(?:了|这个|那个|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
+    r"(?:等你?|你)?(?:[弄做干忙办找数看说转走跑去查绕]|巡[逻视查]|检查|探索)?完(?:了|这个|那个|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
 )
 _SAME_ZH = re.compile(
-    r"(?P<rest>.{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次|下))"
+    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次|下))"
 )
 _TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
 _ALSO_ZH = re.compile(
@@ -79,6 +92,7 @@ _ALSO_ZH = re.compile(
     r"|(?P<rest2>.{1,12}?)也(?:要)?(?:去一下|去一趟|去|看看|看一下|要)"
 )
 
+_ONWARD = re.compile(r"^(?:on|over|off|back)(?: again)? (?=(?:in)?to )")
 _TAKEN = (
     r"(?:(?:no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong|not that(?: one| room)?"
     r"|actually)[ ,.!;]+)"
@@ -88,22 +102,33 @@ _MEANT = (
 )
 _BARE_EN = r"(?:to |in |into |at )?(?:(?:the|my|our) )?[a-z][a-z' -]{1,30}"
 _DRIVE_EN = r"(?:go|drive|come|head|move|return|turn|look|find|count|follow|patrol|wait)\b.+"
+_GO_THERE = (
+    r"(?:[ ,.;]+(?:so |please )?(?:go|drive|come|head) (?:over )?there(?: instead| please)?)?"
+)
 _CORRECTION = re.compile(
-    rf"{_TAKEN}++{_MEANT} (?P<a>.+)|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN})"
-    rf"|(?:no[ ,]+wait|no|nope|wrong room|wrong place|not that one|oops)[ ,.!;]+(?:rather )?"
-    rf"(?P<c>(?:to |in |into |at )?(?:the|my|our) [a-z][a-z' -]{{1,30}}|{_DRIVE_EN})"
+    rf"{_TAKEN}++{_MEANT} (?P<a>.+?){_GO_THERE}"
+    rf"|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN}?){_GO_THERE}"
+    r"|(?:(?:no|nope|nah|wrong room|wrong place|not that one|not (?:t?here)|oops)[ ,.!;]+"
+    r"(?:wait[ ,.!;]+)?)+"
+    r"(?:rather |try |better |instead )?"
+    rf"(?P<c>(?:to |in |into |at |by |near |beside |next to )?(?:the|my|our) [a-z][a-z' -]{{1,30}}?"
+    rf"|{_DRIVE_EN})"
+    r"(?: first| instead| rather)?"
     rf"|(?:(?:no|wait|hold on|hang on)[ ,]+)*not (?:to )?(?:the|my|our) [a-z' -]{{2,24}}[,;.]?"
     rf" (?:but )?(?:rather )?(?:i (?:want|need) you (?:to (?:go|come|be) )?(?:in |to |at )?)?"
     rf"(?P<d>(?:to )?(?:the|my|our) [a-z][a-z' -]{{1,30}})"
+    r"|(?:(?:oh|ah|no|sorry|wait|hang on|hold on)[ ,.!;]+)*"
+    r"(?P<k>(?:to |in )?(?:the|my|our) [a-z][a-z' -]{1,30}?)[ ,]+i meant?"
 )
 _CORRECTION_ZH = re.compile(
     r"(?:(?:不对)+|不是|错了|搞错了|我?说错了|不不|不)[,。!！]+"
     r"(?P<a>(?:去|到|回|找|看看|数).+|(?:我(?:说|要|指)的?是|我是说|是|应该是).{1,12})"
-    r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>[^我你您没不好行].{0,7})|我是说(?P<f>.{1,12})"
+    r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>(?!应该|可能|好像|大概|也许|多半|在)[^我你您没不好行].{0,7})"
+    r"|(?:(?:等等|等一?下|不)[,。!！]+)?我是说(?P<f>.{1,12})"
     r"|(?:不对,?)?不是[^,是]{1,10}?[,]?(?:而)?是(?P<b>.{1,12})"
     r"|还是(?P<g>(?:去|到|回).{1,12}?)(?:好了|吧|得了)"
     r"|(?:(?:等一?下|等等|不对)[,。!！]+)?不是[^,是]{1,10}?[,。]我(?:是)?(?:要|想要?|让)你(?:去|到)(?P<i>.{1,12})"
-    r"|(?:不对|不是?|错了)[,。!！]+在(?P<h>.{1,8})"
+    r"|(?:不对|不是?|错了)[,。!！]+(?:应该|可能|好像|大概|也许|多半)?(?:是)?在(?P<h>.{1,8})"
     r"|我(?:说|指|要)的(?:是|可是)(?P<c>.{1,12}?)(?:[,]?不是.{1,12})?"
 )
 _SORRY_ZH = re.compile(
@@ -130,10 +155,22 @@ def read_follow_up(text: str) -> FollowUp | None:
     plain = _strip(_POLITE_ZH if chinese else _POLITE, bare)
     if (_AGAIN_ZH if chinese else _AGAIN).fullmatch(plain):
         return RepeatCommand()
+    more = (_MORE_ZH if chinese else _MORE).fullmatch(plain)
+    if more is not None and (count := _times_of(more.groupdict(), chinese=chinese)) is not None:
+        return RepeatCommand(count)
     if (_OTHER_ZH if chinese else _OTHER).fullmatch(plain):
         return OtherPlaceCommand()
     ends = _POLITE_ZH if chinese else _POLITE_END
-    return _correction(plain, chinese=chinese) or _also(_strip(ends, bare), chinese=chinese)
+    taken_back = _correction(plain, chinese=chinese) or _correction(bare, chinese=chinese)
+    return taken_back or _also(_strip(ends, bare), chinese=chinese)
+
+
+def _times_of(said: dict[str, str | None], *, chinese: bool) -> int | None:
+    """Return how many more times something is to be done."""
+    words = next((text for text in said.values() if text), None)
+    if words is None:
+        return None
+    return int(chinese_number(words) or words) if chinese else times(words)
 
 
 def _correction(plain: str, *, chinese: bool) -> Replace | None:
@@ -155,6 +192,7 @@ def _also(bare: str, *, chinese: bool) -> AppendCommand | None:
         if match is not None:
             rest, found = next(t for t in match.groups() if t is not None), True
     rest = _strip(_POLITE_ZH if chinese else _POLITE, rest).strip(_ENDS)
+    rest = _ONWARD.sub("", rest)
     return AppendCommand(rest) if found and rest and consents(rest) is None else None
 
 

@@ -179,6 +179,10 @@ def _replacing(said: FoldedText, grammar: ModuleType) -> Intent | None:
     for cut in islice(_SEPARATOR.finditer(said.folded), 2):  # behind a courtesy at most
         first = _plain(said.part(0, cut.start()), grammar)
         if grammar.TAKEN_BACK.fullmatch(first.folded.replace(" ", _gap(grammar))):
+            rest = said.part(cut.end(), len(said.folded)).strip(_END)
+            cancels = grammar.CANCEL.fullmatch(first.folded.replace(" ", _gap(grammar)))
+            if cancels and grammar.REASON.fullmatch(rest.folded):
+                return CancelCommand()
             if grammar.DENIES.fullmatch(first.folded) and _goes_on(said, cut, grammar):
                 return None
             return _replace(said.part(cut.end(), len(said.folded)), now=True)

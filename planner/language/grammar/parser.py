@@ -86,6 +86,7 @@ class Context(Frozen):
     blind: Code = Code.NO_CAMERA  # what is said of looking where it can't
     things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
     remembers: bool = False  # something that the sentence names is remembered
+    departed: bool = False  # an order before led the robot away: "come back" is back from there
     moved: bool = False  # it is a part of an order: the robot has driven somewhere before it
 
 
@@ -249,11 +250,9 @@ def _read_once(
     text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
     lexicon = lexicon_of(vocabulary)
     marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
-    language = context.language or parse(text).language
+    language, moved = context.language or parse(text).language, context.moved or context.departed
     offers = offers and not withholds_offers(marked.text)
-    setting = Setting(
-        vocabulary, lexicon, language, context.room, context.now, offers, moved=context.moved
-    )
+    setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers, moved)
     vetoed = _apply_vetoes(marked, setting)
     if vetoed is not None:
         return vetoed

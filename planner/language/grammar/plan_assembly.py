@@ -86,7 +86,6 @@ class Setting:
     room: str | None
     now: datetime | None = None
     offers: bool = True  # false where the sentence denies: what it names may be what it forbids
-
     moved: bool = False  # the robot has driven somewhere before these steps
 
     def button(self, steps: Sequence[Step]) -> Option:

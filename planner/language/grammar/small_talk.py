@@ -21,6 +21,7 @@ class Topic(Enum):
     HELP = "help"
     HELLO = "hello"
     THANKS = "thanks"
+    BYE = "bye"
     NAME = "name"
     SELF = "self"
     TEAM = "team"
@@ -125,13 +126,19 @@ _ZH: tuple[tuple[Topic, str], ...] = (
         r"(?:是)?谁(?:造|做|创造|发明|设计|开发)(?:了|出)?(?:的)?你(?:的)?|你是谁(?:造|做|开发)的",
     ),
     (Topic.AGE, r"你?(?:今年)?(?:几岁|多大)(?:了)?"),
-    (Topic.MOOD, (r"你(?:今天)?(?:还)?(?:好吗|怎么样|好不好|累吗|开心吗)")),
+    (
+        Topic.MOOD,
+        (
+            r"(?:(?:机器人|小车)?[,，]?你好[,，]?)?(?:你)?(?:今天|最近)?(?:过得|感觉)?(?:还)?(?:好吗|怎么样|如何|好不好|累吗|开心吗)"
+        ),
+    ),
 )
 
 _SAID = frozenset(
     {
         Topic.HELLO,
         Topic.THANKS,
+        Topic.BYE,
         Topic.NAME,
         Topic.SELF,
         Topic.TEAM,

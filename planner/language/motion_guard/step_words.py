@@ -120,7 +120,7 @@ _SIDES = {
     "before": r"before|front|ahead of|opposite|from|away|short of|(?<![之以])前|外|离|远",
     "beside": r"beside|next to|side|\bby\b|near|close|旁|边|侧",
     "behind": r"behind|back of|other side|(?<![然之以最])后",
-    "facing": r"\bfac|look(?:ing)? (?:at|to)|turn|toward|面向|面对|朝|对着|转向|看着",
+    "facing": r"\bfac|look(?:ing)? (?:at|to)|turn|toward|面[向朝]|面对|朝|对着|转向|看着",
 }
 """Words for where to stand, by the side."""
 

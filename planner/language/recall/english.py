@@ -16,7 +16,7 @@ LEAD = re.compile(
     r"(?:(?:please )?(?:tell|remind) (?:me|us)[ ,]+(?:again )?|do you (?:happen to )?know )?"
 )
 REMEMBERS = re.compile(r"(?:do|can|could) you (?:still )?(?:remember|recall) |remember (?=wh)")
-TAIL = re.compile(r"(?:[ ,]+(?:please|now|thanks|thank you|again|at all|robot|pons))+$")
+TAIL = re.compile(r"(?:[ ,]+(?:please|(?<!just )now|thanks|thank you|again|at all|robot|pons))+$")
 SPANS = (
     ("hour", r"(?:with)?in the (?:last|past) (?:half )?hour|just now|a moment ago|a minute ago"),
     ("morning", r"(?:earlier )?this morning"),
@@ -60,6 +60,8 @@ ANYTHING = re.compile(
     rf"what (?:all )?(?:did you {_SEE}|have you {_SEEN}|(?:was|were)(?: there)?|you saw|you"
     rf" have {_SEEN}"
     r"|was going on|happened)"
+    rf"|(?:did you {_SEE}|have you {_SEEN}) (?:any|some)thing(?: else)?"
+    r"(?: (?:interesting|odd|strange|unusual|new|special|wrong|there))?"
 )
 PERSON = re.compile(
     rf"(?:when|how long ago) (?:was|were|did you see) (?:there )?(?:{_SOMEBODY})(?: there)?"

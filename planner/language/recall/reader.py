@@ -145,7 +145,7 @@ def _read_chinese(asked: _Question, room: str | None) -> RecallReading | None:
         return _reading(asked, "person", _spot(who, asked, room))
     if (some := chinese.ANYTHING.fullmatch(text)) is not None:
         place = _spot(some, asked, room)
-        past = asked.when is not None or re.search(r"[了过]", text)
+        past = asked.when is not None or some["asks"] is not None or re.search(r"[了过]", text)
         return _reading(asked, None, place) if past else None
     for pattern in (chinese.THING, chinese.SEEN):
         if (seen := pattern.fullmatch(text)) is not None:

@@ -3,6 +3,6 @@
 ``lane`` reads; ``en``, ``en_orders`` and ``zh`` hold its words. Standard library alone.
 """
 
-from planner.language.stop.lane import MAX_READ, StopReading, is_stop, read_stop
+from planner.language.stop.lane import MAX_READ, StopReading, calls_stop, is_stop, read_stop
 
-__all__ = ["MAX_READ", "StopReading", "is_stop", "read_stop"]
+__all__ = ["MAX_READ", "StopReading", "calls_stop", "is_stop", "read_stop"]

@@ -12,7 +12,8 @@ _STOP = r"s+t+o+p+|sotp|stpo|tsop|h+a+l+t+|f+r+e+z+e+"
 _COURTESY = (
     r"please|pls|plz|kindly|just|now|right now|right away|immediately|instantly|at once|asap"
     r"|robot|pons|car|you|hey|hi|ok|okay|oh|no|wait|whoa|quick|quickly|fast|thanks|thank you"
-    r"|(?:can|could|would|will) you|you (?:can|may|must|should|need to|have to)"
+    r"|(?:that is )?(?:far |quite )?enough|(?:can|could|would|will) you"
+    r"|you (?:can|may|must|should|need to|have to)"
     r"|i said|i want you to|i need you to|i would like you to|i told you to|let us|for me|all"
 )
 _PHRASE = (
@@ -31,6 +32,11 @@ ORDER = re.compile(
     r"(?: (?:and|then|but|because)\b.*)?"
 )
 """A whole clause that orders a stop, whatever follows it."""
+_SOMEBODYS = ("the", "a", "my", "our", "your")
+CALL = re.compile(
+    "".join(rf"(?<!\b{word} )" for word in _SOMEBODYS) + r"(?<![a-z0-9])(?:robot|pons)(?![a-z0-9'])"
+)
+"""The robot's name where it is called, in the middle of anything that is said."""
 ONLY_COURTESY = re.compile(rf"(?:{_COURTESY}|quick)(?: (?:{_COURTESY}))*")
 
 # Quitting is said of searching, counting, following, patrolling and driving, never of waiting:

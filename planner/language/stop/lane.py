@@ -40,6 +40,10 @@ class StopReading(Enum):
     NONE = "none"
 
 
+MOST_CALLED = 6
+"""Words, or Chinese characters, behind the robot's name: "robot, will you please just stop"."""
+_FIRST = re.compile(r"\S+\s*")
+_MARKS = " ,.!:;~…。、"
 _HELPERS = (
     "do",
     "did",
@@ -107,6 +111,22 @@ def read_stop(text: str) -> StopReading:
 def is_stop(text: str) -> bool:
     """Return whether the whole first clause of a sentence orders a stop."""
     return _is_order(_see(text[:MAX_READ]))
+
+
+def calls_stop(text: str) -> bool:
+    """Return whether speech that runs on calls the robot and tells it to stop, anywhere in it.
+
+    "And then I told him, robot, stop right there": a recogniser writes no commas, and the end of
+    the speech is not waited for. Somebody else's robot is no call: "tell the robot stop".
+    """
+    seen = _see(text[-MAX_READ:])
+    for called in (*orders.CALL.finditer(seen), *zh.CALL.finditer(seen)):
+        rest = seen[called.end() :].lstrip(_MARKS)
+        pieces = list(rest) if has_chinese(rest[:MOST_CALLED]) else _FIRST.findall(rest)
+        beginnings = ("".join(pieces[: most + 1]) for most in range(min(len(pieces), MOST_CALLED)))
+        if any(map(_is_order, beginnings)):
+            return True
+    return False
 
 
 def _see(text: str) -> str:

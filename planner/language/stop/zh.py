@@ -33,6 +33,8 @@ ORDER = re.compile(
     rf"(?:{_COURTESY})*(?:{_PHRASE})(?:{_PHRASE}|{_AFTER})*(?:(?:然后|接着|之后).*)?"
 )
 """A whole clause that orders a stop, whatever follows it."""
+CALL = re.compile(r"(?<!的)(?:机器人|小车)")
+"""As in English: where the robot is called."""
 ONLY_COURTESY = re.compile(rf"(?:{_COURTESY}|不要|不|别)(?:{_COURTESY})*")
 
 _DO = (

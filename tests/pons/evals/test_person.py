@@ -16,7 +16,7 @@ from pons.evals.cases import HELD_OUT
 from pons.evals.matchers import BadMatcher
 from pons.evals.person import PATIENCE, Conversation, converse, show_conversations
 from pons.evals.person_robot import ScriptedModel
-from pons.evals.person_scripts import FEWEST, MOST, Script, read_scripts
+from pons.evals.person_scripts import FEWEST, MOST, Script, ScriptSet, read_scripts
 from tests.conftest import ROOT
 
 SITE = Site.load(ROOT / "sites" / "home")
@@ -38,6 +38,8 @@ def test_there_are_enough_of_them_and_each_has_three_to_eight_turns() -> None:
     assert all(FEWEST <= len(one.turns) <= MOST for one in scripts)
     assert sum(one.split == HELD_OUT for one in scripts) >= 75
     assert len({one.name for one in scripts}) == len(scripts)
+    for batch, count in ((ScriptSet.THIRD, 20), (ScriptSet.FOURTH, 10)):
+        assert all(len(read_scripts(language, batch)) == count for language in ("en", "zh"))
 
 
 def test_a_conversation_goes_from_turn_to_turn(
@@ -124,7 +126,7 @@ def test_most_conversations_go_as_a_person_means() -> None:
 
 def hold_trials(language: str, model: ScriptedModel) -> list[Conversation]:
     async def hold() -> list[Conversation]:
-        return [await converse(one, model, SITE) for one in read_scripts(language, trial=True)]
+        return [await converse(one, model, SITE) for one in read_scripts(language, ScriptSet.TRIAL)]
 
     return asyncio.run(hold())
 

@@ -185,7 +185,8 @@ ENGLISH_COMPOUND = CompoundForms(
         ),
         re.compile(
             rf"{_BEFORE}{_STAY}(?: until| till) (?P<who>{_PERSON}) "
-            rf"(?:comes|is there|appears|arrives|shows up|is here|comes in){_GO_ON}"
+            r"(?:comes(?: in| by| along| over| home| here)?|is (?:there|here|back)|appears|arrives"
+            rf"|shows up|turns up|walks in|drops by|gets here|enters){_GO_ON}"
         ),
         re.compile(
             rf"{_BEFORE}{_STAY}(?: until| till) you (?:can )?see (?P<who>{_PERSON}){_GO_ON}"

@@ -108,6 +108,10 @@ def _how_long(found: Match[str], reading: Reading) -> Meaning:
     return missing(HOW_LONG, found[0], reading)
 
 
+_FINE = (
+    r"(?:good|great|nice|fine|excellent|perfect|wonderful|brilliant|awesome|amazing|fantastic|lovely"
+    r"|best|clever|smart|sweet|helpful|kind|useful)"
+)
 TALK: tuple[Rule, ...] = (
     rule(_WHERE, about(Topic.WHERE)),
     rule(_PLACES, about(Topic.PLACES)),
@@ -118,13 +122,23 @@ TALK: tuple[Rule, ...] = (
     ),
     rule(r"(?P<topic>.+)", on_topic),
     rule(
-        r"(?:hello|hi|hey|good (?:morning|afternoon|evening|day)|howdy|greetings)"
-        r"(?:,? (?:there|robot|pons|again))*",
+        r"(?:hello|hi|hey|(?:good )?(?:morning|afternoon|evening)|good day|howdy|greetings)"
+        r"(?:,? (?:there|robot|pons|again|everyone|all))*",
         about(Topic.HELLO),
     ),
     rule(
-        r"thanks?(?: you)?(?: (?:very|so) much| a lot)?|well done|good (?:job|robot|boy)|great|"
-        r"perfect",
+        r"(?:good night|(?:good)?bye(?:[ -]bye)?)"
+        r"(?:,? (?:then|robot|pons|everyone|all))*",
+        about(Topic.BYE),
+    ),
+    rule(
+        r"(?:many )?thanks?(?: you)?(?: (?:very|so) much| a (?:lot|bunch|million)| again)?"
+        r"(?: (?:mate|buddy|pal|robot|pons|dear|love|my friend))?|cheers(?: mate)?"
+        r"|you(?:'ve)? (?:did|done) (?:(?:so |very |really )?(?:well|great|good|fine)|it)"
+        rf"|well done|{_FINE}(?: (?:job|work|robot|boy|girl|stuff|one))?"
+        r"|(?:you(?:'re| are)|that(?:'s| is| was)) (?:so |very |really |just )?(?:(?:a|the|an) )?"
+        rf"{_FINE}(?: (?:robot|help|job|work|one))?"
+        r"|(?:that(?:'s| is| will be|'ll be)|this is) (?:all|it|everything)(?: for (?:now|today))?",
         about(Topic.THANKS),
     ),
 )

@@ -142,6 +142,8 @@ ENGLISH_EVERYDAY = table(
      r"|\bface the other way\b|\bturn (?:yourself )?(?:right )?(?:around|round)(?= and\b|,|$)", "turn around"),
     (rf"\bturn (?P<s>left|right),? (?:about |by |roughly |around |say )*(?P<n>{_NUMBER})(?= ?$|[,.])",
      r"turn \g<s> \g<n> degrees"),
+    (rf"\b(?:drive|go|move|roll|carry|keep going|keep driving) on(?: for)? (?P<l>{EN_LENGTH})$",
+     r"move forward \g<l>"),
     # people
     (r"\b(?:tag along(?: behind| with)?|trail after|stick (?:with|to|close to)|keep close to"
      r"|come along with|walk along with|keep pace with) ", "follow "),
@@ -149,7 +151,9 @@ ENGLISH_EVERYDAY = table(
      rf" (?P<p>{_PLACE}) (?:that )?(?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
     (rf"\b{_SAYS}(?: that)? (?P<w>[^\",;]+)$", r'say "\g<w>"'),
     (rf"\bsay (?P<w>[^\",;]*{MARK}[^\",;]*)$", r'say "\g<w>"'),
-    (r"(?<=then )tell (?:them|him|her|everyone) (?:that )?(?P<w>[^\"]+)$", r'say "\g<w>"'),
+    (r"(?<=then )tell (?:them|him|her|everyone) (?:that )?(?P<w>[^\",;]+?)(?=$|[,;])", r'say "\g<w>"'),
+    (r"^(?P<c>if\b[^\"]+?)[, ]+(?:then )?tell (?:them|him|her|everyone|everybody) (?:that )?"
+     r"(?P<w>[^\",;]+?)(?=$|[,;]? ?(?:otherwise|or else|else|if not)\b)", r'\g<c>, say "\g<w>"'),
     (r"\b(?:inform|advise) me\b", "tell me"),
     # looking
     (rf"\b{_LOOKS} (?:a?round|at|in|inside|into|through)? ?(?P<p>{_PLACE})"

@@ -32,7 +32,7 @@ from planner.plan import Code
 
 _TWORD = rf"(?!(?:in|at|on|inside|into|from|to)\b)[a-z0-9'/{CHINESE}-]+"
 _THING = rf"(?:{THE})?(?:{_TWORD} )*?{_TWORD}"
-_COUNTED = r"(?!(?:on|to|down|up|me|in|with|from)\b)[a-z0-9 '/-]+?"
+_COUNTED = r"(?!(?:on|to|down|up|me|in|with|from|were|was|are|is|of)\b)[a-z0-9 '/-]+?"
 _ANY_THING = rf"(?!(?:what|who|whether|if|how|that|which|where|why)\b)(?:{_THING}|{THE}{MARK})"
 _FIND = (
     r"(?:find(?! out)|locate|look (?:around )?for|search for|seek|spot|pinpoint|identify|detect|"

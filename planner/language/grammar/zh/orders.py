@@ -6,13 +6,14 @@ A clause is read whole or not at all; the rules name every character that they p
 from __future__ import annotations
 
 import re
+from re import Match
 
 from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_ZH
 from planner.language.grammar.clauses import Grammar
-from planner.language.grammar.driving_steps import next_place
+from planner.language.grammar.driving_steps import next_place, say
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.parse_result import lacks, rule, unread
+from planner.language.grammar.parse_result import Meaning, Reading, Steps, lacks, rule, unread
 from planner.language.grammar.unsupported import lacks_arm
 from planner.language.grammar.zh import ALL_ROOMS, GO, IN, SEE, VERB, driving, objects, people
 from planner.plan import Code
@@ -35,12 +36,17 @@ _WITH_ARM = rf"(?:{_NO_ARM}|(?!{_ARM}).)*(?!{_NO_ARM}){_ARM}"
 """A verb of an arm that is no part of another word: 放松 and 关于 grasp nothing."""
 _NO_LOOK = rf"(?!(?:{SEE}).*[着了]没有?$)"
 """看看门关了没 closes no door."""
+_SAID = (
+    r"(?:大声)?说(?![话说明法出过到的了给完好]|一下|一声|一说)(?!.*(?:什么|哪|几|怎么|多少|谁|啥|吗$|呢$))"
+    r"(?P<words>[^,.;!?。、\"“”\ue000-\ue8ff]{1,20})"
+)
+"""Words to be said, without marks around them; what asks the robot something is none."""
 _TALK = r"(?:说|讲|告诉|回答|提醒|叫|读|念|介绍|聊天|查询|发[现出生动]).*"
 _LACKS = r"(?:唱|跳舞|播放|放.*音乐|订|搜索网|翻译|计算|写|发).*"
 
 _NEGATION = (
     r"别(?!的)|(?<!能)(?<!可)(?<!好)(?<!行)(?<!要)(?!(?<=是)不是)不(?!锈钢|错|过|见了)|勿|莫|禁止|"
-    r"(?<!有)没(?!有问题|电了)|无法|无需|非(?!常)|除了|除开|除|取消|停止|"
+    r"(?<!有)没(?!有问题|电了|事(?:儿|了|啦|$))|无法|无需|非(?!常)|除了|除开|除|取消|停止|"
     r"避免|避开|绕开|拒绝|忘了|算了|而是|代替|免得|省得|千万|\bnot\b|\bnever\b|\bdon\b"
 )
 _CONDITION = (
@@ -72,6 +78,17 @@ _THANKS = (
     r"吧|呀|啊|哦|喔|噢|哈|嘛|谢谢(?:你|您)?|多谢|拜托了?|好吗|好不好|可以吗|行吗|行不行|"
     r"哟|please|即可|就行|就好|就可以了?"
 )
+
+
+def _tell_nothing(found: Match[str], reading: Reading) -> Meaning | None:
+    """Understand nothing where there is nothing that could be told.
+
+    Who comes back tells what came of the order by itself.
+    """
+    if reading.scene.kind == "come_back":
+        return Steps(())
+    return None if reading.scene.seen else unread(found, reading)
+
 
 CHINESE = Grammar(
     asked=re.compile(r"(?:能|可以)([^,;.!?。]*)吗(?=[,;.!?。]|$)"),
@@ -105,9 +122,11 @@ CHINESE = Grammar(
         rule(rf"{_NO_LOOK}(?!{_WITH_ARM}).*{_ARM}.*", unread),
         rule(rf"{_NO_LOOK}.*{_ARM}.*", lacks_arm),
         *unsupported.ASIDE_CHINESE,
+        rule(r"告诉我(?:一声|一下)?", _tell_nothing),
         *people.RULES,
         *objects.RULES,
         *driving.RULES[-2:],
+        rule(_SAID, say),
         rule(_TALK, unread),
         rule(_LACKS, lacks(Code.NO_CAPABILITY)),
         rule(r"(?P<place>.+)", next_place),

@@ -53,6 +53,23 @@ def test_courtesy_and_language_do_not_change_what_is_asked(
 
 
 @given(place=st.sampled_from(sorted(PLACES)), span=st.sampled_from(sorted(SPANS)))
+def test_anything_at_all_is_asked_for_in_both_languages(place: str, span: str) -> None:
+    when, zh = SPANS[span]
+    wanted = Recall(place=place, span=when)
+    for what in ("anything", "something strange", "anything else"):
+        assert asked(f"did you see {what} in the {place} {span}".strip() + "?") == wanted
+    for what in ("有没有发现什么", "有看到什么异常没有", "看到什么了"):
+        assert asked(f"{zh}你在{PLACES[place]}{what}？") == wanted
+
+
+@given(thing=st.sampled_from(sorted(THINGS)))
+def test_a_thing_may_be_named_before_it_is_asked_for(thing: str) -> None:
+    wanted = Recall(object=THINGS[thing])
+    for asks in ("{}你见过吗", "我的{}你有没有看到过", "{}，你看到过没有"):
+        assert asked(asks.format(THINGS[thing])) == wanted
+
+
+@given(place=st.sampled_from(sorted(PLACES)), span=st.sampled_from(sorted(SPANS)))
 def test_people_are_asked_for_by_place_and_time(place: str, span: str) -> None:
     when, zh = SPANS[span]
     wanted = Recall(object="person", place=place, span=when)
@@ -126,7 +143,7 @@ def test_a_fact_is_kept_word_for_word(fact: str) -> None:
     "text",
     ["remember to go to the kitchen", "remember where you are", "记得去厨房", "记住这里叫充电角",
      "刚才谁在浴室", "the kitchen", "is the cup on the table?", "what is on the table",
-     "杯子在哪里"],
+     "杯子在哪里", "停在门前一米", "站在沙发旁边", "等在走廊的门口", "应该在书房"],
 )  # fmt: skip
 def test_orders_and_questions_are_no_facts(text: str) -> None:
     assert not isinstance(parse(text).intent, TeachFact)

@@ -1,0 +1,103 @@
+"""A pronoun that leans on the goal before it means what naming the thing or the place means."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from planner.language.utterance import parse
+from planner.mission.events import Planned, Submitted
+from planner.mission.follow_up import LEANS_S, meaning_of
+from planner.mission.reducer import advance
+from planner.mission.skills import Eyesight
+from planner.mission.state import MissionState
+from planner.perception.snapshot import Sight
+from planner.plan import Find, GoTo, Recall, StepPlan
+from planner.site import Site
+from planner.site.site_view import facts_of
+from tests.conftest import ROOT
+from wire import CameraConfig
+
+if TYPE_CHECKING:
+    from planner.plan import Step
+
+FACTS = facts_of(Site.load(ROOT / "sites" / "home"))
+NOW_S = 1000.0
+SEEING = MissionState(
+    FACTS, eyes=Eyesight(CameraConfig(), ("cup", "book", "ball", "person")), sight=Sight()
+)
+THINGS, PLACES = ("cup", "book", "red ball"), (("kitchen", "厨房"), ("study", "书房"))
+EN = (
+    ("look for it", "look for the {t}"),
+    ("ok, look for it in the bedroom", "ok, look for the {t} in the bedroom"),
+    ("can you find it", "can you find the {t}"),
+    ("well, go find her", "well, go find the {t}"),
+    ("count them in the hallway", "count the {t} in the hallway"),
+    ("now go up to it", "now go up to the {t}"),
+    ("was it in the study?", "did you see the {t} in the study"),
+    ("what did you see there?", "what did you see in the {p}"),
+    ("was anybody there?", "was anybody in the {p}"),
+    ("did you see anything over there", "did you see anything in the {p}"),
+)
+ZH = (
+    ("去卧室找它", "去卧室找{t}"),
+    ("帮我找一下它", "帮我找一下{t}"),
+    ("再去玄关找找", "去玄关找{t}"),
+    ("是在书房看到的吗", "你在书房看到过{t}吗"),
+    ("你在那里看到什么了", "你在{p}看到什么了"),
+    ("找到了吗", "你看到过{t}吗"),
+    ("找到人了吗", "你看到过人吗"),
+)
+LEFT = (
+    *("find it and bring it to me", "is it raining", "go there", "say it"),
+    *("look for the key and find it", "what time is it there", "去那里", "找到球了", "它在哪"),
+)
+
+
+def book_after(*steps: Step, text: str = "an order") -> MissionState:
+    book, _ = advance(SEEING, Submitted("g0", text, parse(text).language), NOW_S)
+    book, _ = advance(book, Planned("g0", StepPlan(steps=steps)), NOW_S)
+    return book
+
+
+@pytest.mark.parametrize(("said", "means"), EN)
+@pytest.mark.parametrize("thing", THINGS)
+@pytest.mark.parametrize("article", ["", "the ", "my "])
+@pytest.mark.parametrize("place", PLACES)
+def test_a_pronoun_means_the_one_thing_or_place_of_the_last_order(
+    said: str, means: str, thing: str, article: str, place: tuple[str, str]
+) -> None:
+    book = book_after(GoTo(place=place[0]), Find(object=article + thing, place=place[0]))
+    assert meaning_of(book, said, NOW_S) == means.format(t=thing, p=place[0])
+
+
+@pytest.mark.parametrize(("said", "means"), ZH)
+@pytest.mark.parametrize("thing", ["杯子", "书"])
+@pytest.mark.parametrize("place", PLACES)
+def test_so_it_does_in_chinese(said: str, means: str, thing: str, place: tuple[str, str]) -> None:
+    book = book_after(Find(object=thing, place=place[0]))
+    assert meaning_of(book, said, NOW_S) == means.format(t=thing, p=place[1])
+
+
+@pytest.mark.parametrize("said", [said for said, _ in EN + ZH if said != "找到人了吗"])
+def test_what_is_in_doubt_stays_as_it_was_said(said: str) -> None:
+    two = book_after(
+        Find(object="cup", place="study"), Find(object="ball", place="kitchen"),
+        Find(object="球", place="kitchen"),
+    )  # fmt: skip
+    for book in (MissionState(FACTS), two, book_after(Recall(deeds=True))):
+        assert meaning_of(book, said, NOW_S) == said
+    one = book_after(Find(object="cup", place="study"))
+    assert meaning_of(one, said, NOW_S + LEANS_S + 1.0) == said
+
+
+@pytest.mark.parametrize("said", [said for said, means in EN if "{t}" in means])
+def test_a_thing_that_was_named_in_another_language_is_no_word_for_it(said: str) -> None:
+    assert meaning_of(book_after(Find(object="杯子")), said, NOW_S) == said
+
+
+@pytest.mark.parametrize("said", LEFT)
+def test_other_sentences_stay_as_they_are(said: str) -> None:
+    book = book_after(Find(object="cup", place="study"))
+    assert meaning_of(book, said, NOW_S) == said
