@@ -16,8 +16,8 @@ from ros2.graph import LASER_SCAN
 from ros2.messages import Unreadable
 from ros2.mounting import NoMounting, find_mounting
 from ros2.occupancy import map_files
-from ros2.topic_request import TopicFailure, WantedTopic, collect
-from ros2.trouble import CODES, Ros2Trouble
+from ros2.topic_request import WantedTopic, collect
+from ros2.trouble import CODES, Ros2Trouble, TopicFailure
 from wire import ConfigError
 
 if TYPE_CHECKING:

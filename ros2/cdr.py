@@ -26,7 +26,7 @@ _TEXT = "string"
 
 
 def decode(kind: str, payload: bytes) -> Message:
-    """Return a message of a type of ``LAYOUTS``; lists of int8 are arrays, all others lists.
+    """Return a message of a type of ``LAYOUTS``; lists of int8 are arrays, of uint8 bytes.
 
     Raises:
         Unreadable: the bytes are none.
@@ -76,6 +76,8 @@ class _CdrReader:
             raise Unreadable(f"{field.name} says {count} of it, where {left} bytes are left")
         if field.kind not in _CODES:
             return [self._one(field.kind) for _ in range(count)]
+        if field.kind == "uint8":
+            return bytes(self._take(count, 1))
         numbers = self._numbers(field.kind, count)
         return numbers if field.kind == "int8" else numbers.tolist()
 
@@ -148,6 +150,8 @@ class _CdrWriter:
             self.message(kind, {} if value is None else value)
 
     def _pack(self, kind: str, values: Any) -> None:
-        if values:
+        if isinstance(values, bytes) and kind == "uint8":
+            self.payload += values
+        elif values:
             self.payload += bytes(-len(self.payload) % _SIZES[kind])
             self.payload += struct.pack(f"<{len(values)}{_CODES[kind]}", *values)

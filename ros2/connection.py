@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 from websockets.asyncio.client import ClientConnection, connect
-from websockets.exceptions import WebSocketException
+from websockets.exceptions import ConnectionClosed, WebSocketException
+from websockets.frames import CloseCode
 
 from processes.backoff import Backoff
 from ros2 import rosbridge
@@ -59,8 +60,7 @@ class RosbridgeConnection:
                 await self._serve_once()
                 trouble = Ros2Trouble("ros2_server_gone", f"{self._url} ended the connection")
             except (OSError, WebSocketException, TimeoutError, ValueError) as error:
-                code = "ros2_server_gone" if self._socket else "ros2_no_server"
-                trouble = Ros2Trouble(code, f"{self._url}: {str(error) or type(error).__name__}")
+                trouble = self._trouble_of(error)
             self._socket = None
             self._link.close(trouble)
             await asyncio.sleep(pause.pause_after(time.monotonic() - began_s))
@@ -88,6 +88,14 @@ class RosbridgeConnection:
             log.warning("%s says nothing for %.0f s: dialled anew", self._url, SILENT_S)
             self._heard_s = now_s
             opened.transport.abort()
+
+    def _trouble_of(self, error: Exception) -> Ros2Trouble:
+        ours = error.sent if isinstance(error, ConnectionClosed) else None
+        if ours is not None and ours.code == CloseCode.MESSAGE_TOO_BIG:
+            found = f"{self._url} sent a message of more than {self._most_bytes} bytes"
+            return Ros2Trouble("ros2_message_too_large", found)
+        code = "ros2_server_gone" if self._socket else "ros2_no_server"
+        return Ros2Trouble(code, f"{self._url}: {str(error) or type(error).__name__}")
 
     async def _serve_once(self) -> None:
         raw = await asyncio.to_thread(_dial, self._url)

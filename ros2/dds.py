@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ros2.endpoints import GraphEndpoint
 from ros2.layouts import ros_name
 from ros2.polled_transport import PolledTransport, Unreachable
+from ros2.transport import MOST_BYTES, PERIOD_S
 
 try:
     from ros2 import dds_entities as entities
@@ -35,9 +36,14 @@ class DdsTransport(PolledTransport):
     """Be one participant of a domain."""
 
     def __init__(
-        self, ros2: Ros2Config, listener: GraphListener, publish: Callable[[LinkMessages], None]
+        self,
+        ros2: Ros2Config,
+        listener: GraphListener,
+        publish: Callable[[LinkMessages], None],
+        most_bytes: int = MOST_BYTES,
+        period_s: float = PERIOD_S,
     ) -> None:
-        super().__init__(ros2, listener, publish)
+        super().__init__(ros2, listener, publish, most_bytes, period_s)
         self._domain: DdsDomain | None = None
         self._readers: dict[str, RawReader] = {}
         self._writers: dict[str, RawWriter] = {}

@@ -51,6 +51,7 @@ _TEXTS = {
         "float32 time_increment; float32 scan_time; float32 range_min; float32 range_max; "
         "float32[] ranges; float32[] intensities"
     ),
+    "sensor_msgs/msg/CompressedImage": f"{_HEADER}; string format; uint8[] data",
     "sensor_msgs/msg/Imu": (
         f"{_HEADER}; {_GEOMETRY}/Quaternion orientation; float64[9] orientation_covariance; "
         f"{_GEOMETRY}/Vector3 angular_velocity; float64[9] angular_velocity_covariance; "

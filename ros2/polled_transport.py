@@ -1,4 +1,4 @@
-"""Serve a graph whose readers are asked, a thousand times a second: what DDS and zenoh share.
+"""Serve a graph whose readers are asked, up to a thousand times a second: what DDS and zenoh share.
 
 Asked, so that no thread of a library calls into ours, and one sample deep, so that nobody waits:
 what was not taken when the next came is lost. Messages cross as plain CDR.
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from ros2.transport import GraphListener, LinkMessages
     from wire.ros2_config import Ros2Config
 
-PERIOD_S = 0.001
 LOOK_S = 0.1
 RETRY_S = 1.0
 
@@ -48,8 +47,14 @@ class PolledTransport(ABC):
     """Join a graph, take what comes, and join it anew when it was lost."""
 
     def __init__(
-        self, ros2: Ros2Config, listener: GraphListener, publish: Callable[[LinkMessages], None]
+        self,
+        ros2: Ros2Config,
+        listener: GraphListener,
+        publish: Callable[[LinkMessages], None],
+        most_bytes: int,
+        period_s: float,
     ) -> None:
+        self._most_bytes, self._period_s = most_bytes, period_s
         self._ros2, self._listener, self._publish = ros2, listener, publish
         self._graph = GraphEndpoints()
         self._wanted: dict[str, Subscribe] = {}
@@ -67,7 +72,7 @@ class PolledTransport(ABC):
                 self._listener.open(time.monotonic())
                 while True:
                     self._turn(time.monotonic())
-                    await asyncio.sleep(PERIOD_S)
+                    await asyncio.sleep(self._period_s)
             except Unreachable as error:
                 self._listener.close(error.trouble)
             finally:
@@ -151,15 +156,17 @@ class PolledTransport(ABC):
             wanted = self._wanted[topic]
             if 1000.0 * (now_s - self._heard_s.get(topic, float("-inf"))) >= wanted.every_ms:
                 self._heard_s[topic] = now_s
-                self._publish(self._listener.hear(_read(wanted, payload), now_s))
+                self._publish(self._listener.hear(self._read(wanted, payload), now_s))
 
     def _tell(self, now_s: float) -> None:
         for answer in self._graph.news():
             self._publish(self._listener.hear(answer, now_s))
 
-
-def _read(wanted: Subscribe, payload: bytes) -> TopicMessage | UnreadableMessage:
-    try:
-        return TopicMessage(wanted.topic, cdr.decode(wanted.kind, payload))
-    except Unreadable as why:
-        return UnreadableMessage(wanted.topic, str(why))
+    def _read(self, wanted: Subscribe, payload: bytes) -> TopicMessage | UnreadableMessage:
+        if not len(payload) <= self._most_bytes:
+            found = f"a message of {len(payload)} bytes, expected at most {self._most_bytes}"
+            return UnreadableMessage(wanted.topic, found)
+        try:
+            return TopicMessage(wanted.topic, cdr.decode(wanted.kind, payload))
+        except Unreadable as why:
+            return UnreadableMessage(wanted.topic, str(why))

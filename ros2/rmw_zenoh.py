@@ -19,6 +19,7 @@ import zenoh.ext
 from ros2 import rmw_keys
 from ros2.endpoints import GraphEndpoint
 from ros2.polled_transport import PolledTransport, Unreachable
+from ros2.transport import MOST_BYTES, PERIOD_S
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -37,9 +38,14 @@ class ZenohTransport(PolledTransport):
     """Be one node of a domain."""
 
     def __init__(
-        self, ros2: Ros2Config, listener: GraphListener, publish: Callable[[LinkMessages], None]
+        self,
+        ros2: Ros2Config,
+        listener: GraphListener,
+        publish: Callable[[LinkMessages], None],
+        most_bytes: int = MOST_BYTES,
+        period_s: float = PERIOD_S,
     ) -> None:
-        super().__init__(ros2, listener, publish)
+        super().__init__(ros2, listener, publish, most_bytes, period_s)
         self._session: zenoh.Session | None = None
         self._node = rmw_keys.OwnNode(ros2.domain, "", NODE)
         self._discovered: Any = None

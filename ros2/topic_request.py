@@ -22,7 +22,7 @@ from ros2.operations import (
 )
 from ros2.transport import NOTHING_MADE
 from ros2.transport_choice import open_transport
-from ros2.trouble import STARTING, Ros2Trouble
+from ros2.trouble import STARTING, Ros2Trouble, TopicFailure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -39,14 +39,6 @@ MOST_BYTES = 256 << 20
 """A map of 64 million cells as JSON."""
 
 
-class TopicFailure(Exception):
-    """Raised where a topic gave nothing that can be used; carries what people are told."""
-
-    def __init__(self, trouble: Ros2Trouble) -> None:
-        super().__init__(trouble.detail)
-        self.trouble = trouble
-
-
 @dataclass(frozen=True, slots=True)
 class WantedTopic:
     """Name a topic, the type that it must have, and whether its publisher keeps what it said."""
@@ -54,6 +46,8 @@ class WantedTopic:
     topic: str
     kind: str
     keeps: bool = False
+    every_ms: int = 0
+    """At most one message in so long; 0: each."""
 
 
 class TopicRequest:
@@ -96,7 +90,7 @@ class TopicRequest:
         wanted = [self._wanted[topic] for topic in right if topic not in self._subscribed]
         self._subscribed.update(right)
         requests: list[Request] = [
-            Subscribe(one.topic, one.kind, keeps=one.keeps) for one in wanted
+            Subscribe(one.topic, one.kind, one.every_ms, keeps=one.keeps) for one in wanted
         ]
         if now_s - self._asked_s >= ASK_S:
             self._asked_s = now_s
@@ -116,6 +110,10 @@ class TopicRequest:
             if not self.messages[topic]:
                 return Ros2Trouble(SILENT, f"{topic} said nothing")
         return None
+
+    def kind_of(self, topic: str) -> str:
+        """Return a topic's type as the graph told it; empty where it has none, or none was told."""
+        return self._kinds.get(topic, "")
 
     def _judge(self, said: TopicType | NoAnswer) -> None:
         wanted = self._wanted[said.topic]

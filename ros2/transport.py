@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 MOST_BYTES = 1 << 20
 """A scan of 4 000 beams has 80 kB as JSON; a server that sends more sends something else."""
+PERIOD_S = 0.001
+"""So often are the readers of DDS and zenoh asked, where a wheel waits for what they read."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,6 +69,18 @@ CODES: dict[str, tuple[str, str]] = {
         "name the topic of the expected type",
         "请填写类型正确的话题",
     ),
+    "ros2_image_raw": (
+        "only packed pictures are heard: name its /compressed topic (image_transport_plugins)",
+        "只接收压缩图像：请填写其 /compressed 话题（需安装 image_transport_plugins）",
+    ),
+    "ros2_image_depth": (
+        "name the colour camera's /compressed topic: depth is not read from ROS 2",
+        "请填写彩色摄像头的 /compressed 话题：不从 ROS 2 读取深度",
+    ),
+    "ros2_message_too_large": (
+        "have its publisher send less: a smaller picture, a lower jpeg_quality",
+        "请让发布者减小数据量：更小的画面或更低的 jpeg_quality",
+    ),
     "ros2_not_configured": (
         "add the part ros2; robots/ros2_diff_drive.toml shows one",
         "请添加 ros2 部分；可参考 robots/ros2_diff_drive.toml",
@@ -112,3 +124,11 @@ class Ros2Trouble:
     def detail(self) -> str:
         """Return it with its cure, in English, as long as the wire carries."""
         return f"{self.found}; {CODES[self.code][0]}"[:400]
+
+
+class TopicFailure(Exception):
+    """Raised where a topic gave nothing that can be used; carries what people are told."""
+
+    def __init__(self, trouble: Ros2Trouble) -> None:
+        super().__init__(trouble.detail)
+        self.trouble = trouble

@@ -154,7 +154,7 @@ class RobotDescription(Record):
 
     @model_validator(mode="after")
     def _ros2_is_whole(self) -> RobotDescription:
-        parts = (self.ros2, self.drive.kind, self.lidar.kind)
+        parts = (self.ros2, self.drive.kind, self.lidar.kind, self.camera.kind)
         wrong = "; ".join(wrong_ros2(*parts, has_imu=self.inputs.imu))
         if wrong:
             raise ValueError(wrong)

@@ -82,13 +82,16 @@ class Ros2Config(Record):
         return f"{self.relay}/state"
 
 
-def wrong_ros2(ros2: Ros2Config | None, drive: str, lidar: str, *, has_imu: bool) -> Iterator[str]:
+def wrong_ros2(
+    ros2: Ros2Config | None, drive: str, lidar: str, camera: str, *, has_imu: bool
+) -> Iterator[str]:
     """Yield what a base of ROS 2 lacks, and what names ROS 2 though the base is another's.
 
     Args:
         ros2: the part of robot.toml, if there is one.
         drive: ``drive.kind``.
         lidar: ``lidar.kind``.
+        camera: ``camera.kind``.
         has_imu: ``inputs.imu``.
     """
     if ros2 is None:
@@ -96,6 +99,8 @@ def wrong_ros2(ros2: Ros2Config | None, drive: str, lidar: str, *, has_imu: bool
             yield "ros2.url is missing: drive.kind 'ros2' needs the part ros2 (docs/ros2.md)"
         if lidar == ROS2:
             yield "ros2.scan is missing: lidar.kind 'ros2' is read from that topic"
+        if camera == ROS2:
+            yield "ros2.url is missing: camera.kind 'ros2' is read from the graph of a ros2 base"
         return
     if drive != ROS2:
         yield f"the part ros2 is for drive.kind 'ros2', not for kind {drive!r}"

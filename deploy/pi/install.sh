@@ -164,7 +164,7 @@ start_services() {
   systemctl enable pons.target pons-localization
   case "$(kind_of lidar)" in sim | ros2) ;; *) systemctl enable pons-lidar ;; esac
   case "$(kind_of imu)" in mpu6050 | bno085) systemctl enable pons-imu ;; esac
-  case "$(kind_of camera)" in uvc | stream | realsense) systemctl enable pons-uvc ;; esac
+  case "$(kind_of camera)" in uvc | stream | realsense | ros2) systemctl enable pons-uvc ;; esac
   [ "$(kind_of drive)" != ros2 ] || systemctl enable pons-ros2
   say "services start with the computer; on metal a person arms: docs/raspberry-pi.md"
   [ "$start" = no ] || systemctl start pons.target

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from pons.doctor.finding import BilingualWords, HealthFinding, ok, warn
 from pons.doctor.running_process import hear_state, says_nothing
+from ros2.trouble import CODES as ROS2_CODES
 from sensors.camera.health import CODES, STARTING, CameraHealth, CameraVerdict
 from wire import keys
 from wire.doors import CAMERA_DOOR
@@ -65,7 +66,7 @@ def _open_camera(robot: RobotDescription) -> HealthFinding:
     from sensors.camera.source import open_source
 
     config = robot.camera
-    grabber = CameraGrabber(partial(open_source, config))
+    grabber = CameraGrabber(partial(open_source, config, robot.ros2))
     health = CameraHealth(config)
     verdict: CameraVerdict | None = CameraVerdict(STARTING, "not read yet")
     end_s = time.monotonic() + READ_S
@@ -83,6 +84,7 @@ def _open_camera(robot: RobotDescription) -> HealthFinding:
 
 
 def _wrong(verdict: CameraVerdict) -> HealthFinding:
-    english, chinese = CODES.get(verdict.code, ("see docs/sensors.md",) * 2)
+    unknown = ("see docs/sensors.md",) * 2
+    english, chinese = (ROS2_CODES | CODES).get(verdict.code, unknown)
     found = f"{verdict.code}: {verdict.detail}"
     return warn("camera", BilingualWords(found, found), BilingualWords(english, chinese))

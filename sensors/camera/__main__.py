@@ -22,6 +22,7 @@ from sensors.camera.shot import CameraTrouble
 from sensors.camera.source import open_source, without_password
 from sensors.process import run_sensor
 from wire import CameraConfig, ConfigError
+from wire.camera_config import REAL_CAMERAS
 from wire.keys import Party
 from wire.session import open_session
 
@@ -39,7 +40,7 @@ def _serve(run: SensorRun) -> None:
         os.nice(NICE)
     config = run.robot.camera
     _check(config)
-    camera = CameraGrabber(partial(open_source, config))
+    camera = CameraGrabber(partial(open_source, config, run.robot.ros2))
     try:
         with open_session(Party.CAMERA, run.robot.id, run.home) as session:
             node = CameraProcess(camera, config, session, f"cam-{secrets.token_hex(4)}")
@@ -52,7 +53,8 @@ def _serve(run: SensorRun) -> None:
 
 def name_of(config: CameraConfig) -> str:
     """Return which camera it is, without a password."""
-    return config.device or without_password(config.url or "") or config.serial or "the first"
+    named = config.device or config.topic or without_password(config.url or "") or config.serial
+    return named or "the first"
 
 
 def _check(config: CameraConfig) -> None:
@@ -64,7 +66,7 @@ def _check(config: CameraConfig) -> None:
     if not config.is_real:
         raise ConfigError(
             "camera_not_real",
-            f"camera.kind is {config.kind!r}; this one reads uvc, stream, realsense",
+            f"camera.kind is {config.kind!r}; this one reads {', '.join(REAL_CAMERAS)}",
         )
     if config.kind == "realsense":
         try:

@@ -28,7 +28,7 @@ _EACH = 8
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GrabbedPicture:
-    """Hold a picture and when it was handed over."""
+    """Hold a picture and when it came: as it was handed over, where its source knows no better."""
 
     shot: CameraShot
     at_s: float
@@ -95,6 +95,6 @@ class CameraGrabber:
             self._print, self.changed_s = pixels, now_s
         height, width = shot.color.shape[:2]
         self.size = (width, height)
-        self._newest = GrabbedPicture(shot, now_s)
+        self._newest = GrabbedPicture(shot, now_s if shot.at_s is None else shot.at_s)
         self.pictures += 1
         self.trouble = None

@@ -20,6 +20,8 @@ SILENT_S = 2.0
 SLOW_SHARE = 0.5
 FROZEN_S = 5.0
 """A real sensor's noise differs in each picture; a driver that hangs repeats one."""
+STILL = ("stream", "ros2")
+"""A film may show a still, and a simulated robot's camera has no noise."""
 STARTING = "camera_starting"
 
 CODES: dict[str, tuple[str, str]] = {
@@ -55,7 +57,14 @@ CODES: dict[str, tuple[str, str]] = {
         "请增加光照、缩小画面，或降低 camera.rate_hz",
     ),
     "camera_frozen": ("unplug it and plug it in again", "请拔下后重新插入"),
-    "camera_too_large": ("a smaller width_px and height_px", "请减小 width_px 和 height_px"),
+    "camera_too_large": (
+        "a smaller width_px and height_px; of a ros2 camera, in its own driver",
+        "请减小 width_px 和 height_px；ros2 摄像头请在其驱动中设置",
+    ),
+    "camera_picture_unreadable": (
+        "camera.topic must carry whole JPEG or PNG pictures of 8 bits: try rqt_image_view",
+        "camera.topic 必须是完整的 8 位 JPEG 或 PNG 图像：请用 rqt_image_view 查看",
+    ),
 }
 """What cures each, in English and Chinese."""
 
@@ -95,7 +104,7 @@ class CameraHealth:
         if now_s - self._newest_s > SILENT_S:
             return CameraVerdict("camera_silent", f"no picture for {now_s - self._newest_s:.0f} s")
         still_s = now_s - camera.changed_s
-        if self._config.kind != "stream" and still_s > FROZEN_S:
+        if self._config.kind not in STILL and still_s > FROZEN_S:
             return CameraVerdict("camera_frozen", f"the same picture for {still_s:.0f} s")
         if self.too_large_bytes:
             return CameraVerdict("camera_too_large", f"{self.too_large_bytes} bytes")

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from math import tan
+from typing import TYPE_CHECKING, Any, Protocol
+
+import cv2
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from wire import CameraConfig
 
 
 class CameraTrouble(Exception):
@@ -28,6 +33,20 @@ class CameraShot:
     center_px: tuple[float, float]
     depth_mm: NDArray[np.uint16] | None = None
     """Along the optical axis of the colours' camera; 0 where none was measured."""
+    at_s: float | None = None
+    """When it came, on our clock; None: as it was handed over."""
+
+
+def shot_of(picture: Any, config: CameraConfig, at_s: float | None = None) -> CameraShot:
+    """Return a picture as robot.toml's camera gave it; its own size counts, not the one asked for.
+
+    ``fov_rad`` is the whole picture's, whatever its size: focal = width / 2 / tan(fov / 2).
+    """
+    if config.upside_down:
+        picture = cv2.rotate(picture, cv2.ROTATE_180)
+    height, width = picture.shape[:2]
+    focal_px = width / 2.0 / tan(config.fov_rad / 2.0)
+    return CameraShot(picture, focal_px, (width / 2.0, height / 2.0), at_s=at_s)
 
 
 class PictureSource(Protocol):

@@ -10,17 +10,18 @@ import errno
 import os
 import stat
 import time
-from math import tan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit, urlunsplit
 
 import cv2
 
-from sensors.camera.shot import CameraShot, CameraTrouble, PictureSource
+from sensors.camera.shot import CameraTrouble, shot_of
 
 if TYPE_CHECKING:
+    from sensors.camera.shot import CameraShot, PictureSource
     from wire import CameraConfig
+    from wire.ros2_config import Ros2Config
 
 OPEN_MS, READ_MS = 5_000, 3_000
 """A stream that takes longer to be opened, or to give its next picture, counts as gone."""
@@ -31,8 +32,12 @@ DEFAULT_HZ = 25.0
 V4L2_MAJOR = 81
 
 
-def open_source(config: CameraConfig) -> PictureSource:
+def open_source(config: CameraConfig, ros2: Ros2Config | None = None) -> PictureSource:
     """Open the camera of robot.toml; may take seconds.
+
+    Args:
+        config: [camera].
+        ros2: [ros2], whose graph a camera of kind "ros2" is heard on.
 
     Raises:
         CameraTrouble: it can't be opened now.
@@ -41,6 +46,10 @@ def open_source(config: CameraConfig) -> PictureSource:
         from sensors.camera.realsense import RealsenseSource
 
         return RealsenseSource(config)
+    if config.kind == "ros2" and ros2 is not None:
+        from sensors.camera.ros2_source import Ros2Source
+
+        return Ros2Source(config, ros2)
     if config.kind == "uvc":
         return _open_device(config)
     return _open_stream(config)
@@ -87,18 +96,6 @@ class OpenCvSource:
             self._capture.set(cv2.CAP_PROP_POS_FRAMES, 0)
             done, picture = self._capture.read()
         return done, picture
-
-
-def shot_of(picture: Any, config: CameraConfig) -> CameraShot:
-    """Return a picture as robot.toml's camera gave it; its own size counts, not the one asked for.
-
-    ``fov_rad`` is the whole picture's, whatever its size: focal = width / 2 / tan(fov / 2).
-    """
-    if config.upside_down:
-        picture = cv2.rotate(picture, cv2.ROTATE_180)
-    height, width = picture.shape[:2]
-    focal_px = width / 2.0 / tan(config.fov_rad / 2.0)
-    return CameraShot(picture, focal_px, (width / 2.0, height / 2.0))
 
 
 def without_password(url: str) -> str:

@@ -84,7 +84,14 @@ def laser_scan(message: dict[str, Any]) -> bytes:
     return writer.floats(message["ranges"]).floats(message["intensities"]).bytes()
 
 
+def compressed_image(message: dict[str, Any]) -> bytes:
+    """Return sensor_msgs/CompressedImage."""
+    writer = CdrWriter().header(message).text(message["format"])
+    return writer.put("I", len(message["data"])).bytes() + message["data"]
+
+
 WRITERS = {
+    "sensor_msgs/msg/CompressedImage": compressed_image,
     "std_msgs/msg/String": string,
     "nav_msgs/msg/Odometry": odometry,
     "sensor_msgs/msg/Imu": imu,

@@ -70,15 +70,20 @@ def test_a_robot_of_metal_has_what_its_file_names_and_a_twin_what_it_plays(
         assert ("--lidar-twin" in found["sim"]) == bool(lidar)
 
 
-@pytest.mark.parametrize("kind", ["uvc", "stream", "realsense", "node", "none"])
+@pytest.mark.parametrize("kind", ["uvc", "stream", "realsense", "ros2", "node", "none"])
 @pytest.mark.parametrize("twin", [False, True])
 def test_a_camera_of_metal_has_its_process_and_where_a_twin_plays_is_drawn(
     tmp_path: Path, kind: str, twin: bool
 ) -> None:
-    keys = {"uvc": {"device": "/dev/video0"}, "stream": {"url": "rtsp://10.0.0.9/1"}}
-    robot = RobotDescription.model_validate(
-        {"drive": MCU, "camera": {"kind": kind, **keys.get(kind, {})}}
-    )
+    keys = {
+        "uvc": {"device": "/dev/video0"},
+        "stream": {"url": "rtsp://10.0.0.9/1"},
+        "ros2": {"topic": "/camera/compressed"},
+    }
+    base = {"drive": MCU}
+    if kind == "ros2":
+        base = {"drive": {"kind": "ros2"}, "ros2": {"transport": "dds"}, "inputs": {"imu": False}}
+    robot = RobotDescription.model_validate(base | {"camera": {"kind": kind, **keys.get(kind, {})}})
     settings = LaunchSettings(
         tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
     )

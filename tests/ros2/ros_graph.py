@@ -27,7 +27,7 @@ from geometry_msgs.msg import PoseStamped, Twist, TwistStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
-from sensor_msgs.msg import Imu, LaserScan
+from sensor_msgs.msg import CompressedImage, Image, Imu, LaserScan
 from std_msgs.msg import String
 
 KINDS = {
@@ -37,6 +37,8 @@ KINDS = {
     "geometry_msgs/msg/TwistStamped": TwistStamped,
     "nav_msgs/msg/Odometry": Odometry,
     "nav_msgs/msg/OccupancyGrid": OccupancyGrid,
+    "sensor_msgs/msg/CompressedImage": CompressedImage,
+    "sensor_msgs/msg/Image": Image,
     "sensor_msgs/msg/Imu": Imu,
     "sensor_msgs/msg/LaserScan": LaserScan,
     "std_msgs/msg/String": String,
@@ -307,7 +309,7 @@ def as_json(value: Any) -> Any:
     """Return a message as rosbridge writes it: what is not finite is null."""
     if hasattr(value, "get_fields_and_field_types"):
         return {name: as_json(getattr(value, name)) for name in value.get_fields_and_field_types()}
-    if getattr(value, "dtype", None) == "uint8":
+    if "B" in (getattr(value, "typecode", None), getattr(getattr(value, "dtype", None), "char", 0)):
         return base64.b64encode(value.tobytes()).decode()  # as rosbridge_suite does
     if isinstance(value, float):
         return value if math.isfinite(value) else None

@@ -52,6 +52,13 @@ def test_what_pons_says_is_byte_for_byte_as_ros_says_it(kind: str) -> None:
     assert cdr.encode(kind, GOLDEN[kind]["message"]) == theirs
 
 
+def test_packed_pictures_are_bytes_both_ways() -> None:
+    kind = "sensor_msgs/msg/CompressedImage"
+    read = cdr.decode(kind, bytes.fromhex(GOLDEN[kind]["hex"]))
+    assert read["data"] == b"\xff\xd8\xff\x00\x07"
+    assert cdr.encode(kind, read).hex() == GOLDEN[kind]["hex"]
+
+
 def test_the_big_end_may_come_first() -> None:
     payload = b"\x00\x00\x00\x00" + struct.pack(">6d", 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
     twist = cdr.decode("geometry_msgs/msg/Twist", payload)

@@ -11,7 +11,7 @@ import pytest
 from pons.robot_processes import free_port
 from ros2 import BaseLink, LinkMessages
 from ros2.connection import SILENT_S, RosbridgeConnection
-from ros2.operations import AskType
+from ros2.operations import AskType, Subscribe
 from sim.twin.rosbridge_server import RosbridgeServer
 from tests.ros2.frames import TYPES, robot
 
@@ -66,6 +66,24 @@ def test_what_the_server_says_is_heard_and_one_that_is_silent_is_dialled_anew() 
         serving.cancel()
 
     asyncio.run(play())
+    server.close()
+
+
+def test_a_message_longer_than_is_wanted_ends_the_connection_and_is_named() -> None:
+    server = RosbridgeServer(0, dict(TYPES))
+
+    async def play() -> None:
+        link, heard = BaseLink(robot(), "r"), list[LinkMessages]()
+        made = RosbridgeConnection(f"ws://127.0.0.1:{server.port}", link, heard.append, 4096)
+        serving = asyncio.create_task(made.serve())
+        await until(made.has_room)
+        assert await made.send(Subscribe("/odom", TYPES["/odom"]))
+        while code_of(link) != "ros2_message_too_large":
+            server.publish("/odom", {"data": "x" * 5000})
+            await asyncio.sleep(0.01)
+        serving.cancel()
+
+    asyncio.run(asyncio.wait_for(play(), LIMIT_S))
     server.close()
 
 

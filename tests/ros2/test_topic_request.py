@@ -18,8 +18,8 @@ from ros2.operations import (
     TopicType,
     UnreadableMessage,
 )
-from ros2.topic_request import TopicFailure, TopicRequest, WantedTopic, collect
-from ros2.trouble import Ros2Trouble
+from ros2.topic_request import TopicRequest, WantedTopic, collect
+from ros2.trouble import Ros2Trouble, TopicFailure
 from sim.twin.rosbridge_server import RosbridgeServer
 from wire.ros2_config import Ros2Config
 

@@ -17,14 +17,18 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from maps import OCCUPIED, UNKNOWN, load_map
 from pons import site
 from pons.robot_processes import free_port
 from pons.settings import LaunchSettings
+from sensors.camera.shot import CameraTrouble
+from sensors.camera.source import open_source
 from tests.ros2.test_process import ROBOT, Bridge
-from wire import Nav2Goal, Nav2State, Pose2, Scan, keys
+from tests.sensors.camera.test_packed_picture import JPEG, PICTURE
+from wire import CameraConfig, Nav2Goal, Nav2State, Pose2, Scan, keys, load_robot
 from wire.keys import Party
 from wire.session import open_session
 
@@ -258,6 +262,29 @@ def test_a_map_that_was_said_before_becomes_a_site(
     refused = capsys.readouterr().err
     assert "ros2_topic_missing" in refused
     assert "请启动发布它的节点" in refused
+
+
+@by_each
+def test_packed_pictures_come_whole_and_what_is_none_is_named(
+    graph: Graph, tmp_path: Path, way: str
+) -> None:
+    graph.reach(way)
+    path = tmp_path / "picture.jpg"
+    path.write_bytes(JPEG)
+    camera = [PYTHON, "tests/ros2/ros_camera.py", str(path), "10"]
+    graph.start(*camera, "rgb8; jpeg compressed bgr8")
+    robot = load_robot(graph.describe())
+    source = open_source(CameraConfig(kind="ros2", topic="/camera/compressed"), robot.ros2)
+    shots = [source.read() for _ in range(10)]
+    source.close()
+    assert all(np.abs(shot.color.astype(int) - PICTURE).mean() < 3 for shot in shots)
+    assert len({shot.at_s for shot in shots}) == len(shots)
+    graph.start(*camera, "bgr8", "raw")
+    for topic, code in (("/camera", "ros2_image_raw"), ("/other", "ros2_topic_missing")):
+        source = open_source(CameraConfig(kind="ros2", topic=topic), robot.ros2)
+        with pytest.raises(CameraTrouble, match=code):
+            source.read()
+        source.close()
 
 
 @by_each

@@ -26,6 +26,10 @@ def test_the_preset_is_taken_and_its_defaults_are_those_of_the_page() -> None:
     [
         ({"drive": DRIVE}, "ros2.url is missing"),
         ({"lidar": LIDAR}, "ros2.scan is missing"),
+        ({"camera": {"kind": "ros2", "topic": "/c"}}, "ros2.url is missing: camera.kind 'ros2'"),
+        ({"camera": {"kind": "ros2"}}, "camera.topic is missing: kind 'ros2' needs it"),
+        ({"camera": {"kind": "none", "topic": "/c"}}, "camera.topic is for kind 'ros2'"),
+        ({"camera": {"kind": "ros2", "topic": "c/compressed"}}, "camera.topic"),
         ({"ros2": URL, "inputs": BLIND}, "for drive.kind 'ros2', not for kind 'sim'"),
         ({"drive": DRIVE, "ros2": URL}, "ros2.imu None and inputs.imu true do not fit"),
         ({"drive": DRIVE, "ros2": URL | {"imu": "/imu"}, "inputs": BLIND}, "inputs.imu false"),

@@ -254,6 +254,29 @@ def _rosbridge(_folder: Path) -> Reader:
     return Reader(read)
 
 
+def _packed_picture(_folder: Path) -> Reader:
+    """Read a message by CDR and unpack its picture, as the camera of a ROS 2 robot is read."""
+    import cv2
+
+    from ros2 import cdr
+    from ros2.compressed_image import COMPRESSED_IMAGE, read_compressed_image
+    from ros2.messages import Unreadable
+    from ros2.trouble import TopicFailure
+    from sensors.camera.packed_picture import unpack
+    from sensors.camera.shot import CameraTrouble
+
+    cv2.setNumThreads(1)
+
+    def read(data: bytes) -> object:
+        try:
+            packed = read_compressed_image(cdr.decode(COMPRESSED_IMAGE, data), "/c")
+        except (Unreadable, TopicFailure):
+            return None
+        return unpack(packed.data, packed.format, "/c")
+
+    return Reader(read, (CameraTrouble,))
+
+
 def _language(_folder: Path) -> Reader:
     from planner.language import folding
     from planner.language.stop import is_stop, read_stop
@@ -314,6 +337,7 @@ DECODERS = (
     AttackedDecoder("toml", lambda: [*seeds.robots(), *seeds.SETTINGS], _toml),
     AttackedDecoder("yaml", lambda: [*seeds.places(), *seeds.maps()], _yaml),
     AttackedDecoder("rosbridge", seeds.rosbridge_frames, _rosbridge),
+    AttackedDecoder("packed_picture", seeds.packed_pictures, _packed_picture),
     AttackedDecoder("language", seeds.texts, _language, 600),
     AttackedDecoder("offline", seeds.texts, _offline, 300),
     *(

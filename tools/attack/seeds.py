@@ -133,6 +133,20 @@ def pictures() -> list[bytes]:
     return [raw, plain, cv2.imencode(".png", grey)[1].tobytes()]
 
 
+def packed_pictures() -> list[bytes]:
+    """Return messages of a ROS 2 camera as CDR: a JPEG, a PNG, and depth."""
+    import cv2
+    import numpy as np
+
+    from ros2 import cdr
+    from ros2.compressed_image import COMPRESSED_IMAGE
+
+    picture = np.full((12, 16, 3), 90, np.uint8)
+    jpeg, png = (cv2.imencode(kind, picture)[1].tobytes() for kind in (".jpg", ".png"))
+    forms = (("jpeg", jpeg), ("rgb8; png compressed rgb8", png), ("16UC1; compressedDepth", png))
+    return [cdr.encode(COMPRESSED_IMAGE, {"format": form, "data": data}) for form, data in forms]
+
+
 def texts() -> list[bytes]:
     """Return sentences as people say them."""
     return [sentence.encode() for sentence in SENTENCES]

@@ -29,6 +29,7 @@ WAYS = ("dds", "rosbridge")
 ROBOT = CHECKOUT / "robots" / "ros2_diff_drive.toml"
 START_S = 20.0
 GRAPH = CHECKOUT / "tests" / "ros2" / "ros_graph.py"
+CAMERA = CHECKOUT / "tests" / "ros2" / "ros_camera.py"
 RELAY = CHECKOUT / "examples" / "ros2_relay" / "relay.py"
 
 

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.perception.detect.image_header import PictureHeader, read_header
+from wire.image_header import PictureHeader, read_header
 
 Picture = NDArray[np.uint8]
 """height x width x 3, blue green red."""

@@ -13,7 +13,6 @@ import pytest
 
 from planner.language.object_names import name_kinds, name_object
 from planner.perception import VisionWorker
-from planner.perception.detect.image_header import read_header
 from planner.settings import VisionSettings
 from processes.parent_death import WORKER_NICE
 from tests.planner.perception.detect import tiny
@@ -21,6 +20,7 @@ from tests.planner.perception.detect.tiny import Seen
 from tests.processes import small_worker_main as tiny_process
 from tests.processes.small_worker import LIMIT_S, code_of, pid_of, story
 from wire import Image, ImageHeader
+from wire.image_header import read_header
 
 SIZE = (64, 48)
 

@@ -10,6 +10,7 @@ import pytest
 from pons.doctor import camera_checks
 from pons.doctor.camera_checks import camera
 from pons.doctor.finding import HealthFinding, HealthVerdict
+from sim.twin.rosbridge_server import RosbridgeServer
 from tests.sensors.camera.films import film
 from wire import RobotDescription
 
@@ -34,6 +35,23 @@ def test_a_camera_that_gives_pictures_is_named_with_their_size(tmp_path: Path) -
     found = looked(tmp_path, kind="stream", url=f"file://{path}")
     assert found.verdict is HealthVerdict.OK
     assert "160 x 120" in found.found.en
+
+
+def test_a_topic_of_ros_that_is_no_packed_picture_has_its_cure_in_both_languages(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sensors.camera.ros2_source.OPEN_S", 1.5)
+    server = RosbridgeServer(0, {"/camera": "sensor_msgs/msg/Image"})
+    ros2 = {"url": f"ws://127.0.0.1:{server.port}"}
+    told = {"drive": {"kind": "ros2"}, "ros2": ros2, "inputs": {"imu": False}}
+    told["camera"] = {"kind": "ros2", "topic": "/camera"}
+    found = camera(tmp_path, RobotDescription.model_validate(told))
+    server.close()
+    assert found.verdict is HealthVerdict.WARN
+    assert found.found.en.startswith("ros2_image_raw: /camera is sensor_msgs/msg/Image")
+    assert found.fix is not None
+    assert "/compressed" in found.fix.en
+    assert "压缩图像" in found.fix.zh
 
 
 def test_one_that_is_missing_has_its_cure_in_both_languages(

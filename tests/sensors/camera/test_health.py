@@ -71,8 +71,12 @@ def test_one_that_falls_silent_or_slow_or_freezes_is_named(health: CameraHealth)
     assert judged(health, seen, 0.0, SILENT_S + 0.5, 40.0) == "camera_silent"
 
 
-def test_a_still_film_is_not_frozen() -> None:
-    health = CameraHealth(CameraConfig(kind="stream", url="file:///x.avi"))
+@pytest.mark.parametrize(
+    "config",
+    [CameraConfig(kind="stream", url="file:///x.avi"), CameraConfig(kind="ros2", topic="/c")],
+)
+def test_a_still_film_and_a_simulated_room_are_not_frozen(config: CameraConfig) -> None:
+    health = CameraHealth(config)
     assert judged(health, Counted(), 10.0, 20.0, frozen=True) is None
 
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from planner.perception.detect.image_header import read_header
 from planner.perception.process_client import DEFAULT_MODEL
 from tools.bench.measure.vision_overhead import FRAMES, SIZE, Subject, _time_rows, drawn_frames
+from wire.image_header import read_header
 
 SUBJECT = Subject("default", DEFAULT_MODEL)
 TIMED: dict[str, Any] = {

@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.perception.detect import ModelOptions, OnnxDetector, shrink, unpack_color
-from planner.perception.detect.image_header import read_header
 from planner.perception.failure import SKIPS
 from tests.planner.perception.detect import tiny
 from tests.planner.perception.detect.tiny import Array, Seen, encoded
+from wire.image_header import read_header
 
 RNG = np.random.default_rng(6)
 COLOR = RNG.integers(0, 255, (48, 64, 3), np.uint8)
