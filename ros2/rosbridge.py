@@ -60,7 +60,7 @@ def read(frame: str | bytes) -> Answer | None:
     if op == "service_response":
         return _read_answer(raw)
     if op == "status":
-        return ServerWords(str(raw.get("level"))[:16], str(raw.get("msg"))[:200])
+        return ServerWords(_text(raw.get("level"))[:16], _text(raw.get("msg"))[:200])
     return None
 
 
@@ -72,8 +72,13 @@ def _read_answer(raw: Message) -> TopicType | NoAnswer | None:
     if raw.get("result") is not False and isinstance(values, dict):
         kind = values.get("type")
         if isinstance(kind, str):
-            return TopicType(topic, kind)
-    return NoAnswer(topic, str(values)[:200])
+            return TopicType(topic, _text(kind))
+    return NoAnswer(topic, _text(values)[:200])
+
+
+def _text(value: object) -> str:
+    """Return words that people are told; JSON can hold half of a letter, which no message may."""
+    return str(value).encode("utf-8", "replace").decode()
 
 
 def _write(**members: object) -> str:

@@ -95,6 +95,50 @@ static void begin_clocks(void)
     REGISTER(WATCHDOG_TICK) = 1UL << 9 | CRYSTAL_HZ / 1000000; /* the timer's microsecond, too */
 }
 
+enum { HAS_ANALOGUE = BATTERY_FULL_SCALE_MV || CURRENT_FULL_SCALE_MA, ANALOGUE_FULL = 4095 };
+
+_Static_assert(!MOST_MA || CURRENT_FULL_SCALE_MA, "MOST_MA watches a current that isn't measured");
+
+static uint32_t converted_pin; /* what the converter was last begun on; 0: nothing yet */
+
+static void begin_conversion(uint32_t pin)
+{
+    converted_pin = pin;
+    REGISTER(ADC_CONTROL) = ADC_ON | ADC_START | (pin - PIN_BATTERY) << 12;
+}
+
+/* By the crystal, as all else: a conversion takes 8 us and not 2. Not begun where nothing is fitted. */
+static void begin_analogue(void)
+{
+    REGISTER(CLK_ADC_CTRL) = 1UL << 11 | 3UL << 5;
+    CLEAR_BITS(RESETS_RESET) = RESET_ADC;
+    while (!(REGISTER(RESETS_DONE) & RESET_ADC))
+        ;
+    REGISTER(PAD(PIN_BATTERY)) = REGISTER(PAD(PIN_CURRENT)) = PAD_NO_OUTPUT; /* no pull bends a divider */
+    REGISTER(ADC_CONTROL) = ADC_ON; /* the first of read_inputs finds it ready, or a later one does */
+}
+
+static uint16_t scale(uint32_t reading, uint32_t full_scale)
+{
+    uint32_t value = reading * full_scale / ANALOGUE_FULL;
+    return value < NOT_MEASURED ? (uint16_t)value : NOT_MEASURED - 1;
+}
+
+/* Battery and current by turns. A conversion that failed leaves what was read before. */
+static void read_analogue(inputs_t *inputs)
+{
+    uint32_t control = REGISTER(ADC_CONTROL);
+    if (!(control & ADC_READY)) /* never waited for */
+        return;
+    uint32_t reading = REGISTER(ADC_RESULT);
+    bool has_reading = converted_pin && !(control & ADC_FAILED);
+    if (has_reading && converted_pin == PIN_BATTERY && BATTERY_FULL_SCALE_MV)
+        inputs->battery_mv = scale(reading, BATTERY_FULL_SCALE_MV);
+    if (has_reading && converted_pin == PIN_CURRENT && CURRENT_FULL_SCALE_MA)
+        inputs->current_ma = scale(reading, CURRENT_FULL_SCALE_MA);
+    begin_conversion(converted_pin == PIN_BATTERY ? PIN_CURRENT : PIN_BATTERY);
+}
+
 void begin_board(void)
 {
     uint32_t wanted = RESET_IO | RESET_PADS | RESET_PWM | RESET_TIMER | RESET_UART0;
@@ -111,6 +155,8 @@ void begin_board(void)
     for (uint32_t pin = PIN_LEFT_A; pin <= PIN_RIGHT_B; pin++)
         begin_input(pin);
     begin_output(PIN_LIGHT);
+    if (HAS_ANALOGUE)
+        begin_analogue();
     last_phases = read_phases();
     REGISTER(GPIO_EDGES(PIN_LEFT_A)) = 0x0000ccccUL;
     REGISTER(GPIO_ENABLES(PIN_LEFT_A)) = 0x0000ccccUL;
@@ -141,7 +187,8 @@ void read_inputs(inputs_t *inputs)
     inputs->bumper_front = HAS_BUMPER_FRONT && !(pins & BIT(PIN_BUMPER_FRONT));
     inputs->bumper_rear = HAS_BUMPER_REAR && !(pins & BIT(PIN_BUMPER_REAR));
     inputs->cliff = HAS_CLIFF && !(pins & BIT(PIN_CLIFF));
-    inputs->battery_mv = inputs->current_ma = NOT_MEASURED; /* not read by this port yet */
+    if (HAS_ANALOGUE)
+        read_analogue(inputs);
 }
 
 void show_torque(bool torque)

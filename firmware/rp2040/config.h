@@ -38,6 +38,17 @@
 #define HAS_BUMPER_REAR 0  /* GP4 */
 #define HAS_CLIFF 0        /* GP5 */
 
+/* What 3.3 V at the pin stand for; 0 where it isn't fitted. More than 3.3 V kills the pin. */
+#ifndef BATTERY_FULL_SCALE_MV
+#define BATTERY_FULL_SCALE_MV 0UL /* GP26, through a divider: 33k over 10k gives 14190 */
+#endif
+#ifndef CURRENT_FULL_SCALE_MA
+#define CURRENT_FULL_SCALE_MA 0UL /* GP27, of both motors together */
+#endif
+#ifndef MOST_MA
+#define MOST_MA 0 /* more for 0.1 s takes the torque away; 0: not watched */
+#endif
+
 #define BAUD 115200UL
 
 #endif

@@ -12,7 +12,7 @@
 
 #define RESETS_RESET 0x4000c000UL
 #define RESETS_DONE 0x4000c008UL
-enum { RESET_IO = 1 << 5, RESET_PADS = 1 << 8, RESET_PWM = 1 << 14, RESET_TIMER = 1 << 21,
+enum { RESET_ADC = 1 << 0, RESET_IO = 1 << 5, RESET_PADS = 1 << 8, RESET_PWM = 1 << 14, RESET_TIMER = 1 << 21,
        RESET_UART0 = 1 << 22 };
 
 #define CLK_REF_CTRL 0x40008030UL /* 0 to 1: 2 is the crystal */
@@ -20,6 +20,7 @@ enum { RESET_IO = 1 << 5, RESET_PADS = 1 << 8, RESET_PWM = 1 << 14, RESET_TIMER 
 #define CLK_SYS_CTRL 0x4000803cUL /* 0: clk_ref */
 #define CLK_SYS_SELECTED 0x40008044UL
 #define CLK_PERI_CTRL 0x40008048UL /* 11: on; 5 to 7: 0 is clk_sys */
+#define CLK_ADC_CTRL 0x40008060UL /* 11: on; 5 to 7: 3 is the crystal */
 #define XOSC_CTRL 0x40024000UL
 #define XOSC_STATUS 0x40024004UL
 #define XOSC_STARTUP 0x4002400cUL
@@ -38,7 +39,11 @@ enum { EDGE_LOW = 1 << 2, EDGE_HIGH = 1 << 3 };              /* four bits a pin 
 enum { FUNCTION_UART = 2, FUNCTION_PWM = 4, FUNCTION_SIO = 5 };
 #define PAD(pin) (0x4001c004UL + 4UL * (pin))
 enum { PAD_INPUT = 1 << 6, PAD_PULL_UP = 1 << 3, PAD_PULL_DOWN = 1 << 2, PAD_SCHMITT = 1 << 1,
-       PAD_4_MA = 1 << 4 };
+       PAD_4_MA = 1 << 4, PAD_NO_OUTPUT = 1 << 7 };
+
+#define ADC_CONTROL 0x4004c000UL /* 12 to 14: the input */
+#define ADC_RESULT 0x4004c004UL
+enum { ADC_ON = 1 << 0, ADC_START = 1 << 2, ADC_READY = 1 << 8, ADC_FAILED = 1 << 9 };
 
 #define SIO_IN 0xd0000004UL
 #define SIO_OUT_SET 0xd0000014UL

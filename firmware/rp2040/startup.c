@@ -50,7 +50,7 @@ start(void)
     for (uint32_t *to = zeroes_begin; to < zeroes_end;)
         *to++ = 0;
     REGISTER(0xe000ed08UL) = (uint32_t)(uintptr_t)VECTORS;
-    run_loop(&MOTOR, 0);
+    run_loop(&MOTOR, MOST_MA);
     for (;;)
         ;
 }

@@ -22,6 +22,8 @@ RETURN = MEMORY + 0x41F00
 STEP_US, INSTRUCTIONS = 50, 400
 """12 MHz, at 1.5 cycles an instruction."""
 QUEUE, BYTE_US = 32, 86.8
+CONVERSION_US = 8
+"""96 cycles of the crystal."""
 ALWAYS = 301
 """Above the top of the count: high throughout."""
 
@@ -38,6 +40,12 @@ class Pico:
         self.heard: deque[int] = deque()
         self.said = bytearray()
         self.fed_us: list[int] = []
+        self.analogue = [0, 0]
+        """Readings of the converter's inputs 0 and 1, of 4095."""
+        self.is_failing = False
+        """Every conversion ends in an error."""
+        self._conversion = (0, 0)
+        """The input, and when it was begun [us]."""
         self._edges = 0
         self._random = Random(7)
         self._enabled = 0
@@ -144,6 +152,11 @@ class Pico:
                 return self.heard.popleft()
             case 0x140F4:
                 return self._edges
+            case 0x4C000:
+                is_ready = self.now_us - self._conversion[1] >= CONVERSION_US
+                return ctrl(0x4C000, 0) & ~4 | is_ready << 8 | self.is_failing << 9
+            case 0x4C004:
+                return self.analogue[self._conversion[0]]
             case _:
                 return ctrl(offset, 0)
 
@@ -155,11 +168,21 @@ class Pico:
             self._edges &= ~value
             return
         self.registers[register] = new & 0xFFFF_FFFF
+        if register == 0x4C000 and value & 4:
+            self._convert(value >> 12 & 7)
         if register == 0x34000:
             assert len(self._sending) < QUEUE, "what a full queue is given is lost"
             self._sending.append(value & 0xFF)
         if register == 0x58004:
             self.fed_us.append(self.now_us)
+
+    def _convert(self, number: int) -> None:
+        """Begin a conversion, on which all that the datasheet asks for must be done before."""
+        assert not self.registers[0xC000] & 1, "the converter is out of reset"
+        assert self.registers[0x8060] == 1 << 11 | 3 << 5, "and has a clock"
+        assert self.registers[0x1C004 + 4 * (26 + number)] == 1 << 7, "and a pad without pulls"
+        assert self.now_us - self._conversion[1] >= CONVERSION_US, "and has ended the last"
+        self._conversion = number, self.now_us
 
     def _read_sio(self, _chip: Any, offset: int, _size: int, _data: Any) -> int:
         return self.pins if offset == 4 else 0

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from tests.firmware.pico import Pico
 
 TICKS = 2048
+FULL_MV, FULL_MA, FULL = 14_190, 5_000, 4_095
 STOP, LEFT_A, LEFT_B = 1 << 2, 1 << 8, 1 << 9
 IDLE = 0b1111 << 8 | 0b111 << 3
 """All inputs high by their pull-ups, but the stop input, which is joined to ground."""
@@ -34,10 +35,22 @@ def pico_build(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def pico(pico_build: Path) -> Pico:
+    return started(pico_build)
+
+
+@pytest.fixture
+def measuring(pico_build: Path, tmp_path: Path) -> Pico:
+    """Return a chip whose build has a divider and a sense of current, of at most 2 A."""
+    assert pico_build.is_dir()
+    fitted = f"-DBATTERY_FULL_SCALE_MV={FULL_MV}UL -DCURRENT_FULL_SCALE_MA={FULL_MA}UL"
+    return started(build(tmp_path, "rp2040", f"CONFIG={fitted} -DMOST_MA=2000"))
+
+
+def started(folder: Path) -> Pico:
     pytest.importorskip("unicorn", reason="no emulator of the processor (pip install unicorn)")
     from tests.firmware.pico import load
 
-    made = load(pico_build)
+    made = load(folder)
     made.pins = IDLE
     return made
 
@@ -125,6 +138,47 @@ def test_a_stop_input_that_opens_brakes_whatever_the_host_says(pico: Pico) -> No
     host.run(20, (5.0, 5.0))
     assert pico.is_braked
     assert host.states[-1].bits & pons_mcu.STOP_PRESSED
+
+
+def test_battery_and_current_are_read_by_turns(measuring: Pico) -> None:
+    host = PicoHost(measuring)
+    measuring.analogue = [3_000, 1_000]
+    host.run(100)
+    measured = host.states[-1]
+    assert measured.battery_mv == 3_000 * FULL_MV // FULL
+    assert measured.current_ma == 1_000 * FULL_MA // FULL
+    assert not [state for state in host.states if 0 in (state.battery_mv, state.current_ma)]
+    measuring.analogue = [FULL, 0]
+    host.run(100)
+    assert (host.states[-1].battery_mv, host.states[-1].current_ma) == (FULL_MV, 0)
+    measuring.analogue, measuring.is_failing = [1, FULL], True
+    host.run(100)
+    assert (host.states[-1].battery_mv, host.states[-1].current_ma) == (FULL_MV, 0)
+
+
+def test_too_much_current_takes_the_torque_away(measuring: Pico) -> None:
+    host = PicoHost(measuring)
+    measuring.analogue = [3_000, 1_600]  # 1.95 A
+    host.run(300, (5.0, 5.0))
+    assert not measuring.is_braked
+    measuring.analogue = [3_000, 1_700]  # 2.08 A
+    host.run(80, (5.0, 5.0))
+    assert not measuring.is_braked, "a motor that starts draws more for less than 0.1 s"
+    host.run(50, (5.0, 5.0))
+    assert measuring.is_braked
+    assert host.states[-1].bits & pons_mcu.TRIPPED
+
+
+def test_a_converter_that_is_not_fitted_stays_in_its_reset(pico: Pico) -> None:
+    PicoHost(pico).run(50)
+    assert pico.registers[0xC000] & 1
+    assert 0x4C000 not in pico.registers
+
+
+def test_a_most_current_that_nothing_measures_is_no_build(tmp_path: Path, pico_build: Path) -> None:
+    assert pico_build.is_dir()
+    with pytest.raises(AssertionError, match="a current that isn't measured"):
+        build(tmp_path, "rp2040", "CONFIG=-DMOST_MA=2000")
 
 
 def test_edges_are_counted_both_ways(pico: Pico) -> None:

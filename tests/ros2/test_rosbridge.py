@@ -79,6 +79,22 @@ def test_no_bytes_raise(frame: bytes | str) -> None:
     rosbridge.read(frame)
 
 
+@pytest.mark.parametrize(
+    "frame",
+    [
+        r'{"op":"service_response","id":"type:/odom","values":{"type":"x\ud800"},"result":true}',
+        r'{"op":"service_response","id":"type:/odom","values":"x\ud800","result":false}',
+        r'{"op":"status","level":"error","msg":"x\ud800"}',
+        r'{"op":"status","level":"\ud800","msg":"x"}',
+    ],
+)
+def test_half_of_a_letter_is_told_to_people_as_a_question_mark(frame: str) -> None:
+    said = rosbridge.read(frame)
+    assert said is not None
+    assert "?" in str(said)
+    str(said).encode()
+
+
 def test_a_deep_nest_is_nothing() -> None:
     assert rosbridge.read("[" * 200_000) is None
 
