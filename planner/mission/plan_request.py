@@ -20,7 +20,7 @@ from planner.brain.interface import Brain, ThinkRequest, ThinkResult
 from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
-from planner.language.catalogue import message
+from planner.language.catalogue import message, say
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
@@ -142,7 +142,7 @@ def thinker(
             thought = await think_warily(brain, request, hear)
         except BadPlan as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
-            said = _outcome(Code.BAD_PLAN, why=str(error)[:200])
+            said = Outcome(code=Code.BAD_PLAN, message=say("model_error.no_plan"))
             return Planned(ask.id, None, said, error.brain or brain.tag)
         except OutOfBudget as error:
             log.warning("goal %s: no call went out: %s", ask.id, error)

@@ -28,16 +28,19 @@ _SENDS = re.compile(
     r"|let|let's|start|begin|end|finish|try|send|charge|recharge|dock|enter|leave|pop|peek|peep"
     r"|pass by|cross|join|hang out|be (?:at|in|by)|if|then|first|before|after|back|route|via"
     r"|through|to (?:the|my|our|your)|towards?|into|please|mind|make sure|see|seeing"
-    r"|(?:would|could|can|will) you|who|what|where|which|how|whether|any|anyone|anybody)\b"
+    r"|(?:would|could|can|will) you|who|what|where|which|how|whether|any|anyone|anybody|rather"
+    r"|instead|i (?:mean|meant|said))\b"
     r"|^(?:is|are|do|does|has|have)\b|\?|[吗谁哪几]|什么|多少|有没有|是否"
+    r"|我(?:是)?说|改成|换成|应该是"
     r"|[去到进回找查数转跟走巡送拿带接等停站靠绕逛溜]|过来|来一|来趟|^来|开(?:到|去|往|过|回|进|车)"
     r"|看(?!起来|来|上去|过)|瞧|先|再|然后|告诉|通知|问|叫|喊|跑|移动|前往|返|驶|拐|路过|经过"
 )
 """Words that may order a way, or ask for a look: a list on the generous side."""
 _FILLS = re.compile(
     r"\b(?:the|a|an|my|our|your|please|pls|now|ok|okay|hey|hi|hello|robot|pons|and|or|then|quick"
-    r"|quickly|slowly|again|too|also|next|just|um+|uh+|er+|yes|no|right|there|in|at|on|by|of|to"
-    r"|kindly|sorry|instead|not|i (?:said|mean|meant)|rather|thanks|thank you)\b"
+    r"|quickly|slowly|again|too|also|next|just|um+|uh+|er+|hm+|oh|well|yes|no|right|there|in|at|on"
+    r"|by|of|to|kindly|i think|i guess|maybe|perhaps|actually|sorry|instead|not|rather|thanks"
+    r"|thank you|i (?:said|mean|meant))\b"
     r"|我说的?|[请吧呢啊呀的了嘛哦嗯那就是不和跟与、里间边上儿]|一下|麻烦|好的|不对|谢谢|现在|马上"
     r"|机器人|[^\w]+"
 )
