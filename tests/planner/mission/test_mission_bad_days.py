@@ -80,6 +80,16 @@ def test_on_another_map_places_are_found_anew_and_there_is_no_way_back() -> None
     assert done.outcome.code is Code.NO_ROUTE
 
 
+def test_where_the_order_before_was_given_is_kept_on_the_same_map_alone() -> None:
+    before = on_map(Together(), MAP_A)
+    before.run(0.2)
+    before.run_until(before.give(go("kitchen")), SUCCEEDED)
+    goal = before.give(None)
+    assert before.goal(goal).departed_at is not None
+    assert restarted(before, MAP_A).goal(goal).departed_at == before.goal(goal).departed_at
+    assert restarted(before, MAP_B).goal(goal).departed_at is None
+
+
 def test_a_move_of_which_nobody_knows_how_far_it_came_is_not_done_again() -> None:
     before = on_map(Together(), MAP_A)
     before.run(0.2)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import hypot
+
 import pytest
 
 from planner.brain.scripted import ScriptedBrain
@@ -52,6 +54,24 @@ def test_one_more_waits_for_what_runs_and_again_drives_it_once_more() -> None:
     plan = again.record.plan
     assert plan is not None
     assert [(step.kind, step.place) for step in plan.steps] == [("go_to", "kitchen")]
+
+
+@pytest.mark.parametrize(
+    ("order", "back"), [("go to the kitchen", "ok, now come back"), ("去厨房", "好，回来吧")]
+)
+def test_the_robot_is_called_back_to_where_its_errand_was_given(order: str, back: str) -> None:
+    world = world_of()
+    asked = world.say(back)
+    world.run(1.0)
+    assert asked.state == "needs_clarification"  # back from where?
+    errand = world.say(order)
+    world.run_until(lambda _: errand.has_ended, limit_s=60.0)
+    goal = world.say(back)
+    world.run_until(lambda _: goal.has_ended, limit_s=60.0)
+    assert (errand.state, goal.state) == ("succeeded", "succeeded")
+    here = world.status.base_in_map
+    assert here is not None
+    assert hypot(here.x_m - START.x_m, here.y_m - START.y_m) < 0.3
 
 
 def test_a_hostile_model_turns_no_wheel_until_a_person_says_yes() -> None:

@@ -181,12 +181,12 @@ def test_places_are_visited_in_the_order_of_the_sentence(words: list[str], gap: 
     plain = squash(text)
     for step in made.steps:
         if isinstance(step, GoTo):
-            found = [plain.find(squash(one), at) for one in HOME.by_id[step.place].spellings]
+            spelt = [squash(one) for one in HOME.by_id[step.place].spellings]
+            typos = ["kitchn"] if step.place == "kitchen" else []
+            found = [plain.find(one, at) for one in spelt + typos]
             here = min((index for index in found if index >= 0), default=None)
-            if here is not None:  # a typo is found by no plain search
-                at = here + 1
-            else:
-                assert "kitchn" in plain[at:], f"{text!r} does not name {step.place} in this order"
+            assert here is not None, f"{text!r} does not name {step.place} in this order"
+            at = here + 1
 
 
 @given(st.sampled_from(VALID), st.integers(0, 40), st.sampled_from(EN_NO + ZH_NO))
