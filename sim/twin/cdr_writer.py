@@ -87,7 +87,8 @@ def laser_scan(message: dict[str, Any]) -> bytes:
 def compressed_image(message: dict[str, Any]) -> bytes:
     """Return sensor_msgs/CompressedImage."""
     writer = CdrWriter().header(message).text(message["format"])
-    return writer.put("I", len(message["data"])).bytes() + message["data"]
+    data: bytes = message["data"]
+    return writer.put("I", len(data)).bytes() + data
 
 
 WRITERS = {
