@@ -86,8 +86,8 @@ def laser_scan(message: dict[str, Any]) -> bytes:
 
 def compressed_image(message: dict[str, Any]) -> bytes:
     """Return sensor_msgs/CompressedImage."""
-    data: bytes = message["data"]
     writer = CdrWriter().header(message).text(message["format"])
+    data: bytes = message["data"]
     return writer.put("I", len(data)).bytes() + data
 
 

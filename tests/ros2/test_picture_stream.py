@@ -195,6 +195,20 @@ def test_one_that_no_camera_sends_ends_the_connection_and_is_named(server: Rosbr
     assert code == "ros2_message_too_large"
 
 
+def test_a_fault_of_our_own_is_raised_where_pictures_are_taken(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("a fault of ours")
+
+    monkeypatch.setattr("ros2.picture_stream.open_transport", fail)
+    with (
+        streaming(Ros2Config(transport="dds")) as stream,
+        pytest.raises(RuntimeError, match="of ours"),
+    ):
+        stream.take(LIMIT_S)
+
+
 def test_a_server_that_is_not_there_is_told() -> None:
     with (
         streaming(Ros2Config(url=f"ws://127.0.0.1:{free_port()}")) as stream,

@@ -48,6 +48,15 @@ def test_what_does_not_fit_is_refused_by_name(given: dict[str, Any], says: str) 
     assert says in str(refused.value)
 
 
+def test_a_camera_of_its_graph_is_read_by_a_process_of_ours() -> None:
+    given = {"drive": DRIVE, "ros2": URL, "inputs": BLIND}
+    camera = {"kind": "ros2", "topic": "/camera/image_raw/compressed"}
+    robot = RobotDescription.model_validate(given | {"camera": camera})
+    assert robot.camera.is_real
+    assert robot.camera.topic == camera["topic"]
+    assert not RobotDescription.model_validate(given).camera.is_real
+
+
 @pytest.mark.parametrize(
     ("given", "says"),
     [
