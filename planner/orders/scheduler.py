@@ -166,6 +166,8 @@ def _follow_clock(book: OrderBook, now: ClockReading, effects: list[Effect]) -> 
     before = book.ticked
     if before is None:
         unset = not now.unix_s >= book.floor_unix_s - BEHIND_S
+        live = (order for order in book.orders.values() if not order.ended)
+        unset |= any(order.handled_unix_s - now.unix_s > BACK_S for order in live)
         return replace(book, began=now, unset=unset)
     step_s = (now.unix_s - before.unix_s) - (now.monotonic_s - before.monotonic_s)
     if not abs(step_s) > STEP_S:
