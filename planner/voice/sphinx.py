@@ -23,12 +23,12 @@ from planner.voice.confidence import DecoderResult, confidence, long_pauses, sto
 from planner.voice.dictionary import Dictionary
 from planner.voice.grammar import (
     ANSWERS,
-    EARLY_STOPS,
+    CALLED_STOPS,
     OTHER_STOPS,
     STOPS,
     SpokenLanguage,
     is_answer,
-    is_early_stop,
+    is_called_stop,
     is_stop,
     language_of,
 )
@@ -78,7 +78,7 @@ class Sphinx:
             model = pocketsphinx.NGramModel(self._free.config, self._free.logmath, str(likely))
         self._decoder.add_jsgf_string("orders", self.language.jsgf)
         self._decoder.add_jsgf_string("stops", STOPS)
-        self._decoder.add_jsgf_string("early_stops", EARLY_STOPS)
+        self._decoder.add_jsgf_string("called_stops", CALLED_STOPS)
         self._decoder.add_jsgf_string("other_stops", OTHER_STOPS)
         self._decoder.add_jsgf_string("answers", ANSWERS)
         self._free.add_allphone_file("phones", None)
@@ -121,17 +121,22 @@ class Sphinx:
         if samples is None:
             return None
         with (
-            ForkedJob(lambda: _decode(self._decoder, "early_stops", samples)) as bound,
+            ForkedJob(lambda: _decode(self._decoder, "stops", samples)) as bound,
             ForkedJob(lambda: _decode(self._free, "phones", samples)) as sounds,
         ):
-            stop = bound.result()
-            if stop is None or not is_early_stop(stop.text):
-                return None
-            phones = sounds.result()
+            stop, phones = bound.result(), sounds.result()
         if phones is None:
             return None
-        sure = stop_confidence(stop, phones, len(samples) / (2 * FRAME))
-        return Recognition(stop.text, round(sure, 3), understood=sure >= _SURE_OF_PART)
+        frames = len(samples) / (2 * FRAME)
+        heard = _part(stop, phones, frames) if stop is not None and is_stop(stop.text) else None
+        if heard is not None and heard.understood:
+            return heard
+        with ForkedJob(lambda: _decode(self._decoder, "called_stops", samples)) as bound:
+            called = bound.result()
+        if called is None or not is_called_stop(called.text):
+            return heard
+        found = _part(called, phones, frames)
+        return found if found.understood else heard
 
     def _order_or_stop(self, recording: _Recording) -> tuple[Recognition, DecoderResult | None]:
         """Return the reading as an order or a stop, and the everyday words found in it."""
@@ -207,6 +212,12 @@ class Sphinx:
             # A stop must not drown among the names, nor pay for them in its score.
             order = _decode(self._decoder, "stops", samples) or order
         return order
+
+
+def _part(stop: DecoderResult, phones: DecoderResult, frames: float) -> Recognition:
+    """Return the beginning of speech as a stop, and whether it is believed."""
+    sure = stop_confidence(stop, phones, frames)
+    return Recognition(stop.text, round(sure, 3), understood=sure >= _SURE_OF_PART)
 
 
 class _Recording:
