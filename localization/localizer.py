@@ -16,10 +16,9 @@ Laws, which the bridge's rows rely on:
 from __future__ import annotations
 
 from enum import StrEnum
-from math import hypot, radians
+from math import radians
 from typing import TYPE_CHECKING
 
-from localization.correlative_search import WINDOW_M, WINDOW_RAD
 from localization.deskew import PointCloud, deskew, sweep_s
 from localization.global_search import Candidate, is_sure
 from localization.jump_law import JumpLaw
@@ -27,8 +26,14 @@ from localization.localizer_status import bounded_score
 from localization.odometry_integration import OdometryTrail
 from localization.pose_fusion import PoseFusion, pose_array
 from localization.quality import ENOUGH_SCORE, KEPT_SCORE, quality_of
-from localization.relocation import OpenSearch, PlacedBase, SearchRequest
-from localization.scan_fit import BETTER, ScanFitter
+from localization.relocation import (
+    OpenSearch,
+    PlacedBase,
+    SearchRequest,
+    is_elsewhere,
+    known_place,
+)
+from localization.scan_fit import BETTER, FAR_BETTER, ScanFitter
 from wire import HintVerdict, Localization, Pose2, PoseHint, between, compose, inverse
 
 if TYPE_CHECKING:
@@ -150,29 +155,18 @@ class Localizer:
             fits = best is not None and best.score >= max(ENOUGH_SCORE, least)
             if not fits:
                 self._answer_hint("does_not_fit", best.score if best else 0.0)
+        elif self._placed is not None and self.state is not LocalizerState.LOST:
+            least = self.score + FAR_BETTER
+            fits = is_elsewhere(self._placed, candidates, search.carried, least)
+            self.state = LocalizerState.LOST if fits else self.state
         else:
-            known = self._where_it_was(candidates, search.carried)
+            drove = self._placed is None or not self._unseen_m() <= UNSEEN_M
+            known = None if drove else known_place(self._placed, candidates, search.carried)
             fits = known is not None or is_sure(candidates)
             best = known or best
         if fits and best is not None:
             placed = PlacedBase(Pose2(*best.pose), search.carried)
             self._trial = (placed, search.hint)
-
-    def _where_it_was(self, candidates: tuple[Candidate, ...], carried: Pose2) -> Candidate | None:
-        """Return the place where the robot was lost a few turns of its wheels ago, if it fits.
-
-        No lead over places that look alike is asked for then, but none of them may fit better.
-        """
-        if self._placed is None or not self._unseen_m() <= UNSEEN_M:
-            return None
-        here, least = self._placed.at(carried), ENOUGH_SCORE
-        for one in candidates:
-            least = max(least, one.score - BETTER)
-            off = between(here, Pose2(*one.pose))
-            near = hypot(off.x_m, off.y_m) <= WINDOW_M and abs(off.yaw_rad) <= WINDOW_RAD
-            if near and one.score >= least:
-                return one
-        return None
 
     def search_request(self) -> SearchRequest | None:
         """Return the question for the search process, once; None while there is none."""
@@ -217,6 +211,8 @@ class Localizer:
         self.score = fit.score
         if fit.score >= KEPT_SCORE:
             self._accept(cloud, self._fuse(cloud, predicted, fit), carried, fit)
+            if fit.score < ENOUGH_SCORE:  # moved furniture, or somebody moved the robot
+                self._search(cloud, carried, now_s)
             return
         self._bad += 1
         self.state = LocalizerState.COASTING

@@ -7,10 +7,11 @@ import pytest
 
 from localization.global_search import Candidate, GlobalSearch
 from localization.localizer import Localizer, LocalizerState
-from localization.relocation import PlacedBase, SearchRequest
+from localization.quality import ENOUGH_SCORE, KEPT_SCORE
+from localization.relocation import PlacedBase, SearchRequest, is_elsewhere, known_place
 from tests.localization.rooms import MAP_ID, TWINS, field_of
 from tests.localization.test_localizer import ELSEWHERE, START, Drive, drive, hint
-from wire import Pose2
+from wire import IDENTITY, Pose2
 from wire.lidar_config import LidarConfig
 
 __all__ = ["drive"]
@@ -141,3 +142,49 @@ def test_answers_that_nobody_waits_for_change_nothing(drive: Drive) -> None:
     drive.localizer.hear_candidates(999, (Candidate((1.0, 1.0, 0.0), 1.0),))
     drive.run(0.3)
     assert drive.error_m() < 0.03
+
+
+TRACKED = PlacedBase(Pose2(2.0, 2.0, 0.0), IDENTITY)
+NEAR, FAR = (2.3, 1.9, 0.2), (6.0, 2.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("candidates", "known"),
+    [
+        (((NEAR, 0.7), (FAR, 0.69)), 0),
+        (((FAR, 0.72), (NEAR, 0.7)), 1),
+        (((FAR, 0.8), (NEAR, 0.7)), None),
+        (((NEAR, 0.55),), None),
+        ((), None),
+    ],
+)
+def test_the_place_where_it_was_counts_where_none_fits_better(
+    candidates: tuple[tuple[tuple[float, float, float], float], ...], known: int | None
+) -> None:
+    found = tuple(Candidate(*one) for one in candidates)
+    expected = None if known is None else found[known]
+    assert known_place(TRACKED, found, IDENTITY) is expected
+    assert known_place(None, found, IDENTITY) is None
+
+
+def test_only_a_sure_and_far_place_says_that_a_tracked_robot_was_carried() -> None:
+    sure = (Candidate(FAR, 0.95), Candidate(NEAR, 0.5))
+    assert is_elsewhere(TRACKED, sure, IDENTITY, 0.65)
+    assert not is_elsewhere(TRACKED, sure, IDENTITY, 0.96), "it fits no better"
+    assert not is_elsewhere(TRACKED, (Candidate(FAR, 0.7), Candidate(NEAR, 0.6)), IDENTITY, 0.65)
+    assert not is_elsewhere(TRACKED, (Candidate(NEAR, 0.95),), IDENTITY, 0.65)
+    assert not is_elsewhere(TRACKED, (), IDENTITY, 0.65)
+    assert not is_elsewhere(TRACKED, sure, Pose2(4.0, 0.0, 0.0), 0.65), "odometry went there"
+
+
+def test_a_robot_carried_to_where_the_map_half_agrees_is_soon_found(drive: Drive) -> None:
+    """Half of the view agrees with where it is thought to be: tracked, and the map is asked."""
+    drive.run(0.3)
+    drive.true = Pose2(3.5, 0.8, -2.5)
+    while drive.localizer.score > ENOUGH_SCORE:
+        drive.turn()
+    assert drive.localizer.score >= KEPT_SCORE, "it is tracked on, at a wrong place"
+    drive.run(1.0)
+    assert drive.localizer.state is LocalizerState.TRACKING
+    assert drive.error_m() < 0.05
+    assert min(word.quality for word in drive.said[-25:]) == 0.0, "the bridge holds first"
