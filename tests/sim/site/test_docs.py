@@ -37,7 +37,8 @@ def test_it_names_all_that_exists(page: str, repository: Path) -> None:
     assert f"Classes: {', '.join(CLASSES)}." in page.replace("\n", " ")
     assert f"{', '.join(COLORS)}." in page.replace("\n", " ")
     shown = set(re.findall(r"`([a-z_]+)`", page))
-    of_metal = {"device", "url", "serial", "fourcc", "upside_down", "delay_s"}  # docs/sensors.md
+    # docs/sensors.md
+    of_metal = {"device", "url", "serial", "fourcc", "upside_down", "delay_s", "topic"}
     assert set(CameraConfig.model_fields) - {"kind"} - of_metal <= shown
     assert all(fault in page for fault in SimFault if fault.startswith("camera_"))
     source = (repository / "sim" / "site" / "object_checks.py").read_text("utf-8")
