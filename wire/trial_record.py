@@ -32,6 +32,9 @@ class TrialRecord(Record):
     """Of that, from the first loss of speed until they stood."""
     gyro: bool = False
     """The gyro turned left when a person turned the robot left; false: it was not tried."""
+    camera: bool = False
+    """The camera saw a hand at its left, and its covered lens; false: none was tried. No part of
+    the wiring: no wheel turns by it."""
 
 
 class WiredRobot(Protocol):

@@ -9,6 +9,7 @@ import secrets
 import time
 from contextlib import closing
 from dataclasses import dataclass
+from functools import partial
 from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -28,6 +29,11 @@ from wire.ros2_config import ROS2
 from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy as np
+    from numpy.typing import NDArray
+
     from bridge.drive import SerialDrive
     from pons.robot.trial_parties import TrialPace, TrialPerson
     from pons.robot.wheel_trial import WheelFindings
@@ -36,6 +42,8 @@ if TYPE_CHECKING:
 TICK_S = 0.01
 SCANS_WITHIN_S = 6.0
 """An RPLidar begins to turn when it is opened."""
+PICTURES_WITHIN_S = 10.0
+"""Five of them; a network camera waits for its next whole picture."""
 WHEEL_STEPS: Final = (
     "wheels_up", "listen", "hand_left", "hand_right", "power_left", "power_right",
     "power_back", "silence",
@@ -43,6 +51,7 @@ WHEEL_STEPS: Final = (
 GYRO_STEPS: Final = ("gyro_left",)
 ENDED_BY_PERSON: Final = frozenset({"trial_stopped", "trial_unwatched"})
 LIDAR_STEPS: Final = ("lidar_clear", "lidar_front", "lidar_left")
+CAMERA_STEPS: Final = ("camera_clear", "camera_left", "camera_cover")
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +67,8 @@ def plan_steps(robot: RobotDescription) -> tuple[str, ...]:
     """Return the steps that a trial of this robot has, in order."""
     gyro = GYRO_STEPS if has_gyro(robot) else ()
     lidar = () if robot.lidar.is_simulated else LIDAR_STEPS
-    return (*WHEEL_STEPS, *gyro, *lidar, "write")
+    camera = CAMERA_STEPS if robot.camera.is_real else ()
+    return (*WHEEL_STEPS, *gyro, *lidar, *camera, "write")
 
 
 def has_gyro(robot: RobotDescription) -> bool:
@@ -84,7 +94,9 @@ def load_triable(path: Path) -> RobotDescription:
 
 
 def try_robot(path: Path, robot: RobotDescription, person: TrialPerson) -> TrialResult:
-    """Try wheels, gyro and lidar, and write ``[trial]``; at its end the wheels are told to stand.
+    """Try wheels, gyro, lidar and camera, and write ``[trial]``.
+
+    However it ends, the wheels are told to stand.
 
     Raises:
         TrialRefusal: something must be mended first, or the person ended it.
@@ -98,6 +110,8 @@ def try_robot(path: Path, robot: RobotDescription, person: TrialPerson) -> Trial
         seen = f"{degrees(turned_rad):+.0f}°"
     if not robot.lidar.is_simulated:
         seen = _try_lidar(robot, person, seen)
+    if robot.camera.is_real:
+        seen = watch_camera(robot, person, seen)
     person.tell("write", seen)
     return _write(path, before, robot, found, gyro=turned_rad is not None)
 
@@ -212,18 +226,60 @@ def _try_lidar(robot: RobotDescription, person: TrialPerson, seen: str) -> str:
     def look() -> Scan:
         return _newest_scan(reader, person)
 
+    try:
+        where = try_lidar(robot.lidar, look, _asking(person, seen))
+    finally:
+        reader.close()
+        port.close()
+    return f"{degrees(where['front']):+.0f}°, {degrees(where['left']):+.0f}°"
+
+
+def watch_camera(robot: RobotDescription, person: TrialPerson, seen: str) -> str:
+    """Try the camera of robot.toml; return what was seen of it.
+
+    Raises:
+        TrialRefusal: see :func:`pons.robot.camera_trial.try_camera`, and ``camera_unread``.
+    """
+    from pons.robot.camera_trial import LOOKS, try_camera  # OpenCV: not for who has no camera
+    from sensors.camera.grabber import CameraGrabber
+    from sensors.camera.health import STARTING, CameraHealth
+    from sensors.camera.source import open_source
+
+    grabber = CameraGrabber(partial(open_source, robot.camera, robot.ros2))
+    health = CameraHealth(robot.camera)
+
+    def look() -> list[NDArray[np.uint8]]:
+        began_s = time.monotonic()
+        pictures: list[NDArray[np.uint8]] = []
+        while len(pictures) < LOOKS:
+            person.require_watch()
+            time.sleep(TICK_S)
+            now_s = time.monotonic()
+            newest, trouble = grabber.take(), health.judge(grabber, now_s)
+            if newest is not None and newest.at_s > began_s:
+                pictures.append(newest.shot.color)
+            slow = f"{len(pictures)} pictures in {PICTURES_WITHIN_S:g} s"
+            if trouble is not None and trouble.code not in (STARTING, "camera_slow"):
+                raise TrialRefusal("camera_unread", f"{trouble.code}: {trouble.detail}")
+            if now_s - began_s > PICTURES_WITHIN_S:
+                raise TrialRefusal("camera_unread", slow)
+        return pictures
+
+    try:
+        return try_camera(robot.camera, look, _asking(person, seen))
+    finally:
+        grabber.close()
+
+
+def _asking(person: TrialPerson, seen: str) -> Callable[[str], None]:
+    """Return how a part of the trial asks; its first step tells what the part before saw."""
     said = [seen]
 
     def ask(code: str) -> None:
         person.tell(code, said.pop() if said else "")
         wait_for(person, code)
 
-    try:
-        where = try_lidar(robot.lidar, look, ask)
-    finally:
-        reader.close()
-        port.close()
-    return f"{degrees(where['front']):+.0f}°, {degrees(where['left']):+.0f}°"
+    return ask
 
 
 def _newest_scan(reader: LidarReader, person: TrialPerson) -> Scan:
@@ -250,6 +306,7 @@ def _write(
         dead_man_s=round(found.dead_man_s, 3),
         brake_s=round(found.brake_s, 3),
         gyro=gyro,
+        camera=robot.camera.is_real,
     )
     stamp = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
     return TrialResult(record, replace(path, before, set_trial(before, record), stamp))

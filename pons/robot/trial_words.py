@@ -33,6 +33,18 @@ PROMPTS: Final[dict[str, tuple[str, str]]] = {
         "Hold the box half a metre to the LEFT of the robot",
         "请把盒子举在机器人左侧半米处",
     ),
+    "camera_clear": (
+        "Step out of the camera's view, in the light that the robot will have",
+        "请离开摄像头画面，并保持机器人工作时的光照",
+    ),
+    "camera_left": (
+        "Look the way the camera looks, and hold your hand half a metre before it, to its LEFT",
+        "请与摄像头同向，把手举在它前方半米、偏左处",
+    ),
+    "camera_cover": (
+        "Take your hand away, then cover the camera's lens with it",
+        "请把手移开，然后用手盖住摄像头镜头",
+    ),
 }
 """By what is asked."""
 
@@ -52,6 +64,12 @@ STEPS: Final[dict[str, tuple[str, str]]] = {
     "lidar_clear": ("lidar: nothing near", "激光雷达：周围无物"),
     "lidar_front": ("lidar: a box in front", "激光雷达：前方盒子"),
     "lidar_left": ("lidar: a box at the left; where it saw both", "激光雷达：左侧盒子；两者方位"),
+    "camera_clear": ("camera: nobody in view", "摄像头：画面中无人"),
+    "camera_left": ("camera: a hand at the left", "摄像头：左侧的手"),
+    "camera_cover": (
+        "camera: its lens covered; size, where the hand was, light let through",
+        "摄像头：盖住镜头；尺寸、手的位置、透光",
+    ),
     "write": ("written into robot.toml", "写入 robot.toml"),
 }
 """By step, in order; the engine tells them, a person reads them."""
@@ -212,6 +230,26 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
     "lidar_turned": (
         "what stands in front is not seen in front: set lidar.yaw_rad",
         "正前方的物体不在正前方：请设置 lidar.yaw_rad",
+    ),
+    "camera_unread": (
+        "the camera gives no pictures: pons doctor says more",
+        "摄像头没有画面：请运行 pons doctor",
+    ),
+    "camera_dark": (
+        "the picture is black: take the lid off, or make light",
+        "画面是黑的：请取下镜头盖，或开灯",
+    ),
+    "camera_nothing": (
+        "the camera did not see the hand alone: keep robot and light still, hold it at the left",
+        "摄像头没有单独看到手：请保持机器人和光照不变，把手举在左侧",
+    ),
+    "camera_turned": (
+        "the hand at the left is seen right: turn camera.upside_down round, or unmirror its driver",
+        "左侧的手出现在右侧：请改变 camera.upside_down，或关闭驱动的镜像",
+    ),
+    "camera_uncovered": (
+        "the covered lens changed nothing: this is another camera; pons robot find lists them",
+        "盖住镜头后画面没有变化：这是另一个摄像头，可用 pons robot find 查看",
     ),
 }
 """By code; each is preceded by what came."""

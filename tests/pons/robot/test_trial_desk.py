@@ -18,7 +18,7 @@ from pons.robot.trial_words import STEPS
 from sim.twin.line import TwinLine
 from tests.conftest import ROOT
 from tests.pons.robot.stand import START_S, TICK_S, Stand
-from wire import Proof, TrialOrder, TrialState, load_robot, sign
+from wire import CameraConfig, Proof, TrialOrder, TrialState, load_robot, sign
 from wire.imu_config import ImuConfig
 from wire.keys import TRIAL_STATE
 from wire.trial_dialogue import UNWATCHED_S
@@ -85,8 +85,12 @@ def test_what_a_step_saw_stands_beside_it() -> None:
 def test_every_step_has_its_words() -> None:
     bare = load_robot(ROOT / "robots" / "pons_mcu_ld19.toml")
     with_gyro = load_robot(ROOT / "robots" / "waveshare_ugv_rover.toml")
-    planned = {*plan_steps(bare), *plan_steps(with_gyro)}
+    uvc = CameraConfig(kind="uvc", device="/dev/video0")
+    with_camera = bare.model_copy(update={"camera": uvc})
+    planned = {*plan_steps(bare), *plan_steps(with_gyro), *plan_steps(with_camera)}
     assert planned == set(STEPS)
+    assert "camera_cover" in plan_steps(with_camera)
+    assert "camera_cover" not in plan_steps(bare)
     assert "gyro_left" in plan_steps(with_gyro)
     assert "gyro_left" not in plan_steps(bare)
     chip = ImuConfig(kind="mpu6050", bus=1, address=0x68)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -42,9 +42,9 @@ class _Stream(BaseHTTPRequestHandler):
         self.send_header("Content-Type", "multipart/x-mixed-replace; boundary=frame")
         self.end_headers()
         number = 0
-        server: Any = self.server
+        server: Any = self.server  # its ``show`` draws the picture of a number
         while not server.ending.is_set():
-            data = bytes(cv2.imencode(".jpg", picture(number))[1])
+            data = bytes(cv2.imencode(".jpg", server.show(number))[1])
             head = f"--frame\r\nContent-Type: image/jpeg\r\nContent-Length: {len(data)}\r\n\r\n"
             try:
                 self.wfile.write(head.encode() + data + b"\r\n")
@@ -58,11 +58,13 @@ class _Stream(BaseHTTPRequestHandler):
 
 
 @contextmanager
-def network_camera(port: int = 0) -> Iterator[int]:
+def network_camera(
+    port: int = 0, show: Callable[[int], NDArray[np.uint8]] = picture
+) -> Iterator[int]:
     """Serve pictures at a port until left."""
     server: Any = ThreadingHTTPServer(("127.0.0.1", port), _Stream)
     server.daemon_threads = True
-    server.ending = threading.Event()
+    server.ending, server.show = threading.Event(), show
     thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.05})
     thread.start()
     try:
