@@ -31,12 +31,10 @@ from wire.trial_record import TrialRecord, wiring_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    import numpy as np
-    from numpy.typing import NDArray
-
     from bridge.drive import SerialDrive
     from pons.robot.trial_parties import TrialPace, TrialPerson
     from pons.robot.wheel_trial import WheelFindings
+    from sensors.camera.shot import CameraShot
     from wire import RobotDescription, Scan
 
 TICK_S = 0.01
@@ -248,22 +246,22 @@ def watch_camera(robot: RobotDescription, person: TrialPerson, seen: str) -> str
     grabber = CameraGrabber(partial(open_source, robot.camera, robot.ros2))
     health = CameraHealth(robot.camera)
 
-    def look() -> list[NDArray[np.uint8]]:
+    def look() -> list[CameraShot]:
         began_s = time.monotonic()
-        pictures: list[NDArray[np.uint8]] = []
-        while len(pictures) < LOOKS:
+        shots: list[CameraShot] = []
+        while len(shots) < LOOKS:
             person.require_watch()
             time.sleep(TICK_S)
             now_s = time.monotonic()
             newest, trouble = grabber.take(), health.judge(grabber, now_s)
             if newest is not None and newest.at_s > began_s:
-                pictures.append(newest.shot.color)
-            slow = f"{len(pictures)} pictures in {PICTURES_WITHIN_S:g} s"
+                shots.append(newest.shot)
             if trouble is not None and trouble.code not in (STARTING, "camera_slow"):
                 raise TrialRefusal("camera_unread", f"{trouble.code}: {trouble.detail}")
             if now_s - began_s > PICTURES_WITHIN_S:
+                slow = f"{len(shots)} pictures in {PICTURES_WITHIN_S:g} s"
                 raise TrialRefusal("camera_unread", slow)
-        return pictures
+        return shots
 
     try:
         return try_camera(robot.camera, look, _asking(person, seen))

@@ -15,6 +15,7 @@ from pons.robot.camera_trial import LOOKS, try_camera
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_run import watch_camera
 from pons.robot.trial_words import PROMPTS, REFUSALS
+from sensors.camera.shot import CameraShot
 from tests.sensors.camera.films import network_camera
 from wire import CameraConfig, RobotDescription
 
@@ -22,6 +23,10 @@ WIDTH, HEIGHT = 160, 120
 ASKED = ["camera_clear", "camera_left", "camera_cover"]
 CONFIG = CameraConfig(kind="uvc", device="/dev/video0")
 Picture = NDArray[np.uint8]
+
+
+def shot(color: Picture) -> CameraShot:
+    return CameraShot(np.ascontiguousarray(color), 200.0, (WIDTH / 2, HEIGHT / 2))
 
 
 class Scene:
@@ -68,8 +73,8 @@ class Scene:
         made = made + self._random.normal(0.0, 2.0, made.shape)
         return np.repeat(np.clip(made, 0, 255).astype(np.uint8)[:, :, None], 3, axis=2)
 
-    def look(self) -> list[Picture]:
-        return [self.draw() for _ in range(LOOKS)]
+    def look(self) -> list[CameraShot]:
+        return [shot(self.draw()) for _ in range(LOOKS)]
 
 
 @given(st.floats(-0.9, -0.25), st.floats(0.8, 1.2), st.floats(0.0, 0.4))
@@ -82,7 +87,7 @@ def test_a_camera_that_hangs_as_described_passes(
     assert set(ASKED) <= set(PROMPTS)
 
 
-def refused(scene: Scene, look: Callable[[], list[Picture]] | None = None) -> TrialRefusal:
+def refused(scene: Scene, look: Callable[[], list[CameraShot]] | None = None) -> TrialRefusal:
     with pytest.raises(TrialRefusal) as refusal:
         try_camera(CONFIG, look or scene.look, scene.ask)
     assert refusal.value.code in REFUSALS
@@ -92,7 +97,7 @@ def refused(scene: Scene, look: Callable[[], list[Picture]] | None = None) -> Tr
 @given(st.floats(-0.9, -0.25))
 def test_a_camera_that_hangs_upside_down_is_named(hand_at: float) -> None:
     scene = Scene(hand_at=hand_at)
-    turned = refused(scene, lambda: [each[::-1, ::-1] for each in scene.look()])
+    turned = refused(scene, lambda: [shot(each.color[::-1, ::-1]) for each in scene.look()])
     assert turned.code == "camera_turned"
     assert "upside_down is False" in turned.detail
     assert refused(Scene(hand_at=-hand_at)).code == "camera_turned"
@@ -105,7 +110,7 @@ def test_the_picture_of_another_camera_is_named() -> None:
 def test_a_lens_that_is_not_covered_changes_nothing() -> None:
     scene = Scene()
 
-    def look() -> list[Picture]:
+    def look() -> list[CameraShot]:
         if scene.asked[-1] == "camera_cover":
             scene.asked.append("")
         return scene.look()
