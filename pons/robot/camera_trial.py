@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from pons.robot.trial_parties import TrialRefusal
-from sensors.camera.view import CameraView
+from sensors.camera.lens_view import LensView
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -46,11 +46,11 @@ def try_camera(
             ``camera_uncovered``; or what ``look`` raises.
     """
     ask("camera_clear")
-    empty = CameraView.of_shots(look())
+    empty = LensView.of_shots(look())
     if not empty.light >= DARK:
         raise TrialRefusal("camera_dark", f"mean {empty.light:.0f} of 255")
     ask("camera_left")
-    share, where = empty.find_change(CameraView.of_shots(look()))
+    share, where = empty.find_change(LensView.of_shots(look()))
     if not LEAST_SHARE <= share <= MOST_SHARE:
         raise TrialRefusal("camera_nothing", f"{share:.0%} of the picture changed")
     if not abs(where) >= OFF_MIDDLE:
@@ -59,7 +59,7 @@ def try_camera(
         found = f"seen {where:+.0%} from the middle; upside_down is {config.upside_down}"
         raise TrialRefusal("camera_turned", found)
     ask("camera_cover")
-    light, detail = empty.let_through(CameraView.of_shots(look()))
+    light, detail = empty.let_through(LensView.of_shots(look()))
     if not (light <= COVERED_LIGHT or detail <= COVERED_DETAIL):
         raise TrialRefusal("camera_uncovered", f"{light:.0%} of the light, {detail:.0%} of detail")
     width, height = empty.size

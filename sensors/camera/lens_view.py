@@ -27,7 +27,7 @@ _CHANGED, _TIMES_NOISE = 20.0, 4.0
 
 
 @dataclass(frozen=True, slots=True)
-class CameraView:
+class LensView:
     """Hold what a camera sees at a moment."""
 
     size: tuple[int, int]
@@ -36,7 +36,7 @@ class CameraView:
     _noise: Floats
 
     @classmethod
-    def of_shots(cls, shots: Sequence[CameraShot]) -> CameraView:
+    def of_shots(cls, shots: Sequence[CameraShot]) -> LensView:
         """Return the view of some pictures, at least one, taken one after the other."""
         grids = np.stack([_grid_of(shot) for shot in shots])
         height, width = shots[0].color.shape[:2]
@@ -47,7 +47,7 @@ class CameraView:
         """Return the mean grey, of 255."""
         return float(self._grey.mean())
 
-    def find_change(self, now: CameraView) -> tuple[float, float]:
+    def find_change(self, now: LensView) -> tuple[float, float]:
         """Return the share of a later view that changed, and where: -1 left, 1 right.
 
         By how much the camera has changed its exposure meanwhile, most of the picture tells.
@@ -60,7 +60,7 @@ class CameraView:
         column = float(np.median(np.nonzero(changed)[1]))
         return float(changed.mean()), column / (_GRID[0] - 1) * 2.0 - 1.0
 
-    def let_through(self, now: CameraView) -> tuple[float, float]:
+    def let_through(self, now: LensView) -> tuple[float, float]:
         """Return the shares of light and of detail that a later view has left."""
         light, detail = max(self.light, 1.0), max(_detail(self._grey), 1e-9)
         return now.light / light, _detail(now._grey) / detail

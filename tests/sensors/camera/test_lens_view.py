@@ -6,20 +6,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from sensors.camera.lens_view import LensView
 from sensors.camera.shot import CameraShot
-from sensors.camera.view import CameraView
 
 WIDTH, HEIGHT = 128, 96
 
 
-def view(picture: NDArray[np.float64], count: int = 5) -> CameraView:
+def view(picture: NDArray[np.float64], count: int = 5) -> LensView:
     random = np.random.default_rng(3)
     shots = []
     for _ in range(count):
         noisy = np.clip(picture + random.normal(0.0, 3.0, picture.shape), 0, 255).astype(np.uint8)
         color = np.repeat(noisy[:, :, None], 3, axis=2)
         shots.append(CameraShot(color, 100.0, (WIDTH / 2, HEIGHT / 2)))
-    return CameraView.of_shots(shots)
+    return LensView.of_shots(shots)
 
 
 def room() -> NDArray[np.float64]:
