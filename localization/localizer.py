@@ -60,7 +60,9 @@ UNSEEN_M = 1.0
 """Of wheels without an accepted scan: farther, the pose is not looked for around itself."""
 SLIP_M_PER_RAD = 1.0
 """Turns on which wheels and gyro disagree make the carried pose as doubtful as metres do."""
-SEARCH_PAUSE_S = 0.5
+SEARCH_PAUSE_S, DOUBT_SEARCH_PAUSE_S = 0.5, 2.0
+"""Between searches of the whole map: while lost; while a pose is kept with a poor score, as among
+people for long, where each search takes 0.13 s of a processor."""
 ANSWER_S = 20.0
 """A search that has not answered by then never will; its client waits for 18 s."""
 OLD_SCAN_S = 0.5
@@ -160,8 +162,9 @@ class Localizer:
             fits = is_elsewhere(self._placed, candidates, search.carried, least)
             self.state = LocalizerState.LOST if fits else self.state
         else:
-            drove = self._placed is None or not self._unseen_m() <= UNSEEN_M
-            known = None if drove else known_place(self._placed, candidates, search.carried)
+            known = None
+            if self._placed is not None and self._unseen_m() <= UNSEEN_M:
+                known = known_place(self._placed, candidates, search.carried)
             fits = known is not None or is_sure(candidates)
             best = known or best
         if fits and best is not None:
@@ -212,7 +215,7 @@ class Localizer:
         if fit.score >= KEPT_SCORE:
             self._accept(cloud, self._fuse(cloud, predicted, fit), carried, fit)
             if fit.score < ENOUGH_SCORE:  # moved furniture, or somebody moved the robot
-                self._search(cloud, carried, now_s)
+                self._search(cloud, carried, now_s, DOUBT_SEARCH_PAUSE_S)
             return
         self._bad += 1
         self.state = LocalizerState.COASTING
@@ -253,8 +256,10 @@ class Localizer:
 
     # Searches -------------------------------------------------------------------------------
 
-    def _search(self, cloud: PointCloud, carried: Pose2, now_s: float) -> None:
-        if self._open is None and now_s - self._searched_s >= SEARCH_PAUSE_S:
+    def _search(
+        self, cloud: PointCloud, carried: Pose2, now_s: float, pause_s: float = SEARCH_PAUSE_S
+    ) -> None:
+        if self._open is None and now_s - self._searched_s >= pause_s:
             self._ask(cloud, carried, now_s, None)
 
     def _ask(self, cloud: PointCloud, carried: Pose2, now_s: float, hint: PoseHint | None) -> None:

@@ -42,7 +42,7 @@ class PoseFusion:
     """Hold the spread of the tracked pose: covariance of x [m], y [m], yaw [rad] in ``map``."""
 
     def __init__(self) -> None:
-        self._spread = np.zeros((3, 3))
+        self._spread: Floats
         self.restart()
 
     def restart(self) -> None:

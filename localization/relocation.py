@@ -70,16 +70,16 @@ class OpenSearch:
 
 
 def known_place(
-    placed: PlacedBase | None, candidates: tuple[Candidate, ...], carried: Pose2
+    placed: PlacedBase, candidates: tuple[Candidate, ...], carried: Pose2
 ) -> Candidate | None:
     """Return the place where the robot was lost a few turns of its wheels ago, if it fits.
 
     No lead over places that look alike is asked for then, but none of them may fit better.
     """
     least = ENOUGH_SCORE
-    for one in candidates if placed is not None else ():
+    for one in candidates:
         least = max(least, one.score - BETTER)
-        if placed is not None and one.score >= least and placed.is_near(one.pose, carried):
+        if one.score >= least and placed.is_near(one.pose, carried):
             return one
     return None
 
