@@ -94,6 +94,17 @@ def doing(book: MissionState, age_s: float, asking: str = "") -> Bilingual:
     return say("status.whole", task=task, motion=motion, more=more)
 
 
+def tell_outcome(book: MissionState, asking: str = "") -> Bilingual | None:
+    """Tell how the newest order ended, or how far it is; None where there was none."""
+    done = [m for m in book.missions.values() if m.steps and m.id != asking]
+    last = max(done, key=lambda m: m.order, default=None)
+    if last is None:
+        return None
+    if last.outcome is None:
+        return _running(book, last) if last.id == book.running else _task(book, asking)
+    return say("status.outcome", text=_short(last.text), outcome=last.outcome.message)
+
+
 def _motion(status: Status | None, age_s: float) -> Bilingual:
     if status is None or not age_s <= OLD_S:
         return say("status.bridge_silent_so_nobody_here")

@@ -11,6 +11,7 @@ import re
 
 from planner.language.commands.command import (
     AppendCommand,
+    LeaveOutCommand,
     OtherPlaceCommand,
     RepeatCommand,
     Replace,
@@ -21,7 +22,7 @@ from planner.language.yes_no import consents
 
 MAX_READ = 120
 """Characters; a longer sentence is an order of its own."""
-FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | Replace
+FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | LeaveOutCommand | Replace
 _ENDS = " .!,;:。~…，；！"
 _PLEASE = r"(?:please|pls|ok|okay|robot|pons|hey|um|uh|well|oh|now|and|just|thanks)"
 _NOISE = re.compile(r"^(?:(?:um+|uh+|er+|h+m+|well|ok|okay|hey|robot|pons|please|嗯|呃|请)[ ,]+)+")
@@ -62,6 +63,13 @@ _OTHER_ZH = re.compile(
     r"(?:不是?这个|不是?那个|不对|不是|不|错了)?,?(?:我(?:说|要|指)的?是|我是说|去|到|是)?"
     r"另(?:外)?(?:那)?一?(?:个|间)(?:房间|地方)?"
 )
+
+_LEFT_OUT = re.compile(
+    r"(?:skip|leave out|omit|miss out|pass over) (?P<rest>(?:the |my |our )?[a-z][a-z' -]{1,30}?)"
+    r"(?:[,;.] (?:because |since |for )?(?:the|my|our|she|he|it|they|i|we|somebody|someone)\b.*)?"
+    r"|leave (?P<rest2>(?:the |my |our )?[a-z][a-z' -]{1,30}?) out"
+)
+_LEFT_OUT_ZH = re.compile(r"(?:跳过|略过)(?P<rest>[^,。;]{1,8}?)(?:别去|不去)?了?")
 
 _ALSO_BEFORE = re.compile(
     r"(?:and (?:then|also|after that)|and then also|also|after that|afterwards|and) (?P<rest>.+)"
@@ -160,6 +168,8 @@ def read_follow_up(text: str) -> FollowUp | None:
         return RepeatCommand(count)
     if (_OTHER_ZH if chinese else _OTHER).fullmatch(plain):
         return OtherPlaceCommand()
+    if (left := (_LEFT_OUT_ZH if chinese else _LEFT_OUT).fullmatch(plain)) is not None:
+        return LeaveOutCommand(next(text for text in left.groups() if text))
     ends = _POLITE_ZH if chinese else _POLITE_END
     taken_back = _correction(plain, chinese=chinese) or _correction(bare, chinese=chinese)
     return taken_back or _also(_strip(ends, bare), chinese=chinese)

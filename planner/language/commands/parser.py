@@ -22,6 +22,7 @@ from planner.language.commands.command import (
     Forget,
     HereCommand,
     Intent,
+    OutcomeCommand,
     PauseCommand,
     Remember,
     Replace,
@@ -45,6 +46,7 @@ _SIMPLE: tuple[tuple[str, Intent], ...] = (
     ("WHERE", WhereCommand()),
     ("DOING", Doing()),
     ("BATTERY", BatteryCommand()),
+    ("OUTCOME", OutcomeCommand()),
     ("SLOWER", Slower()),
     ("FASTER", Faster()),
 )
@@ -133,7 +135,7 @@ def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
     words = re.sub(r"[\s,]+", "" if grammar is chinese else " ", folded).strip()
     for name, intent in _SIMPLE:
         if getattr(grammar, name).fullmatch(words) is not None:
-            question = isinstance(intent, (WhereCommand, Doing, BatteryCommand))
+            question = isinstance(intent, (WhereCommand, Doing, BatteryCommand, OutcomeCommand))
             return None if asks and not question else intent
     return None
 
