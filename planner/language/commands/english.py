@@ -64,7 +64,9 @@ CANCEL = re.compile(
     r"(?:[ ,]+(?:quit it|stop it|thank you))?"
     r"|forget (?:it|that|this|about (?:it|that|this)|what i (?:said|told you))"
     rf"|forget (?:about )?{_THE_TASK}"
-    r"|never ?mind(?: (?:it|that|about (?:it|that)))?|scratch that|scrap that|don't bother"
+    r"|never ?mind(?: (?:it|that|about (?:it|that)))?"
+    r"|scratch that|scrap (?:that|the|this)(?: whole)?(?: thing| lot)?|don't bother"
+    r"|leave it(?: be| then)?|forget it then"
     r"|no need(?: (?:any ?more|for (?:it|that)))?|i changed my mind"
     rf"|(?:don't|do not) go(?: there)?(?: {_MORE})?"
     rf"|(?:don't|do not) go (?:in)?to (?:the |my |our )?[a-z]+(?: [a-z]+)? {_MORE}"
@@ -73,6 +75,11 @@ CANCEL = re.compile(
 )
 TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
 """What may stand before the order that comes in place of the current one."""
+ORDERS = re.compile(
+    r".*\b(?:go|come|drive|head|find|look|search|count|follow|patrol|wait|bring|take|turn|say|tell|ask"
+    r"|remind|remember|if|when|unless|until)\b"
+)
+"""With these a clause is no mere reason."""
 REASON = re.compile(
     r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|remember(?:ed)?|know|did|done"
     r"|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
@@ -122,6 +129,9 @@ DOING = re.compile(
     r"|are you (?:stuck|lost|blocked|okay|ok|alright|all right)(?: or (?:something|what))?"
     r"|why (?:did|have) you (?:stop|stopped|pause|paused|halt|halted)|why are you (?:not moving"
     r"|standing(?: still| there)?|waiting|stopped)|how is it going|how far (?:along )?are you"
+    r"|what(?:'s| is) next"
+    r"|where (?:are you )?(?:going|off to) (?:next|after (?:this|that)(?: one)?)"
+    r"|why(?: there)?|why are you going there"
     r"|what(?:'s| is) (?:keeping|taking) you(?: so long)?|what are you on(?: with)?"
 )
 _CHARGE = r"(?:battery|charge|power|juice)"
@@ -148,6 +158,7 @@ OUTCOME = re.compile(
     r"|what(?:'s| is| was) (?:his|her|their|the) (?:answer|reply|result|outcome|verdict)"
     r"|did (?:he|she|they) (?:answer|reply|say (?:yes|no|anything|something)|hear (?:you|it|that))"
     rf"|how did (?:it|that) go|did (?:it|that) work(?: out)?|what happened{_THEN}"
+    r"|where (?:was|were) (?:it|he|she|they)"
     rf"|(?:was|were) (?:he|she|it|they|any|one) (?:in |over )?there{_THEN}|did you get there"
 )
 """Asks how the goal before ended; where there was none, a brain reads it."""

@@ -84,8 +84,9 @@ _ASKS = re.compile(
 )
 """What asks for one more by a question: its mark is no doubt."""
 _DONE = re.compile(
-    r"(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done|finished)"
-    r"(?: with (?:that|it|this))?|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this))?"
+    r"(?:and )?(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done|finished)"
+    r"(?: with (?:that|it|this)| there| here)?"
+    r"|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this))?"
     r"|that(?:'s| is) (?:done|finished))[ ,]+(?:then )?(?P<rest>.+)"
 )
 _DONE_ZH = re.compile(

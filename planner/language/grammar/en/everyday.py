@@ -67,7 +67,7 @@ _NO_ASIDE = (
 )
 _STATES = (
     rf"{_NO_ASIDE}(?:i|we|he|she|it|they|you|that|there|this|(?:the|my|our) [a-z]+(?: [a-z]+)?|[a-z]+(?= is\b|'s\b))"
-    r"(?:'s|'m|'re|'ve|'ll| is| am| are| was| were| have| has| had| will| must| need| needs| think| thought"
+    r"(?:'s|'m|'re|'ve|'ll| is| am| are| was| were| have| has| had| will| shall| must| need| needs| think| thought"
     r"| guess| left| lost| just| heard| feel| can hear| smell| hope| am)\b[^,.!;?]*"
 )
 """A clause that says how things stand and orders nothing: why something is ordered."""

@@ -61,7 +61,12 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("找到了吗？", OutcomeCommand()),
     ("有几个", OutcomeCommand()),
     ("那他怎么说", OutcomeCommand()),
-    ("结果呢", OutcomeCommand()),
+    ("结果怎么样", OutcomeCommand()),
+    ("what's next?", Doing()),
+    ("why?", Doing()),
+    ("下一个去哪", Doing()),
+    ("到了没", Doing()),
+    ("走吧", ResumeCommand()),
     ("never mind, leave it", CancelCommand()),
     ("算了，不用了", CancelCommand()),
     ("到了，不用跟了", CancelCommand()),
@@ -254,6 +259,22 @@ NONE = (
 @pytest.mark.parametrize(("text", "intent"), [*ENGLISH, *CHINESE])
 def test_whole_sentences_are_heard(text: str, intent: Intent) -> None:
     assert intent_of(text) == intent
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["oh it's here under my chair, forget it", "he missed his train, never mind",
+     "哎呀他在我背后呢，不用找了", "他说还要加班，别等了"],
+)  # fmt: skip
+def test_a_reason_before_it_takes_back_as_well(text: str) -> None:
+    assert intent_of(text) == CancelCommand()
+
+
+@pytest.mark.parametrize(
+    "text", ["go to the kitchen, never mind", "去厨房，算了", "if she is there, never mind"]
+)
+def test_an_order_before_it_is_no_reason(text: str) -> None:
+    assert not isinstance(intent_of(text), CancelCommand)
 
 
 @pytest.mark.parametrize("text", NONE)
