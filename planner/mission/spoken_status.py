@@ -16,6 +16,8 @@ from wire import Pose2, Status
 NEAR_M = 1.0
 OLD_S = 1.0
 _SHOWN = 60
+_ASIDE = frozenset({"recall", "decide"})
+"""Who only asks of before does nothing whose end is asked for."""
 
 
 STOPPED = message(Code.STOPPED)
@@ -96,7 +98,11 @@ def doing(book: MissionState, age_s: float, asking: str = "") -> Bilingual:
 
 def tell_outcome(book: MissionState, asking: str = "") -> Bilingual | None:
     """Tell how the newest order ended, or how far it is; None where there was none."""
-    done = [m for m in book.missions.values() if m.steps and m.id != asking]
+    done = [
+        m
+        for m in book.missions.values()
+        if m.id != asking and any(step.kind not in _ASIDE for step in m.steps)
+    ]
     last = max(done, key=lambda m: m.order, default=None)
     if last is None:
         return None

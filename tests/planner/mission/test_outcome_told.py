@@ -10,7 +10,7 @@ from planner.mission.events import Cancel, Planned, Submitted
 from planner.mission.reducer import advance
 from planner.mission.spoken_status import tell_outcome
 from planner.mission.state import MissionState
-from planner.plan import AnswerPlan, Find, GoTo, Language, StepPlan, say_same
+from planner.plan import AnswerPlan, Find, GoTo, Language, Recall, StepPlan, say_same
 from tests.planner.mission.fakes import FACTS
 
 NOW_S = 1000.0
@@ -46,6 +46,14 @@ def test_of_what_goes_on_is_told_how_far_it_is() -> None:
     told = tell_outcome(searched(ended=False))
     assert told is not None
     assert "find the cup" in told.en
+
+
+def test_a_question_about_before_is_no_order_whose_end_is_asked_for() -> None:
+    book, _ = advance(
+        searched(ended=True), Submitted("g1", "what did you do today?", Language.EN), NOW_S
+    )
+    book, _ = advance(book, Planned("g1", StepPlan(steps=(Recall(deeds=True),))), NOW_S)
+    assert tell_outcome(book) == tell_outcome(searched(ended=True))
 
 
 @pytest.mark.parametrize("text", [ASKING.text, "有几个", "what did he say?"])
