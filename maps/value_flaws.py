@@ -34,8 +34,8 @@ _EXPECTED: Mapping[str, tuple[str, str]] = {
     "model_type": _KEYS,
     "dataclass_type": _KEYS,
     "dict_type": _KEYS,
-    "too_short": ("at least {min_length} values", "至少 {min_length} 个值"),
-    "too_long": ("at most {max_length} values", "至多 {max_length} 个值"),
+    "too_short": ("a list of at least {min_length}", "至少含 {min_length} 项的列表"),
+    "too_long": ("a list of at most {max_length}", "至多含 {max_length} 项的列表"),
 }
 """By pydantic's kind of error. Source: docs.pydantic.dev, "Validation Errors"."""
 

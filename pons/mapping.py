@@ -28,7 +28,7 @@ from maps.new_site import new_site
 from planner.site.polygon import contains
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_KEPT, TaughtPlaces
-from pons.site import is_site_name
+from pons.site import is_site_name, site_name_malformed
 from wire import ConfigError, load_robot
 from wire.fingerprint import map_id
 from wire.site_map import read_map_id
@@ -151,8 +151,7 @@ def newest_run(folder: Path) -> list[Path]:
 
 def _new_folder(sites: Path, name: str) -> Path:
     if not is_site_name(name):
-        text = f"got {name!r}; expected a small letter, then letters, digits or _"
-        raise SiteError("site_name_malformed", text)
+        raise site_name_malformed(name)
     folder = sites / name
     if folder.exists():
         raise SiteError("site_exists", f"{folder} is there; remove it or choose another name")
@@ -278,8 +277,7 @@ def prepare_canvas(settings: LaunchSettings, name: str, robot: RobotDescription)
         SiteError: the name is none, or the folder can't be made.
     """
     if not is_site_name(name):
-        text = f"got {name!r}; expected a small letter, then letters, digits or _"
-        raise SiteError("site_name_malformed", text)
+        raise site_name_malformed(name)
     canvas = settings.home / "mapping" / name
     if (canvas / "map.yaml").is_file():
         return

@@ -59,6 +59,25 @@ def test_a_map_becomes_a_site_that_loads(tmp_path: Path) -> None:
         made.write(tmp_path / "flat")
 
 
+def test_what_a_kill_left_half_written_is_in_nobodys_way(tmp_path: Path) -> None:
+    made = new_site(load_map(written(tmp_path, two_rooms())), RADIUS_M)
+    left = tmp_path / "sites" / ".flat.new"
+    left.mkdir(parents=True)
+    (left / "map.yaml").write_text("image: map.pgm\n")
+    made.write(tmp_path / "sites" / "flat")
+    assert {path.name for path in (tmp_path / "sites" / "flat").iterdir()} == set(made.files)
+
+
+def test_what_a_map_without_room_holds_is_told(tmp_path: Path) -> None:
+    picture: Picture = np.full((40, 50), 0, np.uint8)
+    picture[:10], picture[20:24, 20:24] = 205, 254
+    with pytest.raises(SiteError, match="map_no_floor") as refused:
+        new_site(load_map(written(tmp_path, picture)), RADIUS_M)
+    told = refused.value.message
+    assert "of 50 x 40 cells 1 % are free, 74 % occupied, 25 % unknown" in told["en"]
+    assert "空地 1%，障碍 74%，未知 25%" in told["zh"]
+
+
 def test_a_persons_word_stands_in_the_pixels(tmp_path: Path) -> None:
     loaded = load_map(written(tmp_path, two_rooms()), frees_saved_unknown=True)
     assert loaded.kept_unknown > 0

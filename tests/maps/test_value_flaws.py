@@ -45,7 +45,11 @@ def refusal(**changed: str) -> SiteError:
         ({"resolution": "wide"}, "expected a number, got 'wide'", "应为数字，收到 'wide'"),
         ({"resolution": "yes"}, "expected a number, got True", "resolution"),
         ({"origin": "[0, 0]"}, "origin: value 3 is missing; got [0, 0]", "缺少第 3 个值"),
-        ({"origin": "[0, 0, 0, 0]"}, "expected at most 3 values, got [0, 0, 0, 0]", "至多 3 个值"),
+        (
+            {"origin": "[0, 0, 0, 0]"},
+            "expected a list of at most 3, got [0, 0, 0, 0]",
+            "至多含 3 项",
+        ),
         ({"origin": "here"}, "origin: expected a list, got 'here'", "应为列表"),
         ({"mode": "maps"}, "expected 'trinary', 'scale' or 'raw', got 'maps'", "应为 'trinary'"),
         ({"negate": "2"}, "expected 0 or 1, got 2", "应为 0"),
