@@ -48,6 +48,7 @@ EXIT_DONE, EXIT_REFUSED = 0, 3
 
 FEWEST_KEYFRAMES = 3
 """Fewer are a robot that stood: a map of one spot is no site."""
+_RECORDING_ZH = "录制文件无法使用"
 MIN_FREE_BYTES = 50 * 1024 * 1024
 
 
@@ -99,10 +100,11 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         made.write(folder)
         names = 0 if said.recordings else _carry_names(settings.home, said.name, made)
     except BadRecording as refused:
-        print(f"refused: {refused}", file=sys.stderr)
+        print(f"refused: {refused}\n{_RECORDING_ZH}：{refused}", file=sys.stderr)
         return EXIT_REFUSED
     except PlaceRefusal as refused:
-        print(f"refused: its names could not be kept: {refused}", file=sys.stderr)
+        text = f"refused: its names could not be kept: {refused}"
+        print(f"{text}\n名称未能保存：{refused.why.zh}", file=sys.stderr)
         return EXIT_REFUSED
     except ConfigError as refused:
         zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
