@@ -118,3 +118,10 @@ def test_what_it_does_is_shown(client: TestClient) -> None:
     robot = client.get("/v1/robot").json()
     assert robot["localizer"] == "lost"
     assert robot["match"] == {"score": shown["score"], "candidates": shown["candidates"]}
+
+
+def test_another_map_of_the_localizer_is_shown(client: TestClient, services: FakeServices) -> None:
+    assert client.get("/v1/robot").json()["localized_map"] is None
+    services.robot.localized_map = "b" * 16
+    robot = client.get("/v1/robot").json()
+    assert (robot["localized_map"], robot["map_id"]) == ("b" * 16, services.site.map_id)
