@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, StrictBool
+from pydantic_core import PydanticCustomError
 
 from maps.errors import SiteError
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
@@ -32,7 +33,7 @@ FARTHEST_M = 10_000.0
 def _no_truth(value: object) -> object:
     """Refuse yes and no where a number is due: pydantic would take them for 1 and 0."""
     if isinstance(value, bool):
-        raise ValueError(f"expected a number, got {value}")
+        raise PydanticCustomError("float_type", "a number is due")
     return value
 
 

@@ -33,7 +33,7 @@ def count_rows_bytes(data: bytes) -> tuple[int, int]:
     Raises:
         ValueError: the colour type is none, or the data can't be unpacked.
     """
-    wanted = _wanted(data)
+    wanted = _count_due(data)
     unpacker, held = zlib.decompressobj(), 0
     try:
         for piece in _pixel_data(data):
@@ -46,7 +46,7 @@ def count_rows_bytes(data: bytes) -> tuple[int, int]:
     return min(held, wanted + 1), wanted
 
 
-def _wanted(data: bytes) -> int:
+def _count_due(data: bytes) -> int:
     width, height = int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
     depth, color, interlaced = data[24], data[25], data[28] == 1
     if color not in _SAMPLES:

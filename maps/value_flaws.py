@@ -67,7 +67,7 @@ def describe(flaw: ErrorDetails, known: tuple[str, ...]) -> tuple[str, str]:
     facts: dict[str, Any] = dict(flaw.get("ctx", {}))
     return (
         f"{at or 'the file'}: expected {english.format_map(facts)}, got {came}",
-        f"{at or '文件'}：应为{_joined(chinese.format_map(facts))}，收到 {came}",
+        f"{at or '文件'}：应为{_set_apart(chinese.format_map(facts))}，收到 {came}",
     )
 
 
@@ -75,6 +75,6 @@ def _at(at: str, told: str) -> tuple[str, str]:
     return f"{at or 'the file'}: {told}", f"{at or '文件'}：{told}"
 
 
-def _joined(chinese: str) -> str:
+def _set_apart(chinese: str) -> str:
     """Set Latin text apart from the Chinese before it."""
     return f" {chinese}" if chinese[:1].isascii() else chinese

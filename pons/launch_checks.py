@@ -25,7 +25,7 @@ class CannotStart(Exception):
         self.chinese = chinese
 
 
-class ChildRefused(CannotStart):
+class ChildRefusal(CannotStart):
     """A process that was started ended, because a setting or a file is wrong."""
 
 
@@ -75,6 +75,15 @@ def check(settings: LaunchSettings) -> RobotDescription:
     if not free >= MIN_FREE_BYTES:
         raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")
     return robot
+
+
+def in_chinese(why: Exception) -> str:
+    """Return the line in Chinese below a refusal; empty where there is none."""
+    if isinstance(why, CannotStart):
+        return f"\n{why.chinese}" if why.chinese else ""
+    from maps.errors import SiteError  # brings YAML: for who is refused alone
+
+    return f"\n{why.message['zh']}" if isinstance(why, SiteError) else ""
 
 
 def site_flaw(settings: LaunchSettings, told: str, *, planner: bool) -> str:

@@ -77,7 +77,14 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _numbers(text: str) -> frozenset[int]:
-    return frozenset(map(int, text.split(",")))
+    """Read numbers of changes. Raises ArgumentTypeError."""
+    try:
+        return frozenset(map(int, text.split(",")))
+    except ValueError:
+        told = (
+            f"{text!r}; expected numbers as the list shows them, as 3,5 / 应为列表中的编号，如 3,5"
+        )
+        raise argparse.ArgumentTypeError(told) from None
 
 
 def run(settings: LaunchSettings, words: list[str]) -> int:

@@ -21,7 +21,7 @@ from pons.children import can_set_up, children, must_set_up, set_up_children
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
-from pons.launch_checks import CannotStart, ChildRefused, check, check_port, site_flaw
+from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
 from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
@@ -111,7 +111,7 @@ class Supervisor:
         for child in self._children:
             status = child.died(now_s)
             if status == REFUSED_TO_START:
-                raise ChildRefused(f"{child.name} refused to start:\n{child.last_words()}")
+                raise ChildRefusal(f"{child.name} refused to start:\n{child.last_words()}")
             if status == EXIT_SET_UP and child.name in _CHANGERS:
                 self.changes = True
                 self.end()
@@ -251,10 +251,9 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
             return _supervise(settings, robot, planner=planner, issued=issued)
     except (CannotStart, HomeTaken, HomeUnwritable, ConfigError) as why:
         told = f"pons up: {why}"
-        if isinstance(why, ChildRefused):
+        if isinstance(why, ChildRefusal):
             told += site_flaw(settings, told, planner=planner)
-        elif isinstance(why, CannotStart) and why.chinese:
-            told += f"\n{why.chinese}"
+        told += in_chinese(why)
         print(told, file=sys.stderr)
         return REFUSED_TO_START
 

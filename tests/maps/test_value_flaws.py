@@ -43,7 +43,7 @@ def refusal(**changed: str) -> SiteError:
         ({"resolution": "10"}, "expected at most 1.0, got 10", "应为不大于 1.0，收到 10"),
         ({"resolution": ".nan"}, "expected a finite number, got nan", "应为有限的数，收到 nan"),
         ({"resolution": "wide"}, "expected a number, got 'wide'", "应为数字，收到 'wide'"),
-        ({"resolution": "yes"}, "expected a number, got True", "resolution"),
+        ({"resolution": "yes"}, "expected a number, got True", "应为数字，收到 True"),
         ({"origin": "[0, 0]"}, "origin: value 3 is missing; got [0, 0]", "缺少第 3 个值"),
         (
             {"origin": "[0, 0, 0, 0]"},

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from pons.launch_checks import CannotStart, check, site_flaw
+from maps import SiteError
+from pons.launch_checks import CannotStart, check, in_chinese, site_flaw
 from pons.settings import CHECKOUT, LaunchSettings
 
 
@@ -66,3 +67,10 @@ def test_places_matter_to_nobody_without_a_planner(settings: LaunchSettings) -> 
 def test_what_is_being_mapped_has_no_site_yet(settings: LaunchSettings) -> None:
     (settings.site / "places.yaml").unlink()
     assert site_flaw(replace(settings, mapping="attic"), "", planner=True) == ""
+
+
+def test_a_refusal_that_speaks_chinese_is_told_so() -> None:
+    assert in_chinese(SiteError("disk_full", "full", "满了")) == "\n满了"
+    assert in_chinese(CannotStart("full", "满了")) == "\n满了"
+    assert in_chinese(CannotStart("full")) == ""
+    assert in_chinese(OSError("full")) == ""
