@@ -5,7 +5,7 @@ An operator's act: a pose decides where the fence lies. Nothing moves by it.
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter
 from pydantic import Field, model_validator
@@ -20,6 +20,11 @@ from planner.site.places import normalise
 from planner.site.pose_hint import hint_at, hint_in
 from wire.bounded_types import Name
 
+if TYPE_CHECKING:
+    from wire import LocalizerStatus
+
+ENOUGH_SCORE = 0.6
+"""What localization asks of a place at least (localization.quality), for what a person is told."""
 _STATUS = {"moving": 409, "busy": 409, "no_scan": 503, "no_answer": 503, "does_not_fit": 422}
 
 
@@ -73,7 +78,7 @@ async def give_hint(services: Services, word: HereHint) -> dict[str, Any]:
     code = "no_answer" if verdict is None else verdict.code
     score = None if verdict is None else verdict.score
     if code != "accepted":
-        raise _problem(code, _STATUS.get(code, 503), score)
+        raise _problem(code, _STATUS.get(code, 503), score, services.robot.localizer)
     return {"code": code, "score": score, "message": say("hint.accepted").model_dump()}
 
 
@@ -86,7 +91,12 @@ def _place(services: Services, word: HereHint) -> Place:
     raise HttpProblem(404, "unknown_place", f"got {wanted[:40]!r}; known: {known}")
 
 
-def _problem(code: str, status: int, score: float | None = None) -> HttpProblem:
+def _problem(
+    code: str, status: int, score: float | None = None, now: LocalizerStatus | None = None
+) -> HttpProblem:
     said = say(f"hint.{code}")
-    detail = said.en if score is None else f"{said.en} (score {score:.2f}, needs 0.60)"
-    return HttpProblem(status, f"hint_{code}", detail, message=said.model_dump())
+    if score is not None and score >= ENOUGH_SCORE and now is not None and now.state == "tracking":
+        said = say("hint.fits_less", there=score, here=now.score)
+        return HttpProblem(status, f"hint_{code}", said.en, message=said.model_dump())
+    needs = f" (score {score:.2f}, needs {ENOUGH_SCORE:.2f})" if score is not None else ""
+    return HttpProblem(status, f"hint_{code}", f"{said.en}{needs}", message=said.model_dump())
