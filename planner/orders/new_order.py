@@ -120,7 +120,7 @@ def order_of_text(text: str, language: Language | None, source: str) -> NewOrder
 def _judge_length(text: str, most: int) -> None:
     if not len(text) <= most:
         detail = f"{len(text)} characters; at most {most}"
-        raise OrderRefusal("order_too_long", detail, length=len(text), most=most)
+        raise OrderRefusal("order_too_long", detail, most=most)
 
 
 def tell_question(asked: Clarify) -> Bilingual:
