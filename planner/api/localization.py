@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from planner.api.interfaces import Services
 from planner.api.places import Point
-from planner.api.problems import HttpProblem
+from planner.api.problems import HttpProblem, unknown_place
 from planner.api.schemas import Body
 from planner.language.catalogue import say
 from planner.site import Place
@@ -87,8 +87,7 @@ def _place(services: Services, word: HereHint) -> Place:
     for place in services.memory.places:
         if normalise(wanted) in map(normalise, place.spoken_names):
             return place
-    known = ", ".join(place.id for place in services.memory.places[:20])
-    raise HttpProblem(404, "unknown_place", f"got {wanted[:40]!r}; known: {known}")
+    raise unknown_place(wanted, (place.id for place in services.memory.places))
 
 
 def _problem(

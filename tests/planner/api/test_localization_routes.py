@@ -100,6 +100,7 @@ def test_what_is_no_place_is_refused(
 ) -> None:
     answer = client.post(HINT, json=body)
     assert (answer.status_code, answer.json()["code"]) == (status, code)
+    assert answer.json()["message"]["zh"] != answer.json()["message"]["en"]
     assert not services.robot.hints
 
 
