@@ -64,7 +64,7 @@ def deskew(scan: Scan, lidar: LidarConfig, trail: OdometryTrail) -> PointCloud:
     return PointCloud(end_s, np.column_stack((x_m, y_m)), len(ranges_m))
 
 
-def uncrowded(cloud: PointCloud) -> PointCloud:
+def drop_crowd(cloud: PointCloud) -> PointCloud:
     """Return a cloud without what is close around the robot, where that is most of it.
 
     Somebody who leans over the lidar, or dirt on it, leaves returns that fit any narrow corner of a
