@@ -19,7 +19,7 @@ from enum import StrEnum
 from math import radians
 from typing import TYPE_CHECKING
 
-from localization.deskew import PointCloud, deskew, sweep_s, drop_crowd
+from localization.deskew import PointCloud, deskew, drop_crowd, sweep_s
 from localization.global_search import Candidate, is_sure
 from localization.jump_law import JumpLaw
 from localization.localizer_status import bounded_score
