@@ -13,13 +13,8 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from planner.brain.endpoint.dialect import MAX_JPEG_BYTES, data_url
-from planner.brain.endpoint.plan_reply import (
-    NoObject,
-    Unusable,
-    clean,
-    one_object,
-    says_nothing,
-)
+from planner.brain.endpoint.plan_reply import Unusable, clean, says_nothing
+from planner.brain.endpoint.reply_object import NoObject, one_object
 from planner.brain.endpoint.session import Line
 from planner.brain.errors import BadPlan
 from planner.brain.image_prompts import (

@@ -13,7 +13,8 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from planner.brain.endpoint.plan_reply import MAX_CHARACTERS, clean, trim_step, without_thoughts
+from planner.brain.endpoint.plan_reply import clean, trim_step
+from planner.brain.endpoint.reply_object import MAX_CHARACTERS, without_thoughts
 from planner.brain.streamed_draft import MAX_DRAFT, Draft, Hear
 from planner.plan import MAX_STEPS, Step, Vocabulary, list_nodes, places_of
 

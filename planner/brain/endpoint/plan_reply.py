@@ -1,14 +1,12 @@
 """Turn what a model wrote into a plan, or say why it is none. Trusts nothing in it. Pure.
 
-Models wrap their JSON in code fences, in thoughts and in prose, and write it twice. Nothing is
-mended here: what is cut off, holds NaN or a key twice is no JSON. Whatever a reply holds, the
-result is a plan of the closed vocabulary or a list of reasons that the model can read.
+A bare step, a bare list of steps and a place's exact name in either language are taken for what
+they are; nothing else is mended. Whatever a reply holds, the result is a plan of the closed
+vocabulary or a list of reasons that the model can read.
 """
 
 from __future__ import annotations
 
-import json
-import re
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -16,7 +14,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from planner.brain.endpoint.reply_object import NoObject, read_reply
 from planner.brain.schema import CLARIFY_CODES, KINDS, REFUSE_CODES
+from planner.language.folding import fold_words
 from planner.plan import (
     MAX_DEPTH,
     MAX_STEPS,
@@ -31,104 +31,6 @@ from planner.plan import (
     Vocabulary,
     check_plan,
 )
-
-MAX_CHARACTERS = 64_000
-"""Of what is no thought. A plan of 20 steps has under 16 000; the bound keeps reading quick."""
-MAX_STARTS = 40
-"""Braces at which an object is looked for."""
-
-_TAG = re.compile(r"<(/?)(?:think|thinking|reasoning|thought)>", re.IGNORECASE)
-_MEANT = re.compile(r'\{\s*["{\[}]')  # "{name}" in prose is no object, '{"kind' is
-
-
-def _no_constant(name: str) -> float:
-    raise ValueError(f"{name} is no JSON number")
-
-
-def _refuse_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return an object; refuse it where a key stands twice."""
-    found = dict(pairs)
-    if len(found) != len(pairs):
-        raise ValueError("a key stands twice in one object")
-    return found
-
-
-_DECODER = json.JSONDecoder(parse_constant=_no_constant, object_pairs_hook=_refuse_duplicates)
-
-
-class NoObject(Exception):
-    """There is no one object in the text; the message tells the model why."""
-
-
-def one_object(text: str) -> dict[str, Any]:
-    """Return the one object that a reply consists of; the same object twice counts as one.
-
-    Raises:
-        NoObject: there is none, or there are several.
-    """
-    spoken = without_thoughts(text)
-    if len(spoken) > MAX_CHARACTERS:
-        raise NoObject(f"the reply has {len(spoken)} characters; at most {MAX_CHARACTERS} are read")
-    found = _objects(spoken)  # a fence says nothing: what is refused beside it counts as well
-    distinct = [each for i, each in enumerate(found) if each not in found[:i]]
-    if not distinct:
-        raise NoObject(_why_none(text, spoken))
-    if len(distinct) > 1:
-        raise NoObject(f"the reply holds {len(distinct)} JSON objects; expected exactly one")
-    return distinct[0]
-
-
-def without_thoughts(text: str) -> str:
-    """Drop thoughts: closed ones, those that began before the reply, those that never end.
-
-    One pass over the tags: a pattern for pairs takes quadratic time on tags that never close.
-    """
-    spoken: list[str] = []
-    at, inside = 0, False
-    for tag in _TAG.finditer(text):
-        if tag[1]:
-            if not inside:  # it began before the reply did
-                spoken.clear()
-            at, inside = tag.end(), False
-        elif not inside:
-            spoken.append(text[at : tag.start()])
-            inside = True
-    if not inside:
-        spoken.append(text[at:])
-    return "".join(spoken)
-
-
-def _objects(text: str) -> list[dict[str, Any]]:
-    """Return the outermost objects of a text, at most a handful; none where one is broken.
-
-    What lies inside a broken object was never meant alone, so it is not looked at.
-    """
-    found: list[dict[str, Any]] = []
-    at = text.find("{")
-    for _ in range(MAX_STARTS):
-        if at < 0:
-            break
-        try:
-            value, end = _DECODER.raw_decode(text, at)
-        except (ValueError, RecursionError):
-            if _MEANT.match(text, at):
-                return []
-            end = at + 1
-        else:
-            found.append(value)
-        at = text.find("{", end)
-    return found
-
-
-def _why_none(text: str, spoken: str) -> str:
-    if not text.strip():
-        return "the reply is empty"
-    if not spoken.strip():
-        return "the reply holds thoughts alone and no JSON object"
-    if "{" not in spoken:
-        return "the reply holds no JSON object"
-    return "the reply's JSON is cut off, too deep, malformed or repeats a key"
-
 
 MAX_TEXT = 600
 MAX_OPTIONS = 8
@@ -165,7 +67,7 @@ def judge(
     the mission refuses it with the right code.
     """
     try:
-        shaped = _reshape(one_object(text), vocabulary)
+        shaped = _reshape(read_reply(text), vocabulary)
     except NoObject as why:
         return Unusable((str(why),))
     except RecursionError:  # two deep objects were compared
@@ -175,13 +77,19 @@ def judge(
     try:
         plan = PLAN.validate_python(shaped)
     except ValidationError as wrong:
-        return Unusable(tuple(map(_describe_error, wrong.errors(include_url=False)[:MAX_REASONS])))
+        errors = wrong.errors(include_url=False)[:MAX_REASONS]
+        of_places = any(_PLACES.intersection(map(str, error["loc"])) for error in errors)
+        known = (_known_places(vocabulary),) if of_places else ()
+        return Unusable((*map(_describe_error, errors), *known))
     rejection = check_plan(plan, vocabulary, runnable)
     if rejection is not None and rejection.repairable:
-        known = ", ".join(list(vocabulary.by_id)[:40]) or "none"
         told = [f"{_at(r.step)}{r.code.value}: {clean(r.what)[:80]}" for r in rejection.reasons]
-        return Unusable((*told[:MAX_REASONS], f"known places: {known}"))
+        return Unusable((*told[:MAX_REASONS], _known_places(vocabulary)))
     return plan
+
+
+def _known_places(vocabulary: Vocabulary) -> str:
+    return f"known places: {', '.join(list(vocabulary.by_id)[:40]) or 'none'}"
 
 
 def _reshape(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
@@ -195,7 +103,8 @@ def _reshape(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | 
         takes, found = ", ".join(sorted(_KEYS[kind])), ", ".join(extra[:MAX_REASONS])
         return Unusable((f"{kind} takes {takes} and not: {found}",))
     if kind == "plan":
-        shaped = _steps(filled.get("steps"), filled.get("does", PlanRole.NEW.value))
+        steps = resolve_places(filled.get("steps"), vocabulary)
+        shaped = _steps(steps, filled.get("does", PlanRole.NEW.value))
         paced = isinstance(shaped, dict) and "pace" in filled
         return {**shaped, "pace": filled["pace"]} if paced and isinstance(shaped, dict) else shaped
     return _words(kind, filled, vocabulary)
@@ -237,6 +146,27 @@ def _trim(name: str, value: Any, deep: int) -> Any:
     if isinstance(value, list):
         return [trim_step(v, deep + 1) if isinstance(v, dict) else v for v in value]
     return value
+
+
+_PLACES = frozenset({"place", "places"})
+
+
+def resolve_places(value: Any, vocabulary: Vocabulary, name: str = "", deep: int = 0) -> Any:
+    """Return steps in which a place's exact name or alias, in either language, is its id.
+
+    A name of several places, or of none, stays as it was written and is judged so.
+    """
+    if deep > 2 * MAX_DEPTH + 2:  # too deep anyhow: the plan's own check says so
+        return value
+    if isinstance(value, dict):
+        return {k: resolve_places(v, vocabulary, str(k), deep + 1) for k, v in value.items()}
+    if isinstance(value, list):
+        return [resolve_places(each, vocabulary, name, deep + 1) for each in value]
+    if name not in _PLACES or not isinstance(value, str) or value in vocabulary:
+        return value
+    said = fold_words(value[:MAX_TEXT]).strip().removeprefix("the ")
+    found = [e.id for e in vocabulary.entries if said in map(fold_words, e.spellings)]
+    return found[0] if len(found) == 1 else value
 
 
 def _blanks(value: Any, name: str = "steps", deep: int = 0) -> Iterator[str]:

@@ -10,11 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.brain.endpoint import Unusable, judge
-from planner.brain.endpoint.plan_reply import MAX_CHARACTERS, NoObject, one_object
+from planner.brain.endpoint.reply_object import MAX_CHARACTERS, NoObject, one_object
 from planner.plan import (
     AnswerPlan,
+    Bilingual,
     Clarify,
     Code,
+    Entry,
     Find,
     GoTo,
     Refuse,
@@ -50,6 +52,14 @@ KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
         f"<think>a<think>b</think>{GO}",
         f"<think>{'hm ' * 50_000}</think>{GO}",
         f"`{{x}}` ``` {GO} ``` {{y}}",
+        '{"kind":"go_to","place":"kitchen"}',
+        '[{"kind":"go_to","place":"kitchen"}]',
+        'Sure:\n```json\n[{"kind":"go_to","place":"kitchen"}]\n```',
+        '{"steps":[{"kind":"go_to","place":"kitchen"}]}',
+        '{"kind":"plan","steps":[{"kind":"go_to","place":"Kitchen"}]}',
+        '{"kind":"plan","steps":[{"kind":"go_to","place":"the kitchen"}]}',
+        '{"kind":"plan","steps":[{"kind":"go_to","place":"厨房"}]}',
+        '[{"kind":"go_to","place":"廚房"}]',
     ],
 )  # fmt: skip
 def test_one_plan_is_found_in_what_surrounds_it(text: str) -> None:
@@ -101,6 +111,45 @@ def test_what_is_no_plan_says_why(text: str) -> None:
     assert isinstance(judged, Unusable), judged
     assert str(judged)
     assert len(str(judged)) < 2000
+
+
+@pytest.mark.parametrize(
+    "text",
+    ['[{"kind":"go_to","place":"kitchen"}]' + NO, NO + '[{"kind":"go_to","place":"kitchen"}]',
+     '[{"kind":"go_to","place":"kitchen"}, 7]', '[{"kind":"go_to","place":"kitchen"}',
+     '[[{"kind":"go_to","place":"kitchen"}]]', "[]", '[{"place":"kitchen"}]',
+     '[{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}]'],
+)  # fmt: skip
+def test_a_list_that_is_not_steps_alone_is_no_plan(text: str) -> None:
+    assert isinstance(judge(text, HOME), Unusable)
+
+
+@pytest.mark.parametrize("place", ["Kitchin", "kitchen or study", "厨", "the", "KITCHEN!"])
+def test_what_is_no_exact_name_is_told_with_those_that_are(place: str) -> None:
+    judged = judge(json.dumps({"kind": "go_to", "place": place}), HOME)
+    assert isinstance(judged, Unusable)
+    assert "known places: " in str(judged)
+    assert "kitchen" in str(judged)
+
+
+def test_every_name_of_every_place_is_its_id_wherever_it_stands() -> None:
+    for entry in HOME.entries:
+        for name in entry.spellings:
+            inner = {"kind": "repeat", "times": 2, "do": [{"kind": "go_to", "place": name}]}
+            judged = judge(json.dumps([inner]), HOME)
+            assert isinstance(judged, StepPlan), (name, judged)
+            assert next(iter(judged.model_dump()["steps"][0]["steps"]))["place"] == entry.id
+
+
+def test_a_name_of_two_places_is_neither() -> None:
+    twins = Vocabulary(
+        entries=tuple(
+            Entry(id=f"bed_{n}", kind="place", name=Bilingual(en="bed", zh="床")) for n in (1, 2)
+        )
+    )
+    judged = judge('{"kind":"go_to","place":"bed"}', twins)
+    assert isinstance(judged, Unusable)
+    assert "bed_1, bed_2" in str(judged)
 
 
 @pytest.mark.parametrize("number", range(HOSTILE_COUNT))
