@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from datetime import datetime
 
@@ -9,6 +10,7 @@ from planner.brain.interface import OFFLINE, Observation, ThinkRequest, ThinkRes
 from planner.brain.streamed_draft import Hear
 from planner.language.catalogue import join, message, say
 from planner.language.grammar.parser import Context, plan
+from planner.language.yes_no import consents
 from planner.plan import AnswerPlan, Bilingual, BrainTag, Clarify, Code, Refuse, StepPlan
 
 VERSION = "2"
@@ -44,8 +46,20 @@ class OfflineBrain:
             and any(item.fits for item in request.situation.remembered),
         )
         made = plan(request.text, request.vocabulary, context)
+        if _answers_nothing(made, request):
+            made = AnswerPlan(text=say("talk.nothing_asked"))
         rest = rest_of(made, request.observed)
         return ThinkResult(plan=rest, brain=TAG, by_grammar=True)
+
+
+def _answers_nothing(made: StepPlan | AnswerPlan | Clarify | Refuse, request: ThinkRequest) -> bool:
+    """Tell whether a sentence is a mere yes or no, though nothing was asked."""
+    is_none = isinstance(made, Clarify | Refuse) and _ORDERS.search(request.text.lower()) is None
+    return is_none and not request.exchanges and consents(request.text) is not None
+
+
+_ORDERS = re.compile(r"\b(?:go|do|drive|come|move|start)\b|[去来走回到开]")
+"""With these a yes is an order, too: "go there"."""
 
 
 _READS_NO_ANSWER = say("replan.reads_no_answer")

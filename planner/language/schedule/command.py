@@ -7,7 +7,7 @@ from typing import Literal
 
 from planner.plan.timing import SpokenRule
 
-Problem = Literal["order_nested", "order_time_missing", "order_malformed"]
+Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past"]
 
 
 @dataclass(frozen=True, slots=True)

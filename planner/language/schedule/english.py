@@ -137,6 +137,16 @@ ASKS = re.compile(
     r"|have you|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
 )
 """A question, or a condition that is no event."""
+_GONE = (
+    r"(?:yesterday|last (?:night|week|month|year|(?:mon|tues|wednes|thurs|fri|satur|sun)day))"
+    r"(?: (?:morning|afternoon|evening|night))?(?: at [a-z0-9: ]{1,20})?"
+)
+PAST = re.compile(
+    rf"{_GONE}[ ,]+(?:please )?(?:go|drive|come|look|check|find|remind me|patrol|turn|wait|follow|visit)"
+    rf"\b.*|(?:remind me|go|drive|come back|patrol)\b(?:(?!\b(?:you|i|we)\b)[^,])*? {_GONE}"
+    rf"|remind me {_GONE}\b.*"
+)
+"""An order whose time is over."""
 REMARK = re.compile(
     r"(?:it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
     r"|there(?:'s| is| are| was| were)|(?:my|our|the|his|her) [a-z]+ (?:is|are|was|were|has|had))\b"

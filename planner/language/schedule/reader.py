@@ -78,6 +78,8 @@ def read_order_command(text: str) -> OrderCommand | None:
     courteous = asks and grammar is english and _fold(text).folded.startswith(("can", "could", "w"))
     if (asks and not courteous) or grammar.ASKS.match(said.folded) is not None:
         return None
+    if grammar.PAST.fullmatch(said.folded) is not None:
+        return ScheduleCommand(None, said.written, "", problem="order_in_past")
     return _read(said, grammar)
 
 

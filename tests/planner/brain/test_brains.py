@@ -33,6 +33,14 @@ def test_offline_brain_plans_and_names_itself(home: Vocabulary) -> None:
     assert (brain.tag.name, brain.tag.version) == ("offline", "2")
 
 
+@pytest.mark.parametrize("text", ["yes", "no", "yes please", "好的", "不用"])
+def test_a_yes_to_nothing_is_told_so(home: Vocabulary, text: str) -> None:
+    made = asyncio.run(OfflineBrain().think(ThinkRequest(text=text, vocabulary=home))).plan
+    assert isinstance(made, AnswerPlan)
+    assert "asked nothing" in made.text.en
+    assert "没有在等" in made.text.zh
+
+
 def test_offline_brain_knows_the_room_it_is_told(home: Vocabulary) -> None:
     answer = ask(OfflineBrain(), home, "你在哪", room="kitchen")
     assert isinstance(answer, AnswerPlan)

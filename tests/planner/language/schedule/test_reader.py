@@ -1,0 +1,38 @@
+"""A time that is over, and what only tells of before: the first is refused, the second no order."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.language.schedule import ScheduleCommand, read_order_command
+
+OVER = (
+    "yesterday at eight go to the kitchen", "remind me yesterday to take my pills",
+    "go to the kitchen yesterday", "last night look in the kitchen", "昨天八点去厨房",
+    "昨天提醒我吃药",
+)  # fmt: skip
+TOLD = (
+    "yesterday the cat jumped from the sofa", "what did you see yesterday", "昨天去厨房看了看",
+    "昨天八点谁去过厨房", "go to the place you found yesterday", "今晚有没有人来过走廊",
+    "你今天去过哪些地方", "你今天都做了些什么",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", OVER)
+def test_an_order_whose_time_is_over_says_so(text: str) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, ScheduleCommand)
+    assert (command.when, command.problem) == (None, "order_in_past")
+
+
+@pytest.mark.parametrize("text", TOLD)
+def test_what_tells_or_asks_of_before_is_no_order(text: str) -> None:
+    assert read_order_command(text) is None
+
+
+def test_about_so_long_is_so_long() -> None:
+    plain = read_order_command("in ten minutes go to the kitchen")
+    about = read_order_command("in about ten minutes go to the kitchen")
+    assert isinstance(plain, ScheduleCommand)
+    assert isinstance(about, ScheduleCommand)
+    assert (about.when, about.order) == (plain.when, plain.order)
