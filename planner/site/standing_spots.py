@@ -23,8 +23,8 @@ BODY_M = 3.0
 """Longer or deeper than this nothing is walked round."""
 REACH_M = 0.25
 """A spot may lie so far from where it was asked for."""
-SPACE_M = 0.05
-"""Kept free about a robot that stands, besides its own radius."""
+SPACE_M = 0.025
+"""Kept free about a robot that stands, besides its own radius, to the nearest edge of a cell."""
 USUAL_M = 0.3
 """Between robot and thing, where nobody says how far."""
 _STEP_M = 0.05
@@ -125,14 +125,20 @@ class StandingFloor:
     def is_free(self, at: Point) -> bool:
         """Tell whether a robot may stand there, by the map and the fence."""
         grid, far_m = self.site.grid, self.radius_m + SPACE_M
-        reach = int(far_m / grid.resolution_m) + 1
+        reach, half_m = int(far_m / grid.resolution_m) + 1, grid.resolution_m / 2.0
         if grid.at(*at) != FREE or not self.site.fence.allows(*at):
             return False
+        column, row = grid.cell_of(*at)
+        centres = (
+            grid.centre_of(column + dx, row + dy)
+            for dy in range(-reach, reach + 1)
+            for dx in range(-reach, reach + 1)
+        )
         return all(
-            grid.at(at[0] + column * grid.resolution_m, at[1] + row * grid.resolution_m) == FREE
-            for row in range(-reach, reach + 1)
-            for column in range(-reach, reach + 1)
-            if hypot(row, column) * grid.resolution_m <= far_m
+            grid.at(*centre) == FREE
+            for centre in centres
+            if hypot(*(max(0.0, abs(c - a) - half_m) for c, a in zip(centre, at, strict=True)))
+            <= far_m
         )
 
 

@@ -48,6 +48,12 @@ def test_a_spot_at_a_place_is_free_and_faces_it(place: str, side: str, gap_m: fl
         assert_stands(spot)
 
 
+def test_a_cell_whose_corner_alone_is_near_counts() -> None:
+    """Found by chance: between the points of a lattice about the spot lay an occupied corner."""
+    for spot in floor().spots(FACTS.targets["tv"].pose, "beside", 1.9453125):
+        assert_stands(spot)
+
+
 @given(
     x_m=st.floats(-5.0, 20.0), y_m=st.floats(-5.0, 20.0),
     yaw_rad=st.floats(-3.1, 3.1), side=st.sampled_from(SIDES),
