@@ -139,6 +139,8 @@ class SavePicture:
     place: str
     seq: int
     """As the camera numbers it: any other picture shows something else."""
+    is_inward: bool = True
+    """It looks into the stop's own room, and not through a door."""
 
 
 @dataclass(frozen=True, slots=True)

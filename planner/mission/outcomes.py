@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from math import cos, sin
+
 from planner.language.catalogue import message, say
 from planner.language.questions import looks_round
 from planner.mission.account import MOTION, account, place_name
@@ -21,6 +23,8 @@ from planner.site.polygon import area_m2, contains
 from planner.site.site_view import SiteView
 from wire import Pose2, Status
 
+AHEAD_M = 1.0
+"""What lies so far before a camera fills its picture."""
 MAX_LIMITS_NAMED = 5
 MIN_LIMIT_SHARE = 0.02
 """A limit that was the nearest one in under 2 % of the statuses explains nothing."""
@@ -51,6 +55,20 @@ def spot_at(facts: SiteView, pose: Pose2 | None, place: str | None = None) -> Sp
         y_m=round(pose.y_m, 3),
         yaw_rad=round(pose.yaw_rad, 4),
     )
+
+
+def looks_into(facts: SiteView, place: str, pose: Pose2 | None) -> bool:
+    """Tell whether what lies before the robot is of the room that a place is, or lies in.
+
+    So it counts where no pose, or no room, is known.
+    """
+    target = facts.targets.get(place)
+    if target is None or pose is None:
+        return True
+    room = facts.targets.get(spot_at(facts, target.pose).room or "")
+    outline = target.polygon or (room.polygon if room is not None else None)
+    x_m, y_m = pose.x_m + AHEAD_M * cos(pose.yaw_rad), pose.y_m + AHEAD_M * sin(pose.yaw_rad)
+    return outline is None or contains(outline, x_m, y_m)
 
 
 def asked_spot(facts: SiteView, mission: Mission, step: StepRecord) -> Spot | None:

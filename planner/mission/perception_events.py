@@ -16,8 +16,9 @@ from planner.mission.activity import AskingImage, Driving, Observing
 from planner.mission.bridge_status import standing
 from planner.mission.effects import KeepPicture, SavePicture
 from planner.mission.legs import ask_route
+from planner.mission.outcomes import looks_into
 from planner.mission.queue import settle_activity
-from planner.mission.scene import scene_of
+from planner.mission.scene import pose_now, scene_of
 from planner.mission.skills import DriveLeg, Fail, ImageAnswer, Observe, SkillAction, Way, act_of
 from planner.mission.skills.object_matching import fresh, list_confirmed
 from planner.mission.skills.skill_state import LookState, PatrolState
@@ -118,7 +119,8 @@ def _end_gaze(turn: Transaction, gaze: Observing) -> None:
     if mission is not None and isinstance(then, PatrolState):
         stop = len(then.stops)
         place = mission.steps[mission.step].places[stop]
-        turn.emit(SavePicture(mission.id, mission.step, stop, place, gaze.look_seq))
+        inward = looks_into(turn.book.facts, place, pose_now(turn))
+        turn.emit(SavePicture(mission.id, mission.step, stop, place, gaze.look_seq, inward))
     faced = then.faced if isinstance(then, LookState) else ()
     if mission is not None and faced and turn.book.eyes.model:
         turn.emit(KeepPicture(mission.id, len(faced) - 1, gaze.look_seq))

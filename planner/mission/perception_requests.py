@@ -111,7 +111,9 @@ class EyeDoor:
         media_type = MEDIA_TYPES.get(bytes(data[:2]))
         if header.seq != ask.seq or media_type is None:
             return None
-        labels = tuple(sorted(seen.label for seen in _detections(self._eyes, picture)))
+        # Through a door another room is seen: what it holds makes this picture no better.
+        seen = _detections(self._eyes, picture) if ask.is_inward else ()
+        labels = tuple(sorted(each.label for each in seen))
         kept = KeptPicture(ask.id, ask.step, ask.stop, ask.place, labels, media_type)
         return self._album(kept, bytes(data))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from dataclasses import dataclass, field, replace
+from math import cos, pi, sin
 from typing import Any
 
 import pytest
@@ -11,13 +12,15 @@ import pytest
 from planner.memory import KeptPicture
 from planner.mission.effects import SavePicture
 from planner.mission.events import Restarted, Resume
+from planner.mission.outcomes import looks_into
 from planner.mission.state import Mission
 from planner.perception.interfaces import Picture
 from planner.perception.snapshot import Sight
 from planner.plan import Code, GoalState, Patrol, Repeat, Say, StepPlan
+from planner.site.polygon import contains
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.telling import Telling, thing, untruths
-from wire import Image
+from wire import Image, Pose2
 
 CUP = thing("cup", 1.5, 0.0, "hall")
 PERSON = thing("person", 4.5, 0.5, "kitchen")
@@ -165,3 +168,27 @@ def test_rounds_look_at_every_stop_again() -> None:
     )
     assert mission.state is GoalState.SUCCEEDED
     assert told(mission) == "Round 2 of 2: hall: 1 cup. Said: “x”."
+
+
+@pytest.mark.parametrize("place", ["hall", "kitchen"])
+def test_what_is_seen_through_a_door_is_of_another_room(place: str) -> None:
+    """Of the pictures of a stop, one that looks into its own room is kept for what it shows."""
+    target = FACTS.targets[place]
+    assert target.polygon is not None
+    for number in range(16):
+        pose = replace_yaw(target.pose, number / 16 * 2 * pi)
+        ahead = (pose.x_m + cos(pose.yaw_rad), pose.y_m + sin(pose.yaw_rad))
+        assert looks_into(FACTS, place, pose) is contains(target.polygon, *ahead)
+    assert looks_into(FACTS, place, None)
+    assert looks_into(FACTS, "nowhere", target.pose)
+
+
+def test_labels_of_another_room_do_not_choose_the_picture() -> None:
+    world = Patrolling(truth=(CUP, PERSON))
+    world.play(ROUND)
+    out = [p for p, _ in world.album if p.place == "kitchen" and "cup" in p.labels]
+    assert out == [], "the cup is in the hall"
+
+
+def replace_yaw(pose: Pose2, yaw_rad: float) -> Pose2:
+    return Pose2(pose.x_m, pose.y_m, yaw_rad)
