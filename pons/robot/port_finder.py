@@ -77,7 +77,16 @@ def question_port(
         with SerialPort(entry.path, speeds[0]) as port:
             return _PortInterview(entry, port, probes).hold(speeds, boot_s)
     except PortTrouble as trouble:
-        return PortFinding(entry, trouble.code, detail=trouble.detail)
+        return PortFinding(entry, trouble.code, detail=_detail_of(entry, trouble))
+
+
+def _detail_of(entry: SerialPortEntry, trouble: PortTrouble) -> str:
+    """Return what the words of a code have a place for."""
+    if trouble.code == "port_forbidden":  # though the file's mode allows it: in a container
+        return ""
+    if trouble.code == "port_busy":
+        return f"a program of another user (`sudo fuser -v {entry.path}` names it)"
+    return trouble.fact
 
 
 class _PortInterview:
