@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Final
 
 from devices.port_listing import describe_port, list_ports
 from pons.calibrate.errors import CalibrationRefusal
-from pons.robot.command import CODES, adapter_words, robot_part
+from pons.robot.command import CODES, adapter_words, describe_code, robot_part
 from pons.robot.page_person import MOST_CHARACTERS, PagePerson
 from pons.robot.port_finder import question_ports
 from pons.robot.trial_parties import TrialRefusal
-from pons.robot.trial_run import load_triable, plan_steps, record_lines, try_robot
+from pons.robot.trial_run import load_triable, plan_steps, record_lines, refusal_of, try_robot
 from pons.robot.trial_words import PROMPTS, REFUSALS
 from wire import ConfigError, PortReport, Sentence, TrialOrder, TrialState, authentic
 
@@ -167,7 +167,7 @@ class TrialDesk:
         except TrialRefusal as refusal:
             self._refuse(refusal)
         except (ConfigError, CalibrationRefusal, OSError) as trouble:
-            self._refuse(TrialRefusal("trial_config", " ".join(str(trouble).split())))
+            self._refuse(refusal_of(trouble))
         else:
             self._wrote = tuple(record_lines(result.record))
             self._look_again()
@@ -214,12 +214,10 @@ def _report(one: PortFinding) -> PortReport:
     if one.answer is not None:
         device = f"{one.part} {one.kind}, {one.baud} baud: {one.answer.words}"
     elif one.code in CODES:
-        english, chinese = CODES[one.code]
-        cure = _sentence((english.format(detail=one.detail), chinese.format(detail=one.detail)))
+        cure = _sentence(describe_code(one.code, one.detail))
     if one.entry.twins:
         others = ", ".join(map(str, one.entry.twins))
-        english, chinese = CODES["port_twins"]
-        cure = _sentence((english.format(detail=others), chinese.format(detail=others)))
+        cure = _sentence(describe_code("port_twins", others))
     return PortReport(
         path=str(one.entry.path)[:MOST_CHARACTERS],
         adapter=adapter_words(one.entry)[:MOST_CHARACTERS],

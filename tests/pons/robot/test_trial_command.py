@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from devices import PORT_CURES
 from pons.__main__ import main
 from pons.robot.trial_command import refusal_lines
 from pons.robot.trial_parties import TrialRefusal
@@ -69,7 +70,42 @@ def test_a_simulated_drive_needs_none(tmp_path: Path, capsys: pytest.CaptureFixt
     path = tmp_path / "robot.toml"
     path.write_text('id = "r1"\n')
     assert main(["robot", "try", "--robot", str(path)]) == 3
-    assert "trial_virtual" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert f"trial_virtual ({path}: drive.kind is left out, and so 'sim')" in said
+    assert "--robot" in said
+
+
+def test_a_file_that_lost_its_base_is_refused_before_anybody_lifts_anything(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = robot_at(tmp_path, tmp_path / "no")
+    whole = path.read_text()
+    path.write_text(whole.replace("wheel_radius_m", "# wheel_radius_m"))
+    assert main(["robot", "try", "--robot", str(path)]) == 3
+    said = capsys.readouterr()
+    assert f"trial_base ({path} lacks base.wheel_radius_m)" in said.err
+    assert said.out == ""
+    path.write_text(whole[whole.index("[drive]") :])
+    assert main(["robot", "try", "--robot", str(path)]) == 3
+    assert "base.wheel_separation_m, base.radius_m" in capsys.readouterr().err
+
+
+def test_a_port_that_is_none_is_told_by_its_own_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with typed(monkeypatch, "UP\n"):
+        assert main(["robot", "try", "--robot", str(robot_at(tmp_path, Path(os.devnull)))]) == 3
+    code, english, chinese, last = capsys.readouterr().err.splitlines()
+    assert code == "port_not_serial (drive.port /dev/null: not a terminal device)"
+    assert (english.strip(), chinese.strip()) == PORT_CURES["port_not_serial"]
+    assert last == "nothing was written"
+
+
+def test_every_question_ends_with_the_terminals_own_enter() -> None:
+    """A page asks the same, and has a button."""
+    for english, chinese in PROMPTS.values():
+        assert "Enter" not in english
+        assert "回车" not in chinese
 
 
 def test_without_the_word_nothing_is_opened(
