@@ -89,6 +89,16 @@ def _detail_of(entry: SerialPortEntry, trouble: PortTrouble) -> str:
     return trouble.fact
 
 
+def name_speaker(data: bytes) -> str | None:
+    """Return which device said some bytes of itself, for a person; None where nobody knows."""
+    for probe in PROBES:
+        answer = None if probe.question else probe.recognise(data)
+        if answer is not None:
+            return f"{probe.part} {probe.kind}: {answer.words}"
+    kind = recognize(data)
+    return None if kind is None else f"a lidar of kind {kind}"
+
+
 class _PortInterview:
     """Go through the speeds of one open port."""
 

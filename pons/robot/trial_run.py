@@ -19,6 +19,7 @@ from devices import PORT_CURES, LastingPort, PortTrouble
 from pons.calibrate.robot_toml import replace
 from pons.robot.gyro_trial import BaseGyroSource, I2cGyroSource, try_gyro
 from pons.robot.lidar_trial import try_lidar
+from pons.robot.port_finder import CHATTER_BYTES, name_speaker
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.wheel_trial import WheelTrial
 from pons_assets import IS_INSTALLED, ROBOT_FILE
@@ -217,8 +218,20 @@ def try_base(
     except TrialRefusal as refusal:
         if refusal.code not in ENDED_BY_PERSON:
             _require_port(drive, opened)  # it went meanwhile: that is the better word
+        if refusal.code == "trial_silent":
+            raise _explain_silence(drive, refusal) from None
         raise
     return found, turned_rad
+
+
+def _explain_silence(drive: SerialDrive, refusal: TrialRefusal) -> TrialRefusal:
+    """Return why no state came: nothing speaks there, or something that can't be driven."""
+    if drive.base_trouble is not None:
+        return TrialRefusal(drive.base_trouble, refusal.detail)
+    if len(drive.unread) < CHATTER_BYTES:
+        return refusal
+    speaker = name_speaker(drive.unread) or f"bytes of no base of kind {drive.kind!r}"
+    return TrialRefusal("trial_other", f"{speaker}; {refusal.detail}")
 
 
 def _require_port(drive: SerialDrive, opened: int | None = None) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
+from bridge.drive.base_trouble import BASE_TROUBLES
 from devices import PORT_CURES
 
 PROMPTS: Final[dict[str, tuple[str, str]]] = {
@@ -86,7 +87,7 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "此 robot.toml 随 Pons 安装，不会被改写；请复制后用 --robot 指定",
     ),
     "trial_virtual": (
-        "a simulated drive needs no trial; name your robot's file by --robot (robots/ has examples)",
+        "a simulated drive needs no trial; name your robot's file by --robot (examples: robots/)",
         "仿真驱动不需要测试；请用 --robot 指定机器人自己的文件（robots/ 下有示例）",
     ),
     "trial_base": (
@@ -100,6 +101,10 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
     "trial_silent": (
         "the base says nothing: is it powered, is this its port? pons robot find tells",
         "底盘没有数据：请检查供电和端口，可用 pons robot find 查看",
+    ),
+    "trial_other": (
+        "another device speaks at this port: set drive.kind and port as pons robot find prints",
+        "该端口上是另一种设备：请按 pons robot find 的输出设置 drive.kind 和 port",
     ),
     "trial_stopped": (
         "somebody stopped the trial; the wheels were told to stand",
@@ -258,5 +263,6 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "盖住镜头后画面没有变化：这是另一个摄像头，可用 pons robot find 查看",
     ),
     **PORT_CURES,
+    **BASE_TROUBLES,
 }
 """By code; each is preceded by what came."""
