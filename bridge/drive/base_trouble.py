@@ -12,23 +12,31 @@ if TYPE_CHECKING:
 
 BASE_TROUBLES: Mapping[str, tuple[str, str]] = {
     "base_firmware_other": (
-        "its frames check, and are of another version than ours: build and flash firmware/ of this "
-        "version (docs/firmware.md)",
+        (
+            "its frames check, and are of another version than ours: build and flash firmware/ "
+            "of this version (docs/firmware.md)"
+        ),
         "数据帧校验正确，但固件版本不同：请编译并刷写此版本的 firmware/（见 docs/firmware.md）",
     ),
     "base_firmware_old": (
-        "it reports odl and odr in metres: its firmware is older than ugv_base_ros 0.96; update it "
-        "(github.com/waveshareteam/ugv_base_ros)",
+        (
+            "it reports odl and odr in metres: its firmware is older than ugv_base_ros 0.96; "
+            "update it (github.com/waveshareteam/ugv_base_ros)"
+        ),
         "它以米报告 odl 和 odr：固件早于 0.96，请更新（github.com/waveshareteam/ugv_base_ros）",
     ),
     "base_no_encoders": (
-        "it reports no way of its wheels (odl, odr): a WAVE ROVER or a board with ugv_base_general "
-        "has no encoders, and Pons drives nothing that it can't measure",
+        (
+            "it reports no way of its wheels (odl, odr): a WAVE ROVER or a board with "
+            "ugv_base_general has no encoders, and Pons drives nothing that it can't measure"
+        ),
         "它不报告轮子的路程（odl、odr）：WAVE ROVER 或 ugv_base_general 没有编码器，无法使用",
     ),
     "base_not_set": (
-        "it reports, but does not print back the heartbeat: is TX wired, and does no other program "
-        "speak to it?",
+        (
+            "it reports, but does not print back the heartbeat: is TX wired, and does no other "
+            "program speak to it?"
+        ),
         "它有数据，但没有回显心跳设置：请检查 TX 接线，以及是否有其他程序占用",
     ),
     "base_motors_missing": (
