@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 from collections.abc import Callable
 from dataclasses import asdict
 from subprocess import SubprocessError
@@ -42,6 +43,7 @@ MARKS = {HealthVerdict.OK: "ok  ", HealthVerdict.WARN: "warn", HealthVerdict.FAI
 
 def run(settings: LaunchSettings, *, as_json: bool = False, jitter: bool = False) -> int:
     """Be ``pons doctor``."""
+    logging.getLogger().addHandler(logging.NullHandler())  # its lines say what drivers would log
     found = findings(settings)
     _, robot = path_checks.robot(settings.robot)
     rows = late.measure(robot.realtime.priority) if jitter else []

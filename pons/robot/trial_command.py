@@ -6,6 +6,7 @@ half a minute in all, and stop when this program does. The page does the same (s
 
 from __future__ import annotations
 
+import logging
 import select
 import sys
 from typing import TYPE_CHECKING
@@ -28,6 +29,7 @@ _LIFTED = "; type UP, then Enter", "。输入 UP 后回车"
 
 def run_trial(settings: LaunchSettings) -> int:
     """Try the robot; 0 proved and written, 3 refused, 130 interrupted."""
+    logging.getLogger().addHandler(logging.NullHandler())  # else drivers' logs stand in a question
     try:
         robot = load_triable(settings.robot)
         require_base(settings.robot, robot)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import os
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -180,3 +182,15 @@ def test_a_person_tries_a_base_and_the_bridge_may_then_drive_it(
         update={"drive": load_robot(path).drive.model_copy(update={"ticks_per_turn": 99})}
     )
     assert moved.valid_trial is None
+
+
+def test_no_drivers_log_stands_in_a_persons_terminal(tmp_path: Path) -> None:
+    """In a process of its own: a test's has handlers, which hide what logging does without any."""
+    robot = robot_at(tmp_path, tmp_path / "no")
+    words = [sys.executable, "-m", "pons", "robot", "try", "--robot", str(robot)]
+    done = subprocess.run(
+        words, input="UP\n", capture_output=True, text=True, timeout=60, cwd=ROOT, check=False
+    )
+    assert done.returncode == 3
+    assert done.stderr.startswith("trial_port (port_missing: ")
+    assert done.stderr.count("port_missing") == 1
