@@ -19,9 +19,9 @@ from wire.ros2_config import ROS2
 from wire.sockets import Endpoints, is_listening
 
 if TYPE_CHECKING:
-    from wire import RobotDescription
+    from wire import RobotDescription, Status
 
-SILENT_ROW = "ENC_STALE"
+SILENT_ROW, SILENT_WANT = "ENC_STALE", "drive"
 
 
 def drive(home: Path, robot: RobotDescription) -> HealthFinding:
@@ -31,9 +31,14 @@ def drive(home: Path, robot: RobotDescription) -> HealthFinding:
         if not is_listening(Endpoints(home).socket(BRIDGE_DOOR)):
             return _judge_port(Path(port)) or _describe_windows(robot)
         status = hear_state(home, robot, keys.STATUS)  # a twin's line is not at that port
-        if status is not None and any(row.row == SILENT_ROW for row in status.rows):
+        if status is not None and _hears_nothing(status):
             return _judge_port(Path(port), is_ours=True) or _say_silent(port)
     return _describe_windows(robot)
+
+
+def _hears_nothing(status: Status) -> bool:
+    """Tell whether a bridge lacks states: it lost them, or its self test never had one."""
+    return SILENT_WANT in status.waiting_for or any(row.row == SILENT_ROW for row in status.rows)
 
 
 def _judge_port(path: Path, *, is_ours: bool = False) -> HealthFinding | None:
@@ -74,12 +79,13 @@ def _say_silent(port: str) -> HealthFinding:
     return fail(
         "drive",
         BilingualWords(
-            f"{SILENT_ROW}: the bridge hears nothing from the base at {port}",
-            f"{SILENT_ROW}：桥没有收到 {port} 处底盘的数据",
+            f"base_silent: the bridge gets no state from the base at {port}",
+            f"base_silent：桥没有从 {port} 处的底盘收到状态",
         ),
         BilingualWords(
-            "its power, TX and RX, drive.kind; `pons robot find` with the bridge down tells more",
-            "请检查供电、TX/RX 接线和 drive.kind；停止桥后可用 `pons robot find` 查看",
+            "its power, TX and RX, drive.kind; logs/bridge.log may say more, and `pons robot find` "
+            "once the bridge is down",
+            "请检查供电、TX/RX 接线和 drive.kind；参见 logs/bridge.log，停桥后可用 pons robot find",
         ),
     )
 

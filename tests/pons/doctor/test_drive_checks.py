@@ -112,14 +112,19 @@ def test_a_port_that_one_may_not_open_is_named_with_its_group(
     assert (found.fix.en, found.fix.zh) == cure
 
 
-@pytest.mark.parametrize("silent", [True, False])
+@pytest.mark.parametrize("silent", ["ENC_STALE", "drive", ""])
 def test_a_running_bridge_is_asked_whether_it_hears_the_base(
-    tmp_path: Path, line: Path, silent: bool
+    tmp_path: Path, line: Path, silent: str
 ) -> None:
     status = EXAMPLES[Status]
     assert isinstance(status, Status)
     row = RowReport(row="ENC_STALE", action=Action.HOLD2, for_s=1.0, evidence="1 s", binding=True)
-    said = status.model_copy(update={"robot": "r1", "rows": (row,) if silent else ()})
+    up: dict[str, dict[str, object]] = {
+        "ENC_STALE": {"rows": (row,)},
+        "drive": {"waiting_for": ("lidar", "drive")},
+    }
+    none: dict[str, object] = {"robot": "r1", "rows": (), "waiting_for": ("lidar",)}
+    said = status.model_copy(update=none | up.get(silent, {}))
     ending = threading.Event()
     with open_session(Party.BRIDGE, "r1", tmp_path) as session:
         mouth = session.publisher(keys.STATUS)
@@ -136,7 +141,7 @@ def test_a_running_bridge_is_asked_whether_it_hears_the_base(
         ending.set()
         thread.join()
     assert found.verdict is (HealthVerdict.FAIL if silent else HealthVerdict.OK)
-    assert found.found.en.startswith("ENC_STALE: the bridge hears nothing" if silent else "held")
+    assert found.found.en.startswith("base_silent: the bridge gets no state" if silent else "held")
     assert gone.found.en.startswith(
         "port_missing" if silent else "held"
     )  # a twin's, where it hears
