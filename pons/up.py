@@ -21,6 +21,7 @@ from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.launch_checks import CannotStart, check, check_port
+from pons.launch_words import chinese_cure
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
 from pons_assets import ROOT
@@ -192,6 +193,16 @@ def _what_to_try(settings: LaunchSettings) -> str:
     return 'try: pons say "go to the living room"   pons say 去厨房   pons stop'
 
 
+def describe_base(settings: LaunchSettings, robot: RobotDescription) -> str:
+    """Say whether metal is driven: a robot.toml that lost its [drive] is a simulated one."""
+    drive = robot.drive
+    if drive.virtual:
+        return "simulated"
+    if settings.twin:
+        return f"{drive.kind}, played by its twin"
+    return drive.kind if drive.port is None else f"{drive.kind} at {drive.port}"
+
+
 def brain_example(home: Path, root: Path = ROOT) -> str:
     """Return a command to try on a robot that has no planner; a wheel brings no examples."""
     example = root / "examples" / "external_brain.py"
@@ -237,6 +248,9 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
             return _supervise(settings, robot, planner=planner, issued=issued)
     except (CannotStart, HomeTaken, HomeUnwritable, ConfigError) as why:
         print(f"pons up: {why}", file=sys.stderr)
+        cure = chinese_cure(str(why))
+        if cure is not None:
+            print(f"  {cure}", file=sys.stderr)
         return REFUSED_TO_START
 
 
@@ -263,7 +277,8 @@ def _supervise(
         )
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, _handler(supervisor))
-        say(f"starting {robot.id} in {where} (state in {settings.home})")
+        what = describe_base(settings, robot)
+        say(f"starting {robot.id} ({what}) in {where} (state in {settings.home})")
         status = supervisor.run()
         if not supervisor.changes:
             return status

@@ -57,6 +57,7 @@ def test_up_names_what_is_wrong_with_the_robot_file(
     robot.write_text(f"[{table}]\n{line}\n")
     assert main(["up", "--robot", str(robot)]) == REFUSED
     said = capsys.readouterr().err
+    assert any(ord(letter) > 0x2E80 for letter in said)
     for word in ("robot.toml", *named):
         assert word in said, said
 
