@@ -200,41 +200,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Run one command."""
     words = sys.argv[1:] if arguments is None else arguments
     try:
-        if words == ["stop"]:  # before argparse: nothing may slow this down
-            from pons import stop
-
-            return stop.run(load(forgiving=True))
-        settings = load()
-        if words[:1] == [MOCK_LLM]:  # reads its own words; its web server is not for the others
-            from pons.mock_llm.command import main as mock_llm
-
-            return mock_llm(words[1:])
-        if words[:1] == [CONFORMANCE]:  # likewise; it starts a robot of its own
-            from pons.conformance import main as conformance
-
-            return conformance(settings, words[1:])
-        if words[:1] == [EVAL]:  # likewise; it starts nothing
-            from pons.evals.command import main as evaluate
-
-            return evaluate(settings, words[1:])
-        if words[:1] == [SITE]:  # likewise
-            from pons import site
-
-            return site.run(settings, words[1:])
-        if words[:1] == [MAP]:  # likewise
-            from pons import mapping
-
-            return mapping.run(settings, words[1:])
-        if words[:1] == [ROBOT]:  # likewise
-            from pons import robot
-
-            return robot.run(settings, words[1:])
-        if words[:1] == [NAV2]:  # likewise
-            from ros2.nav2 import main as nav2
-
-            given = ["--robot", str(settings.robot), "--home", str(settings.home)]
-            return nav2([*given, *words[1:]])
-        return _dispatch(settings, parser().parse_args(words))
+        return _run_command(words)
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)
         return EXIT_USAGE
@@ -243,6 +209,62 @@ def main(arguments: list[str] | None = None) -> int:
             raise
         print(needs_checkout(f"pons {words[0]}"), file=sys.stderr)
         return EXIT_USAGE
+    except Exception as wrong:
+        refusal = _describe_refusal(wrong)
+        if refusal is None:
+            raise
+        print(refusal, file=sys.stderr)
+        return EXIT_USAGE
+
+
+def _run_command(words: list[str]) -> int:
+    """Run one command; what it refuses is raised."""
+    if words == ["stop"]:  # before argparse: nothing may slow this down
+        from pons import stop
+
+        return stop.run(load(forgiving=True))
+    settings = load()
+    if words[:1] == [MOCK_LLM]:  # reads its own words; its web server is not for the others
+        from pons.mock_llm.command import main as mock_llm
+
+        return mock_llm(words[1:])
+    if words[:1] == [CONFORMANCE]:  # likewise; it starts a robot of its own
+        from pons.conformance import main as conformance
+
+        return conformance(settings, words[1:])
+    if words[:1] == [EVAL]:  # likewise; it starts nothing
+        from pons.evals.command import main as evaluate
+
+        return evaluate(settings, words[1:])
+    if words[:1] == [SITE]:  # likewise
+        from pons import site
+
+        return site.run(settings, words[1:])
+    if words[:1] == [MAP]:  # likewise
+        from pons import mapping
+
+        return mapping.run(settings, words[1:])
+    if words[:1] == [ROBOT]:  # likewise
+        from pons import robot
+
+        return robot.run(settings, words[1:])
+    if words[:1] == [NAV2]:  # likewise
+        from ros2.nav2 import main as nav2
+
+        given = ["--robot", str(settings.robot), "--home", str(settings.home)]
+        return nav2([*given, *words[1:]])
+    return _dispatch(settings, parser().parse_args(words))
+
+
+def _describe_refusal(wrong: Exception) -> str | None:
+    """Return what a person is told of a robot.toml or a port that can't be used; None of a bug."""
+    from pons.launch_words import chinese_cure  # late: `pons stop` needs neither
+    from wire import ConfigError
+
+    if not isinstance(wrong, ConfigError):
+        return None
+    cure = chinese_cure(str(wrong))
+    return f"{wrong}" if cure is None else f"{wrong}\n  {cure}"
 
 
 def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
