@@ -153,7 +153,7 @@ def describe(found: Sequence[PortFinding], *, has_modem_manager: bool = False) -
     for one in found:
         yield f"{one.entry.path}  {adapter_words(one.entry)}"
         if one.answer is not None:
-            yield f"  {one.part} {one.kind}, {one.baud} baud: {_printable(one.answer.words)}"
+            yield f"  {one.part} {one.kind}, {one.baud} baud: {printable(one.answer.words)}"
         else:
             yield from _explain(one.code, one.detail)
         if one.entry.twins:
@@ -186,7 +186,7 @@ def robot_part(found: Sequence[PortFinding]) -> Iterator[str]:
 def describe_cameras(cameras: Sequence[CameraEntry]) -> Iterator[str]:
     """Yield the lines about cameras, for a terminal."""
     for one in cameras:
-        yield f"{one.path}  {_printable(one.name)}"
+        yield f"{one.path}  {printable(one.name)}"
         if one.is_permitted:
             yield f"  camera uvc: {one.lasting}"
         else:
@@ -220,7 +220,7 @@ def describe_code(code: str, detail: str) -> tuple[str, str]:
     if code == "port_forbidden" and not detail:
         return _FORBIDDEN_TO_ALL
     english, chinese = CODES[code]
-    shown = _printable(detail)
+    shown = printable(detail)
     return english.format(detail=shown), chinese.format(detail=shown)
 
 
@@ -237,10 +237,10 @@ def adapter_words(entry: SerialPortEntry) -> str:
         return entry.driver
     named = " ".join(filter(None, (usb.maker, usb.name)))
     serial = f", serial {usb.serial}" if usb.serial else ""
-    return _printable(f"usb {usb.vendor}:{usb.product} {named}{serial}")
+    return printable(f"usb {usb.vendor}:{usb.product} {named}{serial}")
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """Return what a device said of itself without what would move a terminal's cursor."""
     return "".join(letter if letter.isprintable() else "?" for letter in text)
 
