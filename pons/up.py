@@ -150,7 +150,7 @@ class Supervisor:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
             for line in self._trust:
                 say(line)
-            say(SET_UP if self._set_up else _what_to_try(self._settings))
+            say(SET_UP if self._set_up else what_to_try(self._settings))
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
@@ -186,10 +186,13 @@ class Supervisor:
             self._sockets.forget(child.name)
 
 
-def _what_to_try(settings: LaunchSettings) -> str:
+def what_to_try(settings: LaunchSettings) -> str:
     """Return a line for a person who has just started a robot."""
     if settings.mapping is not None:
-        return f"drive through the home by hand on the page, then: pons map {settings.mapping}"
+        steps = (
+            'pons say "explore the house"   pons say "go forward 1 metre"   pons say 探索一下房子'
+        )
+        return f"try: {steps}, then: pons map {settings.mapping}"
     return 'try: pons say "go to the living room"   pons say 去厨房   pons stop'
 
 
