@@ -7,7 +7,7 @@ included. Pure numpy.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, sin
 from typing import TYPE_CHECKING
 
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from wire.lidar_config import LidarConfig
 
     Floats = NDArray[np.float64]
+
+CROWD_M, CROWD_SHARE = 0.5, 0.5
+"""So near to ``base``, and so large a share of the returns. At 800 tight poses of the default home,
+0.30 to 0.45 m from its walls, that share was 0.23 (median), 0.54 (p99) and 0.68 at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +62,19 @@ def deskew(scan: Scan, lidar: LidarConfig, trail: OdometryTrail) -> PointCloud:
         at = trail.carried_at(np.array([end_s]))[0]
         x_m, y_m = _seen_from(at, poses, x_m, y_m)
     return PointCloud(end_s, np.column_stack((x_m, y_m)), len(ranges_m))
+
+
+def drop_crowd(cloud: PointCloud) -> PointCloud:
+    """Return a cloud without what is close around the robot, where that is most of it.
+
+    Somebody who leans over the lidar, or dirt on it, leaves returns that fit any narrow corner of a
+    map better than the place where the robot is: 3 of 12 robots were told 0.6 m off, sure of it.
+    """
+    range_m = np.hypot(cloud.points_m[:, 0], cloud.points_m[:, 1])
+    far = range_m >= CROWD_M
+    if not len(far) or (~far).mean() <= CROWD_SHARE:
+        return cloud
+    return replace(cloud, points_m=cloud.points_m[far])
 
 
 def _seen_from(at: Floats, poses: Floats, x_m: Floats, y_m: Floats) -> tuple[Floats, Floats]:

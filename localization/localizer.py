@@ -19,7 +19,7 @@ from enum import StrEnum
 from math import radians
 from typing import TYPE_CHECKING
 
-from localization.deskew import PointCloud, deskew, sweep_s
+from localization.deskew import PointCloud, deskew, drop_crowd, sweep_s
 from localization.global_search import Candidate, is_sure
 from localization.jump_law import JumpLaw
 from localization.localizer_status import bounded_score
@@ -194,7 +194,7 @@ class Localizer:
             return
         if taken is not None and taken.ranges_m == scan.ranges_m:
             return  # a lidar that is stuck repeats itself to the millimetre; noise never does
-        cloud = deskew(scan, self._lidar, self._trail)
+        cloud = drop_crowd(deskew(scan, self._lidar, self._trail))
         if len(cloud.points_m) >= FEW_RETURNS:
             self._use(cloud, now_s)
 

@@ -13,6 +13,7 @@ from itertools import islice
 from pathlib import Path
 
 from maps.errors import SiteError
+from maps.png_rows import count_rows_bytes
 from wire.plain_file import read_plain_file
 from wire.png import SIGNATURE, chunks_fit
 from wire.site_map import MOST_IMAGE_BYTES
@@ -25,6 +26,13 @@ MAX_UNPACKED_BYTES = 4 * MAX_PIXELS
 _PGM_HEAD = re.compile(
     rb"(P[25])(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})\s"
 )
+_FORMATS = {
+    b"\xff\xd8": "a JPEG",
+    b"GI": "a GIF",
+    b"BM": "a BMP",
+    b"P6": "a PPM (P6)",
+    b"P3": "a PPM (P3)",
+}
 _PNG_CHANNELS = {0: 1, 2: 3, 3: 4, 4: 2, 6: 4}
 """By colour type; OpenCV unpacks a palette to colours. Source: PNG specification, "IHDR"."""
 
@@ -51,9 +59,12 @@ def read_image(path: Path) -> tuple[bytes, GreyImage]:
     except OSError as error:
         if error.errno == errno.EFBIG:
             raise SiteError("map_image_too_large", f"{path}: {error.strerror}") from error
-        others = ", ".join(sorted(p.name for p in path.parent.glob("*.p[gn][mg]"))) or "none"
-        text = f"the map's image {path} cannot be read ({error.strerror}); images there: {others}"
-        raise SiteError("map_image_missing", text) from error
+        there = sorted(p.name for p in path.parent.glob("*.p[gn][mg]") if p.is_file())
+        others = ", ".join(there)
+        text = f"the map's image {path} cannot be read ({error.strerror})"
+        zh = f"无法读取地图图像 {path}（{error.strerror}）；那里的图像：{others or '无'}"
+        text = f"{text}; images there: {others or 'none'}"
+        raise SiteError("map_image_missing", text, zh) from error
     return data, decode(data, path)
 
 
@@ -67,7 +78,12 @@ def decode(data: bytes, where: Path) -> GreyImage:
         return _decode_png(data, where)
     head = _PGM_HEAD.match(data)
     if head is None:
-        raise SiteError("map_image_malformed", f"{where}: neither PGM (P2, P5) nor PNG")
+        came = _FORMATS.get(
+            data[:2], f"a file that begins {data[:8]!r}" if data else "an empty file"
+        )
+        text = f"{where}: got {came}, expected PGM (P2, P5) or PNG; convert it"
+        zh = f"{where}：收到 {came}，应为 PGM（P2、P5）或 PNG，请先转换"
+        raise SiteError("map_image_malformed", text, zh)
     return _decode_pgm(head, data, where)
 
 
@@ -78,6 +94,13 @@ def _decode_pgm(head: re.Match[bytes], data: bytes, where: Path) -> GreyImage:
         raise SiteError("map_image_malformed", f"{where}: white is {white}; expected 1 to 65535")
     wanted = width * height
     deep = white > 255
+    if data.startswith(b"#", head.end()):
+        rest = len(data) - head.end() - wanted * (2 if deep else 1)
+        # Where the rest is as long as a comment, some readers pass over it, others shift the map.
+        if head[1] == b"P2" or rest == data.find(b"\n", head.end()) + 1 - head.end():
+            text = f"{where}: a comment (#) behind the value of white; it belongs before the size"
+            zh = f"{where}：注释（#）写在最大灰度值之后，应写在尺寸之前"
+            raise SiteError("map_image_malformed", text, zh)
     if head[1] == b"P2":
         greys = _plain_values(data[head.end() :], wanted, white, where)
     else:
@@ -111,14 +134,18 @@ def _deep_values(raw: bytes, white: int) -> bytes | None:
 
 def _plain_values(body: bytes, wanted: int, white: int, where: Path) -> bytes | None:
     found = bytearray()
-    try:  # one at a time: a list of them all takes forty times the file
-        for text in islice(re.finditer(rb"\S+", body), wanted):
-            value = int(text[0])
-            if not 0 <= value <= white:
-                return None
-            found.append(round(value * 255 / white))
-    except ValueError as error:
-        raise SiteError("map_image_malformed", f"{where}: {error}") from error
+    # One at a time: a list of them all takes forty times the file.
+    for match in islice(re.finditer(rb"\S+", body), wanted):
+        try:
+            value = int(match[0])
+        except ValueError as error:
+            at, came = len(found) + 1, match[0][:20]
+            text = f"{where}: pixel {at} is {came!r}, expected 0 to {white}"
+            zh = f"{where}：第 {at} 个像素是 {came!r}，应为 0 到 {white}"
+            raise SiteError("map_image_malformed", text, zh) from error
+        if not 0 <= value <= white:
+            return None
+        found.append(round(value * 255 / white))
     return bytes(found)
 
 
@@ -134,6 +161,14 @@ def _decode_png(data: bytes, where: Path) -> GreyImage:
     if not unpacked <= MAX_UNPACKED_BYTES:
         text = f"{where}: {width} x {height} pixels of colour type {color} and {depth} bits"
         raise SiteError("map_image_too_large", f"{text}; at most {MAX_UNPACKED_BYTES} bytes")
+    try:
+        held, wanted = count_rows_bytes(data)
+    except ValueError as error:
+        raise SiteError("map_image_malformed", f"{where}: {error}") from error
+    if held != wanted:
+        text = f"{where}: its header says {width} x {height} pixels, which its data do not hold"
+        zh = f"{where}：文件头称有 {width} x {height} 个像素，与数据不符"
+        raise SiteError("map_image_malformed", text, zh)
     import cv2
     import numpy as np
 
@@ -158,6 +193,8 @@ def _decode_png(data: bytes, where: Path) -> GreyImage:
 
 
 def _check_size(width: int, height: int, where: Path) -> None:
-    if not 0 < width * height <= MAX_PIXELS:
-        text = f"{where}: {width} x {height} pixels; expected 1 to {MAX_PIXELS} in all"
+    text = f"{where}: {width} x {height} pixels; expected 1 to {MAX_PIXELS} in all"
+    if not width * height > 0:
+        raise SiteError("map_image_malformed", text)
+    if not width * height <= MAX_PIXELS:
         raise SiteError("map_image_too_large", text)

@@ -5,7 +5,8 @@ when negated; above ``occupied_thresh`` it is occupied, below ``free_thresh`` fr
 Mode ``raw`` takes the grey value itself as percent, and what is over 100 as unknown.
 
 One thing is read otherwise: grey 205 is what every map saver writes for unknown, and the same
-savers write ``free_thresh: 0.25``, which makes it free. Here it is unknown under any threshold.
+savers write ``free_thresh: 0.25``, which makes it free. Here it is unknown under any threshold,
+and so are the greys beside it that JPEG makes of it.
 What is not opaque is unknown in every mode; in mode ``trinary`` Nav2 takes it for lighter.
 """
 
@@ -15,7 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, StrictBool
+from pydantic import BeforeValidator, Field, StrictBool
+from pydantic_core import PydanticCustomError
 
 from maps.errors import SiteError
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
@@ -24,11 +26,25 @@ from maps.yaml_records import SiteRecord, parse_yaml, read_bytes, validate_recor
 from wire.fingerprint import map_id
 from wire.site_map import MOST_MAP_BYTES, image_in, image_name
 
-Share = Annotated[float, Field(ge=0.0, le=1.0)]
-Ordinate = Annotated[float, Field(ge=-10_000.0, le=10_000.0)]
+FARTHEST_M = 10_000.0
+"""Of anything in ``map`` from its origin, as every message bounds it."""
+
+
+def _no_truth(value: object) -> object:
+    """Refuse yes and no where a number is due: pydantic would take them for 1 and 0."""
+    if isinstance(value, bool):
+        raise PydanticCustomError("float_type", "a number is due")
+    return value
+
+
+Number = Annotated[float, BeforeValidator(_no_truth)]
+Share = Annotated[Number, Field(ge=0.0, le=1.0)]
+Ordinate = Annotated[Number, Field(ge=-FARTHEST_M, le=FARTHEST_M)]
 
 SAVED_UNKNOWN = 205
 """The grey that map savers of ROS 1 and Nav2 write for unknown: occupancy 50/255, 0.196."""
+SMEARED = 3
+"""Greys beside it that JPEG makes of it, by a quality of 10 or more (203 to 208 were measured)."""
 
 
 NO_OCCUPANCY = 255
@@ -39,7 +55,7 @@ class MapRecord(SiteRecord):
     """Mirror the keys of a Nav2 map.yaml."""
 
     image: Annotated[str, Field(min_length=1)]
-    resolution: Annotated[float, Field(ge=0.005, le=1.0)]  # [m] per pixel
+    resolution: Annotated[Number, Field(ge=0.005, le=1.0)]  # [m] per pixel
     origin: tuple[Ordinate, Ordinate, Ordinate]  # x [m], y [m], yaw [rad] of the lower left corner
     negate: Literal[0, 1] | StrictBool = 0
     occupied_thresh: Share
@@ -54,7 +70,7 @@ class LoadedMap:
 
     grid: GridMap
     kept_unknown: int
-    """Pixels of grey 205 that the file's ``free_thresh`` makes free, and a careful reader not."""
+    """Pixels of about grey 205 that ``free_thresh`` makes free, and a careful reader not."""
     map_id: str
     record: MapRecord
 
@@ -66,8 +82,8 @@ def load_map(path: Path, *, frees_saved_unknown: bool = False) -> LoadedMap:
 
     Args:
         path: the map.yaml.
-        frees_saved_unknown: a person said that this map's grey 205 may be floor where the
-            thresholds make it so.
+        frees_saved_unknown: a person said that this map's greys of about 205 may be floor where
+            the thresholds make them so.
 
     Raises:
         SiteError: ``map_image_outside``, ``map_image_ambiguous``, ``map_thresholds_crossed`` and
@@ -126,18 +142,23 @@ def load_occupancy(path: Path) -> tuple[MapRecord, int, int, bytes]:
 
 def _check_thresholds(record: MapRecord, path: Path) -> None:
     if not record.free_thresh < record.occupied_thresh:
-        detail = f"{path}: free_thresh {record.free_thresh} is not below {record.occupied_thresh}"
-        raise SiteError("map_thresholds_crossed", detail)
+        free, occupied = (
+            f"free_thresh {record.free_thresh}",
+            f"occupied_thresh {record.occupied_thresh}",
+        )
+        zh = f"{path}：{free} 应小于 {occupied}"
+        raise SiteError("map_thresholds_crossed", f"{path}: {free} is not below {occupied}", zh)
 
 
 def _grid(
     record: MapRecord, image: GreyImage, path: Path, frees_saved_unknown: bool
 ) -> tuple[GridMap, int]:
     _check_thresholds(record, path)
-    kept = image.pixels.count(_saved_unknown(record)) if _frees_the_unknown(record) else 0
     kinds = bytearray(_kind(grey, record) for grey in range(256))
-    if kept and frees_saved_unknown:
-        kinds[_saved_unknown(record)] = FREE
+    doubted = [grey for grey in range(256) if _frees_the_unknown(grey, record)]
+    kept = sum(image.pixels.count(grey) for grey in doubted)
+    for grey in doubted:
+        kinds[grey] = FREE if frees_saved_unknown else UNKNOWN
     cells = _from_below(image.pixels.translate(bytes(kinds)), image.width, image.height)
     if image.opaque is not None:
         opaque = _from_below(image.opaque, image.width, image.height)
@@ -148,7 +169,20 @@ def _grid(
         from maps.rotation import straighten  # numpy is not for those who need no turn
 
         grid = straighten(grid, yaw_rad, path)
+    _check_extent(grid, path)
     return grid, kept
+
+
+def _check_extent(grid: GridMap, path: Path) -> None:
+    right_m = grid.origin_x_m + grid.width * grid.resolution_m
+    top_m = grid.origin_y_m + grid.height * grid.resolution_m
+    ends = (grid.origin_x_m, grid.origin_y_m, right_m, top_m)
+    if not all(abs(end_m) <= FARTHEST_M for end_m in ends):
+        span = f"x {ends[0]:.2f} to {right_m:.2f}, y {ends[1]:.2f} to {top_m:.2f} m"
+        most = f"{-FARTHEST_M:.0f} to {FARTHEST_M:.0f}"
+        text = f"{path}: the map spans {span}; expected within {most}: mend its origin"
+        zh = f"{path}：地图范围为 {span}，应在 {most} 之内：请修改 origin"
+        raise SiteError("value_malformed", text, zh)
 
 
 def _from_below(values: bytes, width: int, height: int) -> bytes:
@@ -178,8 +212,11 @@ def _saved_unknown(record: MapRecord) -> int:
     return 255 - SAVED_UNKNOWN if record.negate else SAVED_UNKNOWN
 
 
-def _frees_the_unknown(record: MapRecord) -> bool:
-    return record.mode != "raw" and _occupancy(_saved_unknown(record), record) < record.free_thresh
+def _frees_the_unknown(grey: int, record: MapRecord) -> bool:
+    """Return whether a grey may be a map saver's unknown and would be floor by the thresholds."""
+    if record.mode == "raw" or not abs(grey - _saved_unknown(record)) <= SMEARED:
+        return False
+    return _occupancy(grey, record) < record.free_thresh
 
 
 def _kind(grey: int, record: MapRecord) -> int:

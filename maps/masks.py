@@ -36,6 +36,8 @@ _SMALL_HOLE_M2 = 0.5
 """A hole in a closed area that holds no more than a robot."""
 _SLOWEST_MPS = 0.05
 """The least that a fence's zone may say."""
+_LARGEST = 1000.0
+"""Of a speed mask's base and multiplier; Nav2's are 100 and -1."""
 MOST_LIMITS = 10
 """Different limits of one mask; more are rounded down to so many."""
 
@@ -51,6 +53,20 @@ class SpeedScale:
     kind: Literal["percent", "mps"] = "percent"
     base: float = 100.0
     multiplier: float = -1.0
+
+    def __post_init__(self) -> None:
+        """Refuse what makes no limit: infinite speed would drop the mask without a word.
+
+        Raises:
+            SiteError: ``value_malformed``.
+        """
+        for name, number in (("base", self.base), ("multiplier", self.multiplier)):
+            if not abs(number) <= _LARGEST:
+                text = (
+                    f"the speed mask's {name}: expected -{_LARGEST:g} to {_LARGEST:g}, got {number}"
+                )
+                zh = f"限速掩膜的 {name}：应在 -{_LARGEST:g} 到 {_LARGEST:g} 之间，收到 {number}"
+                raise SiteError("value_malformed", text, zh)
 
     def limit_mps(self, value: int) -> float:
         """Return the limit where the mask says 0 to 100; infinite for 0, which is none."""
@@ -158,8 +174,12 @@ def _values(path: Path, onto: GridMap) -> tuple[NDArray[np.uint8], _Frame]:
     top_m = onto.origin_y_m + onto.height * onto.resolution_m
     apart = max(xs) <= onto.origin_x_m or min(xs) >= right_m
     if apart or max(ys) <= onto.origin_y_m or min(ys) >= top_m:
-        text = f"{path}: it spans x {min(xs)} to {max(xs)}, y {min(ys)} to {max(ys)}"
-        raise SiteError("mask_elsewhere", f"{text}; the map ends at ({right_m:.2f}, {top_m:.2f})")
+        mask = f"x {min(xs):.2f} to {max(xs):.2f}, y {min(ys):.2f} to {max(ys):.2f}"
+        left, low = f"x {onto.origin_x_m:.2f}", f"y {onto.origin_y_m:.2f}"
+        floor_plan = f"{left} to {right_m:.2f}, {low} to {top_m:.2f}"
+        text = f"{path}: the mask spans {mask}; the map spans {floor_plan}: mend the mask's origin"
+        zh = f"{path}：掩膜范围为 {mask}，地图范围为 {floor_plan}：请修改掩膜的 origin"
+        raise SiteError("mask_elsewhere", text, zh)
     return values, frame
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import shutil
 from dataclasses import dataclass
+from secrets import token_hex
 from typing import TYPE_CHECKING
 
 import cv2
@@ -21,6 +22,7 @@ from maps.map_file import SAVED_UNKNOWN
 from maps.room_proposals import ROOMS_JSON, RoomProposal, RoomProposals
 from maps.rooms import propose_rooms
 from maps.site_fence import draw_fence, floor_around
+from maps.spots import check_on_floor
 from wire.fence import fence_text
 from wire.fingerprint import map_id
 from wire.geometry import Pose2
@@ -54,8 +56,11 @@ class NewSite:
             SiteError: ``site_exists`` or ``site_unwritable``.
         """
         if folder.exists():
-            raise SiteError("site_exists", f"{folder} is there; remove it or choose another name")
-        beside = folder.with_name(f".{folder.name}.new")
+            text = f"{folder} is there; remove it or choose another name"
+            zh = f"{folder} 已存在：请删除它或换一个名称"
+            raise SiteError("site_exists", text, zh)
+        # A name of its own: one that was killed here before left its folder behind.
+        beside = folder.with_name(f".{folder.name}.{token_hex(4)}.new")
         try:
             beside.mkdir(parents=True)
             for name, data in self.files.items():
@@ -82,7 +87,8 @@ def new_site(
         masks: areas that keep-out and speed masks give.
 
     Raises:
-        SiteError: ``map_no_floor``, ``place_in_obstacle`` or ``map_too_ragged``.
+        SiteError: ``map_no_floor``, ``place_in_obstacle``, ``place_outside_map`` or
+            ``map_too_ragged``.
     """
     grid = loaded.grid
     home = _home(grid, radius_m, start)
@@ -115,9 +121,7 @@ def _home(grid: GridMap, radius_m: float, start: Pose2 | None) -> Pose2:
     room = cv2.distanceTransform(padded, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1]
     clearance_m = (np.asarray(room, np.float64) - 0.5) * grid.resolution_m
     if start is not None:
-        if grid.at(start.x_m, start.y_m) != FREE:
-            at = f"({start.x_m}, {start.y_m})"
-            raise SiteError("place_in_obstacle", f"the start at {at} is not on free floor")
+        check_on_floor(grid, "the start", "起点", start)
         return start
     if grid.contains(0.0, 0.0):
         column, row = grid.cell_of(0.0, 0.0)
@@ -125,10 +129,27 @@ def _home(grid: GridMap, radius_m: float, start: Pose2 | None) -> Pose2:
             return Pose2(0.0, 0.0, 0.0)
     row, column = divmod(int(clearance_m.argmax()), grid.width)
     if not clearance_m[row, column] >= radius_m:
-        text = f"nowhere a circle of {radius_m} m is free; is the resolution right, or negate?"
-        raise SiteError("map_no_floor", text)
+        raise _no_floor(grid, radius_m)
     x_m, y_m = grid.centre_of(column, row)
     return Pose2(round(x_m, 3), round(y_m, 3), 0.0)
+
+
+def _no_floor(grid: GridMap, radius_m: float) -> SiteError:
+    counts = np.bincount(cell_array(grid).reshape(-1), minlength=3)
+    free, occupied, unknown = (100.0 * float(counts[k]) / counts.sum() for k in _GREYS)
+    size = f"{grid.width} x {grid.height}"
+    text = (
+        f"of {size} cells {free:.0f} % are free, {occupied:.0f} % occupied, {unknown:.0f} % unknown"
+    )
+    text = f"nowhere a circle of {radius_m} m is free: {text}"
+    zh = (
+        f"地图上没有半径 {radius_m} 米的空地：{size} 个栅格中空地 {free:.0f}%，障碍 {occupied:.0f}%"
+    )
+    return SiteError(
+        "map_no_floor",
+        f"{text}; are resolution, negate and thresholds right? Transparent pixels are unknown",
+        f"{zh}，未知 {unknown:.0f}%；请检查 resolution、negate 和阈值；透明像素算作未知",
+    )
 
 
 def map_picture(grid: GridMap) -> bytes:

@@ -15,6 +15,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from maps.errors import SiteError
+from maps.value_flaws import describe
 from wire.plain_file import read_plain_file
 
 MAX_TEXT_BYTES = 4_000_000
@@ -85,14 +86,17 @@ def validate_record(value: object, model: type[R], where: Path) -> R:
         return model.model_validate(value)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
-        at = ".".join(str(part) for part in first["loc"]) or "the file"
+        known = tuple(sorted(model.model_fields))
         if first["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
-            known = ", ".join(sorted(model.model_fields))
-            text = f"{where}: unknown key {at!r}; known keys of the file: {known}"
-            raise SiteError("unknown_key", text) from None
-        came = repr(first.get("input"))[:80]
-        text = f"{where}: {at}: {first['msg']}; got {came}"
-        raise SiteError("value_malformed", text) from None
+            at = ".".join(map(str, first["loc"]))
+            text, zh = f"{where}: unknown key {at!r}", f"{where}：未知的键 {at!r}"
+            if len(first["loc"]) == 1:
+                keys = ", ".join(known)
+                text, zh = f"{text}; known keys of the file: {keys}", f"{zh}；文件可用的键：{keys}"
+            raise SiteError("unknown_key", text, zh) from None
+        english, chinese = describe(first, known)
+        text = f"{where}: {english}"
+        raise SiteError("value_malformed", text, f"{where}：{chinese}") from None
 
 
 class _UniqueKeys(yaml.SafeLoader):

@@ -18,6 +18,7 @@ from planner.api import Access
 from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.api.connections import protocol
 from planner.app import Planner, PlannerPaths, application
+from planner.orders.zone import set_local_zone
 from processes.priority import add_nice
 from wire import EXIT_SET_UP, ConfigError
 
@@ -46,6 +47,7 @@ def main(arguments: list[str] | None = None) -> int:
     except ConfigError as wrong:  # a SiteError is one
         print(f"planner: {wrong}", file=sys.stderr)
         return wrong.exit_status
+    set_local_zone(planner.settings.orders.timezone)
     server = uvicorn.Server(
         uvicorn.Config(
             application(planner, access, authority),

@@ -58,6 +58,15 @@ class LinkedRobot:
         return heard.value if heard is not None and heard.age_s <= LOCALIZER_S else None
 
     @property
+    def localized_map(self) -> str | None:
+        """Return the map_id that localization says it localizes on; None where none spoke lately.
+
+        It is another than the site's where somebody changed the map's files under way.
+        """
+        heard = self._link.localization
+        return heard.value.map_id if heard is not None and heard.age_s <= LOCALIZER_S else None
+
+    @property
     def trial(self) -> TrialState | None:
         """Return how the trial of a robot in set-up stands; None where a bridge drives."""
         heard = self._link.trial

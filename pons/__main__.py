@@ -77,13 +77,12 @@ def _run_command(words: list[str]) -> int:
 
 def _describe_refusal(wrong: Exception) -> str | None:
     """Return what a person is told of a robot.toml or a port that can't be used; None of a bug."""
-    from pons.launch_words import chinese_cure  # late: `pons stop` needs neither
+    from pons.launch_words import chinese_line  # late: `pons stop` needs neither
     from wire import ConfigError
 
     if not isinstance(wrong, ConfigError):
         return None
-    cure = chinese_cure(str(wrong))
-    return f"{wrong}" if cure is None else f"{wrong}\n  {cure}"
+    return f"{wrong}{chinese_line(str(wrong))}"
 
 
 def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:

@@ -45,7 +45,9 @@ def run(settings: LaunchSettings, act: str, what: str | None) -> int:
         print(wrong, file=sys.stderr)
         return EXIT_USAGE
     except (PlannerProblem, SiteError) as refused:
-        print(f"refused: {refused}", file=sys.stderr)
+        told = refused.told if isinstance(refused, PlannerProblem) else refused.message
+        chinese = f"\n{told['zh']}" if "zh" in told else ""
+        print(f"refused: {refused}{chinese}", file=sys.stderr)
         return EXIT_REFUSED
     except (PlannerDown, NoBridge, ConfigError) as trouble:
         print(f"{trouble} Is `pons up` running?", file=sys.stderr)

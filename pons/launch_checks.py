@@ -19,6 +19,15 @@ MIN_FREE_BYTES = 200 * 1024 * 1024
 class CannotStart(Exception):
     """Something outside must change first; nothing was left running."""
 
+    def __init__(self, text: str, chinese: str = "") -> None:
+        """Keep the sentence, and the same in Chinese where there is one."""
+        super().__init__(text)
+        self.chinese = chinese
+
+
+class ChildRefusal(CannotStart):
+    """A process that was started ended, because a setting or a file is wrong."""
+
 
 def check(settings: LaunchSettings) -> RobotDescription:
     """Look for causes of a later and less clear failure.
@@ -31,11 +40,10 @@ def check(settings: LaunchSettings) -> RobotDescription:
     except ConfigError as wrong:
         raise CannotStart(str(wrong)) from None
     if not (settings.site / "map.yaml").is_file():
-        known = sorted(path.parent.name for path in settings.site.parent.glob("*/map.yaml"))
-        raise CannotStart(
-            f"site_missing: {settings.site} has no map.yaml; sites beside it: "
-            f"{', '.join(known) or 'none'}"
-        )
+        from pons.site import site_missing  # brings numpy: for who is refused alone
+
+        refused = site_missing(str(settings.site), settings.home)
+        raise CannotStart(str(refused), refused.message["zh"])
     if settings.mapping is not None:
         from pons.mapping import prepare_canvas
 
@@ -67,6 +75,41 @@ def check(settings: LaunchSettings) -> RobotDescription:
     if not free >= MIN_FREE_BYTES:
         raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")
     return robot
+
+
+def in_chinese(why: Exception) -> str:
+    """Return the line in Chinese below a refusal; empty where there is none."""
+    if isinstance(why, CannotStart):
+        return f"\n{why.chinese}" if why.chinese else ""
+    from maps.errors import SiteError  # brings YAML: for who is refused alone
+
+    return f"\n{why.message['zh']}" if isinstance(why, SiteError) else ""
+
+
+def site_flaw(settings: LaunchSettings, told: str, *, planner: bool) -> str:
+    """Return lines that say in both languages what is wrong with the site; empty where it loads.
+
+    Each process that reads it refuses by itself, and which one does first is chance.
+
+    Args:
+        settings: of the launch.
+        told: what that process said, which is not said again.
+        planner: whether places matter, which the planner alone reads.
+    """
+    from planner.site import Site, SiteError, load_map
+
+    if settings.mapping is not None:
+        return ""
+    try:
+        if planner:
+            Site.load(settings.site)
+        else:
+            load_map(settings.site / "map.yaml")
+    except SiteError as refused:
+        english = "" if str(refused) in told else f"\nthe site: {refused}"
+        command = f"pons site check {settings.site}"
+        return f"{english}\n站点：{refused.message['zh']}\ncheck it / 检查站点: {command}"
+    return ""
 
 
 def check_port(settings: LaunchSettings) -> None:

@@ -15,7 +15,6 @@ CHINESE: Final[Mapping[str, str]] = {
     "robot_toml_missing": "找不到或无法读取 robot.toml：请检查 --robot 的路径",
     "robot_toml_syntax": "robot.toml 不是完整的 TOML：请修正所示的行，或恢复旁边的 .bak-… 副本",
     "robot_toml_invalid": "robot.toml 中有未知的键或不允许的值：请按上面所示修改",
-    "site_missing": "找不到场地：请用 --site 另选",
     "twin_needless": "机器人本来就是仿真的：请去掉 --twin",
     "lidar_of_another_world": "激光雷达是真实的，而底盘是仿真的：请加 --twin，或两者都用真实的",
     "camera_of_another_world": "摄像头是真实的，而底盘是仿真的：请加 --twin，或两者都用真实的",
@@ -38,3 +37,9 @@ def chinese_cure(refusal: str) -> str | None:
     """Return the cure of the first known code in a refusal; None where none is known."""
     known = (CHINESE.get(code) for code in _CODE.findall(refusal))
     return next((words for words in known if words is not None), None)
+
+
+def chinese_line(refusal: str) -> str:
+    """Return the cure as a line below a refusal; empty where none is known."""
+    cure = chinese_cure(refusal)
+    return "" if cure is None else f"\n  {cure}"

@@ -28,7 +28,7 @@ from maps.new_site import new_site
 from planner.site.polygon import contains
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_KEPT, TaughtPlaces
-from pons.site import is_site_name
+from pons.site import is_site_name, site_name_malformed
 from wire import ConfigError, load_robot
 from wire.fingerprint import map_id
 from wire.site_map import read_map_id
@@ -48,6 +48,7 @@ EXIT_DONE, EXIT_REFUSED = 0, 3
 
 FEWEST_KEYFRAMES = 3
 """Fewer are a robot that stood: a map of one spot is no site."""
+_RECORDING_ZH = "录制文件无法使用"
 MIN_FREE_BYTES = 50 * 1024 * 1024
 
 
@@ -76,7 +77,14 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _numbers(text: str) -> frozenset[int]:
-    return frozenset(map(int, text.split(",")))
+    """Read numbers of changes. Raises ArgumentTypeError."""
+    try:
+        return frozenset(map(int, text.split(",")))
+    except ValueError:
+        told = (
+            f"{text!r}; expected numbers as the list shows them, as 3,5 / 应为列表中的编号，如 3,5"
+        )
+        raise argparse.ArgumentTypeError(told) from None
 
 
 def run(settings: LaunchSettings, words: list[str]) -> int:
@@ -99,10 +107,11 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         made.write(folder)
         names = 0 if said.recordings else _carry_names(settings.home, said.name, made)
     except BadRecording as refused:
-        print(f"refused: {refused}", file=sys.stderr)
+        print(f"refused: {refused}\n{_RECORDING_ZH}：{refused}", file=sys.stderr)
         return EXIT_REFUSED
     except PlaceRefusal as refused:
-        print(f"refused: its names could not be kept: {refused}", file=sys.stderr)
+        text = f"refused: its names could not be kept: {refused}"
+        print(f"{text}\n名称未能保存：{refused.why.zh}", file=sys.stderr)
         return EXIT_REFUSED
     except ConfigError as refused:
         zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
@@ -151,8 +160,7 @@ def newest_run(folder: Path) -> list[Path]:
 
 def _new_folder(sites: Path, name: str) -> Path:
     if not is_site_name(name):
-        text = f"got {name!r}; expected a small letter, then letters, digits or _"
-        raise SiteError("site_name_malformed", text)
+        raise site_name_malformed(name)
     folder = sites / name
     if folder.exists():
         raise SiteError("site_exists", f"{folder} is there; remove it or choose another name")
@@ -278,8 +286,7 @@ def prepare_canvas(settings: LaunchSettings, name: str, robot: RobotDescription)
         SiteError: the name is none, or the folder can't be made.
     """
     if not is_site_name(name):
-        text = f"got {name!r}; expected a small letter, then letters, digits or _"
-        raise SiteError("site_name_malformed", text)
+        raise site_name_malformed(name)
     canvas = settings.home / "mapping" / name
     if (canvas / "map.yaml").is_file():
         return

@@ -40,6 +40,7 @@ from planner.site.taught_places import MAX_KEPT, TaughtPlaces
 from pons.folder_swap import swap_folders, sync_folder
 from pons.home_lock import HomeLock, HomeTaken
 from pons.settings import site_of
+from pons.site import site_missing
 from pons_assets import SITES
 from wire import ConfigError
 from wire.fence import fence_text
@@ -66,7 +67,7 @@ def known_site(settings: LaunchSettings, name: str) -> Path:
     """
     folder = site_of(name, settings.home)
     if not (folder / "map.yaml").is_file():
-        raise SiteError("site_missing", f"{name!r}; `pons site list` shows what there is")
+        raise site_missing(name, settings.home)
     _finish_killed(settings, folder)
     return folder
 

@@ -8,29 +8,33 @@ from __future__ import annotations
 
 import argparse
 import re
+import shutil
 import sys
-from math import radians
+from math import isfinite, radians
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from maps import SiteError, load_map
-from maps.map_file import load_picture
+from maps.map_file import FARTHEST_M, load_picture
 from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text
 from maps.room_proposals import read_proposals
 from pons.settings import site_of
-from wire import ConfigError, Pose2, load_robot
+from wire import ConfigError, Pose2, load_robot, wrap
 from wire.fence import fence_text
 
 if TYPE_CHECKING:
     from maps.grid import GridMap
     from maps.map_file import LoadedMap
     from maps.masks import MaskAreas
+    from maps.new_site import NewSite
+    from planner.navigation.site_check import SiteFinding
     from pons.settings import LaunchSettings
     from wire import RobotDescription
 
 EXIT_DONE, EXIT_FOUND, EXIT_USAGE, EXIT_REFUSED = 0, 1, 2, 3
 SCHEME = "ros2:"
+LARGE_CELLS = 16_000_000
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 
 
@@ -88,7 +92,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
             return _list(settings)
         folder = site_of(said.name, settings.home)
         if not (folder / "map.yaml").is_file():
-            raise SiteError("site_missing", f"{said.name!r}; `pons site list` shows what there is")
+            raise site_missing(said.name, settings.home)
         if said.act == "check":
             return _check(folder, _radius_m(settings))
         if said.act == "rooms":
@@ -112,8 +116,7 @@ def _chinese(refused: ConfigError) -> str:
 
 def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     if not is_site_name(said.name):
-        text = f"got {said.name!r}; expected a small letter, then letters, digits or _"
-        raise SiteError("site_name_malformed", text)
+        raise site_name_malformed(said.name)
     is_topic = said.map.startswith(SCHEME)
     is_yaml = is_topic or Path(said.map).suffix in (".yaml", ".yml")
     if is_yaml == (said.resolution is not None):
@@ -122,23 +125,64 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
         return EXIT_USAGE
     robot = load_robot(settings.robot)
     loaded = _load_topic(said, robot) if is_topic else _load(said)
-    start = None if said.start is None else _pose(said.start)
+    start = None if said.start is None else _start(said.start)
+    if len(loaded.grid.cells) >= LARGE_CELLS:
+        print(
+            "a large map: this takes a minute or more / 地图很大，需要一分钟以上", file=sys.stderr
+        )
     made = new_site(loaded, robot.base.radius_m, start, _masks(said, loaded.grid, robot))
     folder = settings.home / "sites" / said.name
-    made.write(folder)
-    kept = "" if not loaded.kept_unknown else f", {loaded.kept_unknown} pixels of grey 205"
-    grid = loaded.grid
-    print(f"{folder}: {grid.width} x {grid.height} cells of {grid.resolution_m:g} m{kept}")
+    _write(made, folder)
+    grid, taken_for = loaded.grid, "floor" if said.unknown == "free" else "unknown"
+    print(f"{folder}: {grid.width} x {grid.height} cells of {grid.resolution_m:g} m")
+    if loaded.kept_unknown:
+        print(f"{loaded.kept_unknown} pixels of about grey 205 were taken for {taken_for}")
     print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}); {len(made.rooms)} rooms proposed")
     _rooms(folder)
-    _check(folder, robot.base.radius_m)
+    if _has_errors(_print_check(folder, robot.base.radius_m)):
+        print("before you drive there, mend what is an error / 出发前请先解决上面的错误（error）")
+        return EXIT_FOUND
     print(f"drive there: pons up --site {said.name}")
     return EXIT_DONE
+
+
+def site_missing(given: str, home: Path) -> SiteError:
+    """Return the refusal of a site that is not there, with the names of those that are."""
+    from pons_assets import SITES
+
+    folders = (home / "sites", SITES)
+    found = {path.parent.name for folder in folders for path in folder.glob("*/map.yaml")}
+    names = ", ".join(sorted(name for name in found if not name.startswith("."))) or "none"
+    text = f"{given} is no site: no map.yaml is there; sites: {names}"
+    zh = f"{given} 不是站点：那里没有 map.yaml；已有站点：{names}"
+    cure = "pons site import MAP.yaml NAME"
+    return SiteError(
+        "site_missing", f"{text}. `{cure}` makes one of a map", f"{zh}。新建：`{cure}`"
+    )
+
+
+def _write(made: NewSite, folder: Path) -> None:
+    """Write a site that loads; one that would not leaves nothing behind."""
+    from planner.site import Site
+
+    made.write(folder)
+    try:
+        Site.load(folder)
+    except SiteError:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
 
 
 def is_site_name(name: str) -> bool:
     """Return whether a new site may be called so."""
     return _NAME.fullmatch(name) is not None
+
+
+def site_name_malformed(name: str) -> SiteError:
+    """Return the refusal of a name that no site may have."""
+    text = f"got {name!r}; expected a small letter, then small letters, digits or _, 32 in all"
+    zh = f"收到 {name!r}；应以小写字母开头，其后为小写字母、数字或 _，最多 32 个字符"
+    return SiteError("site_name_malformed", text, zh)
 
 
 def _load(said: argparse.Namespace) -> LoadedMap:
@@ -181,8 +225,13 @@ def _masks(said: argparse.Namespace, grid: GridMap, robot: RobotDescription) -> 
     return found
 
 
-def _pose(given: list[float]) -> Pose2:
-    return Pose2(given[0], given[1], radians(given[2]))
+def _start(given: list[float]) -> Pose2:
+    x_m, y_m, yaw_deg = given
+    if not (max(abs(x_m), abs(y_m)) <= FARTHEST_M and isfinite(yaw_deg)):
+        text = f"--start: expected two numbers up to {FARTHEST_M:.0f} and degrees, got {given}"
+        zh = f"--start：应为两个不超过 {FARTHEST_M:.0f} 的数和一个角度，收到 {given}"
+        raise SiteError("value_malformed", text, zh)
+    return Pose2(x_m, y_m, wrap(radians(yaw_deg)))
 
 
 def _radius_m(settings: LaunchSettings) -> float:
@@ -215,18 +264,22 @@ def _rooms(folder: Path) -> int:
 
 
 def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
-    from planner.site import Site, plain_name
-    from planner.site.taught_place_errors import PlaceRefusal
+    from planner.site import PlaceRefusal, Site, check_not_order, plain_name, vocabulary_of
 
     proposals = {room.id: room for room in read_proposals(folder)}
     if room_id not in proposals:
         known = ", ".join(proposals) or "none"
-        raise SiteError("room_unknown", f"{room_id!r}; proposed are: {known}")
+        text, zh = f"got {room_id!r}; proposed: {known}", f"没有 {room_id!r}；已有提议：{known}"
+        raise SiteError("room_unknown", text, zh)
     room = proposals[room_id]
+    vocabulary = vocabulary_of(Site.load(folder))
     try:
         names = (plain_name(english), plain_name(chinese))
+        for name in names:
+            check_not_order(name, vocabulary)
     except PlaceRefusal as refused:
-        raise SiteError("value_malformed", str(refused)) from None
+        text, zh = f"{refused.why.en} ({refused.detail})", f"{refused.why.zh}（{refused.detail}）"
+        raise SiteError(refused.code, text, zh) from None
     place_id = re.sub(r"[^a-z0-9]+", "_", names[0].lower()).strip("_")
     if not place_id[:1].isalpha():
         place_id = room_id
@@ -274,11 +327,20 @@ def _print_fence_with_masks(
 
 
 def _check(folder: Path, radius_m: float) -> int:
+    found = _print_check(folder, radius_m)
+    if not found:
+        print(f"{folder.name}: nothing is wrong / 没有问题")
+    return EXIT_FOUND if found else EXIT_DONE
+
+
+def _print_check(folder: Path, radius_m: float) -> tuple[SiteFinding, ...]:
     from planner.navigation.site_check import check_site
 
     found = check_site(folder, radius_m)
     for finding in found:
         print(f"{finding.level}: {finding.code}: {finding.words.en}\n  {finding.words.zh}")
-    if not found:
-        print(f"{folder.name}: nothing is wrong")
-    return EXIT_FOUND if found else EXIT_DONE
+    return found
+
+
+def _has_errors(found: tuple[SiteFinding, ...]) -> bool:
+    return any(finding.level == "error" for finding in found)

@@ -112,6 +112,22 @@ WITHOUT_POSE = MappingProxyType(
 """The first lines about a robot whose localizer has no pose, by what the localizer does."""
 
 
+def _other_map(robot: Json) -> list[str]:
+    """Tell that localization uses another map than the rest: its files changed under way."""
+    theirs, ours = robot.get("localized_map"), robot.get("map_id")
+    if theirs is None or theirs == ours:
+        return []
+    english = (
+        f"The robot stands still: localization uses map {theirs}, the others {ours}. The map's "
+        "files were changed meanwhile: end `pons up` and start it again."
+    )
+    chinese = (
+        f"机器人停着不动：定位使用地图 {theirs}，其余进程使用 {ours}。"
+        "地图文件在运行中被更换：请结束 `pons up` 后重新启动。"
+    )
+    return [english, chinese]
+
+
 def robot_lines(robot: Json) -> list[str]:
     """Describe the robot's state, the rows that are up and its limits."""
     status = robot.get("status")
@@ -132,7 +148,8 @@ def robot_lines(robot: Json) -> list[str]:
         f"limit {limits['v_mps']:.2f} m/s by {limits['by']}",
         braking_line(status["braking"]),
     ]
-    lines = [*WITHOUT_POSE.get(robot.get("localizer") or "", ()), *lines]
+    without_pose = WITHOUT_POSE.get(robot.get("localizer") or "", ())
+    lines = [*_other_map(robot), *without_pose, *lines]
     if limits["by"] == "weak_brakes":
         lines.append(WEAK_BRAKES)
     lines += _trouble(status)

@@ -13,6 +13,7 @@ import signal
 import sys
 import threading
 import time
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,8 +21,9 @@ from pons.children import can_set_up, children, must_set_up, set_up_children
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
-from pons.launch_checks import CannotStart, check, check_port
-from pons.launch_words import chinese_cure
+from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
+from pons.launch_words import chinese_line
+from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
 from pons_assets import ROOT
@@ -38,6 +40,12 @@ if TYPE_CHECKING:
 POLL_S = 0.05
 READY_LIMIT_S = 60.0
 ARM_RETRY_S = 0.5
+SEARCH_TOLD_S = 20.0
+"""A home in which it is clear where the robot is takes a tenth of it."""
+SEARCHES = (
+    "      the robot is looking for where it is, and stands still. On that page: I am here\n"
+    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上指出它在哪里"
+)
 LOOK_S = 0.5
 """The longest that a removed socket stays unreachable, or a log longer than its bound."""
 PRIVATE = 0o077
@@ -61,7 +69,7 @@ class Supervisor:
     ) -> None:
         self._is_patient = came_from_setup or set_up
         """The page is all that this person has: it is not taken away for being slow."""
-        self._said_late = False
+        self._said_late = self._said_search = False
         self.changes = False
         """Whether the run ended because a person asked for set-up, or to leave it."""
         self._set_up = set_up
@@ -76,6 +84,8 @@ class Supervisor:
             else children(settings, robot, planner=planner, issued=issued)
         )
         self._said_ready = False
+        self._readiness = Readiness.WAITING
+        self._searches_since_s, self._searched_s = inf, -inf
         self._armed = not robot.drive.virtual  # on metal a person arms
         self._next_arm_s = 0.0
         self._next_look_s = 0.0
@@ -102,7 +112,7 @@ class Supervisor:
         for child in self._children:
             status = child.died(now_s)
             if status == REFUSED_TO_START:
-                raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
+                raise ChildRefusal(f"{child.name} refused to start:\n{child.last_words()}")
             if status == EXIT_SET_UP and child.name in _CHANGERS:
                 self.changes = True
                 self.end()
@@ -134,7 +144,15 @@ class Supervisor:
             if self._ready() and self._arm():
                 self._said_ready = True
                 self._say_ready(now_s - began_s)
-        if now_s - began_s > READY_LIMIT_S:
+                return
+        if self._readiness is Readiness.SEARCHING:  # a person may tell it where it is
+            self._searches_since_s = min(self._searches_since_s, now_s)
+            self._searched_s = now_s
+            if now_s - self._searches_since_s > SEARCH_TOLD_S and not self._said_search:
+                self._said_search = True
+                say(f"{self._settings.url}\n{SEARCHES}")
+            return
+        if now_s - max(began_s, self._searched_s) > READY_LIMIT_S:
             text = (
                 f"not_ready: the {'planner' if self._planner else 'bridge'} was not ready within "
                 f"{READY_LIMIT_S:.0f} s; logs are in {self._settings.home / 'logs'}"
@@ -159,12 +177,8 @@ class Supervisor:
     def _ready(self) -> bool:
         if not self._planner:
             return True  # arming asks the bridge itself
-        try:
-            asked = "/healthz" if self._set_up else "/readyz"  # set-up drives nowhere
-            call(self._settings, "GET", asked, timeout_s=1.0)
-        except (PlannerDown, PlannerProblem):
-            return False
-        return True
+        self._readiness = ask_readiness(self._settings, set_up=self._set_up)
+        return self._readiness is Readiness.READY
 
     def _arm(self) -> bool:
         if self._armed:
@@ -250,10 +264,11 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
             issued = _certify(settings) if planner and settings.tls else None
             return _supervise(settings, robot, planner=planner, issued=issued)
     except (CannotStart, HomeTaken, HomeUnwritable, ConfigError) as why:
-        print(f"pons up: {why}", file=sys.stderr)
-        cure = chinese_cure(str(why))
-        if cure is not None:
-            print(f"  {cure}", file=sys.stderr)
+        told = f"pons up: {why}"
+        if isinstance(why, ChildRefusal):
+            told += site_flaw(settings, told, planner=planner)
+        told += in_chinese(why) or chinese_line(told)
+        print(told, file=sys.stderr)
         return REFUSED_TO_START
 
 

@@ -100,7 +100,7 @@ class Access:
             if method in TYPED_METHODS:
                 _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))
             if role is not Role.OPERATOR:
-                raise AccessError(403, "operator_needed", f"a viewer may not {method} {path}")
+                raise AccessError(403, "operator_needed", _viewers_limit(method, path))
         return role
 
     def _check_host(self, host: str) -> None:
@@ -142,8 +142,15 @@ class Access:
             return Role.OPERATOR
         if _is_same(token, self.viewer_token):
             return Role.VIEWER
-        detail = "send Authorization: Bearer with a valid token"
+        came = "the token that came is not one of this planner's" if token else "no token came"
+        detail = f"{came}; send Authorization: Bearer with the operator's or the viewer's token"
         raise AccessError(401, "token_needed", detail, guessed=bool(token))
+
+
+def _viewers_limit(method: str, path: str) -> str:
+    """Say what came, what it needs, and what a viewer may do instead."""
+    needed = f"the viewer's token came; {method} {path[:80]} needs the operator's"
+    return f"{needed}; a viewer may GET, and POST {', '.join(sorted(STOPPING_PATHS))}"
 
 
 def is_loopback(host: str) -> bool:

@@ -113,6 +113,9 @@ class Robot(Protocol):
     @property
     def localizer(self) -> LocalizerStatus | None: ...
 
+    @property
+    def localized_map(self) -> str | None: ...
+
     async def hint(self, hint: PoseHint) -> HintVerdict | None: ...
 
     @property

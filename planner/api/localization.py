@@ -5,14 +5,14 @@ An operator's act: a pose decides where the fence lies. Nothing moves by it.
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter
 from pydantic import Field, model_validator
 
 from planner.api.interfaces import Services
 from planner.api.places import Point
-from planner.api.problems import HttpProblem
+from planner.api.problems import HttpProblem, unknown_place
 from planner.api.schemas import Body
 from planner.language.catalogue import say
 from planner.site import Place
@@ -20,6 +20,11 @@ from planner.site.places import normalise
 from planner.site.pose_hint import hint_at, hint_in
 from wire.bounded_types import Name
 
+if TYPE_CHECKING:
+    from wire import LocalizerStatus
+
+ENOUGH_SCORE = 0.6
+"""What localization asks of a place at least (localization.quality), for what a person is told."""
 _STATUS = {"moving": 409, "busy": 409, "no_scan": 503, "no_answer": 503, "does_not_fit": 422}
 
 
@@ -73,7 +78,7 @@ async def give_hint(services: Services, word: HereHint) -> dict[str, Any]:
     code = "no_answer" if verdict is None else verdict.code
     score = None if verdict is None else verdict.score
     if code != "accepted":
-        raise _problem(code, _STATUS.get(code, 503), score)
+        raise _problem(code, _STATUS.get(code, 503), score, services.robot.localizer)
     return {"code": code, "score": score, "message": say("hint.accepted").model_dump()}
 
 
@@ -82,11 +87,15 @@ def _place(services: Services, word: HereHint) -> Place:
     for place in services.memory.places:
         if normalise(wanted) in map(normalise, place.spoken_names):
             return place
-    known = ", ".join(place.id for place in services.memory.places[:20])
-    raise HttpProblem(404, "unknown_place", f"got {wanted[:40]!r}; known: {known}")
+    raise unknown_place(wanted, (place.id for place in services.memory.places))
 
 
-def _problem(code: str, status: int, score: float | None = None) -> HttpProblem:
+def _problem(
+    code: str, status: int, score: float | None = None, now: LocalizerStatus | None = None
+) -> HttpProblem:
     said = say(f"hint.{code}")
-    detail = said.en if score is None else f"{said.en} (score {score:.2f}, needs 0.60)"
-    return HttpProblem(status, f"hint_{code}", detail, message=said.model_dump())
+    if score is not None and score >= ENOUGH_SCORE and now is not None and now.state == "tracking":
+        said = say("hint.fits_less", there=score, here=now.score)
+        return HttpProblem(status, f"hint_{code}", said.en, message=said.model_dump())
+    needs = f" (score {score:.2f}, needs {ENOUGH_SCORE:.2f})" if score is not None else ""
+    return HttpProblem(status, f"hint_{code}", f"{said.en}{needs}", message=said.model_dump())

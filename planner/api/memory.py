@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from fastapi import APIRouter, Path, Query
 from pydantic import Field
 
-from planner.api.problems import HttpProblem
+from planner.api.problems import HttpProblem, unknown_place
 from planner.api.schemas import Body
 from planner.language.catalogue import say
 from planner.language.object_names import name_object
@@ -61,8 +61,7 @@ def routes(services: Services) -> APIRouter:
     async def teach(new: NewFact) -> dict[str, Any]:
         """Keep a fact; the same words again renew it. It orders nothing, whatever it says."""
         if new.place is not None and new.place not in services.memory.vocabulary:
-            known = ", ".join(list(services.memory.vocabulary.by_id)[:20])
-            raise HttpProblem(404, "unknown_place", f"got {new.place!r}; known: {known}")
+            raise unknown_place(new.place, services.memory.vocabulary.by_id)
         try:
             kept = await services.recollection.teach(
                 new.text, said_by=new.source, room=new.place, map_id=services.site.map_id

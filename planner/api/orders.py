@@ -20,7 +20,7 @@ from planner.api.schemas import Body
 from planner.language.utterance import language_of
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, order_of_text, tell_question
-from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_ORDERS, Firing, StandingOrder
+from planner.orders.order import MAX_ORDERS, Firing, StandingOrder
 from planner.orders.rule import upcoming
 from planner.orders.telling import say_goal_of_reminder, tell_deed, tell_rule
 from planner.orders.zone import name_of
@@ -52,7 +52,11 @@ A_SECOND, AT_ONCE = 1.0, 20
 RUNS_SHOWN = 5
 HISTORY = 50
 
-OrderId = Annotated[str, Path(pattern=r"^o[0-9]{1,6}$")]
+MAX_SENT = 20_000
+"""Characters; a longer order than may be kept is refused by its own code, with what may be."""
+
+OrderId = Annotated[str, Path(min_length=1, max_length=64)]
+"""As a list shows it; another one is unknown, and told with those that there are."""
 Seconds = Annotated[float, Field(gt=0.0, le=MAX_AHEAD_S)]
 
 
@@ -87,7 +91,7 @@ class OrderTime(Body):
         return EventRule(event=self.event or WorldEvent.PERSON_SEEN)
 
 
-OrderWords = Annotated[str, Field(min_length=1, max_length=MAX_ORDER_CHARACTERS)]
+OrderWords = Annotated[str, Field(min_length=1, max_length=MAX_SENT)]
 
 
 class NewStandingOrder(Body):
@@ -96,7 +100,7 @@ class NewStandingOrder(Body):
     text: OrderWords | None = None
     """Without ``when`` a whole sentence: "every evening at eight check the door"."""
     when: OrderTime | None = None
-    reminder: Annotated[str, Field(max_length=300)] | None = None
+    reminder: Annotated[str, Field(max_length=MAX_SENT)] | None = None
     """With ``when``, in place of ``text``: the words to be reminded of."""
     language: Language | None = None
     source: Name = "api"

@@ -16,10 +16,11 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.routing import Match
 
-from planner.language.catalogue import say
+from planner.language.catalogue import message, say
+from planner.plan import Code, say_same
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
 
 _LENGTH = say("problem.length")
@@ -47,6 +48,8 @@ SAYINGS = {
     "disk_full": say("problem.disk_full"),
     "recorder_down": say("problem.recorder_down"),
     "voice_timed_out": _AGAIN,
+    "operator_needed": say("problem.operator_needed"),
+    "token_needed": say("problem.token_needed"),
     "foreign_host": say("problem.foreign_host"),
     "foreign_origin": say("problem.foreign_origin"),
     "proxy_without_token": say("problem.proxy_without_token"),
@@ -60,8 +63,14 @@ SAYINGS = {
 }  # fmt: skip
 
 
-def saying_of(code: str) -> dict[str, dict[str, str]]:
+AS_SENT = frozenset({"invalid_request", "malformed_json"})
+"""A person meets these too, by a name or words that are too long; the detail says which."""
+
+
+def saying_of(code: str, detail: str = "") -> dict[str, dict[str, str]]:
     """Return the sentence for a person as ``message``, where the code has one."""
+    if code in AS_SENT:
+        return {"message": say("problem.as_sent", detail=detail).model_dump()}
     return {"message": SAYINGS[code].model_dump()} if code in SAYINGS else {}
 
 
@@ -81,9 +90,17 @@ class HttpProblem(Exception):
         self.more = more
 
 
+def unknown_place(wanted: str, known: Iterable[str]) -> HttpProblem:
+    """Return the refusal of a place that nobody knows, with those that there are."""
+    exist = ", ".join(list(known)[:20])
+    said = message(Code.UNKNOWN_PLACE, name=wanted[:40], near="", known=say_same(exist))
+    detail = f"got {wanted[:40]!r}; known: {exist}"
+    return HttpProblem(404, "unknown_place", detail, message=said.model_dump())
+
+
 def body(status: int, code: str, detail: str, **more: Any) -> dict[str, Any]:
     """Return the JSON of a problem; ``message`` where a person may be the one who reads it."""
-    said = saying_of(code)
+    said = saying_of(code, detail)
     title = HTTPStatus(status).phrase
     return {"type": f"urn:pons:problem:{code}", "title": title, "status": status,
             "code": code, "detail": detail, **said, **more}  # fmt: skip

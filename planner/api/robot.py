@@ -62,6 +62,7 @@ def robot_view(services: Services) -> dict[str, Any]:
         "site": services.site.folder.name,
         "map_id": services.site.map_id,
         "localization": _localization_kind(services),
+        "localized_map": services.robot.localized_map,
         "localizer": services.robot.localizer.state if services.robot.localizer else None,
         "match": match_view(services),
         "setup": setup_view(services),

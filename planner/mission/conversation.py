@@ -16,6 +16,7 @@ from planner.brain.situation import (
     RecentGoal,
     Situation,
 )
+from planner.language.commands import OutcomeCommand, intent_of
 from planner.mission.open_questions import WAITS
 from planner.mission.outcomes import spot_at
 from planner.plan import GoalState
@@ -93,7 +94,11 @@ def _recent(book: MissionState, mission: Mission, now_unix_s: float) -> tuple[Re
 
 
 def _tell_outcome(mission: Mission) -> str:
-    """Return what a person was told of a goal; nothing where a picture was read for it."""
+    """Return what a person was told of a goal; nothing where a picture was read for it, nor where
+    it repeats what another goal came to.
+    """
     if mission.outcome is None or any(step.read is not None for step in mission.steps):
+        return ""
+    if isinstance(intent_of(mission.text), OutcomeCommand):
         return ""
     return mission.outcome.message.of(mission.language)[:_TOLD]

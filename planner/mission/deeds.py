@@ -22,13 +22,16 @@ _NO_DEEDS = frozenset({"recall", "decide", "say", "ask"})
 _UNBEGUN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.REFUSED})
 
 
-def find_deeds(book: MissionState, asking: str, bounds: Bounds) -> tuple[Mission, ...]:
+def find_deeds(
+    book: MissionState, asking: str, bounds: Bounds, place: str | None = None
+) -> tuple[Mission, ...]:
     """Return the goals of a time for which something was done, oldest first.
 
     Args:
         book: all goals at hand.
         asking: the goal that asks.
         bounds: since and until [s], by the wall clock.
+        place: only what was done there; None: wherever it was done.
     """
     since, until = bounds
     found = [
@@ -37,6 +40,7 @@ def find_deeds(book: MissionState, asking: str, bounds: Bounds) -> tuple[Mission
         if mission.id != asking
         and mission.state not in _UNBEGUN
         and any(step.kind not in _NO_DEEDS for step in mission.steps)
+        and (place is None or any(place in (s.place, *s.places) for s in mission.steps))
         and (since is None or mission.updated_unix_s >= since)
         and (until is None or mission.created_unix_s <= until)
     ]

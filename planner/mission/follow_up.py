@@ -18,7 +18,9 @@ from planner.language.commands import (
     AppendCommand,
     Intent,
     LeaningCommand,
+    LeaveOutCommand,
     OtherPlaceCommand,
+    OutcomeCommand,
     RepeatCommand,
     Replace,
     intent_of,
@@ -64,7 +66,7 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
     """Return the order that a sentence is, in words that lean on nothing."""
     intent: Intent | None = intent_of(text)
     last = last_order(book, now_unix_s)
-    if intent is None and last is not None:
+    if (intent is None or isinstance(intent, OutcomeCommand)) and last is not None:
         return name_pronouns(text, last, book.facts)
     if not isinstance(intent, LeaningCommand | Replace):
         return text
@@ -72,6 +74,8 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         return _repeat_order(last.order_text, intent.times) if last is not None else text
     if isinstance(intent, OtherPlaceCommand):
         return _other_place(book.facts, last) or text
+    if isinstance(intent, LeaveOutCommand):
+        return _leave_out(book.facts, last, place_alone(intent.rest, names_of(book.facts))) or text
     rest = _innermost(intent.rest)
     names = names_of(book.facts)
     place = place_alone(rest, names) or place_alone(_ASIDE.sub("", rest), names)
@@ -164,6 +168,28 @@ def _other_place(facts: SiteView, last: Mission | None) -> str | None:
     if len(left) != 1 or len(named) != 2:
         return None
     return _drive_to(facts, left.pop(), last.order_text)
+
+
+def _leave_out(facts: SiteView, last: Mission | None, place: str | None) -> str | None:
+    """Return what is left of an order without a place; None where it has none left, or does more
+    there than drive.
+    """
+    if last is None or last.has_ended or place is None:
+        return None
+    ahead = last.steps[last.step :]
+    rounds = any(step.kind == "patrol" for step in ahead)
+    stops = [stop for step in ahead for stop in (step.places if rounds else (step.place,))]
+    left = [stop for stop in stops if stop is not None and stop != place]
+    drives = all(step.kind == "go_to" for step in ahead) or (rounds and len(ahead) == 1)
+    if not drives or place not in stops or not left:
+        return None
+    chinese = has_chinese(last.order_text)
+    names = [facts.targets[stop].name.of("zh" if chinese else "en") for stop in left]
+    if rounds:
+        return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
+    if chinese:
+        return ",再".join(f"去{name}" for name in names)
+    return ", then ".join(f"go to the {name}" for name in names)
 
 
 def _drive_to(facts: SiteView, place: str, said: str) -> str:

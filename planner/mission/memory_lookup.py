@@ -61,7 +61,7 @@ class MemoryLookup:
         now = datetime.fromtimestamp(self._wall()).astimezone()
         book = self._loop.book
         if ask.deeds:
-            deeds = find_deeds(book, ask.id, bounds_of(ask.when, now))
+            deeds = find_deeds(book, ask.id, bounds_of(ask.when, now), ask.place)
             code = Code.RECALLED if deeds else Code.NOT_REMEMBERED
             return Recalled(ask.id, ask.ticket, code, tell_deeds(deeds, ask.when, now))
         if self.recollection is None:

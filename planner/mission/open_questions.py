@@ -17,7 +17,7 @@ from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
 from planner.mission.outcomes import ended_outcome
 from planner.mission.queue import clear_hold, enqueue, finish, note_step, release_answered
-from planner.mission.scene import DO_THAT, first_deed, scene_of, upon_yes
+from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, tell_declined
 from planner.mission.state import MAX_OPEN, Mission, MissionState
@@ -137,7 +137,7 @@ def take_no(turn: Transaction, mission: Mission) -> None:
     """End a goal whose plan or only offer a person said no to."""
     if mission.has_begun:
         release_answered(turn)
-    deed = first_deed(turn.book.facts, mission.steps[mission.step :]) or DO_THAT
+    deed = whole_deed(turn.book.facts, mission.steps[mission.step :])
     decline(turn, mission, tell_declined(deed))
 
 

@@ -20,6 +20,7 @@ from planner.language.commands import (
     HereCommand,
     Intent,
     LeaningCommand,
+    OutcomeCommand,
     PauseCommand,
     Remember,
     Replace,
@@ -35,7 +36,7 @@ from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
-from planner.mission.spoken_status import doing, tell_battery, tell_position
+from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse
 from planner.site import PlaceRefusal
@@ -113,6 +114,8 @@ class PlannerCommands:
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:
             intent = None  # "you are in the way": nothing of ours
+        if isinstance(intent, OutcomeCommand) and tell_outcome(self._loop.book, ask.id) is None:
+            intent = None  # nothing was done before: a brain reads "how many?"
         if isinstance(intent, ForgetFacts) and self._place(intent.about) is not None:
             intent = None  # "forget about the kitchen": a drive may be meant
         if intent is None and mission is not None and not (mission.replies or mission.steps):
@@ -155,6 +158,9 @@ class PlannerCommands:
                 return self._command_goal("resume", events.Resume, goal_to_resume(book, mission.id))
             case Doing():
                 return AnswerPlan(text=doing(book, self._loop.status_age_s, mission.id))
+            case OutcomeCommand():
+                told = tell_outcome(book, mission.id)
+                return AnswerPlan(text=told or doing(book, self._loop.status_age_s, mission.id))
             case BatteryCommand():
                 return AnswerPlan(text=tell_battery(book, self._loop.status_age_s))
             case Slower() | Faster():

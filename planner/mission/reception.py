@@ -17,7 +17,13 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from planner.language.commands import AppendCommand, LeaningCommand, OtherPlaceCommand, Replace
+from planner.language.commands import (
+    AppendCommand,
+    LeaningCommand,
+    LeaveOutCommand,
+    OtherPlaceCommand,
+    Replace,
+)
 from planner.language.commands import CancelCommand as TakeBack
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
@@ -126,7 +132,9 @@ def receive(
     meant = leans(book, intent, said.text, now_s + book.wall_offset_s)
     if (after or (isinstance(intent, Replace) and intent.corrects)) and not meant:
         intent, after = None, False  # "and you?": a sentence like any other
-    ends = isinstance(intent, OtherPlaceCommand) or (isinstance(intent, Replace) and intent.now)
+    ends = isinstance(intent, OtherPlaceCommand | LeaveOutCommand) or (
+        isinstance(intent, Replace) and intent.now
+    )
     first = ends or isinstance(intent, AppendCommand)
     replaces = after or isinstance(intent, Replace)
     local = bool(asking) or (intent is not None and not replaces)

@@ -93,6 +93,12 @@ def first_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual | None
     return None if step is None else name_deed(facts, step)
 
 
+def whole_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual:
+    """Name what these steps move; "do that" where it is several deeds, or none."""
+    deeds = {name_deed(facts, step) for step in steps if moves(step)}
+    return deeds.pop() if len(deeds) == 1 else DO_THAT
+
+
 def name_deed(facts: SiteView, step: StepRecord) -> Bilingual:
     """Name what a step that may move the robot does."""
     place = facts.home if step.kind == "return_home" else step.place

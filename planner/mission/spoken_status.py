@@ -16,6 +16,8 @@ from wire import Pose2, Status
 NEAR_M = 1.0
 OLD_S = 1.0
 _SHOWN = 60
+_ASIDE = frozenset({"recall", "decide"})
+"""Who only asks of before does nothing whose end is asked for."""
 
 
 STOPPED = message(Code.STOPPED)
@@ -92,6 +94,21 @@ def doing(book: MissionState, age_s: float, asking: str = "") -> Bilingual:
     waiting = len([i for i in book.queue if i != asking])
     more = say("status.more_in_queue", waiting=waiting) if waiting else say_same("")
     return say("status.whole", task=task, motion=motion, more=more)
+
+
+def tell_outcome(book: MissionState, asking: str = "") -> Bilingual | None:
+    """Tell how the newest order ended, or how far it is; None where there was none."""
+    done = [
+        m
+        for m in book.missions.values()
+        if m.id != asking and any(step.kind not in _ASIDE for step in m.steps)
+    ]
+    last = max(done, key=lambda m: m.order, default=None)
+    if last is None:
+        return None
+    if last.outcome is None:
+        return _running(book, last) if last.id == book.running else _task(book, asking)
+    return say("status.outcome", text=_short(last.text), outcome=last.outcome.message)
 
 
 def _motion(status: Status | None, age_s: float) -> Bilingual:

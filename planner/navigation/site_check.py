@@ -7,6 +7,7 @@ less than they seem to. Each finding has a code that stays, and a sentence in ev
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 from typing import TYPE_CHECKING, Literal
 
 import cv2
@@ -20,11 +21,16 @@ from planner.navigation.start_and_goal import end_cells
 from planner.plan.base import Bilingual
 from planner.site import Place, Site, SiteError
 from planner.site.fence_check import PLACE_M
+from planner.site.polygon import area_m2
 from wire import margins
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    Outline = NDArray[np.float32]
 
 STAND_M = 0.10
 """Beside the disc, where a robot stands: pose and cells err by about as much as the gate keeps."""
@@ -33,15 +39,18 @@ COARSE_M = 0.10
 MUCH_UNKNOWN = 0.5
 """Of the cells within the known part's rectangle."""
 KEPT_SHARE = 0.01
+OVERLAP_SHARE = 0.1
+"""Of the smaller of two rooms: their outlines run along the middle of walls, give or take."""
+_DRAWN_CELLS = 100
 ISLAND_SHARE = 0.05
 """Of the free floor, cut off from the robot's home."""
 
-Level = Literal["refused", "warning"]
+Level = Literal["error", "warning"]
 
 
 @dataclass(frozen=True, slots=True)
 class SiteFinding:
-    """Hold one thing that is wrong; what is refused keeps `pons up` from starting there."""
+    """Hold one thing that is wrong; with an error a robot can't start, stand or get somewhere."""
 
     code: str
     level: Level
@@ -49,7 +58,7 @@ class SiteFinding:
 
 
 def check_site(folder: Path, radius_m: float) -> tuple[SiteFinding, ...]:
-    """Return all that is wrong with a site for a robot of a radius, the refusals first.
+    """Return all that is wrong with a site for a robot of a radius, the errors first.
 
     A site that can't be loaded has one finding, the reason.
     """
@@ -58,10 +67,11 @@ def check_site(folder: Path, radius_m: float) -> tuple[SiteFinding, ...]:
         loaded = load_map(folder / "map.yaml")
     except SiteError as error:
         words = Bilingual(en=error.message["en"], zh=error.message["zh"])
-        return (SiteFinding(error.code, "refused", words),)
+        return (SiteFinding(error.code, "error", words),)
     costmap = static_costmap(site, radius_m)
-    found = [*_of_map(loaded), *_of_places(site, costmap), *_of_floor(site, costmap)]
-    return tuple(sorted(found, key=lambda finding: finding.level != "refused"))
+    found = [*_of_map(loaded), *_of_places(site, costmap), *_of_rooms(site)]
+    found += _of_floor(site, costmap)
+    return tuple(sorted(found, key=lambda finding: finding.level != "error"))
 
 
 def _finding(code: str, level: Level = "warning", **facts: str) -> SiteFinding:
@@ -78,15 +88,23 @@ def _of_map(loaded: LoadedMap) -> Iterator[SiteFinding]:
         yield _finding(
             "unknown_kept", share=f"{100 * kept:.0f}", threshold=f"{record.free_thresh:g}"
         )
-    known = np.argwhere(cells != UNKNOWN)
-    if len(known):
-        (low, left), (high, right) = known.min(0), known.max(0)
-        part = cells[low : high + 1, left : right + 1]
-        unknown = float((part == UNKNOWN).mean())
-        if unknown >= MUCH_UNKNOWN:
-            yield _finding("unknown_much", share=f"{100 * unknown:.0f}")
+    unknown = _unknown_share(cells != UNKNOWN)
+    if unknown >= MUCH_UNKNOWN:
+        yield _finding("unknown_much", share=f"{100 * unknown:.0f}")
     if not (cells == OCCUPIED).any():
         yield _finding("no_walls")
+
+
+def _unknown_share(known: Mask) -> float:
+    """Return how much of the smallest rectangle around the known cells is unknown, at any angle."""
+    rows = np.flatnonzero(known.any(axis=1))
+    if not len(rows):
+        return 0.0
+    first = known[rows].argmax(axis=1)
+    last = known.shape[1] - known[rows, ::-1].argmax(axis=1)
+    ends = [np.column_stack((xs, rows + dy)) for xs in (first, last) for dy in (0, 1)]
+    _, (width, height), _ = cv2.minAreaRect(np.concatenate(ends).astype(np.float32))
+    return max(0.0, 1.0 - float(known.sum()) / max(1.0, width * height))
 
 
 def _of_places(site: Site, costmap: Costmap) -> Iterator[SiteFinding]:
@@ -96,7 +114,7 @@ def _of_places(site: Site, costmap: Costmap) -> Iterator[SiteFinding]:
     if reached is None:
         room = float(costmap.clearance_m[row, column])
         yield _finding(
-            "home_tight", "refused", place=site.home.id, room=f"{room:.2f}",
+            "home_tight", "error", place=site.home.id, room=f"{room:.2f}",
             wanted=f"{costmap.radius_m + margins.OBSTACLE_MARGIN_M:.2f}",
         )  # fmt: skip
     for place in site.places:
@@ -122,9 +140,36 @@ def _of_place(
     loosely = _reached_in(site, loose)
     if loosely is not None and bool(loosely[end_cells(loose, site, place.pose)].any()):
         margin = f"{margins.OBSTACLE_MARGIN_M:g}"
-        yield _finding("margin_closes_way", "refused", place=place.id, margin=margin)
+        yield _finding("margin_closes_way", "error", place=place.id, margin=margin)
     else:
-        yield _finding("place_unreachable", "refused", place=place.id)
+        yield _finding("place_unreachable", "error", place=place.id)
+
+
+def _of_rooms(site: Site) -> Iterator[SiteFinding]:
+    rooms = [(room, np.array(room.polygon, np.float32)) for room in site.rooms if room.polygon]
+    for room, _ in rooms:
+        if not room.contains(room.pose.x_m, room.pose.y_m):
+            yield _finding("room_apart", room=room.id)
+    for (one, outline), (other, beside) in combinations(rooms, 2):
+        shared = _shared_m2(outline, beside)
+        smaller = min(area_m2(one.polygon or ()), area_m2(other.polygon or ()))
+        if shared >= OVERLAP_SHARE * smaller:
+            yield _finding("rooms_overlap", room=one.id, other=other.id, area=f"{shared:.1f}")
+
+
+def _shared_m2(one: Outline, other: Outline) -> float:
+    """Return the area that two outlines share, drawn at a hundredth of its extent."""
+    low, high = np.maximum(one.min(0), other.min(0)), np.minimum(one.max(0), other.max(0))
+    if not (high > low).all():
+        return 0.0
+    step_m = float((high - low).max()) / _DRAWN_CELLS
+    size = np.ceil((high - low) / step_m).astype(int)
+    drawn = []
+    for outline in (one, other):
+        canvas = np.zeros((size[1] + 1, size[0] + 1), np.uint8)
+        corners = np.round((outline - low) / step_m * 16).astype(np.int32)
+        drawn.append(cv2.fillPoly(canvas, [corners], 1, cv2.LINE_8, 4) != 0)
+    return float((drawn[0] & drawn[1]).sum()) * step_m**2
 
 
 def _mark_reached(costmap: Costmap, row: int, column: int) -> Mask | None:
@@ -160,4 +205,4 @@ def _of_floor(site: Site, costmap: Costmap) -> Iterator[SiteFinding]:
         yield _finding("no_rooms")
     stands = costmap.clearance_m >= costmap.radius_m
     if not stands.any():
-        yield _finding("no_room_to_stand", "refused", radius=f"{costmap.radius_m:g}")
+        yield _finding("no_room_to_stand", "error", radius=f"{costmap.radius_m:g}")

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, say
 from planner.language.schedule import ScheduleCommand
+from planner.language.schedule.reader import MAX_READ
 from planner.language.utterance import language_of, parse
 from planner.orders.errors import OrderRefusal
-from planner.orders.order import MAX_ORDER_CHARACTERS
+from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_REMINDER_CHARACTERS
 from planner.orders.telling import say_goal_of_reminder
 from planner.plan import Bilingual, Clarify, Language, Option, say_same
 from planner.plan.timing import AtRule, SpokenRule
@@ -71,8 +72,8 @@ def judge_words(new: NewOrder) -> None:
     order = new.order.strip()
     if not order:
         raise OrderRefusal("order_empty", "no order")
-    if len(order) > MAX_ORDER_CHARACTERS:
-        raise OrderRefusal("order_too_long", f"{len(order)} characters", most=MAX_ORDER_CHARACTERS)
+    _judge_length(order, MAX_ORDER_CHARACTERS)
+    _judge_length(new.reminder or "", MAX_REMINDER_CHARACTERS)
     if new.reminder is not None:
         return  # its words are said, and are nobody's order
     said = parse(order)
@@ -100,8 +101,10 @@ def order_of_text(text: str, language: Language | None, source: str) -> NewOrder
     """Return what a whole sentence wants kept, for whoever has no goal of it.
 
     Raises:
-        OrderRefusal: ``order_malformed`` where it is no standing order, else as its time is.
+        OrderRefusal: ``order_too_long``, ``order_malformed`` where it is no standing order, else
+            as its time is.
     """
+    _judge_length(text, MAX_READ)  # a longer one is not read, which is not to say that it is wrong
     command = parse(text).intent
     spoken = language or language_of(text)
     if not isinstance(command, ScheduleCommand):
@@ -112,6 +115,12 @@ def order_of_text(text: str, language: Language | None, source: str) -> NewOrder
     if command.reminder is not None:
         order = say_goal_of_reminder(spoken.value, command.reminder)
     return NewOrder(command.when, order, spoken, text, command.words, command.reminder, source)
+
+
+def _judge_length(text: str, most: int) -> None:
+    if not len(text) <= most:
+        detail = f"{len(text)} characters; at most {most}"
+        raise OrderRefusal("order_too_long", detail, most=most)
 
 
 def tell_question(asked: Clarify) -> Bilingual:

@@ -17,6 +17,7 @@ from planner.plan.timing import AtRule, EventRule, Rule
 MAX_ORDERS = 64
 """Of one robot. Each is looked at ten times a second, and told to every page."""
 MAX_ORDER_CHARACTERS = 500
+MAX_REMINDER_CHARACTERS = 300
 COOLDOWN_S = 60.0
 """Between two firings of one order upon an event."""
 

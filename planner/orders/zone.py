@@ -1,11 +1,13 @@
 """Find the robot's time zone: the owner's setting, else the system's, else UTC.
 
-Reads the environment and one file, once, at the start.
+Reads the environment and one file, once, at the start; one setting is then the whole process's.
 """
 
 from __future__ import annotations
 
 import logging
+import os
+import time
 from datetime import UTC
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -51,6 +53,17 @@ def find_zone(
     except (OSError, ValueError):
         log.warning("timezone_unknown: %s can't be read; standing orders go by UTC", localtime)
         return UTC
+
+
+def set_local_zone(wanted: str | None) -> None:
+    """Let local time be the owner's zone in all of this process; without a setting it stays.
+
+    "Every evening at eight", "after eight", "what did you do this morning?" and the quiet hours of
+    speech mean one clock. In a container, whose own is UTC, they were hours apart.
+    """
+    if wanted is not None:
+        os.environ["TZ"] = wanted  # also of the processes that are begun later
+        time.tzset()
 
 
 def name_of(zone: tzinfo) -> str:

@@ -16,16 +16,14 @@ from itertools import chain, count
 from typing import Any, Protocol, TypeVar
 
 from maps.room_proposals import RoomProposal, read_proposals
-from planner.language.folding import fold, unmask
+from planner.language.folding import unmask
 from planner.language.grammar.sentence_text import squash
-from planner.language.reserved_names import name_reads_as_order
-from planner.language.yes_no import consents
 from planner.plan import Vocabulary
 from planner.site.places import Names, Place
 from planner.site.polygon import area_m2
 from planner.site.site import Site
 from planner.site.site_view import SiteView, facts_of, vocabulary_of
-from planner.site.taught_place_check import check_spot, plain_name
+from planner.site.taught_place_check import check_not_order, check_spot, plain_name
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_HERE, MAX_KEPT, TaughtPlace, TaughtPlaces
 from wire.geometry import Pose2
@@ -268,9 +266,7 @@ class KnownPlaces:
             alike = _drawn_alike(name, others)
             if alike is not None:
                 raise PlaceRefusal("place_name_taken", f"{name!r} looks like {alike.id!r}")
-            answers = any(consents(said) is not None for said in (name, unmask(fold(name))))
-            if answers or name_reads_as_order(name, vocabulary):
-                raise PlaceRefusal("place_name_reserved", f"got {name!r}")
+            check_not_order(name, vocabulary)
 
     def _check_room(self) -> None:
         here = sum(map(self._is_here, self._kept))

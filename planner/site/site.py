@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from maps.errors import SiteError
-from maps.grid import FREE, GridMap
+from maps.grid import GridMap
 from maps.map_file import load_map
+from maps.spots import check_on_floor
 from planner.site.fence import Fence, load_fence
 from planner.site.places import Place, load_places, normalise
 from planner.site.polygon import area_m2
@@ -65,14 +66,9 @@ class Site:
 
 
 def _check_standing(place: Place, grid: GridMap, fence: Fence) -> None:
-    x_m, y_m = place.pose.x_m, place.pose.y_m
-    at = f"the place {place.id!r} at ({x_m}, {y_m})"
-    if not grid.contains(x_m, y_m):
-        right_m = grid.origin_x_m + grid.width * grid.resolution_m
-        top_m = grid.origin_y_m + grid.height * grid.resolution_m
-        span = f"x {grid.origin_x_m} to {right_m}, y {grid.origin_y_m} to {top_m}"
-        raise SiteError("place_outside_map", f"{at} is off the map, which spans {span}")
-    if grid.at(x_m, y_m) != FREE:
-        raise SiteError("place_in_obstacle", f"{at} is not on free floor of the map")
-    if not fence.allows(x_m, y_m):
-        raise SiteError("place_outside_fence", f"{at} is outside the fence")
+    check_on_floor(grid, f"the place {place.id!r}", f"地点 {place.id!r}", place.pose)
+    if not fence.allows(place.pose.x_m, place.pose.y_m):
+        at = f"({place.pose.x_m:.2f}, {place.pose.y_m:.2f})"
+        text = f"the place {place.id!r} at {at} is outside the fence, or in a keep-out area of it"
+        zh = f"地点 {place.id!r} {at} 在围栏之外，或在禁入区内"
+        raise SiteError("place_outside_fence", text, zh)

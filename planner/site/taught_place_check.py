@@ -7,7 +7,10 @@ from collections.abc import Iterator
 from math import ceil, hypot
 
 from maps.grid import FREE
-from planner.language.folding import fold_width
+from planner.language.folding import fold, fold_width, unmask
+from planner.language.reserved_names import name_reads_as_order
+from planner.language.yes_no import consents
+from planner.plan import Vocabulary
 from planner.site.site import Site
 from planner.site.taught_place_errors import PlaceRefusal
 from wire.geometry import Pose2
@@ -37,6 +40,17 @@ def plain_name(name: str) -> str:
         found = ", ".join(sorted(alphabets))
         raise PlaceRefusal("place_name_mixed", f"got {name[:MAX_CHARACTERS]!r}: {found}")
     return kept
+
+
+def check_not_order(name: str, vocabulary: Vocabulary) -> None:
+    """Refuse a name that alone would be an order or an answer: a place called stop.
+
+    Raises:
+        PlaceRefusal: ``place_name_reserved``.
+    """
+    answers = any(consents(said) is not None for said in (name, unmask(fold(name))))
+    if answers or name_reads_as_order(name, vocabulary):
+        raise PlaceRefusal("place_name_reserved", f"got {name!r}")
 
 
 def _alphabet(char: str) -> str:

@@ -43,7 +43,7 @@ def site(path: Path) -> tuple[HealthFinding, Site | None]:
         fix = BilingualWords(
             "mend the site, or choose another with PONS_SITE", "请修正场地或用 PONS_SITE 另选"
         )
-        return fail("site", BilingualWords(str(wrong), str(wrong)), fix), None
+        return fail("site", BilingualWords(str(wrong), wrong.message["zh"]), fix), None
     count = len(loaded.places)
     return ok(
         "site", f"{path.name}, {count} rooms and places", f"{path.name}，{count} 处地点"

@@ -9,11 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
+import numpy as np
 import pytest
 
+from localization.distance_field import DistanceField
 from localization.global_search import GlobalSearch
 from localization.localizer import Localizer, LocalizerState
 from localization.quality import POOR_QUALITY
+from maps import FREE, OCCUPIED, GridMap, load_map
+from maps.cell_array import cell_array
+from tests.conftest import ROOT
 from tests.localization.rooms import (
     CORRIDOR,
     MAP_ID,
@@ -88,6 +93,19 @@ def sunlight(ranges: Ranges, turn: int) -> Ranges:
     return tuple(random.uniform(0.2, 7.0) if random.random() < 0.05 else r for r in ranges)
 
 
+def leaning(first: int) -> Callable[[Ranges, int], Ranges]:
+    """Return the lens of somebody who leans over the lidar: 80 % of the beams end on them."""
+
+    def lens(ranges: Ranges, turn: int) -> Ranges:
+        body, breath, count = Random(1), Random(turn), len(ranges)
+        near = {(first + i) % count: body.uniform(0.25, 0.4) for i in range(count * 4 // 5)}
+        return tuple(
+            near[i] + breath.gauss(0.0, 0.003) if i in near else r for i, r in enumerate(ranges)
+        )
+
+    return lens
+
+
 LENSES: dict[str, Callable[[Ranges, int], Ranges]] = {
     "no beam": lambda _ranges, _: (),
     "one beam": lambda ranges, _: ranges[:1],
@@ -99,6 +117,8 @@ LENSES: dict[str, Callable[[Ranges, int], Ranges]] = {
     "zeros": lambda ranges, _: (0.0,) * len(ranges),
     "mirrored": lambda ranges, _: ranges[::-1],
     "hugged": lambda ranges, t: (0.3 + 0.001 * (t % 5),) * 144 + ranges[144:],
+    **{f"leaned over from {first}": leaning(first) for first in range(0, 180, 15)},
+    "all at 0.3 m": lambda ranges, turn: (0.3 + 0.001 * (turn % 5),) * len(ranges),
     "a black sofa": lambda ranges, _: (None,) * 60 + ranges[60:],
     "glass": glass,
     "sunlight": sunlight,
@@ -213,3 +233,57 @@ def test_along_a_bare_corridor_trust_runs_out_with_the_metres() -> None:
     drive.boxes, drive.true = CORRIDOR, Pose2(12.0, 0.8, 0.0)
     drive.run(SECONDS)
     assert drive.said == [], "each place of it looks like any other"
+
+
+HOME = load_map(ROOT / "sites" / "home" / "map.yaml").grid
+HOME_FIELD = DistanceField.of_map(HOME)
+HOME_SEARCH = GlobalSearch(HOME_FIELD)
+
+
+def boxes_of(grid: GridMap) -> Boxes:
+    """Return a map's obstacles as boxes, a run of a row each."""
+    boxes: list[tuple[float, float, float, float]] = []
+    for row, cells in enumerate(cell_array(grid) == OCCUPIED):
+        edges = np.flatnonzero(np.diff(np.concatenate(([False], cells, [False])).astype(int)))
+        y_m = grid.origin_y_m + row * grid.resolution_m
+        for first, end in edges.reshape(-1, 2):
+            x0_m, x1_m = (grid.origin_x_m + at * grid.resolution_m for at in (first, end))
+            boxes.append((x0_m, y_m, x1_m, y_m + grid.resolution_m))
+    return tuple(boxes)
+
+
+HOME_BOXES = boxes_of(HOME)
+
+
+class HomeDrive(HostileDrive):
+    """Stand somewhere in the default home, whose many corners fit many things."""
+
+    def __init__(self, seed: int) -> None:
+        super().__init__()
+        self.search, self.localizer = HOME_SEARCH, Localizer(HOME_FIELD, LidarConfig(), MAP_ID)
+        self.boxes = HOME_BOXES
+        self.true = self.wheels = self._draw_pose(Random(seed))
+
+    def _draw_pose(self, random: Random) -> Pose2:
+        while True:
+            x_m = HOME.origin_x_m + random.random() * HOME.width * HOME.resolution_m
+            y_m = HOME.origin_y_m + random.random() * HOME.height * HOME.resolution_m
+            cell = np.array([x_m]), np.array([y_m])
+            column, row = HOME.cell_of(x_m, y_m)
+            is_floor = cell_array(HOME)[row, column] == FREE
+            if is_floor and HOME_FIELD.distance(*cell)[0] >= 0.35:
+                return Pose2(x_m, y_m, random.uniform(-3.0, 3.0))
+
+
+CROWDS = ("leaned over from 0", "leaned over from 90", "all at the nearest", "all at 0.3 m")
+
+
+@pytest.mark.parametrize("name", CROWDS)
+@pytest.mark.parametrize("seed", range(3))
+def test_who_is_hugged_at_home_is_not_led_astray(seed: int, name: str) -> None:
+    drive = HomeDrive(seed)
+    drive.run(0.5)
+    assert drive.localizer.state is LocalizerState.TRACKING
+    drive.lens = LENSES[name]
+    drive.run(SECONDS)
+    assert_honest(drive)

@@ -79,6 +79,35 @@ def test_no_threshold_frees_the_grey_that_map_savers_write_for_unknown(
     assert load_map(write(tmp_path, {})).kept_unknown == 0
 
 
+@pytest.mark.parametrize("free_thresh", [0.25, 0.196])
+@pytest.mark.parametrize("negate", [0, 1])
+def test_the_grey_that_jpeg_makes_of_unknown_is_not_floor_either(
+    tmp_path: Path, free_thresh: float, negate: int
+) -> None:
+    greys = bytes((200, 201, 202, 205, 206, 208, 209, 254))
+    wanted = [FREE if free_thresh == 0.25 else UNKNOWN] * 2 + [UNKNOWN] * 4 + [FREE] * 2
+    image = b"P5 8 1 255\n" + (bytes(255 - grey for grey in greys) if negate else greys)
+    changes = {"free_thresh": free_thresh, "negate": negate}
+    loaded = load_map(write(tmp_path, changes, image))
+    assert list(loaded.grid.cells) == wanted
+    assert loaded.kept_unknown == (4 if free_thresh == 0.25 else 2)
+    freed = load_map(write(tmp_path, changes, image), frees_saved_unknown=True)
+    assert list(freed.grid.cells).count(UNKNOWN) == (0 if free_thresh == 0.25 else 4)
+
+
+@pytest.mark.parametrize("quality", [10, 20, 30, 50, 75, 95])
+def test_a_map_that_was_a_jpeg_frees_nothing_that_was_unknown(tmp_path: Path, quality: int) -> None:
+    clean = np.full((64, 64), 254, np.uint8)
+    clean[:, :40], clean[:, 40:44] = 205, 0
+    packed = cv2.imencode(".jpg", clean, [cv2.IMWRITE_JPEG_QUALITY, quality])[1]
+    smeared = np.asarray(cv2.imdecode(packed, cv2.IMREAD_GRAYSCALE), np.uint8)
+    image = b"P5 64 64 255\n" + smeared.tobytes()
+    loaded = load_map(write(tmp_path, {"free_thresh": 0.25}, image))
+    cells = np.flipud(cell_array(loaded.grid))
+    assert not (cells[:, :32] == FREE).any(), "blocks of 8 x 8 without an edge stay flat"
+    assert (cells[:, 48:] == FREE).all()
+
+
 @pytest.mark.parametrize(
     ("mode", "greys", "kinds"),
     [
@@ -169,6 +198,8 @@ def test_plain_pgm_and_another_white_read_the_same(tmp_path: Path) -> None:
     assert load_map(write(tmp_path, {}, plain)).grid == wanted
     deep = np.frombuffer(PIXELS, np.uint8).astype(">u2") * 257
     assert load_map(write(tmp_path, {}, b"P5 3 2 65535\n" + deep.tobytes())).grid == wanted
+    noted = b"P5\n# CREATOR: a map saver\n3 2\n# white\n255\n" + PIXELS
+    assert load_map(write(tmp_path, {}, noted)).grid == wanted
     long = b"P2 3 2 65535\n" + b" ".join(str(value).encode() for value in deep)
     assert load_map(write(tmp_path, {}, long)).grid == wanted
     assert load_map(write(tmp_path, {}, IMAGE + b"a second picture")).grid == wanted
@@ -201,6 +232,10 @@ def test_png_reads_as_pgm_does(tmp_path: Path) -> None:
         ({"resolution": 1e-9}, "value_malformed"),
         ({"resolution": 10.0}, "value_malformed"),
         ({"resolution": float("nan")}, "value_malformed"),
+        ({"resolution": True}, "value_malformed"),
+        ({"occupied_thresh": True}, "value_malformed"),
+        ({"origin": [1e4, 0, 0]}, "value_malformed"),
+        ({"origin": [-1e4, 0, 2.0]}, "value_malformed"),
         ({"origin": [0, 0]}, "value_malformed"),
         ({"origin": [float("inf"), 0, 0]}, "value_malformed"),
         ({"negate": 2}, "value_malformed"),
@@ -306,7 +341,7 @@ def test_yaml_makes_no_objects(tmp_path: Path) -> None:
         (b"P5 3 2 0\n" + PIXELS, "map_image_malformed"),
         (b"P2 3 2 255\n0 1 2 3 4 x", "map_image_malformed"),
         (b"P5 3 2 100\n" + PIXELS, "map_image_malformed"),
-        (b"P5 0 2 255\n", "map_image_too_large"),
+        (b"P5 0 2 255\n", "map_image_malformed"),
         (b"P5 99999 99999 255\n" + PIXELS, "map_image_too_large"),
         (b"P5 " + b"9" * 5000 + b" 2 255\n" + PIXELS, "map_image_malformed"),
         (b"\x89PNG\r\n\x1a\n" + b"\0\0\0\rIHDR" + b"\0\0\0\1" * 2, "map_image_malformed"),
@@ -315,6 +350,39 @@ def test_yaml_makes_no_objects(tmp_path: Path) -> None:
 )
 def test_a_broken_picture_is_refused(tmp_path: Path, image: bytes, code: str) -> None:
     assert refusal(write(tmp_path, {}, image)).code == code
+
+
+@pytest.mark.parametrize(
+    ("image", "en", "zh"),
+    [
+        (b"", "got an empty file, expected PGM (P2, P5) or PNG", "请先转换"),
+        (b"\xff\xd8\xff\xe0", "got a JPEG, expected PGM", "收到 a JPEG"),
+        (b"words", "a file that begins b'words'", "请先转换"),
+        (b"P5 0 2 255\n", "0 x 2 pixels; expected 1 to", "0 x 2"),
+        (b"P2 3 2 255\n0 1 x", "pixel 3 is b'x', expected 0 to 255", "第 3 个像素"),
+        (b"P2 3 2 255\n# here\n0 1", "a comment (#) behind the value of white", "注释"),
+        (b"P5 3 2 255\n# here\n" + PIXELS, "a comment (#) behind the value", "注释"),
+    ],
+)
+def test_a_broken_picture_is_told_by_what_came(
+    tmp_path: Path, image: bytes, en: str, zh: str
+) -> None:
+    error = refusal(write(tmp_path, {}, image))
+    assert error.code == "map_image_malformed"
+    assert en in error.message["en"]
+    assert zh in error.message["zh"]
+
+
+def test_a_pixel_that_looks_like_a_comment_is_one(tmp_path: Path) -> None:
+    image = b"P5 3 2 255\n#" + PIXELS[1:]
+    assert list(load_map(write(tmp_path, {}, image)).grid.cells)[3:] == [OCCUPIED, UNKNOWN, FREE]
+
+
+def test_an_image_that_is_missing_is_told_with_those_that_are_there(tmp_path: Path) -> None:
+    (tmp_path / "old.png").mkdir()
+    error = refusal(write(tmp_path, {"image": "nowhere.pgm"}))
+    assert "images there: map.pgm" in error.message["en"]
+    assert "那里的图像：map.pgm" in error.message["zh"]
 
 
 def test_a_png_chunk_that_claims_two_gigabytes_is_refused_before_it_is_allotted(
@@ -337,7 +405,7 @@ def test_a_png_of_many_bytes_a_pixel_is_refused_before_it_is_unpacked(tmp_path: 
     assert "colour type 6 and 16 bits" in str(refused)
 
 
-@pytest.mark.parametrize("size", [(3, 5), (4, 4)])
+@pytest.mark.parametrize("size", [(3, 5), (4, 4), (2, 4), (3, 2), (6, 2)])
 def test_a_png_whose_header_lies_is_refused(tmp_path: Path, size: tuple[int, int]) -> None:
     whole = cv2.imencode(".png", np.zeros((3, 4), np.uint8))[1].tobytes()
     head = b"IHDR" + size[1].to_bytes(4) + size[0].to_bytes(4) + whole[24:29]

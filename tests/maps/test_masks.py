@@ -143,3 +143,13 @@ def test_masks_of_too_many_corners_are_refused(tmp_path: Path) -> None:
     with pytest.raises(SiteError, match="at most 1000") as refused:
         join_masks(FENCE, [MaskAreas(many)])
     assert refused.value.code == "map_too_ragged"
+
+
+@pytest.mark.parametrize(
+    ("base", "multiplier"), [(float("nan"), -1.0), (100.0, float("inf")), (1e308, -1.0)]
+)
+def test_a_scale_that_makes_no_limit_is_refused(base: float, multiplier: float) -> None:
+    """With an infinite multiplier every zone of the mask was passed over."""
+    with pytest.raises(SiteError, match="value_malformed") as refused:
+        SpeedScale(0.5, base=base, multiplier=multiplier)
+    assert "限速掩膜" in refused.value.message["zh"]

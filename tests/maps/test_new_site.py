@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import cv2
@@ -13,11 +18,12 @@ from numpy.typing import NDArray
 from maps import FREE, SiteError, load_map
 from maps.cell_array import cell_array
 from maps.map_file import load_picture
-from maps.new_site import new_site
+from maps.new_site import NewSite, new_site
 from maps.room_proposals import read_proposals
 from maps.rooms import propose_rooms
 from maps.site_fence import draw_fence, floor_around
 from planner.site import Fence, Site
+from tests.conftest import ROOT
 from wire import Pose2
 from wire.fence import MAX_CORNERS, FenceFile, flaw
 from wire.site_map import read_map_id
@@ -57,6 +63,59 @@ def test_a_map_becomes_a_site_that_loads(tmp_path: Path) -> None:
     assert [room.id for room in read_proposals(tmp_path / "flat")] == ["room_1", "room_2"]
     with pytest.raises(SiteError, match="site_exists"):
         made.write(tmp_path / "flat")
+
+
+class DyingFiles(dict[str, bytes]):
+    """Be a site's files; whoever writes them is killed after so many."""
+
+    after = 0
+
+    def items(self) -> Iterator[tuple[str, bytes]]:  # type: ignore[override]
+        """Yield name and bytes of each, as long as it lasts."""
+        yield from list(super().items())[: self.after]
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def die_while_writing(source: str, folder: str, after: int) -> None:
+    made = new_site(load_map(Path(source)), RADIUS_M)
+    files = DyingFiles(made.files)
+    files.after = after
+    NewSite(files, made.home, made.rooms).write(Path(folder))
+
+
+@pytest.mark.parametrize("after", [0, 2, 5])
+def test_killed_while_it_is_written_a_site_is_not_there_and_can_be_made_again(
+    tmp_path: Path, after: int
+) -> None:
+    source, folder = written(tmp_path, two_rooms()), tmp_path / "sites" / "flat"
+    call = f"die_while_writing({str(source)!r}, {str(folder)!r}, {after})"
+    code = f"from tests.maps.test_new_site import die_while_writing; {call}"
+    died = subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False, timeout=60)
+    assert died.returncode == -signal.SIGKILL
+    assert not folder.exists()
+    made = new_site(load_map(source), RADIUS_M)
+    assert after <= len(made.files)
+    made.write(folder)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == made.files
+
+
+def test_what_a_kill_left_half_written_is_in_nobodys_way(tmp_path: Path) -> None:
+    made = new_site(load_map(written(tmp_path, two_rooms())), RADIUS_M)
+    left = tmp_path / "sites" / ".flat.new"
+    left.mkdir(parents=True)
+    (left / "map.yaml").write_text("image: map.pgm\n")
+    made.write(tmp_path / "sites" / "flat")
+    assert {path.name for path in (tmp_path / "sites" / "flat").iterdir()} == set(made.files)
+
+
+def test_what_a_map_without_room_holds_is_told(tmp_path: Path) -> None:
+    picture: Picture = np.full((40, 50), 0, np.uint8)
+    picture[:10], picture[20:24, 20:24] = 205, 254
+    with pytest.raises(SiteError, match="map_no_floor") as refused:
+        new_site(load_map(written(tmp_path, picture)), RADIUS_M)
+    told = refused.value.message
+    assert "of 50 x 40 cells 1 % are free, 74 % occupied, 25 % unknown" in told["en"]
+    assert "空地 1%，障碍 74%，未知 25%" in told["zh"]
 
 
 def test_a_persons_word_stands_in_the_pixels(tmp_path: Path) -> None:

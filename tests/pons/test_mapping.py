@@ -117,7 +117,9 @@ def test_what_is_no_recording_is_refused(
         path.write_bytes(data)
     assert mapping.run(settings, ["attic", str(path)]) == 3
     code = {None: "recording_missing", b"": "map_no_drive"}.get(data, "recording_not_mcap")
-    assert code in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert code in said
+    assert "录制" in said
 
 
 def test_a_disk_without_room_is_refused(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from math import pi
 from pathlib import Path
 
 import pytest
@@ -91,6 +92,97 @@ def test_what_cannot_be_is_refused_by_name(
     given = [word.format(plan=plan, image=image) for word in words]
     assert site.run(settings, given) == status
     assert code in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("start", "code"),
+    [
+        (("nan", "1", "0"), "value_malformed"),
+        (("1", "inf", "0"), "value_malformed"),
+        (("1", "1", "nan"), "value_malformed"),
+        (("99", "1", "0"), "place_outside_map"),
+        (("0", "0", "0"), "place_in_obstacle"),
+    ],
+)
+def test_a_start_that_cannot_be_is_refused_and_leaves_nothing(
+    settings: LaunchSettings,
+    plan: Path,
+    capsys: pytest.CaptureFixture[str],
+    start: tuple[str, str, str],
+    code: str,
+) -> None:
+    words = ["import", str(plan), "mine", "--unknown", "unknown", "--start", *start]
+    assert site.run(settings, words) == 3
+    english, chinese = capsys.readouterr().err.strip().split("\n")
+    assert english.startswith(f"refused: {code}: ")
+    assert "起点" in chinese or "应为" in chinese
+    assert not (settings.home / "sites").exists()
+
+
+def test_a_start_may_look_any_way_round(settings: LaunchSettings, plan: Path) -> None:
+    words = ["import", str(plan), "mine", "--unknown", "unknown", "--start", "1.5", "1.5", "450"]
+    assert site.run(settings, words) == 0
+    home = Site.load(site_of("mine", settings.home)).home
+    assert home.pose.yaw_rad == pytest.approx(pi / 2)
+
+
+def test_a_site_that_would_not_load_is_not_left_behind(
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A keep-out mask that closes everything: home would lie outside the fence."""
+    picture = (plan.parent / "map.pgm").read_bytes()
+    header = picture[: picture.index(b"255\n") + 4]
+    (plan.parent / "closed.pgm").write_bytes(header + bytes(len(picture) - len(header)))
+    mask = plan.parent / "mask.yaml"
+    mask.write_text(plan.read_text().replace("map.pgm", "closed.pgm"))
+    words = ["import", str(plan), "mine", "--unknown", "unknown"]
+    assert site.run(settings, [*words, "--keepout", str(mask)]) == 3
+    said = capsys.readouterr().err
+    assert "place_outside_fence" in said
+    assert "禁入区" in said
+    assert not list((settings.home / "sites").iterdir())
+    assert site.run(settings, words) == 0
+
+
+def test_after_an_import_with_an_error_nobody_is_told_to_drive_there(
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["import", str(plan), "mine", "--unknown", "unknown", "--start", "0.15", "1.5", "0"]
+    assert site.run(settings, words) == 1
+    said = capsys.readouterr().out
+    assert "error: home_tight" in said
+    assert "pons up" not in said
+    assert "出发前" in said
+
+
+def test_what_grey_205_was_taken_for_is_told(
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for word, taken_for in (("unknown", "unknown"), ("free", "floor")):
+        assert site.run(settings, ["import", str(plan), f"as_{word}", "--unknown", word]) == 0
+        assert f"grey 205 were taken for {taken_for}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["stop", "停", "yes", "go to the kitchen"])
+def test_a_room_is_not_called_by_an_order(
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    assert site.run(settings, ["name", "mine", "room_1", name]) == 3
+    english, chinese = capsys.readouterr().err.strip().split("\n")
+    assert "place_name_reserved" in english
+    assert "名称" in chinese
+    assert not Site.load(site_of("mine", settings.home)).rooms
+
+
+def test_a_site_that_is_not_there_is_told_with_those_that_are(
+    settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert site.run(settings, ["check", "nowhere"]) == 3
+    english, chinese = capsys.readouterr().err.strip().split("\n")
+    assert "nowhere is no site" in english
+    assert "home, two_room" in english
+    assert "已有站点：home, two_room" in chinese
 
 
 def test_masks_of_a_site_that_exists_make_a_fence_to_propose(

@@ -119,3 +119,17 @@ def test_a_robot_without_a_pose_says_so_first_in_both_languages(state: str) -> N
     assert lines[1].startswith("机器人")
     well = robot_lines({"status": said, "room": None, "localizer": "tracking"})
     assert well == robot_lines({"status": said, "room": None})
+
+
+def test_a_map_that_was_changed_under_way_is_named_first_in_both_languages() -> None:
+    said = STATUS.model_dump(mode="json")
+    robot = {"status": said, "room": None, "localizer": "tracking", "map_id": "a" * 16}
+    lines = robot_lines({**robot, "localized_map": "b" * 16})
+    for line in lines[:2]:
+        assert "a" * 16 in line
+        assert "b" * 16 in line
+        assert "pons up" in line
+    assert lines[1].startswith("机器人停着不动")
+    well = robot_lines(robot)
+    assert well == lines[2:]
+    assert well == robot_lines({**robot, "localized_map": "a" * 16})

@@ -1,5 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { ApiError, fetchObjects, fetchPicture } from "../src/net/api";
+import { setToken, tokenNeeded } from "../src/net/token";
 
 const answering = (make: () => Response): void => {
   vi.stubGlobal("fetch", () => Promise.resolve(make()));
@@ -28,5 +29,29 @@ describe("an answer", () => {
     expect(await code(fetchPicture())).toBe("http_503");
     answering(() => new Response("\xff\xd8"));
     expect(await code(fetchPicture())).toBe("well");
+  });
+});
+
+describe("a refused token", () => {
+  const refused = (): Response => Response.json({ code: "token_needed" }, { status: 401 });
+
+  it("is asked for", async () => {
+    vi.stubGlobal("sessionStorage", { setItem: () => undefined });
+    setToken("wrong");
+    answering(refused);
+    expect(await code(fetchObjects())).toBe("token_needed");
+    expect(tokenNeeded.value).toBe(true);
+  });
+
+  it("is not asked for again by an answer to what was sent before it was given", async () => {
+    vi.stubGlobal("sessionStorage", { setItem: () => undefined });
+    setToken("wrong");
+    let answer: (late: Response) => void = () => undefined;
+    vi.stubGlobal("fetch", () => new Promise<Response>((resolve) => (answer = resolve)));
+    const asked = code(fetchObjects());
+    setToken("right");
+    answer(refused());
+    expect(await asked).toBe("token_needed");
+    expect(tokenNeeded.value).toBe(false);
   });
 });

@@ -97,6 +97,13 @@ class OtherPlaceCommand:
 
 
 @dataclass(frozen=True, slots=True)
+class LeaveOutCommand:
+    """Do what is left of the last goal without one of its places: "skip the bathroom"."""
+
+    rest: str
+
+
+@dataclass(frozen=True, slots=True)
 class WhereCommand:
     """Ask for the robot's position."""
 
@@ -112,6 +119,11 @@ class BatteryCommand:
 
 
 @dataclass(frozen=True, slots=True)
+class OutcomeCommand:
+    """Ask how the goal before ended: "did you find it?", "how many were there?"."""
+
+
+@dataclass(frozen=True, slots=True)
 class Slower:
     """Halve the speed cap of the running goal."""
 
@@ -121,7 +133,7 @@ class Faster:
     """Double the speed cap again, up to the goal's first one."""
 
 
-LeaningCommand = AppendCommand | RepeatCommand | OtherPlaceCommand
+LeaningCommand = AppendCommand | RepeatCommand | OtherPlaceCommand | LeaveOutCommand
 """What has a meaning by the goal before it alone."""
 Intent = (
     Remember
@@ -136,9 +148,11 @@ Intent = (
     | AppendCommand
     | RepeatCommand
     | OtherPlaceCommand
+    | LeaveOutCommand
     | WhereCommand
     | Doing
     | BatteryCommand
+    | OutcomeCommand
     | Slower
     | Faster
     | OrderCommand

@@ -51,6 +51,7 @@ RESUME = re.compile(
 PAUSE = re.compile(
     rf"pause (?:for(?: now)?|here|for {_BRIEF}|{_BRIEF}|this|{_THE_TASK}|what you are doing)"
     r"|(?:hold on|hang on)(?: (?:a|one) (?:moment|second|sec|minute))?"
+    r"|hold it (?:a|one) (?:moment|second|sec|minute)"
     r"|(?:a|one|just a) (?:moment|sec)"
     r"|just a (?:second|minute)|give me a (?:moment|second|sec|minute)|take a break"
     r"|wait (?:just )?a (?:second|sec|moment|bit)"
@@ -58,11 +59,14 @@ PAUSE = re.compile(
 CANCEL = re.compile(
     rf"(?:cancel|abort|drop|call off) (?:it|this|that one|{_THE_TASK})|call it off"
     r"|(?:forget (?:it|that)|scrap that|leave it)[ ,]+(?:never ?mind|i changed my mind)"
+    r"|(?:never ?mind|forget it)[ ,]+(?:forget it|leave it|leave that)"
     r"|(?:ok |okay )?(?:that(?:'s| is) )?(?:far |quite |good )?enough(?: now)?"
     r"(?:[ ,]+(?:quit it|stop it|thank you))?"
     r"|forget (?:it|that|this|about (?:it|that|this)|what i (?:said|told you))"
     rf"|forget (?:about )?{_THE_TASK}"
-    r"|never ?mind(?: (?:it|that|about (?:it|that)))?|scratch that|scrap that|don't bother"
+    r"|never ?mind(?: (?:it|that|about (?:it|that)))?"
+    r"|scratch that|scrap (?:that|the|this)(?: whole)?(?: thing| lot)?|don't bother"
+    r"|leave it(?: be| then)?|forget it then"
     r"|no need(?: (?:any ?more|for (?:it|that)))?|i changed my mind"
     rf"|(?:don't|do not) go(?: there)?(?: {_MORE})?"
     rf"|(?:don't|do not) go (?:in)?to (?:the |my |our )?[a-z]+(?: [a-z]+)? {_MORE}"
@@ -71,6 +75,11 @@ CANCEL = re.compile(
 )
 TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
 """What may stand before the order that comes in place of the current one."""
+ORDERS = re.compile(
+    r".*\b(?:go|come|drive|head|find|look|search|count|follow|patrol|wait|bring|take|turn|say|tell|ask"
+    r"|remind|remember|if|when|unless|until)\b"
+)
+"""With these a clause is no mere reason."""
 REASON = re.compile(
     r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|remember(?:ed)?|know|did|done"
     r"|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
@@ -93,7 +102,7 @@ INSTEAD = re.compile(
     rf"|(?P<rest2>(?:go|come|drive|move|return|head|wait|turn|patrol)\b{_ONE_ORDER}),? instead"
 )
 _SPEED = r"(?: (?:a (?:little|bit|lot)|a little bit|much|even|still|down|up|more))*"
-_SOME = r"(?:you (?:can|may) )?(?:(?:a (?:little|bit|lot|little bit)|much|even|still|some) )?"
+_SOME = r"(?:you (?:can|may) )?(?:(?:(?:a )?(?:little|bit|lot|little bit)|much|even|still|some) )?"
 SLOWER = re.compile(
     rf"{_SOME}(?:(?:slow down|ease off|ease up|easy does it)(?: a (?:little|bit)| there| now)*"
     rf"|(?:(?:go|drive|move|roll)(?: a (?:little|bit)| much)? )?(?:slower|more slowly){_SPEED})"
@@ -120,6 +129,9 @@ DOING = re.compile(
     r"|are you (?:stuck|lost|blocked|okay|ok|alright|all right)(?: or (?:something|what))?"
     r"|why (?:did|have) you (?:stop|stopped|pause|paused|halt|halted)|why are you (?:not moving"
     r"|standing(?: still| there)?|waiting|stopped)|how is it going|how far (?:along )?are you"
+    r"|what(?:'s| is) next"
+    r"|where (?:are you )?(?:going|off to) (?:next|after (?:this|that)(?: one)?)"
+    r"|why(?: there)?|why are you going there"
     r"|what(?:'s| is) (?:keeping|taking) you(?: so long)?|what are you on(?: with)?"
 )
 _CHARGE = r"(?:battery|charge|power|juice)"
@@ -135,6 +147,21 @@ BATTERY = re.compile(
     rf"|(?:do you have|have you got|you(?:'ve)? got|you have) enough {_CHARGE}(?: left)?"
     r"(?: for [a-z ]{1,30})?|do you need (?:to be )?(?:charging|charged|a charge|to charge)"
 )
+_THEM = r"(?:it|him|her|them|that|one|any)"
+_THEN = r"(?: (?:yet|then|now|there|in there|at all|in the end|in all|altogether|in total))*"
+OUTCOME = re.compile(
+    rf"did you (?:find|get|spot|catch|manage|see|reach|make|ask|tell) {_THEM}{_THEN}"
+    rf"|(?:have you )?(?:found|got|seen) (?:{_THEM}|anything)(?: yet)|any luck(?: (?:yet|with it))?"
+    rf"|(?:and )?how many(?: (?:was (?:it|that)|is it|(?:were|are) (?:there|they|those|in there)"
+    rf"|did you (?:find|see|count|get)))?{_THEN}"
+    r"|(?:and )?what did (?:he|she|they) (?:say|answer|reply|want)"
+    r"|what(?:'s| is| was) (?:his|her|their|the) (?:answer|reply|result|outcome|verdict)"
+    r"|did (?:he|she|they) (?:answer|reply|say (?:yes|no|anything|something)|hear (?:you|it|that))"
+    rf"|how did (?:it|that) go|did (?:it|that) work(?: out)?|what happened{_THEN}"
+    r"|where (?:was|were) (?:it|he|she|they)"
+    rf"|(?:was|were) (?:he|she|it|they|any|one) (?:in |over )?there{_THEN}|did you get there"
+)
+"""Asks how the goal before ended; where there was none, a brain reads it."""
 
 _HERE = r"(?:this|here|(?:this|that|the current) (?:place|spot|location|position|point)(?: here)?)"
 _SPOT = r"(?:this|the current) (?:place|spot|location|position|point|corner)|here"
@@ -173,12 +200,29 @@ _SAYS = (
     r"|aren't|wants?|keeps?|uses?|opens?|closes?|starts?|ends?)"
 )
 _KEEP = (
-    r"(?:remember|note|keep in mind|bear in mind|memori[sz]e|make a note|take a note|write down"
+    r"(?:remember|note(?: down)?|keep in mind|bear in mind|memori[sz]e|make a note"
+    r"|take a note|write down"
     r"|(?:don't|do not|never) forget)"
 )
+_DOES = (
+    r"(?:please|go|come|drive|find|look|get|tell|ask|say|wait|follow|bring|take|turn|stop|if|when"
+    r"|you|i|we|it|there|what|who|where)\b"
+)
+_OWNED = r"(?:(?:the|my|our|his|her|their|[a-z]+'s) [a-z0-9' ]{2,40}?)"
+_PUT = (
+    r"(?:i|we|he|she|they)(?:'ve| have|'m| am| are)? (?:just |already )?(?:put(?:ting)?|left|parked"
+    r"|parking|placed|stored|hid|keep)"
+)
+_KEPT = (
+    rf"[,;.!]+ (?:and |so |please )*(?:{_KEEP}|keep (?:that|it) in mind|you should know"
+    r"|make a note)(?: (?:of )?(?:it|that|this))?(?: please)?"
+)
+KEPT = re.compile(rf"{_KEPT}$")
+"""Asks behind a statement to remember it."""
 TEACH = re.compile(
     rf"{_KEEP}(?: that|:| this:| the following:|,)+ (?P<a>(?!to\b).{{4,}})"
     rf"|{_KEEP} (?P<b>(?!{_ORDERS}){_NOUN} {_SAYS}\b.*)|(?P<c>{_THIS_IS})|{_KEEP} (?P<d>{_THIS_IS})"
+    rf"|(?P<e>(?:(?!{_DOES}){_NOUN} {_SAYS}|{_PUT})\b[^,;:.!?]{{2,80}}){_KEPT}"
 )
 """What is to be remembered, word for word."""
 THIS_IS = re.compile(r"this is .*")
@@ -202,13 +246,21 @@ FORGET_ABOUT = re.compile(
     rf"{_DROP} (?:everything |all |that |the thing |that thing |what you (?:know|remember)"
     rf" )?(?:about|of) {_ABOUT.format('a')}"
 )
+_AT = r"(?:in|on|at|under|behind|near|next to|beside|inside|on top of)"
+_LIES_AT = rf"{_AT} (?:the|my|our|your|[a-z]+'s) [a-z0-9' ]{{2,40}}"
 STATEMENT = re.compile(
+    rf"(?:(?:just )?so you know|fyi|for the record|for your information)[ ,:]+(?!{_DOES}){_NOUN}"
+    rf" {_SAYS}\b[^,;:.!?]{{2,80}}|(?:by the way)?[ ,:]*(?:"
     r"(?:the|my|our|[a-z]+'s) [a-z0-9' ]{2,40}? (?:is|are) (?:still |now |always |usually "
-    r"|lying |kept |stored )?"
-    r"(?:in|on|at|under|behind|near|next to|beside|inside|on top of) "
-    r"(?:the|my|our|your|[a-z]+'s) [a-z0-9' ]{2,40}"
+    rf"|lying |kept |stored )?{_LIES_AT}"
+    rf"|{_OWNED} (?:lives?|belongs?|goes) (?:{_LIES_AT}|to [a-z' ]{{2,30}})"
+    rf"|{_PUT} (?:the|my|our|your|a|his|her) [a-z0-9' ]{{2,40}}? {_LIES_AT}"
+    r"|my name(?: is|'s) [a-z' -]{2,30}|my favou?rite [a-z ]{2,30} (?:is|are) [a-z' ]{2,40}"
+    r"|this is (?:my|our) (?!(?:way|turn|fault|last|chance|problem|place)\b)[a-z]+ [a-z' -]{2,30}"
+    r")(?:,? by the way)?"
 )
-"""A flat statement of where something is; said as an order of its own it is worth remembering."""
+"""A flat statement that says where something is, whose it is or who somebody is; said as an order
+of its own it is worth remembering."""
 
 DETERMINER = re.compile(r"(?:the|my|our) ")
 NO_NAME = re.compile(

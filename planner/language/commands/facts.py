@@ -55,6 +55,9 @@ _PRONOUN = re.compile(
 
 def _read_teaching(said: FoldedText, grammar: ModuleType) -> TeachFact | None:
     found = grammar.TEACH.fullmatch(said.folded)
+    kept = grammar.KEPT.search(said.folded)
+    if kept is not None and grammar.STATEMENT.fullmatch(said.folded[: kept.start()]):
+        return TeachFact(said.part(0, kept.start()).written.strip(_ENDS + _QUOTES))
     if found is None:
         return None
     group = next(name for name, text in found.groupdict().items() if text is not None)

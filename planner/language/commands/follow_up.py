@@ -11,6 +11,7 @@ import re
 
 from planner.language.commands.command import (
     AppendCommand,
+    LeaveOutCommand,
     OtherPlaceCommand,
     RepeatCommand,
     Replace,
@@ -21,7 +22,7 @@ from planner.language.yes_no import consents
 
 MAX_READ = 120
 """Characters; a longer sentence is an order of its own."""
-FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | Replace
+FollowUp = RepeatCommand | AppendCommand | OtherPlaceCommand | LeaveOutCommand | Replace
 _ENDS = " .!,;:。~…，；！"
 _PLEASE = r"(?:please|pls|ok|okay|robot|pons|hey|um|uh|well|oh|now|and|just|thanks)"
 _NOISE = re.compile(r"^(?:(?:um+|uh+|er+|h+m+|well|ok|okay|hey|robot|pons|please|嗯|呃|请)[ ,]+)+")
@@ -63,6 +64,13 @@ _OTHER_ZH = re.compile(
     r"另(?:外)?(?:那)?一?(?:个|间)(?:房间|地方)?"
 )
 
+_LEFT_OUT = re.compile(
+    r"(?:skip|leave out|omit|miss out|pass over) (?P<rest>(?:the |my |our )?[a-z][a-z' -]{1,30}?)"
+    r"(?:[,;.] (?:because |since |for )?(?:the|my|our|she|he|it|they|i|we|somebody|someone)\b.*)?"
+    r"|leave (?P<rest2>(?:the |my |our )?[a-z][a-z' -]{1,30}?) out"
+)
+_LEFT_OUT_ZH = re.compile(r"(?:跳过|略过)(?P<rest>[^,。;]{1,8}?)(?:别去|不去)?了?")
+
 _ALSO_BEFORE = re.compile(
     r"(?:and (?:then|also|after that)|and then also|also|after that|afterwards|and) (?P<rest>.+)"
 )
@@ -76,8 +84,9 @@ _ASKS = re.compile(
 )
 """What asks for one more by a question: its mark is no doubt."""
 _DONE = re.compile(
-    r"(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done|finished)"
-    r"(?: with (?:that|it|this))?|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this))?"
+    r"(?:and )?(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done|finished)"
+    r"(?: with (?:that|it|this)| there| here)?"
+    r"|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this))?"
     r"|that(?:'s| is) (?:done|finished))[ ,]+(?:then )?(?P<rest>.+)"
 )
 _DONE_ZH = re.compile(
@@ -160,6 +169,8 @@ def read_follow_up(text: str) -> FollowUp | None:
         return RepeatCommand(count)
     if (_OTHER_ZH if chinese else _OTHER).fullmatch(plain):
         return OtherPlaceCommand()
+    if (left := (_LEFT_OUT_ZH if chinese else _LEFT_OUT).fullmatch(plain)) is not None:
+        return LeaveOutCommand(next(text for text in left.groups() if text))
     ends = _POLITE_ZH if chinese else _POLITE_END
     taken_back = _correction(plain, chinese=chinese) or _correction(bare, chinese=chinese)
     return taken_back or _also(_strip(ends, bare), chinese=chinese)

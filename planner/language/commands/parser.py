@@ -22,6 +22,7 @@ from planner.language.commands.command import (
     Forget,
     HereCommand,
     Intent,
+    OutcomeCommand,
     PauseCommand,
     Remember,
     Replace,
@@ -45,6 +46,7 @@ _SIMPLE: tuple[tuple[str, Intent], ...] = (
     ("WHERE", WhereCommand()),
     ("DOING", Doing()),
     ("BATTERY", BatteryCommand()),
+    ("OUTCOME", OutcomeCommand()),
     ("SLOWER", Slower()),
     ("FASTER", Faster()),
 )
@@ -92,6 +94,7 @@ def _read(said: FoldedText, grammar: ModuleType) -> Intent | None:
     return (
         _read_lesson(said, grammar)
         or read_fact_order(said, grammar)
+        or _taking_back(said, grammar)
         or _replacing(said, grammar)
         or _slowing(said, grammar)
     )
@@ -102,6 +105,17 @@ def _slowing(said: FoldedText, grammar: ModuleType) -> Intent | None:
     cut = _SEPARATOR.search(said.folded)
     first = _plain(said.part(0, cut.start()), grammar).folded if cut is not None else ""
     return Slower() if grammar.SLOWER.fullmatch(first) else None
+
+
+def _taking_back(said: FoldedText, grammar: ModuleType) -> CancelCommand | None:
+    """Read "it's here under my chair, forget it": a reason before it changes nothing."""
+    cuts = list(_SEPARATOR.finditer(said.folded))
+    if not cuts:
+        return None
+    last = _plain(said.part(cuts[-1].end(), len(said.folded)), grammar).folded
+    reason = _plain(said.part(0, cuts[-1].start()), grammar).folded
+    cancels = grammar.CANCEL.fullmatch(last.replace(" ", _gap(grammar))) is not None
+    return CancelCommand() if cancels and grammar.ORDERS.match(reason) is None else None
 
 
 def _unseen(char: str) -> bool:
@@ -133,7 +147,7 @@ def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
     words = re.sub(r"[\s,]+", "" if grammar is chinese else " ", folded).strip()
     for name, intent in _SIMPLE:
         if getattr(grammar, name).fullmatch(words) is not None:
-            question = isinstance(intent, (WhereCommand, Doing, BatteryCommand))
+            question = isinstance(intent, (WhereCommand, Doing, BatteryCommand, OutcomeCommand))
             return None if asks and not question else intent
     return None
 

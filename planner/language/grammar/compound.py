@@ -19,6 +19,7 @@ from planner.language.stop import is_stop
 from planner.plan import (
     MAX_FOLLOW_S,
     Attempt,
+    ClockTime,
     Follow,
     If,
     Look,
@@ -78,6 +79,8 @@ class CompoundForms:
     """Groups ``body`` (condition and order, in one) or ``if`` and ``then``; ``else`` or none."""
     read_condition: Callable[[str], ConditionParts | None]
     read_memory: Callable[[str], MemoryParts | None]
+    clock: re.Pattern[str]
+    """Groups ``after`` and ``before``: an hour that people's clock has, or has not yet, reached."""
     go_there: re.Pattern[str]
     """Group ``verb``: a drive to the place that the condition names."""
     to: str
@@ -150,11 +153,15 @@ def _cut(body: str, cuts: re.Pattern[str]) -> Iterator[tuple[str, str]]:
 def _branch(
     condition: str, order: str, other: str | None, forms: CompoundForms, read: PartReaders
 ) -> tuple[Step, ...] | None:
-    asked = _asked_of_memory(condition, forms, read) or _asked_of_eyes(condition, forms, read)
+    asked = (
+        _asked_of_clock(condition, forms)
+        or _asked_of_memory(condition, forms, read)
+        or _asked_of_eyes(condition, forms, read)
+    )
     if asked is None:
         return None
     when, denied = asked
-    if when.place is not None:
+    if not isinstance(when, ClockTime) and when.place is not None:
         name = read.name(when.place)
         order = _name_there(order, name, forms)
         other = _name_there(other, name, forms) if other else None
@@ -172,6 +179,17 @@ def _name_there(order: str, name: str, forms: CompoundForms) -> str:
 
 
 _WHERE_WITHIN = re.compile(r" (?:in|on|at|under|inside|near|by|behind|beside) |里|上|下|旁")
+
+
+def _asked_of_clock(condition: str, forms: CompoundForms) -> tuple[ClockTime, bool] | None:
+    """Return the hour that a condition is about; an hour of an unnamed half of the day is none."""
+    found = forms.clock.fullmatch(condition.strip(" ,"))
+    if found is None:
+        return None
+    hour = forms.time((found["after"] or found["before"]).strip())
+    if hour is None:
+        return None
+    return (ClockTime(after=hour) if found["after"] else ClockTime(before=hour)), False
 
 
 def _asked_of_memory(

@@ -16,7 +16,10 @@ LEAD = re.compile(
     r"(?:(?:please )?(?:tell|remind) (?:me|us)[ ,]+(?:again )?|do you (?:happen to )?know )?"
 )
 REMEMBERS = re.compile(r"(?:do|can|could) you (?:still )?(?:remember|recall) |remember (?=wh)")
-TAIL = re.compile(r"(?:[ ,]+(?:please|(?<!just )now|thanks|thank you|again|at all|robot|pons))+$")
+TAIL = re.compile(
+    r"(?:[ ,]+(?:(?:the )?last time you (?:looked|were (?:in )?there)|please|(?<!just )now|thanks"
+    r"|thank you|again|at all|robot|pons))+$"
+)
 SPANS = (
     ("hour", r"(?:with)?in the (?:last|past) (?:half )?hour|just now|a moment ago|a minute ago"),
     ("morning", r"(?:earlier )?this morning"),
@@ -44,16 +47,28 @@ THING = re.compile(
     rf"|{_WHEN} was the last time (?:that )?you saw {_WHAT.replace('what', 'c')}"
     rf"|where (?:was|were) {_WHAT.replace('what', 'd')}{_LAST}"
     rf"|{_WHEN} you (?:last )?saw {_WHAT.replace('what', 'e')}{_LAST}"
+    rf"|(?:have|did) (?:i|we) (?:ever )?(?:tell|told|say|said)(?: you)? where"
+    rf" {_WHAT.replace('what', 'k')} (?:is|are|was|were)"
     rf"|where did (?:i|we) say {_WHAT.replace('what', 'i')} (?:was|were|is|are)"
     rf"|where {_WHAT.replace('what', 'f')} (?:was|were)"
     rf"|(?:have|had) you ever {_SEEN} {_WHAT.replace('what', 'g')}"
     rf"|when (?:was|were) {_WHAT.replace('what', 'h')} (?:last )?{_SEEN}"
+    rf"|how many {_WHAT.replace('what', 'j')} (?:did you (?:{_SEE}|count)|have you (?:{_SEEN}"
+    rf"|counted))"
 )
 NOW = re.compile(
     rf"where (?:is|are|can i find) {_WHAT}|where {_WHAT.replace('what', 'b')} (?:is|are)"
     rf"|where (?:did|have) (?:i|we) (?:leave|put|left) {_WHAT.replace('what', 'c')}"
     rf"|where (?:i|we) (?:left|put|have left|have put) {_WHAT.replace('what', 'd')}"
     rf"|(?:have|had) you {_SEEN} {_WHAT.replace('what', 'e')}(?: anywhere| around)?"
+    rf"|where (?:does|do|did) [a-z' ]{{1,20}}? (?:keep|put|leave|store"
+    rf"|park) {_WHAT.replace('what', 'f')}"
+    rf"|whose (?:is|are) {_WHAT.replace('what', 'g')}"
+    rf"|who does {_WHAT.replace('what', 'h')} belong to"
+    rf"|who owns {_WHAT.replace('what', 'i')}|what(?:'s| is) (?P<j>my (?:name"
+    rf"|favou?rite [a-z ]{{2,30}}))"
+    rf"|when(?:'s| is| does) {_WHAT.replace('what', 'k')} (?:coming|come|arriving|arrive|due)"
+    rf"|when(?:'s| is) {_WHAT.replace('what', 'l')}"
 )
 """Asked of now: answered from memory where it knows something, else it is offered to look."""
 ANYTHING = re.compile(
@@ -65,8 +80,13 @@ ANYTHING = re.compile(
 )
 PERSON = re.compile(
     rf"(?:when|how long ago) (?:was|were|did you see) (?:there )?(?:{_SOMEBODY})(?: there)?"
-    rf"|(?:was|were) (?:there )?(?:{_SOMEBODY})(?: there)?|(?:has|have) (?:{_SOMEBODY}) been(?:"
+    rf"|(?:was|were) (?:there )?(?:{_SOMEBODY})(?: (?:in )?there)?|(?:has"
+    rf"|have) (?:{_SOMEBODY}) been(?:"
     rf" there)?"
+    r"|who was the last person (?:that )?you (?:saw|met|spotted)|who did you (?:see|meet) last"
+    rf"|did you (?:see|notice) (?:{_SOMEBODY})(?: (?:come|coming|go|going|walk|walking)(?: in"
+    rf"| by| past"
+    r"| out| through)?)?"
     rf"|did (?:{_SOMEBODY}) (?:come|go|walk|enter|stop|pass|visit)(?: in| by| past| through)?"
     r"|who (?:all )?(?:was|were|came|went|walked|has been|have been)(?: there| in| by)?"
     r"|who (?:did you|have you) (?:see|seen|meet|met|find|found)|who you (?:saw|have seen|met)"
@@ -81,6 +101,11 @@ DEEDS = re.compile(
     r"|have been)"
     r"|how (?:did you spend|was) your (?:day|time)"
 )
+VISITS = re.compile(
+    r"(?:when did you last (?:go|drive)|have you (?:already )?(?:been|gone|driven)"
+    r"|did you (?:go|drive)|were you)"
+)
+"""Asks whether it was at a place."""
 TOLD = re.compile(
     rf"what (?:did|have) (?:i|we) (?:tell you|told you|say|said|teach you|taught you)(?: about"
     rf" {_WHAT})?"
@@ -90,7 +115,7 @@ TOLD = re.compile(
     rf"|what (?:do you|you) (?:still )?remember"
     rf"|(?:do you remember|remember) anything about {_WHAT.replace('what', 'e')}"
 )
-ARTICLE = re.compile(r"^(?:(?:the|a|an|my|our|your|any|some|this|that)\s+)+")
+ARTICLE = re.compile(r"^(?:(?:the|a|an|my|our|your|his|her|their|any|some|this|that)\s+)+")
 SOMEBODY = re.compile(rf"(?:{_SOMEBODY}|anybody|the people)")
 NOTHING = re.compile(
     r"(?:it|that|this|them|him|her|me|you|us|there|here|one|something|anything|everything|what|who)"

@@ -112,6 +112,8 @@ def _read_english(asked: _Question, room: str | None) -> RecallReading | None:
     text = asked.text
     if english.DEEDS.fullmatch(text):
         return _reading(asked, deeds=True) if asked.place is None else None
+    if english.VISITS.fullmatch(text) and asked.place is not None:
+        return _reading(asked, deeds=True)
     if (entered := english.ENTERS.fullmatch(text)) is not None:
         place = _place(entered["at"] or entered["at2"], asked.marked) or asked.place
         return _reading(asked, "person", place)
@@ -139,6 +141,8 @@ def _read_chinese(asked: _Question, room: str | None) -> RecallReading | None:
     if chinese.DEEDS.fullmatch(text):
         past = asked.when is not None or re.search(r"[了过]", text)
         return _reading(asked, deeds=True) if past else None
+    if (been := chinese.VISITS.fullmatch(text)) is not None:
+        return _reading(asked, None, _spot(been, asked, room), deeds=True)
     if (who := chinese.PERSON.fullmatch(text)) is not None:
         if asked.when is None and not chinese.PAST.search(text):
             return None

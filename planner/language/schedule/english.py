@@ -96,7 +96,9 @@ _LASTS = (
     rf"(?:(?:an|one|1) hour and (?:a half|30 minutes)(?P<oneandhalf>)|half an hour(?P<halfhour>)"
     rf"|(?:a )?quarter of an hour(?P<quarter>)|(?P<n>{_H}) and a half hours|{EN_DURATION})"
 )
-_IN = re.compile(rf"(?:in|after) {_LASTS}{_END}|{_LASTS.replace('?P<', '?P<x')} from now{_END}")
+_IN = re.compile(
+    rf"(?:in|after) (?:about |around |roughly |just )?{_LASTS}{_END}|{_LASTS.replace('?P<', '?P<x')} from now{_END}"
+)
 
 _SOMEBODY = r"(?:somebody|someone|anybody|anyone|a person|people|a visitor|a guest|a human)"
 _COMES = (

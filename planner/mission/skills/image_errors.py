@@ -23,12 +23,19 @@ POINTS = frozenset(
     }
 )
 _UNSEEN = say("image.unseen")
+_UNREADABLE = say("image.unreadable")
 
 
 def why_silent(answer: ImageAnswer | None) -> Bilingual | None:
     """Return why the model said nothing, where that is to be told: the detector spoke instead."""
-    failure = answer.failure if answer is not None else None
-    return REASONS.get("timeout" if failure == "timed_out" else failure or "")
+    return reason_of(answer.failure or "") if answer is not None else None
+
+
+def reason_of(failure: str) -> Bilingual | None:
+    """Return the sentence of a failed question about a picture; None where there is none."""
+    if failure == "bad_plan":  # it was asked for words or a point: whoever hears of a plan wonders
+        return _UNREADABLE
+    return REASONS.get("timeout" if failure == "timed_out" else failure)
 
 
 def point_refused(code: str) -> Fail:

@@ -28,6 +28,7 @@ from planner.mission.skills.actions import (
     SkillAction,
 )
 from planner.mission.skills.conditions import HOLDS, with_answer
+from planner.mission.skills.image_errors import reason_of
 from planner.mission.skills.look_around import look_round
 from planner.mission.skills.result_text import looked_in, room_name
 from planner.mission.skills.search import affords, begin, find_spent_budget, spots
@@ -277,8 +278,7 @@ def _why_not_all(scene: Scene[Any]) -> list[Bilingual]:
     """Say why not every direction was looked in, and what is doubtful."""
     state, told = scene.state, []
     if state.silent is not None:
-        told.append(REASONS.get("timeout" if state.silent == "timed_out" else state.silent)
-                    or REASONS["unavailable"])  # fmt: skip
+        told.append(reason_of(state.silent) or REASONS["unavailable"])
     elif state.shown >= scene.eyes.pictures.most:
         told.append(say("seek.bound", most=scene.eyes.pictures.most))
     elif state.unanswered:

@@ -150,7 +150,9 @@ class FakeRobot:
         self.offered: list[FenceRequest] = []
         self.hints: list[PoseHint] = []
         self.hint_code: HintCode | None = "accepted"
+        self.hint_score = 0.4
         self.localizer: LocalizerStatus | None = None
+        self.localized_map: str | None = None
         self.steers: list[tuple[str, float, float, bool]] = []
         self.points: list[tuple[float, float]] = []
         self.trial: TrialState | None = None
@@ -178,7 +180,7 @@ class FakeRobot:
     async def hint(self, hint: PoseHint) -> HintVerdict | None:
         self.hints.append(hint)
         code = self.hint_code
-        return None if code is None else HintVerdict(id=hint.id, code=code, score=0.4)
+        return None if code is None else HintVerdict(id=hint.id, code=code, score=self.hint_score)
 
     def ages_s(self) -> dict[str, float | None]:
         return {"status": 0.02, "localization": 0.1, "scan": None}

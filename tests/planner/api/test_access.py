@@ -97,6 +97,9 @@ def test_stopping_asks_for_no_ceremony(path: str) -> None:
     assert LOCAL.judge("POST", path, headers()) is Role.OPERATOR
 
 
+NO_TOKEN = ("", "Bearer", "Bearer ", "Basic op-secret", "op-secret")
+
+
 @pytest.mark.parametrize(
     "authorization", ["", "Bearer", "Bearer ", "Bearer wrong", "Basic op-secret", "op-secret"]
 )
@@ -104,6 +107,7 @@ def test_elsewhere_a_token_is_needed(authorization: str) -> None:
     with pytest.raises(AccessError) as refused:
         OPEN.judge("GET", "/v1/robot", headers("robot.lan", authorization=authorization))
     assert (refused.value.status, refused.value.code) == (401, "token_needed")
+    assert ("no token came" in refused.value.detail) == (authorization in NO_TOKEN)
 
 
 def test_a_viewer_looks_and_stops_but_does_not_drive() -> None:
@@ -113,6 +117,10 @@ def test_a_viewer_looks_and_stops_but_does_not_drive() -> None:
     with pytest.raises(AccessError) as refused:
         OPEN.judge("POST", "/v1/goals", viewer)
     assert refused.value.code == "operator_needed"
+    assert refused.value.detail == (
+        "the viewer's token came; POST /v1/goals needs the operator's; "
+        "a viewer may GET, and POST /v1/disarm, /v1/estop, /v1/stop"
+    )
 
 
 def test_an_operator_drives() -> None:

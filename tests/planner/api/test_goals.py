@@ -102,5 +102,8 @@ def test_a_yes_of_who_may_only_look_reaches_no_goal(
     with client_of(services, access) as viewing:
         answer = viewing.post(f"/v1/goals{path}", json=body, headers=viewer)
         assert (answer.status_code, code(answer)) == (403, "operator_needed")
-        assert "a viewer may not" in answer.json()["detail"]
+        assert "needs the operator's" in answer.json()["detail"]
+        told = answer.json()["message"]
+        assert "operator's token" in told["en"]
+        assert "操作员令牌" in told["zh"]
     assert services.goals.calls == []

@@ -65,6 +65,27 @@ def test_a_verdict_is_a_problem_with_its_code(
 
 
 @pytest.mark.parametrize(
+    ("state", "score", "told"),
+    [
+        ("tracking", 0.4, "(score 0.40, needs 0.60)"),
+        ("tracking", 0.7, "fits there (0.70), but less well than where I take myself to be (0.90)"),
+        ("lost", 0.4, "(score 0.40, needs 0.60)"),
+    ],
+)
+def test_a_place_that_fits_less_well_than_the_pose_is_told_apart(
+    client: TestClient, services: FakeServices, state: str, score: float, told: str
+) -> None:
+    said = services.robot.localizer
+    assert said is not None
+    services.robot.localizer = said.model_copy(update={"state": state, "score": 0.9})
+    services.robot.hint_code, services.robot.hint_score = "does_not_fit", score
+    answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}}).json()
+    assert answer["code"] == "hint_does_not_fit"
+    assert told in answer["detail"]
+    assert ("0.70" in answer["message"]["zh"]) is ("less well" in told)
+
+
+@pytest.mark.parametrize(
     ("body", "status", "code"),
     [
         ({}, 422, "invalid_request"),
@@ -79,6 +100,7 @@ def test_what_is_no_place_is_refused(
 ) -> None:
     answer = client.post(HINT, json=body)
     assert (answer.status_code, answer.json()["code"]) == (status, code)
+    assert answer.json()["message"]["zh"] != answer.json()["message"]["en"]
     assert not services.robot.hints
 
 
@@ -97,3 +119,10 @@ def test_what_it_does_is_shown(client: TestClient) -> None:
     robot = client.get("/v1/robot").json()
     assert robot["localizer"] == "lost"
     assert robot["match"] == {"score": shown["score"], "candidates": shown["candidates"]}
+
+
+def test_another_map_of_the_localizer_is_shown(client: TestClient, services: FakeServices) -> None:
+    assert client.get("/v1/robot").json()["localized_map"] is None
+    services.robot.localized_map = "b" * 16
+    robot = client.get("/v1/robot").json()
+    assert (robot["localized_map"], robot["map_id"]) == ("b" * 16, services.site.map_id)

@@ -139,7 +139,13 @@ def test_a_reminder_may_be_given_apart(client: TestClient) -> None:
         ({"text": "x", "when": {"at": "2027-01-16T09:00:00"}}, 422, "invalid_request"),
         ({"reminder": "tea"}, 422, "invalid_request"),
         ({}, 422, "invalid_request"),
-        ({"text": "y" * 501}, 422, "invalid_request"),
+        ({"text": "say hello", "when": {"in_s": -60}}, 422, "invalid_request"),
+        ({"text": "every day at noon say hello" + " and hello" * 30}, 422, "order_too_long"),
+        ({"text": "每天中午" + "去厨房，" * 80}, 422, "order_too_long"),
+        ({"text": "say " + "y" * 500, "when": {"in_s": 60}}, 422, "order_too_long"),
+        ({"text": "y" * 10_240}, 422, "order_too_long"),
+        ({"reminder": "y" * 301, "when": {"in_s": 60}}, 422, "order_too_long"),
+        ({"text": "y" * 20_001}, 422, "invalid_request"),
     ],
 )  # fmt: skip
 def test_what_can_not_be_kept_is_refused_with_a_code(
@@ -148,9 +154,8 @@ def test_what_can_not_be_kept_is_refused_with_a_code(
     answer = give(client, **body)
     assert (answer.status_code, answer.json()["code"]) == (status, code), answer.text
     assert services.orders.keeper.book.orders == {}
-    if code.startswith("order_"):
-        told = answer.json()["message"]
-        assert told["en"] != told["zh"]
+    told = answer.json()["message"]
+    assert told["en"] != told["zh"]
 
 
 @pytest.mark.parametrize("path", ["/v1/orders", "/v1/goals", "/v1/memory/facts", "/v1/places"])
@@ -244,6 +249,19 @@ def test_a_viewer_may_look_and_change_nothing(services: FakeServices) -> None:
             assert (answer.status_code, answer.json()["code"]) == (403, "operator_needed")
     assert services.orders.keeper.book.orders == {}
     assert services.goals.calls == []
+
+
+@pytest.mark.parametrize("order_id", ["o7", "kitchen", "o" + "1" * 40])
+def test_an_order_that_nobody_gave_is_unknown(client: TestClient, order_id: str) -> None:
+    give(client, text="every evening at eight go to the kitchen")
+    for answer in (
+        client.get(f"/v1/orders/{order_id}"),
+        client.post(f"/v1/orders/{order_id}/pause", json={}),
+        client.request("DELETE", f"/v1/orders/{order_id}", json={}),
+    ):
+        assert (answer.status_code, answer.json()["code"]) == (404, "unknown_order")
+        assert answer.json()["detail"].endswith("known: o1")
+        assert order_id[:40] in answer.json()["message"]["zh"]
 
 
 def test_times_are_told_on_the_robots_own_clock(client: TestClient) -> None:

@@ -123,6 +123,8 @@ def test_malformed_goals_are_refused_and_told_what_was_expected(
     answer = client.post("/v1/goals", content=content, headers=JSON)
     assert (answer.status_code, code(answer)) == (status, expected)
     assert [part for part in said if part not in answer.json()["detail"]] == [], answer.json()
+    told = answer.json()["message"]
+    assert told["en"] != told["zh"]
     assert services.goals.calls == []
 
 

@@ -159,3 +159,32 @@ def test_the_goal_keeps_both_what_was_said_and_what_it_means() -> None:
     assert (kept.text, kept.words) == ("again", "go to the bedroom")
     asks: list[Any] = [each for each in effects if type(each).__name__ == "AskBrain"]
     assert [each.text for each in asks] == ["go to the bedroom"]
+
+
+def rounds() -> MissionState:
+    """Return the book while the robot is on its way to three rooms."""
+    given = Submitted("g0", "go to the bedroom, the bathroom and the hallway", Language.EN)
+    book, _ = advance(BARE, given, NOW_S)
+    steps = (GoTo(place="bedroom"), GoTo(place="bathroom"), GoTo(place="hallway"))
+    return advance(book, Planned("g0", StepPlan(steps=steps)), NOW_S)[0]
+
+
+BARE = MissionState(FACTS)
+
+
+@pytest.mark.parametrize(
+    ("text", "left"),
+    [("skip the bathroom", "go to the bedroom, then go to the hallway"),
+     ("leave the bedroom out", "go to the bathroom, then go to the hallway"),
+     ("skip the kitchen", "skip the kitchen"),
+     ("跳过卫生间", "go to the bedroom, then go to the hallway")],
+)  # fmt: skip
+def test_a_place_is_left_out_of_what_is_still_to_do(text: str, left: str) -> None:
+    assert meant(rounds(), text) == left
+    heard = receive(rounds(), parse(text), Submitted("new", text, Language.EN), NOW_S)
+    assert (heard.takes_back == "g0") is (left != text)
+
+
+def test_who_has_one_place_to_go_to_leaves_none_out() -> None:
+    assert meant(BEDROOM, "skip the bedroom") == "skip the bedroom"
+    assert meant(BARE, "skip the bedroom") == "skip the bedroom"

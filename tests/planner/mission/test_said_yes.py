@@ -15,6 +15,7 @@ from planner.plan import (
     Clarify,
     Code,
     GoalState,
+    GoTo,
     StepPlan,
 )
 from planner.site import Site
@@ -33,6 +34,8 @@ from tests.planner.mission.saying import (
     told,
 )
 from wire import OpRequest
+
+BOTH_ROOMS = StepPlan(steps=(GoTo(place="kitchen"), GoTo(place="living_room")))
 
 
 @pytest.mark.parametrize("text", ["yes", "no"])
@@ -97,6 +100,26 @@ def test_a_plan_that_waits_for_its_yes_takes_it_in_words(
                 assert told(done)[1:] == (
                     Code.DECLINED, "You said no, so I do not drive to “kitchen”."
                 )  # fmt: skip
+
+    run(story())
+
+
+@pytest.mark.parametrize("text", ["no", "不用，谢谢"])
+def test_a_no_to_several_deeds_names_none_of_them_alone(
+    tmp_path: Path, site: Site, text: str
+) -> None:
+    """The question may have named the last of them; an answer about the first would confuse."""
+
+    async def story() -> None:
+        async with planner(tmp_path, site, BOTH_ROOMS) as world:
+            plan = await world.missions.submit(
+                "go to the kitchen and the living room", confirm=True
+            )
+            await world.reach(plan.id, CONFIRMS)
+            await world.missions.answer(plan.id, text)
+            done = await world.reach(plan.id, CANCELLED)
+            assert told(done)[1:] == (Code.DECLINED, "You said no, so I do not do that.")
+            assert world.bridge.waypoints == []
 
     run(story())
 

@@ -50,7 +50,7 @@ def made(
 def codes(folder: Path) -> set[str]:
     found = check_site(folder, RADIUS_M)
     assert all(finding.words.en != finding.words.zh for finding in found)
-    assert sorted(found, key=lambda one: one.level != "refused") == list(found)
+    assert sorted(found, key=lambda one: one.level != "error") == list(found)
     return {finding.code for finding in found} - {"no_rooms"}
 
 
@@ -95,6 +95,45 @@ def test_a_map_without_walls_or_half_unknown_or_coarse_is_told(tmp_path: Path) -
     ):
         (tmp_path / name).mkdir()
         assert code in codes(made(tmp_path / name, picture, cell_m=cell_m)), name
+
+
+@pytest.mark.parametrize("turn_rad", [0.0, 0.5, 1.0])
+def test_a_map_that_lies_askew_is_not_called_unknown_for_it(
+    tmp_path: Path, turn_rad: float
+) -> None:
+    picture = flat()
+    cv2.imwrite(str(tmp_path / "m.pgm"), picture)
+    (tmp_path / "m.yaml").write_text(
+        f"image: m.pgm\nresolution: {CELL_M}\norigin: [0, 0, {turn_rad}]\nnegate: 0\n"
+        "occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+    )
+    new_site(load_map(tmp_path / "m.yaml"), RADIUS_M).write(tmp_path / "s")
+    assert codes(tmp_path / "s") == set()
+
+
+def room(room_id: str, left_m: float, right_m: float, pose: Pose2) -> str:
+    corners = [(left_m, 0.5), (right_m, 0.5), (right_m, 4.4), (left_m, 4.4)]
+    return place_text(room_id, "room", (room_id, f"房间{room_id}"), pose, corners)
+
+
+@pytest.mark.parametrize(
+    ("left_m", "stands_m", "wanted"),
+    [
+        (3.0, 4.0, set()),
+        (2.9, 4.0, set()),
+        (2.0, 4.0, {"rooms_overlap"}),
+        (0.5, 4.0, {"rooms_overlap"}),
+        (3.0, 1.5, {"room_apart"}),
+    ],
+)
+def test_rooms_that_overlap_or_are_stood_in_elsewhere_are_told(
+    tmp_path: Path, left_m: float, stands_m: float, wanted: set[str]
+) -> None:
+    folder = made(tmp_path, flat())
+    with (folder / "places.yaml").open("a") as file:
+        file.write(room("one", 0.5, 3.0, Pose2(1.5, 2.5, 0.0)))
+        file.write(room("two", left_m, 5.4, Pose2(stands_m, 2.5, 0.0)))
+    assert codes(folder) == wanted
 
 
 def test_what_cannot_be_loaded_is_the_one_finding(tmp_path: Path) -> None:

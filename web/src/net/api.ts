@@ -14,7 +14,7 @@ import type {
   Taught,
 } from "../wire/types";
 import type { OperatorProof } from "./proof";
-import { authorization, tokenNeeded } from "./token";
+import { askForToken, authorization, type Authorization } from "./token";
 
 export class ApiError extends Error {
   constructor(
@@ -38,9 +38,10 @@ export async function call(
   headers: Record<string, string> = {},
   timeoutMs = TIMEOUT_MS,
 ): Promise<unknown> {
+  const proof = authorization();
   const request: RequestInit = {
     method,
-    headers: { "content-type": "application/json", ...authorization(), ...headers },
+    headers: { "content-type": "application/json", ...proof, ...headers },
     signal: AbortSignal.timeout(timeoutMs),
     cache: "no-store",
   };
@@ -48,7 +49,7 @@ export async function call(
   else if (body !== undefined) request.body = JSON.stringify(body);
   const answer = await asked(path, request);
   const content = (await answer.json().catch(() => null)) as Json | null;
-  if (!answer.ok) throw refusal(answer, content ?? {});
+  if (!answer.ok) throw refusal(answer, content ?? {}, proof);
   if (content === null) throw new ApiError("planner_silent", ""); // it broke off half-way
   return content;
 }
@@ -61,8 +62,8 @@ async function asked(path: string, request: RequestInit): Promise<Response> {
   }
 }
 
-function refusal(answer: Response, content: Json): ApiError {
-  if (answer.status === 401) tokenNeeded.value = true;
+function refusal(answer: Response, content: Json, proof: Authorization): ApiError {
+  if (answer.status === 401) askForToken(proof);
   return new ApiError(
     typeof content.code === "string" ? content.code : `http_${answer.status}`,
     typeof content.detail === "string" ? content.detail : "",
@@ -241,9 +242,10 @@ export const fetchKeptPicture = (id: number): Promise<Blob> => fetchBlob(`/v1/pi
 
 async function fetchBlob(path: string): Promise<Blob> {
   const signal = AbortSignal.timeout(TIMEOUT_MS);
-  const answer = await asked(path, { headers: authorization(), signal, cache: "no-store" });
+  const proof = authorization();
+  const answer = await asked(path, { headers: proof, signal, cache: "no-store" });
   if (answer.ok) return answer.blob();
-  throw refusal(answer, {});
+  throw refusal(answer, {}, proof);
 }
 
 /** Return the pictures that a goal's patrols kept. */

@@ -25,8 +25,15 @@ export function setToken(given: string): void {
   tokenNeeded.value = false;
 }
 
-export function authorization(): Record<string, string> {
+export type Authorization = { readonly authorization?: string };
+
+export function authorization(): Authorization {
   return token ? { authorization: `Bearer ${token}` } : {};
+}
+
+/** Ask for a token where the one sent was refused; an answer from before the newest says nothing of it. */
+export function askForToken(sent: Authorization): void {
+  if (sent.authorization === authorization().authorization) tokenNeeded.value = true;
 }
 
 /** Return what a WebSocket offers: it can set no header, so the token goes as a subprotocol. */

@@ -109,7 +109,6 @@ function Question({ goal }: { goal: Goal }) {
           type="text"
           aria-label={t("goal.reply")}
           placeholder={t("goal.reply")}
-          maxLength={2000}
           value={reply.value}
           onInput={(event) => (reply.value = event.currentTarget.value)}
         />

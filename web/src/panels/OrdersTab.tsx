@@ -7,8 +7,6 @@ import { keepOrder, turnOrder } from "../state/acts";
 import { ordersVersion, pageFresh } from "../state/store";
 import type { Firing, StandingOrder, StandingOrders } from "../wire/types";
 
-const MAX_CHARACTERS = 300;
-
 const known = signal<StandingOrders | null>(null);
 const sentence = signal("");
 const sending = signal(false);
@@ -61,12 +59,12 @@ function Give() {
       >
         <label class="field" for="order-text">
           <span>{t("orders.sentence")}</span>
+          {/* No maxLength here: it cuts a paste unseen, and the rest may say "but not …". */}
           <input
             id="order-text"
             type="text"
             dir="auto"
             autocomplete="off"
-            maxLength={MAX_CHARACTERS}
             value={sentence.value}
             onInput={(event) => (sentence.value = event.currentTarget.value)}
           />

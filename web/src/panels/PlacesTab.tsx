@@ -16,8 +16,6 @@ import {
 import type { Pose, Taught } from "../wire/types";
 import { fixed } from "./format";
 
-const MAX_CHARACTERS = 40;
-
 const english = signal("");
 const chinese = signal("");
 const sending = signal(false);
@@ -150,7 +148,6 @@ function Name({ id, words, label, lang }: NameProps) {
         type="text"
         lang={lang}
         autocomplete="off"
-        maxLength={MAX_CHARACTERS}
         value={words.value}
         onInput={(event) => (words.value = event.currentTarget.value)}
       />

@@ -9,7 +9,6 @@ import type { Memories, Memory } from "../wire/types";
 import { nameOf } from "./steps";
 
 const SHOWN = 30;
-const MAX_FACT = 300;
 
 const query = signal("");
 const fact = signal("");
@@ -101,7 +100,6 @@ function Teach() {
       <label for="memory-fact">{t("memory.teach")}</label>
       <input
         id="memory-fact"
-        maxLength={MAX_FACT}
         value={fact.value}
         onInput={(event) => (fact.value = event.currentTarget.value)}
       />

@@ -164,6 +164,10 @@ ENGLISH_COMPOUND = CompoundForms(
     ),
     read_condition=_read_condition,
     read_memory=_read_memory,
+    clock=re.compile(
+        r"(?:it is|it's|the time is)(?: already)? (?:(?:after|past|later than) (?P<after>[^,]+)"
+        r"|(?:before|earlier than|not yet|not (?:after|past)) (?P<before>[^,]+))"
+    ),
     go_there=re.compile(
         r"\b(?P<verb>go|drive|move|head|come|return|get|walk|proceed)(?: over| back)? there\b"
     ),

@@ -20,9 +20,9 @@ _CALLS = (
 )
 _GOES = (
     r"(?:pop|nip|swing|trot|scoot|hop|roll|mosey|stroll|wander|dash|zip|trundle|wheel|toddle"
-    r"|shuffle|march|waltz|pootle|amble|bounce|whizz|race|rush|skip|jog|slide|sneak|make (?:your|a)"
+    r"|shuffle|march|waltz|pootle|amble|bounce|whizz|race|rush|shift|relocate|skip|jog|slide|sneak|make (?:your|a)"
     r" (?:way|trip)|take (?:yourself|a (?:trip|walk|stroll|drive|run))|get (?:yourself|your [a-z]+)"
-    r"|bring yourself|drag yourself|move yourself|find your way|head|proceed|get|come)"
+    r"|bring yourself|(?:drag|move|drive|roll|wheel|take) yourself|find your way|head|proceed|get|come)"
 )
 _ASIDE = (
     r"(?: (?:on|off|over|down|up|along|out|back|round|around|across|across the hall|straight))*"
@@ -34,12 +34,14 @@ _REASON = (
     rf"{_ONE}(?: is|'s| are|'re| am|'m|s)? (?:all |so |really |very |just |still )?(?:lost|missing"
     r"|gone|asleep|sleeping|hungry|thirsty|waiting|tired|late|in a (?:hurry|rush)|cold|bored|sad"
     r"|lonely|driving me (?:mad|crazy|nuts)|in (?:my|the|our) way|running late|starving|freezing)"
+    r"|you(?:'re| are) (?:on my (?:foot|feet|toes?)|blocking (?:me|us|the way)|too close(?: to me)?)"
+    r"|you(?:'re| are) (?:low on|short of|out of|running (?:out of|low on)) (?:battery|power|juice)"
     r"|(?:your|the) battery (?:must be|is|looks|seems) (?:nearly |almost |very |pretty )?(?:flat|low"
     r"|dead|empty)|you (?:are|'re) in (?:my|the) way|ur (?:drunk|slow|late)"
 )
 _LOOKS = (
     r"(?:(?:have|take) a (?:quick |little |good )?(?:nosy|nose|gander|butcher's|peek|peep|squint"
-    r"|look see|scout|poke|snoop|rummage|glance)|scope out|suss out|case|poke around|snoop around)"
+    r"|look(?: see)?|scout|poke|snoop|rummage|glance)|scope out|suss out|case|poke around|snoop around)"
 )
 _HAVE_A_LOOK = (
     r"(?:please |now |just |could you |can you )*(?:go |come )?(?:and )?(?:have a (?:quick )?(?:look"
@@ -54,6 +56,22 @@ _NUMBER = (
     r"|\d{1,3})"
 )
 
+_A_BIT = r"(?:just )?(?:a (?:little bit|bit|little|tad|touch|smidge|step)|slightly)"
+"""The robot takes 20 cm for it: a short step."""
+
+_NO_ASIDE = (
+    rf"(?![^,.!;?]*(?:{MARK}|\b(?:go|come|drive|find|look|stop|wait|turn|follow|bring|say|tell|ask|check|follow"
+    r"|mean|meant|said|mind|wrong|sorry|joking|kidding|rather|instead|not|never|done|finished|enough|later"
+    r"|tomorrow|tonight|minutes?|hours?|seconds?|before|after|when|while|until|till|if|unless|only|except"
+    r"|but|or|and|without|o'clock|safe|danger(?:ous)?|broken|blocked|locked|closed|shut|wet)\b|n't))"
+)
+_STATES = (
+    rf"{_NO_ASIDE}(?:i|we|he|she|it|they|you|that|there|this|(?:the|my|our) [a-z]+(?: [a-z]+)?|[a-z]+(?= is\b|'s\b))"
+    r"(?:'s|'m|'re|'ve|'ll| is| am| are| was| were| have| has| had| will| shall| must| need| needs| think| thought"
+    r"| guess| left| lost| just| heard| feel| can hear| smell| hope| am)\b[^,.!;?]*"
+)
+"""A clause that says how things stand and orders nothing: why something is ordered."""
+
 COURTESY = table(
     (rf"(?:^|,) ?if you(?: would|'d| could)? be so (?:kind|good)(?: as to)?{_END}", " please"),
     (rf"(?:^|,)? ?if (?:you do not mind|you would not mind|you please|you would|you could|you may"
@@ -64,19 +82,34 @@ COURTESY = table(
     (r"^if (?:it is|that is) not (?:too much|any|a) (?:trouble|bother),? ", ""),
     (rf"(?:^|,)? ?when(?:ever)? you are ready{_END}", ""),
     (r"^when(?:ever)? you are ready,? ", ""),
+    (rf"\b(?:stay|wait|remain|stand)(?: right)? (?:by|at|in|near|next to) (?P<p>{_PLACE}) (?:until|till)"
+     r" (?:i(?:'m| am)? (?:come |am |get )?(?:back|return|come|here)|i(?:'m| am) back)(?: again)?",
+     r"go to \g<p> and wait for somebody"),
+    (r"^why (?:do not|don't) you (?:just )?(?=(?:go|come|drive|look|find|have|take|check)\b)", ""),
     (r"^(?:it(?: would|'d) be (?:so |very |really )?(?:lovely|great|nice|good|kind|wonderful|helpful)"
      r"|i(?: would|'d) (?:be (?:so |very )?(?:grateful|glad|happy|pleased)|appreciate it|feel better"
      r"|feel safer))(?: of you)? if you(?: could| would|'d)? (?=[a-z])", ""),
 )  # fmt: skip
 """Conditions that are none."""
 
+_UNLESS_SOMEBODY = (
+    r"^unless (?:there is |there's )?(?:somebody|someone|anybody|anyone)(?: is|'s)?"
+    r" (?P<a>(?:in|at|by) (?:the |my |our )?[a-z']+(?: (?!go|drive|come|look|find|say|count)[a-z']+)?)"
+)
 TOLD_TWICE = table(
     (r"\bturn (?:yourself )?(?:a?round|about)[, ]+(?:and |so (?:that )?you (?:are |can )?)?fac(?:e|ing)"
      r" (?:the other way|away)\b", "turn around"),
+    (r"^if you can ?not (?:find|see|spot) (?P<t>[a-z' ]+?) (?P<a>(?:in|at|on|by) [a-z' ]+?)[, ]+(?:then )?"
+     r"(?:try|check|(?:go (?:and )?)?look (?:for it )?(?:in|at)) (?P<b>[a-z' ]+)$",
+     r"find \g<t> \g<a>, if you can not find it, find \g<t> in \g<b>"),
+    (r"^(?:get|come|go) out of (?:the |my |our )?[a-z]+(?: [a-z]+)?,? (?:and |then )+(?=(?:go|come|drive|head)\b)", ""),
+    (rf"{_UNLESS_SOMEBODY},? go in(?: there)?(?= and\b|$)", r"if there is nobody \g<a>, go there"),
+    (rf"{_UNLESS_SOMEBODY}(?:, ?| )(?=(?:go|drive|come|look|find|say|count)\b)", r"if there is nobody \g<a>, "),
     (r"\bface the other way[, ]+(?:so |that is |i\.e\. |and )?(?:turn )?(?:a?round )?(?:by )?"
      r"(?:180|one hundred and eighty) degrees\b", "turn around"),
 )  # fmt: skip
-"""One turn in two clauses: read as two, the robot would stand as it stood."""
+"""One turn in two clauses: read as two, the robot would stand as it stood. And what hangs on an order
+that fails, or on an empty room, said before it."""
 
 ENGLISH_EVERYDAY = table(
     *((rf"\b(?:{chat})\b", plain) for chat, plain in (
@@ -91,13 +124,14 @@ ENGLISH_EVERYDAY = table(
     # hesitation, address, courtesy
     (r"(?:^|[ ,])(?:u+h+m*|u+m+|e+r+m*|h+m+|ah+|you know(?: what)?|sort of|kind of|kinda|basically"
      r"|literally|what is it called|what do you call it|what's its name)(?=$|[ ,.!?])", " "),
+    (r"\b(the|to|my|a|in|at|and|go|go to|go in)[, ]+\1\b", r"\1"),
     (rf"{_BEGIN}(?:like|so|and|but|now|anyway)(?:,| like| so)+ ?(?=\w)", ""),
     (rf"{_BEGIN}{_CALLS}(?: {_WHO})?(?:,| ) ?(?=[\w\ue000-\ue7ff])", ""),
     (rf"{_BEGIN}{_WHO}(?:(?:,|!) ?| (?=(?:go|come|drive|find|look|{MARK}|the {MARK})))", ""),
     (rf"[, ]+{_WHO}{_END}", ""),
     (r"[, ]+(?:for me|for us|would you|will you|could you|can you|innit|cheers|ta|got it|on the double"
      r"|chop chop|asap|right away|straight away|quick smart|there's a (?:good )?(?:love|lad|boy)"
-     rf"|no rush|ok|okay|alright|please|pretty please|thanks|now|then){_END}", ""),
+     rf"|no rush|right now|for a (?:sec|second|moment|minute|bit|mo|while)|ok|okay|alright|please|pretty please|thanks|now|then){_END}", ""),
     (r"\b(?:can|could|would|will) you (?:maybe|possibly|perhaps|please|just|kindly|quickly|maybe just)"
      r"+ (?=\w)", "can you "),
     (r"^(?:is there any chance|any chance|do you think|i wonder if|i was wondering if|would it be"
@@ -111,6 +145,29 @@ ENGLISH_EVERYDAY = table(
      r"(?: you)?(?: could| would| can)?(?: to)? (?=[a-z])", ""),
     (r"^(?:so )?(?:what )?i(?: would|'d)? (?:really )?(?:like|love|want|need|appreciate)(?: it if| is| is for)? you"
      r"(?: could| would| can)?(?: to)? (?=[a-z])", ""),
+    (rf"^{_STATES}[,.!;]+ ?(?:so |and so |and )?(?=[\w{MARK[1:-1]}])", ""),
+    (rf"(?<=\w)(?:[,.!;]+ ?| )(?:because |cause |cos |since ){_STATES}$", ""),
+    (rf"(?<=[\w{MARK[1:-1]}])[,.!;]+ ?{_STATES}$", ""),
+    (rf"{_BEGIN}come on(?: then)?,? (?=\w)", ""),
+    (r"^(?:do you |you )?want to (?=(?:go|drive|come|head|look|find|count|have)\b)", ""),
+    (r"^you can (?:now )?(?=(?:go|drive|come|head|look)\b)", ""),
+    (r"^let(?:'s| us) see you (?=(?:go|drive|come|look|find|count)\b)", ""),
+    (r"^(?:please )?to (?=(?:go|drive|come)\b)", ""),
+    (rf"^(?:you (?:should|need to|ought to|have to|must) be|you(?: are|'re) (?:needed|wanted)) (?:in|at|by) (?P<p>{_PLACE})",
+     r"go to \g<p>"),
+    (rf"^(?:go|drive) to (?P<p>{_PLACE}),? but (?:first )?(?:stop(?: off)?|swing|pop|call)(?: in)? (?:at|by|in) (?P<q>{_PLACE})"
+     r"(?: on (?:the|your) way(?: there)?| first)?$", r"go to \g<q> then go to \g<p>"),
+    (rf"\b(?:go|drive|roll|pop|head) past (?P<p>{_PLACE})", r"go to \g<p>"),
+    (rf"(?P<p>{_PLACE}) area\b", r"\g<p>"),
+    (rf"\bgo to where (?P<p>{_PLACE}) is\b", r"go to \g<p>"),
+    (rf"^go (?P<p>{MARK})(?= then\b|,| and\b|$)", r"go to \g<p>"),
+    (rf"^to (?P<p>{_PLACE})[.!]*$", r"go to \g<p>"),
+    (r",? in (?:that|this) order$", ""),
+    (rf"\bgo over there (?:by|to|at|near) (?P<p>{_PLACE})", r"go to \g<p>"),
+    (rf"\b{_LOOKS} (?:a?round|at|in|inside|into|through)? ?(?P<p>{_PLACE}) and (?=(?:see|check|tell|find)\b)",
+     r"go to \g<p> and "),
+    (r"\bhave a (?:quick )?look (?=if\b|whether\b)", "see "),
+    (rf"^(?P<q>how many [a-z ]+? are there) (?:a?round|about) (?P<p>{_PLACE})", r"\g<q> at \g<p>"),
     (r"^would you mind(?: awfully| terribly)? (?:checking|seeing|looking)(?: (?:whether|if))?", "check if"),
     (r"^would you mind(?: awfully| terribly)? (?:going|popping|driving|heading)\b", "go"),
     (rf"(?:^|[,.!;]+ ?)(?:{_REASON})(?:(?=$|[,.!;])|(?= go\b))", ","),
@@ -122,7 +179,12 @@ ENGLISH_EVERYDAY = table(
     (r"^come (?:here|over|to me|find me|and find me|and get me|get me)[, .]+(?:i am )?(?:sitting "
      rf"|standing |lying |waiting |over )*(?:in|at|by|on|near) (?P<p>{_PLACE})$", r"go to \g<p>"),
     (rf"\bcome (?:and )?(?:find|see|meet|join|get) me (?:in|at|by|on|near) (?P<p>{_PLACE})", r"go to \g<p>"),
+    (rf"\bcome to (?P<p>{_PLACE})[,.]+ (?:i(?:'m| am)) (?:in |over |right )?(?:here|there)$", r"go to \g<p>"),
     # lengths, angles, times
+    (rf"\b(?P<v>back up|reverse|(?:go|move|scoot|shuffle|roll|drive) back(?:wards?)?) {_A_BIT}(?=$|[,.])",
+     "move back 20 cm"),
+    (rf"\b(?:move|go|drive|roll|scoot|shuffle|inch|edge|come) (?:{_A_BIT} )?(?:forwards?|ahead|closer)(?: {_A_BIT})?(?=$|[,.])",
+     "move forward 20 cm"),
     (r"\b(?:a|one) (met(?:re|er)) and a half\b", r"1.5 \1s"),
     (r"\b(one|two|three|four|five) and a half (met(?:re|er)s?|m)\b", r"\1.5 \2"),
     (r"\bone\.5\b", "1.5"), (r"\btwo\.5\b", "2.5"), (r"\bthree\.5\b", "3.5"), (r"\bfour\.5\b", "4.5"),
@@ -156,6 +218,17 @@ ENGLISH_EVERYDAY = table(
      r"(?P<w>[^\",;]+?)(?=$|[,;]? ?(?:otherwise|or else|else|if not)\b)", r'\g<c>, say "\g<w>"'),
     (r"\b(?:inform|advise) me\b", "tell me"),
     # looking
+    (r"[, ]+and tell me what(?: all)? (?:you (?:can )?(?:see|find)|is (?:in )?there|is going on)$", ""),
+    (r"[, ]+and (?:then )?come (?:back )?(?:and )?tell me (?:where (?:it|he|she) is|what you (?:find|see|found|saw))$",
+     ", then come back"),
+    (rf"\b(?:check|see|look) (?:if|whether) (?P<t>(?:the|my|a|our) [a-z ]+?) (?:has |have |had )?(?:rolled|fallen|fell|gone|went"
+     rf"|slipped|got|ended up) (?:under|behind|beside|next to|in|into|to|on) (?P<p>{_PLACE})", r"look for \g<t> at \g<p>"),
+    (rf"^have (?:we|i|you) (?:still )?(?:got )?(?:any|some) (?P<t>[a-z ]+?)(?: left)? (?P<w>in|at|on|by) (?P<p>{_PLACE})\??$",
+     r"are there any \g<t> \g<w> \g<p>?"),
+    (rf"^(?:go )?(?:look|check|peek|peep)(?: in| into| at| inside)? (?P<p>{_PLACE})[, ]+(?:and )?if (?:it is|it's|that is) empty,?",
+     r"if there is nobody in \g<p>,"),
+    (rf"^is there (?:something|anything) (?:lying |standing |sitting )?(?:in front of|before|outside) (?P<p>{_PLACE})\??$",
+     r"is there anything at \g<p>?"),
     (rf"\b{_LOOKS} (?:a?round|at|in|inside|into|through)? ?(?P<p>{_PLACE})"
      r"[, ]+(?:and )?(?:tell|let|inform) me(?: know)? (?:if|whether) you (?:spot|see|find|notice)"
      r" (?P<t>(?:my|the|a|an|any) [a-z ]+)$", r"look for \g<t> in \g<p>"),
@@ -172,7 +245,11 @@ ENGLISH_EVERYDAY = table(
     (rf"^(?:go )?(?:look|check|see)(?: in| at| inside)? (?P<p>{_PLACE})(?: for [a-z]+)?[.,;]* (?:and )?if (?:she|he|somebody|someone"
      r"|anybody|they)(?:'s| is| are) (?:in )?there,?", r"if there is somebody in \g<p>,"),
     # home and rounds
-    (rf"\b(?:park|plug|dock|plonk|sit|put) yourself(?: in| down)? (?:on|at|in|into|to|by|near|next to) (?P<p>{_PLACE})",
+    (rf"\bhome to {_PLACE}(?=$|[,.])", "go home"),
+    (rf"\b(?:off|away|over) to (?P<p>{_PLACE}) with you\b", r"go to \g<p>"),
+    (rf"^(?:do|make|drive|take|go) (?P<n>two|three|four|five|\d) (?:rounds|laps|tours|circuits|turns) (?:of|through|around|round|between)"
+     rf" (?P<l>{_PLACE}(?:(?:,? and|,) {_PLACE})+)$", r"patrol \g<l>, \g<n> times"),
+    (rf"\b(?:go )?(?:and )?(?:park|plug|dock|plonk|sit|put) yourself(?: in| down)? (?:on|at|in|into|to|by|near|next to) (?P<p>{_PLACE})",
      r"go to \g<p>"),
     (rf"\b(?:go |come )?back to (?P<p>{_PLACE})$", r"go to \g<p>"),
     (r"\b(?:park|plug|dock) yourself(?: in)?(?: (?:on|at|in|into|to) (?:the |your )?(?:charger|dock"
@@ -187,6 +264,7 @@ ENGLISH_EVERYDAY = table(
     (rf"\b(?:go )?(?:back and forth|to and fro|backwards and forwards) between (?P<a>{_PLACE}) and (?P<b>{_PLACE})"
      r" (?P<n>twice|\w+ times)$", r"go to \g<a> then go to \g<b>, \g<n>"),
     (rf"^(?:go )?to (?P<a>{_PLACE}) and back(?: again)? (?P<n>twice|\w+ times)", r"go to \g<a> then come back, \g<n>"),
+    (rf"\bturn (?:a?round )?(?:to face|and face|towards?) (?P<p>{_PLACE})", r"face \g<p>"),
     # waiting
     (rf"\b(?:stop|halt|pause)(?: off)? (?:at|by|in) (?P<p>{_PLACE}) for (?P<d>{EN_DURATION})",
      r"go to \g<p> and wait \g<d>"),

@@ -102,6 +102,14 @@ CHINESE_COMPOUND = CompoundForms(
     ),
     conditions=(
         re.compile(
+            rf"(?:现在)?{_IF}(?P<if>(?:现在|时间)?(?:已经)?(?:过了|超过|晚于|还没到|没到|没过|早于)[^,，;；。]+?)"
+            rf"(?:的话)?{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
+        ),
+        re.compile(
+            rf"(?:现在)?{_IF}(?P<if>(?:现在|时间)?(?:已经)?(?:过了|超过|晚于|还没到|没到|没过|早于)[^,，;；。]+?)"
+            rf"(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
+        ),
+        re.compile(
             rf"(?:请)?(?P<if>[^,，;；。]*?{_IF}{_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?)"
             rf"{_OTHERWISE}(?P<else>.+)"
         ),
@@ -137,6 +145,10 @@ CHINESE_COMPOUND = CompoundForms(
     ),
     read_condition=_read_condition,
     read_memory=_read_memory,
+    clock=re.compile(
+        rf"{_IF}?(?:现在|时间)?(?:已经)?(?:(?:过了|超过|晚于)(?P<after>[^,]+?)(?:了|的话)*"
+        r"|(?:还)?(?:没到|没过|早于|不到)(?P<before>[^,]+?)(?:的话)?)"
+    ),
     go_there=re.compile(r"(?P<verb>去|到|回到?|前往|开到)(?:那里|那儿|那边)"),
     to="",
     cuts=re.compile(r"(?!)"),

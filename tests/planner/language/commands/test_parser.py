@@ -14,6 +14,8 @@ from planner.language.commands import (
     Forget,
     HereCommand,
     Intent,
+    LeaveOutCommand,
+    OutcomeCommand,
     PauseCommand,
     Remember,
     Replace,
@@ -52,6 +54,25 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("are you running low on battery?", BatteryCommand()),
     ("你是不是快没电了", BatteryCommand()),
     ("你现在在干嘛", Doing()),
+    ("did you find it?", OutcomeCommand()),
+    ("how many were there?", OutcomeCommand()),
+    ("and what did she say?", OutcomeCommand()),
+    ("was it there?", OutcomeCommand()),
+    ("找到了吗？", OutcomeCommand()),
+    ("有几个", OutcomeCommand()),
+    ("那他怎么说", OutcomeCommand()),
+    ("结果怎么样", OutcomeCommand()),
+    ("what's next?", Doing()),
+    ("why?", Doing()),
+    ("下一个去哪", Doing()),
+    ("到了没", Doing()),
+    ("走吧", ResumeCommand()),
+    ("never mind, leave it", CancelCommand()),
+    ("算了，不用了", CancelCommand()),
+    ("到了，不用跟了", CancelCommand()),
+    ("skip the bathroom", LeaveOutCommand("the bathroom")),
+    ("leave out the bedroom, the baby's asleep", LeaveOutCommand("the bedroom")),
+    ("跳过卫生间", LeaveOutCommand("卫生间")),
     ("never mind, I've got it", CancelCommand()),
     ("forget it, it's already here", CancelCommand()),
     ("不用找了，我找到了", CancelCommand()),
@@ -238,6 +259,22 @@ NONE = (
 @pytest.mark.parametrize(("text", "intent"), [*ENGLISH, *CHINESE])
 def test_whole_sentences_are_heard(text: str, intent: Intent) -> None:
     assert intent_of(text) == intent
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["oh it's here under my chair, forget it", "he missed his train, never mind",
+     "哎呀他在我背后呢，不用找了", "他说还要加班，别等了"],
+)  # fmt: skip
+def test_a_reason_before_it_takes_back_as_well(text: str) -> None:
+    assert intent_of(text) == CancelCommand()
+
+
+@pytest.mark.parametrize(
+    "text", ["go to the kitchen, never mind", "去厨房，算了", "if she is there, never mind"]
+)
+def test_an_order_before_it_is_no_reason(text: str) -> None:
+    assert not isinstance(intent_of(text), CancelCommand)
 
 
 @pytest.mark.parametrize("text", NONE)

@@ -154,7 +154,7 @@ STILL = {
     "drive into the sofa": "clarify not_understood",
     "go to the couch in the kitchen": "clarify not_understood",
     "I want to go to the kitchen": "clarify not_understood",
-    "did you go to the kitchen": "clarify not_understood",
+    "did you go to the kitchen": "recall",
     "the kitchen is dirty": "clarify not_understood",
     "go to the kitchen tomorrow": "clarify not_understood",
     "go to the kitchen at 5 pm": "clarify not_understood",

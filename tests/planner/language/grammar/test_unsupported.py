@@ -19,6 +19,8 @@ NO_ORDER = (
 )  # fmt: skip
 RECALLED = frozenset(
     ("did you find the cup", "what did you find?", "did you see anyone in the kitchen",
+     "how many cups did you find", "how many people have you seen in the kitchen",
+     "did you go to the kitchen", "were you in the kitchen", "have you been to the kitchen",
      "tell me what you saw in the kitchen", "你在厨房看到了几个人", "你在厨房发现了什么")
 )  # fmt: skip
 """What memory answers, and nothing moves for it either."""

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from planner.language.grammar import Context, plan
 from planner.language.grammar.plain_words import held_back, in_plain_words
 from planner.language.grammar.sentence_text import normalise, refuse_bad_text
-from planner.plan import EVERY_KIND, Clarify, Code, Patrol, Refuse, Say, StepPlan, Vocabulary
+from planner.plan import EVERY_KIND, Clarify, Code, If, Patrol, Refuse, Say, StepPlan, Vocabulary
 from tests.planner.language.laws.test_grammar_laws import HOME
 
 WHOLE = Context(runnable=EVERY_KIND)
@@ -25,16 +25,38 @@ ORDERS_ZH = ("去{0}", "去{0}，然后去{1}", "看看{0}有没有人", "去{0}
 BEFORE_EN = (
     "um ", "hey buddy, ", "oi robot, ", "right then, ", "ok so ", "robot, ", "could you possibly ",
     "i'd like you to ", "would it be possible for you to ", "any chance you could ", "so ",
-    "your battery is low, ",
+    "your battery is low, ", "you're low on battery, ", "come on, ", "want to ", "let's see you ",
+    "we're eating, so ", "the baby is asleep. ",
 )  # fmt: skip
-AFTER_EN = (" mate", " love", " would you", " for me", ", chop chop", " please, buddy", "!!!")
+AFTER_EN = (
+    ", I'm waiting for a parcel",
+    ", you must be knackered",
+    " mate",
+    " love",
+    " would you",
+    " for me",
+    ", chop chop",
+    " please, buddy",
+    "!!!",
+)
 BEFORE_ZH = ("嗯", "小家伙", "宝贝儿，", "那个那个", "我想让你", "不好意思哈，", "机器人，")
-AFTER_ZH = ("呗", "嘛", "好不好", "哈", "啦", "，可好")
+AFTER_ZH = ("，忙一天了", "呗", "嘛", "好不好", "哈", "啦", "，可好")
 GOES_EN = (
     "pop over to", "nip to", "mosey on over to", "roll on down to", "make your way to", "scoot to",
     "get yourself over to", "off you go to", "head on over to", "take yourself off to",
 )  # fmt: skip
-GOES_ZH = ("溜达到", "跑一趟", "晃去", "过去", "移驾", "滚去")
+GOES_ZH = (
+    "溜达到",
+    "跑一趟",
+    "晃去",
+    "过去",
+    "移驾",
+    "滚去",
+    "上",
+    "转到",
+    "麻溜儿地去",
+    "轻点儿去",
+)
 HELD_EN = ("don't go to the {0}", "never go to the {0}", "go to the {0} or the {1}",
            "go anywhere but the {0}", "go to the {0} if it rains", "not the {0}")  # fmt: skip
 HELD_ZH = ("别去{0}", "不要去{0}", "去{0}或者{1}", "除了{0}哪都别去", "如果月亮圆就去{0}")
@@ -230,3 +252,96 @@ def test_who_says_no_more_of_a_thing_is_asked_which(text: str) -> None:
 @pytest.mark.parametrize("text", ["who left the cup on the sofa?", "who has moved the chair?"])
 def test_who_did_something_is_nothing_to_go_and_see(text: str) -> None:
     assert not isinstance(plan(text, HOME, WHOLE), StepPlan)
+
+
+ASIDES = (
+    "go to the study, I changed my mind", "go to the study, it's not safe",
+    "go to the study, the floor is wet", "go to the study, I mean the sofa",
+    "go to the study, I'm there in five minutes", "go to the study, you must ask me before",
+    "go to the study, the cup is in the kitchen", "go to the study, the door is locked",
+    "去书房，地是湿的", "去书房，门锁着呢", "去书房，我说的是沙发", "去书房，五分钟之后再去的",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", ASIDES)
+def test_no_aside_is_dropped_that_may_change_the_order(text: str) -> None:
+    assert not isinstance(made(text), StepPlan), text
+
+
+ASKS_ZH = (
+    "{p}有{t}没", "看看{p}有{t}没有", "{p}还有{t}没有", "{t}是不是在{p}", "{t}是不是还在{p}上",
+    "{t}在不在{p}", "{p}是不是有{t}", "去看看{t}是不是滚到{p}那边去了",
+)  # fmt: skip
+
+
+@given(st.sampled_from(ASKS_ZH), st.sampled_from(PLACES_ZH), st.sampled_from(("杯子", "球", "人")))
+def test_a_question_put_either_way_is_a_look_there(form: str, place: str, thing: str) -> None:
+    asked = form.format(p=place, t=thing)
+    plain = made(f"看看{place}有没有{thing}")
+    found = made(asked)
+    assert isinstance(plain, StepPlan)
+    assert isinstance(found, StepPlan), asked
+    assert _kinds(found) == _kinds(plain), asked
+    assert _places(found) == _places(plain), asked
+
+
+A_BIT = (
+    ("back up a bit", -0.2), ("move back a little", -0.2), ("move forward a little bit", 0.2),
+    ("move a tad forward", 0.2), ("往后退一点", -0.2), ("后退一点儿", -0.2), ("往前走一点", 0.2),
+    ("再往前走一小步", 0.2), ("往后退一点，压着我脚了", -0.2),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "metres"), A_BIT)
+def test_a_bit_is_a_short_step(text: str, metres: float) -> None:
+    plan_made = made(text)
+    assert isinstance(plan_made, StepPlan), text
+    assert [step.model_dump(exclude_defaults=True) for step in plan_made.steps] == [
+        {"distance_m": metres}
+    ]
+
+
+@pytest.mark.parametrize("text", ["go forward", "back up", "前进", "往后退"])
+def test_how_far_is_asked_where_nothing_was_said_of_it(text: str) -> None:
+    assert isinstance(made(text), Clarify)
+
+
+CLOCKS = (
+    ("if it is after {h}:00 go to the study", "after"),
+    ("if it's before {h}:00 go to the study", "before"),
+    ("如果现在过了{h}:00，就去书房", "after"), ("要是还没到{h}:00，就去书房", "before"),
+)  # fmt: skip
+
+
+@given(st.sampled_from(CLOCKS), st.integers(0, 23))
+def test_an_hour_may_be_a_condition(form: tuple[str, str], hour: int) -> None:
+    text, which = form
+    plan_made = made(text.format(h=hour))
+    assert isinstance(plan_made, StepPlan), text.format(h=hour)
+    (branch,) = plan_made.steps
+    assert isinstance(branch, If)
+    assert branch.when.model_dump(exclude_defaults=True) == {which: f"{hour:02d}:00"}
+    assert _places(StepPlan(steps=branch.then)) == _places(made("go to the study"))
+
+
+@pytest.mark.parametrize("text", ["if it is after six go to the study", "如果过了六点就去书房"])
+def test_an_hour_of_an_unnamed_half_of_the_day_is_no_condition(text: str) -> None:
+    assert isinstance(made(text), Refuse | Clarify)
+
+
+EMPTY = (
+    "if there is nobody in the study, go to the bedroom",
+    "look in the study, and if it's empty go to the bedroom",
+    "unless someone is in the study, go to the bedroom",
+    "如果书房没有人，就去卧室", "看看书房，没人的话就去卧室", "书房没人你就去卧室",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", EMPTY)
+def test_what_hangs_on_an_empty_room_hangs_on_it_in_all_words(text: str) -> None:
+    plan_made = made(text)
+    assert isinstance(plan_made, StepPlan), text
+    (branch,) = plan_made.steps
+    assert isinstance(branch, If)
+    assert not branch.then
+    assert _places(StepPlan(steps=branch.otherwise)) == _places(made("go to the bedroom"))

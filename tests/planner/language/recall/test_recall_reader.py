@@ -143,6 +143,10 @@ def test_a_fact_is_kept_word_for_word(fact: str) -> None:
     "text",
     ["remember to go to the kitchen", "remember where you are", "记得去厨房", "记住这里叫充电角",
      "刚才谁在浴室", "the kitchen", "is the cup on the table?", "what is on the table",
+     "弟弟在不在客厅", "有没有人在家呀", "书包都在走廊放着没", "球在客厅还是在书房来着",
+     "放学回来你在门口跟她讲一声饭在锅里", "只要客厅没人你就在里面转", "她在客厅",
+     "去厨房，别忘了", "厨房去一趟，别忘了", "go to the kitchen, don't forget",
+     "the sofa is so comfy I could fall asleep", "my sister is going to the study later",
      "杯子在哪里", "停在门前一米", "站在沙发旁边", "等在走廊的门口", "应该在书房"],
 )  # fmt: skip
 def test_orders_and_questions_are_no_facts(text: str) -> None:
@@ -165,3 +169,40 @@ def test_what_is_to_be_forgotten(text: str, wanted: ForgetFacts) -> None:
 def test_a_fact_with_a_stop_word_still_may_mean_stop() -> None:
     said = parse("remember that you must not go on, stop there")
     assert said.may_mean_stop or said.orders_stop or not isinstance(said.intent, TeachFact)
+
+
+FLAT = (
+    "the blue cup belongs to Lena", "my name is Tobias", "my favourite colour is green",
+    "I parked the stroller in the hallway", "this is my friend Rosa", "the keys are on the sofa",
+    "我叫小雨", "我最喜欢绿色", "蓝杯子是丽丽的", "我把钥匙放沙发上了",
+    "这是我朋友小芳", "钥匙在沙发上",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("fact", FLAT)
+def test_a_flat_statement_is_kept_alone_and_where_it_is_asked_for(fact: str) -> None:
+    assert read_statement(fact) == TeachFact(fact)
+    english = ("{}, remember that", "{}, don't forget")
+    for frame in english if fact.isascii() else ("{}，你记着点", "{}，别忘了"):
+        said = frame.format(fact)
+        assert parse(said).intent == TeachFact(fact), said
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [("whose is the blue cup?", "blue cup"), ("who does the blue cup belong to?", "blue cup"),
+     ("when's the plumber coming", "plumber"), ("where does mum keep her backpack", "backpack"),
+     ("蓝杯子是谁的？", "蓝杯子"), ("修水管的哪天来", "修水管")],
+)  # fmt: skip
+def test_what_was_told_is_asked_of_memory(text: str, what: str) -> None:
+    read = read_recall(text, HOME)
+    assert read is not None
+    assert (read.step.object, read.present) == (what, True)
+
+
+@given(place=st.sampled_from(sorted(PLACES)), span=st.sampled_from(sorted(SPANS)))
+def test_whether_it_was_somewhere_is_asked_of_its_deeds(place: str, span: str) -> None:
+    when, zh = SPANS[span]
+    wanted = Recall(place=place, span=when, deeds=True)
+    assert asked(f"have you been to the {place} {span}".strip() + "?") == wanted
+    assert asked(f"你{zh}去过{PLACES[place]}吗？") == wanted

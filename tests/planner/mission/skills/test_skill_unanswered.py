@@ -43,7 +43,7 @@ def after(
 @pytest.mark.parametrize(
     ("failure", "code"),
     [
-        *((c, c) for c in ("pictures_offhost", "no_pictures", "out_of_budget", "bad_plan")),
+        *((c, c) for c in ("pictures_offhost", "no_pictures", "out_of_budget")),
         ("timed_out", "timeout"),
     ],
 )
@@ -55,6 +55,14 @@ def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
     assert act.said.en.endswith(reason(code).en)
     assert act.said.zh.endswith(reason(code).zh)
     assert act.read is None
+
+
+def test_what_can_not_be_used_of_a_picture_is_not_called_a_plan() -> None:
+    act = look(after(ASKED, ImageAnswer(failure="bad_plan"), text="what is there?"))
+    assert isinstance(act, Finish)
+    assert act.said is not None
+    assert act.said.en.endswith("What the vision model wrote about the picture can't be used.")
+    assert act.said.zh.endswith("视觉模型对画面写的内容无法使用。")
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,66 @@
+"""What is said of the goal before: how it ended, how far it is, and nothing where none was."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.language.utterance import parse
+from planner.mission.conversation import situation_of
+from planner.mission.events import Cancel, Planned, Submitted
+from planner.mission.reducer import advance
+from planner.mission.spoken_status import tell_outcome
+from planner.mission.state import MissionState
+from planner.plan import AnswerPlan, Find, GoTo, Language, Recall, StepPlan, say_same
+from tests.planner.mission.fakes import FACTS
+
+NOW_S = 1000.0
+ASKING = Submitted("g1", "did you find it?", Language.EN)
+
+
+def searched(*, ended: bool) -> MissionState:
+    """Return the book after an order to find a cup."""
+    place = next(target.id for target in FACTS.targets.values() if target.room)
+    book, _ = advance(MissionState(FACTS), Submitted("g0", "find the cup", Language.EN), NOW_S)
+    plan = StepPlan(steps=(GoTo(place=place), Find(object="cup")))
+    book, _ = advance(book, Planned("g0", plan), NOW_S)
+    return advance(book, Cancel("g0"), NOW_S)[0] if ended else book
+
+
+def test_nothing_is_told_where_nothing_was_done() -> None:
+    book, _ = advance(MissionState(FACTS), ASKING, NOW_S)
+    assert tell_outcome(book, "g1") is None
+
+
+def test_the_order_and_how_it_ended_are_told() -> None:
+    book = searched(ended=True)
+    outcome = book.missions["g0"].outcome
+    told = tell_outcome(book)
+    assert outcome is not None
+    assert told is not None
+    for language in ("en", "zh"):
+        assert outcome.message.of(language) in told.of(language)
+        assert "find the cup" in told.of(language)
+
+
+def test_of_what_goes_on_is_told_how_far_it_is() -> None:
+    told = tell_outcome(searched(ended=False))
+    assert told is not None
+    assert "find the cup" in told.en
+
+
+def test_a_question_about_before_is_no_order_whose_end_is_asked_for() -> None:
+    book, _ = advance(
+        searched(ended=True), Submitted("g1", "what did you do today?", Language.EN), NOW_S
+    )
+    book, _ = advance(book, Planned("g1", StepPlan(steps=(Recall(deeds=True),))), NOW_S)
+    assert tell_outcome(book) == tell_outcome(searched(ended=True))
+
+
+@pytest.mark.parametrize("text", [ASKING.text, "有几个", "what did he say?"])
+def test_no_brain_is_told_the_answer_again(text: str) -> None:
+    """It may hold what a model read in a picture, and that is told no brain."""
+    book, _ = advance(searched(ended=True), Submitted("g1", text, parse(text).language), NOW_S)
+    book, _ = advance(book, Planned("g1", AnswerPlan(text=say_same("READ IN A PICTURE"))), NOW_S)
+    book, _ = advance(book, Submitted("g2", "and now?", Language.EN), NOW_S)
+    recent = situation_of(book, book.missions["g2"], NOW_S).recent
+    assert [goal.told for goal in recent if goal.order == text] == [""]
