@@ -183,8 +183,9 @@ def _links(folder: Path) -> list[str]:
 
 
 def _command(folder: Path) -> str:
-    words = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode("utf-8", "replace")
-    return words.strip()[:80] or _text(folder / "comm")
+    text = (folder / "cmdline").read_bytes().decode("utf-8", "replace").strip("\0")
+    program, *words = text.split("\0")  # without its folder: what it does is what a person knows
+    return " ".join([program.rpartition("/")[2], *words])[:80] or _text(folder / "comm")
 
 
 def _text(path: Path) -> str:

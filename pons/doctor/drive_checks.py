@@ -21,6 +21,7 @@ from wire.sockets import Endpoints, is_listening
 if TYPE_CHECKING:
     from wire import RobotDescription, Status
 
+BRIDGE = "bridge"
 SILENT_ROW, SILENT_WANT = "ENC_STALE", "drive"
 
 
@@ -61,8 +62,9 @@ def _judge_port(path: Path, *, is_ours: bool = False) -> HealthFinding | None:
     if not entry.is_permitted:
         english, chinese = describe_code("port_forbidden", entry.group)
         return _wrong("port_forbidden", str(path), str(path), (english, chinese))
-    if entry.holders and not is_ours:
-        first = entry.holders[0]
+    strangers = [one for one in entry.holders if not (is_ours and BRIDGE in one.command.split())]
+    if strangers:
+        first = strangers[0]
         held = f"{first.command} (pid {first.pid})"
         return _wrong("port_busy", f"{path} is held by {held}", f"{path} 被 {held} 占用")
     return None

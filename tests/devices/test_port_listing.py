@@ -92,7 +92,7 @@ def test_who_holds_a_port_is_named(machine: Machine) -> None:
     port = machine.plug("ttyACM0", "usb1/1-3", CP2102)
     process = machine.root / "proc/812"
     (process / "fd").mkdir(parents=True)
-    (process / "cmdline").write_bytes(b"python\0-m\0bridge\0")
+    (process / "cmdline").write_bytes(b"/opt/pons/.venv/bin/python\0-m\0bridge\0")
     (process / "comm").write_text("python\n")
     (process / "fd/7").symlink_to(port)
     (found,) = list_ports(machine.root)

@@ -135,13 +135,15 @@ def test_a_running_bridge_is_asked_whether_it_hears_the_base(
 
         thread = threading.Thread(target=speak)
         thread.start()
-        with SerialPort(line, 115_200):
-            found = drive_checks.drive(tmp_path, at(line))
+        found = drive_checks.drive(tmp_path, at(line))
+        with SerialPort(line, 115_200):  # by this program, which is no bridge
+            held = drive_checks.drive(tmp_path, at(line))
         gone = drive_checks.drive(tmp_path, at(tmp_path / "none"))
         ending.set()
         thread.join()
     assert found.verdict is (HealthVerdict.FAIL if silent else HealthVerdict.OK)
     assert found.found.en.startswith("base_silent: the bridge gets no state" if silent else "held")
+    assert held.found.en.startswith("port_busy" if silent else "held")
     assert gone.found.en.startswith(
         "port_missing" if silent else "held"
     )  # a twin's, where it hears
