@@ -9,12 +9,14 @@ from __future__ import annotations
 import contextlib
 import grp
 import os
+import stat
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path("/")
 _PHANTOM_TYPE = "0"
 """Of a ttyS* that the 8250 driver keeps ready though no such chip is there."""
+_GROUP_MAY = stat.S_IRGRP | stat.S_IWGRP
 _NO_DEVICE = ("rfcomm", "ttyprintk")
 
 
@@ -51,6 +53,7 @@ class SerialPortEntry:
     is_console: bool
     """The kernel talks here, or a login waits: no robot's device."""
     group: str
+    """May read and write it, root apart; empty where none but root may."""
     is_permitted: bool
     holders: tuple[PortHolder, ...]
     twins: tuple[Path, ...] = ()
@@ -134,8 +137,8 @@ def _entry(
         driver=driver.resolve().name if driver.exists() else "",
         is_console=is_console,
         group=_group(path),
-        is_permitted=os.access(path, os.R_OK | os.W_OK),
-        holders=find_holders(path, root),
+        is_permitted=os.access(path, os.R_OK | os.W_OK, effective_ids=True),
+        holders=find_holders(path, root) if _is_terminal(root, path) else (),
         twins=alike,
     )
 
@@ -156,11 +159,19 @@ def _has_device(tty: Path) -> bool:
     return not (tty.name.startswith("ttyS") and _text(tty / "type") == _PHANTOM_TYPE)
 
 
+def _is_terminal(root: Path, path: Path) -> bool:
+    """Tell a serial port from another device, which programs hold that are no affair of ours."""
+    real = path.resolve()
+    return (root / "sys/class/tty" / real.name).exists() or real.is_relative_to(root / "dev/pts")
+
+
 def _group(path: Path) -> str:
     try:
-        return grp.getgrgid(path.stat().st_gid).gr_name
+        found = path.stat()
+        name = grp.getgrgid(found.st_gid).gr_name
     except (OSError, KeyError):
         return ""
+    return name if found.st_mode & _GROUP_MAY == _GROUP_MAY and found.st_gid else ""
 
 
 def _links(folder: Path) -> list[str]:
@@ -172,8 +183,9 @@ def _links(folder: Path) -> list[str]:
 
 
 def _command(folder: Path) -> str:
-    words = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode("utf-8", "replace")
-    return words.strip()[:80] or _text(folder / "comm")
+    text = (folder / "cmdline").read_bytes().decode("utf-8", "replace").strip("\0")
+    program, *words = text.split("\0")  # without its folder: what it does is what a person knows
+    return " ".join([program.rpartition("/")[2], *words])[:80] or _text(folder / "comm")
 
 
 def _text(path: Path) -> str:

@@ -14,10 +14,11 @@ import os
 import stat
 import struct
 import termios
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Mapping
     from types import TracebackType
 
 READ_BYTES = 4096
@@ -33,23 +34,46 @@ _CODES = {
     errno.EPERM: "port_forbidden",
     errno.EBUSY: "port_busy",
 }
-_CURES = {
-    "port_missing": "is it plugged in? `ls /dev/serial/by-id` lists what is there",
-    "port_forbidden": "add your user to the group that owns it (often dialout), and log in anew",
-    "port_busy": "another program holds it; end that one (ModemManager probes new ports)",
-    "port_not_serial": "name a serial port, such as one below /dev/serial/by-id",
-    "port_gone": "it was unplugged, or its device began anew",
-    "baud_unknown": "the port's driver does not do this speed",
-    "robot_untried": "lift the wheels off the ground and run `pons robot try`",
+_BY_ID = Path("/dev/serial/by-id")
+MOST_NAMED = 6
+PORT_CURES: Mapping[str, tuple[str, str]] = {
+    "port_missing": (
+        "plug it in, or name one that is there (`pons robot find`)",
+        "请插好，或改用现有的端口（`pons robot find` 可列出）",
+    ),
+    "port_forbidden": (
+        "add your user to the group that owns it (often dialout), and log in anew",
+        "请将用户加入拥有该端口的组（通常是 dialout），然后重新登录",
+    ),
+    "port_busy": (
+        "another program holds it; end that one (ModemManager probes new ports)",
+        "请结束占用它的程序（ModemManager 会探测新端口）",
+    ),
+    "port_not_serial": (
+        "name a serial port, such as one below /dev/serial/by-id",
+        "请写一个串口，例如 /dev/serial/by-id 下的",
+    ),
+    "port_gone": ("look at its plug and its supply", "请检查插头和供电"),
+    "baud_unknown": (
+        "the port's driver does not do this speed: leave baud out",
+        "该端口的驱动不支持此速率：请删去 baud",
+    ),
+    "robot_untried": (
+        "lift the wheels off the ground and run `pons robot try`",
+        "请把轮子架空后运行 `pons robot try`",
+    ),
 }
+"""What cures each, in English and Chinese."""
 
 
 class PortTrouble(OSError):
     """Say why a port can't be used, with a code that stays and what cures it."""
 
-    def __init__(self, code: str, path: Path, detail: str) -> None:
+    def __init__(self, code: str, path: Path, found: str) -> None:
         self.code = code
-        self.detail = f"{path}: {detail}; {_CURES[code]}"
+        self.fact = f"{path}: {found}"
+        """What came, without the cure."""
+        self.detail = f"{self.fact}; {PORT_CURES[code][0]}"
         super().__init__(f"{code}: {self.detail}")
 
 
@@ -219,4 +243,22 @@ def _open(path: Path) -> int:
 
 def _trouble(path: Path, error: OSError) -> PortTrouble:
     code = _CODES.get(error.errno or 0, "port_missing")
-    return PortTrouble(code, path, error.strerror or "")
+    found = error.strerror or ""
+    return PortTrouble(
+        code, path, f"{found}; {_name_adapters()}" if code == "port_missing" else found
+    )
+
+
+def list_adapters() -> list[str]:
+    """Return the lasting names of what is plugged in: what came back by another name is there."""
+    try:
+        return sorted(str(entry) for entry in _BY_ID.iterdir())
+    except OSError:
+        return []
+
+
+def _name_adapters() -> str:
+    names = list_adapters()
+    more = ", …" if len(names) > MOST_NAMED else ""
+    known = ", ".join(names[:MOST_NAMED]) or f"nothing below {_BY_ID}"
+    return f"there is {known}{more}"

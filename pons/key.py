@@ -21,6 +21,7 @@ def run(settings: LaunchSettings) -> int:
     """Write $PONS_HOME/operator.key for this user alone; 0 made, 3 refused."""
     path = settings.home / FILE
     try:
+        settings.home.mkdir(mode=0o700, exist_ok=True)  # before the first `pons up`, as docs say
         opened = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600)
     except FileExistsError:
         print(

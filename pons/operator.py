@@ -14,7 +14,12 @@ from pons.terminal_text import goal_line, robot_lines
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
-    from wire import OpKind
+    from wire import Answer, OpKind
+
+_SELFTEST = (
+    "  the bridge still tests itself; `pons status` shows what it waits for, `pons doctor` why",
+    "  桥仍在自检：`pons status` 显示它在等待什么，`pons doctor` 说明原因",
+)
 
 
 def ask(settings: LaunchSettings, kind: OpKind) -> int:
@@ -33,8 +38,19 @@ def ask(settings: LaunchSettings, kind: OpKind) -> int:
     if answer.accepted:
         print(f"{kind}: accepted {answer.detail}".rstrip())
         return 0
-    print(f"{kind}: refused, {answer.code}: {answer.detail}", file=sys.stderr)
+    print("\n".join(refusal_lines(kind, answer)), file=sys.stderr)
     return 3
+
+
+def refusal_lines(kind: OpKind, answer: Answer) -> list[str]:
+    """Return what a person is told of a refusal: code, what came, and why in two languages."""
+    from pons.code_messages import code_lines
+    from wire import Mode
+
+    head = f"{kind}: refused, {answer.code}: {answer.detail}"
+    if kind == "arm" and Mode.SELFTEST.value in answer.detail:  # neither armed nor latched
+        return [head, *_SELFTEST]
+    return [head, *code_lines(answer.code)]
 
 
 def status(settings: LaunchSettings, *, as_json: bool) -> int:

@@ -22,6 +22,7 @@ from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
+from pons.launch_words import chinese_line
 from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
@@ -167,7 +168,7 @@ class Supervisor:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
             for line in self._trust:
                 say(line)
-            say(SET_UP if self._set_up else _what_to_try(self._settings))
+            say(SET_UP if self._set_up else what_to_try(self._settings))
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
@@ -199,11 +200,24 @@ class Supervisor:
             self._sockets.forget(child.name)
 
 
-def _what_to_try(settings: LaunchSettings) -> str:
+def what_to_try(settings: LaunchSettings) -> str:
     """Return a line for a person who has just started a robot."""
     if settings.mapping is not None:
-        return f"drive through the home by hand on the page, then: pons map {settings.mapping}"
+        steps = (
+            'pons say "explore the house"   pons say "go forward 1 metre"   pons say 探索一下房子'
+        )
+        return f"try: {steps}, then: pons map {settings.mapping}"
     return 'try: pons say "go to the living room"   pons say 去厨房   pons stop'
+
+
+def describe_base(settings: LaunchSettings, robot: RobotDescription) -> str:
+    """Say whether metal is driven: a robot.toml that lost its [drive] is a simulated one."""
+    drive = robot.drive
+    if drive.virtual:
+        return "simulated"
+    if settings.twin:
+        return f"{drive.kind}, played by its twin"
+    return drive.kind if drive.port is None else f"{drive.kind} at {drive.port}"
 
 
 def brain_example(home: Path, root: Path = ROOT) -> str:
@@ -253,7 +267,7 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
         told = f"pons up: {why}"
         if isinstance(why, ChildRefusal):
             told += site_flaw(settings, told, planner=planner)
-        told += in_chinese(why)
+        told += in_chinese(why) or chinese_line(told)
         print(told, file=sys.stderr)
         return REFUSED_TO_START
 
@@ -281,7 +295,8 @@ def _supervise(
         )
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, _handler(supervisor))
-        say(f"starting {robot.id} in {where} (state in {settings.home})")
+        what = describe_base(settings, robot)
+        say(f"starting {robot.id} ({what}) in {where} (state in {settings.home})")
         status = supervisor.run()
         if not supervisor.changes:
             return status

@@ -7,6 +7,7 @@ a value that somebody wrote wrongly.
 
 from __future__ import annotations
 
+import glob
 import tomllib
 from math import hypot
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -17,6 +18,7 @@ from wire.base import Record
 from wire.camera_config import CameraConfig
 from wire.drive_config import DRIVE_KINDS, DriveConfig
 from wire.errors import ConfigError
+from wire.file_trouble import describe_error, describe_syntax
 from wire.fingerprint import fingerprint
 from wire.imu_config import ImuConfig
 from wire.lidar_config import LidarConfig
@@ -227,6 +229,7 @@ def load_robot(path: Path) -> RobotDescription:
         ConfigError: the file is missing, is not TOML, has an unknown key or an unsafe value;
             the message names every such key, what came and what is allowed.
     """
+    text = ""
     try:
         text = read_plain_file(path, MOST_BYTES).decode("utf-8")
         return RobotDescription.model_validate(tomllib.loads(text), strict=True)
@@ -236,23 +239,26 @@ def load_robot(path: Path) -> RobotDescription:
         raise ConfigError(
             "robot_toml_invalid", f"{path}: {explain(error, RobotDescription)}"
         ) from None
-    except ValueError as error:  # no TOML, no UTF-8, or a number of thousands of digits
-        raise ConfigError("robot_toml_syntax", f"{path}: {error}") from None
+    except UnicodeDecodeError as error:
+        found = f"{path}: {error.reason} at byte {error.start}; save it as UTF-8"
+        raise ConfigError("robot_toml_syntax", found) from None
+    except ValueError as error:  # no TOML, or a number of thousands of digits
+        found = f"{path}: {describe_syntax(text, error)}{_older_copy(path)}"
+        raise ConfigError("robot_toml_syntax", found) from None
     except RecursionError:
         raise ConfigError("robot_toml_syntax", f"{path}: nested too deeply") from None
 
 
+def _older_copy(path: Path) -> str:
+    """Return a hint at the copy that was made before Pons last changed a robot.toml."""
+    copies = sorted(path.parent.glob(f"{glob.escape(path.name)}.bak-*"))
+    return f"; {copies[-1].name} beside it is an older copy" if copies else ""
+
+
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> str:
     """Describe a validation error in one line: the value, the expectation, the known keys."""
-    lines = []
-    for item in error.errors(include_url=False):
-        where = ".".join(str(part) for part in item["loc"]) or "whole file"
-        if item["type"] == "extra_forbidden":
-            known = ", ".join(_keys_beside(model, item["loc"]))
-            lines.append(f"unknown key '{where}'" + (f", known there: {known}" if known else ""))
-        else:
-            lines.append(f"{where}: got {item['input']!r}; {item['msg']}")
-    return "; ".join(lines)
+    found = error.errors(include_url=False)
+    return "; ".join(describe_error(item, _keys_beside(model, item["loc"])) for item in found)
 
 
 def _keys_beside(model: type[BaseModel] | None, loc: tuple[int | str, ...]) -> list[str]:

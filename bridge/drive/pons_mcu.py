@@ -12,6 +12,7 @@ import secrets
 from math import tau
 from typing import TYPE_CHECKING
 
+from bridge.drive.base_trouble import BASE_TROUBLES
 from bridge.drive.readings import charge_of, limit_radps
 from devices import pons_mcu
 from devices.clock import SensorClock, WrappedCounter
@@ -29,6 +30,7 @@ _TURN_US = 1 << 32
 _SEQ = 1 << 32
 _TICKS = 1 << 32
 _MILLI = 1000.0
+FOREIGN = "base_firmware_other"
 _FOREIGN = 5
 """So many frames that check by chance in noise: odds of 2^-80."""
 
@@ -78,6 +80,11 @@ class PonsMcuProtocol:
             )
         )
 
+    @property
+    def trouble(self) -> str | None:
+        """Return what is known to be wrong: frames of another version, and none of ours."""
+        return FOREIGN if self._is_foreign and self._mcu is None else None
+
     def question(self, seq: int) -> bytes:
         """Return nothing: the base speaks by itself."""
         return b""
@@ -87,10 +94,7 @@ class PonsMcuProtocol:
         frames = self._reader.read(data)
         if self._reader.foreign_frames >= _FOREIGN and not self._is_foreign:
             self._is_foreign = True
-            log.warning(
-                "base_firmware_other: its frames check, and are of another version than this "
-                "bridge speaks: build and flash firmware/ of this version (docs/firmware.md)"
-            )
+            log.warning("%s: %s", FOREIGN, BASE_TROUBLES[FOREIGN][0])
         return [self._state(frame, now_s) for frame in frames if isinstance(frame, McuState)]
 
     def _state(self, frame: McuState, now_s: float) -> DriveState:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from bridge.drive.arduino import ArduinoProtocol
+from bridge.drive.base_trouble import TroubledBase
 from bridge.drive.pons_mcu import PonsMcuProtocol
 from bridge.drive.turtlebot3 import Turtlebot3Protocol
 from bridge.drive.waveshare import WaveshareProtocol
@@ -31,6 +32,8 @@ _KEPT = 4
 """More than four readings at once are a stall's; the newest say all that counts."""
 _MOST_READS = 4
 """At 4096 bytes a read, more than a line brings in a tick: a babbling one can't hold the tick."""
+UNREAD_BYTES = 600
+"""Ten states of ours, three of the longest reports."""
 _HALT_SENDS = 5
 _HALT_GAP_S = 0.01
 
@@ -116,11 +119,20 @@ class SerialDrive:
         self._boot = boot
         self._clock = clock
         self._seq = self._asked = 0
+        self._waits = True
+        """No state came since the port was opened."""
+        self.unread = b""
+        """What came meanwhile, the newest of it: for who wonders why none did."""
 
     @property
     def trouble(self) -> LineTrouble | None:
         """Return why the port is away; None while it is open."""
         return self._port.trouble
+
+    @property
+    def base_trouble(self) -> str | None:
+        """Return what is wrong with a base that speaks, a code of base_trouble.py; or None."""
+        return self._protocol.trouble if isinstance(self._protocol, TroubledBase) else None
 
     @property
     def times_opened(self) -> int:
@@ -136,6 +148,8 @@ class SerialDrive:
             if not data:
                 break
             found += self._protocol.decode(data, self._clock())
+            if self._waits:
+                self._waits, self.unread = not found, (self.unread + data)[-UNREAD_BYTES:]
         return tuple(found[-_KEPT:])
 
     @property
@@ -193,6 +207,7 @@ class SerialDrive:
         opened = self._port.opened
         if self._opened != opened:
             greeting = self._protocol.begin()
+            self._waits, self.unread = True, b""
             if not greeting or self._port.write(greeting):
                 self._opened = opened
 

@@ -15,6 +15,7 @@ from math import tau
 from typing import TYPE_CHECKING, NamedTuple
 
 from bridge.drive.base_gyro import BaseGyro
+from bridge.drive.base_trouble import BASE_TROUBLES
 from bridge.drive.readings import WheelCount, limit_radps
 from devices import turtlebot3
 from devices.clock import SensorClock, WrappedCounter
@@ -42,11 +43,6 @@ KEPT = 100
 _BEATS = 256
 _WRAP_MS = 1 << 32
 _BACK_MS = 1 << 31
-_TROUBLE = {
-    "base_motors_missing": "its board does not reach its motors: is the battery on, and are the "
-    "servos' cables in?",
-    "base_model_unknown": "its board says model {model}, and {known} are known",
-}
 
 
 class _SentCommand(NamedTuple):
@@ -83,7 +79,7 @@ class Turtlebot3Protocol:
         self._boot = boot
         self._reader = DynamixelReader()
         self._seq, self._starts = 0, 0
-        self._trouble: str | None = None
+        self.trouble: str | None = None
         self._moves = False
         self._board = _KnownBoard()
 
@@ -135,10 +131,11 @@ class Turtlebot3Protocol:
             code = "base_model_unknown"
         elif table.device_status < 0:
             code = "base_motors_missing"
-        if code is not None and code != self._trouble:
+        if code is not None and code != self.trouble:
+            words = BASE_TROUBLES[code][0]
             known = ", ".join(f"{number} ({name})" for number, name in MODELS.items())
-            log.error("%s: %s", code, _TROUBLE[code].format(model=table.model, known=known))
-        self._trouble = code
+            log.error("%s: %s; its model is %d, of %s", code, words, table.model, known)
+        self.trouble = code
         if code is None:
             self._separation_m = SEPARATIONS_M[table.model]
         return code is None

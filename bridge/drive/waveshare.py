@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from bridge.drive.base_gyro import BaseGyro
+from bridge.drive.base_trouble import BASE_TROUBLES
 from bridge.drive.readings import charge_of, limit_radps
 from devices import waveshare
 from devices.waveshare import UgvEcho, UgvReader, UgvReport, UgvSetting, UgvText
@@ -48,14 +49,6 @@ _SURGE_MPS2 = 3.0
 _SURGE_SLACK_MPS = 0.15
 _SURGE_S = 0.1
 """Two reports' time. After a longer gap a speed is not more likely to be true."""
-_TROUBLE = {
-    "base_no_encoders": "it reports no way of its wheels (odl, odr): a WAVE ROVER or a board with "
-    "ugv_base_general has no encoders, and Pons drives nothing that it can't measure",
-    "base_firmware_old": "it reports odl and odr in metres: its firmware is older than "
-    "ugv_base_ros 0.96; update it (github.com/waveshareteam/ugv_base_ros)",
-    "base_not_set": "it reports, but does not print back the heartbeat: is TX wired, and does no "
-    "other program speak to it?",
-}
 
 
 class BoundedPath:
@@ -123,7 +116,8 @@ class WaveshareProtocol:
         self._reader = UgvReader()
         self._sent, self._stopped = 0, True
         self._seq = 0
-        self._trouble: str | None = None
+        self.trouble: str | None = None
+        """What keeps its reports from being passed on (base_trouble.py)."""
         self._starts = 0
         self._due = True
         self._base = _KnownBase()
@@ -278,9 +272,9 @@ class WaveshareProtocol:
 
     def _say(self, code: str | None) -> None:
         """Log a trouble once, not 20 times a second."""
-        if code is not None and code != self._trouble:
-            log.error("%s: %s", code, _TROUBLE[code])
-        self._trouble = code
+        if code is not None and code != self.trouble:
+            log.error("%s: %s", code, BASE_TROUBLES[code][0])
+        self.trouble = code
 
 
 def _can_follow(before: UgvReport, after: UgvReport, dt_s: float) -> bool:

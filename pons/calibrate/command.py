@@ -17,6 +17,7 @@ from pons.calibrate.procedure import CalibrationPlan, calibrate
 from pons.calibrate.reference import MEASURED
 from pons.calibrate.robot_toml import difference, edit_values, replace
 from pons.calibrate.session import CalibrationRig
+from pons.launch_words import chinese_cure
 from pons_assets import IS_INSTALLED, ROBOT_FILE
 from wire import ConfigError, load_robot
 from wire.keys import Party
@@ -59,7 +60,8 @@ def run(
         print("\n".join(refused.lines()), file=sys.stderr)
         return EXIT_REFUSED
     except (ConfigError, OSError) as trouble:
-        print(f"{trouble}\nnothing was written", file=sys.stderr)
+        cure = chinese_cure(str(trouble))
+        print("\n".join(filter(None, (str(trouble), cure, "nothing was written"))), file=sys.stderr)
         return EXIT_REFUSED
     except KeyboardInterrupt:
         print("interrupted / 已中断: the robot stands, nothing was written", file=sys.stderr)

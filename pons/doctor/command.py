@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 from collections.abc import Callable
 from dataclasses import asdict
 from subprocess import SubprocessError
@@ -22,7 +23,7 @@ from pons.doctor import (
     voice_checks,
 )
 from pons.doctor import jitter as late
-from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail
+from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail, warn
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -33,11 +34,16 @@ NO_CYCLICTEST = (
     "cyclictest did not run beside it -> sudo apt install rt-tests; it needs the same rights\n"
     "cyclictest 未能同时运行 -> sudo apt install rt-tests；需要同样的权限"
 )
+UNREAD = (
+    BilingualWords("not looked at: robot.toml can't be read", "未检查：无法读取 robot.toml"),
+    BilingualWords("mend it first (line robot)", "请先修正它（见 robot 一行）"),
+)
 MARKS = {HealthVerdict.OK: "ok  ", HealthVerdict.WARN: "warn", HealthVerdict.FAIL: "FAIL"}
 
 
 def run(settings: LaunchSettings, *, as_json: bool = False, jitter: bool = False) -> int:
     """Be ``pons doctor``."""
+    logging.getLogger().addHandler(logging.NullHandler())  # its lines say what drivers would log
     found = findings(settings)
     _, robot = path_checks.robot(settings.robot)
     rows = late.measure(robot.realtime.priority) if jitter else []
@@ -61,6 +67,12 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
     sited, site = path_checks.site(settings.site)
     running = bool(path_checks.listening(settings.home))
     priority, virtual = robot.realtime.priority, robot.drive.virtual
+
+    def of_robot(name: str, check: Callable[[], HealthFinding]) -> HealthFinding:
+        if described.verdict is HealthVerdict.FAIL:
+            return warn(name, *UNREAD)
+        return run_check(name, check)
+
     return [
         host_checks.python(),
         host_checks.page_size(),
@@ -79,13 +91,13 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         run_check("sockets", lambda: path_checks.sockets(settings.home)),
         run_check("port", lambda: path_checks.port(settings.host, settings.port, running=running)),
         described,
-        run_check("drive", lambda: drive_checks.drive(robot)),
-        run_check("trial", lambda: drive_checks.trial(robot)),
-        run_check("gyro", lambda: gyro_checks.gyro(settings.home, robot)),
-        run_check("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
-        run_check("camera", lambda: camera_checks.camera(settings.home, robot)),
-        run_check("detector", lambda: detector_checks.detector(settings.home, robot)),
-        run_check("ros2", lambda: ros2_checks.ros2(settings.home, robot)),
+        of_robot("drive", lambda: drive_checks.drive(settings.home, robot)),
+        of_robot("trial", lambda: drive_checks.trial(robot)),
+        of_robot("gyro", lambda: gyro_checks.gyro(settings.home, robot)),
+        of_robot("lidar", lambda: lidar_checks.lidar(settings.home, robot)),
+        of_robot("camera", lambda: camera_checks.camera(settings.home, robot)),
+        of_robot("detector", lambda: detector_checks.detector(settings.home, robot)),
+        of_robot("ros2", lambda: ros2_checks.ros2(settings.home, robot)),
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),
         run_check("recogniser", lambda: model_checks.recogniser(site)),

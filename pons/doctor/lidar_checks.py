@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from devices import LastingPort, PortTrouble
+from devices import PORT_CURES, LastingPort, PortTrouble
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.doctor.running_process import hear_state, says_nothing
 from sensors.lidar.health import CODES, STARTING, LidarVerdict
@@ -21,26 +21,6 @@ if TYPE_CHECKING:
 
 READ_S = 5.0
 PERIOD_S = 0.005
-_PORT_FIXES = {
-    "port_missing": (
-        "plug it in; `ls /dev/serial/by-id` lists what is there, lidar.port names it",
-        "请插好；`ls /dev/serial/by-id` 列出现有端口，lidar.port 应写其中之一",
-    ),
-    "port_forbidden": (
-        "add your user to the group that owns it (often dialout), and log in anew",
-        "请将用户加入拥有该端口的组（通常是 dialout），然后重新登录",
-    ),
-    "port_busy": (
-        "end the program that holds it (ModemManager probes new ports)",
-        "请结束占用它的程序（ModemManager 会探测新端口）",
-    ),
-    "port_not_serial": (
-        "name a serial port, such as one below /dev/serial/by-id",
-        "请写一个串口，例如 /dev/serial/by-id 下的",
-    ),
-    "port_gone": ("look at its plug and its supply", "请检查插头和供电"),
-    "baud_unknown": ("leave lidar.baud out", "请删去 lidar.baud"),
-}
 
 
 def lidar(home: Path, robot: RobotDescription) -> HealthFinding:
@@ -86,7 +66,7 @@ def _read_port(robot: RobotDescription) -> HealthFinding:
     try:
         port = LastingPort(Path(path), kind.baud, dtr=kind.dtr)
     except PortTrouble as trouble:
-        return _wrong(LidarVerdict(trouble.code, str(trouble)))
+        return _wrong(LidarVerdict(trouble.code, trouble.fact))
     reader = LidarReader(kind, port, path, "doctor")
     end_s = time.monotonic() + READ_S
     verdict: LidarVerdict | None = LidarVerdict(STARTING, "not read yet")
@@ -97,7 +77,7 @@ def _read_port(robot: RobotDescription) -> HealthFinding:
             verdict = reader.judge(now_s)
             time.sleep(PERIOD_S)
         if port.trouble is not None:
-            verdict = LidarVerdict(port.trouble.code, str(port.trouble))
+            verdict = LidarVerdict(port.trouble.code, port.trouble.fact)
         reader.close()
     finally:
         port.close()
@@ -109,7 +89,7 @@ def _read_port(robot: RobotDescription) -> HealthFinding:
 
 def _wrong(verdict: LidarVerdict) -> HealthFinding:
     english, chinese = (
-        CODES.get(verdict.code) or _PORT_FIXES.get(verdict.code) or ("see docs/lidars.md",) * 2
+        CODES.get(verdict.code) or PORT_CURES.get(verdict.code) or ("see docs/lidars.md",) * 2
     )
     found = verdict.found if verdict.code in verdict.found else f"{verdict.code}: {verdict.found}"
     return fail("lidar", BilingualWords(found, found), BilingualWords(english, chinese))

@@ -45,10 +45,22 @@ CODES: Final[dict[str, tuple[str, str]]] = {
         "you may not open it: sudo usermod -a -G {detail} $USER, and log in anew",
         "无权打开：sudo usermod -a -G {detail} $USER，然后重新登录",
     ),
-    "port_missing": ("it is not there: {detail}", "端口不存在：{detail}"),
-    "port_not_serial": ("it is no serial port: {detail}", "不是串口：{detail}"),
-    "port_gone": ("it went while it was questioned: {detail}", "询问时端口消失：{detail}"),
-    "baud_unknown": ("its driver does none of the speeds: {detail}", "驱动不支持：{detail}"),
+    "port_missing": (
+        "it is not there: {detail}; plug it in, or name one that is",
+        "端口不存在：{detail}；请插好，或改用现有的端口",
+    ),
+    "port_not_serial": (
+        "it is no serial port: {detail}; without --port each that there is is looked at",
+        "不是串口：{detail}；不加 --port 会查看所有串口",
+    ),
+    "port_gone": (
+        "it went while it was questioned: {detail}; look at its plug and supply, run this again",
+        "询问时端口消失：{detail}；请检查插头和供电后重试",
+    ),
+    "baud_unknown": (
+        "its driver does none of the speeds that a known device speaks: {detail}; another adapter?",
+        "驱动不支持已知设备的任何速率：{detail}；请更换转接器",
+    ),
     "port_silent": (
         "nothing speaks and nothing answers: is it powered, and is TX wired to RX?",
         "没有任何数据或应答：请检查供电，以及 TX 与 RX 接线",
@@ -75,6 +87,10 @@ CODES: Final[dict[str, tuple[str, str]]] = {
     ),
 }
 """What is said of a port, in English and Chinese; ``detail`` is the finding's."""
+_FORBIDDEN_TO_ALL: Final = (
+    "no group of users may open it: install deploy/pi/70-pons.rules; in a container add --device",
+    "没有任何用户组有权打开：请安装 deploy/pi/70-pons.rules；在容器中请加 --device",
+)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -137,7 +153,7 @@ def describe(found: Sequence[PortFinding], *, has_modem_manager: bool = False) -
     for one in found:
         yield f"{one.entry.path}  {adapter_words(one.entry)}"
         if one.answer is not None:
-            yield f"  {one.part} {one.kind}, {one.baud} baud: {_printable(one.answer.words)}"
+            yield f"  {one.part} {one.kind}, {one.baud} baud: {printable(one.answer.words)}"
         else:
             yield from _explain(one.code, one.detail)
         if one.entry.twins:
@@ -170,7 +186,7 @@ def robot_part(found: Sequence[PortFinding]) -> Iterator[str]:
 def describe_cameras(cameras: Sequence[CameraEntry]) -> Iterator[str]:
     """Yield the lines about cameras, for a terminal."""
     for one in cameras:
-        yield f"{one.path}  {_printable(one.name)}"
+        yield f"{one.path}  {printable(one.name)}"
         if one.is_permitted:
             yield f"  camera uvc: {one.lasting}"
         else:
@@ -199,11 +215,19 @@ def _camera_record(one: CameraEntry) -> dict[str, Any]:
     }
 
 
-def _explain(code: str, detail: str = "") -> Iterator[str]:
+def describe_code(code: str, detail: str) -> tuple[str, str]:
+    """Return what a code of :data:`CODES` says to a person, in English and Chinese."""
+    if code == "port_forbidden" and not detail:
+        return _FORBIDDEN_TO_ALL
     english, chinese = CODES[code]
-    detail = _printable(detail)
-    yield f"  {code}: {english.format(detail=detail)}"
-    yield f"  {chinese.format(detail=detail)}"
+    shown = printable(detail)
+    return english.format(detail=shown), chinese.format(detail=shown)
+
+
+def _explain(code: str, detail: str = "") -> Iterator[str]:
+    english, chinese = describe_code(code, detail)
+    yield f"  {code}: {english}"
+    yield f"  {chinese}"
 
 
 def adapter_words(entry: SerialPortEntry) -> str:
@@ -213,17 +237,17 @@ def adapter_words(entry: SerialPortEntry) -> str:
         return entry.driver
     named = " ".join(filter(None, (usb.maker, usb.name)))
     serial = f", serial {usb.serial}" if usb.serial else ""
-    return _printable(f"usb {usb.vendor}:{usb.product} {named}{serial}")
+    return printable(f"usb {usb.vendor}:{usb.product} {named}{serial}")
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """Return what a device said of itself without what would move a terminal's cursor."""
     return "".join(letter if letter.isprintable() else "?" for letter in text)
 
 
 def _record(one: PortFinding) -> dict[str, Any]:
     """Return a finding as JSON can hold it."""
-    english, chinese = CODES.get(one.code, ("", ""))
+    english, chinese = describe_code(one.code, one.detail) if one.code in CODES else ("", "")
     answer = None
     if one.answer is not None:
         answer = {
@@ -238,10 +262,7 @@ def _record(one: PortFinding) -> dict[str, Any]:
         "usb": None if usb is None else asdict(usb),
         "code": one.code,
         "detail": one.detail,
-        "message": {
-            "en": english.format(detail=one.detail),
-            "zh": chinese.format(detail=one.detail),
-        },
+        "message": {"en": english, "zh": chinese},
         "part": one.part or None,
         "kind": one.kind or None,
         "baud": one.baud or None,

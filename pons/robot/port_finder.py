@@ -77,7 +77,26 @@ def question_port(
         with SerialPort(entry.path, speeds[0]) as port:
             return _PortInterview(entry, port, probes).hold(speeds, boot_s)
     except PortTrouble as trouble:
-        return PortFinding(entry, trouble.code, detail=trouble.detail)
+        return PortFinding(entry, trouble.code, detail=_detail_of(entry, trouble))
+
+
+def _detail_of(entry: SerialPortEntry, trouble: PortTrouble) -> str:
+    """Return what the words of a code have a place for."""
+    if trouble.code == "port_forbidden":  # though the file's mode allows it: in a container
+        return ""
+    if trouble.code == "port_busy":
+        return f"a program of another user (`sudo fuser -v {entry.path}` names it)"
+    return trouble.fact
+
+
+def name_speaker(data: bytes) -> str | None:
+    """Return which device said some bytes of itself, for a person; None where nobody knows."""
+    for probe in PROBES:
+        answer = None if probe.question else probe.recognise(data)
+        if answer is not None:
+            return f"{probe.part} {probe.kind}: {answer.words}"
+    kind = recognize(data)
+    return None if kind is None else f"a lidar of kind {kind}"
 
 
 class _PortInterview:

@@ -181,7 +181,8 @@ def main(arguments: list[str] | None = None) -> int:
         return error.exit_status
     except TrialRefusal as refused:
         english, chinese = REFUSALS[refused.code]
-        print(f"setup: {refused.code}: {english} / {chinese}", file=sys.stderr)
+        told = f"{refused.code} ({refused.detail})" if refused.detail else refused.code
+        print(f"setup: {told}: {english} / {chinese}", file=sys.stderr)
         return ConfigError.exit_status
 
 

@@ -6,13 +6,14 @@ half a minute in all, and stop when this program does. The page does the same (s
 
 from __future__ import annotations
 
+import logging
 import select
 import sys
 from typing import TYPE_CHECKING
 
 from pons.calibrate.errors import CalibrationRefusal
 from pons.robot.trial_parties import TrialRefusal
-from pons.robot.trial_run import load_triable, try_robot, wait_for
+from pons.robot.trial_run import load_triable, refusal_of, require_base, try_robot, wait_for
 from pons.robot.trial_words import PROMPTS, REFUSALS, STEPS
 from wire import ConfigError
 
@@ -28,8 +29,10 @@ _LIFTED = "; type UP, then Enter", "。输入 UP 后回车"
 
 def run_trial(settings: LaunchSettings) -> int:
     """Try the robot; 0 proved and written, 3 refused, 130 interrupted."""
+    logging.getLogger().addHandler(logging.NullHandler())  # else drivers' logs stand in a question
     try:
         robot = load_triable(settings.robot)
+        require_base(settings.robot, robot)
         person = TerminalPerson()
         wait_for(person, LIFT)
         if person.answer.strip() != LIFTED:
@@ -39,8 +42,7 @@ def run_trial(settings: LaunchSettings) -> int:
         print("\n".join(refusal_lines(refused)), file=sys.stderr)
         return EXIT_REFUSED
     except (ConfigError, CalibrationRefusal, OSError) as trouble:
-        unusable = TrialRefusal("trial_config", " ".join(str(trouble).split()))
-        print("\n".join(refusal_lines(unusable)), file=sys.stderr)
+        print("\n".join(refusal_lines(refusal_of(trouble))), file=sys.stderr)
         return EXIT_REFUSED
     except KeyboardInterrupt:
         print("interrupted / 已中断: the wheels stand, nothing was written", file=sys.stderr)

@@ -12,13 +12,22 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING, Final
 
+from devices.camera_listing import list_cameras
 from devices.port_listing import describe_port, list_ports
 from pons.calibrate.errors import CalibrationRefusal
-from pons.robot.command import CODES, adapter_words, robot_part
+from pons.robot.command import (
+    CODES,
+    HEAD,
+    adapter_words,
+    camera_part,
+    describe_code,
+    printable,
+    robot_part,
+)
 from pons.robot.page_person import MOST_CHARACTERS, PagePerson
 from pons.robot.port_finder import question_ports
 from pons.robot.trial_parties import TrialRefusal
-from pons.robot.trial_run import load_triable, plan_steps, record_lines, try_robot
+from pons.robot.trial_run import load_triable, plan_steps, record_lines, refusal_of, try_robot
 from pons.robot.trial_words import PROMPTS, REFUSALS
 from wire import ConfigError, PortReport, Sentence, TrialOrder, TrialState, authentic
 
@@ -26,6 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from devices.camera_listing import CameraEntry
     from pons.robot.port_finder import PortFinding
     from wire import RobotDescription
     from wire.trial_dialogue import TrialPhase
@@ -167,7 +177,7 @@ class TrialDesk:
         except TrialRefusal as refusal:
             self._refuse(refusal)
         except (ConfigError, CalibrationRefusal, OSError) as trouble:
-            self._refuse(TrialRefusal("trial_config", " ".join(str(trouble).split())))
+            self._refuse(refusal_of(trouble))
         else:
             self._wrote = tuple(record_lines(result.record))
             self._look_again()
@@ -182,8 +192,13 @@ class TrialDesk:
                 if path is not None and path.exists() and path.resolve() not in known:
                     entries.append(describe_port(path))
             found = question_ports(entries[:MOST_PORTS])
-            self._ports = tuple(map(_report, found))
-            self._part = tuple(line[:MOST_CHARACTERS] for line in robot_part(found))[:MOST_LINES]
+            cameras = list_cameras()[:MOST_PORTS]
+            reports = [*map(_report, found), *map(_report_camera, cameras)]
+            self._ports = tuple(reports[:MOST_PORTS])
+            parts = list(robot_part(found))
+            head = [] if parts or not cameras else [HEAD]
+            part = [*parts, *head, *camera_part(cameras)]
+            self._part = tuple(line[:MOST_CHARACTERS] for line in part)[:MOST_LINES]
         finally:
             self._phase = "idle" if self._refusal is None else "refused"
 
@@ -209,17 +224,26 @@ def _sentence(pair: tuple[str, str]) -> Sentence:
     return Sentence(en=pair[0][:MOST_CHARACTERS], zh=pair[1][:MOST_CHARACTERS])
 
 
+def _report_camera(one: CameraEntry) -> PortReport:
+    cure = None if one.is_permitted else _sentence(describe_code("camera_forbidden", ""))
+    return PortReport(
+        path=str(one.path)[:MOST_CHARACTERS],
+        adapter=printable(one.name)[:MOST_CHARACTERS],
+        code="camera_found" if one.is_permitted else "camera_forbidden",
+        device=f"camera uvc: {one.lasting}"[:MOST_CHARACTERS],
+        cure=cure,
+    )
+
+
 def _report(one: PortFinding) -> PortReport:
     device, cure = "", None
     if one.answer is not None:
         device = f"{one.part} {one.kind}, {one.baud} baud: {one.answer.words}"
     elif one.code in CODES:
-        english, chinese = CODES[one.code]
-        cure = _sentence((english.format(detail=one.detail), chinese.format(detail=one.detail)))
+        cure = _sentence(describe_code(one.code, one.detail))
     if one.entry.twins:
         others = ", ".join(map(str, one.entry.twins))
-        english, chinese = CODES["port_twins"]
-        cure = _sentence((english.format(detail=others), chinese.format(detail=others)))
+        cure = _sentence(describe_code("port_twins", others))
     return PortReport(
         path=str(one.entry.path)[:MOST_CHARACTERS],
         adapter=adapter_words(one.entry)[:MOST_CHARACTERS],

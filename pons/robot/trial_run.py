@@ -15,10 +15,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from bridge.drive import open_serial_drive, require_brakes
-from devices import LastingPort, PortTrouble
+from devices import PORT_CURES, LastingPort, PortTrouble
 from pons.calibrate.robot_toml import replace
 from pons.robot.gyro_trial import BaseGyroSource, I2cGyroSource, try_gyro
 from pons.robot.lidar_trial import try_lidar
+from pons.robot.port_finder import CHATTER_BYTES, name_speaker
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.wheel_trial import WheelTrial
 from pons_assets import IS_INSTALLED, ROBOT_FILE
@@ -42,6 +43,8 @@ SCANS_WITHIN_S = 6.0
 """An RPLidar begins to turn when it is opened."""
 PICTURES_WITHIN_S = 10.0
 """Five of them; a network camera waits for its next whole picture."""
+MEASURED: Final = ("wheel_radius_m", "wheel_separation_m", "radius_m")
+"""Of [base]; a base of metal has none of them by default."""
 WHEEL_STEPS: Final = (
     "wheels_up", "listen", "hand_left", "hand_right", "power_left", "power_right",
     "power_back", "silence",
@@ -85,10 +88,30 @@ def load_triable(path: Path) -> RobotDescription:
         raise TrialRefusal("trial_shipped", f"cp {ROBOT_FILE} robot.toml")
     robot = load_robot(path)
     if robot.drive.virtual:
-        raise TrialRefusal("trial_virtual")
+        stated = "is" if "kind" in robot.drive.model_fields_set else "is left out, and so"
+        raise TrialRefusal("trial_virtual", f"{path}: drive.kind {stated} 'sim'")
     if robot.drive.kind == ROS2:
         raise TrialRefusal("trial_ros2")
     return robot
+
+
+def require_base(path: Path, robot: RobotDescription) -> None:
+    """Hold that robot.toml states what distances and brakes hang on; a file may have lost it.
+
+    Raises:
+        TrialRefusal: ``trial_base``.
+    """
+    lacks = [f"base.{key}" for key in MEASURED if key not in robot.base.model_fields_set]
+    if lacks:
+        raise TrialRefusal("trial_base", f"{path} lacks {', '.join(lacks)}")
+
+
+def refusal_of(trouble: Exception) -> TrialRefusal:
+    """Return an error of robot.toml or of a port as the trial tells it, with its cure's code."""
+    if isinstance(trouble, ConfigError) and trouble.code in PORT_CURES:
+        cure = PORT_CURES[trouble.code][0]  # stands beside it, in both languages
+        return TrialRefusal(trouble.code, trouble.detail.removesuffix(f"; {cure}"))
+    return TrialRefusal("trial_config", " ".join(str(trouble).split()))
 
 
 def try_robot(path: Path, robot: RobotDescription, person: TrialPerson) -> TrialResult:
@@ -101,6 +124,7 @@ def try_robot(path: Path, robot: RobotDescription, person: TrialPerson) -> Trial
         ConfigError: a port can't be used, or the new robot.toml would be refused.
         CalibrationRefusal, OSError: robot.toml was changed meanwhile, or can't be written.
     """
+    require_base(path, robot)
     before = path.read_text("utf-8")
     found, turned_rad = _try_base(robot, person)
     seen = f"{found.dead_man_s:.2f} s ({found.brake_s:.2f} s)"
@@ -194,8 +218,20 @@ def try_base(
     except TrialRefusal as refusal:
         if refusal.code not in ENDED_BY_PERSON:
             _require_port(drive, opened)  # it went meanwhile: that is the better word
+        if refusal.code == "trial_silent":
+            raise _explain_silence(drive, refusal) from None
         raise
     return found, turned_rad
+
+
+def _explain_silence(drive: SerialDrive, refusal: TrialRefusal) -> TrialRefusal:
+    """Return why no state came: nothing speaks there, or something that can't be driven."""
+    if drive.base_trouble is not None:
+        return TrialRefusal(drive.base_trouble, refusal.detail)
+    if len(drive.unread) < CHATTER_BYTES:
+        return refusal
+    speaker = name_speaker(drive.unread) or f"bytes of no base of kind {drive.kind!r}"
+    return TrialRefusal("trial_other", f"{speaker}; {refusal.detail}")
 
 
 def _require_port(drive: SerialDrive, opened: int | None = None) -> None:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Final
 
+from bridge.drive.base_trouble import BASE_TROUBLES
+from devices import PORT_CURES
+
 PROMPTS: Final[dict[str, tuple[str, str]]] = {
     "wheels_up": (
         "The wheels will turn. Lift them off the ground, hands and cables away",
@@ -18,8 +21,8 @@ PROMPTS: Final[dict[str, tuple[str, str]]] = {
         "请用手把右轮向前转三整圈",
     ),
     "gyro_left": (
-        "Turn the whole robot a QUARTER to the LEFT, level, on its stand or lifted, then Enter",
-        "请把整个机器人水平地向左转四分之一圈（可连支架或抬起），然后回车",
+        "Turn the whole robot a QUARTER to the LEFT, level, on its stand or lifted",
+        "请把整个机器人水平地向左转四分之一圈（可连支架或抬起）",
     ),
     "lidar_clear": (
         "Step away from the robot, so that nothing moves around it",
@@ -84,8 +87,12 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "此 robot.toml 随 Pons 安装，不会被改写；请复制后用 --robot 指定",
     ),
     "trial_virtual": (
-        "a simulated drive needs no trial: drive.kind is 'sim'",
-        "仿真驱动（drive.kind = 'sim'）不需要测试",
+        "a simulated drive needs no trial; name your robot's file by --robot (examples: robots/)",
+        "仿真驱动不需要测试；请用 --robot 指定机器人自己的文件（robots/ 下有示例）",
+    ),
+    "trial_base": (
+        "measure the wheels, state them in [base]; left out, they are the simulated robot's",
+        "请测量轮子并写入 [base]；省略时会使用仿真机器人的尺寸",
     ),
     "trial_ros2": (
         "a ROS 2 base is not tried here: its relay proves the dead-man, its driver knows wheels",
@@ -94,6 +101,10 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
     "trial_silent": (
         "the base says nothing: is it powered, is this its port? pons robot find tells",
         "底盘没有数据：请检查供电和端口，可用 pons robot find 查看",
+    ),
+    "trial_other": (
+        "another device speaks at this port: set drive.kind and port as pons robot find prints",
+        "该端口上是另一种设备：请按 pons robot find 的输出设置 drive.kind 和 port",
     ),
     "trial_stopped": (
         "somebody stopped the trial; the wheels were told to stand",
@@ -251,5 +262,7 @@ REFUSALS: Final[dict[str, tuple[str, str]]] = {
         "the covered lens changed nothing: this is another camera; pons robot find lists them",
         "盖住镜头后画面没有变化：这是另一个摄像头，可用 pons robot find 查看",
     ),
+    **PORT_CURES,
+    **BASE_TROUBLES,
 }
 """By code; each is preceded by what came."""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from devices import LastingPort, PortTrouble
+from devices import LastingPort, PortTrouble, SerialPort
 from sim.twin.line import TwinLine
 
 
@@ -100,6 +100,26 @@ def test_the_user_of_a_line_may_leave_and_come_again(line: TwinLine, tmp_path: P
         port.close()
         assert line.read() == b""  # notices, and makes the line anew
     assert os.readlink(tmp_path / "line").startswith("/dev/pts/")  # noqa: PTH115
+
+
+def test_a_port_that_another_program_holds_is_waited_for_and_named(
+    line: TwinLine, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    other = SerialPort(tmp_path / "line", 115_200)
+    port = LastingPort(tmp_path / "line", 115_200)
+    try:
+        assert port.trouble is not None
+        assert port.trouble.code == "port_busy"
+        assert not port.write(b"x")
+        assert line.read() == b""
+        assert "port_busy" in caplog.text
+        other.close()
+        line.hang_up()
+        assert until(lambda: port.opened == 1)
+        assert port.trouble is None
+    finally:
+        other.close()
+        port.close()
 
 
 def test_a_port_that_returns_under_another_name_is_found_by_the_name_that_lasts(

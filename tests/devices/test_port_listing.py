@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import grp
 import os
 from pathlib import Path
 
@@ -91,7 +92,7 @@ def test_who_holds_a_port_is_named(machine: Machine) -> None:
     port = machine.plug("ttyACM0", "usb1/1-3", CP2102)
     process = machine.root / "proc/812"
     (process / "fd").mkdir(parents=True)
-    (process / "cmdline").write_bytes(b"python\0-m\0bridge\0")
+    (process / "cmdline").write_bytes(b"/opt/pons/.venv/bin/python\0-m\0bridge\0")
     (process / "comm").write_text("python\n")
     (process / "fd/7").symlink_to(port)
     (found,) = list_ports(machine.root)
@@ -109,3 +110,18 @@ def test_a_port_named_by_a_person_is_described_though_the_kernel_tells_nothing(
     found = describe_port(tmp_path / "none")
     assert (found.usb, found.holders, found.is_permitted) == (None, (), False)
     assert describe_port(Path(os.devnull)).is_permitted
+
+
+def test_a_group_is_named_only_where_it_helps_to_join_it(machine: Machine) -> None:
+    port = machine.plug("ttyUSB0", "usb1/1-2", CP2102)
+    port.chmod(0o600)
+    assert list_ports(machine.root)[0].group == ""
+    port.chmod(0o660)
+    gid = port.stat().st_gid
+    wanted = grp.getgrgid(gid).gr_name if gid else ""  # nobody should join root's
+    assert list_ports(machine.root)[0].group == wanted
+
+
+def test_who_holds_what_is_no_terminal_is_no_affair_of_ours() -> None:
+    with Path(os.devnull).open("rb"):
+        assert describe_port(Path(os.devnull)).holders == ()

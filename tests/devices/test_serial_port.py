@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from devices import PortTrouble, SerialPort
+from devices import PORT_CURES, PortTrouble, SerialPort
+from devices.serial_port import MOST_NAMED
 
 
 @pytest.fixture
@@ -107,6 +108,26 @@ def test_what_is_no_port_is_refused_by_name(tmp_path: Path, name: str, code: str
     with pytest.raises(PortTrouble, match=code) as refused:
         SerialPort(tmp_path / name, 115_200)
     assert refused.value.code == code
+
+
+def test_a_missing_port_names_what_is_plugged_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What came back by another name is among them."""
+    monkeypatch.setattr("devices.serial_port._BY_ID", tmp_path / "by-id")
+    with pytest.raises(PortTrouble, match=r"there is nothing below .*by-id; plug it in"):
+        SerialPort(tmp_path / "ttyUSB0", 115_200)
+    (tmp_path / "by-id").mkdir()
+    for number in range(MOST_NAMED + 1):
+        (tmp_path / "by-id" / f"usb-{number}").touch()
+    with pytest.raises(PortTrouble, match=r"there is .*/usb-0, .*/usb-5, …; plug it in"):
+        SerialPort(tmp_path / "ttyUSB0", 115_200)
+
+
+def test_every_trouble_has_its_cure_in_both_languages() -> None:
+    for code, (english, chinese) in PORT_CURES.items():
+        assert english.isascii(), code
+        assert any(ord(letter) > 0x2E80 for letter in chinese), code
 
 
 def test_a_speed_without_a_name_is_set(line: tuple[int, Path]) -> None:

@@ -9,7 +9,8 @@ import pytest
 
 from planner.plan import GoalState
 from pons import goals
-from pons.__main__ import main, parser
+from pons.__main__ import main
+from pons.grammar import parser
 from pons.settings import LaunchSettings, load
 from pons.terminal_text import how_to_answer
 from tests.planner.api.serving import served as real_planner

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from pons.__main__ import parser
 from pons.children import children
 from pons.domain import DOMAIN_FILE, choose_domain, keep_domain
+from pons.grammar import parser
 from pons.settings import CHECKOUT, LaunchSettings
 from sim.domain import Domain, draw_domain, load_domain
 from wire import ConfigError, RobotDescription

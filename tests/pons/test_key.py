@@ -48,8 +48,13 @@ def test_a_key_that_is_there_is_never_replaced(
     assert not (tmp_path / "elsewhere").exists()
 
 
-def test_a_home_that_is_not_there_is_told(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run(replace(load(), home=tmp_path / "none")) == 3
+def test_before_the_first_start_the_home_is_made_for_this_user_alone(tmp_path: Path) -> None:
+    home = tmp_path / "home"
+    assert run(replace(load(), home=home)) == 0
+    assert home.stat().st_mode & 0o777 == 0o700
+    assert load_operator_key(home, virtual=False)
+
+
+def test_a_home_that_is_nowhere_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(replace(load(), home=tmp_path / "none" / "home")) == 3
     assert capsys.readouterr().err.startswith("home_unwritable: ")

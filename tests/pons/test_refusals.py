@@ -57,6 +57,7 @@ def test_up_names_what_is_wrong_with_the_robot_file(
     robot.write_text(f"[{table}]\n{line}\n")
     assert main(["up", "--robot", str(robot)]) == REFUSED
     said = capsys.readouterr().err
+    assert any(ord(letter) > 0x2E80 for letter in said)
     for word in ("robot.toml", *named):
         assert word in said, said
 
@@ -101,3 +102,20 @@ def test_a_recording_that_is_none_is_named(
 ) -> None:
     assert main(["replay", str(tmp_path / "none.jsonl.gz")]) == REFUSED
     assert "none.jsonl.gz" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["fault"], ["robot", "mount"], ["robot", "try"], ["calibrate"]])
+def test_no_command_ends_in_a_traceback_for_half_a_robot_file(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: list[str],
+) -> None:
+    robot = tmp_path / "robot.toml"
+    robot.write_text('[drive]\nkind = "pons_mcu"\nport = "/dev/tt')
+    monkeypatch.setenv("PONS_ROBOT", str(robot))
+    assert main(words) in (REFUSED, 3)
+    said = capsys.readouterr().err
+    assert "robot_toml_syntax" in said
+    assert "breaks off in line 3" in said
+    assert any(ord(letter) > 0x2E80 for letter in said)

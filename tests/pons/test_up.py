@@ -1,19 +1,21 @@
-"""``pons up`` waits for a robot that looks for its place, and not for a process that is silent."""
+"""``pons up`` says what it drives, and waits for a robot that looks for its place, not silence."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from pons.launch_checks import CannotStart
 from pons.settings import CHECKOUT, LaunchSettings
-from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, Supervisor
+from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, Supervisor, describe_base, what_to_try
 from tests.planner.api.serving import served
 from tests.pons.test_readiness import starting
-from wire import RobotDescription
+from wire import RobotDescription, load_robot
 
 HOUR_S = 3600.0
+ROS2 = "ros2_diff_drive.toml"
 
 
 def supervisor(tmp_path: Path, port: int) -> Supervisor:
@@ -61,3 +63,21 @@ def test_a_localization_that_is_silent_is_not_waited_for(tmp_path: Path) -> None
         up._greet(100.0, 100.0)
         with pytest.raises(CannotStart, match="not_ready"):
             up._greet(101.0 + READY_LIMIT_S, 100.0)
+
+
+def test_a_person_reads_whether_metal_is_driven(tmp_path: Path) -> None:
+    plain = LaunchSettings(tmp_path, CHECKOUT / "robot.toml", CHECKOUT / "sites", "127.0.0.1", 1)
+    twin = replace(plain, twin=True)
+    lost = tmp_path / "robot.toml"
+    lost.write_text('id = "mine"\n[base]\nwheel_radius_m = 0.1\n')
+    mcu, ros2 = (load_robot(CHECKOUT / "robots" / name) for name in ("pons_mcu.toml", ROS2))
+    assert describe_base(plain, load_robot(lost)) == "simulated"
+    assert describe_base(plain, mcu) == "pons_mcu at /dev/ttyACM0"
+    assert describe_base(twin, mcu) == "pons_mcu, played by its twin"
+    assert describe_base(plain, ros2) == "ros2"
+
+
+def test_who_maps_a_home_is_told_what_the_page_can_do(tmp_path: Path) -> None:
+    maps = LaunchSettings(tmp_path, tmp_path, tmp_path, "127.0.0.1", 1, mapping="flat")
+    assert "explore the house" in what_to_try(maps)
+    assert what_to_try(maps).endswith("then: pons map flat")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from pons.__main__ import parser
+from pons.grammar import parser
 
 FILE = re.compile(r"`((?:planner|bridge|wire|sim|tools|scripts|localization)/[\w/.-]+\.py)`")
 COMMAND = re.compile(r"(?<![\w/.-])pons ([a-z]+(?:-[a-z]+)?)\b")

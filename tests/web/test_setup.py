@@ -17,6 +17,12 @@ from tests.e2e.system import System, new_home
 pytestmark = pytest.mark.e2e
 
 KEY = "0123456789abcdef" * 2
+IN_SIGHT = """() => {
+    const box = document.querySelector("#trial-refused").getBoundingClientRect();
+    return [box.top + 8, box.bottom - 8].every(
+        (y) => document.elementFromPoint(180, y)?.closest("#trial-refused"));
+}"""
+"""Whether nothing hides the refusal, on a page 360 wide."""
 TELEPHONE = {"width": 360, "height": 740}
 
 
@@ -61,5 +67,7 @@ def test_a_trial_is_begun_and_stopped_on_a_telephone_in_chinese(browser: Browser
             page.keyboard.press("Escape")
             page.wait_for_selector("#trial-refused[data-code=trial_stopped]")
             page.wait_for_selector("#stop-state.good")
+            assert page.evaluate(IN_SIGHT), "why it ended lies below Stop, or above the page"
+            assert page.locator(".skip").count() == 0, "it leads to a goal box that is not there"
             context.close()
         assert "[trial]" not in (home / "robot.toml").read_text("utf-8")

@@ -195,6 +195,7 @@ def test_a_firmware_of_another_version_is_told_once_and_gives_no_state(
     for seq in range(20):
         assert protocol.decode(frame(kind, seq, payload), 10.0 + seq / 100) == []
     assert caplog.text.count("base_firmware_other") == 1
+    assert protocol.trouble == "base_firmware_other"
 
 
 def test_noise_is_no_firmware_of_another_version(caplog: pytest.LogCaptureFixture) -> None:
@@ -202,3 +203,4 @@ def test_noise_is_no_firmware_of_another_version(caplog: pytest.LogCaptureFixtur
     for _ in range(2_000):
         protocol.decode(noise.randbytes(60) + pons_mcu.HEAD + noise.randbytes(9), 10.0)
     assert "base_firmware_other" not in caplog.text
+    assert protocol.trouble is None

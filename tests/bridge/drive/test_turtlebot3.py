@@ -112,7 +112,9 @@ def test_a_board_that_can_not_drive_says_nothing_and_is_named_once(
     for k in range(5):
         assert protocol.decode(answer(1000 + 20 * k, **wrong), 10.0) == []
     assert caplog.text.count(code) == 1
+    assert protocol.trouble == code
     assert len(protocol.decode(answer(1100), 10.1)) == 1
+    assert protocol.trouble is None
 
 
 def test_a_waffle_is_told_by_its_own_track() -> None:

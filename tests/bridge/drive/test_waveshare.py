@@ -141,7 +141,9 @@ def test_a_base_that_can_not_be_measured_is_refused_once_with_its_cure(
     for k in range(9):
         assert protocol.decode(report(*ways), 1.0 + 0.05 * k) == []
     assert caplog.text.count(code) == 1
+    assert protocol.trouble == code
     assert len(protocol.decode(report(), 1.5)) == 1
+    assert protocol.trouble is None
 
 
 def test_a_spoilt_way_is_left_out_and_a_lasting_one_is_a_reset(

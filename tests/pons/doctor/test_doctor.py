@@ -9,6 +9,7 @@ import socket
 import subprocess
 import sys
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -264,6 +265,18 @@ def test_wrong_files_are_quoted(tmp_path: Path) -> None:
     assert_says(found, HealthVerdict.FAIL, "map.yaml")
     assert site is None
     assert model_checks.recogniser(None).name == "recogniser"
+
+
+@pytest.mark.usefixtures("deaf")
+def test_of_a_robot_that_nobody_can_read_nothing_is_called_well(
+    settings: LaunchSettings, tmp_path: Path
+) -> None:
+    half = tmp_path / "half.toml"
+    half.write_text('[drive]\nkind = "pons_mcu"\nport = "/dev/ttyA')
+    found = {one.name: one for one in command.findings(replace(settings, robot=half))}
+    assert_says(found["robot"], HealthVerdict.FAIL, "robot_toml_syntax", "it breaks off in line 3")
+    for name in ("drive", "trial", "gyro", "lidar", "camera", "detector", "ros2"):
+        assert_says(found[name], HealthVerdict.WARN, "not looked at")
 
 
 def test_the_model_is_asked_for_nothing_but_a_connection(

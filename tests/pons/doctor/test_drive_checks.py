@@ -1,24 +1,38 @@
-"""The doctor says what a drive's silence costs."""
+"""The doctor says what is wrong with a base's port, and what its silence costs."""
 
 from __future__ import annotations
 
+import os
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
 import pytest
 
+from devices import SerialPort
+from devices.port_listing import describe_port
 from pons.doctor import drive_checks
 from pons.doctor.finding import HealthVerdict
-from wire import RobotDescription
+from pons.robot.command import describe_code
+from sim.twin.line import TwinLine
+from tests.wire.examples import EXAMPLES
+from wire import Action, RobotDescription, RowReport, Status, keys
 from wire.drive_config import DRIVE_KINDS, DriveKind
+from wire.keys import Party
+from wire.session import open_session
 from wire.trial_record import TrialRecord, wiring_of
 
 
-def test_a_drive_that_reports_often_costs_nothing() -> None:
-    found = drive_checks.drive(RobotDescription()).found
+def test_a_drive_that_reports_often_costs_nothing(tmp_path: Path) -> None:
+    found = drive_checks.drive(tmp_path, RobotDescription()).found
     assert found.en == "held after 80 ms without a state, or 100 ms without an answer"
 
 
-def test_one_that_reports_seldom_is_said_to_cost_distance(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_one_that_reports_seldom_is_said_to_cost_distance(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setitem(dict_of_kinds(), "sim", DriveKind((), (), 0.06))
-    found = drive_checks.drive(RobotDescription()).found
+    found = drive_checks.drive(tmp_path, RobotDescription()).found
     assert "held after 150 ms without a state, or 150 ms without an answer" in found.en
     assert "70 ms more lag" in found.en
     assert "70 毫秒" in found.zh
@@ -46,3 +60,90 @@ def test_metal_that_nobody_tried_fails_with_its_cure() -> None:
 def dict_of_kinds() -> dict[str, DriveKind]:
     assert isinstance(DRIVE_KINDS, dict)
     return DRIVE_KINDS
+
+
+@pytest.fixture
+def line(tmp_path: Path) -> Iterator[Path]:
+    """Yield a line at whose far end nobody speaks."""
+    twin = TwinLine(tmp_path / "line")
+    yield tmp_path / "line"
+    twin.close()
+
+
+def at(port: Path) -> RobotDescription:
+    drive = {"kind": "pons_mcu", "port": str(port), "ticks_per_turn": 400}
+    return RobotDescription.model_validate({"drive": drive})
+
+
+def test_a_port_that_can_be_opened_is_well_and_is_left_alone(tmp_path: Path, line: Path) -> None:
+    with SerialPort(line, 115_200):
+        pass
+    assert drive_checks.drive(tmp_path, at(line)).verdict is HealthVerdict.OK
+
+
+def test_a_port_that_is_not_there_or_none_is_named_with_its_cure(tmp_path: Path) -> None:
+    plain = tmp_path / "file"
+    plain.touch()
+    for port, code in ((tmp_path / "none", "port_missing"), (plain, "port_not_serial")):
+        found = drive_checks.drive(tmp_path, at(port))
+        assert found.verdict is HealthVerdict.FAIL
+        assert found.found.en.startswith(f"{code}: drive.port {port}")
+        assert found.fix is not None
+        assert any(ord(letter) > 0x2E80 for letter in found.fix.zh)
+
+
+def test_who_holds_the_port_is_named_unless_it_is_our_own_bridge(
+    tmp_path: Path, line: Path
+) -> None:
+    with SerialPort(line, 115_200):
+        held = drive_checks.drive(tmp_path, at(line))
+    assert held.found.en.startswith("port_busy: ")
+    assert f"(pid {os.getpid()})" in held.found.en
+
+
+def test_a_port_that_one_may_not_open_is_named_with_its_group(
+    tmp_path: Path, line: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("os.access", lambda *_, **__: False)
+    found = drive_checks.drive(tmp_path, at(line))
+    assert found.found.en == f"port_forbidden: drive.port {line}"
+    assert found.fix is not None
+    cure = describe_code("port_forbidden", describe_port(line).group)
+    assert (found.fix.en, found.fix.zh) == cure
+
+
+@pytest.mark.parametrize("silent", ["ENC_STALE", "drive", ""])
+def test_a_running_bridge_is_asked_whether_it_hears_the_base(
+    tmp_path: Path, line: Path, silent: str
+) -> None:
+    status = EXAMPLES[Status]
+    assert isinstance(status, Status)
+    row = RowReport(row="ENC_STALE", action=Action.HOLD2, for_s=1.0, evidence="1 s", binding=True)
+    up: dict[str, dict[str, object]] = {
+        "ENC_STALE": {"rows": (row,)},
+        "drive": {"waiting_for": ("lidar", "drive")},
+    }
+    none: dict[str, object] = {"robot": "r1", "rows": (), "waiting_for": ("lidar",)}
+    said = status.model_copy(update=none | up.get(silent, {}))
+    ending = threading.Event()
+    with open_session(Party.BRIDGE, "r1", tmp_path) as session:
+        mouth = session.publisher(keys.STATUS)
+
+        def speak() -> None:
+            while not ending.wait(0.02):
+                mouth.put(said)
+
+        thread = threading.Thread(target=speak)
+        thread.start()
+        found = drive_checks.drive(tmp_path, at(line))
+        with SerialPort(line, 115_200):  # by this program, which is no bridge
+            held = drive_checks.drive(tmp_path, at(line))
+        gone = drive_checks.drive(tmp_path, at(tmp_path / "none"))
+        ending.set()
+        thread.join()
+    assert found.verdict is (HealthVerdict.FAIL if silent else HealthVerdict.OK)
+    assert found.found.en.startswith("base_silent: the bridge gets no state" if silent else "held")
+    assert held.found.en.startswith("port_busy" if silent else "held")
+    assert gone.found.en.startswith(
+        "port_missing" if silent else "held"
+    )  # a twin's, where it hears

@@ -72,7 +72,7 @@ def test_a_lidar_that_turns_is_found_well_and_left_at_rest(tmp_path: Path, line:
 @pytest.mark.parametrize(
     ("lidar", "code", "cure"),
     [
-        ({"kind": "ld19", "port": "/dev/none"}, "port_missing", "by-id"),
+        ({"kind": "ld19", "port": "/dev/none"}, "port_missing", "robot find"),
         ({"kind": "ld19", "port": "/etc/hostname"}, "port_not_serial", "by-id"),
         ({"kind": "ydlidar", "model": "x2", "port": "LINE"}, "lidar_silent", "powered"),
         (

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from devices import SerialPort
 from devices.port_listing import PortHolder, describe_port
+from pons.robot.command import describe
 from pons.robot.port_finder import PROBES, PortFinding, question_port, question_ports
 from sim.twin.lidar import LIDAR_TWINS, LidarFirmware
 from sim.twin.twin import FIRMWARES
@@ -116,6 +117,17 @@ def test_a_port_that_may_not_be_opened_is_not(tmp_path: Path) -> None:
     assert question_port(entry(there, is_permitted=False)).code == "port_forbidden"
     assert question_port(entry(there)).code == "port_not_serial"
     assert question_port(entry(tmp_path / "none", is_permitted=False)).code == "port_missing"
+
+
+def test_a_group_that_does_not_exist_is_never_to_be_joined(tmp_path: Path) -> None:
+    with played([PlayedNoise(tmp_path / "line", 0)]):
+        found = question_port(entry(tmp_path / "line", is_permitted=False, group=""))
+        with SerialPort(tmp_path / "line", 115_200):  # whose holder this user could not see
+            held = question_port(entry(tmp_path / "line"))
+    (_, english, chinese) = describe([found])
+    assert "usermod" not in english + chinese
+    (_, english, _) = describe([held])
+    assert english.startswith("  port_busy: held by a program of another user (`sudo fuser -v ")
 
 
 def test_a_port_that_a_program_holds_is_busy_and_is_not_spoken_to(tmp_path: Path) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import os
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -12,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from devices import PORT_CURES
 from pons.__main__ import main
 from pons.robot.trial_command import refusal_lines
 from pons.robot.trial_parties import TrialRefusal
@@ -69,7 +72,42 @@ def test_a_simulated_drive_needs_none(tmp_path: Path, capsys: pytest.CaptureFixt
     path = tmp_path / "robot.toml"
     path.write_text('id = "r1"\n')
     assert main(["robot", "try", "--robot", str(path)]) == 3
-    assert "trial_virtual" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert f"trial_virtual ({path}: drive.kind is left out, and so 'sim')" in said
+    assert "--robot" in said
+
+
+def test_a_file_that_lost_its_base_is_refused_before_anybody_lifts_anything(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = robot_at(tmp_path, tmp_path / "no")
+    whole = path.read_text()
+    path.write_text(whole.replace("wheel_radius_m", "# wheel_radius_m"))
+    assert main(["robot", "try", "--robot", str(path)]) == 3
+    said = capsys.readouterr()
+    assert f"trial_base ({path} lacks base.wheel_radius_m)" in said.err
+    assert said.out == ""
+    path.write_text(whole[whole.index("[drive]") :])
+    assert main(["robot", "try", "--robot", str(path)]) == 3
+    assert "base.wheel_separation_m, base.radius_m" in capsys.readouterr().err
+
+
+def test_a_port_that_is_none_is_told_by_its_own_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with typed(monkeypatch, "UP\n"):
+        assert main(["robot", "try", "--robot", str(robot_at(tmp_path, Path(os.devnull)))]) == 3
+    code, english, chinese, last = capsys.readouterr().err.splitlines()
+    assert code == "port_not_serial (drive.port /dev/null: not a terminal device)"
+    assert (english.strip(), chinese.strip()) == PORT_CURES["port_not_serial"]
+    assert last == "nothing was written"
+
+
+def test_every_question_ends_with_the_terminals_own_enter() -> None:
+    """A page asks the same, and has a button."""
+    for english, chinese in PROMPTS.values():
+        assert "Enter" not in english
+        assert "回车" not in chinese
 
 
 def test_without_the_word_nothing_is_opened(
@@ -144,3 +182,15 @@ def test_a_person_tries_a_base_and_the_bridge_may_then_drive_it(
         update={"drive": load_robot(path).drive.model_copy(update={"ticks_per_turn": 99})}
     )
     assert moved.valid_trial is None
+
+
+def test_no_drivers_log_stands_in_a_persons_terminal(tmp_path: Path) -> None:
+    """In a process of its own: a test's has handlers, which hide what logging does without any."""
+    robot = robot_at(tmp_path, tmp_path / "no")
+    words = [sys.executable, "-m", "pons", "robot", "try", "--robot", str(robot)]
+    done = subprocess.run(
+        words, input="UP\n", capture_output=True, text=True, timeout=60, cwd=ROOT, check=False
+    )
+    assert done.returncode == 3
+    assert done.stderr.startswith("trial_port (port_missing: ")
+    assert done.stderr.count("port_missing") == 1

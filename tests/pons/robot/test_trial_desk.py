@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from devices.camera_listing import CameraEntry
+from pons.robot.command import HEAD
 from pons.robot.page_person import PagePerson
 from pons.robot.trial_desk import TrialDesk
 from pons.robot.trial_parties import TrialRefusal
@@ -153,6 +155,30 @@ def test_half_a_robot_toml_is_named_and_what_was_mended_is_read_anew(tmp_path: P
         assert "ticks_per_turn" in state.detail
         path.write_text(whole)
         assert begin(desk, "b").code == "trial_port"
+
+
+def test_a_page_is_shown_cameras_beside_the_ports(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lasting = Path("/dev/v4l/by-id/usb-x")
+    entries = [
+        CameraEntry(Path("/dev/video0"), lasting, "Webcam\x1b[2J", is_permitted=True),
+        CameraEntry(Path("/dev/video2"), Path("/dev/video2"), "Other", is_permitted=False),
+    ]
+    monkeypatch.setattr("pons.robot.trial_desk.list_ports", list)
+    monkeypatch.setattr("pons.robot.trial_desk.list_cameras", lambda: entries)
+    with desk_at(tmp_path) as desk:
+        desk.take(TrialOrder(id="a", source="t", act="find"))
+        for _ in range(500):
+            if not desk.is_busy:
+                break
+            threading.Event().wait(0.01)
+        state = desk.state()
+    assert state.ports is not None
+    assert [one.code for one in state.ports] == ["camera_found", "camera_forbidden"]
+    assert (state.ports[0].adapter, state.ports[0].cure) == ("Webcam?[2J", None)
+    assert state.ports[1].cure is not None
+    assert state.part[:4] == (HEAD, "[camera]", 'kind = "uvc"', f'device = "{lasting}"')
 
 
 def test_an_untried_robot_does_not_leave(tmp_path: Path) -> None:

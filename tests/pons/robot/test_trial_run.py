@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import permutations
 
 import pytest
 
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_run import try_base
+from pons.robot.trial_words import REFUSALS
+from sim.twin.pons_mcu import PonsMcuFirmware
+from sim.twin.twin import FIRMWARES, Firmware
+from tests.bridge.drive.test_pons_mcu import frame
 from tests.pons.robot.stand import Stand
 from tests.pons.robot.twin_ports import BASES
+from tests.sensors.lidar.frames import ld_frame
 from tools.lockstep.serial_line import LineFault
-from wire import RobotDescription
+from wire import DriveState, RobotDescription
 
 STEPS = ("listen", "hand_left", "hand_right", "power_left", "power_right", "power_back", "silence")
 
@@ -87,3 +93,57 @@ def test_a_line_that_stays_is_tried_to_the_end() -> None:
     found, turned = try_base(stand.drive, BASES["pons_mcu"], stand, stand, "trial")
     assert turned is None
     assert found.dead_man_s < 0.5
+
+
+SPEAKING = ("pons_mcu", "waveshare")
+"""They speak unasked; the others answer their own language alone."""
+
+
+def plugged_in(told: str, firmware: Firmware) -> tuple[TrialRefusal, Stand]:
+    """Try a robot at whose port another base is."""
+    stand = Stand(BASES[told])
+    stand.wheels.firmware = firmware
+    with pytest.raises(TrialRefusal) as caught:
+        try_base(stand.drive, BASES[told], stand, stand, "trial")
+    return caught.value, stand
+
+
+@pytest.mark.parametrize(("told", "plugged"), list(permutations(sorted(BASES), 2)))
+def test_a_base_of_another_kind_is_named_where_it_speaks_and_turns_no_wheel(
+    told: str, plugged: str
+) -> None:
+    refusal, stand = plugged_in(told, FIRMWARES[plugged](BASES[plugged]))
+    assert stand.wheels.fastest_radps == 0.0
+    assert refusal.code in ("trial_other", "trial_silent")
+    if plugged in SPEAKING:
+        assert refusal.code == "trial_other"
+        assert refusal.detail.startswith(f"drive {plugged}: ")
+
+
+class SayingOtherwise(PonsMcuFirmware):
+    """Hear as ours does, and say something else."""
+
+    def __init__(self, words: bytes) -> None:
+        super().__init__(BASES["pons_mcu"].drive)
+        self.words = words
+
+    def say(self, body: DriveState, now_s: float) -> bytes:
+        return self.words
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "named"),
+    [
+        (b"", "trial_silent", "no state"),
+        (frame(0x82, 1, bytes(41)), "base_firmware_other", "no state"),
+        (ld_frame(0.0, 0.8, [1.0] * 12, 100), "trial_other", "lidar ld19: "),
+        (b"Hello world\r\n", "trial_other", "bytes of no base of kind 'pons_mcu'"),
+    ],
+)
+def test_what_is_behind_a_port_that_gives_no_state_is_told(
+    words: bytes, code: str, named: str
+) -> None:
+    refusal, stand = plugged_in("pons_mcu", SayingOtherwise(words))
+    assert (refusal.code, stand.wheels.fastest_radps) == (code, 0.0)
+    assert refusal.code in REFUSALS
+    assert named in refusal.detail

@@ -17,7 +17,7 @@ export function SetupTab() {
       <section class="card notice tells" aria-labelledby="setup-title" id="setup">
         <h2 id="setup-title">{t("setup.title")}</h2>
         <p>{now.tried ? t("setup.tried", { date: now.tried }) : t("setup.untried")}</p>
-        <p class="fine clip">
+        <p class="fine">
           {now.robot} · {now.drive} · {now.port}
         </p>
         {now.tried !== null && !isTrying.value && (
@@ -38,26 +38,44 @@ function Trying({ now }: { now: Trial }) {
   return (
     <section class="card" aria-labelledby="trial-title" id="trial" data-phase={now.phase}>
       <h2 id="trial-title">{t("trial.title")}</h2>
+      {now.phase === "refused" && <Refused now={now} />}
+      {now.phase === "proved" && <Proved now={now} />}
       {!isTrying.value && <Begin now={now} />}
       {isTrying.value && <Question now={now} />}
-      {now.phase === "refused" && now.cure && (
-        <div class="clarify bad" role="alert" id="trial-refused" data-code={now.code}>
-          <strong>{say(now.cure)}</strong>
-          <p class="fine">
-            {now.code}
-            {now.detail && `: ${now.detail}`}
-          </p>
-          <p class="fine">{t("trial.unwritten")}</p>
-        </div>
-      )}
-      {now.phase === "proved" && (
-        <div class="clarify good" role="status" id="trial-proved">
-          <strong>{t("trial.proved")}</strong>
-          <pre>{now.wrote.join("\n")}</pre>
-        </div>
-      )}
       {now.steps.length > 0 && <Steps now={now} />}
     </section>
+  );
+}
+
+/** Bring what a trial ended with into view: a telephone shows the steps, and not what is above. */
+function useSeen<T extends HTMLElement>(by: string | null) {
+  const shown = useRef<T>(null);
+  useEffect(() => shown.current?.scrollIntoView({ block: "nearest" }), [by]);
+  return shown;
+}
+
+function Refused({ now }: { now: Trial }) {
+  const shown = useSeen<HTMLDivElement>(now.by);
+  if (!now.cure) return null;
+  return (
+    <div ref={shown} class="clarify bad" role="alert" id="trial-refused" data-code={now.code}>
+      <strong>{say(now.cure)}</strong>
+      <p class="fine">
+        {now.code}
+        {now.detail && `: ${now.detail}`}
+      </p>
+      <p class="fine">{t("trial.unwritten")}</p>
+    </div>
+  );
+}
+
+function Proved({ now }: { now: Trial }) {
+  const shown = useSeen<HTMLDivElement>(now.by);
+  return (
+    <div ref={shown} class="clarify good" role="status" id="trial-proved">
+      <strong>{t("trial.proved")}</strong>
+      <pre>{now.wrote.join("\n")}</pre>
+    </div>
   );
 }
 

@@ -23,16 +23,18 @@ export function TopBar() {
   const site = siteNow.value;
   return (
     <header class="topbar">
-      <a
-        class="skip"
-        href="#view"
-        onClick={(event) => {
-          event.preventDefault();
-          toGoalBox();
-        }}
-      >
-        {t("page.skip")}
-      </a>
+      {!inSetup.value && (
+        <a
+          class="skip"
+          href="#view"
+          onClick={(event) => {
+            event.preventDefault();
+            toGoalBox();
+          }}
+        >
+          {t("page.skip")}
+        </a>
+      )}
       <h1>Pons</h1>
       {site && <span class="site clip">{site}</span>}
       <Mode />

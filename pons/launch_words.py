@@ -1,0 +1,45 @@
+"""Say in Chinese how to mend what ``pons up`` refused. The refusals themselves are in English."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final
+
+from devices import PORT_CURES
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_CODE: Final = re.compile(r"\b([a-z0-9]+(?:_[a-z0-9]+)+): ")
+CHINESE: Final[Mapping[str, str]] = {
+    "robot_toml_missing": "找不到或无法读取 robot.toml：请检查 --robot 的路径",
+    "robot_toml_syntax": "robot.toml 不是完整的 TOML：请修正所示的行，或恢复旁边的 .bak-… 副本",
+    "robot_toml_invalid": "robot.toml 中有未知的键或不允许的值：请按上面所示修改",
+    "twin_needless": "机器人本来就是仿真的：请去掉 --twin",
+    "lidar_of_another_world": "激光雷达是真实的，而底盘是仿真的：请加 --twin，或两者都用真实的",
+    "camera_of_another_world": "摄像头是真实的，而底盘是仿真的：请加 --twin，或两者都用真实的",
+    "home_unwritable": "无法写入状态目录：请把 PONS_HOME 设为可写的目录",
+    "disk_full": "磁盘空间不足：请删除旧录制文件，或把 PONS_HOME 设到更大的磁盘",
+    "port_in_use": "网页端口已被占用：请停止占用者，或用 --port 另选",
+    "setup_needless": "此机器人不需要设置：请去掉 --set-up",
+    "already_running": "同一状态目录中已有机器人在运行：请先停止它，或另设 PONS_HOME",
+    "not_ready": "启动超时：请查看日志",
+    "operator_key_missing": "真实底盘需要操作员密钥：请运行 `pons key new`",
+    "operator_key_exposed": "操作员密钥可被他人读取：请执行 chmod 600",
+    "fence_missing": "场地没有围栏：请在场地目录中放入 fence.json",
+    "ros2_not_configured": "请在 robot.toml 中添加 [ros2] 部分",
+    **{code: chinese for code, (_, chinese) in PORT_CURES.items()},
+}
+"""By code: what a person does about it."""
+
+
+def chinese_cure(refusal: str) -> str | None:
+    """Return the cure of the first known code in a refusal; None where none is known."""
+    known = (CHINESE.get(code) for code in _CODE.findall(refusal))
+    return next((words for words in known if words is not None), None)
+
+
+def chinese_line(refusal: str) -> str:
+    """Return the cure as a line below a refusal; empty where none is known."""
+    cure = chinese_cure(refusal)
+    return "" if cure is None else f"\n  {cure}"

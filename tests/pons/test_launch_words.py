@@ -1,0 +1,28 @@
+"""Whoever reads Chinese learns from ``pons up`` what to mend."""
+
+from __future__ import annotations
+
+import pytest
+
+from pons.launch_words import CHINESE, chinese_cure
+
+
+@pytest.mark.parametrize(
+    ("refusal", "code"),
+    [
+        ("robot_toml_syntax: my.toml: Unterminated string", "robot_toml_syntax"),
+        ("bridge refused to start:\nbridge: port_forbidden: drive.port /dev/x", "port_forbidden"),
+        ("setup refused to start:\nsetup: operator_key_missing: /h", "operator_key_missing"),
+    ],
+)
+def test_the_cure_of_the_code_that_came_is_said(refusal: str, code: str) -> None:
+    assert chinese_cure(refusal) == CHINESE[code]
+
+
+def test_without_a_known_code_nothing_is_added() -> None:
+    assert chinese_cure("odd_thing: http://x: y") is None
+
+
+def test_every_cure_is_chinese() -> None:
+    for code, words in CHINESE.items():
+        assert any(ord(letter) > 0x2E80 for letter in words), code
