@@ -61,12 +61,10 @@ UNSEEN_M = 1.0
 SLIP_M_PER_RAD = 1.0
 """Turns on which wheels and gyro disagree make the carried pose as doubtful as metres do."""
 SEARCH_PAUSE_S, DOUBT_SEARCH_PAUSE_S = 0.5, 2.0
-"""Between searches of the whole map: while lost; while a pose is kept with a poor score, as among
-people for long, where each search takes 0.13 s of a processor."""
+"""Between searches of the whole map: while lost; while a pose is kept with a poor score."""
 ANSWER_S = 20.0
 """A search that has not answered by then never will; its client waits for 18 s."""
-OLD_SCAN_S = 0.5
-STANDING_MPS, STANDING_RADPS = 0.02, 0.05
+OLD_SCAN_S, STANDING_MPS, STANDING_RADPS = 0.5, 0.02, 0.05
 
 
 class LocalizerState(StrEnum):
@@ -194,9 +192,11 @@ class Localizer:
             return
         if taken is not None and taken.ranges_m == scan.ranges_m:
             return  # a lidar that is stuck repeats itself to the millimetre; noise never does
-        cloud = drop_crowd(deskew(scan, self._lidar, self._trail))
+        cloud = drop_crowd(whole := deskew(scan, self._lidar, self._trail))
         if len(cloud.points_m) >= FEW_RETURNS:
             self._use(cloud, now_s)
+        elif len(whole.points_m) >= FEW_RETURNS and self._placed is not None:
+            self._miss()
 
     def _use(self, cloud: PointCloud, now_s: float) -> None:
         carried = self._trail.at(cloud.stamp_s)
@@ -217,11 +217,16 @@ class Localizer:
             if fit.score < ENOUGH_SCORE:  # moved furniture, or somebody moved the robot
                 self._search(cloud, carried, now_s, DOUBT_SEARCH_PAUSE_S)
             return
-        self._bad += 1
-        self.state = LocalizerState.COASTING
-        if self._bad >= BAD_SCANS or self._unseen_m() > UNSEEN_M:
-            self.state, self.candidates = LocalizerState.LOST, ()
+        if self._miss():
             self._search(cloud, carried, now_s)
+
+    def _miss(self) -> bool:
+        """Count a scan that does not fit, and tell whether the robot is lost."""
+        self._bad += 1
+        lost = self._bad >= BAD_SCANS or self._unseen_m() > UNSEEN_M
+        self.state = LocalizerState.LOST if lost else LocalizerState.COASTING
+        self.candidates = () if lost else self.candidates
+        return lost
 
     def _carry_spread(self, cloud: PointCloud, turned_rad: float) -> None:
         metres, slip_rad = self._trail.counters_at(cloud.stamp_s)

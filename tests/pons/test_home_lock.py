@@ -57,7 +57,7 @@ def test_a_lock_that_cannot_be_written_is_told_with_its_path(tmp_path: Path) -> 
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")
-def test_pons_up_in_a_home_that_it_may_not_write_says_so_in_one_line() -> None:
+def test_pons_up_in_a_home_that_it_may_not_write_says_so_in_a_line_of_each_language() -> None:
     """As on a disk that was remounted read-only: the folders are there, the lock can't be had."""
     with TemporaryDirectory(prefix="ph-") as folder:
         home = Path(folder)
@@ -72,4 +72,5 @@ def test_pons_up_in_a_home_that_it_may_not_write_says_so_in_one_line() -> None:
         )  # fmt: skip
     assert done.returncode == 2, done
     assert done.stderr.startswith("pons up: home_unwritable: ")
-    assert done.stderr.count("\n") == 1
+    assert done.stderr.count("\n") == 2
+    assert "无法写入" in done.stderr.splitlines()[1]

@@ -76,7 +76,8 @@ CANCEL = re.compile(
 TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
 """What may stand before the order that comes in place of the current one."""
 ORDERS = re.compile(
-    r".*\b(?:go|come|drive|head|find|look|search|count|follow|patrol|wait|bring|take|turn|say|tell|ask"
+    r"(?:not|don't|do not|never (?!mind))\b"
+    r"|.*\b(?:go|come|drive|head|find|look|search|count|follow|patrol|wait|bring|take|turn|say|tell|ask"
     r"|remind|remember|if|when|unless|until)\b"
 )
 """With these a clause is no mere reason."""

@@ -20,7 +20,7 @@ LIMIT_S = 120.0
 def imported(tmp_path: Path, plan: Path, *words: str) -> Path:
     settings = LaunchSettings(tmp_path / "home", ROBOT_FILE, tmp_path, "127.0.0.1", 1)
     assert site.run(settings, ["import", str(plan), "mine", *words]) == 0
-    assert site.run(settings, ["name", "mine", "room_1", "first hall", "--zh", "大厅"]) == 0
+    assert site.run(settings, ["name", "mine", "room_1", "great hall", "--zh", "大厅"]) == 0
     return site_of("mine", settings.home)
 
 
@@ -29,7 +29,7 @@ def drives_to_the_hall(folder: Path, text: str) -> None:
     goal = world.say(text)
     world.run_until(lambda _: goal.has_ended, LIMIT_S)
     assert goal.state is GoalState.SUCCEEDED
-    hall = world.scene.site.place("first_hall")
+    hall = world.scene.site.place("great_hall")
     assert hall is not None
     assert hall.contains(world.truth.x_m, world.truth.y_m)
     assert world.contacts == 0
@@ -46,4 +46,4 @@ def test_a_house_of_others(tmp_path: Path) -> None:
     plan = SHARED / "aws_small_house" / "map.yaml"
     if not plan.is_file():
         pytest.skip("no foreign maps beside this checkout (../shared/data/maps)")
-    drives_to_the_hall(imported(tmp_path, plan), "go to the first hall")
+    drives_to_the_hall(imported(tmp_path, plan), "go to the great hall")
