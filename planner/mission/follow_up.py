@@ -183,13 +183,14 @@ def _leave_out(facts: SiteView, last: Mission | None, place: str | None) -> str 
     drives = all(step.kind == "go_to" for step in ahead) or (rounds and len(ahead) == 1)
     if not drives or place not in stops or not left:
         return None
-    chinese = has_chinese(last.order_text)
-    names = [facts.targets[stop].name.of("zh" if chinese else "en") for stop in left]
-    if rounds:
-        return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
-    if chinese:
-        return ",再".join(f"去{name}" for name in names)
-    return ", then ".join(f"go to the {name}" for name in names)
+    order = last.order_text
+    chinese = has_chinese(order)
+    if not rounds:
+        return (",再" if chinese else ", then ").join(
+            _drive_to(facts, stop, order) for stop in left
+        )
+    names = [_name(facts, stop, chinese, order) for stop in left]
+    return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
 
 
 def _drive_to(facts: SiteView, place: str, said: str) -> str:
