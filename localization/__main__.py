@@ -74,7 +74,7 @@ def _serve_stand_in(
 
 
 def _serve_scans(site: Path, robot: RobotDescription, home: Path, stopped: threading.Event) -> None:
-    # Here, so that the stand-in's process is spared OpenCV's 40 MB and its threads.
+    # Here, so that the stand-in's process is spared numpy's 20 MB.
     from localization.distance_field import DistanceField
     from localization.localizer import Localizer
     from localization.search_client import SearchClient

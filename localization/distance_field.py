@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import cv2
 import numpy as np
 
 from maps import FREE, OCCUPIED
@@ -22,13 +21,13 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-cv2.setNumThreads(1)  # a pool of threads would compete with the bridge's loop for two cores
-
 MAX_DISTANCE_M = 2.0
 """Farther from everything, a lidar return is no evidence of where the map's obstacles are."""
 BORDER_CELLS = 24
 """Unknown cells around the map: gradients lead back in, and a search window fits beside an outer
 wall (1 m of cells of 0.05 m)."""
+ROWS_AT_ONCE = 64
+"""Of the map, while distances are computed: what a processor's cache holds."""
 
 
 class DistanceField:
@@ -125,8 +124,24 @@ def surface_cells(occupied: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _distance_to(surface: NDArray[np.bool_], resolution_m: float) -> NDArray[np.float32]:
-    if not surface.any():
-        return np.full(surface.shape, MAX_DISTANCE_M, np.float32)
-    cells = cv2.distanceTransform((~surface).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    metres = np.minimum(np.asarray(cells) * resolution_m, MAX_DISTANCE_M)
+    """Return each cell centre's distance to the nearest surface cell's, at most MAX_DISTANCE_M.
+
+    Exact, one axis after the other (Saito and Toriwaki 1994), and no farther than it is asked for.
+    In numpy, for OpenCV would add 18 MB to each of two processes; a home takes 5 ms.
+    """
+    reach = int(np.ceil(MAX_DISTANCE_M / resolution_m))
+    far = np.float32(2 * reach)
+    row = np.arange(len(surface), dtype=np.float32)[:, None]
+    below = np.maximum.accumulate(np.where(surface, row, -far), axis=0)
+    above = np.minimum.accumulate(np.where(surface, row, row[-1] + far)[::-1], axis=0)[::-1]
+    squared = np.minimum(np.minimum(row - below, above - row), far) ** 2
+    nearest = squared.copy()
+    for start in range(0, len(surface), ROWS_AT_ONCE):
+        rows = slice(start, start + ROWS_AT_ONCE)
+        here, best = squared[rows], nearest[rows]
+        for step in range(1, min(reach, surface.shape[1] - 1) + 1):
+            along = here + np.float32(step * step)
+            np.minimum(best[:, step:], along[:, :-step], out=best[:, step:])
+            np.minimum(best[:, :-step], along[:, step:], out=best[:, :-step])
+    metres = np.minimum(np.sqrt(nearest) * resolution_m, MAX_DISTANCE_M)
     return np.asarray(metres, np.float32)

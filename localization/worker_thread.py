@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 READY_S = 60.0
-"""To start Python, numpy and OpenCV on a busy board and load a map."""
+"""To start Python and numpy on a busy board and load a map."""
 LONGEST_PAUSE_S = 5.0
 
 

@@ -38,6 +38,23 @@ def test_any_place_has_a_distance(x_m: float, y_m: float) -> None:
     assert on_the_map or not ROOM_FIELD.is_occupied(np.array([x_m]), np.array([y_m]))[0]
 
 
+@given(st.integers(1, 60), st.integers(1, 60), st.integers(0, 12), st.integers(0, 2**32 - 1))
+def test_each_cell_s_distance_is_that_to_the_nearest_surface_of_all(
+    rows: int, columns: int, obstacles: int, seed: int
+) -> None:
+    draw = np.random.default_rng(seed)
+    occupied = np.zeros((rows, columns), bool)
+    occupied[draw.integers(0, rows, obstacles), draw.integers(0, columns, obstacles)] = True
+    field = DistanceField(occupied, ~occupied, RES_M, (0.0, 0.0))
+    lines = np.argwhere(surface_cells(field.occupied))
+    cells = np.argwhere(np.ones_like(field.occupied))
+    nearest = np.full(len(cells), np.inf)
+    for line in lines:
+        nearest = np.minimum(nearest, np.hypot(*(cells - line).T))
+    expected = np.minimum(nearest * RES_M, MAX_DISTANCE_M).reshape(field.distance_m.shape)
+    assert field.distance_m == pytest.approx(expected, abs=1e-5)
+
+
 def test_the_inside_of_a_solid_is_no_surface() -> None:
     solid = np.ones((5, 5), bool)
     assert surface_cells(solid).sum() == 16

@@ -150,3 +150,10 @@ def converse(home: Path) -> Localization:
                 return answer
             time.sleep(0.02)
     raise AssertionError("no answer")
+
+
+def test_neither_process_loads_opencv() -> None:
+    """It is 18 MB of each, on computers that have one gigabyte for everything."""
+    loads = "import localization.localizer, localization.search_client, localization.search_process"
+    code = f"import sys; {loads}; raise SystemExit('cv2' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
