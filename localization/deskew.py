@@ -43,17 +43,25 @@ def sweep_s(scan: Scan) -> float:
     return scan.time_increment_s * max(0, len(scan.ranges_m) - 1)
 
 
-def deskew(scan: Scan, lidar: LidarConfig, trail: OdometryTrail) -> PointCloud:
+def deskew(
+    scan: Scan, lidar: LidarConfig, trail: OdometryTrail, range_scale: float = 1.0
+) -> PointCloud:
     """Return a scan's returns as seen from where the robot was at its last beam.
 
-    ``trail`` must cover the scan's sweep. Ranges under ``range_min_m`` and from ``range_max_m`` on
-    are measurements of nothing and are left out.
+    Ranges under ``range_min_m`` and from ``range_max_m`` on are measurements of nothing and are
+    left out.
+
+    Args:
+        scan: as the lidar told it.
+        lidar: where it is in ``base``.
+        trail: must cover the scan's sweep.
+        range_scale: told range over true range (:mod:`localization.range_scale`).
     """
     ranges_m = np.array(scan.ranges_m, np.float64)  # a missing return becomes NaN
     index = np.flatnonzero((ranges_m >= scan.range_min_m) & (ranges_m < scan.range_max_m))
     angle = scan.angle_min_rad + scan.angle_increment_rad * index + lidar.yaw_rad
-    x_m = lidar.x_m + ranges_m[index] * np.cos(angle)
-    y_m = lidar.y_m + ranges_m[index] * np.sin(angle)
+    true_m = ranges_m[index] / range_scale
+    x_m, y_m = lidar.x_m + true_m * np.cos(angle), lidar.y_m + true_m * np.sin(angle)
     end_s = scan.stamp_s + sweep_s(scan)
     if scan.time_increment_s > 0.0 and len(index):
         order = len(ranges_m) - 1 - index if scan.clockwise else index  # as they were taken

@@ -192,7 +192,8 @@ class Localizer:
             return
         if taken is not None and taken.ranges_m == scan.ranges_m:
             return  # a lidar that is stuck repeats itself to the millimetre; noise never does
-        cloud = drop_crowd(whole := deskew(scan, self._lidar, self._trail))
+        whole = deskew(scan, self._lidar, self._trail, self._fitter.range_scale.value)
+        cloud = drop_crowd(whole)
         if len(cloud.points_m) >= FEW_RETURNS:
             self._use(cloud, now_s)
         elif len(whole.points_m) >= FEW_RETURNS and self._placed is not None:
@@ -338,8 +339,7 @@ class Localizer:
         base_in_map = self._placed.at(newest.carried)
         odom_in_map = compose(base_in_map, inverse(newest.base_in_odom))
         odom_in_map, quality = self._jump_law.apply(odom_in_map, newest.base_in_odom, quality)
-        self._said_s = newest.stamp_s
-        self._seq += 1
+        self._said_s, self._seq = newest.stamp_s, self._seq + 1
         return Localization(
             odom_id=odometry.odom_id,
             seq=self._seq,

@@ -1,17 +1,21 @@
 """Find the pose near a predicted one that a scan fits best, and score it.
 
 Gauss-Newton from the prediction; where the robot turned, or the score is doubtful, a correlative
-search of the window around it may know better.
+search of the window around it may know better. A scan that fits well also tells how far off the
+lidar's ranges are.
 """
 
 from __future__ import annotations
 
+from math import hypot
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from localization.correlative_search import WindowSearch
-from localization.quality import KEPT_SCORE, scores
+from localization.jump_law import DECLARED_M
+from localization.quality import ENOUGH_SCORE, KEPT_SCORE, scores
+from localization.range_scale import RangeScale
 from localization.scan_matching import align
 
 if TYPE_CHECKING:
@@ -27,9 +31,10 @@ DOUBTED_SCORE = 0.8
 """Below it the window around the pose is searched too; homes as mapped give 0.84 and more."""
 DOUBT_PAUSE_S = 0.5
 """Between two such searches while the score is enough: among people it stays below for long."""
-BETTER, FAR_BETTER = 0.05, 0.15
-"""The window's pose counts where its score leads by so much; the second, where odometry can't have
-erred so far: a wardrobe that was moved by 0.2 m pulls the robot with it by a lead of 0.07."""
+BETTER, STEP_BETTER, FAR_BETTER = 0.05, 0.10, 0.15
+"""By how much a pose must lead: one that the window's search found; one so far from the carried
+pose that it must be declared as a jump; one where odometry can't have erred so far. A wardrobe that
+was moved by 0.2 m pulls the robot with it by 0.07, and on ice odometry may have erred so far."""
 
 NOTHING = np.zeros((3, 3))
 """What a scan tells of a pose that it was not fitted to."""
@@ -59,6 +64,8 @@ class ScanFitter:
         self._field, self._lidar_m = field, lidar_m
         self._window = WindowSearch.of_field(field)
         self._window_s = -DOUBT_PAUSE_S
+        self.range_scale = RangeScale(field, lidar_m)
+        """Of the lidar, as the scans so far tell it."""
 
     def near(
         self, cloud: PointCloud, predicted: Floats, fusion: PoseFusion, *, turned: bool
@@ -72,17 +79,20 @@ class ScanFitter:
             turned: whether the robot turned so far that Gauss-Newton alone may settle beside it.
         """
         fit = self.align(cloud, predicted, redescending=True)
-        if not fusion.expects(predicted, fit.pose):
+        lead = _least_lead(predicted, fit.pose, fusion)
+        if lead > 0.0:
             carried = self.score(cloud, predicted)
-            if fit.score <= carried + FAR_BETTER:
+            if fit.score <= carried + lead:
                 fit = fit._replace(pose=predicted, score=carried, information=NOTHING)
         doubted = fit.score < DOUBTED_SCORE and cloud.stamp_s - self._window_s >= DOUBT_PAUSE_S
         if turned or doubted or fit.score < KEPT_SCORE:
             self._window_s = cloud.stamp_s
             other = self.align(cloud, self._window.best(cloud.points_m, predicted))
-            lead = BETTER if fusion.expects(predicted, other.pose) else FAR_BETTER
+            lead = max(BETTER, _least_lead(predicted, other.pose, fusion))
             if other.score > fit.score + lead:
                 return other
+        if fit.score >= ENOUGH_SCORE and fit.information is not NOTHING:
+            self.range_scale.see(cloud.points_m, fit.pose)
         return fit
 
     def align(self, cloud: PointCloud, start: Floats, *, redescending: bool = False) -> ScanFit:
@@ -94,3 +104,10 @@ class ScanFitter:
     def score(self, cloud: PointCloud, pose: Floats) -> float:
         """Return a pose's score, at most 1."""
         return float(scores(self._field, cloud.points_m, self._lidar_m, pose[None])[0])
+
+
+def _least_lead(carried: Floats, other: Floats, fusion: PoseFusion) -> float:
+    """Return by how much a pose's score must lead that of the carried pose to count."""
+    if not fusion.expects(carried, other):
+        return FAR_BETTER
+    return STEP_BETTER if hypot(*(other - carried)[:2]) > DECLARED_M else 0.0

@@ -6,10 +6,17 @@ from math import radians
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from localization.deskew import PointCloud
 from localization.pose_fusion import PoseFusion, pose_array
-from localization.scan_fit import BETTER, DOUBT_PAUSE_S, FAR_BETTER, ScanFitter
+from localization.scan_fit import (
+    BETTER,
+    DOUBT_PAUSE_S,
+    FAR_BETTER,
+    STEP_BETTER,
+    ScanFitter,
+)
 from tests.localization.rooms import ROOM, cast, field_of, points_of
 from wire import Pose2
 
@@ -52,21 +59,40 @@ def test_the_window_finds_what_gauss_newton_alone_does_not() -> None:
     assert found.pose == pytest.approx(pose_array(TRUE), abs=0.03)
 
 
+def lure(here: int, aside: int) -> PointCloud:
+    """Return a scan of which so many beams agree with the truth and so many with a place aside."""
+    counts, poses = (here, aside), (TRUE, ASIDE)
+    shares = (np.linspace(0, 179, count).astype(int) for count in counts)
+    seen = [points_of(cast(ROOM, pose))[share] for pose, share in zip(poses, shares, strict=True)]
+    return PointCloud(100.0, np.vstack(seen), here + aside)
+
+
+def off_m(pose: NDArray[np.float64]) -> float:
+    return float(np.hypot(*(pose - pose_array(TRUE))[:2]))
+
+
 def test_a_little_more_agreement_0_3_m_away_moves_no_robot_whose_wheels_stood() -> None:
     """As beside a wardrobe that was moved: more beams agree with where the robot is not."""
-    here, aside = points_of(cast(ROOM, TRUE)), points_of(cast(ROOM, ASIDE))
-    shares = (np.linspace(0, 179, count).astype(int) for count in (90, 120))
-    points_m = np.vstack([one[share] for one, share in zip((here, aside), shares, strict=True)])
-    scan = PointCloud(100.0, points_m, len(points_m))
-    one, standing = fitter(), settled_at(TRUE)
+    scan, one, standing = lure(88, 120), fitter(), settled_at(TRUE)
     lured = one.near(scan, pose_array(TRUE), PoseFusion(), turned=True)
     stayed = one.near(scan, pose_array(TRUE), standing, turned=True)
-    assert BETTER < lured.score - stayed.score < FAR_BETTER
-    assert np.hypot(*(lured.pose - pose_array(TRUE))[:2]) > 0.2
-    assert np.hypot(*(stayed.pose - pose_array(TRUE))[:2]) < 0.05
+    assert STEP_BETTER < lured.score - stayed.score < FAR_BETTER
+    assert off_m(lured.pose) > 0.2
+    assert off_m(stayed.pose) < 0.05
+    aside = points_of(cast(ROOM, ASIDE))
     at_a_loss = PointCloud(100.0, aside, len(aside))
     moved = one.near(at_a_loss, pose_array(TRUE), standing, turned=True)
     assert moved.pose == pytest.approx(pose_array(ASIDE), abs=0.03), "somebody pushed the robot"
+
+
+def test_a_step_that_must_be_declared_as_a_jump_needs_more_than_a_little_agreement() -> None:
+    """On ice wheels may have erred by it; the robot then went 0.17 m astray, and back, by 0.06."""
+    scan, one = lure(90, 120), fitter()
+    stayed = one.near(scan, pose_array(TRUE), PoseFusion(), turned=True)
+    aside = one.align(scan, one._window.best(scan.points_m, pose_array(TRUE)))
+    assert BETTER < aside.score - stayed.score < STEP_BETTER
+    assert off_m(aside.pose) > 0.2
+    assert off_m(stayed.pose) < 0.05
 
 
 def test_gauss_newton_takes_a_robot_no_farther_than_its_wheels_may_have() -> None:
