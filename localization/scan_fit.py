@@ -79,17 +79,16 @@ class ScanFitter:
             turned: whether the robot turned so far that Gauss-Newton alone may settle beside it.
         """
         fit = self.align(cloud, predicted, redescending=True)
-        lead = _least_lead(predicted, fit.pose, fusion)
-        if lead > 0.0:
+        if _is_step(predicted, fit.pose) or not fusion.expects(predicted, fit.pose):
             carried = self.score(cloud, predicted)
-            if fit.score <= carried + lead:
+            if fit.score <= carried + _least_lead(carried, predicted, fit.pose, fusion):
                 fit = fit._replace(pose=predicted, score=carried, information=NOTHING)
         doubted = fit.score < DOUBTED_SCORE and cloud.stamp_s - self._window_s >= DOUBT_PAUSE_S
         if turned or doubted or fit.score < KEPT_SCORE:
             self._window_s = cloud.stamp_s
             other = self.align(cloud, self._window.best(cloud.points_m, predicted))
-            lead = max(BETTER, _least_lead(predicted, other.pose, fusion))
-            if other.score > fit.score + lead:
+            lead = _least_lead(fit.score, predicted, other.pose, fusion)
+            if other.score > fit.score + max(BETTER, lead):
                 return other
         if fit.score >= ENOUGH_SCORE and fit.information is not NOTHING:
             self.range_scale.see(cloud.points_m, fit.pose)
@@ -106,8 +105,12 @@ class ScanFitter:
         return float(scores(self._field, cloud.points_m, self._lidar_m, pose[None])[0])
 
 
-def _least_lead(carried: Floats, other: Floats, fusion: PoseFusion) -> float:
-    """Return by how much a pose's score must lead that of the carried pose to count."""
+def _least_lead(score: float, carried: Floats, other: Floats, fusion: PoseFusion) -> float:
+    """Return by how much a pose must lead what scores so much near the carried one, to count."""
     if not fusion.expects(carried, other):
         return FAR_BETTER
-    return STEP_BETTER if hypot(*(other - carried)[:2]) > DECLARED_M else 0.0
+    return STEP_BETTER if _is_step(carried, other) and score >= KEPT_SCORE else 0.0
+
+
+def _is_step(carried: Floats, other: Floats) -> bool:
+    return hypot(*(other - carried)[:2]) > DECLARED_M
