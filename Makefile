@@ -41,11 +41,14 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 # Stories run real processes in real time; what needs minutes, a browser or a robot of its own is not
 # for `test`. Only the files that tell some are read, for reading all tests costs seconds. Unit tests
 # beside them starve them, nice or not: each robot is a session of its own to the scheduler.
-WHOLE := tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py
-OWN := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_bases.py \
+# `e2e` tells three rows of files at once, each about as long as the drive through the whole home.
+HOME_ROW := tests/e2e/test_home_tour.py tests/e2e/test_external_brain.py tests/e2e/test_bases.py \
   tests/deploy/test_separate_starts.py
+OWN_ROW := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_wheel.py \
+  tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_conformance_verdicts.py
+PAGE_ROW := tests/web
 ALONE := tests/e2e/test_conformance.py
-STORIES = $(filter-out $(WHOLE) $(OWN) $(ALONE) tests/web/%,\
+STORIES = $(filter-out $(HOME_ROW) $(OWN_ROW) $(ALONE) $(PAGE_ROW)/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
 test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 6 min on 2 cores)
@@ -54,8 +57,9 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
-	  scripts/stories.sh -n 0 -m "e2e or home" tests/e2e/test_home_tour.py $(OWN) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m "e2e or home" tests/web tests/e2e/test_wheel.py $(WHOLE) $(ARGS)
+	  scripts/stories.sh -n 0 -m "e2e or home" $(HOME_ROW) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(OWN_ROW) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(PAGE_ROW) $(ARGS)
 	@exec scripts/stories.sh -n 0 -m e2e $(ALONE) $(ARGS) # a flood takes what a second robot needs
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line

@@ -47,7 +47,7 @@ STEPS = (
     Step("lint", (str(BIN / "ruff"), "check", ".")),
     Step("types", (str(BIN / "mypy"),)),
     Step("page", (str(ROOT / "scripts" / "page.sh"), "check"), beside=True),
-    Step("imports", (str(BIN / "lint-imports"),)),
+    Step("imports", (str(BIN / "lint-imports"),), beside=True),
     Step("generated", (sys.executable, "scripts/generated.py", "--check"), beside=True),
     Step("test", ("make", "test")),
 )

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Run stories with real processes in real time, three files at once on two cores: a robot takes half a
-# core and mostly waits. Tell each failed one again, alone and aloud (again.sh): a shared machine may stall a
-# real-time story for minutes. What runs beside others (at_once.py) waits for them first: else it is not alone.
+# core and mostly waits. Those marked long are begun first (tests/conftest.py). Tell each failed one again,
+# alone and aloud (again.sh): a shared machine may stall a real-time story for minutes. What runs beside
+# others (at_once.py) waits for them first: else it is not alone.
 # Stories of which no telling counted, the first included, are red, but where NOT_JUDGED names a file for them.
 set -uo pipefail
 if [ -n "${AT_ONCE_LOCK:-}" ]; then
@@ -15,7 +16,7 @@ trap 'rm -rf "$memory"' EXIT
 set -- -o cache_dir="$memory" "$@"
 cores=$(nproc)
 .venv/bin/python -m scripts.stolen .venv/bin/python -m pytest \
-  -n $((cores < 3 ? cores + 1 : 3)) --dist loadfile "$@" 9>&-
+  -n $((cores < 3 ? cores + 1 : 3)) --dist loadfile --no-loadscope-reorder "$@" 9>&-
 first=$?
 # 1 and 75: stories failed; all else (Ctrl-C, bad usage, a contact that was seen) is not tried again.
 [ "$first" = 1 ] || [ "$first" = 75 ] || exit "$first"

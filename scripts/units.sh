@@ -5,7 +5,7 @@ set -uo pipefail
 memory=$(mktemp -d)
 trap 'rm -rf "$memory"' EXIT
 set -- -o cache_dir="$memory" -m "not e2e and not home" "$@"
-.venv/bin/python -m scripts.stolen .venv/bin/python -m pytest -n logical --maxprocesses 4 --dist worksteal "$@"
+.venv/bin/python -m scripts.stolen .venv/bin/python -m pytest -n 4 --dist worksteal "$@"
 code=$?
 [ "$code" = 75 ] || exit "$code"
 echo "units: some failed in time that was not ours; each of those is run again, alone."

@@ -60,6 +60,12 @@ def pytest_collection() -> Iterator[None]:
         gc.set_threshold(*SELDOM)
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put long stories first, each kind in its random order: begun last, one keeps all waiting."""
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
 @pytest.fixture(scope="session", autouse=True)
 def owner_settings_left_outside() -> Iterator[None]:
     """Keep the person's own Pons and model settings out of every test, and state in a fresh place.

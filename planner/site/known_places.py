@@ -17,9 +17,8 @@ from typing import Any, Protocol, TypeVar
 
 from maps.room_proposals import RoomProposal, read_proposals
 from planner.language.folding import unmask
-from planner.language.grammar.sentence_text import squash
 from planner.plan import Vocabulary
-from planner.site.places import Names, Place
+from planner.site.places import Names, Place, squash
 from planner.site.polygon import area_m2
 from planner.site.site import Site
 from planner.site.site_view import SiteView, facts_of, vocabulary_of

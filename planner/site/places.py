@@ -80,6 +80,14 @@ def normalise(name: str) -> str:
     return fold_words(name)
 
 
+def squash(name: str) -> str:
+    """Return a name without what people write differently, as the grammar reads it."""
+    # Late: the route process knows a site, reads no sentence and loads no grammar.
+    from planner.language.grammar import sentence_text
+
+    return sentence_text.squash(name)
+
+
 def load_places(path: Path) -> PlacesRecord:
     """Load places.yaml and check that no two places answer to one name.
 

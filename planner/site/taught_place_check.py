@@ -8,8 +8,6 @@ from math import ceil, hypot
 
 from maps.grid import FREE
 from planner.language.folding import fold, fold_width, unmask
-from planner.language.reserved_names import name_reads_as_order
-from planner.language.yes_no import consents
 from planner.plan import Vocabulary
 from planner.site.site import Site
 from planner.site.taught_place_errors import PlaceRefusal
@@ -48,6 +46,10 @@ def check_not_order(name: str, vocabulary: Vocabulary) -> None:
     Raises:
         PlaceRefusal: ``place_name_reserved``.
     """
+    # Late: only who teaches a place reads its name as a sentence.
+    from planner.language.reserved_names import name_reads_as_order
+    from planner.language.yes_no import consents
+
     answers = any(consents(said) is not None for said in (name, unmask(fold(name))))
     if answers or name_reads_as_order(name, vocabulary):
         raise PlaceRefusal("place_name_reserved", f"got {name!r}")

@@ -151,7 +151,11 @@ class SystemUnderTest:
         status = self.status()
         ready = status is not None and status.mode not in (Mode.BOOT, Mode.SELFTEST)
         metal = status is not None and not status.drive.virtual
-        return metal or (ready and bool(self.record.truths) and bool(self.record.commands))
+        # A busy machine takes longer to find the first pose than a row has for driving off.
+        placed = self._join or (status is not None and status.base_in_map is not None)
+        return metal or (
+            ready and placed and bool(self.record.truths) and bool(self.record.commands)
+        )
 
     def _lacks(self) -> str:
         status = self.status()
@@ -159,6 +163,8 @@ class SystemUnderTest:
             return f"no status was heard in {self._home}"
         if not self.record.truths:
             return "no simulator tells the truth"
+        if status.base_in_map is None:
+            return f"mode {status.mode}, the robot does not know where it is"
         waits = ", ".join(status.waiting_for)
         return f"mode {status.mode}, waits for {waits or 'nothing'}"
 

@@ -9,7 +9,7 @@ import pytest
 from tests.e2e.robot import SETTLE_S, Robot
 from tests.e2e.system import ENDED
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.long]
 
 
 def test_an_english_sentence_in_a_shell(robot: Robot) -> None:

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from functools import lru_cache
 
 from planner.language.grammar.parser import Context
 from planner.language.grammar.parser import plan as read_order
 from planner.language.motion_guard.mentioned_names import plain
 from planner.plan import (
     EVERY_KIND,
+    AnswerPlan,
     Clarify,
     ClockTime,
     Code,
@@ -33,6 +35,8 @@ from planner.plan import (
 
 READ_BY_GRAMMAR = 300
 """Characters; in a longer text the words alone judge."""
+_READ_LATELY = 16
+"""An order and its clauses (``spare_clauses``): each plan made of them asks about them again."""
 _UPON = frozenset(
     {StepRole.WHEN, StepRole.THEN, StepRole.OTHERWISE, StepRole.ON_FAILURE, StepRole.UNTIL}
 )
@@ -67,13 +71,21 @@ _ELSE = re.compile(r"\bif (?:not|no)\b|要?不然的?话?|要不(?!要)|没有(?
 _DENIES = re.compile(r"\b(?:no|nobody|none|not|never|without|empty|unless)\b|n't|没|无|不|空")
 
 
+@lru_cache(maxsize=_READ_LATELY)
+def _read_order(
+    text: str, vocabulary: Vocabulary, room: str | None
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
+    """Return the grammar's plan of an order, read by a robot that can do every kind of step."""
+    return read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
+
+
 def read_branches(
     text: str, vocabulary: Vocabulary, room: str | None
 ) -> dict[StepRole, frozenset[str]] | None:
     """Return the places that each branch of an order's one condition names; else None."""
     if len(text) > READ_BY_GRAMMAR or _DENIES.search(_ELSE.sub(" | ", plain(text))):
         return None
-    read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
+    read = _read_order(text, vocabulary, room)
     row = list_nodes(read.steps) if isinstance(read, StepPlan) else ()
     if sum(isinstance(node.step, If) for node in row) != 1:
         return None
@@ -118,7 +130,7 @@ def read_grammar(
     """
     if len(text) > READ_BY_GRAMMAR:
         return Counter(), Counter(), None
-    read = read_order(text, vocabulary, Context(room=room, runnable=EVERY_KIND))
+    read = _read_order(text, vocabulary, room)
     if isinstance(read, StepPlan):
         row = list_nodes(read.steps)  # what hangs on something is not asked for without it
         own = (n.step for i, n in enumerate(row) if not hangs_on_more(row, i))

@@ -185,6 +185,7 @@ def test_a_frozen_writer_costs_counted_ticks_and_the_record_goes_on(
     recorder = make(pipe_bytes=65_536)
     driver = Driver(recorder)
     assert driver.until(lambda: not recorder.trouble)
+    assert until(lambda: recorder._pipe.waiting_bytes() == 0), "a busy writer is behind"
     os.kill(pid_of(recorder), signal.SIGSTOP)
     driver.turn(400)
     lost = recorder.gaps

@@ -55,24 +55,27 @@ HASH = "0" * 16
 PERIOD_S = 0.05
 
 
+AT_REST: dict[str, Any] = {
+    "protocol": PROTOCOL, "robot": "r1", "boot": "b1", "seq": 1, "at_s": 0.0, "mode": Mode.HOLD,
+    "action": Action.NONE, "epoch": "b1-1", "nonce": "n1", "owner": None, "held": None,
+    "grant": None, "leg": None, "base_in_odom": Pose2(0.0, 0.0, 0.0),
+    "base_in_map": Pose2(0.0, 0.0, 0.0), "asked": Twist2(0.0, 0.0), "sent": Twist2(0.0, 0.0),
+    "measured": Twist2(0.0, 0.0),
+    "limits": LimitsInForce(v_mps=0.5, w_radps=1.0, by="max_speed", free_m=None),
+    "rows": (), "answers": (), "waiting_for": (), "blocked": False, "robot_hash": HASH,
+    "fence_hash": HASH, "map_id": HASH, "operator_metres": 500.0, "operator_seconds": 3600.0,
+    "drive": DriveReport(kind="sim", virtual=True, enabled=True, timed_out=False,
+                         boot_id="d1", battery=None, real_time=False),
+    "braking": BrakingReport(lag_s=0.06, decel_mps2=1.0, learnt=False, stops=0, trouble=None),
+    "ticks": TickStats(ticks=0, missed=0, late_p50_us=0, late_max_us=0, step_max_us=0,
+                       dropped=0, record_gaps=0),
+}  # fmt: skip
+"""Frozen parts, made once: hours of statuses are told in these tests."""
+
+
 def status(**changes: Any) -> Status:
     """Return a status of an armed robot that stands at the origin, with changes."""
-    fields: dict[str, Any] = {
-        "protocol": PROTOCOL, "robot": "r1", "boot": "b1", "seq": 1, "at_s": 0.0, "mode": Mode.HOLD,
-        "action": Action.NONE, "epoch": "b1-1", "nonce": "n1", "owner": None, "held": None,
-        "grant": None, "leg": None, "base_in_odom": Pose2(0.0, 0.0, 0.0),
-        "base_in_map": Pose2(0.0, 0.0, 0.0), "asked": Twist2(0.0, 0.0), "sent": Twist2(0.0, 0.0),
-        "measured": Twist2(0.0, 0.0),
-        "limits": LimitsInForce(v_mps=0.5, w_radps=1.0, by="max_speed", free_m=None),
-        "rows": (), "answers": (), "waiting_for": (), "blocked": False, "robot_hash": HASH,
-        "fence_hash": HASH, "map_id": HASH, "operator_metres": 500.0, "operator_seconds": 3600.0,
-        "drive": DriveReport(kind="sim", virtual=True, enabled=True, timed_out=False,
-                             boot_id="d1", battery=None, real_time=False),
-        "braking": BrakingReport(lag_s=0.06, decel_mps2=1.0, learnt=False, stops=0, trouble=None),
-        "ticks": TickStats(ticks=0, missed=0, late_p50_us=0, late_max_us=0, step_max_us=0,
-                           dropped=0, record_gaps=0),
-    }  # fmt: skip
-    return Status(**{**fields, **changes})
+    return Status(**{**AT_REST, **changes})
 
 
 def row(name: str, action: Action = Action.HOLD2, *, binding: bool = True) -> RowReport:
