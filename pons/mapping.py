@@ -28,7 +28,7 @@ from maps.new_site import new_site
 from planner.site.polygon import contains
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_KEPT, TaughtPlaces
-from pons.site import is_site_name, site_name_malformed
+from pons.site import is_site_name, proposal_line, site_name_malformed
 from wire import ConfigError, load_robot
 from wire.fingerprint import map_id
 from wire.site_map import read_map_id
@@ -120,7 +120,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
     print(f"{folder}: of {source}, {len(builder.keyframes)} keyframes and {builder.loops} loops")
     if names:
         print(f"names given while it was mapped go with it: {names}")
-    print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}), {len(made.rooms)} rooms proposed")
+    print(proposal_line(made))
     print(f"look at it: pons site rooms {said.name}; pons site check {said.name}")
     return EXIT_DONE
 

@@ -137,7 +137,7 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     print(f"{folder}: {grid.width} x {grid.height} cells of {grid.resolution_m:g} m")
     if loaded.kept_unknown:
         print(f"{loaded.kept_unknown} pixels of about grey 205 were taken for {taken_for}")
-    print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}); {len(made.rooms)} rooms proposed")
+    print(proposal_line(made))
     _rooms(folder)
     if _has_errors(_print_check(folder, robot.base.radius_m)):
         print("before you drive there, mend what is an error / 出发前请先解决上面的错误（error）")
@@ -205,6 +205,12 @@ def _load(said: argparse.Namespace) -> LoadedMap:
         )  # fmt: skip
         raise SiteError("map_unknown_word", told.en, told.zh)
     return loaded
+
+
+def proposal_line(made: NewSite) -> str:
+    """Say where the home of a new site is, and how many rooms are proposed on it."""
+    rooms = "1 room" if len(made.rooms) == 1 else f"{len(made.rooms)} rooms"
+    return f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}); {rooms} proposed"
 
 
 def _load_topic(said: argparse.Namespace, robot: RobotDescription) -> LoadedMap:
