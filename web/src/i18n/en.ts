@@ -436,7 +436,7 @@ export const en = {
   "map.layer_obstacles": "Remembered obstacles",
   "map.layer_movers": "What moves",
   "map.layer_rooms": "Rooms without a name",
-  "map.growing": "Mapping: {area} m² of floor, {keyframes} keyframes, {loops} loops closed",
+  "map.growing": "Mapping: {area} m² of floor · keyframes {keyframes} · loops closed {loops}",
   "map.label": "Map: click a room or place to go there",
   "map.nothing": "No room or place has a name there. Free points can't be goals.",
   "map.busy": "{name}:",
