@@ -22,7 +22,7 @@ from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
-from pons.launch_words import chinese_line
+from pons.launch_words import chinese_line, drives_to_try
 from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
@@ -207,7 +207,7 @@ def what_to_try(settings: LaunchSettings) -> str:
             'pons say "explore the house"   pons say "go forward 1 metre"   pons say 探索一下房子'
         )
         return f"try: {steps}, then: pons map {settings.mapping}"
-    return 'try: pons say "go to the living room"   pons say 去厨房   pons stop'
+    return f"try: {drives_to_try(settings.site)}   pons stop"
 
 
 def describe_base(settings: LaunchSettings, robot: RobotDescription) -> str:
