@@ -8,6 +8,7 @@ import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -118,10 +119,11 @@ def test_where_nothing_answers_a_person_is_told_what_to_look_at_in_both_language
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     nobody = LaunchSettings(tmp_path, tmp_path, tmp_path, "127.0.0.1", 9)
-    for ask in (
-        lambda: operator.status(nobody, as_json=False),
-        lambda: places.run(nobody, "list", None),
-    ):
+    asked = (
+        partial(operator.status, nobody, as_json=False),
+        partial(places.run, nobody, "list", None),
+    )
+    for ask in asked:
         assert ask() != 0
         english, chinese = capsys.readouterr().err.splitlines()
         assert english.startswith("planner_down: http://127.0.0.1:9/v1/")
