@@ -43,8 +43,9 @@ ARM_RETRY_S = 0.5
 SEARCH_TOLD_S = 20.0
 """A home in which it is clear where the robot is takes a tenth of it."""
 SEARCHES = (
-    "      the robot is looking for where it is, and stands still. On that page: I am here\n"
-    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上指出它在哪里"
+    "      the robot is looking for where it is, and stands still. On that page press"
+    " “The robot is here …”\n"
+    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上点击“机器人在这里……”"
 )
 LOOK_S = 0.5
 """The longest that a removed socket stays unreachable, or a log longer than its bound."""

@@ -437,6 +437,8 @@ export const zh: Record<Key, string> = {
   "map.other": "规划器换了地图，请重新加载页面。",
   "map.stale": "位置为 {age}前",
   "map.scan_stale": "激光雷达为 {age}前",
+  "map.no_pose": "尚不知道位置",
+  "map.no_scan": "尚无激光数据",
 
   "robot.state": "状态",
   "robot.mode": "模式",
