@@ -72,7 +72,8 @@ def outlines(marked: Mask, grid: GridMap, tolerance_cells: float) -> CellOutline
                 (outer if links[3] < 0 else holes).append(simple)
         else:
             return CellOutlines(tuple(outer), tuple(holes))
-    raise SiteError("map_too_ragged", "its borders cross themselves however they are smoothed")
+    text = "however they are smoothed, its borders cross themselves or take over 1000 corners"
+    raise SiteError("map_too_ragged", text)
 
 
 def _simple(line: NDArray[Any], grid: GridMap, tolerance_cells: float) -> Polygon | None:

@@ -67,9 +67,14 @@ def draw_fence(
     keep_outs = [area for mask in masks for area in mask.keep_outs]
     zones = [zone for mask in masks for zone in mask.speed_zones]
     taken = sum(map(len, keep_outs)) + sum(len(zone.polygon) for zone in zones)
-    corners = taken
+    corners, ragged = taken, None
     for tolerance in _TOLERANCES_CELLS:
-        found = outlines(_mark_allowed(grid, floor, radius_m, tolerance), grid, tolerance)
+        try:
+            found = outlines(_mark_allowed(grid, floor, radius_m, tolerance), grid, tolerance)
+        except SiteError as error:  # a looser line may have few enough corners
+            ragged = error
+            continue
+        ragged = None
         corners = taken + found.corners
         lines = len(found.holes) + len(keep_outs)
         if found.outer and corners <= MAX_CORNERS and lines <= 200 and len(zones) <= 200:
@@ -80,6 +85,8 @@ def draw_fence(
                 keep_outs=(*found.holes, *keep_outs),
                 speed_zones=tuple(zones),
             )
+    if ragged is not None:
+        raise ragged
     text = f"its fence takes {corners} corners; at most {MAX_CORNERS}"
     raise SiteError("map_too_ragged", f"{text}. Clean the picture of speckles, or draw a fence")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import select
 import sys
 from dataclasses import replace
 from importlib import import_module
@@ -13,13 +14,21 @@ from pons.settings import BadSetting, LaunchSettings, load, port_of, site_of
 from pons_assets import IS_INSTALLED, needs_checkout
 
 EXIT_USAGE = 2
+EXIT_UNREAD = 141
+"""As a shell tells of a program that SIGPIPE ended: 128 + 13."""
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run one command."""
     words = sys.argv[1:] if arguments is None else arguments
     try:
-        return _run_command(words)
+        status = _run_command(words)
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        if not _reader_is_gone():
+            raise
+        return EXIT_UNREAD
     except BadSetting as wrong:
         print(wrong, file=sys.stderr)
         return EXIT_USAGE
@@ -34,6 +43,19 @@ def main(arguments: list[str] | None = None) -> int:
             raise
         print(refusal, file=sys.stderr)
         return EXIT_USAGE
+
+
+def _reader_is_gone() -> bool:
+    """Return whether nobody reads the output any more (``pons status | head``), and drop the rest.
+
+    Linux tells it of a pipe by POLLERR; a pipe of another kind that broke leaves the output alone.
+    """
+    poll = select.poll()
+    poll.register(sys.stdout.fileno(), 0)  # errors are told unasked
+    if not any(told & select.POLLERR for _, told in poll.poll(0)):
+        return False
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the exit flushes once more
+    return True
 
 
 def _run_command(words: list[str]) -> int:

@@ -17,7 +17,7 @@ from planner.site import SiteError, fence_diff
 from planner.site.fence import load_fence
 from planner.site.places import load_places
 from pons.bridge_client import NoBridge, fence_direct
-from pons.http import PlannerDown, PlannerProblem, call
+from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
 from wire import ConfigError, FenceFile, fingerprint
 
 if TYPE_CHECKING:
@@ -50,7 +50,10 @@ def run(settings: LaunchSettings, act: str, what: str | None) -> int:
         print(f"refused: {refused}{chinese}", file=sys.stderr)
         return EXIT_REFUSED
     except (PlannerDown, NoBridge, ConfigError) as trouble:
-        print(f"{trouble} Is `pons up` running?", file=sys.stderr)
+        print(
+            tell_unreached(trouble) if isinstance(trouble, PlannerDown) else trouble,
+            file=sys.stderr,
+        )
         return EXIT_DOWN
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from planner.language.folding import is_chinese
 from planner.language.stop import StopReading, is_stop, read_stop
 from pons import stop
-from pons.http import PlannerDown, PlannerProblem, call
+from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
 from pons.terminal_text import (
     FINAL_STATES,
     WAITING_STATES,
@@ -301,8 +301,7 @@ def _conclude(goal: dict[str, Any], language: str) -> int:
 
 
 def _trouble(trouble: Exception) -> int:
-    hint = " Is `pons up` running?" if isinstance(trouble, PlannerDown) else ""
-    print(f"{trouble}{hint}", file=sys.stderr)
+    print(tell_unreached(trouble) if isinstance(trouble, PlannerDown) else trouble, file=sys.stderr)
     if isinstance(trouble, PlannerProblem):
         for sentence in trouble.told.values():
             print(f"  {sentence}", file=sys.stderr)

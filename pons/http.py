@@ -22,6 +22,11 @@ class PlannerDown(Exception):
     """The planner did not answer; nothing is known of whether it acted."""
 
 
+def tell_unreached(trouble: Exception) -> str:
+    """Return what a person is told where nothing answers: what came, and what to look at."""
+    return f"planner_down: {trouble}. Is `pons up` running?\n没有应答：`pons up` 是否在运行？"
+
+
 class PlannerProblem(Exception):
     """The planner answered with a problem."""
 

@@ -1,4 +1,4 @@
-"""Say in Chinese how to mend what ``pons up`` refused. The refusals themselves are in English."""
+"""Give the words of ``pons up``: cures of what it refused, in Chinese, and orders to try."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from devices import PORT_CURES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
 _CODE: Final = re.compile(r"\b([a-z0-9]+(?:_[a-z0-9]+)+): ")
 CHINESE: Final[Mapping[str, str]] = {
@@ -43,3 +44,17 @@ def chinese_line(refusal: str) -> str:
     """Return the cure as a line below a refusal; empty where none is known."""
     cure = chinese_cure(refusal)
     return "" if cure is None else f"\n  {cure}"
+
+
+def drives_to_try(site: Path) -> str:
+    """Return an order in each language for places that this very site has."""
+    from planner.site import Site, SiteError  # late: `pons status` reads this file too
+
+    try:
+        rooms = [place for place in Site.load(site).places if place.kind == "room"]
+    except SiteError:
+        rooms = []  # what runs has read it; it was changed since
+    if not rooms:
+        return 'pons say "go home"   pons say 回家'
+    english, chinese = rooms[0].name.en, rooms[1 % len(rooms)].name.zh
+    return f'pons say "go to the {english}"   pons say 去{chinese}'

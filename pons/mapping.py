@@ -29,6 +29,7 @@ from planner.site.polygon import contains
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_KEPT, TaughtPlaces
 from pons.site import is_site_name, site_name_malformed
+from pons.site_rooms import proposal_line
 from wire import ConfigError, load_robot
 from wire.fingerprint import map_id
 from wire.site_map import read_map_id
@@ -95,7 +96,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
             return _mend(settings, said)
         if said.without:
             raise SiteError("mend_change_unknown", "--without goes with --mend")
-        folder = _new_folder(settings.home / "sites", said.name)
+        folder = _new_folder(settings.home / "sites", said.name, of_drive=not said.recordings)
         robot = load_robot(settings.robot)
         if said.recordings:
             replay = _replay(said.recordings, MapReplay(_lidar_of(said.recordings, robot)))
@@ -120,7 +121,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
     print(f"{folder}: of {source}, {len(builder.keyframes)} keyframes and {builder.loops} loops")
     if names:
         print(f"names given while it was mapped go with it: {names}")
-    print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}), {len(made.rooms)} rooms proposed")
+    print(proposal_line(made))
     print(f"look at it: pons site rooms {said.name}; pons site check {said.name}")
     return EXIT_DONE
 
@@ -158,12 +159,16 @@ def newest_run(folder: Path) -> list[Path]:
     return [path for path in found if path.name.split("-")[1:2] == boot]
 
 
-def _new_folder(sites: Path, name: str) -> Path:
+def _new_folder(sites: Path, name: str, *, of_drive: bool) -> Path:
     if not is_site_name(name):
         raise site_name_malformed(name)
     folder = sites / name
     if folder.exists():
-        raise SiteError("site_exists", f"{folder} is there; remove it or choose another name")
+        text = f"{folder} is there; remove it (rm -r {folder})"
+        zh = f"{folder} 已存在；请删除它（rm -r {folder}）"
+        if of_drive:  # a drive is found by its name alone
+            raise SiteError("site_exists", f"{text}, and save the drive again", f"{zh}，再保存一次")
+        raise SiteError("site_exists", f"{text} or choose another name", f"{zh}或换一个名称")
     above = next(path for path in folder.parents if path.is_dir())
     free = shutil.disk_usage(above).free
     if not free >= MIN_FREE_BYTES:
@@ -217,7 +222,10 @@ def _read_canvas(canvas: Path, robot: RobotDescription) -> MapBuilder:
     if not (canvas / KEYFRAMES_FILE).is_file():
         begun = sorted(path.parent.name for path in canvas.parent.glob(f"*/{KEYFRAMES_FILE}"))
         text = f"{canvas} holds no drive; begun are: {', '.join(begun) or 'none'}"
-        raise SiteError("map_not_begun", f"{text}. pons up --map {canvas.name}, or give recordings")
+        text = f"{text}. pons up --map {canvas.name}, or give recordings"
+        zh = f"还没有为“{canvas.name}”建图；已开始的有：{'、'.join(begun) or '无'}。"
+        zh = f"{zh}请运行 pons up --map {canvas.name}，或给出记录文件"
+        raise SiteError("map_not_begun", text, zh)
     try:
         builder = load_builder(canvas, (robot.lidar.x_m, robot.lidar.y_m))
     except ValueError as error:

@@ -9,7 +9,7 @@ import json
 import sys
 from typing import TYPE_CHECKING
 
-from pons.http import PlannerDown, PlannerProblem, call
+from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
 from pons.terminal_text import goal_line, robot_lines
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def status(settings: LaunchSettings, *, as_json: bool) -> int:
         robot = call(settings, "GET", "/v1/robot")
         goals = call(settings, "GET", "/v1/goals")["goals"]
     except (PlannerDown, PlannerProblem) as trouble:
-        print(f"{trouble} Is `pons up` running?", file=sys.stderr)
+        print(tell_unreached(trouble), file=sys.stderr)
         return 6
     if as_json:
         print(json.dumps({"robot": robot, "goals": goals}, ensure_ascii=False, indent=2))

@@ -9,7 +9,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from pons.http import PlannerDown, PlannerProblem, call
+from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -33,7 +33,7 @@ def run(settings: LaunchSettings, act: str, words: list[str], *, as_json: bool =
         print(f"refused: {refused}" + (f"\n{told}" if told else ""), file=sys.stderr)
         return EXIT_REFUSED
     except PlannerDown as trouble:
-        print(f"{trouble} Is `pons up` running?", file=sys.stderr)
+        print(tell_unreached(trouble), file=sys.stderr)
         return EXIT_DOWN
     if as_json:
         print(json.dumps(answer, ensure_ascii=False, indent=1))

@@ -10,7 +10,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from pons.http import PlannerDown, PlannerProblem, call
+from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -40,7 +40,7 @@ def run(settings: LaunchSettings, act: str, name: str | None, *, chinese: str | 
         print(f"refused: {refused}" + (f"\n{told}" if told else ""), file=sys.stderr)
         return EXIT_REFUSED
     except PlannerDown as trouble:
-        print(f"{trouble} Is `pons up` running?", file=sys.stderr)
+        print(tell_unreached(trouble), file=sys.stderr)
         return EXIT_DOWN
     return EXIT_DONE
 

@@ -20,6 +20,7 @@ from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text
 from maps.room_proposals import read_proposals
 from pons.settings import site_of
+from pons.site_rooms import has_named_room, print_rooms, proposal_line
 from wire import ConfigError, Pose2, load_robot, wrap
 from wire.fence import fence_text
 
@@ -94,9 +95,10 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         if not (folder / "map.yaml").is_file():
             raise site_missing(said.name, settings.home)
         if said.act == "check":
-            return _check(folder, _radius_m(settings))
+            return _check(settings, folder)
         if said.act == "rooms":
-            return _rooms(folder)
+            print_rooms(folder, settings.home)
+            return EXIT_DONE
         if said.act == "masks":
             return _print_fence_with_masks(settings, folder, said)
         return _name_room(folder, said.room, said.english, said.zh or said.english)
@@ -137,9 +139,9 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     print(f"{folder}: {grid.width} x {grid.height} cells of {grid.resolution_m:g} m")
     if loaded.kept_unknown:
         print(f"{loaded.kept_unknown} pixels of about grey 205 were taken for {taken_for}")
-    print(f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}); {len(made.rooms)} rooms proposed")
-    _rooms(folder)
-    if _has_errors(_print_check(folder, robot.base.radius_m)):
+    print(proposal_line(made))
+    print_rooms(folder, settings.home)
+    if _has_errors(_print_check(settings, folder, robot.base.radius_m)):
         print("before you drive there, mend what is an error / 出发前请先解决上面的错误（error）")
         return EXIT_FOUND
     print(f"drive there: pons up --site {said.name}")
@@ -248,21 +250,6 @@ def _list(settings: LaunchSettings) -> int:
     return EXIT_DONE
 
 
-def _rooms(folder: Path) -> int:
-    from planner.site import Site
-
-    proposals = read_proposals(folder)
-    site = Site.load(folder)
-    for room in proposals:
-        taken = site.room_at(room.pose.x_m, room.pose.y_m)
-        named = f"named {taken.name.en}" if taken else "no name yet"
-        at = f"({room.pose.x_m:.2f}, {room.pose.y_m:.2f})"
-        print(f"{room.id:<9} {room.area_m2:7.1f} m2  middle {at:<16} {named}")
-    if not proposals:
-        print("no rooms are proposed")
-    return EXIT_DONE
-
-
 def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
     from planner.site import PlaceRefusal, Site, check_not_order, plain_name, vocabulary_of
 
@@ -326,21 +313,24 @@ def _print_fence_with_masks(
     return EXIT_DONE
 
 
-def _check(folder: Path, radius_m: float) -> int:
-    found = _print_check(folder, radius_m)
+def _check(settings: LaunchSettings, folder: Path) -> int:
+    found = _print_check(settings, folder, _radius_m(settings))
     if not found:
         print(f"{folder.name}: nothing is wrong / 没有问题")
     return EXIT_FOUND if found else EXIT_DONE
 
 
-def _print_check(folder: Path, radius_m: float) -> tuple[SiteFinding, ...]:
+def _print_check(settings: LaunchSettings, folder: Path, radius_m: float) -> list[SiteFinding]:
     from planner.navigation.site_check import check_site
 
-    found = check_site(folder, radius_m)
+    found = list(check_site(folder, radius_m))
+    if any(finding.code == "no_rooms" for finding in found):  # the check knows the files alone
+        named = has_named_room(folder, settings.home)
+        found = [finding for finding in found if not (named and finding.code == "no_rooms")]
     for finding in found:
         print(f"{finding.level}: {finding.code}: {finding.words.en}\n  {finding.words.zh}")
     return found
 
 
-def _has_errors(found: tuple[SiteFinding, ...]) -> bool:
+def _has_errors(found: list[SiteFinding]) -> bool:
     return any(finding.level == "error" for finding in found)

@@ -22,7 +22,7 @@ from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
-from pons.launch_words import chinese_line
+from pons.launch_words import chinese_line, drives_to_try
 from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
 from pons.supervisor import REFUSED_TO_START
@@ -43,8 +43,9 @@ ARM_RETRY_S = 0.5
 SEARCH_TOLD_S = 20.0
 """A home in which it is clear where the robot is takes a tenth of it."""
 SEARCHES = (
-    "      the robot is looking for where it is, and stands still. On that page: I am here\n"
-    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上指出它在哪里"
+    "      the robot is looking for where it is, and stands still. On that page press"
+    " “The robot is here …”\n"
+    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上点击“机器人在这里……”"
 )
 LOOK_S = 0.5
 """The longest that a removed socket stays unreachable, or a log longer than its bound."""
@@ -207,7 +208,7 @@ def what_to_try(settings: LaunchSettings) -> str:
             'pons say "explore the house"   pons say "go forward 1 metre"   pons say 探索一下房子'
         )
         return f"try: {steps}, then: pons map {settings.mapping}"
-    return 'try: pons say "go to the living room"   pons say 去厨房   pons stop'
+    return f"try: {drives_to_try(settings.site)}   pons stop"
 
 
 def describe_base(settings: LaunchSettings, robot: RobotDescription) -> str:

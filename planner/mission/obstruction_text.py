@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import list_names, message, say
+from planner.language.catalogue import message, say
 from planner.plan import Bilingual, Code
 from planner.site.polygon import area_m2, border_distance_m, contains
 
@@ -58,7 +58,7 @@ def spot_of(facts: SiteView, point: tuple[float, float]) -> Bilingual:
     if not beside:
         return say("obstruction.in_room", room=here.name)
     other = min(beside, key=lambda room: border_distance_m(room.polygon or (), *point))
-    return say("obstruction.at_door", rooms=list_names((here.name, other.name), "joint.and_the"))
+    return say("obstruction.at_door", room=here.name, other=other.name)
 
 
 def _borders(room: Target, point: tuple[float, float]) -> bool:

@@ -199,13 +199,15 @@ class PlannerCommands:
         places = self._memory.places
         return next((p for p in places if wanted in map(normalise, p.spoken_names)), None)
 
-    async def _hint(self, name: str) -> AnswerPlan:
+    async def _hint(self, name: str) -> AnswerPlan | Refuse:
         """Tell localization where a person says the robot is, and say what scans make of it."""
         place = self._place(name)
         if place is None or self._link.localizer is None:
-            return AnswerPlan(text=say("hint.no_localizer"))
+            return _hint_refused("no_localizer")
         verdict = await self._link.hint(hint_in(place))
-        return AnswerPlan(text=say(f"hint.{'no_answer' if verdict is None else verdict.code}"))
+        if verdict is None or verdict.code != "accepted":
+            return _hint_refused("no_answer" if verdict is None else verdict.code)
+        return AnswerPlan(text=say("hint.accepted"))
 
     async def _remember(self, name: str) -> AnswerPlan | Refuse:
         try:
@@ -249,6 +251,13 @@ def not_kept(refused: PlaceRefusal) -> Refuse:
     """Say why a place was not kept or not forgotten."""
     why = refused.why
     return Refuse(code=Code.PLACE_NOT_KEPT, reason=message(Code.PLACE_NOT_KEPT, why=why))
+
+
+def _hint_refused(code: str) -> Refuse:
+    """Say why a person's word on where the robot is changed nothing."""
+    return Refuse(
+        code=Code.HINT_REFUSED, reason=message(Code.HINT_REFUSED, why=say(f"hint.{code}"))
+    )
 
 
 def _by_person(mission: Mission, ask: AskBrain) -> bool:

@@ -41,6 +41,7 @@ class Code(StrEnum):
     PLACE_NOT_KEPT = "place_not_kept"
     NOT_KEPT = "not_kept"
     ORDER_NOT_KEPT = "order_not_kept"
+    HINT_REFUSED = "hint_refused"
     # On the way.
     CONFIRM = "confirm"
     ASKED = "asked"

@@ -227,6 +227,20 @@ def test_a_ragged_map_gets_a_fence_without_flaw(tmp_path: Path, seed: int) -> No
     assert sum(map(len, fence.outlines)) <= MAX_CORNERS
 
 
+def test_a_line_of_too_many_corners_is_drawn_looser(tmp_path: Path) -> None:
+    """A hall with half-pillars along its walls: within a cell they take more than 1000 corners."""
+    picture: Picture = np.full((900, 900), 205, np.uint8)
+    picture[20:-20, 20:-20] = 0
+    picture[22:-22, 22:-22] = 254
+    for at in range(30, 870, 12):
+        picture[22:25, at : at + 6] = picture[-25:-22, at : at + 6] = 0
+        picture[at : at + 6, 22:25] = picture[at : at + 6, -25:-22] = 0
+    grid = load_map(written(tmp_path, picture)).grid
+    fence = draw_fence(grid, "0" * 16, floor_around(grid, 5.0, 5.0), RADIUS_M)
+    assert flaw(fence) is None
+    assert sum(map(len, fence.outlines)) <= MAX_CORNERS
+
+
 def test_only_the_floor_around_a_point_counts(tmp_path: Path) -> None:
     picture = two_rooms()
     picture[:, 100:102] = 0

@@ -8,11 +8,13 @@ import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from planner.tls import MARK
+from pons import operator, places
 from pons.authority import issue
 from pons.http import AUTHORITY, PlannerDown, call
 from pons.settings import PLANNER_MARK, BadSetting, LaunchSettings, load
@@ -111,3 +113,19 @@ def test_a_planner_that_listens_everywhere_is_asked_here(
     tmp_path: Path, host: str, url: str
 ) -> None:
     assert LaunchSettings(tmp_path, tmp_path, tmp_path, host, 1).url == url
+
+
+def test_where_nothing_answers_a_person_is_told_what_to_look_at_in_both_languages(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    nobody = LaunchSettings(tmp_path, tmp_path, tmp_path, "127.0.0.1", 9)
+    asked = (
+        partial(operator.status, nobody, as_json=False),
+        partial(places.run, nobody, "list", None),
+    )
+    for ask in asked:
+        assert ask() != 0
+        english, chinese = capsys.readouterr().err.splitlines()
+        assert english.startswith("planner_down: http://127.0.0.1:9/v1/")
+        assert english.endswith(". Is `pons up` running?")
+        assert chinese == "没有应答：`pons up` 是否在运行？"

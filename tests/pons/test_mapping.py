@@ -140,7 +140,9 @@ def test_what_a_drive_has_kept_becomes_a_site_and_goes_on_another_day(
     mapping.prepare_canvas(settings, "attic", robot)
     canvas = settings.home / "mapping" / "attic"
     assert mapping.run(settings, ["attic"]) == 3
-    assert "map_not_begun" in capsys.readouterr().err
+    said, chinese = capsys.readouterr().err.splitlines()
+    assert "map_not_begun" in said
+    assert "begun are" not in chinese
     assert mapping.run(settings, ["other", str(drive[0])]) == 0
     kept = settings.home / "sites" / "other" / "keyframes.npz"
     (canvas / "keyframes.npz").write_bytes(kept.read_bytes())
@@ -149,6 +151,8 @@ def test_what_a_drive_has_kept_becomes_a_site_and_goes_on_another_day(
     cells = [load_map(one / "map.yaml").grid.cells for one in (made, kept.parent)]
     changed = sum(a != b for a, b in zip(*cells, strict=True))
     assert changed < 0.01 * len(cells[0]), "points are kept to the millimetre"
+    assert mapping.run(settings, ["attic"]) == 3
+    assert "another name" not in capsys.readouterr().err, "no drive is kept under any other"
     mapping.prepare_canvas(settings, "other", robot)
     again = settings.home / "mapping" / "other" / "keyframes.npz"
     assert again.read_bytes() == kept.read_bytes(), "another day goes on from the site's own"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -81,3 +82,17 @@ def test_who_maps_a_home_is_told_what_the_page_can_do(tmp_path: Path) -> None:
     maps = LaunchSettings(tmp_path, tmp_path, tmp_path, "127.0.0.1", 1, mapping="flat")
     assert "explore the house" in what_to_try(maps)
     assert what_to_try(maps).endswith("then: pons map flat")
+
+
+def test_what_to_try_names_places_of_the_site_itself(tmp_path: Path) -> None:
+    up = LaunchSettings(tmp_path, CHECKOUT / "robot.toml", CHECKOUT / "sites" / "home", "::1", 1)
+    home = 'try: pons say "go to the living room"   pons say 去厨房   pons stop'
+    assert what_to_try(up) == home
+    imported = tmp_path / "imported"
+    shutil.copytree(CHECKOUT / "sites" / "two_room", imported)
+    places = imported / "places.yaml"
+    home_alone = (
+        "version: 1\nhome: home\nplaces:\n- {id: home, kind: place, name: {en: home, zh: 家}, "
+    )
+    places.write_text(f"{home_alone}pose: {{x_m: 1.0, y_m: 4.2, yaw_rad: 0.0}}}}\n", "utf-8")
+    assert what_to_try(replace(up, site=imported)).startswith('try: pons say "go home"')

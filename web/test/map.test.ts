@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { arrowheads, discs, dots, squares } from "../src/map/drawing";
 import { Cells, nameSpot } from "../src/map/cells";
+import { crowded } from "../src/map/labels";
 import { pixels, rgb, tinted } from "../src/map/raster";
 import { contains, middle, resolve, thingAt, unwound } from "../src/map/resolve";
 import type { Grid, Place } from "../src/wire/types";
@@ -168,5 +169,23 @@ describe("where it might be", () => {
   it("is drawn once for each candidate, and not at all without", () => {
     expect(arrowheads([guess(0), guess(1), guess(2)]).match(/Z/g)).toHaveLength(3);
     expect(arrowheads([])).toBe("");
+  });
+});
+
+describe("labels", () => {
+  const at = (left: number, top: number) => ({ left, top, right: left + 40, bottom: top + 12 });
+
+  it("are hidden where they lie on an earlier one or on a name, and only then", () => {
+    expect(crowded([at(0, 0), at(10, 5), at(0, 12), at(100, 0)], [])).toEqual([
+      false,
+      true,
+      false,
+      false,
+    ]);
+    expect(crowded([at(0, 0)], [at(39, 11)])).toEqual([true]);
+  });
+
+  it("leave room again to those whose rival is hidden", () => {
+    expect(crowded([at(0, 0), at(30, 0), at(60, 0)], [])).toEqual([false, true, false]);
   });
 });

@@ -17,8 +17,8 @@ SITE = replace(FACTS, targets={"hall": room("hall", 0.0), "kitchen": room("kitch
 @pytest.mark.parametrize(
     ("point", "said"),
     [
-        ((0.9, 0.0), "at the door between hall and the kitchen"),
-        ((1.1, 0.0), "at the door between kitchen and the hall"),
+        ((0.9, 0.0), "at the door between the hall and the kitchen"),
+        ((1.1, 0.0), "at the door between the kitchen and the hall"),
         ((0.0, 0.0), "in the hall"),
         ((2.9, 0.0), "in the kitchen"),
         ((7.0, -1.25), "at x 7.0 m, y -1.2 m"),

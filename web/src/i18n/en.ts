@@ -181,7 +181,7 @@ export const en = {
   "meter.tokens": "{n} tokens",
   "meter.seconds": "{n} s",
 
-  "here.searching": "The robot is looking for where it is. It stands still meanwhile.",
+  "here.searching": "The robot looks for its place and stands still.",
   "here.lost": "The robot does not know where it is and stands still.",
   "here.point": "The robot is here …",
   "here.click": "Click where it is",
@@ -195,7 +195,7 @@ export const en = {
   "here.now_lost": "It does not know where it is.",
   "match.label": "How well lidar and map agree",
   "match.share": "Match with the map: {share}. Below {least} it is not believed.",
-  "match.guesses": "Perhaps at one of {n} places; the best fits {share}.",
+  "match.guesses": "Perhaps at one of {n} places (best fit {share}).",
   "rooms.this": "Which room is this?",
   "rooms.this_how":
     "Name where the robot stands, and it can be sent back there. The finished map keeps the name.",
@@ -436,7 +436,7 @@ export const en = {
   "map.layer_obstacles": "Remembered obstacles",
   "map.layer_movers": "What moves",
   "map.layer_rooms": "Rooms without a name",
-  "map.growing": "Mapping: {area} m² of floor, {keyframes} keyframes, {loops} loops closed",
+  "map.growing": "Mapping: {area} m² of floor · keyframes {keyframes} · loops closed {loops}",
   "map.label": "Map: click a room or place to go there",
   "map.nothing": "No room or place has a name there. Free points can't be goals.",
   "map.busy": "{name}:",
@@ -446,6 +446,8 @@ export const en = {
   "map.other": "The planner has another map now. Reload the page.",
   "map.stale": "Position {age} old",
   "map.scan_stale": "Lidar {age} old",
+  "map.no_pose": "Position not known yet",
+  "map.no_scan": "Nothing from the lidar yet",
 
   "robot.state": "State",
   "robot.mode": "Mode",

@@ -427,7 +427,7 @@ export const zh: Record<Key, string> = {
   "map.layer_obstacles": "记住的障碍物",
   "map.layer_movers": "移动的物体",
   "map.layer_rooms": "未命名的房间",
-  "map.growing": "正在建图：已知地面 {area} 平方米，关键帧 {keyframes} 个，闭合回路 {loops} 个",
+  "map.growing": "建图中：地面 {area} 平方米 · 关键帧 {keyframes} · 闭合回路 {loops}",
   "map.label": "地图：点击房间或地点即可前往",
   "map.nothing": "那里没有有名称的房间或地点。任意点不能作为任务。",
   "map.busy": "{name}：",
@@ -437,6 +437,8 @@ export const zh: Record<Key, string> = {
   "map.other": "规划器换了地图，请重新加载页面。",
   "map.stale": "位置为 {age}前",
   "map.scan_stale": "激光雷达为 {age}前",
+  "map.no_pose": "尚不知道位置",
+  "map.no_scan": "尚无激光数据",
 
   "robot.state": "状态",
   "robot.mode": "模式",

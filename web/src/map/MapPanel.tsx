@@ -229,11 +229,20 @@ function LayerSwitches() {
 
 function Ages() {
   const old = [
-    poseFresh.value ? null : t("map.stale", { age: seconds(poseAge()) }),
-    scanFresh.value ? null : t("map.scan_stale", { age: seconds(age("scan")) }),
+    poseFresh.value ? null : aged("map.stale", "map.no_pose", poseAge()),
+    scanFresh.value ? null : aged("map.scan_stale", "map.no_scan", age("scan")),
   ].filter((text) => text !== null);
   if (!pageHeard.value || old.length === 0) return null;
   return <p class="map-ages">{old.join(" · ")}</p>;
+}
+
+/** Say how old something on the map is; what never came is not old but missing. */
+function aged(
+  old: "map.stale" | "map.scan_stale",
+  never: "map.no_pose" | "map.no_scan",
+  ageS: number | null,
+) {
+  return ageS === null ? t(never) : t(old, { age: seconds(ageS) });
 }
 
 /** Say why the way bends, or goes on towards something; the spot is marked on the map. */

@@ -4,6 +4,7 @@ import type { Candidate, Grid, Place, Pose, ProposedRoom, Thing } from "../wire/
 import { percent } from "../panels/format";
 import { Cells, nameSpot } from "./cells";
 import { Drawing } from "./drawing";
+import { spreadLabels } from "./labels";
 import { colour, picture, tinted } from "./raster";
 import type { Point } from "./resolve";
 import { Things } from "./things";
@@ -23,6 +24,7 @@ export class MapView {
   private zoom: L.Control.Zoom | null = null;
   private cells: Cells | null = null;
   private shown: L.LatLngBounds | null = null;
+  private spreads = false;
   private places: readonly Place[] = [];
   private nameOf: (place: Place) => string = (place) => place.id;
 
@@ -88,6 +90,7 @@ export class MapView {
 
   showThings(things: readonly Thing[], nameOf: (thing: Thing) => string): void {
     this.things.show(things, nameOf);
+    this.spread();
   }
 
   /** Draw rooms that wait for a name, each with the number by which it is asked for. */
@@ -106,6 +109,16 @@ export class MapView {
       write(percent(score), "name name-guess", pose).addTo(this.guesses);
   }
 
+  /** Spread labels in the next frame, once for all that changed in this one. */
+  private spread(): void {
+    if (this.spreads) return;
+    this.spreads = true;
+    requestAnimationFrame(() => {
+      this.spreads = false;
+      spreadLabels(this.place);
+    });
+  }
+
   private writeNames(): void {
     this.names.clearLayers();
     for (const place of this.places) {
@@ -113,6 +126,7 @@ export class MapView {
       const at = { x_m: x, y_m: y };
       write(this.nameOf(place), `name name-${place.kind}`, at).addTo(this.names);
     }
+    this.spread();
   }
 
   showZoom(zoomInTitle: string, zoomOutTitle: string): void {
@@ -143,6 +157,7 @@ export class MapView {
 
   private markSmall(): void {
     this.place.classList.toggle("small", 2 ** this.map.getZoom() < SMALL_PX_PER_M);
+    this.spread();
   }
 
   private paint(): void {

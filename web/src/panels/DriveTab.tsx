@@ -1,6 +1,6 @@
 /** Gather what a person needs to drive: the goal box, what runs, what waits, what was before. */
 import { computed } from "@preact/signals";
-import { t, word } from "../i18n";
+import { say, t, word } from "../i18n";
 import { act, doInstead, give, moveBy } from "../state/acts";
 import { age, currentGoals, pageFresh, pageHeard, pastGoals, queuedGoals } from "../state/store";
 import type { Goal } from "../wire/types";
@@ -12,6 +12,7 @@ import { MindLine } from "./MindLine";
 import { reasonWords } from "./steps";
 
 const SHOWN_PAST = 20;
+const CAME_TO_NOTHING: ReadonlySet<string> = new Set(["failed", "refused"]);
 
 export function DriveTab() {
   return (
@@ -34,11 +35,28 @@ function Now() {
         {t("goal.now")}
         {stale && <span class="old"> {t("link.age", { age: seconds(age("page")) })}</span>}
       </h2>
-      {currentGoals.value.length === 0 && <p class="fine">{t("goal.none")}</p>}
+      {currentGoals.value.length === 0 && <Idle />}
       {currentGoals.value.map((goal) => (
         <GoalCard key={goal.id} goal={goal} />
       ))}
     </section>
+  );
+}
+
+/** Say that there is nothing to do, and first why the newest order came to nothing. */
+function Idle() {
+  const [newest] = pastGoals.value;
+  const failed = newest !== undefined && CAME_TO_NOTHING.has(newest.state);
+  return (
+    <>
+      {failed && newest.outcome && (
+        <p class="unfinished" dir="auto" data-goal={newest.id}>
+          <span class={`chip state-${newest.state}`}>{word("state", newest.state)}</span>{" "}
+          {say(newest.outcome.message)}
+        </p>
+      )}
+      <p class="fine">{t("goal.none")}</p>
+    </>
   );
 }
 

@@ -1,0 +1,80 @@
+"""What the planner itself is told about where the robot is ends as what scans made of it."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+
+from planner.language.commands import HereCommand
+from planner.mission.effects import AskBrain
+from planner.mission.errors import MissionError
+from planner.mission.events import Command, Planned
+from planner.mission.planner_commands import PlannerCommands
+from planner.mission.state import Mission, MissionState
+from planner.plan import AnswerPlan, Code, GoalState, Language, Refuse
+from planner.site import Site
+from planner.site.known_places import KnownPlaces
+from tests.planner.mission.fakes import FACTS
+from wire import HintCode, HintVerdict, PoseHint
+
+SITE = Site.load(Path(__file__).resolve().parents[3] / "sites" / "two_room")
+MISSION = Mission(id="g1", order=1, text="you are in the kitchen", language=Language.EN,
+                  state=GoalState.PLANNING, created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
+
+
+class Missions:
+    """Know no goals."""
+
+    book = MissionState(FACTS)
+    status_age_s = 0.0
+
+    def obey(self, command: Command) -> MissionError | None:
+        raise AssertionError(command)
+
+
+class Localizer:
+    """Answer each hint with one verdict, or not at all."""
+
+    def __init__(self, code: HintCode | None, *, speaks: bool = True) -> None:
+        self.code = code
+        self.localizer: object | None = self if speaks else None
+
+    async def hint(self, hint: PoseHint) -> HintVerdict | None:
+        return None if self.code is None else HintVerdict(id=hint.id, code=self.code, score=0.4)
+
+
+async def think(ask: AskBrain) -> Planned:
+    raise AssertionError(ask)
+
+
+def hinted(localizer: Localizer) -> object:
+    commands = PlannerCommands(think, KnownPlaces(SITE), Missions(), localizer)
+    return asyncio.run(commands.carry_out(HereCommand("kitchen"), MISSION))
+
+
+def test_a_place_that_a_scan_confirms_is_answered() -> None:
+    said = hinted(Localizer("accepted"))
+    assert isinstance(said, AnswerPlan)
+    assert said.text.en == "A scan agrees: that is where I am."
+
+
+@pytest.mark.parametrize(
+    ("localizer", "why"),
+    [
+        (Localizer("moving"), "I am moving; stop me first"),
+        (Localizer("does_not_fit"), "what the lidar sees does not fit there"),
+        (Localizer("no_scan"), "I have seen nothing yet that I could check it by"),
+        (Localizer(None), "localization did not answer"),
+        (Localizer("accepted", speaks=False), "this robot's localization takes no hints"),
+    ],
+)
+def test_a_word_that_changed_nothing_is_refused_and_says_why(
+    localizer: Localizer, why: str
+) -> None:
+    said = hinted(localizer)
+    assert isinstance(said, Refuse)
+    assert said.code is Code.HINT_REFUSED
+    assert said.reason.en == f"I do not take myself to be there: {why}."
+    assert said.reason.zh.startswith("我不能确认自己在那里：")
