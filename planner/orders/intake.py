@@ -15,6 +15,7 @@ from planner.language.schedule import ChangeOrders, ListOrders, OrderCommand
 from planner.language.utterance import parse
 from planner.mission.events import Planned
 from planner.orders import world
+from planner.orders.day_question import ask_which_day
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import (
     NewOrder,
@@ -97,7 +98,10 @@ class OrderIntake:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
             return Planned(ask.id, Refuse(code=Code.ORDER_NOT_KEPT, reason=why))
         except OrderQuestion as question:
-            return Planned(ask.id, put_time_before(question.asked, command))
+            asked = (
+                question.asked if question.is_whole else put_time_before(question.asked, command)
+            )
+            return Planned(ask.id, asked)
         return Planned(ask.id, AnswerPlan(text=self.tell_one(order)))
 
     async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
@@ -120,7 +124,7 @@ class OrderIntake:
 
         Raises:
             OrderRefusal: see ``[order_refusal]`` of the catalogue.
-            OrderQuestion: the brain asks about it.
+            OrderQuestion: the brain asks about it, or its day may be either of two.
         """
         book = self._keeper.book
         now_s = self._keeper.clocks.unix()
@@ -129,6 +133,8 @@ class OrderIntake:
             lacking = world.lacks(self._goals.book, new.when.event, self._report())
             if lacking is not None:
                 raise OrderRefusal("order_no_eyes", lacking, why=say(f"order_lacks.{lacking}"))
+        if (asked := ask_which_day(new, now_s, book.zone)) is not None:
+            raise OrderQuestion(asked, is_whole=True)
         rule = settle(new.when, now_s, book.zone)
         self._judge_quiet(rule, now_s)
         self._judge_room(new, rule)

@@ -9,6 +9,7 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.numbers import ZH_DURATION, chinese_number, seconds
+from planner.language.schedule.chinese_dates import DATES
 from planner.language.schedule.parts import (
     EVERY_DAY,
     WEEKEND,
@@ -198,6 +199,7 @@ def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
 
 PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
     *((pattern, _event(event)) for pattern, event in _UPON),
+    *DATES,
     (_IN, _in),
     (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
     (_EVERY_SO, _interval),

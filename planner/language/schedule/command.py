@@ -7,7 +7,8 @@ from typing import Literal
 
 from planner.plan.timing import SpokenRule
 
-Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past"]
+Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past",
+                  "order_no_such_date"]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
