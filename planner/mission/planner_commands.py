@@ -103,11 +103,8 @@ class PlannerCommands:
         intent = (
             parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
         )
-        standing = intent
-        if mission is not None and not mission.has_begun and not isinstance(intent, OrderCommand):
-            standing = parse(mission.order_text).intent  # its question is answered
-        if isinstance(standing, OrderCommand) and self.desk is not None and mission is not None:
-            return await self.desk.take(standing, ask, mission)
+        if mission is not None and (taken := await self._ask_desk(intent, ask, mission)):
+            return taken
         if isinstance(intent, OrderCommand):
             intent = None
         if isinstance(intent, Replace) and not intent.corrects:
@@ -125,6 +122,17 @@ class PlannerCommands:
         if intent is None or mission is None or mission.steps:
             return await self._brain(ask)
         return Planned(ask.id, await self.carry_out(intent, mission))
+
+    async def _ask_desk(
+        self, intent: Intent | None, ask: AskBrain, mission: Mission
+    ) -> Planned | None:
+        """Have the desk take what is about standing orders; None: it is about something else."""
+        standing = intent
+        if not mission.has_begun and not isinstance(intent, OrderCommand):
+            standing = parse(mission.order_text).intent  # its question is answered
+        if self.desk is None or not isinstance(standing, OrderCommand):
+            return None
+        return await self.desk.take(standing, ask, mission)
 
     async def obey_beside_stop(self, given: Submitted) -> Bilingual | None:
         """Remove or pause the standing orders that an order to stop names, too; say which.

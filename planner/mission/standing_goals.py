@@ -43,11 +43,14 @@ if TYPE_CHECKING:
 class OrderDesk(Protocol):
     """Keep the standing orders, as ``planner.orders`` does."""
 
-    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned:
-        """Carry out what a person said about standing orders, and say what came of it."""
+    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned | None:
+        """Carry out what a person said about standing orders, and say what came of it.
 
-    async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
-        """Remove, pause or resume the orders that are meant, and say which."""
+        None where it may mean something else, and no order is kept that it fits.
+        """
+
+    async def change(self, command: ChangeOrders, language: Language) -> Bilingual | None:
+        """Remove, pause or resume the orders that are meant, and say which; None: none is meant."""
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is none of ours."""

@@ -176,12 +176,18 @@ def _weekly(again: WeekDays, clock: TimeOfDay | None, daypart: DayPart | None) -
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
-    days = "*" if again.days == EVERY_DAY else _list_days(again.days)
-    return Timing(CronRule(cron=f"{at[1]} {at[0]} * * {days}"))
+    return Timing(CronRule(cron=f"{at[1]} {at[0]} * * {list_days(again.days)}"))
 
 
-def _list_days(days: frozenset[int]) -> str:
-    return "1-5" if days == WORKDAYS else ",".join(map(str, sorted(days)))
+def list_days(days: frozenset[int]) -> str:
+    """Return days of the week as cron writes them."""
+    return (
+        "*"
+        if days == EVERY_DAY
+        else "1-5"
+        if days == WORKDAYS
+        else ",".join(map(str, sorted(days)))
+    )
 
 
 def _by_clock(day: OnceDay | MonthDay, clock: TimeOfDay | None, daypart: DayPart | None) -> Timing:
