@@ -37,7 +37,7 @@ from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
-from planner.mission.standing_goals import hold_to_order, is_of_order
+from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
@@ -120,8 +120,12 @@ class PlannerCommands:
         if isinstance(intent, Replace | LeaningCommand):
             intent = None  # it leans on nothing that is known: a brain reads it
         if intent is None or mission is None or mission.steps:
-            return await self._brain(ask)
+            return take_back_offers(await self._brain(ask), self.refuse_offer)
         return Planned(ask.id, await self.carry_out(intent, mission))
+
+    def refuse_offer(self, text: str) -> Bilingual | None:
+        """Return why a standing order that a brain offers could not be kept; None: it could."""
+        return self.desk.refuse_offer(text) if self.desk is not None else None
 
     async def _ask_desk(
         self, intent: Intent | None, ask: AskBrain, mission: Mission

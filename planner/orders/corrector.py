@@ -214,8 +214,8 @@ class OrderCorrector:
     def _asked_again(self, reminder: StandingOrder, told_s: float) -> StandingOrder | None:
         """Return the reminder that was asked for again already, since these words were told."""
         live = (o for o in self._keeper.book.orders.values() if not o.ended)
-        return next((o for o in live if isinstance(o.rule, AtRule)
-                     and o.reminder == reminder.reminder and o.created_unix_s >= told_s), None)  # fmt: skip
+        same = (o for o in live if isinstance(o.rule, AtRule) and o.reminder == reminder.reminder)
+        return next((o for o in same if o.created_unix_s >= told_s), None)
 
     def _ask_again(
         self, orders: tuple[StandingOrder, ...], seconds: float, language: Language

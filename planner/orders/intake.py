@@ -15,19 +15,18 @@ from planner.language.folding import has_chinese
 from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, OrderCommand
 from planner.language.utterance import parse
 from planner.mission.events import Planned
-from planner.orders import world
 from planner.orders.corrector import OrderCorrector
 from planner.orders.day_question import ask_which_day
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import (
     NewOrder,
     OrderQuestion,
-    judge_words,
     put_time_before,
     read_new_order,
 )
-from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_ORDERS, StandingOrder
-from planner.orders.rule import is_quiet, settle, upcoming
+from planner.orders.new_order_judge import NewOrderJudge
+from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder
+from planner.orders.rule import settle
 from planner.orders.selection import is_all, pick, select
 from planner.orders.teller import OrderTeller
 from planner.plan import (
@@ -43,7 +42,7 @@ from planner.plan import (
     plan_record,
     words_of,
 )
-from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule
+from planner.plan.timing import AtRule
 from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
@@ -55,9 +54,6 @@ if TYPE_CHECKING:
     from planner.orders.keeper import OrderKeeper
     from planner.plan.timing import Rule
     from planner.site.site_view import SiteView
-
-QUIET_LOOKED = 30
-"""Runs that must not all lie in the quiet hours."""
 
 
 class Considers(Protocol):
@@ -79,7 +75,8 @@ class OrderIntake:
         report: Callable[[], ObstacleReport | None] = lambda: None,
     ) -> None:
         """Take the keeper, and who thinks about orders."""
-        self._keeper, self._goals, self._report = keeper, goals, report
+        self._keeper, self._goals = keeper, goals
+        self._judge = NewOrderJudge(keeper, lambda: goals.book, report)
         self._corrector = OrderCorrector(keeper, self)
         self._teller = OrderTeller(keeper, lambda: goals.book.facts)
 
@@ -151,22 +148,15 @@ class OrderIntake:
         """
         book = self._keeper.book
         now_s = self._keeper.clocks.unix()
-        judge_words(new)
-        if isinstance(new.when, EventRule):
-            lacking = world.lacks(self._goals.book, new.when.event, self._report())
-            if lacking is not None:
-                raise OrderRefusal("order_no_eyes", lacking, why=say(f"order_lacks.{lacking}"))
         if (asked := ask_which_day(new, now_s, book.zone)) is not None:
             raise OrderQuestion(asked, is_whole=True)
-        rule = settle(new.when, now_s, book.zone)
-        self.judge_quiet(rule, now_s)
-        self._judge_room(new, rule)
+        rule = self._judge.judge(new, now_s)
         allowed = await self._consider(new, goal_id)
         async with self._keeper.lock:
-            if (same := self._find_same(new, rule)) is not None:
+            if (same := self._judge.find_same(new, rule)) is not None:
                 self._corrector.note(same.id)
                 return same
-            self._judge_room(new, rule)
+            self._judge.judge_room(new, rule)
             number = max((o.number for o in self._keeper.book.orders.values()), default=0) + 1
             order = StandingOrder(
                 id=f"o{number}", number=number, text=new.text[:MAX_ORDER_CHARACTERS],
@@ -199,26 +189,11 @@ class OrderIntake:
 
     def judge_quiet(self, rule: Rule, now_s: float) -> None:
         """Refuse a rule all of whose runs are left out. Raises OrderRefusal."""
-        quiet = self._keeper.book.quiet
-        if quiet is None or not isinstance(rule, (CronRule, EveryRule)):
-            return
-        runs = upcoming(rule, now_s, self._keeper.book.zone, QUIET_LOOKED)
-        if all(is_quiet(quiet, run_s, self._keeper.book.zone) for run_s in runs):
-            raise OrderRefusal("order_always_quiet", quiet.text, quiet=quiet.text)
+        self._judge.judge_quiet(rule, now_s)
 
-    def _judge_room(self, new: NewOrder, rule: Rule) -> None:
-        kept = [o for o in self._keeper.book.orders.values() if not o.ended]
-        if len(kept) >= MAX_ORDERS and self._find_same(new, rule) is None:
-            raise OrderRefusal("orders_full", f"{MAX_ORDERS} are kept", most=MAX_ORDERS)
-
-    def _find_same(self, new: NewOrder, rule: Rule) -> StandingOrder | None:
-        """Return the order that is this very one already; "in 20 minutes" twice are two."""
-        if not isinstance(rule, (CronRule, EventRule)):
-            return None
-        kept = self._keeper.book.orders.values()
-        return next(
-            (o for o in kept if (o.rule, o.order) == (rule, new.order) and not o.paused), None
-        )
+    def refuse_offer(self, text: str) -> Bilingual | None:
+        """Return why a standing order that a model offers could not be kept; None: it could."""
+        return self._judge.refuse_offer(text)
 
     # Changing -----------------------------------------------------------------------------------
 

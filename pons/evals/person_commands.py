@@ -86,6 +86,10 @@ class _Desk:
         del source
         return None
 
+    def refuse_offer(self, text: str) -> Bilingual | None:
+        del text
+        return None
+
 
 class _NoLocalizer:
     """Take no hint."""

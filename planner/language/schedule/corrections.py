@@ -72,10 +72,13 @@ _DAYS_NAMED = re.compile(
     rf"|(?P<skip>skip|leave out|drop|don't do|do not do) {_W.replace('<w>', '<w2>')}"
     r" (?:on|at) (?P<d2>[a-z, ]+)"
 )
+_SHIFTS = "push|postpone|delay|put|move|bring|shift"
+_WAYS = "back|off|out|forward|up"
 _LATER = re.compile(
     rf"{_NO}(?:(?:make|do|set) {_IT} )?(?P<n>.+?) (?P<way>later|earlier|sooner)"
-    rf"|{_NO}(?P<back>push|postpone|delay|put|move|bring|shift) (?:{_IT}|{_W})"
-    r"(?: (?P<dir>back|off|out|forward|up))?(?: by)? (?P<n2>.+?)(?: (?P<way2>later|earlier|sooner))?"
+    rf"|{_NO}(?P<act>{_SHIFTS}) (?:{_IT}|{_W})(?: (?P<dir>{_WAYS}))? by (?P<n2>.+)"
+    rf"|{_NO}(?P<act2>{_SHIFTS}) (?:{_IT}|{_W.replace('<w>', '<w2>')}(?= {_WAYS}))"
+    rf"(?: (?P<dir2>{_WAYS}))? (?P<n3>.+)"
 )
 _AGAIN = re.compile(
     r"(?:hit )?snooze(?: (?:it|that|this|the (?:alarm|reminder)|my (?:alarm|reminder)|again))?"
@@ -176,14 +179,16 @@ class _English:
         found = _LATER.fullmatch(said)
         if found is None:
             return None
-        seconds = self._lasts(found["n"] or found["n2"])
+        lasts = found["n"] or found["n2"] or found["n3"]
+        seconds = self._lasts(lasts)
         if seconds is None:
             return None
-        earlier = "earlier" in (found["way"], found["way2"]) or "sooner" in (
-            found["way"], found["way2"])  # fmt: skip
-        earlier |= found["back"] == "bring" or found["dir"] in ("forward", "up")
-        words = f"make it {found['n'] or found['n2']} {'earlier' if earlier else 'later'}"
-        return Delay(-seconds if earlier else seconds), found["w"] or "", words
+        act, way = found["act"] or found["act2"], found["dir"] or found["dir2"]
+        earlier = (
+            found["way"] in ("earlier", "sooner") or act == "bring" or way in ("forward", "up")
+        )
+        words = f"make it {lasts} {'earlier' if earlier else 'later'}"
+        return Delay(-seconds if earlier else seconds), found["w"] or found["w2"] or "", words
 
     def _days(self, said: str) -> _Found | None:
         for pattern, keeps in ((_LEAVE_OUT, False), (_KEEP_TO, True)):
