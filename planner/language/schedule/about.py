@@ -40,7 +40,7 @@ _OFTEN = (
     r"|tuesday|wednesday|thursday|friday|saturday|sunday|recurring|scheduled|standing)"
 )
 _ACTS: tuple[tuple[Act, str], ...] = (
-    ("remove", r"cancel|delete|remove|drop|stop|end|forget|clear|get rid of|no more|turn off"
+    ("remove", r"(?:i|we) (?:don't|do not|no longer) need|cancel|delete|remove|drop|stop|end|forget|clear|get rid of|no more|turn off"
      r"|switch off|call off|don't do|do not do|quit|abolish"),
     ("pause", r"pause|suspend|put on hold|mute|skip"),
     ("resume", r"resume|continue|restart|unpause|re-?enable|turn on|switch on|start|carry on with"),
@@ -98,6 +98,15 @@ def read_about(
             found = timed or _read_named(act, rest, reads)
             if found is not None:
                 return found
+    missed = re.fullmatch(r"no (?!more\b)(.+ (?:tonight|today))", folded)
+    if missed is not None and (skipped := _read_until(missed[1], whole, reads)) is not None:
+        return replace(skipped, is_sure=False)
+    tonight = re.fullmatch(rf"(?:don't|do not) {_THIS_DAY.pattern}", folded)
+    if tonight is not None:
+        tomorrow = DayTime(hour=0, days_ahead=1)
+        return ChangeOrders(
+            "pause", tonight["rest"], until=tomorrow, until_words="until tomorrow", is_sure=False
+        )
     denied = _NOT_ANY_MORE.fullmatch(folded)
     if denied is not None and reads(denied["what"], in_chinese=False):
         return ChangeOrders("remove", denied["what"])
@@ -170,6 +179,12 @@ def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> OrderCo
         named = _zh_named(act, found["a"] or found["b"], reads) if found is not None else None
         if named is not None:
             return named
+    unwanted = re.fullmatch(
+        r"(?P<of>.{1,20}?)的?(?:那|这)一?[个条项](?:就)?(?:不要|不用|不需要|取消|删掉|去掉)了?",
+        folded,
+    )
+    if unwanted is not None:
+        return ChangeOrders("remove", unwanted["of"], is_sure=False)
     denied = re.fullmatch(rf"{_ZH_NOT}(?P<what>.+?)了", folded)
     if denied is not None and reads(denied["what"], in_chinese=True):
         return ChangeOrders("remove", denied["what"])
@@ -178,7 +193,7 @@ def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> OrderCo
 
 def _zh_denied(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     """Read 晚上别再检查门了: not "tonight", which is one day's."""
-    found = re.fullmatch(rf"(?:以后|今后)?(?P<t>.+?)(?:以后|今后)?(?:都|就)?{_ZH_NOT}(?P<what>[^别不].*?)了?",
+    found = re.fullmatch(rf"(?:以后|今后)?(?P<t>.+?)(?:以后|今后)?(?:都|就)?{_ZH_NOT}(?P<what>[^别不了用要必需].+?)了?",
                          folded)  # fmt: skip
     if found is None or not re.search(r"再|以后|今后|了$", folded):
         return None
@@ -190,22 +205,34 @@ def _zh_denied(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     return ChangeOrders("remove", f"{found['t']}{found['what']}", is_sure=again)
 
 
+_ZH_LASTS = r"[半一二三四五六七八九十两\d]{1,3}个?(?:分钟|小时|钟头|天|周|星期|礼拜)"
+_ZH_UNTIL = re.compile(
+    rf"(?:把)?(?P<a>.+?)暂停(?:到(?P<t>.+?)(?:为止)?|(?P<for>{_ZH_LASTS}))"
+    rf"|暂停(?P<b>.+?)(?:(?:直到|到)(?P<t2>.+?)(?:为止)?|(?P<for2>{_ZH_LASTS}))"
+)
+_ZH_TODAY = re.compile(
+    r"(?:把)?(?:今晚|今天|今早)的?(?P<a>.{1,20}?)(?:跳过|免了)(?:一次)?|跳过(?:今晚|今天|今早)的?(?P<b>.{1,20})"
+    r"|(?:今晚|今天|今早)(?:就|先)?(?:不用|不要|不必|别)再?(?:提醒我)?(?P<c>.{1,20}?)了?"
+)
+
+
 def _zh_until(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeOrders | None:
     """Read 把每晚的检查暂停到周一, 暂停提醒一周, 今晚不用检查门了."""
-    found = re.fullmatch(
-        r"(?:把)?(?P<a>.+?)暂停(?:到(?P<t>.+?)(?:为止)?|(?P<for>.+))"
-        r"|暂停(?P<b>.+?)(?:直到|到)(?P<t2>.+?)(?:为止)?",
-        folded,
-    )
+    today = _ZH_TODAY.fullmatch(folded)
+    if today is not None:
+        which = today["a"] or today["b"] or today["c"]
+        tomorrow = DayTime(hour=0, days_ahead=1)
+        return ChangeOrders("pause", which, until=tomorrow, until_words="到明天", is_sure=False)
+    found = _ZH_UNTIL.fullmatch(folded)
     if found is None:
         return None
-    until = found["t"] or found["t2"]
-    words = until if until is not None else f"{found['for']}后"
+    until, lasts = found["t"] or found["t2"], found["for"] or found["for2"]
+    words = until if until is not None else f"{lasts}后"
     end = _instant_of(whole(words, in_chinese=True))
     named = _zh_named("pause", found["a"] or found["b"], reads)
     if named is None or end is None:
         return None
-    said = f"到{until}" if until is not None else found["for"]
+    said = f"到{until}" if until is not None else lasts
     return replace(named, until=end, until_words=said)
 
 

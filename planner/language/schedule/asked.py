@@ -33,11 +33,11 @@ _LIST = re.compile(
     rf"|(?:list|show|read|tell)(?: me)?(?: out)? {MY}{KINDS}|do i have (?:any )?{KINDS}"
     rf"|(?:are there|is there) (?:any )?{KINDS}"
     rf"|(?:what|which) {KINDS} (?:have i got|do i have|did i set|have i made|are on)"
-    r"|what (?:have i|did i) (?:asked?|told|tell|give|given) you to do(?: regularly| so far)?"
+    r"|what (?:have i|did i) (?:ask(?:ed)?|told|tell|give|given) you to do(?: regularly| so far)?"
 )
 _AT_TIME = re.compile(
     r"what (?:do you do|will you do|are you going to do|have you planned|do you have planned"
-    r"|(?:have i|did i|have we|did we) (?:asked?|told|tell|want(?:ed)?) you to do"
+    r"|(?:have i|did i|have we|did we) (?:ask(?:ed)?|told|tell|want(?:ed)?) you to do"
     r"|(?:am i|are we) making you do)(?: for| on)? (?P<a>.+)"
     r"|(?:what(?:'s| is)|is there anything|anything|is anything) (?:on|planned|due|scheduled|coming up|up"
     r"|going on)(?: for| on)? (?P<b>.+)"
@@ -58,7 +58,7 @@ _NEXT = re.compile(
     rf"(?P<what>[a-z0-9' -]*? )?(?P<kind>{KINDS})"
     r"(?: (?:for|about|to|of|at|that says?) (?P<of>.+?))?"
     r"(?: (?:due|next|set for|set|go off|ring|come|fire|be))*"
-    r"|(?:when|what time|at what time) (?:will|do|are) you (?:going to )?(?:remind|wake) me(?: up)?"
+    r"|(?:when|what time|at what time) (?:will|do|are) you (?:next )?(?:going to )?(?:remind|wake) me(?: up)?"
     r"(?: (?:of|about|to|that) (?P<of2>.+?))?(?: next)?"
 )
 
@@ -124,6 +124,7 @@ def _bare(named: str, *, chinese: bool) -> str:
 def _read_days(words: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | None:
     """Read the time that orders are asked about: one day's, those of every evening, or all."""
     leads = ("",) if chinese else ("", "on ", "every ")
+    words = re.sub(r"\b(morning|afternoon|evening|night)s\b", r"\1", words)
     parts = next((p for lead in leads if (p := whole(lead + words, in_chinese=chinese))), ())
     day = next((part for part in parts if isinstance(part, OnceDay)), None)
     if day is not None:

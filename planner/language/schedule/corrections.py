@@ -45,7 +45,7 @@ _RETIME = (
     re.compile(rf"{_NO}(?P<t>.+?),? (?:and )?not (?P<o>.+?)"),
     re.compile(rf"{_NO}(?P<t>.+?) instead of (?P<o>.+?)"),
     re.compile(rf"{_NO}not (?P<o>.+?)(?:,| but|, but) (?:rather )?(?P<t>.+?)"),
-    re.compile(rf"{_NO}(?P<t>.+?) (?:instead|rather)"),
+    re.compile(rf"{_NO}(?:let's (?:do|say|have) )?(?P<t>.+?) (?:instead|rather)"),
     re.compile(
         rf"{_NO}(?:i (?:meant?|said)|it (?:should|has to|must) be|that (?:should|has to) be)"
         rf"(?: {_TO})? (?P<t>.+?)(?:,? (?:and )?not (?P<o>.+?))?"
@@ -85,6 +85,7 @@ _AGAIN = re.compile(
     r"(?: (?:for|by) (?:another )?(?P<a>.+))?"
     r"|(?:remind|wake) me (?:up )?(?:about (?:it|that) )?(?:again )?(?:a (?:bit|little) )?later(?: on)?"
     r"|(?:remind|wake) me (?:up )?(?:about (?:it|that) )?again in (?P<b>.+?)"
+    r"|not (?:now|yet)[, ]+(?:but )?remind me (?:again )?in (?P<f>.+)"
     r"|(?:give me|i need|can i have|let me have|just) (?P<c>.+?)(?: longer)?"
     r"|(?:give me )?another (?P<d>.+?)|(?:give me |just |i need )?(?P<e>[a-z0-9 ]+?) more (?P<u>[a-z]+)"
 )
@@ -166,7 +167,7 @@ class _English:
         found = _AGAIN.fullmatch(said)
         if found is None or _GIVE_ALONE.fullmatch(said):
             return None
-        lasts = found["a"] or found["b"] or found["c"] or found["d"]
+        lasts = found["a"] or found["b"] or found["c"] or found["d"] or found["f"]
         if found["e"]:
             lasts = f"{found['e']} {found['u']}"
         if lasts is None:

@@ -149,7 +149,7 @@ PAST = re.compile(
 )
 """An order whose time is over."""
 REMARK = re.compile(
-    r"(?:it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
+    r"(?:see (?:you|ya)|(?:talk|speak|chat) to you|it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
     r"|there(?:'s| is| are| was| were)|(?:my|our|the|his|her) [a-z]+ (?:is|are|was|were|has|had))\b"
 )
 """How what is no order begins, beside a time: "it's cold tonight", "tomorrow is my birthday"."""

@@ -28,6 +28,7 @@ _ENDS = " .!,;:。~…，；！、"
 _MARKS = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "！": "!", "？": "?"})
 _SPACES = re.compile(r"\s+")
 _MOST_PARTS = 6
+_NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
 _QUOTE = re.compile('["“”「」『』]')
 
 
@@ -85,7 +86,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     if corrects is None:
         return _read(said, grammar)
     if isinstance(corrects.change, RemindAgain):  # "remind me again in five minutes"
-        return replace(corrects, otherwise=_read(said, grammar))
+        return replace(corrects, otherwise=_read(said.strip(_NOT_NOW), grammar))
     return corrects
 
 

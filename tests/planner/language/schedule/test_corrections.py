@@ -162,6 +162,13 @@ MONDAY, TOMORROW = DayTime(hour=0, weekday=0), DayTime(hour=0, days_ahead=1)
                       until_words="for an hour")),
         ("skip the evening check tonight",
          ChangeOrders("pause", "evening check", until=TOMORROW, until_words="until tomorrow")),
+        ("don't check the door tonight",
+         ChangeOrders("pause", "check the door", until=TOMORROW, until_words="until tomorrow",
+                      is_sure=False)),
+        ("今晚别去厨房了",
+         ChangeOrders("pause", "去厨房", until=TOMORROW, until_words="到明天", is_sure=False)),
+        ("跳过今晚的检查",
+         ChangeOrders("pause", "检查", until=TOMORROW, until_words="到明天", is_sure=False)),
         ("取消提醒", ChangeOrders("remove", "", reminders=True, is_single=True)),
         ("取消所有提醒", ChangeOrders("remove", "", reminders=True)),
         ("把早上那个取消", ChangeOrders("remove", "早上", is_sure=False)),
@@ -175,7 +182,7 @@ def test_words_that_remove_or_pause_are_read(text: str, command: ChangeOrders) -
     assert read_order_command(text) == command
 
 
-@pytest.mark.parametrize("text", ["cancel the drive", "cancel it", "今晚别去厨房了", "别再去厨房了",
+@pytest.mark.parametrize("text", ["cancel the drive", "cancel it", "周末就不用了", "别再去厨房了",
                                   "don't go to the kitchen", "pause until Monday"])  # fmt: skip
 def test_what_names_no_order_removes_none(text: str) -> None:
     assert not isinstance(read_order_command(text), ChangeOrders)
