@@ -238,6 +238,7 @@ def order_view(orders: StandingOrders, order: StandingOrder) -> dict[str, Any]:
     book = orders.keeper.book
     due_s = book.due.get(order.id)
     when = tell_rule(order.rule, book.zone, orders.keeper.clocks.unix())
+    resumes_s = order.resume_unix_s
     return {
         "id": order.id,
         "text": order.text,
@@ -250,6 +251,7 @@ def order_view(orders: StandingOrders, order: StandingOrder) -> dict[str, Any]:
         "reminder": order.reminder,
         "source": order.source,
         "state": "ended" if order.ended else "paused" if order.paused else "active",
+        "resumes": _time(orders, resumes_s) if resumes_s is not None else None,
         "next": _time(orders, due_s) if due_s is not None else None,
         "created": _time(orders, order.created_unix_s),
         "fired": order.fired,

@@ -5,6 +5,7 @@ A brain may be slow, wrong or gone; what it returns is judged by `planner.plan.c
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, Literal, Protocol
 
 from pydantic import BeforeValidator, Field
@@ -68,6 +69,8 @@ class ThinkRequest(Frozen):
     exchanges: tuple[Exchange, ...] = ()  # these questions and answers; the last answer is ``text``
     situation: Situation | None = None  # where things stand, for a brain that can read of it
     goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
+    refuse_offer: Callable[[str], Bilingual | None] | None = Field(default=None, exclude=True)
+    """Says why a standing order that a question offers could not be kept; None: it could."""
 
 
 class ThinkResult(Frozen):

@@ -22,7 +22,7 @@ from planner.language.commands import (
 )
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.folding import is_chinese
-from planner.language.schedule import OrderCommand
+from planner.language.schedule import OrderCommand, can_lean
 from planner.language.stop import StopReading, is_stop, read_stop
 from planner.language.yes_no import consents
 from planner.plan import Language
@@ -67,6 +67,8 @@ class Utterance:
 
         "You are in the kitchen" is left to the brain where no place answers to the name.
         """
+        if isinstance(self.intent, OrderCommand) and can_lean(self.intent):
+            return self.orders_stop or self.consent is False
         memory_or_goals = not (
             self.intent is None
             or isinstance(

@@ -29,6 +29,7 @@ from planner.mission.events import Planned
 from planner.mission.tasks import Think
 from planner.plan import (
     BARE,
+    Bilingual,
     Code,
     Means,
     Outcome,
@@ -42,6 +43,7 @@ CHECKS = frozenset({"look", "find", "count", "ask", "recall"})
 """Steps after which what an order puts on a condition may be done."""
 Remember = Callable[[AskBrain, Vocabulary], Awaitable[tuple[RememberedItem, ...]]]
 """Choose what a brain is shown of memory."""
+RefusesOffer = Callable[[str], Bilingual | None]
 TELL_S = 0.1
 """Between two tellings of one goal; the first comes at once."""
 
@@ -116,8 +118,12 @@ def thinker(
     classes: tuple[str, ...] = (),
     clock: Callable[[], datetime] = read_clock,
     remember: Remember = remember_nothing,
+    refuse_offer: RefusesOffer | None = None,
 ) -> Think:
-    """Return how this brain thinks about goals in this closed world; ``hearing`` listens."""
+    """Return how this brain thinks about goals in this closed world; ``hearing`` listens.
+
+    ``refuse_offer`` says why a standing order that the brain offers could not be kept.
+    """
 
     async def think(ask: AskBrain) -> Planned:
         remembered = await remember(ask, vocabulary)
@@ -136,6 +142,7 @@ def thinker(
             departed=ask.departed,
             exchanges=ask.exchanges,
             situation=_situation(ask, clock, remembered),
+            refuse_offer=refuse_offer,
         )
         try:
             hear = hearing.of(ask.id) if hearing else None

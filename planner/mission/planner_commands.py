@@ -37,7 +37,7 @@ from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
-from planner.mission.standing_goals import hold_to_order, is_of_order
+from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
@@ -103,11 +103,8 @@ class PlannerCommands:
         intent = (
             parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
         )
-        standing = intent
-        if mission is not None and not mission.has_begun and not isinstance(intent, OrderCommand):
-            standing = parse(mission.order_text).intent  # its question is answered
-        if isinstance(standing, OrderCommand) and self.desk is not None and mission is not None:
-            return await self.desk.take(standing, ask, mission)
+        if mission is not None and (taken := await self._ask_desk(intent, ask, mission)):
+            return taken
         if isinstance(intent, OrderCommand):
             intent = None
         if isinstance(intent, Replace) and not intent.corrects:
@@ -123,8 +120,23 @@ class PlannerCommands:
         if isinstance(intent, Replace | LeaningCommand):
             intent = None  # it leans on nothing that is known: a brain reads it
         if intent is None or mission is None or mission.steps:
-            return await self._brain(ask)
+            return take_back_offers(await self._brain(ask), self.refuse_offer)
         return Planned(ask.id, await self.carry_out(intent, mission))
+
+    def refuse_offer(self, text: str) -> Bilingual | None:
+        """Return why a standing order that a brain offers could not be kept; None: it could."""
+        return self.desk.refuse_offer(text) if self.desk is not None else None
+
+    async def _ask_desk(
+        self, intent: Intent | None, ask: AskBrain, mission: Mission
+    ) -> Planned | None:
+        """Have the desk take what is about standing orders; None: it is about something else."""
+        standing = intent
+        if not mission.has_begun and not isinstance(intent, OrderCommand):
+            standing = parse(mission.order_text).intent  # its question is answered
+        if self.desk is None or not isinstance(standing, OrderCommand):
+            return None
+        return await self.desk.take(standing, ask, mission)
 
     async def obey_beside_stop(self, given: Submitted) -> Bilingual | None:
         """Remove or pause the standing orders that an order to stop names, too; say which.

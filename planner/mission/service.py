@@ -333,7 +333,8 @@ class Missions:
     async def _ask_brain(self, ask: AskBrain) -> Planned:
         book, names, find = self.loop.book, self.memory.vocabulary, self._lookup.find_relevant
         eyes = (self._hearing, book.means, book.eyes.classes)
-        return await thinker(self._brain, names, *eyes, remember=find)(ask)
+        refuses = self.commands.refuse_offer
+        return await thinker(self._brain, names, *eyes, remember=find, refuse_offer=refuses)(ask)
 
     def _on_places(self) -> None:
         self.loop.event(Known(self.memory.facts))

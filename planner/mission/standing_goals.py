@@ -11,7 +11,7 @@ import hashlib
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
-from planner.language.catalogue import message, say
+from planner.language.catalogue import join, message, say
 from planner.mission.effects import AskBrain
 from planner.mission.errors import JournalDown, QueueFull
 from planner.mission.events import Cancel, Planned, Submitted
@@ -24,10 +24,12 @@ from planner.mission.transitions import FIRST
 from planner.plan import (
     STEPLESS,
     Bilingual,
+    Clarify,
     Code,
     GoalState,
     Language,
     Outcome,
+    Refuse,
     StepPlan,
     StepRecord,
     plan_record,
@@ -36,6 +38,7 @@ from planner.plan import (
 if TYPE_CHECKING:
     from planner.language.schedule import ChangeOrders, OrderCommand
     from planner.mission.loop import Loop
+    from planner.mission.plan_request import RefusesOffer
     from planner.mission.reception import Repeats
     from planner.mission.tasks import Think
 
@@ -43,19 +46,45 @@ if TYPE_CHECKING:
 class OrderDesk(Protocol):
     """Keep the standing orders, as ``planner.orders`` does."""
 
-    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned:
-        """Carry out what a person said about standing orders, and say what came of it."""
+    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned | None:
+        """Carry out what a person said about standing orders, and say what came of it.
 
-    async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
-        """Remove, pause or resume the orders that are meant, and say which."""
+        None where it may mean something else, and no order is kept that it fits.
+        """
+
+    async def change(self, command: ChangeOrders, language: Language) -> Bilingual | None:
+        """Remove, pause or resume the orders that are meant, and say which; None: none is meant."""
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is none of ours."""
+
+    def refuse_offer(self, text: str) -> Bilingual | None:
+        """Return why a standing order that a model offers could not be kept; None: it could."""
 
 
 def is_of_order(mission: Mission | None) -> bool:
     """Tell whether a standing order gave this goal."""
     return mission is not None and mission.source.startswith(ORDER_SOURCE)
+
+
+def take_back_offers(planned: Planned, refuses: RefusesOffer) -> Planned:
+    """Return a brain's question without the standing orders that a yes could not keep, and say why.
+
+    Law: what a person would only be refused after a yes is never offered.
+    """
+    plan = planned.plan
+    if not isinstance(plan, Clarify):
+        return planned
+    reasons = {each.text: why for each in plan.options if (why := refuses(each.text)) is not None}
+    if not reasons:
+        return planned
+    left = tuple(each for each in plan.options if each.text not in reasons)
+    why = next(iter(reasons.values()))
+    if not left:
+        told = message(Code.ORDER_NOT_KEPT, why=why)
+        return replace(planned, plan=Refuse(code=Code.ORDER_NOT_KEPT, reason=told))
+    question = join((plan.question, why))
+    return replace(planned, plan=Clarify(code=plan.code, question=question, options=left))
 
 
 def hold_to_order(planned: Planned, allowed: tuple[StepRecord, ...] | None) -> Planned:

@@ -31,14 +31,18 @@ class OrderAnnouncer:
         unix_s: Callable[[], float],
     ) -> None:
         self._publish, self._notifier, self._zone, self._unix_s = publish, notifier, zone, unix_s
+        self.told_unix_s: dict[str, float] = {}
+        """When each reminder's words were last told, by this process; also as missed."""
 
     def tell_missed(self, order: StandingOrder, firing: Firing) -> None:
         """Tell that a run was missed, and why."""
         told = tell_missed(order, firing, self._zone, self._unix_s())
+        self._note(order)
         self._tell(order, "missed", firing.reason or "late", told, firing)
 
     def tell_reminder(self, order: StandingOrder, firing: Firing) -> None:
         """Tell a reminder's words as it fires."""
+        self._note(order)
         self._tell(order, "reminder", "reminder", tell_reminder(order), firing)
 
     def tell_outcome(
@@ -52,6 +56,10 @@ class OrderAnnouncer:
         """End the telling; what was not sent yet is dropped."""
         if self._notifier is not None:
             await self._notifier.close()
+
+    def _note(self, order: StandingOrder) -> None:
+        if order.reminder is not None:
+            self.told_unix_s[order.id] = self._unix_s()
 
     def _tell(
         self, order: StandingOrder, kind: str, code: str, told: Bilingual, firing: Firing

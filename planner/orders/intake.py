@@ -11,22 +11,24 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
 from planner.language.catalogue import join, message, say
-from planner.language.schedule import ChangeOrders, ListOrders, OrderCommand
+from planner.language.folding import has_chinese
+from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, OrderCommand
 from planner.language.utterance import parse
 from planner.mission.events import Planned
-from planner.orders import world
+from planner.orders.corrector import OrderCorrector
+from planner.orders.day_question import ask_which_day
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import (
     NewOrder,
     OrderQuestion,
-    judge_words,
     put_time_before,
     read_new_order,
 )
-from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_ORDERS, StandingOrder
-from planner.orders.rule import is_quiet, next_due, settle, upcoming
-from planner.orders.selection import select
-from planner.orders.telling import tell_kept, tell_list, tell_order
+from planner.orders.new_order_judge import NewOrderJudge
+from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder
+from planner.orders.rule import settle
+from planner.orders.selection import is_all, pick, select
+from planner.orders.teller import OrderTeller
 from planner.plan import (
     AnswerPlan,
     Bilingual,
@@ -40,7 +42,7 @@ from planner.plan import (
     plan_record,
     words_of,
 )
-from planner.plan.timing import CronRule, EventRule, EveryRule
+from planner.plan.timing import AtRule
 from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
@@ -52,9 +54,6 @@ if TYPE_CHECKING:
     from planner.orders.keeper import OrderKeeper
     from planner.plan.timing import Rule
     from planner.site.site_view import SiteView
-
-QUIET_LOOKED = 30
-"""Runs that must not all lie in the quiet hours."""
 
 
 class Considers(Protocol):
@@ -76,18 +75,30 @@ class OrderIntake:
         report: Callable[[], ObstacleReport | None] = lambda: None,
     ) -> None:
         """Take the keeper, and who thinks about orders."""
-        self._keeper, self._goals, self._report = keeper, goals, report
+        self._keeper, self._goals = keeper, goals
+        self._judge = NewOrderJudge(keeper, lambda: goals.book, report)
+        self._corrector = OrderCorrector(keeper, self)
+        self._teller = OrderTeller(keeper, lambda: goals.book.facts)
 
     # The missions' desk -------------------------------------------------------------------------
 
-    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned:
-        """Carry out what a person said about standing orders, and say what came of it."""
+    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned | None:
+        """Carry out what a person said about standing orders, and say what came of it.
+
+        None where the sentence may be about something else, and no order is kept that it fits.
+        """
         answered = bool(given.replies) and not isinstance(parse(ask.text).intent, OrderCommand)
+        if isinstance(command, CorrectOrder):
+            plan = await self._correct(command, ask, given, answered=answered)
+            if plan is not None or command.otherwise is None:
+                return None if plan is None else Planned(ask.id, plan)
+            command = command.otherwise
         if isinstance(command, ListOrders):
-            return Planned(ask.id, AnswerPlan(text=self.tell()))
+            told = self._teller.tell(command)
+            return None if told is None else Planned(ask.id, AnswerPlan(text=told))
         if isinstance(command, ChangeOrders):
-            named = replace(command, which=ask.text) if answered else command
-            return Planned(ask.id, await self._change_or_ask(named, ask.language))
+            plan = await self._change_or_ask(command, ask.language, ask.text if answered else None)
+            return None if plan is None else Planned(ask.id, plan)
         if answered:  # the question was about the order within: its words alone are put in
             command = replace(command, order=ask.text, problem=None)
         try:
@@ -97,13 +108,26 @@ class OrderIntake:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
             return Planned(ask.id, Refuse(code=Code.ORDER_NOT_KEPT, reason=why))
         except OrderQuestion as question:
-            return Planned(ask.id, put_time_before(question.asked, command))
+            asked = (
+                question.asked if question.is_whole else put_time_before(question.asked, command)
+            )
+            return Planned(ask.id, asked)
         return Planned(ask.id, AnswerPlan(text=self.tell_one(order)))
 
-    async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
-        """Remove, pause or resume the orders that are meant, and say which."""
-        said = words_of(await self._change_or_ask(command, language))
-        return said if said is not None else say("standing.none")
+    async def _correct(
+        self, command: CorrectOrder, ask: AskBrain, given: Mission, *, answered: bool
+    ) -> AnswerPlan | Clarify | Refuse | None:
+        if answered:  # "the second one": of those that were asked about
+            picked = self._corrector.pick(command, ask.text)
+            command = replace(command, which=picked or ask.text, is_sure=True)
+        running = self._goals.book.running
+        busy = running is not None and running != given.id
+        return await self._corrector.take(command, ask.language, ask.id, is_busy=busy)
+
+    async def change(self, command: ChangeOrders, language: Language) -> Bilingual | None:
+        """Remove, pause or resume the orders that are meant, and say which; None: none is meant."""
+        changed = await self._change_or_ask(command, language, None)
+        return None if changed is None else words_of(changed) or say("standing.none")
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is gone."""
@@ -120,23 +144,19 @@ class OrderIntake:
 
         Raises:
             OrderRefusal: see ``[order_refusal]`` of the catalogue.
-            OrderQuestion: the brain asks about it.
+            OrderQuestion: the brain asks about it, or its day may be either of two.
         """
         book = self._keeper.book
         now_s = self._keeper.clocks.unix()
-        judge_words(new)
-        if isinstance(new.when, EventRule):
-            lacking = world.lacks(self._goals.book, new.when.event, self._report())
-            if lacking is not None:
-                raise OrderRefusal("order_no_eyes", lacking, why=say(f"order_lacks.{lacking}"))
-        rule = settle(new.when, now_s, book.zone)
-        self._judge_quiet(rule, now_s)
-        self._judge_room(new, rule)
+        if (asked := ask_which_day(new, now_s, book.zone)) is not None:
+            raise OrderQuestion(asked, is_whole=True)
+        rule = self._judge.judge(new, now_s)
         allowed = await self._consider(new, goal_id)
         async with self._keeper.lock:
-            if (same := self._find_same(new, rule)) is not None:
+            if (same := self._judge.find_same(new, rule)) is not None:
+                self._corrector.note(same.id)
                 return same
-            self._judge_room(new, rule)
+            self._judge.judge_room(new, rule)
             number = max((o.number for o in self._keeper.book.orders.values()), default=0) + 1
             order = StandingOrder(
                 id=f"o{number}", number=number, text=new.text[:MAX_ORDER_CHARACTERS],
@@ -147,6 +167,7 @@ class OrderIntake:
                 await self._keeper.keep(order)
             except StateUnavailable as error:
                 raise OrderRefusal("orders_unwritable", str(error)) from None
+        self._corrector.note(order.id)
         return order
 
     async def _consider(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
@@ -166,32 +187,22 @@ class OrderIntake:
             raise OrderRefusal("order_leans", "come back to where?")
         return steps
 
-    def _judge_quiet(self, rule: Rule, now_s: float) -> None:
-        quiet = self._keeper.book.quiet
-        if quiet is None or not isinstance(rule, (CronRule, EveryRule)):
-            return
-        runs = upcoming(rule, now_s, self._keeper.book.zone, QUIET_LOOKED)
-        if all(is_quiet(quiet, run_s, self._keeper.book.zone) for run_s in runs):
-            raise OrderRefusal("order_always_quiet", quiet.text, quiet=quiet.text)
+    def judge_quiet(self, rule: Rule, now_s: float) -> None:
+        """Refuse a rule all of whose runs are left out. Raises OrderRefusal."""
+        self._judge.judge_quiet(rule, now_s)
 
-    def _judge_room(self, new: NewOrder, rule: Rule) -> None:
-        kept = [o for o in self._keeper.book.orders.values() if not o.ended]
-        if len(kept) >= MAX_ORDERS and self._find_same(new, rule) is None:
-            raise OrderRefusal("orders_full", f"{MAX_ORDERS} are kept", most=MAX_ORDERS)
-
-    def _find_same(self, new: NewOrder, rule: Rule) -> StandingOrder | None:
-        """Return the order that is this very one already; "in 20 minutes" twice are two."""
-        if not isinstance(rule, (CronRule, EventRule)):
-            return None
-        kept = self._keeper.book.orders.values()
-        return next(
-            (o for o in kept if (o.rule, o.order) == (rule, new.order) and not o.paused), None
-        )
+    def refuse_offer(self, text: str) -> Bilingual | None:
+        """Return why a standing order that a model offers could not be kept; None: it could."""
+        return self._judge.refuse_offer(text)
 
     # Changing -----------------------------------------------------------------------------------
 
-    async def pause(self, order_id: str, *, paused: bool = True) -> StandingOrder:
-        """Pause an order, or resume it: what was due meanwhile is not told.
+    async def pause(
+        self, order_id: str, *, paused: bool = True, until_s: float | None = None
+    ) -> StandingOrder:
+        """Pause an order (until then, where that is said), or resume it.
+
+        What was due meanwhile is not told.
 
         Raises:
             OrderRefusal: ``unknown_order``, ``order_ended``, ``orders_unwritable``.
@@ -200,10 +211,20 @@ class OrderIntake:
             order = self.find(order_id)
             if order.ended:
                 raise OrderRefusal("order_ended", order_id)
+            handled_s = order.handled_unix_s
+            if order.paused and not paused:
+                handled_s = max(handled_s, self._keeper.clocks.unix())
             try:
-                return await self._keeper.pause(order_id, paused=paused)
+                changed = await self._keeper.revise(
+                    order_id,
+                    paused=paused,
+                    resume_unix_s=until_s if paused else None,
+                    handled_unix_s=handled_s,
+                )
             except StateUnavailable as error:
                 raise OrderRefusal("orders_unwritable", str(error)) from None
+        self._corrector.note(order_id)
+        return changed
 
     async def remove(self, order_id: str) -> StandingOrder:
         """Forget an order. Raises OrderRefusal: ``unknown_order``, ``orders_unwritable``."""
@@ -225,34 +246,52 @@ class OrderIntake:
         return order
 
     async def _change_or_ask(
-        self, command: ChangeOrders, language: Language
-    ) -> AnswerPlan | Clarify | Refuse:
-        orders = self._keeper.book.orders.values()
-        zone = self._keeper.book.zone
+        self, command: ChangeOrders, language: Language, answer: str | None
+    ) -> AnswerPlan | Clarify | Refuse | None:
+        orders, zone = self._keeper.book.orders.values(), self._keeper.book.zone
         found = select(orders, command.which, zone, reminders=command.reminders)
+        if answer is not None:
+            asked, found = found, pick(found, answer)
+            found = found or select(asked, answer, zone, reminders=command.reminders)
         if not found:
+            if not command.is_sure:
+                return None
             which = command.which or ("reminder" if language is Language.EN else "提醒")
             none = say("standing.no_such", which=which[:80], known=self.tell())
             return AnswerPlan(text=none)
-        if len(found) > 1 and command.which:
+        is_one = bool(command.which) or command.is_single
+        if len(found) > 1 and is_one and not is_all(answer):
             return self._ask_which(command, found)
         try:
+            until_s = self._read_until(command)
             for order in found:
                 if command.act == "remove":
                     await self.remove(order.id)
                 else:
-                    await self.pause(order.id, paused=command.act == "pause")
+                    await self.pause(order.id, paused=command.act == "pause", until_s=until_s)
         except OrderRefusal as refused:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
             return Refuse(code=Code.ORDER_NOT_KEPT, reason=why)
         done = {"remove": "removed", "pause": "paused", "resume": "resumed"}[command.act]
-        lines = join((self.line(order) for order in found), "joint.name")
+        now = self._keeper.book.orders
+        lines = join((self.line(now.get(order.id, order)) for order in found), "joint.name")
         return AnswerPlan(text=say(f"standing.{done}", lines=lines))
 
+    def _read_until(self, command: ChangeOrders) -> float | None:
+        """Return when a pause ends. Raises OrderRefusal: it is over, or there is no such time."""
+        if command.until is None:
+            return None
+        rule = settle(command.until, self._keeper.clocks.unix(), self._keeper.book.zone)
+        return rule.unix_s if isinstance(rule, AtRule) else None
+
     def _ask_which(self, command: ChangeOrders, found: tuple[StandingOrder, ...]) -> Clarify:
-        verb = {"remove": "remove", "pause": "pause", "resume": "resume"}[command.act]
+        until = command.until_words
+        form = f"{command.act} order {{id}} {until}"
+        if has_chinese(until):
+            form = f"把任务{{id}}暂停{until}"
         options = tuple(
-            Option(label=self.line(order), text=f"{verb} order {order.id}") for order in found[:8]
+            Option(label=self.line(order), text=form.format(id=order.id).strip())
+            for order in found[:8]
         )
         lines = join((option.label for option in options), "joint.name")
         return Clarify(
@@ -263,19 +302,15 @@ class OrderIntake:
 
     def tell(self) -> Bilingual:
         """Return all orders in words."""
-        kept = [o for o in self._keeper.book.orders.values() if not o.ended]
-        return tell_list(tuple(self.line(order) for order in kept))
+        return self._teller.tell_all()
 
     def line(self, order: StandingOrder) -> Bilingual:
         """Return an order in one line."""
-        keeper = self._keeper
-        return tell_order(self._goals.book.facts, order, keeper.book.zone, keeper.clocks.unix())
+        return self._teller.line(order)
 
     def tell_one(self, order: StandingOrder) -> Bilingual:
         """Return what a person hears when an order is taken."""
-        book, now_s = self._keeper.book, self._keeper.clocks.unix()
-        due_s = book.due.get(order.id, next_due(order.rule, now_s, book.zone))
-        return tell_kept(self._goals.book.facts, order, due_s, book.zone, now_s)
+        return self._teller.tell_one(order)
 
     @property
     def facts(self) -> SiteView:

@@ -302,25 +302,21 @@ class OrderKeeper:
             self.book = drop(self.book, old.id)
         self.publish_change()
 
-    async def pause(self, order_id: str, *, paused: bool) -> StandingOrder:
-        """Pause an order, or resume it: what was due while it was paused is over.
-
-        It changes at once, so that no run begins while it is being written.
+    async def revise(self, order_id: str, **changes: Any) -> StandingOrder:
+        """Change an order. It changes at once: no run begins by the old one while it is written.
 
         Raises:
-            StateUnavailable: it can't be written; it is paused or not as before.
+            StateUnavailable: it can't be written; it is as before.
         """
         before = self.book.orders[order_id]
-        handled_s = before.handled_unix_s
-        if before.paused and not paused:
-            handled_s = max(handled_s, self.clocks.unix())
-        changed = before.model_copy(update={"paused": paused, "handled_unix_s": handled_s})
-        self.book = put(self.book, changed)
+        changed = before.model_copy(update=changes)
+        self.book = (add if "rule" in changes else put)(self.book, changed)
         try:
             await self._ledger.keep(changed)
         except StateUnavailable:
-            now = self.book.orders[order_id]
-            self.book = put(self.book, now.model_copy(update={"paused": before.paused}))
+            names = changes.keys() - {"handled_unix_s"}  # runs may have come meanwhile
+            old = {name: getattr(before, name) for name in names}
+            self.book = put(self.book, self.book.orders[order_id].model_copy(update=old))
             raise
         self.publish_change()
         return changed
@@ -330,6 +326,7 @@ class OrderKeeper:
         await self._ledger.remove(order_id)
         self.book = drop(self.book, order_id)
         self._open.pop(order_id, None)
+        self._announcer.told_unix_s.pop(order_id, None)
         self.publish_change()
 
     async def history(self, order_id: str, most: int) -> tuple[Firing, ...]:
@@ -342,6 +339,10 @@ class OrderKeeper:
         return order.allowed if order is not None else None
 
     # Telling ------------------------------------------------------------------------------------
+
+    def reminded_unix_s(self, order_id: str) -> float:
+        """Return when a reminder's words were last told; before all time where they were not."""
+        return self._announcer.told_unix_s.get(order_id, float("-inf"))
 
     def publish_change(self) -> None:
         """Have pages ask for the orders anew."""

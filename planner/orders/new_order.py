@@ -37,11 +37,12 @@ class NewOrder:
 
 
 class OrderQuestion(Exception):
-    """A brain asks about the order: it was not taken."""
+    """Something is asked about the order: it was not taken."""
 
-    def __init__(self, asked: Clarify) -> None:
+    def __init__(self, asked: Clarify, *, is_whole: bool = False) -> None:
+        """Take the question; ``is_whole``: its offers are whole orders, with their time."""
         super().__init__(asked.question.en)
-        self.asked = asked
+        self.asked, self.is_whole = asked, is_whole
 
 
 def read_new_order(command: ScheduleCommand, language: Language, given: Mission) -> NewOrder:

@@ -7,12 +7,15 @@ can make the robot do one twice.
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
 from planner.plan import Bilingual, Frozen, Language, StepRecord
 from planner.plan.timing import AtRule, EventRule, Rule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 MAX_ORDERS = 64
 """Of one robot. Each is looked at ten times a second, and told to every page."""
@@ -40,6 +43,8 @@ class StandingOrder(Frozen):
     allowed: tuple[StepRecord, ...] = ()
     """What it may do: the plan that was told to the person as the order was given."""
     paused: bool = False
+    resume_unix_s: float | None = None
+    """A pause ends by itself then."""
     ended: bool = False
     """It was due once, and that is over."""
     created_unix_s: float
@@ -59,6 +64,21 @@ class StandingOrder(Frozen):
     def is_event(self) -> bool:
         """Tell whether it waits for an event."""
         return isinstance(self.rule, EventRule)
+
+
+def end_pauses(orders: Iterable[StandingOrder], unix_s: float) -> tuple[StandingOrder, ...]:
+    """Return the orders whose pause is over, going on: what was due in it is over as well."""
+    return tuple(
+        order.model_copy(
+            update={
+                "paused": False,
+                "resume_unix_s": None,
+                "handled_unix_s": max(order.handled_unix_s, order.resume_unix_s),
+            }
+        )
+        for order in orders
+        if order.paused and order.resume_unix_s is not None and order.resume_unix_s <= unix_s
+    )
 
 
 class FiringState(StrEnum):

@@ -8,13 +8,14 @@ hour that passes.
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
+from datetime import UTC, datetime
 from itertools import pairwise
 from math import ceil, isfinite
 from typing import TYPE_CHECKING
 
 from cronsim import CronSim, CronSimError
 
+from planner.orders.calendar_day import day_of
 from planner.orders.errors import OrderRefusal
 from planner.plan.timing import (
     MAX_AHEAD_S,
@@ -46,7 +47,8 @@ def settle(said: SpokenRule | AtRule, now_unix_s: float, zone: tzinfo) -> Rule:
 
     Raises:
         OrderRefusal: ``order_in_past``, ``order_too_far``, ``order_time_unknown`` (no such time on
-            that day), ``order_too_often``, ``order_never``, ``order_malformed``.
+            that day), ``order_no_such_date``, ``order_too_often``, ``order_never``,
+            ``order_malformed``.
     """
     match said:
         case InRule():
@@ -136,7 +138,7 @@ def _instant(said: DayTime, now_unix_s: float, zone: tzinfo) -> float:
     hours = (said.hour, (said.hour + 12) % 24) if said.either_half else (said.hour,)
     found = []
     for hour in hours:
-        day = now.date() + timedelta(days=_days_ahead(said, now, hour))
+        day = day_of(said, now, hour)
         wanted = datetime(day.year, day.month, day.day, hour, said.minute, tzinfo=zone)
         if _exists(wanted):
             found.append(wanted.timestamp())
@@ -144,16 +146,6 @@ def _instant(said: DayTime, now_unix_s: float, zone: tzinfo) -> float:
         clock = f"{said.hour:02}:{said.minute:02}"
         raise OrderRefusal("order_time_unknown", f"the clock skips {clock} on that day", time=clock)
     return min((s for s in found if s > now_unix_s), default=found[0])
-
-
-def _days_ahead(said: DayTime, now: datetime, hour: int) -> int:
-    if said.days_ahead is not None:
-        return said.days_ahead
-    over = (hour, said.minute) <= (now.hour, now.minute)
-    if said.weekday is None:
-        return int(over)
-    ahead = (said.weekday - now.weekday()) % 7
-    return 7 if ahead == 0 and over else ahead
 
 
 def _exists(wanted: datetime) -> bool:

@@ -18,7 +18,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from planner.orders.order import COOLDOWN_S, Firing, FiringState, StandingOrder
+from planner.orders.order import COOLDOWN_S, Firing, FiringState, StandingOrder, end_pauses
 from planner.orders.rule import is_quiet, next_due
 from planner.plan import QuietHours
 from planner.plan.timing import AtRule, EventRule, EveryRule, WorldEvent
@@ -149,6 +149,9 @@ def tick(
     effects: list[Effect] = []
     book = _follow_clock(book, now, effects)
     book = _believe_clock(book, now, effects)
+    for order in () if book.unset else end_pauses(book.orders.values(), now.unix_s):
+        book = put(book, order)
+        effects.append(Keep(order))
     for name, due_s in sorted(book.due.items(), key=lambda item: item[1]):
         if due_s > now.unix_s:
             break

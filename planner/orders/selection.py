@@ -11,6 +11,8 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 from planner.language.folding import fold, fold_words, has_chinese
+from planner.language.schedule import split_time
+from planner.orders.retiming import fits_time
 from planner.orders.rule import next_due
 from planner.plan.timing import CronRule
 
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from datetime import tzinfo
 
+    from planner.language.schedule.parts import Part
     from planner.orders.order import StandingOrder
 
 _WORD = re.compile(r"[a-z0-9:']+")
@@ -62,6 +65,9 @@ _LITTLE = frozenset(
         "task",
         "tasks",
         "job",
+        "saying",
+        "when",
+        "if",
     ]
 )
 """Words that name none by themselves; what they name besides is weighed."""
@@ -97,7 +103,48 @@ def select(
     by_id = [order for order in kept if order.id == words]
     if by_id:
         return tuple(by_id)
-    return tuple(order for order in kept if _fits(order, words, zone))
+    parts, rest = split_time(words)
+    return tuple(o for o in kept if _fits(o, words, zone) or _is_then(o, parts, rest, zone))
+
+
+_FIRSTS = (
+    ("first", "1st", "第一"), ("second", "2nd", "第二"), ("third", "3rd", "第三"),
+    ("fourth", "4th", "第四"), ("fifth", "5th", "第五"),
+)  # fmt: skip
+_ALL = re.compile(
+    r"(?:(?:both|all)(?: of (?:them|these|those))?|every one|全部|所有的?|都|两个都).{0,4}"
+)
+
+
+def pick(found: tuple[StandingOrder, ...], answer: str) -> tuple[StandingOrder, ...]:
+    """Return those that an answer to "which one?" picks: by its place in the list, or all."""
+    words = fold_words(answer)
+    if is_all(answer):
+        return found
+    for place, names in enumerate(_FIRSTS):
+        said = re.fullmatch(rf"(?:the )?(?:{'|'.join(names)})(?: one)?|{names[2]}[个条]?", words)
+        if said is not None:
+            return found[place : place + 1]
+    return found[-1:] if words in ("the last one", "the last", "最后一个") else ()
+
+
+def is_all(answer: str | None) -> bool:
+    """Tell whether an answer means all that were asked about."""
+    return answer is not None and _ALL.fullmatch(fold_words(answer)) is not None
+
+
+def _is_then(order: StandingOrder, parts: tuple[Part, ...], rest: str, zone: tzinfo) -> bool:
+    """Return whether an order is due at the time that is said, and fits the words beside it."""
+    due_s = next_due(order.rule, order.handled_unix_s, zone)
+    if not fits_time(order.rule, parts, due_s, zone):
+        return False
+    return not _weighed(rest) or _fits(order, rest, zone)
+
+
+def _weighed(words: str) -> list[str]:
+    if has_chinese(words):
+        return [bare] if (bare := _LITTLE_ZH.sub("", words)) else []
+    return [word for word in _WORD.findall(words) if word not in _LITTLE]
 
 
 def _fits(order: StandingOrder, words: str, zone: tzinfo) -> bool:
@@ -131,10 +178,13 @@ def _overlap(bare: str, hay: str) -> bool:
 
 
 def _stem(word: str) -> str:
-    for end in ("ing", "s"):
+    for end in ("ing", "es", "s"):
         if word.endswith(end) and len(word) > len(end) + 1:
-            return word.removesuffix(end)
-    return word
+            word = word.removesuffix(end)
+            break
+    if len(word) > 3 and word[-1] == word[-2]:  # "patrolling"
+        word = word[:-1]
+    return word.removesuffix("e") if len(word) > 3 else word
 
 
 def _time_words(order: StandingOrder, zone: tzinfo) -> str:

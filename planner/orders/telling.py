@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 MOST_TOLD = 8
 """Orders that are listed in words; the page shows all."""
+_FEW = 2
 _WORKDAYS, _WEEKEND = "1-5", ("0,6", "6,0")
 
 
@@ -42,8 +43,8 @@ def tell_rule(rule: Rule, zone: tzinfo, now_unix_s: float) -> Bilingual:
 def _tell_cron(cron: str) -> Bilingual:
     minute, hour, day, month, week = cron.split()
     plain = minute.isdigit() and day == month == "*"
-    if plain and hour == "*" and week == "*":
-        return say("standing.hourly", minute=f"{int(minute):02}")
+    if plain and hour == "*":
+        return _tell_hourly(f"{int(minute):02}", week, cron)
     if not (plain and hour.isdigit()):
         return say("standing.cron", cron=cron)
     time = f"{int(hour):02}:{int(minute):02}"
@@ -55,8 +56,26 @@ def _tell_cron(cron: str) -> Bilingual:
         return say("standing.weekend", time=time)
     if not all(each.isdigit() for each in week.split(",")):
         return say("standing.cron", cron=cron)
+    left_out = sorted(set("0123456") - set(week.split(",")))
+    if len(left_out) <= _FEW:
+        return say("standing.daily_but", days=_name_days(",".join(left_out)), time=time)
+    return say("standing.weekly", days=_name_days(week), time=time)
+
+
+def _name_days(week: str) -> Bilingual:
+    if week == _WORKDAYS or week in _WEEKEND:
+        return say("standing.weekdays" if week == _WORKDAYS else "standing.weekends")
     names = [say(f"standing.day_{int(each) % 7}") for each in week.split(",")]
-    return say("standing.weekly", days=list_names(names, "joint.and"), time=time)
+    return list_names(names, "joint.and")
+
+
+def _tell_hourly(minute: str, week: str, cron: str) -> Bilingual:
+    if week == "*":
+        return say("standing.hourly", minute=minute)
+    known = week == _WORKDAYS or all(each.isdigit() for each in week.split(","))
+    if not known:
+        return say("standing.cron", cron=cron)
+    return say("standing.hourly_on", minute=minute, days=_name_days(week))
 
 
 def tell_time(unix_s: float, zone: tzinfo, now_unix_s: float) -> Bilingual:
@@ -129,6 +148,9 @@ def tell_order(facts: SiteView, order: StandingOrder, zone: tzinfo, now_unix_s: 
     """Return an order in one line: "o3: every day at 20:00: look. (paused)"."""
     code = "standing.line_paused" if order.paused else "standing.line"
     when = tell_rule(order.rule, zone, now_unix_s)
+    if order.paused and order.resume_unix_s is not None:
+        until, deed = tell_time(order.resume_unix_s, zone, now_unix_s), tell_deed(facts, order)
+        return say("standing.line_paused_until", id=order.id, until=until, when=when, deed=deed)
     return say(code, id=order.id, when=when, deed=tell_deed(facts, order))
 
 

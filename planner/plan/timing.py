@@ -68,15 +68,31 @@ class InRule(Frozen):
 
 
 class DayTime(Frozen):
-    """Be due once, at a time of day on a day that is named by how far off it is."""
+    """Be due once, at a time of day on a day that is named as people name one.
+
+    At most one of ``days_ahead``, ``weekday`` and ``day`` is set; none: the next such time.
+    """
 
     kind: Literal["day_time"] = "day_time"
     hour: int = Field(ge=0, le=23)
     minute: int = Field(default=0, ge=0, le=59)
-    days_ahead: int | None = Field(default=None, ge=0, le=7)
-    """0 today, 1 tomorrow; None: the next time that it is so late."""
+    days_ahead: int | None = Field(default=None, ge=0, le=366)
+    """0 today, 1 tomorrow."""
     weekday: int | None = Field(default=None, ge=0, le=6)
     """Monday is 0."""
+    week: int | None = Field(default=None, ge=0, le=9)
+    """Of the weekday: so many calendar weeks after this one; None: the next such day."""
+    either_week: bool = False
+    """"Next Friday": the coming one or the one after, so a person is asked where they differ."""
+    day: int | None = Field(default=None, ge=1, le=31)
+    """Of a month."""
+    month: int | None = Field(default=None, ge=1, le=12)
+    """None: the month in which such a day comes next, or ``months_ahead``."""
+    months_ahead: int | None = Field(default=None, ge=0, le=12)
+    year: int | None = Field(default=None, ge=2000, le=2099)
+    years_ahead: int | None = Field(default=None, ge=0, le=9)
+    coming: bool = False
+    """A feast: never the one that is over."""
     either_half: bool = False
     """"At eight" alone: whichever of 8:00 and 20:00 comes first."""
 

@@ -10,7 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from planner.language.schedule import ChangeOrders, ListOrders, ScheduleCommand
+from planner.language.schedule import (
+    ChangeOrders,
+    CorrectOrder,
+    ListOrders,
+    ScheduleCommand,
+)
 from planner.language.utterance import parse
 from planner.mission.effects import AskBrain
 from planner.mission.plan_request import thinker
@@ -19,6 +24,7 @@ from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule
 from planner.site.site_view import vocabulary_of
 from pons.evals.cases import HELD_OUT, TUNED
 from pons.evals.matchers import BadMatcher, read_expectation
+from pons.evals.order_words import describe_change, describe_day, describe_question
 
 if TYPE_CHECKING:
     from planner.brain import Brain
@@ -27,9 +33,8 @@ if TYPE_CHECKING:
     from planner.site.site import Site
 
 ORDERS = Path(__file__).parent / "orders"
-_WEEKDAYS = ("mon", "tue", "wed", "thu", "fri", "sat", "sun")
-KINDS = ("cron", "every", "in", "day", "event", "list", "remove", "pause", "resume", "problem",
-         "none", "stops")  # fmt: skip
+KINDS = ("cron", "every", "in", "day", "event", "list", "when", "left", "remove", "pause", "resume",
+         "change", "again", "problem", "none", "stops")  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,9 +104,12 @@ def describe(intent: Intent | None) -> str:
     """Return a command as a suite writes it."""
     match intent:
         case ListOrders():
-            return "list"
+            return describe_question(intent)
         case ChangeOrders():
-            return f"{intent.act} {intent.which}".strip()
+            until = f" until {_tell_rule(intent.until)}" if intent.until is not None else ""
+            return f"{intent.act} {intent.which}".strip() + until
+        case CorrectOrder():
+            return describe_change(intent)
         case ScheduleCommand() if intent.when is not None:
             return _tell_rule(intent.when)
         case ScheduleCommand():
@@ -121,15 +129,16 @@ def _tell_rule(rule: SpokenRule) -> str:
         case EventRule():
             return f"event {rule.event.value}"
         case DayTime():
-            day = f" +{rule.days_ahead}" if rule.days_ahead is not None else ""
-            day = f" {_WEEKDAYS[rule.weekday]}" if rule.weekday is not None else day
-            return f"day {rule.hour}:{rule.minute:02}{day}"
+            return f"day {rule.hour}:{rule.minute:02}{describe_day(rule)}"
 
 
 def _names(wanted: str, intent: ChangeOrders) -> bool:
     """Tell whether the right act is read, and the words that tell which are among those read."""
-    act, _, which = wanted.partition(" ")
-    return act == intent.act and all(word in intent.which for word in which.split())
+    named, _, until = wanted.partition(" until ")
+    act, _, which = named.partition(" ")
+    read = _tell_rule(intent.until) if intent.until is not None else ""
+    words = all(word in intent.which for word in which.split())
+    return act == intent.act and words and until == read
 
 
 def _order(intent: Intent | None) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from planner.brain.situation import RememberedItem
 from planner.language.commands import ForgetFacts, Intent, TeachFact
 from planner.language.recall import read_recall
-from planner.language.schedule import ScheduleCommand
+from planner.language.schedule import ScheduleCommand, can_lean
 from planner.memory.index_terms import read_terms
 from planner.mission.events import Planned
 from planner.mission.planner_commands import PlannerCommands
@@ -66,18 +66,28 @@ def _shares_terms(fact: str, words: str) -> bool:
 class _Desk:
     """Take every standing order whose time is read; keep none."""
 
-    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned:
+    def __init__(self) -> None:
+        self._has_order = False
+
+    async def take(self, command: OrderCommand, ask: AskBrain, given: Mission) -> Planned | None:
         del given
+        if can_lean(command) and not self._has_order:
+            return None
+        self._has_order |= isinstance(command, ScheduleCommand)
         read = not isinstance(command, ScheduleCommand) or command.problem is None
         made = AnswerPlan(text=_KEPT) if read else Clarify(code=Code.INCOMPLETE, question=_KEPT)
         return Planned(ask.id, made)
 
-    async def change(self, command: ChangeOrders, language: Language) -> Bilingual:
+    async def change(self, command: ChangeOrders, language: Language) -> Bilingual | None:
         del command, language
         return _KEPT
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         del source
+        return None
+
+    def refuse_offer(self, text: str) -> Bilingual | None:
+        del text
         return None
 
 

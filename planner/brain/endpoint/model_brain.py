@@ -21,7 +21,7 @@ from planner.brain.schema import schema_of
 from planner.brain.streamed_draft import Hear
 from planner.brain.usage_meter import Meter
 from planner.language.catalogue import message, say
-from planner.plan import PLAN, BrainTag, Code, Refuse, Vocabulary, say_same
+from planner.plan import PLAN, BrainTag, Clarify, Code, Refuse, Vocabulary, say_same
 from planner.settings import ModelSettings
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ class EndpointBrain:
         schema = schema_of(request.vocabulary, request.runnable)
         told = None if hear is None else Drafting(request.vocabulary, request.runnable, hear)
         first = await self._asker.ask(messages, schema, end_s, told)
-        plan = self._plan_of(first, request)
+        plan = _without_vain_offers(self._plan_of(first, request), request)
         if not isinstance(plan, Unusable):
             return self._make_result(plan, 1, first.tokens)
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
@@ -139,6 +139,19 @@ class EndpointBrain:
             return judged if safe == written else PLAN.validate_json(safe)
         reasons = judged.reasons if reply.trouble is None else (reply.trouble, *judged.reasons)
         return Unusable(tuple(map(struck, reasons)))
+
+
+def _without_vain_offers(plan: Planned | Unusable, request: ThinkRequest) -> Planned | Unusable:
+    """Return why a question is none where a yes to what it offers could not be kept.
+
+    Asked of a first reply alone: what the mended one offers in vain is taken back behind the brain.
+    """
+    refuses = request.refuse_offer
+    if refuses is None or not isinstance(plan, Clarify):
+        return plan
+    told = [(each.text, refuses(each.text)) for each in plan.options]
+    reasons = tuple(f"option “{clean(text)[:80]}”: {why.en}" for text, why in told if why)
+    return Unusable(reasons) if reasons else plan
 
 
 def _make_refusal(words: str, request: ThinkRequest) -> Refuse:

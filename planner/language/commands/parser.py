@@ -58,11 +58,14 @@ _SEPARATOR = re.compile(r"[,;:.!。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and 
 
 def intent_of(text: str) -> Intent | None:
     """Return the command to the planner itself in a sentence, or None."""
-    if (own := _intent_alone(text)) is not None:
+    own = _intent_alone(text)
+    if own is not None and not isinstance(own, HereCommand):
         return own
     unread = not text.strip() or len(text) > MAX_READ or any(map(_unseen, text))
     if not unread and (standing := read_order_command(text)) is not None:
-        return standing
+        return standing  # 在三月五号八点…: no place is called so
+    if own is not None:
+        return own
     after = None if unread else read_follow_up(text)
     rest = after.rest if isinstance(after, Replace | AppendCommand) else None
     # "no, continue": whichever is meant, a person must say; an order to stop stands for itself

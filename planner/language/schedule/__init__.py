@@ -6,10 +6,31 @@ sentence before.
 
 from planner.language.schedule.command import (
     ChangeOrders,
+    CorrectOrder,
+    Delay,
+    LeaveOutDays,
     ListOrders,
+    OrderChange,
     OrderCommand,
+    RemindAgain,
+    Retime,
     ScheduleCommand,
+    can_lean,
 )
-from planner.language.schedule.reader import read_order_command
+from planner.language.schedule.reader import read_order_command, split_time
 
-__all__ = ["ChangeOrders", "ListOrders", "OrderCommand", "ScheduleCommand", "read_order_command"]
+__all__ = [
+    "ChangeOrders",
+    "CorrectOrder",
+    "Delay",
+    "LeaveOutDays",
+    "ListOrders",
+    "OrderChange",
+    "OrderCommand",
+    "RemindAgain",
+    "Retime",
+    "ScheduleCommand",
+    "can_lean",
+    "read_order_command",
+    "split_time",
+]

@@ -9,6 +9,7 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.numbers import ZH_DURATION, chinese_number, seconds
+from planner.language.schedule.chinese_dates import DATES
 from planner.language.schedule.parts import (
     EVERY_DAY,
     WEEKEND,
@@ -101,6 +102,7 @@ PAST = re.compile(
 REMARK = re.compile(
     r".{0,4}天气|是|真|很|太|有[点些]|挺|非常|好(?:热|冷|累|忙|美|开心|高兴|漂亮)|会?下[了着]?[雨雪]"
     r"|我们?(?:好|很|真|太|有[点些]|挺|非常|不|是|在|刚)|(?:星期|周|礼拜)几|几[号月]|放假|休息"
+    r"|再?见[了吧啦]?$|再(?:说|聊)"
 )
 """How what is no order begins, beside a time: 今天天气真好, 今晚有点冷."""
 REMIND = re.compile(r"(?:再)?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我)|(?:叫|喊)我(?!的))")
@@ -198,6 +200,7 @@ def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
 
 PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
     *((pattern, _event(event)) for pattern, event in _UPON),
+    *DATES,
     (_IN, _in),
     (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
     (_EVERY_SO, _interval),

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from planner.plan.timing import SpokenRule
+from planner.language.schedule.parts import OnceDay, Part
+from planner.plan.timing import DayTime, InRule, SpokenRule
 
-Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past"]
+Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past",
+                  "order_no_such_date"]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +29,16 @@ class ScheduleCommand:
 
 @dataclass(frozen=True, slots=True)
 class ListOrders:
-    """Tell the standing orders."""
+    """Tell the standing orders: all, or those that these words name, or those of one day."""
+
+    which: str = ""
+    """As said, folded; empty: all of them."""
+    day: OnceDay | None = None
+    reminders: bool = False
+    next_runs: bool = False
+    """When they are due next and how long that is, not what they are."""
+    is_sure: bool = True
+    """False: "how long is left?" may be about something else, where none is kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +50,71 @@ class ChangeOrders:
     """As said, folded; empty: all of them."""
     reminders: bool = False
     """Only reminders are meant."""
+    is_single: bool = False
+    """One is meant ("the reminder"): of several a person says which."""
+    until: DayTime | InRule | None = None
+    """A pause ends then."""
+    until_words: str = ""
+    """The same as said: "until Monday"."""
+    is_sure: bool = True
+    """False: "the red one" may be something else, where no order is called so."""
 
 
-OrderCommand = ScheduleCommand | ListOrders | ChangeOrders
+@dataclass(frozen=True, slots=True)
+class Retime:
+    """Give an order another time: these parts of it."""
+
+    parts: tuple[Part, ...]
+    instead_of: tuple[Part, ...] = ()
+    """The time that was wrong, where it was said."""
+
+
+@dataclass(frozen=True, slots=True)
+class LeaveOutDays:
+    """Leave days of the week out (0 is Sunday), or keep to them."""
+
+    days: frozenset[int]
+    keeps: bool = False
+    """Keep to these days, and leave the others out."""
+    is_one: bool = False
+    """"Not on Sunday": one Sunday, or each? A person says."""
+
+
+@dataclass(frozen=True, slots=True)
+class Delay:
+    """Do an order so much later [s]; before zero: earlier."""
+
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class RemindAgain:
+    """Remind again after so long [s]; None: a while."""
+
+    seconds: float | None = None
+
+
+OrderChange = Retime | LeaveOutDays | Delay | RemindAgain
+
+
+@dataclass(frozen=True, slots=True)
+class CorrectOrder:
+    """Correct a standing order: the one of a moment ago, or the one that these words name."""
+
+    change: OrderChange
+    words: str
+    """The change by itself, for a sentence that is made of it and an order's id."""
+    which: str = ""
+    """As said, folded; empty: the order that was spoken of last."""
+    is_sure: bool = False
+    """Nothing but a standing order can be meant."""
+    otherwise: ScheduleCommand | None = None
+    """The meaning of the sentence where there is nothing to correct."""
+
+
+OrderCommand = ScheduleCommand | ListOrders | ChangeOrders | CorrectOrder
+
+
+def can_lean(command: OrderCommand) -> bool:
+    """Tell whether a sentence means something else where no order is kept that it fits."""
+    return not (isinstance(command, ScheduleCommand) or command.is_sure)

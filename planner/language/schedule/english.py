@@ -9,6 +9,7 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.numbers import EN_DURATION, seconds
+from planner.language.schedule.english_dates import DATES
 from planner.language.schedule.parts import (
     EVERY_DAY,
     WEEKEND,
@@ -148,7 +149,7 @@ PAST = re.compile(
 )
 """An order whose time is over."""
 REMARK = re.compile(
-    r"(?:it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
+    r"(?:see (?:you|ya)|(?:talk|speak|chat) to you|it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
     r"|there(?:'s| is| are| was| were)|(?:my|our|the|his|her) [a-z]+ (?:is|are|was|were|has|had))\b"
 )
 """How what is no order begins, beside a time: "it's cold tonight", "tomorrow is my birthday"."""
@@ -267,6 +268,7 @@ def _one(
 
 PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
     *((pattern, _event(event)) for pattern, event in _UPON),
+    *DATES,
     (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
     (_EVERY_SO, _interval),
     (_EVERY_ONE, lambda found: (Interval(60.0 if found["minute"] else 1.0),)),

@@ -5,6 +5,7 @@ A language finds the parts (``english``, ``chinese``); what they mean together i
 
 from __future__ import annotations
 
+from calendar import monthrange
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
@@ -44,6 +45,8 @@ USUAL_HOUR = {
     DayPart.NIGHT: 22,
 }
 """What "every evening" means where no hour is said; the answer tells it."""
+MOST_DAYS = 366
+LEAP_YEAR = 2028
 EVERY_DAY = frozenset(range(7))
 WORKDAYS, WEEKEND = frozenset({1, 2, 3, 4, 5}), frozenset({0, 6})
 
@@ -68,13 +71,31 @@ class OnceDay:
 
     ahead: int | None = None
     weekday: int | None = None
+    week: int | None = None
+    """So many calendar weeks after this one; None: the next such day."""
+    either_week: bool = False
+    """"Next Friday": people mean either."""
+
+
+@dataclass(frozen=True, slots=True)
+class MonthDay:
+    """Name one day by its number, and perhaps by month and year."""
+
+    day: int
+    month: int | None = None
+    year: int | None = None
+    months_ahead: int | None = None
+    years_ahead: int | None = None
+    coming: bool = False
+    """A feast: the next one."""
 
 
 @dataclass(frozen=True, slots=True)
 class After:
-    """Come once after so long [s]."""
+    """Come once after so long [s]; ``days``: whole days, which may have a time of day as well."""
 
     seconds: float
+    days: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +114,7 @@ class EventPart:
     event: WorldEvent
 
 
-Part = WeekDays | Interval | OnceDay | After | TimeOfDay | EventPart | DayPart
+Part = WeekDays | Interval | OnceDay | MonthDay | After | TimeOfDay | EventPart | DayPart
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,15 +125,19 @@ class Timing:
     problem: Problem | None = None
 
 
+_REPEATS = (WeekDays, Interval, OnceDay, MonthDay, After, EventPart)
+"""Of these one is enough."""
+
+
 def combine(parts: Sequence[Part]) -> Timing | None:
     """Return what these parts mean together; None where they name no time for an order."""
     found: dict[type[object], Part] = {}
     for part in parts:
         if type(part) in found:
-            nested = isinstance(part, (WeekDays, Interval, After, EventPart, OnceDay))
+            nested = isinstance(part, _REPEATS)
             return Timing(problem="order_nested") if nested else None
         found[type(part)] = part
-    repeats = [p for p in parts if isinstance(p, (WeekDays, Interval, OnceDay, After, EventPart))]
+    repeats = [p for p in parts if isinstance(p, _REPEATS)]
     if len(repeats) > 1:
         return Timing(problem="order_nested")
     clock = next((p for p in parts if isinstance(p, TimeOfDay)), None)
@@ -122,8 +147,10 @@ def combine(parts: Sequence[Part]) -> Timing | None:
     match repeats[0]:
         case WeekDays() as again:
             return _weekly(again, clock, daypart)
-        case OnceDay() as day:
+        case OnceDay() | MonthDay() as day:
             return _by_clock(day, clock, daypart)
+        case After(days=int(ahead)) if clock is not None or daypart is not None:
+            return _by_clock(OnceDay(ahead=min(ahead, MOST_DAYS)), clock, daypart)
         case Interval(seconds) | After(seconds) if clock is not None or daypart is not None:
             return Timing(problem="order_nested")
         case Interval(seconds):
@@ -149,25 +176,49 @@ def _weekly(again: WeekDays, clock: TimeOfDay | None, daypart: DayPart | None) -
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
-    days = "*" if again.days == EVERY_DAY else _list_days(again.days)
-    return Timing(CronRule(cron=f"{at[1]} {at[0]} * * {days}"))
+    return Timing(CronRule(cron=f"{at[1]} {at[0]} * * {list_days(again.days)}"))
 
 
-def _list_days(days: frozenset[int]) -> str:
-    return "1-5" if days == WORKDAYS else ",".join(map(str, sorted(days)))
+def list_days(days: frozenset[int]) -> str:
+    """Return days of the week as cron writes them."""
+    return (
+        "*"
+        if days == EVERY_DAY
+        else "1-5"
+        if days == WORKDAYS
+        else ",".join(map(str, sorted(days)))
+    )
 
 
-def _by_clock(day: OnceDay, clock: TimeOfDay | None, daypart: DayPart | None) -> Timing:
+def _by_clock(day: OnceDay | MonthDay, clock: TimeOfDay | None, daypart: DayPart | None) -> Timing:
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
+    if isinstance(day, MonthDay):
+        return _by_date(day, *at)
     bare = clock is not None and not clock.sure and daypart is None
     either = bare and day == OnceDay() and 1 <= at[0] <= 12  # on a dial
     return Timing(
         DayTime(
-            hour=at[0], minute=at[1], days_ahead=day.ahead, weekday=day.weekday, either_half=either
+            hour=at[0], minute=at[1], days_ahead=day.ahead, weekday=day.weekday, week=day.week,
+            either_week=day.either_week, either_half=either,
         )
-    )
+    )  # fmt: skip
+
+
+def _by_date(day: MonthDay, hour: int, minute: int) -> Timing:
+    """Return a time on a date, or that no year has that date (31 June)."""
+    month = 1 if day.month is None else day.month
+    if not (1 <= month <= 12 and 1 <= day.day <= monthrange(LEAP_YEAR, month)[1]):
+        return Timing(problem="order_no_such_date")
+    if day.year is not None and not 2000 <= day.year <= 2099:
+        return Timing(problem="order_malformed")
+    return Timing(
+        DayTime(
+            hour=hour, minute=minute, day=day.day, month=day.month, year=day.year,
+            months_ahead=day.months_ahead, years_ahead=day.years_ahead, coming=day.coming,
+        )
+    )  # fmt: skip
 
 
 def _hour_minute(clock: TimeOfDay | None, daypart: DayPart | None) -> tuple[int, int] | None:

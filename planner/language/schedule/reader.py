@@ -8,14 +8,15 @@ Pure: no clock, no state.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.schedule import chinese, english
 from planner.language.schedule.about import read_about
-from planner.language.schedule.command import OrderCommand, ScheduleCommand
+from planner.language.schedule.command import OrderCommand, RemindAgain, ScheduleCommand
+from planner.language.schedule.corrections import read_correction
 from planner.language.schedule.parts import EventPart, Part, Timing, combine
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ _ENDS = " .!,;:。~…，；！、"
 _MARKS = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "！": "!", "？": "?"})
 _SPACES = re.compile(r"\s+")
 _MOST_PARTS = 6
+_NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
 _QUOTE = re.compile('["“”「」『』]')
 
 
@@ -72,7 +74,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     grammar = chinese if has_chinese(said.folded) else english
     said = _FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
-    about = read_about(said.folded, _reads_timing, chinese=grammar is chinese)
+    about = read_about(said.folded, _reads_timing, _whole_parts, chinese=grammar is chinese)
     if about is not None:
         return about
     courteous = asks and grammar is english and _fold(text).folded.startswith(("can", "could", "w"))
@@ -80,7 +82,12 @@ def read_order_command(text: str) -> OrderCommand | None:
         return None
     if grammar.PAST.fullmatch(said.folded) is not None:
         return ScheduleCommand(None, said.written, "", problem="order_in_past")
-    return _read(said, grammar)
+    corrects = read_correction(said.folded, _whole_parts, chinese=grammar is chinese)
+    if corrects is None:
+        return _read(said, grammar)
+    if isinstance(corrects.change, RemindAgain):  # "remind me again in five minutes"
+        return replace(corrects, otherwise=_read(said.strip(_NOT_NOW), grammar))
+    return corrects
 
 
 def _fold(text: str) -> _FoldedSentence:
@@ -192,3 +199,23 @@ def _reads_timing(folded: str, *, in_chinese: bool) -> bool:
     if found.parts and not event and combine(found.parts) is not None:
         return True
     return bool(_last_parts(folded, grammar).parts)
+
+
+def _whole_parts(folded: str, *, in_chinese: bool) -> tuple[Part, ...]:
+    """Return the parts of a time that a whole text is; none where it is anything else."""
+    found = _first_parts(folded, chinese if in_chinese else english)
+    whole = found.parts and found.at == len(folded)
+    return found.parts if whole else ()
+
+
+def split_time(words: str) -> tuple[tuple[Part, ...], str]:
+    """Return the time that stands at the beginning or the end of folded words, and what is left."""
+    grammar = chinese if has_chinese(words) else english
+    first = _first_parts(words, grammar)
+    if first.parts:
+        return first.parts, words[first.at :].strip(_ENDS)
+    for each in re.finditer(r"(?<=[ ,])", words):
+        found = _first_parts(words[each.start() :], grammar)
+        if found.parts and not words[each.start() + found.at :].strip(_ENDS):
+            return found.parts, words[: each.start()].strip(_ENDS)
+    return (), words

@@ -64,6 +64,7 @@ def test_an_order_is_given_listed_shown_paused_and_removed(client: TestClient) -
     assert shown["history"] == []
     assert client.post("/v1/orders/o1/pause", json={}).json()["state"] == "paused"
     assert client.get("/v1/orders/o1").json()["runs"] == []
+    assert client.get("/v1/orders/o1").json()["resumes"] is None
     assert client.post("/v1/orders/o1/resume", json={}).json()["state"] == "active"
     assert client.request("DELETE", "/v1/orders/o1", json={}).status_code == 200
     assert client.get("/v1/orders").json()["orders"] == []
@@ -105,6 +106,8 @@ def test_a_reminder_may_be_given_apart(client: TestClient) -> None:
         ({"text": "go to the kitchen"}, 422, "order_malformed"),
         ({"text": "every day, every hour go to the kitchen"}, 422, "order_nested"),
         ({"text": "daily at 9 say hello", "when": {"in_s": 60}}, 422, "order_nested"),
+        ({"text": "on 31 June at noon go to the kitchen"}, 422, "order_no_such_date"),
+        ({"text": "6月31号中午去厨房"}, 422, "order_no_such_date"),
         ({"text": "every day go to the kitchen"}, 422, "order_time_missing"),
         ({"text": "every day at eight"}, 422, "order_empty"),
         ({"text": "today at nine go to the kitchen"}, 422, "order_in_past"),

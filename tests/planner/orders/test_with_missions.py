@@ -210,6 +210,74 @@ def test_a_model_proposes_a_standing_order_and_a_persons_yes_alone_keeps_it(
     run(story())
 
 
+@pytest.mark.parametrize(
+    ("offer", "why"),
+    [
+        ("today at eight in the morning go to the kitchen", "over already"),
+        ("every minute go to the kitchen", "too often"),
+        ("on 31 June at noon go to the kitchen", "no such date"),
+        ("every day at noon stop", "stops me"),
+    ],
+)  # fmt: skip
+def test_an_offer_that_a_yes_could_not_keep_is_never_made(
+    tmp_path: Path, offer: str, why: str
+) -> None:
+    alone = PROPOSED.model_copy(
+        update={"options": (Option(label=Bilingual(en="Yes", zh="好"), text=offer),)}
+    )
+    beside = PROPOSED.model_copy(update={"options": (*alone.options, *PROPOSED.options)})
+
+    async def story() -> None:
+        async with home(tmp_path, alone, beside, by_grammar=False) as made:
+            refused = await made.say("the kitchen is always such a mess", GoalState.REFUSED)
+            assert refused.outcome is not None
+            assert refused.outcome.code is Code.ORDER_NOT_KEPT
+            assert why in told(refused)
+            asking = await made.say("such a mess in there", GoalState.NEEDS_CLARIFICATION)
+            assert why in told(asking)
+            assert asking.plan is not None
+            assert [each.text for each in asking.plan.options] == [PROPOSED.options[0].text]
+            assert made.orders.keeper.book.orders == {}
+
+    run(story())
+
+
+def test_which_one_is_answered_by_its_place_in_the_list(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, HELLO) as made:
+            await made.say("remind me at eight in the evening to call Tom")
+            await made.say("every day at nine in the evening say hello")
+            await made.pass_s(1200.0)
+            asking = await made.say("make it ten", GoalState.NEEDS_CLARIFICATION)
+            assert "o1" in told(asking)
+            await made.together.missions.answer(asking.id, "the second one")
+            changed = await made.together.reach(asking.id, GoalState.SUCCEEDED)
+            assert "Every day at 22:00" in told(changed)
+            await made.pass_s(1200.0)
+            asking = await made.say("make it tomorrow at nine", GoalState.NEEDS_CLARIFICATION)
+            await made.together.missions.answer(asking.id, "yes")
+            changed = await made.together.reach(asking.id, GoalState.SUCCEEDED)
+            assert "Tomorrow 21:00 I will remind you" in told(changed)
+            assert made.together.bridge.waypoints == []
+
+    run(story())
+
+
+def test_a_stop_word_beside_a_pause_stops_first(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, KITCHEN) as made:
+            await made.say("every evening at eight go to the kitchen")
+            drive = await made.together.missions.submit("go to the kitchen")
+            await made.together.reach(drive.id, GoalState.RUNNING)
+            await made.together.until(lambda: made.together.bridge.horizon is not None)
+            stopped = await made.say("stop going to the kitchen in the evening")
+            assert stopped.outcome is not None
+            assert stopped.outcome.code is Code.STOPPED
+            assert made.together.missions.goal(drive.id).state is GoalState.PAUSED
+
+    run(story())
+
+
 def test_a_free_answer_never_drives_at_once(tmp_path: Path) -> None:
     which = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which?", zh="哪个？"))
 

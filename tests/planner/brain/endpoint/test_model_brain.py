@@ -14,7 +14,17 @@ import pytest
 from planner.brain import BadPlan, BrainDown, FallbackBrain, OfflineBrain, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
 from planner.brain.endpoint.dialect import FILE
-from planner.plan import AnswerPlan, Code, GoTo, Refuse, StepPlan, Vocabulary
+from planner.plan import (
+    AnswerPlan,
+    Bilingual,
+    Clarify,
+    Code,
+    GoTo,
+    Plan,
+    Refuse,
+    StepPlan,
+    Vocabulary,
+)
 from tests.planner.brain.endpoint.servers import (
     GO,
     KEY,
@@ -79,6 +89,30 @@ def test_a_bad_plan_is_repaired_once_with_the_reasons(home: Vocabulary, tmp_path
     *_, shown, told = server.bodies[1]["messages"]
     assert shown == {"role": "assistant", "content": BAD}
     assert "wine_cellar" in told["content"]
+
+
+OFFER = (
+    '{"kind":"clarify","code":"ambiguous","en":"Shall I?","zh":"要吗？",'
+    '"options":["yesterday at eight go to the kitchen"]}'
+)
+
+
+def test_an_offer_that_could_not_be_kept_goes_back_once(home: Vocabulary, tmp_path: Path) -> None:
+    def refuses(text: str) -> Bilingual | None:
+        return Bilingual(en="That time is over.", zh="过去了。") if "yesterday" in text else None
+
+    def ask(server: Server) -> Plan:
+        request = ThinkRequest(text="it is a mess", vocabulary=home, refuse_offer=refuses)
+        return asyncio.run(brain(server, tmp_path).think(request)).plan
+
+    server = Server(wrote(OFFER), wrote(OFFER.replace("yesterday", "tomorrow")))
+    plan = ask(server)
+    assert isinstance(plan, Clarify)
+    assert [option.text for option in plan.options] == ["tomorrow at eight go to the kitchen"]
+    assert "That time is over." in server.bodies[1]["messages"][-1]["content"]
+    stubborn = Server(wrote(OFFER))
+    assert ask(stubborn).kind == "clarify", "it is taken back behind the brain, with its reason"
+    assert len(stubborn.requests) == 2
 
 
 def test_two_bad_plans_are_rejected_and_no_third_is_asked(home: Vocabulary, tmp_path: Path) -> None:

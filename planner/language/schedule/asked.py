@@ -1,0 +1,136 @@
+"""Read questions about standing orders: "when is my reminder?", "what's on for tomorrow?", 还有多久.
+
+Pure, both languages, whole sentences only. What is kept is for the desk to tell.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Protocol
+
+from planner.language.schedule.command import ListOrders
+from planner.language.schedule.parts import EVERY_DAY, DayPart, OnceDay, WeekDays
+
+if TYPE_CHECKING:
+    from planner.language.schedule.parts import Part
+
+
+class ReadsDays(Protocol):
+    """Return the parts of a time that a whole text is; none where it is anything else."""
+
+    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
+
+
+KINDS = (
+    r"(?:reminders?|standing orders?|routines?|schedules?|scheduled (?:tasks?|orders?|jobs?)"
+    r"|timers?|alarms?|recurring (?:tasks?|orders?)|daily (?:tasks?|orders?))"
+)
+MY = r"(?:all (?:of )?)?(?:the|my|your|our|this|that|those|these)? ?"
+_LIST = re.compile(
+    r"what do you do (?:regularly|by yourself)"
+    rf"|(?:what|which) (?:are )?{MY}{KINDS}(?: (?:do (?:i|you|we) have|are (?:there|set|active)"
+    rf"|have i (?:set|given)|are you keeping))?|what(?: is|'s) (?:on )?(?:the|my|your) schedule"
+    rf"|(?:list|show|read|tell)(?: me)?(?: out)? {MY}{KINDS}|do i have (?:any )?{KINDS}"
+    rf"|(?:are there|is there) (?:any )?{KINDS}"
+    rf"|(?:what|which) {KINDS} (?:have i got|do i have|did i set|have i made|are on)"
+    r"|what (?:have i|did i) (?:ask(?:ed)?|told|tell|give|given) you to do(?: regularly| so far)?"
+)
+_AT_TIME = re.compile(
+    r"what (?:do you do|will you do|are you going to do|have you planned|do you have planned"
+    r"|(?:have i|did i|have we|did we) (?:ask(?:ed)?|told|tell|want(?:ed)?) you to do"
+    r"|(?:am i|are we) making you do)(?: for| on)? (?P<a>.+)"
+    r"|(?:what(?:'s| is)|is there anything|anything|is anything) (?:on|planned|due|scheduled|coming up|up"
+    r"|going on)(?: for| on)? (?P<b>.+)"
+    r"|(?:what|which reminders) (?:do (?:i|we) have|have (?:i|we) got)(?: on| planned| coming up)?(?: for)?"
+    r" (?P<c>.+)"
+    r"|(?:what(?:'s| is) (?:the|my|your|our) (?:plan|schedule|agenda|programme|program)(?: for| on)? (?P<d>.+))"
+    r"|(?:do (?:i|we) have anything|have (?:i|we) got anything)(?: on| planned)?(?: for)? (?P<e>.+)"
+)
+_LEFT = re.compile(
+    r"how (?:long|much (?:time|longer)|many minutes)(?: more)?"
+    r"(?: (?:have i got|do i have|have i|is there|is|are|do we have|have we got))?"
+    rf"(?: (?:left|remaining|to go))+(?: (?:on|for|until|till|before) {MY}(?P<a>.+))?"
+    rf"|how (?:long|much (?:time|longer)) (?:is it )?(?:until|till|before) {MY}(?P<b>.*?{KINDS}.*)"
+    rf"|how much time is left(?: (?:on|for|until|till|before) {MY}(?P<c>.+))?"
+)
+_NEXT = re.compile(
+    rf"(?:when|what time|at what time)(?: is|'s| are| do| does| will| did i set)? {MY}(?:next )?"
+    rf"(?P<what>[a-z0-9' -]*? )?(?P<kind>{KINDS})"
+    r"(?: (?:for|about|to|of|at|that says?) (?P<of>.+?))?"
+    r"(?: (?:due|next|set for|set|go off|ring|come|fire|be))*"
+    r"|(?:when|what time|at what time) (?:will|do|are) you (?:next )?(?:going to )?(?:remind|wake) me(?: up)?"
+    r"(?: (?:of|about|to|that) (?P<of2>.+?))?(?: next)?"
+)
+
+ZH_KINDS = r"(?:提醒|定时任务|定时命令|定时|常规任务|日程|日程安排|闹钟)"
+ZH_ALL = r"(?:所有|全部|一切)?的?(?:我的|你的|现有的|这些)?"
+_ZH_LIST = re.compile(
+    r"(?:平时|定时)(?:都|会|要|打算|准备|还|有)*(?:做|干|安排了?)(?:什么|啥|些什么|哪些事情?)(?:事情?)?"
+    rf"|(?:现在|目前|一共|我|都)*有(?:没有)?(?:哪些|什么|几个)?{ZH_KINDS}(?:吗)?"
+    rf"|(?:列出|列一下|显示|看看|看一下|告诉我|说说|查看|查一下){ZH_ALL}(?:有(?:哪些|什么))?{ZH_KINDS}"
+    rf"|把{ZH_ALL}{ZH_KINDS}(?:都)?(?:列出来|说一下|告诉我|念一下)"
+    rf"|(?:现在|目前|我|都)*(?:设置?|定|安排)了(?:哪些|什么){ZH_KINDS}啊?"
+    r"|我(?:都)?(?:让|叫|要|请)你(?:定时)?(?:做|干)(?:了)?(?:什么|啥|哪些事情?)"
+)
+_ZH_WHAT = r"(?:什么|啥|些什么|哪些)(?:事情?|安排|计划|任务|提醒|活动)?"
+_ZH_AT_TIME = re.compile(
+    rf"(?:我)?(?:让|叫|要|请)?(?:你)?(?P<a>.+?)(?:我)?(?:都|会|要|打算|准备|还)*(?:让|叫|请)?你?"
+    rf"(?:都|会|要)*(?:做|干|安排了?){_ZH_WHAT}(?:来着)?"
+    rf"|(?P<b>.+?)(?:我|你|都|还|会)*(?:有没有|有)(?:{_ZH_WHAT}|安排|计划|事|任务|提醒)(?:吗|没有|要做)?"
+    r"|(?P<c>.+?)的(?:安排|计划|日程|任务)(?:是(?:什么|啥))?"
+)
+_ZH_LEFT = re.compile(
+    r"(?:我)?还(?:有|剩|剩下)(?:多久|多少时间|多长时间|几分钟|多少分钟)(?:了)?"
+    rf"|(?:离|距离?)?(?P<a>.*?{ZH_KINDS})(?:还有|还剩|还要)(?:多久|多少时间|多长时间|几分钟|多少分钟)(?:了)?"
+)
+_ZH_NEXT = re.compile(
+    rf"{ZH_ALL}(?P<of>.*?)的?(?P<kind>{ZH_KINDS})(?:是|在|定在|设在)*(?:几点钟?|什么时候|什么时间|何时)(?:啊|来着)?"
+    r"|(?:你)?(?:会|要|将)?(?:在)?(?:几点钟?|什么时候|什么时间|何时)(?:会|要)?(?:提醒|叫)我(?P<of2>.*)"
+)
+
+
+def read_asked(folded: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | None:
+    """Return what a sentence asks about standing orders; None where it asks nothing of them."""
+    if (_ZH_LIST if chinese else _LIST).fullmatch(folded) is not None:
+        return ListOrders()
+    at_time = (_ZH_AT_TIME if chinese else _AT_TIME).fullmatch(folded)
+    if at_time is not None:
+        words = next(text for text in at_time.groupdict().values() if text)
+        return _read_days(words, whole, chinese=chinese)
+    left = (_ZH_LEFT if chinese else _LEFT).fullmatch(folded)
+    if left is not None:
+        named = next((text for text in left.groupdict().values() if text), "")
+        kind = re.search(ZH_KINDS if chinese else rf"\b{KINDS}\b", named)
+        which = _bare(named, chinese=chinese)
+        reminds = kind is not None and kind[0].startswith(("reminder", "提醒"))
+        return ListOrders(which, reminders=reminds, next_runs=True, is_sure=kind is not None)
+    following = (_ZH_NEXT if chinese else _NEXT).fullmatch(folded)
+    return None if following is None else _read_next(following, chinese=chinese)
+
+
+def _read_next(found: re.Match[str], *, chinese: bool) -> ListOrders:
+    group = found.groupdict()
+    which = group.get("of2") or group.get("of") or group.get("what") or ""
+    kind = group.get("kind") or ("提醒" if chinese else "reminder")
+    reminds = kind.startswith(("reminder", "提醒"))
+    return ListOrders(which.strip(" 的了"), reminders=reminds, next_runs=True)
+
+
+def _bare(named: str, *, chinese: bool) -> str:
+    kinds = rf"的?{ZH_KINDS}" if chinese else rf"\b{KINDS}\b(?: (?:for|about|to|of))?"
+    return re.sub(r"^(?:我|你)的?", "", re.sub(kinds, "", named)).strip(" 的")
+
+
+def _read_days(words: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | None:
+    """Read the time that orders are asked about: one day's, those of every evening, or all."""
+    leads = ("",) if chinese else ("", "on ", "every ")
+    words = re.sub(r"\b(morning|afternoon|evening|night)s\b", r"\1", words)
+    parts = next((p for lead in leads if (p := whole(lead + words, in_chinese=chinese))), ())
+    day = next((part for part in parts if isinstance(part, OnceDay)), None)
+    if day is not None:
+        return ListOrders(day=day)
+    again = next((part for part in parts if isinstance(part, WeekDays)), None)
+    if again is not None and again.days == EVERY_DAY and len(parts) == 1:
+        return ListOrders()
+    timed = parts and all(isinstance(part, (WeekDays, DayPart)) for part in parts)
+    return ListOrders(words) if timed else None

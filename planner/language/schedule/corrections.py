@@ -1,0 +1,342 @@
+"""Read a correction of a standing order: "make it nine", "not on Sundays", 改成九点, 周日不用.
+
+Pure, both languages, whole sentences only. Which order is meant is for the keeper's desk to find;
+law: words that are no time, no day and no length are no correction ("make it quick").
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Protocol
+
+from planner.language.schedule.command import (
+    CorrectOrder,
+    Delay,
+    LeaveOutDays,
+    RemindAgain,
+    Retime,
+)
+from planner.language.schedule.parts import After, OnceDay, WeekDays
+
+if TYPE_CHECKING:
+    from planner.language.schedule.command import OrderChange
+    from planner.language.schedule.parts import Part
+
+
+class ReadsParts(Protocol):
+    """Return the parts of a time that a whole text is; none where it is anything else."""
+
+    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
+
+
+BY_ID = re.compile(r"(?:change order|更改任务) ?(?P<id>o\d{1,6}) ?: ?(?P<rest>.+)")
+"""How an offered sentence names its order: "change order o3: make it nine"."""
+_NO = r"(?:(?:no|nope|sorry|oops|wait|actually|ah|oh|i mean|rather)[ ,.!]+)*"
+_IT = r"(?:it|that|this|them)"
+_W = r"(?:the|my|that|this|your|our) (?P<w>[a-z0-9' -]{2,60}?)"
+_TO = r"(?:to|at|for|on|into|until|till)"
+_INSTEAD = r"(?: (?:instead|rather|then|from now on))?"
+_RETIME = (
+    re.compile(
+        rf"{_NO}(?:let's |i'd rather )?(?:make|set|put|change|move|shift|switch|reschedule|push|postpone)"
+        rf" {_IT} (?:back |forward )?(?:{_TO} )?(?P<t>.+?){_INSTEAD}"
+        r"(?:,? (?:and )?not (?P<o>.+?)| instead of (?P<o2>.+?))?"
+    ),
+    re.compile(rf"{_NO}(?P<t>.+?),? (?:and )?not (?P<o>.+?)"),
+    re.compile(rf"{_NO}(?P<t>.+?) instead of (?P<o>.+?)"),
+    re.compile(rf"{_NO}not (?P<o>.+?)(?:,| but|, but) (?:rather )?(?P<t>.+?)"),
+    re.compile(rf"{_NO}(?:let's (?:do|say|have) )?(?P<t>.+?) (?:instead|rather)"),
+    re.compile(
+        rf"{_NO}(?:i (?:meant?|said)|it (?:should|has to|must) be|that (?:should|has to) be)"
+        rf"(?: {_TO})? (?P<t>.+?)(?:,? (?:and )?not (?P<o>.+?))?"
+    ),
+    re.compile(
+        r"(?:(?:no|nope|sorry|oops|wait|actually|rather)[ ,.!]+)+(?P<sure>(?:at|every|on|in) .+?)"
+    ),
+)
+_RENAMED = re.compile(
+    rf"(?:change|move|shift|switch|set|push|postpone|reschedule|put|make) {_W}"
+    rf" (?:back |forward )?(?:{_TO} )?(?P<t>(?:at |on |in )?(?:\d|[a-z]).*?){_INSTEAD}"
+)
+_LEAVE_OUT = re.compile(
+    rf"{_NO}(?:(?:but|and|just|only) )?(?:not|never|except|no|skip|leave out|without)"
+    r"(?: (?:on|for|at))?(?: the)? (?P<d>[a-z, ]+?)(?: please)?"
+)
+_KEEP_TO = re.compile(
+    rf"{_NO}(?:(?:make|do) it )?(?:but )?(?:only|just)(?: (?:on|at|for))?(?: the)? (?P<d>[a-z, ]+?)"
+    rf"|{_NO}(?:(?:make|do) it )?(?:on|at) (?P<d2>[a-z, ]+?) only"
+)
+_DAYS_NAMED = re.compile(
+    rf"(?:(?:do|run) )?{_W}(?:,|,? but)? (?:(?P<not>not|never|except)|only|just)(?: on| at)?(?: the)?"
+    r" (?P<d>[a-z, ]+)"
+    rf"|(?P<skip>skip|leave out|drop|don't do|do not do) {_W.replace('<w>', '<w2>')}"
+    r" (?:on|at) (?P<d2>[a-z, ]+)"
+)
+_SHIFTS = "push|postpone|delay|put|move|bring|shift"
+_WAYS = "back|off|out|forward|up"
+_LATER = re.compile(
+    rf"{_NO}(?:(?:make|do|set) {_IT} )?(?P<n>.+?) (?P<way>later|earlier|sooner)"
+    rf"|{_NO}(?P<act>{_SHIFTS}) (?:{_IT}|{_W})(?: (?P<dir>{_WAYS}))? by (?P<n2>.+)"
+    rf"|{_NO}(?P<act2>{_SHIFTS}) (?:{_IT}|{_W.replace('<w>', '<w2>')}(?= {_WAYS}))"
+    rf"(?: (?P<dir2>{_WAYS}))? (?P<n3>.+)"
+)
+_AGAIN = re.compile(
+    r"(?:hit )?snooze(?: (?:it|that|this|the (?:alarm|reminder)|my (?:alarm|reminder)|again))?"
+    r"(?: (?:for|by) (?:another )?(?P<a>.+))?"
+    r"|(?:remind|wake) me (?:up )?(?:about (?:it|that) )?(?:again )?(?:a (?:bit|little) )?later(?: on)?"
+    r"|(?:remind|wake) me (?:up )?(?:about (?:it|that) )?again in (?P<b>.+?)"
+    r"|not (?:now|yet)[, ]+(?:but )?remind me (?:again )?in (?P<f>.+)"
+    r"|(?:give me|i need|can i have|let me have|just) (?P<c>.+?)(?: longer)?"
+    r"|(?:give me )?another (?P<d>.+?)|(?:give me |just |i need )?(?P<e>[a-z0-9 ]+?) more (?P<u>[a-z]+)"
+)
+_GIVE_ALONE = re.compile(
+    r"(?:give me|i need|can i have|let me have|just) (?!another)(?!.*\b(?:more|longer)\b).+"
+)
+
+_ZH_NO = r"(?:(?:不对|不是|不|错了|说错了|等等|等一下|抱歉|哦|噢)[,。!]+)*"
+_ZH_CHANGE = r"(?:改成|改到|改为|改在|换成|换到|调到|调成|挪到|移到|推迟到|提前到|推到)"
+_ZH_RETIME = (
+    re.compile(rf"{_ZH_NO}(?:还是)?(?:把?它|时间)?{_ZH_CHANGE}(?P<t>.+)"),
+    re.compile(rf"{_ZH_NO}不是(?P<o>.+?),?(?:而)?是(?P<t>.+)"),
+    re.compile(rf"{_ZH_NO}(?:我说的是|我是说|应该是|是)?(?P<t>.+?),(?:而)?不是(?P<o>.+)"),
+    re.compile(r"(?:(?:不对|错了|说错了|不)[,。!]+)+(?:我说的是|我是说|应该是|是)(?P<t>.+)"),
+    re.compile(r"(?:我说的是|我是说|应该是)(?P<t>.+)"),
+)
+_ZH_RENAMED = re.compile(rf"(?:把|将)?(?P<w>.+?)(?:的)?(?:时间)?{_ZH_CHANGE}(?P<t>.+)")
+_ZH_NONE = r"(?:就?(?:不用|不要|不必|不需要|别|免了?|除外)(?:了|做|去|叫|提醒|来)*)"
+_ZH_LEAVE_OUT = re.compile(
+    rf"{_ZH_NO}(?:但|但是)?(?:除了?)?(?P<d>.+?){_ZH_NONE}|{_ZH_NO}除了(?P<d2>.+?)(?:以外|之外|外)?"
+)
+_ZH_KEEP_TO = re.compile(
+    rf"{_ZH_NO}(?:但|但是)?(?:只要?|仅|就)(?:在|限)?(?P<d>.+?)(?:就行|就好|就可以|才要|做|去|叫|提醒)?"
+    r"|(?P<d2>.+?)才(?:要|做|去|叫|提醒)?"
+)
+_ZH_DAYS_NAMED = re.compile(
+    rf"(?P<w>.+?)(?P<d>(?:每个?)?(?:周|星期|礼拜).{{1,6}}?){_ZH_NONE}"
+    r"|(?P<w2>.+?)只(?:要|在)?(?P<d2>.+?)(?:就行|就好|做|去)?"
+)
+_ZH_LATER = re.compile(
+    rf"{_ZH_NO}(?:(?:把|将)?(?P<w>.+?))??(?:往后)?(?P<way>推迟|延后|延迟|晚|推|提前|早)(?P<n>.+)"
+)
+_ZH_AGAIN = re.compile(
+    r"(?:再|等|过|再过|再等)(?P<a>.+?)(?:之后|以后|后)?(?:再|就)?(?:叫|提醒|喊)我(?:一下|一次|一声)?"
+    r"|(?P<b>.+?)(?:之后|以后|后)再(?:叫|提醒|喊)我(?:一下|一次|一声)?"
+    r"|再(?:给我|睡|来|多)(?P<c>.+)|(?:等会儿?|待会儿?|一会儿?|过会儿?|稍后|晚点儿?|晚一点儿?)(?:再)?(?:叫|提醒|喊)我"
+    r"|贪睡|再睡(?:一会儿?|会儿?)"
+)
+
+
+def read_correction(
+    folded: str, reads: ReadsParts, *, chinese: bool, named: str = ""
+) -> CorrectOrder | None:
+    """Return the correction that a sentence is; None where it is none.
+
+    Args:
+        folded: the sentence, folded, without courtesies.
+        reads: reads a time.
+        chinese: its language.
+        named: the id of the order that it is about, where the sentence is one that was offered.
+    """
+    by_id = BY_ID.fullmatch(folded)
+    if by_id is not None and not named:
+        return read_correction(by_id["rest"], reads, chinese=chinese, named=by_id["id"])
+    found = (_Chinese if chinese else _English)(reads).read(folded)
+    if found is None:
+        return None
+    change, which, words = found
+    sure = bool(named or (which and _KIND.search(which)))
+    return CorrectOrder(change, words or folded, named or which, is_sure=sure)
+
+
+_KIND = re.compile(r"\b(?:reminder|alarm|timer|standing order|routine)s?\b|提醒|闹钟|定时")
+_Found = tuple["OrderChange", str, str]
+"""The change, the words that name an order, and the change in words where others stand with it."""
+
+
+class _English:
+    """Read English corrections."""
+
+    def __init__(self, reads: ReadsParts) -> None:
+        self._reads = reads
+
+    def read(self, said: str) -> _Found | None:
+        """Return the change and the order's name."""
+        return self._again(said) or self._later(said) or self._days(said) or self._retime(said)
+
+    def _again(self, said: str) -> _Found | None:
+        found = _AGAIN.fullmatch(said)
+        if found is None or _GIVE_ALONE.fullmatch(said):
+            return None
+        lasts = found["a"] or found["b"] or found["c"] or found["d"] or found["f"]
+        if found["e"]:
+            lasts = f"{found['e']} {found['u']}"
+        if lasts is None:
+            return RemindAgain(), "", ""
+        bare = re.sub(r"^another |(?<=\w) more(?= )| longer$", "", lasts)
+        seconds = self._lasts(re.sub(r"^(?=(?:hour|minute)s?$)", "one ", bare))
+        return None if seconds is None else (RemindAgain(seconds), "", "")
+
+    def _later(self, said: str) -> _Found | None:
+        found = _LATER.fullmatch(said)
+        if found is None:
+            return None
+        lasts = found["n"] or found["n2"] or found["n3"]
+        seconds = self._lasts(lasts)
+        if seconds is None:
+            return None
+        act, way = found["act"] or found["act2"], found["dir"] or found["dir2"]
+        earlier = (
+            found["way"] in ("earlier", "sooner") or act == "bring" or way in ("forward", "up")
+        )
+        words = f"make it {lasts} {'earlier' if earlier else 'later'}"
+        return Delay(-seconds if earlier else seconds), found["w"] or found["w2"] or "", words
+
+    def _days(self, said: str) -> _Found | None:
+        for pattern, keeps in ((_LEAVE_OUT, False), (_KEEP_TO, True)):
+            found = pattern.fullmatch(said)
+            if found is None:
+                continue
+            words = found["d"] or (found["d2"] if keeps else "")
+            days = self._weekdays(words, keeps=keeps)
+            if days is not None:
+                return days, "", ""
+        found = _DAYS_NAMED.fullmatch(said)
+        if found is None:
+            return None
+        keeps = not (found["not"] or found["skip"])
+        days = self._weekdays(found["d"] or found["d2"], keeps=keeps)
+        words = f"{'only' if keeps else 'not'} on {found['d'] or found['d2']}"
+        return None if days is None else (days, found["w"] or found["w2"], words)
+
+    def _weekdays(self, words: str, *, keeps: bool) -> LeaveOutDays | None:
+        for lead in ("on ", "every ", "at "):
+            parts = self._reads(lead + words, in_chinese=False)
+            if len(parts) == 1 and isinstance(parts[0], WeekDays):
+                return LeaveOutDays(parts[0].days, keeps)
+            if len(parts) == 1 and isinstance(parts[0], OnceDay) and parts[0].weekday is not None:
+                day = frozenset({(parts[0].weekday + 1) % 7})
+                return LeaveOutDays(day, keeps, is_one=not keeps)
+        return None
+
+    def _retime(self, said: str) -> _Found | None:
+        for pattern in _RETIME:
+            found = pattern.fullmatch(said)
+            if found is None:
+                continue
+            group = found.groupdict()
+            old = group.get("o") or group.get("o2")
+            parts = (
+                self._time(group["t"])
+                if group.get("t") is not None
+                else self._reads(group["sure"], in_chinese=False)
+            )
+            before = self._time(old) if old else ()
+            if parts and (before or not old):
+                return Retime(parts, before), "", ""
+        found = _RENAMED.fullmatch(said)
+        for cut in _cuts(said) if found is not None else ():
+            named, parts = _RENAMED_LEAD.fullmatch(said[: cut[0]]), self._time(said[cut[1] :])
+            if named is not None and parts:
+                return Retime(parts), named["w"], f"make it {said[cut[1] :]}"
+        return None
+
+    def _time(self, words: str) -> tuple[Part, ...]:
+        """Return the parts of a time that may be said without its "at"."""
+        bare = re.sub(rf"{_INSTEAD}$", "", words)
+        for lead in ("", "at ", "on ", "in "):
+            if parts := self._reads(lead + bare, in_chinese=False):
+                return parts
+        return ()
+
+    def _lasts(self, words: str) -> float | None:
+        parts = self._reads(f"in {words}", in_chinese=False)
+        after = parts[0] if len(parts) == 1 else None
+        return after.seconds if isinstance(after, After) else None
+
+
+_RENAMED_LEAD = re.compile(
+    rf"(?:change|move|shift|switch|set|push|postpone|reschedule|put|make) {_W}"
+)
+
+
+def _cuts(said: str) -> list[tuple[int, int]]:
+    """Return where "to", "at" or the like parts an order's name from its new time."""
+    return [found.span() for found in re.finditer(rf" (?:{_TO} |(?=every |daily|hourly))", said)]
+
+
+class _Chinese:
+    """Read Chinese corrections."""
+
+    def __init__(self, reads: ReadsParts) -> None:
+        self._reads = reads
+
+    def read(self, said: str) -> _Found | None:
+        """Return the change and the order's name."""
+        return self._again(said) or self._later(said) or self._days(said) or self._retime(said)
+
+    def _again(self, said: str) -> _Found | None:
+        found = _ZH_AGAIN.fullmatch(said)
+        if found is None:
+            return None
+        lasts = found["a"] or found["b"] or found["c"]
+        if lasts is None or lasts in ("一会儿", "一会", "会儿", "会"):
+            return RemindAgain(), "", ""
+        seconds = self._lasts(lasts)
+        return None if seconds is None else (RemindAgain(seconds), "", "")
+
+    def _later(self, said: str) -> _Found | None:
+        found = _ZH_LATER.fullmatch(said)
+        seconds = self._lasts(found["n"]) if found is not None else None
+        if found is None or seconds is None:
+            return None
+        earlier = found["way"] in ("提前", "早")
+        words = f"{'提前' if earlier else '推迟'}{found['n']}"
+        return Delay(-seconds if earlier else seconds), found["w"] or "", words
+
+    def _days(self, said: str) -> _Found | None:
+        for pattern, keeps in ((_ZH_LEAVE_OUT, False), (_ZH_KEEP_TO, True)):
+            found = pattern.fullmatch(said)
+            days = None if found is None else self._weekdays(found["d"] or found["d2"], keeps=keeps)
+            if days is not None:
+                return days, "", ""
+        found = _ZH_DAYS_NAMED.fullmatch(said)
+        if found is None:
+            return None
+        keeps = found["d"] is None
+        words = found["d"] or found["d2"]
+        days = self._weekdays(words, keeps=keeps)
+        change = f"只在{words}" if keeps else f"{words}不用"
+        return None if days is None else (days, found["w"] or found["w2"], change)
+
+    def _weekdays(self, words: str, *, keeps: bool) -> LeaveOutDays | None:
+        parts = self._reads(words, in_chinese=True)
+        if len(parts) != 1 and re.match(r"周|星期|礼拜", words):
+            parts = self._reads(f"每{words}", in_chinese=True)
+        part = parts[0] if len(parts) == 1 else None
+        if isinstance(part, WeekDays):
+            return LeaveOutDays(part.days, keeps)
+        if isinstance(part, OnceDay) and part.weekday is not None:
+            day = frozenset({(part.weekday + 1) % 7})
+            return LeaveOutDays(day, keeps, is_one=part.week is not None and not keeps)
+        return None
+
+    def _retime(self, said: str) -> _Found | None:
+        for pattern in _ZH_RETIME:
+            found = pattern.fullmatch(said)
+            if found is None:
+                continue
+            old = found.groupdict().get("o")
+            parts, before = self._time(found["t"]), self._time(old) if old else ()
+            if parts and (before or not old):
+                return Retime(parts, before), "", ""
+        found = _ZH_RENAMED.fullmatch(said)
+        parts = self._time(found["t"]) if found is not None else ()
+        return (Retime(parts), found["w"], f"改成{found['t']}") if found and parts else None
+
+    def _time(self, words: str) -> tuple[Part, ...]:
+        return self._reads(words, in_chinese=True)
+
+    def _lasts(self, words: str) -> float | None:
+        parts = self._reads(f"{words}后", in_chinese=True)
+        after = parts[0] if len(parts) == 1 else None
+        return after.seconds if isinstance(after, After) else None

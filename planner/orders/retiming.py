@@ -1,0 +1,298 @@
+"""Work out the rule that a corrected order has: "make it nine", "not on Sundays", "an hour later".
+
+Pure. Law: what was not said stays as it was (the days when the hour changes, the half of the day of
+a bare "nine"); a change that a rule can't take is refused, and nothing of it is kept.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+from planner.language.schedule import Delay, LeaveOutDays, Retime
+from planner.language.schedule.parts import (
+    USUAL_HOUR,
+    After,
+    DayPart,
+    EventPart,
+    Interval,
+    MonthDay,
+    OnceDay,
+    TimeOfDay,
+    WeekDays,
+    combine,
+    hour_in,
+    list_days,
+)
+from planner.orders.errors import OrderRefusal
+from planner.orders.rule import judge, settle
+from planner.plan.timing import AtRule, CronRule, DayTime, EventRule, EveryRule, InRule
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from datetime import tzinfo
+
+    from planner.language.schedule import OrderChange
+    from planner.language.schedule.parts import Part
+    from planner.plan.timing import Rule
+
+DAY_MINUTES = 1440
+
+
+@dataclass(frozen=True, slots=True)
+class WeeklyTime:
+    """Hold what a plain cron rule says: minute, hour (None: each), days of the week (0 Sunday)."""
+
+    minute: int
+    hour: int | None
+    days: frozenset[int]
+
+    @property
+    def rule(self) -> CronRule:
+        """Return it as a rule."""
+        hour = "*" if self.hour is None else self.hour
+        return CronRule(cron=f"{self.minute} {hour} * * {list_days(self.days)}")
+
+
+def read_weekly(rule: Rule) -> WeeklyTime | None:
+    """Return the parts of a rule that comes again on days of the week; None of any other."""
+    if not isinstance(rule, CronRule):
+        return None
+    minute, hour, day, month, week = rule.cron.split()
+    days = _read_days(week)
+    if not (minute.isdigit() and day == month == "*" and days):
+        return None
+    if hour != "*" and not hour.isdigit():
+        return None
+    return WeeklyTime(int(minute), None if hour == "*" else int(hour), days)
+
+
+def _read_days(week: str) -> frozenset[int]:
+    if week == "*":
+        return frozenset(range(7))
+    found: set[int] = set()
+    for each in week.split(","):
+        first, _, last = each.partition("-")
+        if not (first.isdigit() and (last or first).isdigit()):
+            return frozenset()
+        found.update(day % 7 for day in range(int(first), int(last or first) + 1))
+    return frozenset(found)
+
+
+def corrected(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) -> Rule:
+    """Return the rule after a correction that is said now.
+
+    Raises:
+        OrderRefusal: ``order_change_unfit``, ``order_change_none`` (it is so already), and as a new
+            rule's.
+    """
+    match change:
+        case Retime(parts=parts):
+            new = _retimed(rule, parts, now_unix_s, zone)
+        case LeaveOutDays():
+            new = _on_days(rule, change)
+        case Delay(seconds=seconds):
+            new = _delayed(rule, seconds)
+        case _:
+            raise _unfit(rule)
+    if new == rule:
+        raise OrderRefusal("order_change_none", f"{rule.model_dump()} is so already")
+    judge(new, now_unix_s, zone)
+    return new
+
+
+def can_take(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) -> bool:
+    """Tell whether a rule can be corrected so, whatever comes of it."""
+    try:
+        corrected(rule, change, now_unix_s, zone)
+    except OrderRefusal as refused:
+        return refused.code != "order_change_unfit"
+    return True
+
+
+def _unfit(rule: Rule) -> OrderRefusal:
+    return OrderRefusal("order_change_unfit", f"{rule.model_dump()} can't be changed so")
+
+
+def _retimed(rule: Rule, parts: tuple[Part, ...], now_unix_s: float, zone: tzinfo) -> Rule:
+    clock = next((p for p in parts if isinstance(p, TimeOfDay)), None)
+    part = next((p for p in parts if isinstance(p, DayPart)), None)
+    others = [p for p in parts if not isinstance(p, (TimeOfDay, DayPart))]
+    if len(others) > 1:
+        raise OrderRefusal("order_nested", "several times")
+    match others[0] if others else None:
+        case None:
+            return _at_hour(rule, clock, part, zone)
+        case WeekDays(days=days):
+            return _weekly(rule, days, clock, part, zone)
+        case Interval():
+            timing = combine(parts)
+            if timing is None or timing.when is None:
+                raise OrderRefusal("order_nested", "an hour and an interval")
+            return settle(timing.when, now_unix_s, zone)
+        case After(seconds=seconds, days=None) if isinstance(rule, AtRule):
+            return settle(InRule(seconds=seconds), now_unix_s, zone)
+        case OnceDay() | MonthDay() | After() as day:
+            return _on_day(rule, day, parts, now_unix_s, zone)
+        case EventPart():
+            raise _unfit(rule)
+        case _:
+            raise _unfit(rule)
+
+
+def _hour_minute(
+    before: tuple[int, int] | None, clock: TimeOfDay | None, part: DayPart | None
+) -> tuple[int, int] | None:
+    """Return the time that is said; a dial's hour is the one that is nearer to the time before."""
+    if clock is None:
+        return (USUAL_HOUR[part], 0) if part is not None else before
+    if part is not None and not clock.sure:
+        return hour_in(clock.hour, part) % 24, clock.minute
+    if clock.sure or before is None or not 1 <= clock.hour <= 12:
+        return clock.hour % 24, clock.minute
+    halves = (clock.hour % 12, clock.hour % 12 + 12)
+    same_half = halves[before[0] >= 12]
+    hour = min(halves, key=lambda h: (_apart(h, before[0]), h != same_half))
+    return hour, clock.minute
+
+
+def _apart(hour: int, other: int) -> int:
+    ahead = (hour - other) % 24
+    return min(ahead, 24 - ahead)
+
+
+def _time_of(rule: Rule, zone: tzinfo) -> tuple[int, int] | None:
+    """Return the time of day of a rule that has one."""
+    weekly = read_weekly(rule)
+    if weekly is not None and weekly.hour is not None:
+        return weekly.hour, weekly.minute
+    if isinstance(rule, AtRule):
+        due = datetime.fromtimestamp(rule.unix_s, zone)
+        return due.hour, due.minute
+    return None
+
+
+def _at_hour(rule: Rule, clock: TimeOfDay | None, part: DayPart | None, zone: tzinfo) -> Rule:
+    at = _hour_minute(_time_of(rule, zone), clock, part)
+    weekly = read_weekly(rule)
+    if at is None or not (isinstance(rule, AtRule) or (weekly and weekly.hour is not None)):
+        raise _unfit(rule)
+    if weekly is not None:
+        return WeeklyTime(at[1], at[0], weekly.days).rule
+    due = datetime.fromtimestamp(_at(rule).unix_s, zone)
+    said = DayTime(hour=at[0], minute=at[1], year=due.year, month=due.month, day=due.day)
+    noon = due.replace(hour=0, minute=0).timestamp()
+    return settle(said, noon - DAY_MINUTES * 60.0, zone)  # the past is judged by now, later
+
+
+def _at(rule: Rule) -> AtRule:
+    if not isinstance(rule, AtRule):
+        raise _unfit(rule)
+    return rule
+
+
+def _weekly(
+    rule: Rule, days: frozenset[int], clock: TimeOfDay | None, part: DayPart | None, zone: tzinfo
+) -> Rule:
+    weekly = read_weekly(rule)
+    if weekly is not None and weekly.hour is None and clock is None and part is None:
+        return WeeklyTime(weekly.minute, None, days).rule
+    at = _hour_minute(_time_of(rule, zone), clock, part)
+    if at is None:
+        raise _unfit(rule) if clock is None and part is None else _missing()
+    return WeeklyTime(at[1], at[0], days).rule
+
+
+def _missing() -> OrderRefusal:
+    return OrderRefusal("order_time_missing", "no hour")
+
+
+def _on_day(
+    rule: Rule,
+    day: OnceDay | MonthDay | After,
+    parts: Iterable[Part],
+    now_unix_s: float,
+    zone: tzinfo,
+) -> Rule:
+    """Return a single order on another day, or one of one day a week on another of these."""
+    clock = next((p for p in parts if isinstance(p, TimeOfDay)), None)
+    part = next((p for p in parts if isinstance(p, DayPart)), None)
+    at = _hour_minute(_time_of(rule, zone), clock, part)
+    weekly = read_weekly(rule)
+    if weekly is not None and isinstance(day, OnceDay) and day.weekday is not None and at:
+        if len(weekly.days) != 1 or day.week is not None:
+            raise _unfit(rule)
+        return WeeklyTime(at[1], at[0], frozenset({(day.weekday + 1) % 7})).rule
+    if not isinstance(rule, AtRule) or at is None:
+        raise _unfit(rule)
+    timing = combine((day, TimeOfDay(at[0], at[1], sure=True)))
+    if timing is None or not isinstance(timing.when, DayTime):
+        raise OrderRefusal((timing.problem if timing else None) or "order_malformed", "no day")
+    return settle(timing.when, now_unix_s, zone)
+
+
+def _on_days(rule: Rule, change: LeaveOutDays) -> Rule:
+    weekly = read_weekly(rule)
+    if weekly is None:
+        raise _unfit(rule)
+    if change.keeps:
+        days = weekly.days & change.days or change.days
+    elif not (days := weekly.days - change.days):
+        raise OrderRefusal("order_never", "no day is left")
+    return WeeklyTime(weekly.minute, weekly.hour, days).rule
+
+
+def _delayed(rule: Rule, seconds: float) -> Rule:
+    if isinstance(rule, AtRule):
+        return rule.model_copy(update={"unix_s": max(0.0, rule.unix_s + seconds)})
+    weekly = read_weekly(rule)
+    if weekly is None or weekly.hour is None or seconds % 60.0:
+        raise _unfit(rule)
+    minutes = weekly.hour * 60 + weekly.minute + round(seconds / 60.0)
+    shift, rest = divmod(minutes, DAY_MINUTES)
+    days = frozenset((day + shift) % 7 for day in weekly.days)
+    return WeeklyTime(rest % 60, rest // 60, days).rule
+
+
+def fits_time(rule: Rule, parts: tuple[Part, ...], due_s: float | None, zone: tzinfo) -> bool:
+    """Tell whether all parts of a time are of this rule; a bare eight is of either half."""
+    return bool(parts) and all(_has(rule, part, due_s, zone) for part in parts)
+
+
+def _has(rule: Rule, part: Part, due_s: float | None, zone: tzinfo) -> bool:
+    due = datetime.fromtimestamp(due_s, zone) if due_s is not None else None
+    weekly = read_weekly(rule)
+    match part:
+        case TimeOfDay(hour=hour, minute=minute, sure=sure):
+            at = _time_of(rule, zone)
+            dial = 24 if sure or not 1 <= hour <= 12 else 12
+            return at is not None and (at[0] - hour) % dial == 0 and at[1] == minute
+        case DayPart():
+            at = _time_of(rule, zone)
+            return at is not None and at[0] in _HOURS_OF[part]
+        case WeekDays(days=days):
+            return weekly is not None and weekly.days == days
+        case Interval(seconds=seconds):
+            every = rule.seconds if isinstance(rule, EveryRule) else None
+            return every == seconds or (seconds == 3600.0 and bool(weekly) and _is_hourly(rule))
+        case EventPart(event=event):
+            return isinstance(rule, EventRule) and rule.event is event
+        case OnceDay(weekday=int(weekday), week=None):
+            return due is not None and due.weekday() == weekday
+        case _:
+            return False
+
+
+def _is_hourly(rule: Rule) -> bool:
+    weekly = read_weekly(rule)
+    return weekly is not None and weekly.hour is None
+
+
+_HOURS_OF = {
+    DayPart.MORNING: range(4, 12),
+    DayPart.NOON: range(11, 15),
+    DayPart.AFTERNOON: range(12, 19),
+    DayPart.EVENING: range(17, 24),
+    DayPart.NIGHT: (*range(20, 24), *range(6)),
+}

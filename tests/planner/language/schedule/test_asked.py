@@ -1,0 +1,53 @@
+"""Questions about standing orders, and those that are about something else."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.language.schedule import ListOrders, read_order_command
+from planner.language.schedule.parts import OnceDay
+
+TODAY, TOMORROW = OnceDay(ahead=0), OnceDay(ahead=1)
+LEFT = ListOrders(next_runs=True, is_sure=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "asked"),
+    [
+        ("How long have I got left?", LEFT), ("how much time is left?", LEFT),
+        ("how long is left on my reminder?", ListOrders(reminders=True, next_runs=True)),
+        ("when is my reminder?", ListOrders(reminders=True, next_runs=True)),
+        ("when will you remind me?", ListOrders(reminders=True, next_runs=True)),
+        ("what time is the pill reminder?", ListOrders("pill", reminders=True, next_runs=True)),
+        ("what have I asked you to do every evening?", ListOrders("every evening")),
+        ("what did I tell you to do on weekdays?", ListOrders("weekdays")),
+        ("what have I asked you to do?", ListOrders()),
+        ("what do you do every day?", ListOrders()),
+        ("what's on for tomorrow?", ListOrders(day=TOMORROW)),
+        ("do I have anything tomorrow?", ListOrders(day=TOMORROW)),
+        ("what are you going to do today?", ListOrders(day=TODAY)),
+        ("what's planned for Friday?", ListOrders(day=OnceDay(weekday=4))),
+        ("还有多久？", LEFT), ("还剩多少时间", LEFT),
+        ("我的提醒是几点？", ListOrders(reminders=True, next_runs=True)),
+        ("吃药的提醒是几点", ListOrders("吃药", reminders=True, next_runs=True)),
+        ("几点提醒我吃药", ListOrders("吃药", reminders=True, next_runs=True)),
+        ("明天有什么安排", ListOrders(day=TOMORROW)), ("明天有安排吗", ListOrders(day=TOMORROW)),
+        ("你今天要做什么", ListOrders(day=TODAY)), ("我让你每天晚上做什么", ListOrders("每天晚上")),
+        ("你每天都做什么", ListOrders()),
+    ],
+)  # fmt: skip
+def test_a_question_about_orders_is_read(text: str, asked: ListOrders) -> None:
+    assert read_order_command(text) == asked
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["what is on the table?", "how long did you wait?", "when did you see the cup?",
+     "what's on the floor",
+     "how long is the hallway", "what will you do in the kitchen?", "when will you come back?",
+     "what happened yesterday evening at eight", "what have you seen today?",
+     "还有多久到", "厨房有什么",
+     "今天有没有人来过", "你今天去过哪些地方", "你在做什么", "房间里有什么"],
+)  # fmt: skip
+def test_a_question_about_something_else_is_not(text: str) -> None:
+    assert not isinstance(read_order_command(text), ListOrders)
