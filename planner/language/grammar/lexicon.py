@@ -14,7 +14,7 @@ from functools import lru_cache
 from rapidfuzz.distance import OSA
 from rapidfuzz.fuzz import ratio
 
-from planner.language.grammar.sentence_text import squash
+from planner.language.grammar.sentence_text import normalise, squash
 from planner.plan import Bilingual, Entry, Vocabulary
 
 FIRST_MARK = 0xE000
@@ -232,12 +232,12 @@ _GIVEN = (
 _KIN = (
     r"(?:(?:my|our|your) )?(?:mom|mum|mommy|mummy|mother|dad|daddy|father|grand(?:ma|pa|mother|"
     r"father)|"
-    r"granny|wife|husband|son|daughter|brother|sister|uncle|aunt|boss|neighbou?r)"
+    r"granny|nana|nan|gran|grand?dad|gramps|auntie|papa|mama|wife|husband|son|daughter|brother|sister|uncle|aunt|boss|neighbou?r)"
 )
 _KIN_ZH = (
     r"(?:我的?|你的?)?(?:爸爸|妈妈|老爸|老妈|奶奶|爷爷|外公|外婆|姥姥|姥爷|哥哥|姐姐|弟弟|妹妹|"
     r"叔叔|阿姨|"
-    r"老公|老婆|丈夫|妻子|儿子|女儿|老板)"
+    r"老公|老婆|丈夫|妻子|儿子|女儿|老板)|[我咱](?:妈|爸|哥|姐|弟|妹)(?![妈爸哥姐弟妹])"
     r"|小[明红华丽强军刚芳伟王李张刘陈杨赵周吴林美]|老[王李张刘陈杨赵黄周吴]|张三|李四|王五"
     r"|[王李张刘陈杨赵黄周吴徐孙马朱胡郭何高林](?:先生|女士|小姐|老师|总|医生|师傅|阿姨|奶奶|爷爷|"
     r"叔叔)"
@@ -272,6 +272,24 @@ def mark_people(marked: MarkedText, original: str) -> MarkedText:
     return MarkedText(text, marked.mentions, tuple(written))
 
 
+@lru_cache(maxsize=256)
+def is_given_name(words: str) -> bool:
+    """Tell whether words are a common given name or one of the family: "Anna", "my dad", 奶奶."""
+    return _KNOWN.fullmatch(normalise(words)) is not None
+
+
+def person_named(words: str, original: str) -> str | None:
+    """Return a person's name as it is written, where words of a sentence are nothing else."""
+    marked = mark_people(MarkedText(words, ()), original)
+    return marked.people[0] if re.fullmatch(NAME, marked.text) else None
+
+
+def people_named(text: str) -> tuple[str, ...]:
+    """Return the persons whom a text names, each once, in its order and as they are written."""
+    marked = mark_people(MarkedText(normalise(text), ()), text)
+    return tuple(dict.fromkeys(marked.people))
+
+
 def _title(name: str) -> str:
     plain = name if " " in name or not name.isascii() else name.title()
     return re.sub(r"^(?:your|my|our) ", "", plain)
@@ -288,6 +306,6 @@ def _find_capitals(original: str) -> set[str]:
     for word in words:
         inside = before[0].isalpha() and before.casefold() not in _ARTICLES
         if inside and word[:1].isupper() and not word.isupper():
-            found.add(word.casefold())
+            found.add(word.casefold().removesuffix("'s").removesuffix("’s"))
         before = word
     return found - _NO_NAMES

@@ -16,7 +16,7 @@ from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.everyday import rewrite
-from planner.language.grammar.lexicon import MARK, lexicon_of
+from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.sentence_text import normalise
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
@@ -67,7 +67,9 @@ def held_back(text: str) -> Counter[str]:
 
 _WHETHER = re.compile(
     r"\b(tell (?:me|us)|check(?:ing)?|see(?:ing)?|look(?:ing)?|find(?:ing)? out|report"
-    r"|let (?:me|us) know) (?:if|whether)\b"
+    r"|let (?:me|us) know"
+    rf"|ask(?: (?:him|her|them|(?:every|any|some)(?:one|body)|{NAME}|(?:(?:the|my|our|a) )?[a-z]+)"
+    rf"(?: (?:in|at|on|by|near) (?:the )?(?:{MARK}|[a-z]+(?: room)?))?)?) (?:if|whether)\b"
     r"|(?<=[看查认下])(?:一下|看)?(?:是否|是不是|有没有)"
 )
 
@@ -78,8 +80,11 @@ _A_NOT_A = re.compile(r"((?:看|查|确认)[^,。;!?]*?)([^,。;!?])不\2")
 _DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?[着了])没有?(?=[,。;!?]|$)")
 """看看电视开着没有, 看看门关了没: likewise."""
 
+_ASKS_THEM = re.compile(r"(问[^,。;!?]{0,12}?)(?:要不要|想不想|是不是|是否|能不能|有没有|需不需要)")
+"""问问妈妈要不要喝茶: asked of somebody, no condition."""
+
 
 def asks_whether(text: str) -> str:
     """Return the text without the "if" of a question that looking answers: no condition."""
-    plain = _DONE_OR_NOT.sub(r"\1", _A_NOT_A.sub(r"\1\2", text))
+    plain = _DONE_OR_NOT.sub(r"\1", _A_NOT_A.sub(r"\1\2", _ASKS_THEM.sub(r"\1要", text)))
     return _WHETHER.sub(lambda found: found[1] or "有", plain)

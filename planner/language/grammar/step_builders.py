@@ -12,7 +12,7 @@ from dataclasses import replace
 from pydantic import ValidationError
 
 from planner.language.catalogue import build, noun, raw, say
-from planner.language.grammar.lexicon import MARK, NAME
+from planner.language.grammar.lexicon import MARK, NAME, is_given_name
 from planner.language.grammar.noun_phrases import ONE_AT_A_TIME, go_to, several
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
 from planner.plan import (
@@ -123,9 +123,23 @@ def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> M
         return missing(WHERE_IS, words, reading, person)
     # Who was met is still there; who was only asked about may be nowhere.
     again = words in _THEY and where is None and reading.scene.kind != "look"
+    if saying and _is_named(words) and not is_given_name(person):
+        person = noun("noun.person").of(reading.language)  # eyes know no more of it than of a thing
     steps: tuple[Step, ...] = () if again else (Find(object=person, place=place),)
-    said = (Say(text=saying),) if saying else ()
+    said = (Say(text=call(words, saying, reading)),) if saying else ()
     return Steps((*arrive(place, reading), *steps, *said), person=person, seen=True)
+
+
+def _is_named(words: str) -> bool:
+    return re.fullmatch(NAME, words) is not None
+
+
+def call(words: str, saying: str, reading: Reading) -> str:
+    """Return what is said to somebody, behind their name: no eye tells who is who."""
+    name = label_of(words, reading)
+    if not _is_named(words) or name.lower() in saying.lower():
+        return saying
+    return f"{name}{', ' if name.isascii() else ','}{saying}"[:500]
 
 
 def follow(words: str, start: str | None, end: str | None, reading: Reading) -> Meaning:
