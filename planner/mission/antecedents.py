@@ -12,9 +12,9 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
-from planner.language.grammar import people_named
 from planner.language.leaning_condition import WhetherThere, read_whether_there, write_condition
 from planner.language.motion_guard.mentioned_names import find_places
+from planner.language.person_names import people_named
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -1,7 +1,6 @@
 """Read English and Chinese orders by grammar, in the site's own names, into a plan."""
 
-from planner.language.grammar.lexicon import is_given_name, people_named
 from planner.language.grammar.parser import Context, plan
 from planner.language.grammar.sentence_text import MAX_CHARACTERS
 
-__all__ = ["MAX_CHARACTERS", "Context", "is_given_name", "people_named", "plan"]
+__all__ = ["MAX_CHARACTERS", "Context", "plan"]

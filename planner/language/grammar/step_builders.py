@@ -12,9 +12,10 @@ from dataclasses import replace
 from pydantic import ValidationError
 
 from planner.language.catalogue import build, noun, raw, say
-from planner.language.grammar.lexicon import MARK, NAME, is_given_name
+from planner.language.grammar.lexicon import MARK, NAME
 from planner.language.grammar.noun_phrases import ONE_AT_A_TIME, go_to, several
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
+from planner.language.person_names import is_given_name
 from planner.plan import (
     MAX_STEPS,
     Bilingual,

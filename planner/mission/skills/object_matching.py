@@ -7,9 +7,9 @@ from math import atan2, hypot
 from typing import TYPE_CHECKING, Any
 
 from planner.language.folding import fold
-from planner.language.grammar import is_given_name
 from planner.language.object_classes import kind_of
 from planner.language.object_names import first_named, resolve, singles_out
+from planner.language.person_names import is_given_name
 from planner.language.questions import split_relation
 from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.spatial_relations import stands
