@@ -148,6 +148,8 @@ TEACH = re.compile(
     rf"[^;。!?]{{4,50}}?){_KEPT}"
 )
 """What is to be remembered, word for word."""
+LESSON = re.compile(rf"{_KEEP}[哈啊哦]?[,:]?(?!{_ORDERS})")
+"""How a fact begins that may be of any length."""
 THIS_IS = re.compile(r"这.*")
 _DROP = r"(?:忘掉|忘记|忘了|删掉|删除|抹掉|清除)"
 _I_SAID = r"我们?(?:跟你|对你|和你)?(?:说|讲|告诉|教)(?:过)?(?:你)?(?:过)?的?"

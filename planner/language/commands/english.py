@@ -226,6 +226,8 @@ TEACH = re.compile(
     rf"|(?P<e>(?:(?!{_DOES}){_NOUN} {_SAYS}|{_PUT})\b[^,;:.!?]{{2,80}}){_KEPT}"
 )
 """What is to be remembered, word for word."""
+LESSON = re.compile(rf"{_KEEP}(?: that|:| this:| the following:|,)+ ")
+"""How a fact begins that may be of any length."""
 THIS_IS = re.compile(r"this is .*")
 _ABOUT = r"(?P<{}>[^,;:.!?]{{2,60}})"
 _DROP = r"(?:forget|delete|erase|remove|drop)"
