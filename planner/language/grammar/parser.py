@@ -45,7 +45,12 @@ from planner.language.grammar.parse_result import (
     TopicQuestion,
     read_by,
 )
-from planner.language.grammar.plain_words import asks_whether, in_plain_words, without_sending
+from planner.language.grammar.plain_words import (
+    asks_whether,
+    in_plain_words,
+    leave_asides_out,
+    without_sending,
+)
 from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
@@ -109,9 +114,17 @@ def plan(
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
     text = in_one_condition(text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context))
     made = _plan_as_said(without_sending(text), vocabulary, context)
-    if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_AGAIN:
+    if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:
         return made
-    plainer = in_plain_words(text, vocabulary)
+    ordered = leave_asides_out(text, vocabulary)
+    if ordered is not None:
+        alone = _plan_as_said(without_sending(ordered), vocabulary, context)
+        if isinstance(alone, StepPlan):
+            return alone
+        text = ordered if made.code in _READ_AGAIN else text
+    if made.code not in _READ_AGAIN and ordered is None:
+        return made
+    plainer = in_plain_words(ordered or text, vocabulary)
     second = None if plainer is None else _plan_as_said(plainer, vocabulary, context)
     if not isinstance(second, StepPlan):
         return _guess(made, text, vocabulary, context)
@@ -156,6 +169,9 @@ _READ_AGAIN = frozenset(
         Code.CONDITIONAL, Code.AMBIGUOUS,
     }
 )  # fmt: skip
+
+_READ_ANEW = _READ_AGAIN | {Code.NEGATED, Code.OUT_OF_SCOPE}
+"""Without what is said around the order: "I can't get up, go …" denies nothing of it."""
 
 
 def _plan_as_said(

@@ -11,6 +11,7 @@ from collections import Counter
 
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
+from planner.language.grammar.asides import without_asides
 from planner.language.grammar.checks import without_compounds
 from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
@@ -34,6 +35,13 @@ def without_sending(text: str) -> str:
     said = normalise(text)
     plain = rewrite(said, ASKED_AND_SENT if has_chinese(text) else TOLD_TWICE)
     return text if plain == rewrite(said, ()) else plain
+
+
+def leave_asides_out(text: str, vocabulary: Vocabulary) -> str | None:
+    """Return a sentence without courtesy, praise and statements of how things stand, or None."""
+    marked = lexicon_of(vocabulary).mark(normalise(text))
+    left = without_asides(marked.text)
+    return marked.restore(left) if left != marked.text else None
 
 
 def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
