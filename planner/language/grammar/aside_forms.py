@@ -20,5 +20,7 @@ class AsideForms:
     """Group ``aside``: a formula, and behind it the word that joins an order to it."""
     formula: re.Pattern[str]
     """A clause of courtesy as a whole."""
+    speaks: re.Pattern[str]
+    """Has somebody told or asked something: what follows may be the words for them."""
     states: tuple[re.Pattern[str], ...]
     """Clauses that say how things stand."""

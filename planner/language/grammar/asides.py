@@ -11,10 +11,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
 from planner.language.grammar.en.asides import ENGLISH_ASIDES
 from planner.language.grammar.zh.asides import CHINESE_ASIDES
+
+if TYPE_CHECKING:
+    from planner.language.grammar.aside_forms import AsideForms
 
 _MOST_CLAUSES = 12
 _CUT = re.compile(r"\s*(?:[,;:!?。]+|\.+(?!\d)|\s[-–—]+\s|—+)\s*")
@@ -35,7 +39,12 @@ def without_asides(text: str) -> str:
     clauses = [each for clause in _cut(said) for each in _part(clause, asides.seam)]
     if len(clauses) > _MOST_CLAUSES:
         return text
-    kept = [each for each in clauses if not _is_aside(each.text, asides.formula, asides.states)]
+    speech = next((at for at, each in enumerate(clauses) if asides.speaks.search(each.text)), None)
+    kept = [
+        each
+        for at, each in enumerate(clauses)
+        if not _is_aside(each.text, asides, words=speech is not None and at > speech)
+    ]
     if not kept or (len(kept) == len(clauses) and said == text.strip().rstrip(".!。")):
         return text
     if kept[0] is not clauses[0]:
@@ -65,8 +74,9 @@ def _part(clause: _Clause, seam: re.Pattern[str]) -> list[_Clause]:
     return [_Clause(found["aside"], " "), _Clause(clause.text[found.end() :], clause.mark)]
 
 
-def _is_aside(clause: str, formula: re.Pattern[str], states: tuple[re.Pattern[str], ...]) -> bool:
+def _is_aside(clause: str, asides: AsideForms, *, words: bool) -> bool:
+    """Tell whether a clause may go; behind words to be said no statement does: it may be one."""
     said = clause.strip(" \"'")
-    return formula.fullmatch(said) is not None or any(
-        pattern.fullmatch(said) is not None for pattern in states
-    )
+    if asides.formula.fullmatch(said) is not None:
+        return True
+    return not words and any(pattern.fullmatch(said) is not None for pattern in asides.states)

@@ -7,9 +7,8 @@ place that a plan drives to is named by the sentence.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime
 
 from planner.language.catalogue import message, say
 from planner.language.folding import CHINESE as HAN
@@ -24,6 +23,7 @@ from planner.language.grammar.clauses import (
     take_quotes,
 )
 from planner.language.grammar.compound import PartReaders, read_compound
+from planner.language.grammar.context import Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
@@ -66,11 +66,9 @@ from planner.language.recall import read_recall
 from planner.language.stop import StopReading
 from planner.language.utterance import parse
 from planner.plan import (
-    RUNNABLE,
     AnswerPlan,
     Clarify,
     Code,
-    Frozen,
     Language,
     Option,
     Patrol,
@@ -91,20 +89,6 @@ _LATIN = re.compile(r"[a-z]")
 _SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
 
 
-class Context(Frozen):
-    """Hold a brain's facts besides the sentence: place, time, the robot's capabilities."""
-
-    room: str | None = None
-    language: Language | None = None
-    now: datetime | None = None  # for "what time is it"
-    runnable: frozenset[str] = RUNNABLE  # kinds of steps the robot can do
-    blind: Code = Code.NO_CAMERA  # what is said of looking where it can't
-    things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
-    remembers: bool = False  # something that the sentence names is remembered
-    departed: bool = False  # an order before led the robot away: "come back" is back from there
-    moved: bool = False  # it is a part of an order: the robot has driven somewhere before it
-
-
 NOWHERE = Context()
 
 
@@ -116,20 +100,26 @@ def plan(
     made = _plan_as_said(without_sending(text), vocabulary, context)
     if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:
         return made
-    ordered = leave_asides_out(text, vocabulary)
-    if ordered is not None:
-        alone = _plan_as_said(without_sending(ordered), vocabulary, context)
-        if isinstance(alone, StepPlan):
-            return alone
-        text = ordered if made.code in _READ_AGAIN else text
-    if made.code not in _READ_AGAIN and ordered is None:
-        return made
-    plainer = in_plain_words(ordered or text, vocabulary)
-    second = None if plainer is None else _plan_as_said(plainer, vocabulary, context)
+    second: StepPlan | AnswerPlan | Clarify | Refuse | None = None
+    for said in _in_other_words(text, vocabulary, plainer=made.code in _READ_AGAIN):
+        second = _plan_as_said(said, vocabulary, context)
+        if isinstance(second, StepPlan):
+            break
     if not isinstance(second, StepPlan):
         return _guess(made, text, vocabulary, context)
     asked = made.code is Code.INCOMPLETE  # what is asked for must not be guessed, but "the rounds"
     return made if asked and not _has_rounds_alone(second) else second
+
+
+def _in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:
+    """Yield a sentence without what is said around its order, and in plainer words."""
+    ordered = leave_asides_out(text, vocabulary)
+    if ordered is not None:
+        yield without_sending(ordered)
+    for said in (text, ordered) if plainer else (ordered,):
+        plain = in_plain_words(said, vocabulary) if said is not None else None
+        if plain is not None:
+            yield plain
 
 
 def _guess(

@@ -60,7 +60,7 @@ _AT_HAND = re.compile(
 )
 """What says no more of a thing than that the robot is to see it, in the home that it is in."""
 _TITLE = 80
-_DONE = re.compile(r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?)\b")
+_DONE = re.compile(r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?|since|because)\b")
 """What no thing's name holds: "找到杯子了吗", "数完了" and "my legs are tired" tell or ask."""
 ASIDE = re.compile(
     r"\b(?:behind (?:you|me|us)|(?:on|to|at|by) (?:your|my|the) (?:left|right)"

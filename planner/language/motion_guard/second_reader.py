@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 
-from planner.language.grammar.parser import Context
+from planner.language.grammar.context import Context
 from planner.language.grammar.parser import plan as read_order
 from planner.language.motion_guard.mentioned_names import plain
 from planner.plan import (

@@ -144,6 +144,7 @@ ENGLISH_ASIDES = AsideForms(
         r"|(?:my|the) [a-z]+ hurts?),? (?:and|but|so)[ ,]+(?=[a-z\ue000-\ue7ff])"
     ),
     formula=re.compile("|".join(f"(?:{each})" for each in _FORMULAS)),
+    speaks=re.compile(r"\b(?:tell|say|ask|announce|shout|remind|inform|let|repeat|call|warn)\b"),
     states=(
         re.compile(rf"{_JOIN}?{_STATE}"),
         re.compile(rf"{_JOIN}?{_CANNOT}"),

@@ -159,6 +159,10 @@ _ASKED_OF_THEM = re.compile(
     r"(?P<who>he|she|they|any(?:one|body)|some(?:one|body)|every(?:one|body))"
     r"(?P<rest>(?: |'s |'d |'re ).+)"
 )
+_WHERE_IT_IS = re.compile(
+    r"(?P<word>where|what|who|how|when) (?P<what>(?:the|my|our|your|his|her) [a-z]+(?: [a-z]+)?)"
+    r" (?P<be>is|are|was|were)"
+)
 _MODAL = re.compile(
     r"(?P<modal>can|could|will|would|should|must|may|might|did|had|have got|has got) (?P<rest>.+)"
 )
@@ -168,7 +172,8 @@ def ask_directly(question: str) -> str:
     """Return "if she wants tea" as it is asked: "do you want tea?"."""
     found = _ASKED_OF_THEM.fullmatch(question)
     if found is None:
-        return question
+        turned = _WHERE_IT_IS.fullmatch(question)
+        return f"{turned['word']} {turned['be']} {turned['what']}?" if turned else question
     word = f"{found['word']} " if found["word"] else ""
     they = "you" if found["who"] in ("he", "she", "they") else found["who"].replace("some", "any")
     rest = found["rest"].replace("'d ", " would ", 1).replace("'s ", " is ", 1)

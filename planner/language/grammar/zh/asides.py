@@ -62,6 +62,7 @@ CHINESE_ASIDES = AsideForms(
     joint=re.compile(r"^(?:所以|那就|那|不过|就)(?=[去到回来找看跟等转问数])"),
     seam=re.compile(rf"(?P<aside>(?:{_PLEA}){_END})(?=[去到回来找看跟等转问数]{MARK})"),
     formula=re.compile("|".join(f"(?:{each})" for each in _FORMULAS)),
+    speaks=re.compile(r"[说讲问喊叫]|告诉|提醒|通知|转告|带(?:个|句)话"),
     states=(
         re.compile(rf"{_JOIN}{_STATE}"),
         re.compile(rf"{_JOIN}{_UNABLE}"),

@@ -153,11 +153,11 @@ RULES: tuple[Rule, ...] = (
     rule(rf"{_AT}(?:告诉|对|跟|和|向|通知){_WHO}(?:说|讲|喊)?[:]?(?P<quote>{QUOTE})", _quote_to),
     rule(
         rf"{_AT}(?:告诉|通知|提醒|叫|让|请|对|跟){_AT2}{_WHO}(?:说|讲)?(?:一下|"
-        r"一声)?(?P<words>[^,]+)",
+        r"一声)?(?P<words>(?![说讲]$)[^,]+)",
         _tell_words,
     ),
     rule(
-        rf"{_AT}(?:问问|问一下|问|询问)(?:一下)?{_AT2}(?P<who>{PERSON})?(?:一下|一声)?(?P<question>.+)",
+        rf"{_AT}(?:问问|问一下|问|询问)(?:一下)?(?:{_AT2}(?P<who>{PERSON}))?(?:一下|一声)?(?P<question>.+)",
         _ask,
     ),
     rule(

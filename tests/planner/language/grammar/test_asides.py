@@ -32,7 +32,7 @@ BEHIND = (
     *(", bless you", ", you little star", ", that would be lovely", ", much obliged", ", no rush"),
     *(", I'd appreciate it", ", don't worry about the noise", ", it won't take long", ", yeah?"),
     *(", aren't you clever", ", do you hear me?", ", as usual", ", like a good boy"),
-    *(" because I can't find my glasses", " since my legs ache", ", my legs are tired"),
+    *(" because I can't find my glasses", ", my legs are tired"),
 )
 INSIDE = (", have you had a nice day, ", ", bless you, ", ", oh my back, ", ", I'm so tired, ")
 ORDERS_ZH = ("去厨房", "去厨房看看", "数一下书房的椅子", "去厨房，然后回来", "找红色的杯子")
@@ -138,7 +138,15 @@ def test_neither_in_chinese(home: Vocabulary, aside: str, held: str) -> None:
             "I don't want that, ",
         ),
         *("I mean, not the study, ", "when I come, ", "if I'm asleep, ", "the floor is wet, "),
-        *("他说，", "老师让我，", "如果我睡着了，", "我不想，", "地上很滑，"),
+        *(
+            "say, ",
+            "tell Dad, ",
+            "他说，",
+            "老师让我，",
+            "如果我睡着了，",
+            "我不想，",
+            "地上很滑，",
+        ),
     ],
 )
 def test_what_may_mean_more_stays(home: Vocabulary, before: str) -> None:
@@ -148,11 +156,23 @@ def test_what_may_mean_more_stays(home: Vocabulary, before: str) -> None:
 
 _WORDS = st.lists(
     st.sampled_from(
-        ("my back hurts", "bless you", "go to", "\ue000", "not", "if", "I am tired", ",", "and", ".",
-         "我走不动了", "谢谢你", "去", "别", "辛苦啦", "？", "10")
+        ("my back hurts", "bless you", "go to", "\ue000", "not", "if", "I am tired", ",", "and",
+         "我走不动了", "谢谢你", "去", "别", "辛苦啦", "？", "10", ".")
     ),
     max_size=12,
 )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        ("go to the study and tell Dad, dinner is ready", "Dad, dinner is ready"),
+        ("你去书房跟爸爸讲，饭好了", "爸爸,饭好了"),
+    ],
+)
+def test_words_to_be_said_are_no_aside(home: Vocabulary, said: str, words: str) -> None:
+    made = plan(said, home, WHOLE)
+    assert not isinstance(made, StepPlan) or made.steps[-1] == Say(text=words)
 
 
 @given(_WORDS.map(" ".join))
