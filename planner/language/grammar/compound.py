@@ -93,6 +93,8 @@ class CompoundForms:
     """Stands between that verb and the place's name."""
     tells: tuple[tuple[re.Pattern[str], str], ...]
     """What is to be told to "him", and the order to say it."""
+    reports: re.Pattern[str]
+    """An order to tell the person themselves: the look's own answer is that."""
     calls: str
     """Stands between a person's name and the words for them."""
     cuts: re.Pattern[str]
@@ -178,9 +180,12 @@ def _branch(
         other = _name_there(other, name, forms) if other else None
     if eyes is not None and eyes.is_somebody:
         order, other = _tell_them(order, forms), _tell_them(other, forms) if other else None
-    yes, no = read.steps(order), read.steps(other) if other else ()
+    told = eyes is not None and forms.reports.fullmatch(order.strip(" ,.")) is not None
+    yes, no = () if told else read.steps(order), read.steps(other) if other else ()
     if yes is None or no is None:
         return None
+    if eyes is not None and told and not no:
+        return (eyes.look,)
     if denied:
         yes, no = no, yes
     if eyes is not None and eyes.person and all(isinstance(step, Say | Ask) for step in yes):

@@ -101,14 +101,21 @@ def plan(
     if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:
         return made
     second: StepPlan | AnswerPlan | Clarify | Refuse | None = None
+    asked: Clarify | None = None
     for said in _in_other_words(text, vocabulary, plainer=made.code in _READ_AGAIN):
         second = _plan_as_said(said, vocabulary, context)
         if isinstance(second, StepPlan):
             break
+        if isinstance(second, Clarify) and second.code is Code.INCOMPLETE and second.options:
+            asked = asked or second
     if not isinstance(second, StepPlan):
-        return _guess(made, text, vocabulary, context)
-    asked = made.code is Code.INCOMPLETE  # what is asked for must not be guessed, but "the rounds"
-    return made if asked and not _has_rounds_alone(second) else second
+        guessed = _guess(made, text, vocabulary, context)
+        lost = guessed.code is Code.NOT_UNDERSTOOD and not (
+            isinstance(guessed, Clarify) and guessed.options
+        )
+        return asked if asked is not None and lost else guessed
+    missing = made.code is Code.INCOMPLETE  # what is asked for is not guessed, but "the rounds"
+    return made if missing and not _has_rounds_alone(second) else second
 
 
 def _in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:

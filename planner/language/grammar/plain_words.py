@@ -18,6 +18,7 @@ from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
+from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
@@ -38,9 +39,11 @@ def without_sending(text: str) -> str:
 
 
 def leave_asides_out(text: str, vocabulary: Vocabulary) -> str | None:
-    """Return a sentence without courtesy, praise and statements of how things stand, or None."""
+    """Return a sentence without what it takes back, courtesy, praise and statements of how things
+    stand; None where it has none of them.
+    """
     marked = lexicon_of(vocabulary).mark(normalise(text))
-    left = without_asides(marked.text)
+    left = without_asides(take_last_word(marked.text) or marked.text)
     return marked.restore(left) if left != marked.text else None
 
 
@@ -82,7 +85,7 @@ _WHETHER = re.compile(
 )
 
 
-_A_NOT_A = re.compile(r"((?:看|查|确认)[^,。;!?]*?)([^,。;!?])不\2")
+_A_NOT_A = re.compile(r"((?:看|查|确认|问)[^,。;!?]*?)([^,。;!?])不\2")
 """看看她在不在: to be looked at, no negation."""
 
 _DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?[着了])没有?(?=[,。;!?]|$)")

@@ -59,6 +59,7 @@ _AT_HAND = re.compile(
     r"|^(?:所有|全部|每个|各个)的?房间(?:里面?)?的(?=.)"
 )
 """What says no more of a thing than that the robot is to see it, in the home that it is in."""
+_IN_A_ROOM = re.compile(r".+ (?:in|inside) (?P<room>(?:the|my|our|your) [a-z][a-z ]*)")
 _TITLE = 80
 _DONE = re.compile(r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?|since|because)\b")
 """What no thing's name holds: "找到杯子了吗", "数完了" and "my legs are tired" tell or ask."""
@@ -217,6 +218,9 @@ def count(words: str, where: str | None, reading: Reading) -> Meaning:
         return missing(WHO, words, reading)
     if _DONE.search(label):
         return replace(reading.problem(Code.NOT_UNDERSTOOD, words), places=())
+    elsewhere = _IN_A_ROOM.fullmatch(words) if place is None else None
+    if elsewhere is not None:  # counted all over the home it would be another order
+        return go_to(elsewhere["room"], reading)
     steps = (*arrive(place, reading), Count(object=label, place=place))
     return Steps(steps, thing=label, seen=True)
 

@@ -84,7 +84,7 @@ _FORMULAS = (
     r"|(?:oh )?my (?:back|feet|legs|head|poor [a-z]+|goodness)|bother|blast|crikey|blimey|gosh",
     r"(?:it|this) (?:will not|won't|should not|shouldn't) take (?:long|a (?:minute|moment|second|sec))",
     r"(?:do not|don't) (?:worry|fret|mind|fuss)(?: (?:about|yourself|me|us|over|for)(?: [a-z]+){0,3})?",
-    r"sorry",
+    r"sorry|there (?:should|ought to|must|will) be (?:[a-z]+|\d+)(?: of them)?(?: somewhere)?",
 )
 _VETO = (
     rf"(?![^,.!;?]*(?:{MARK}|\d|\b(?:go|going|come|coming|drive|driving|find|look|stop|halt|wait|turn"
@@ -131,7 +131,8 @@ ENGLISH_ASIDES = AsideForms(
         r"|why (?:not|do not you|don't you)|i (?:want|need|would like) you to maybe"
         r"|(?:i(?:'d| would) be |it(?:'d| would) be )(?:ever so |so |very |most |really )*(?:grateful|glad"
         r"|happy|obliged|great|lovely|kind|nice|grand) if you(?: could| would|'d| can| were to)?"
-        r"|(?:pretty )?please(?: please)*|oh,? and(?: could you also| also)?|and(?: could you)? also|while you are at it)[ ,]+)+"
+        r"|(?:do you (?:happen to )?know|any idea|do you remember)(?= (?:where|how many|what|who)\b)"
+        r"|go on(?=,)|(?:pretty )?please(?: please)*|oh,? and(?: could you also| also)?|and(?: could you)? also|while you are at it)[ ,]+)+"
     ),
     closing=re.compile(
         rf"(?<=[\w\ue000-\ue7ff]),? (?:because|cause|cos|since|as|seeing as|now that)"

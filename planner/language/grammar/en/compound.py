@@ -217,6 +217,10 @@ ENGLISH_COMPOUND = CompoundForms(
         ),
         (re.compile(rf"\bsay (?P<w>[^,;\"]+?) to {_THEM}(?=$|[,;]| and\b)"), r'say "\g<w>"'),
     ),
+    reports=re.compile(
+        r"(?:please )?(?:(?:tell|inform|notify|warn|say) me|let me know|say so|report(?: back)?)"
+        r"(?: about it| please)?"
+    ),
     calls=", ",
     cuts=re.compile(rf" then | (?={_VERBS}\b)"),
     failures=re.compile(

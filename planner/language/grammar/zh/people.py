@@ -157,7 +157,7 @@ RULES: tuple[Rule, ...] = (
         _tell_words,
     ),
     rule(
-        rf"{_AT}(?:问问|问一下|问|询问)(?:一下)?(?:{_AT2}(?P<who>{PERSON}))?(?:一下|一声)?(?P<question>.+)",
+        rf"{_AT}(?:问问|问一下|问下|问|询问)(?:一下)?(?:{_AT2}(?P<who>{PERSON}))?(?:一下|一声)?(?P<question>.+)",
         _ask,
     ),
     rule(

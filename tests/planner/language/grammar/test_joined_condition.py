@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from planner.language.grammar import Context, plan
-from planner.plan import EVERY_KIND, Ask, Clarify, Find, If, Look, Refuse, Say, StepPlan
+from planner.plan import EVERY_KIND, Ask, Clarify, Code, Find, If, Look, Refuse, Say, StepPlan
 
 if TYPE_CHECKING:
     from planner.plan import Vocabulary
@@ -134,3 +134,38 @@ def test_a_name_that_nobody_knows_is_somebody_to_eyes(
     made = plan(f"{verb.format(who)} lunch is ready", home, WHOLE)
     assert isinstance(made, StepPlan)
     assert made.steps[-1] == Say(text=f"{who}, lunch is ready")
+
+
+@pytest.mark.parametrize(
+    ("said", "question"),
+    [
+        ("if there's a cup on the desk, tell me", "is there a cup on the desk"),
+        ("if you will see a backpack in the hallway, let me know", "do you see"),
+        ("走廊上要是有书包，你就吱一声", "走廊上有没有书包"),
+        ("如果书房有人就告诉我", "书房有没有人"),
+    ],
+)
+def test_to_tell_the_person_themselves_is_to_look(
+    home: Vocabulary, said: str, question: str
+) -> None:
+    made = plan(said, home, WHOLE)
+    assert isinstance(made, StepPlan)
+    assert [type(step) for step in made.steps] == [Look]
+    if isinstance(made.steps[0], Look) and "see" not in question:
+        assert made.steps[0].question == question
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "how many chairs are in the attic",
+        "count the cups in the cellar",
+        "how many cups are in our garage",
+    ],
+)
+def test_what_is_counted_in_an_unknown_room_is_not_counted_elsewhere(
+    home: Vocabulary, said: str
+) -> None:
+    made = plan(said, home, WHOLE)
+    assert isinstance(made, Clarify)
+    assert made.code is Code.UNKNOWN_PLACE
