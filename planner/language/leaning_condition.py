@@ -193,8 +193,11 @@ def write_condition(asked: WhetherThere, place: str, text: str) -> str | None:
         has = "有" if holds else "没有"
         condition = f"如果{where}{has}{asked.who}，就{order}"
         return condition + (f"，否则{other}" if other else "")
-    where = asked.where or f"in the {place}"
-    condition = f"if {_state(asked.who, holds=holds)} {where}, {_at_subject(order, asked.who)}"
+    where = asked.where or (f"in the {place}" if place else "")
+    state = _state(asked.who, holds=holds) if where else _state_here(asked.who, holds=holds)
+    if state is None:
+        return None
+    condition = f"if {f'{state} {where}'.strip()}, {_at_subject(order, asked.who)}"
     return condition + (f", otherwise {_at_subject(other, asked.who)}" if other else "")
 
 
@@ -209,6 +212,13 @@ def _state(who: str, *, holds: bool) -> str:
         return f"there {is_} {who}" if holds else f"there {is_} no {bare}"
     is_ = "are" if re.search(r"(?:[^s]s|people|children|men)$", who) else "is"
     return f"{who} {is_}" if holds else f"{who} {is_} not"
+
+
+def _state_here(who: str, *, holds: bool) -> str | None:
+    """Return "there is somebody", where the robot stands; None of one who is known by name."""
+    if _ANYBODY.fullmatch(who):
+        return "there is somebody" if holds else "there is nobody"
+    return _state(who, holds=holds) if _SOME.match(who) else None
 
 
 def _at_subject(order: str, who: str) -> str:

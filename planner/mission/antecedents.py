@@ -86,7 +86,7 @@ def _write_condition(text: str, last: Mission, facts: SiteView) -> str | None:
     asked = read_whether_there(last.order_text) or read_whether_there(look.text or "")
     if look.kind == "find" and look.object is not None:
         asked = WhetherThere(look.object, "")
-    if asked is None or (not asked.where and place not in facts.targets):
+    if asked is None or (place is not None and place not in facts.targets):
         return None
     target = facts.targets.get(place or "")
     tongue = "zh" if has_chinese(text) else "en"

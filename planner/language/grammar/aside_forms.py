@@ -18,6 +18,8 @@ class AsideForms:
     """Words that join an order to an aside before it."""
     seam: re.Pattern[str]
     """Group ``aside``: a formula, and behind it the word that joins an order to it."""
+    praise: re.Pattern[str]
+    """A clause of thanks or praise as a whole: alone it is answered."""
     formula: re.Pattern[str]
     """A clause of courtesy as a whole."""
     speaks: re.Pattern[str]

@@ -13,9 +13,12 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from planner.language.catalogue import say
 from planner.language.folding import has_chinese
 from planner.language.grammar.en.asides import ENGLISH_ASIDES
+from planner.language.grammar.sentence_text import normalise
 from planner.language.grammar.zh.asides import CHINESE_ASIDES
+from planner.plan import AnswerPlan
 
 if TYPE_CHECKING:
     from planner.language.grammar.aside_forms import AsideForms
@@ -52,6 +55,16 @@ def without_asides(text: str) -> str:
     last = clauses[-1].mark if clauses[-1].text.endswith(kept[-1].text) else ""
     kept[-1] = _Clause(kept[-1].text, last)
     return "".join(f"{each.text}{each.mark}" for each in kept).strip(" ,;")
+
+
+def answer_praise(text: str) -> AnswerPlan | None:
+    """Return the answer to a sentence that is nothing but courtesy, with thanks or praise in it."""
+    said = normalise(text)
+    asides = CHINESE_ASIDES if has_chinese(said) else ENGLISH_ASIDES
+    clauses = [clause.text.strip(" \"'") for clause in _cut(said)]
+    known = all(asides.formula.fullmatch(c) or asides.praise.fullmatch(c) for c in clauses)
+    praises = known and any(asides.praise.fullmatch(clause) for clause in clauses)
+    return AnswerPlan(text=say("talk.thanks")) if praises else None
 
 
 def _cut(text: str) -> list[_Clause]:

@@ -19,3 +19,6 @@ class Context(Frozen):
     remembers: bool = False  # something that the sentence names is remembered
     departed: bool = False  # an order before led the robot away: "come back" is back from there
     moved: bool = False  # it is a part of an order: the robot has driven somewhere before it
+
+
+NOWHERE = Context()

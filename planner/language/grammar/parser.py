@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from planner.language.catalogue import message, say
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
+from planner.language.grammar.asides import answer_praise
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
 from planner.language.grammar.clauses import (
     ClauseReading,
@@ -23,7 +24,7 @@ from planner.language.grammar.clauses import (
     take_quotes,
 )
 from planner.language.grammar.compound import PartReaders, read_compound
-from planner.language.grammar.context import Context
+from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
@@ -89,9 +90,6 @@ _LATIN = re.compile(r"[a-z]")
 _SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
 
 
-NOWHERE = Context()
-
-
 def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
@@ -110,10 +108,9 @@ def plan(
             asked = asked or second
     if not isinstance(second, StepPlan):
         guessed = _guess(made, text, vocabulary, context)
-        lost = guessed.code is Code.NOT_UNDERSTOOD and not (
-            isinstance(guessed, Clarify) and guessed.options
-        )
-        return asked if asked is not None and lost else guessed
+        lost = guessed.code is Code.NOT_UNDERSTOOD
+        offers = isinstance(guessed, Clarify) and guessed.options
+        return (answer_praise(text) or asked or guessed) if lost and not offers else guessed
     missing = made.code is Code.INCOMPLETE  # what is asked for is not guessed, but "the rounds"
     return made if missing and not _has_rounds_alone(second) else second
 

@@ -15,7 +15,7 @@ from planner.language.grammar.lexicon import MARK
 _OH = r"(?:(?:oh|er|erm|um|uh|ah|oops|hang on|hold on)[, ]+)*"
 _BACK = (
     rf"{_OH}(?:no[, ]+(?:wait|sorry|no|actually|hang on|i mean|i meant)|wait[, ]+no"
-    r"|sorry[, ]+(?:no|i mean|i meant)|i mean|i meant|make that|scratch that|oops"
+    r"|sorry[, ]+(?:no|i mean|i meant)|make that|scratch that|oops"
     r"|actually[, ]+no|no)"
     r"(?:[, ]+(?:wait|sorry|no|actually|i mean|i meant|make (?:that|it)|oh))*"
 )

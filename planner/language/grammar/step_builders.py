@@ -59,7 +59,10 @@ _AT_HAND = re.compile(
     r"|^(?:所有|全部|每个|各个)的?房间(?:里面?)?的(?=.)"
 )
 """What says no more of a thing than that the robot is to see it, in the home that it is in."""
-_IN_A_ROOM = re.compile(r".+ (?:in|inside) (?P<room>(?:the|my|our|your) [a-z][a-z ]*)")
+_IN_A_ROOM = re.compile(
+    r".+ (?:in|inside) (?P<room>(?:the|my|our|your)"
+    r" (?!(?:whole |entire )?(?:house|home|flat|apartment|place|building|rooms?)\b)[a-z][a-z ]*)"
+)
 _TITLE = 80
 _DONE = re.compile(r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?|since|because)\b")
 """What no thing's name holds: "找到杯子了吗", "数完了" and "my legs are tired" tell or ask."""

@@ -44,10 +44,18 @@ _SORRY = (
     r"|i know (?:you are|you're) (?:very |really )?(?:busy|tired|resting|sleeping|charging)"
 )
 BE = rf"(?:(?:can|could|would|will) you )?(?:please )?be (?:a|an|my) {_ADJ}{_DARLING}"
+_PRAISE = (
+    rf"{_THANKS}{_ADDRESS}"
+    rf"|(?:you(?: are|'re)?|there(?: is|'s)|what|such) ?(?:a|an|the|my) ?{_ADJ}{_DARLING}"
+    rf"|(?:good|great|clever|sweet) {_DARLING}|(?:good (?:on|for) you|well done){_ADDRESS}"
+    r"|(?:that|it|this)(?:'s| is| was|'ll do| will do)? (?:so |really |very |dead |just )*"
+    rf"{_FINE}|perfect|lovely|great|brilliant|(?:are not|aren't) you [a-z]+"
+)
 _FORMULAS = (
     rf"(?:good )?(?:morning|evening|afternoon|day){_ADDRESS}",
     rf"(?:hello|hi|hey|hiya|howdy)(?: there| again)?{_ADDRESS}",
     rf"{_THANKS}{_ADDRESS}",
+    rf"(?:my )?(?:dear )?{_WHO}",
     r"please(?: and thank you)?|pretty please|pleasure|with pleasure",
     rf"(?:you(?: are|'re)?|there(?: is|'s)|what|such|like|my|that(?: is|'s))(?: {_VERY}?)?"
     rf" ?(?:a|an|the|my|you)? ?{_ADJ}{_DARLING}",
@@ -62,7 +70,7 @@ _FORMULAS = (
     rf"would be {_VERY}{_FINE}(?: of you)?",
     r"i(?:'d| would|'ll| will)? (?:really |much |so )?(?:appreciate it|be (?:ever so |so |very |most )?"
     r"(?:grateful|glad|thankful|obliged|happy|pleased))",
-    r"(?:there is |there's )?no (?:rush|hurry|worries|pressure|panic|problem)(?: at all)?"
+    r"(?:there is |there's )?no (?:rush|hurry|worries|pressure|panic)(?: at all)?"
     r"|take your time|in your own (?:sweet )?time|easy does it|at your leisure",
     rf"(?:when|whenever) you(?:'ve got| have got| have| get|'ve) {_MOMENT}",
     r"as (?:usual|always|ever|ever was)|for (?:a change|once|me|us|now|old times'? sake)",
@@ -144,6 +152,7 @@ ENGLISH_ASIDES = AsideForms(
         rf"|{_CANNOT}|{_VETO}{_DENIES}{_SUBJECT} (?:hurts?|aches?|is (?:asleep|sleeping|busy|tired))"
         r"|(?:my|the) [a-z]+ hurts?),? (?:and|but|so)[ ,]+(?=[a-z\ue000-\ue7ff])"
     ),
+    praise=re.compile(_PRAISE),
     formula=re.compile("|".join(f"(?:{each})" for each in _FORMULAS)),
     speaks=re.compile(r"\b(?:tell|say|ask|announce|shout|remind|inform|let|repeat|call|warn)\b"),
     states=(

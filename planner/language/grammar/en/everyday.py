@@ -98,6 +98,9 @@ _UNLESS_SOMEBODY = (
     r" (?P<a>(?:in|at|by) (?:the |my |our )?[a-z']+(?: (?!go|drive|come|look|find|say|count)[a-z']+)?)"
 )
 TOLD_TWICE = table(
+    (r"\bare (?:sat|seated|sitting|standing|stood|lying|left|kept) (?=(?:in|at|on|by|near|there)\b)", "are "),
+    (r"^(?:please )?(?:go|drive|head|get) back (?:to )?where you (?:were|came from|come from|started)(?: before| from)?[.!]*$", "come back"),
+    (r"^where do (?:we|you|i|they) (?:keep|put|store) (?P<t>(?:the|our|my) [a-z]+)\?*$", r"where is \g<t>?"),
     (rf"{_WHOEVER}(?:in|at) (?P<p>(?:the |my |our )?[a-z]+(?: [a-z]+)?) that (?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
     (r"\b(?P<o>otherwise|or else|if not),? (?:then )?try (?P<p>(?:the|my|our) [a-z]+(?: [a-z]+)?)$", r"\g<o> look in \g<p>"),
     (r"\bcome (?:back )?and (?:tell me|let me know)(?=$|[,;.])", "come back"),
@@ -177,7 +180,7 @@ ENGLISH_EVERYDAY = table(
      r"is there \g<t> \g<w> \g<p>?"),
     (r"\b(?:have|take) a (?:scout|look|hunt|search|scour|nose|rummage|root|poke)(?: a?round| about)? for (?P<t>(?:a|an|the|my|our|some) [a-z ]+)$",
      r"find \g<t>"),
-    (r"\b(?:see|check) if you can (?:spot|find|see|locate) (?P<t>(?:a|an|the|my|our) [a-z ]+?)(?: anywhere| somewhere| around)?$",
+    (r"\b(?:see|check) if you can (?:spot|find|see|locate) (?P<t>(?:a|an|the|my|our|[a-z]+'s) [a-z ]+?)(?: anywhere| somewhere| around)?$",
      r"find \g<t>"),
     (rf"^go (?P<p>{MARK})(?= then\b|,| and\b|$)", r"go to \g<p>"),
     (rf"^to (?P<p>{_PLACE})[.!]*$", r"go to \g<p>"),

@@ -14,7 +14,6 @@ WHOLE = Context(runnable=EVERY_KIND)
 EN = (
     ", no sorry, ",
     ", no wait, ",
-    ", I mean ",
     ", no, ",
     ". Oh no, sorry, ",
     ", er, no, I meant ",
