@@ -9,7 +9,8 @@ from datetime import datetime
 from planner.brain.interface import OFFLINE, Observation, ThinkRequest, ThinkResult
 from planner.brain.streamed_draft import Hear
 from planner.language.catalogue import join, message, say
-from planner.language.grammar.parser import Context, plan
+from planner.language.grammar.context import Context
+from planner.language.grammar.parser import plan
 from planner.language.yes_no import consents
 from planner.plan import AnswerPlan, Bilingual, BrainTag, Clarify, Code, Refuse, StepPlan
 

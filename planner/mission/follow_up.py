@@ -27,6 +27,7 @@ from planner.language.commands import (
 )
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
+from planner.mission.antecedents import name_antecedents
 from planner.mission.outcomes import moves
 from planner.mission.pronouns import name_pronouns
 from planner.mission.state import ORDER_SOURCE
@@ -67,7 +68,9 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
     intent: Intent | None = intent_of(text)
     last = last_order(book, now_unix_s)
     if (intent is None or isinstance(intent, OutcomeCommand)) and last is not None:
-        return name_pronouns(text, last, book.facts)
+        orders = last_orders(book, now_unix_s)
+        named = name_antecedents(text, orders, book.facts, names_of(book.facts))
+        return named or name_pronouns(text, last, book.facts)
     if not isinstance(intent, LeaningCommand | Replace):
         return text
     if isinstance(intent, RepeatCommand):
@@ -96,11 +99,14 @@ def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: floa
 
 def last_order(book: MissionState, now_unix_s: float) -> Mission | None:
     """Return the newest goal that was an order; None where it is long ago."""
+    return next(iter(last_orders(book, now_unix_s)), None)
+
+
+def last_orders(book: MissionState, now_unix_s: float) -> tuple[Mission, ...]:
+    """Return the goals that were orders, the newest first, without those of long ago."""
     orders = (m for m in book.missions.values() if _was_taken(m) or _was_read(m))
-    newest = max(orders, key=lambda m: m.order, default=None)
-    if newest is None or not now_unix_s - newest.created_unix_s <= LEANS_S:
-        return None
-    return newest
+    recent = (m for m in orders if now_unix_s - m.created_unix_s <= LEANS_S)
+    return tuple(sorted(recent, key=lambda m: -m.order))
 
 
 def _was_taken(mission: Mission) -> bool:

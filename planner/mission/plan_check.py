@@ -11,7 +11,7 @@ from functools import partial
 
 from planner.language.catalogue import message, say
 from planner.mission.skills import SKILLS
-from planner.mission.skills.object_matching import picks_out, read_object
+from planner.mission.skills.object_matching import anybody_for, picks_out, read_object
 from planner.mission.skills.object_query import unknown_kind
 from planner.mission.skills.result_text import unknown_name, unknown_words
 from planner.mission.state import Mission, MissionState
@@ -74,6 +74,8 @@ def _unknown_object(book: MissionState, language: Language, step: StepRecord) ->
     if step.kind not in NEEDS_DETECTOR and not (step.kind == "wait_for" and step.object):
         return None
     name = step.object or ""
+    if step.kind == "find" and anybody_for(name, eyes.classes) is not None:
+        return None
     which = step.kind in UP_TO and picks_out(name, step.kind, language, eyes.classes)
     unknown = which or read_object(name, language, eyes.classes) is None
     return unknown_words(name, eyes.classes, step.kind) if unknown else None

@@ -84,6 +84,7 @@ ORDERS = re.compile(
 REASON = re.compile(
     r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|remember(?:ed)?|know|did|done"
     r"|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
+    r"|you (?:do not|don't) (?:have|need) to(?: [a-z ]{1,20})?|no need(?: to [a-z ]{1,20})?"
     r"|(?:it|that|they|she|he)(?:'s| is| are|'re| was| were) (?:already |right |all |not )*"
     r"(?:fine|ok|okay|here|right|found|done|sorted|important|needed|gone|too late)\b[a-z' ]*"
 )
@@ -158,6 +159,7 @@ OUTCOME = re.compile(
     r"|(?:and )?what did (?:he|she|they) (?:say|answer|reply|want)"
     r"|what(?:'s| is| was) (?:his|her|their|the) (?:answer|reply|result|outcome|verdict)"
     r"|did (?:he|she|they) (?:answer|reply|say (?:yes|no|anything|something)|hear (?:you|it|that))"
+    r"|did you manage(?: (?:it|that|to (?:find|get|see|spot|do|count|reach) [a-z' ]{2,30}))?"
     rf"|how did (?:it|that) go|did (?:it|that) work(?: out)?|what happened{_THEN}"
     r"|where (?:was|were) (?:it|he|she|they)"
     rf"|(?:was|were) (?:he|she|it|they|any|one) (?:in |over )?there{_THEN}|did you get there"
@@ -226,6 +228,8 @@ TEACH = re.compile(
     rf"|(?P<e>(?:(?!{_DOES}){_NOUN} {_SAYS}|{_PUT})\b[^,;:.!?]{{2,80}}){_KEPT}"
 )
 """What is to be remembered, word for word."""
+LESSON = re.compile(rf"{_KEEP}(?: that|:| this:| the following:|,)+ ")
+"""How a fact begins that may be of any length."""
 THIS_IS = re.compile(r"this is .*")
 _ABOUT = r"(?P<{}>[^,;:.!?]{{2,60}})"
 _DROP = r"(?:forget|delete|erase|remove|drop)"

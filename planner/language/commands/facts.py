@@ -29,6 +29,11 @@ def read_fact_order(said: FoldedText, grammar: ModuleType) -> TeachFact | Forget
     return _read_forgetting(said, grammar) or _read_teaching(said, grammar)
 
 
+def read_long_fact(said: FoldedText, grammar: ModuleType) -> TeachFact | None:
+    """Return what is to be remembered of a text that is too long for any other command."""
+    return _read_teaching(said, grammar) if grammar.LESSON.match(said.folded) else None
+
+
 def _read_forgetting(said: FoldedText, grammar: ModuleType) -> ForgetFacts | None:
     for pattern, told, seen in (
         (grammar.FORGET_TOLD, True, False),

@@ -30,7 +30,7 @@ from planner.language.commands.command import (
     Slower,
     WhereCommand,
 )
-from planner.language.commands.facts import read_fact_order
+from planner.language.commands.facts import read_fact_order, read_long_fact
 from planner.language.commands.folded_text import FoldedText
 from planner.language.commands.follow_up import read_follow_up
 from planner.language.folding import fold_script, fold_width, has_chinese
@@ -39,6 +39,10 @@ from planner.language.stop import is_stop
 
 MAX_READ = 300
 """Characters; a longer sentence is no order to the planner itself."""
+MAX_LESSON = 2000
+"""Characters; what is to be remembered is understood up to here, so that it can be told how long a
+fact may be.
+"""
 _SIMPLE: tuple[tuple[str, Intent], ...] = (
     ("RESUME", ResumeCommand()),
     ("PAUSE", PauseCommand()),
@@ -74,9 +78,12 @@ def intent_of(text: str) -> Intent | None:
 
 def _intent_alone(text: str) -> Intent | None:
     """Return the command in a sentence that leans on no other."""
-    if not text.strip() or len(text) > MAX_READ or any(map(_unseen, text)):
+    if not text.strip() or len(text) > MAX_LESSON or any(map(_unseen, text)):
         return None
     said = _fold(text)
+    if len(text) > MAX_READ:
+        grammar = chinese if has_chinese(said.folded) else english
+        return read_long_fact(_plain(said.strip(_END), grammar), grammar)
     if not has_chinese(said.folded):
         return _read(said, english)
     heard = _read(said, chinese)

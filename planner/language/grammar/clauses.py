@@ -174,6 +174,15 @@ def take_quotes(text: str) -> tuple[str, tuple[str, ...]]:
     return _MARKS.sub("", _SAYING.sub(set_aside, text)), tuple(words)
 
 
+def put_quotes_back(text: str, words: tuple[str, ...]) -> str:
+    """Return a text with its quotations in marks again, as ``take_quotes`` found them."""
+    return re.sub(
+        QUOTE,
+        lambda found: f'"{words[at]}"' if (at := ord(found[0]) - FIRST_QUOTE) < len(words) else "",
+        text,
+    )
+
+
 WHICH = say("grammar.which_one")
 TOO_MANY = say("grammar.too_many")
 _LEAD = re.compile(r"^(?:back )?(?:to|into|in|inside|on) ")

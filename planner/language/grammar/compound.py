@@ -18,6 +18,7 @@ from planner.language.object_names import resolve
 from planner.language.stop import is_stop
 from planner.plan import (
     MAX_FOLLOW_S,
+    Ask,
     Attempt,
     ClockTime,
     Follow,
@@ -25,6 +26,7 @@ from planner.plan import (
     Look,
     Recall,
     Repeat,
+    Say,
     Step,
     StepPlan,
     WaitFor,
@@ -48,6 +50,8 @@ class ConditionParts:
     """It holds where the answer is no."""
     is_placed: bool
     """It says where."""
+    anybody: str = ""
+    """The question whether anybody is there, for one who is named: no eye tells who is who."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +71,8 @@ class PartReaders:
     memory: Callable[[str], Recall | None]
     """Reads a question about before; None of any other."""
     name: NamePlace
+    person: Callable[[str], str | None]
+    """Return a person's name as it is written, where words are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +91,12 @@ class CompoundForms:
     """Group ``verb``: a drive to the place that the condition names."""
     to: str
     """Stands between that verb and the place's name."""
+    tells: tuple[tuple[re.Pattern[str], str], ...]
+    """What is to be told to "him", and the order to say it."""
+    reports: re.Pattern[str]
+    """An order to tell the person themselves: the look's own answer is that."""
+    calls: str
+    """Stands between a person's name and the words for them."""
     cuts: re.Pattern[str]
     """Where a condition may end in ``body``."""
     failures: re.Pattern[str]
@@ -153,24 +165,52 @@ def _cut(body: str, cuts: re.Pattern[str]) -> Iterator[tuple[str, str]]:
 def _branch(
     condition: str, order: str, other: str | None, forms: CompoundForms, read: PartReaders
 ) -> tuple[Step, ...] | None:
-    asked = (
-        _asked_of_clock(condition, forms)
-        or _asked_of_memory(condition, forms, read)
-        or _asked_of_eyes(condition, forms, read)
-    )
-    if asked is None:
+    eyes = None
+    when: ClockTime | Recall | Look
+    asked = _asked_of_clock(condition, forms) or _asked_of_memory(condition, forms, read)
+    if asked is not None:
+        when, denied = asked
+    elif (eyes := _asked_of_eyes(condition, forms, read)) is not None:
+        when, denied = eyes.look, eyes.denied
+    else:
         return None
-    when, denied = asked
     if not isinstance(when, ClockTime) and when.place is not None:
         name = read.name(when.place)
         order = _name_there(order, name, forms)
         other = _name_there(other, name, forms) if other else None
-    yes, no = read.steps(order), read.steps(other) if other else ()
+    if eyes is not None and eyes.is_somebody:
+        order, other = _tell_them(order, forms), _tell_them(other, forms) if other else None
+    told = eyes is not None and forms.reports.fullmatch(order.strip(" ,.")) is not None
+    yes, no = () if told else read.steps(order), read.steps(other) if other else ()
     if yes is None or no is None:
         return None
+    if eyes is not None and told and not no:
+        return (eyes.look,)
     if denied:
         yes, no = no, yes
+    if eyes is not None and eyes.person and all(isinstance(step, Say | Ask) for step in yes):
+        when, yes = eyes.anybody or eyes.look, _call(yes, eyes.person, forms)
     return (If(when=when, then=yes, otherwise=no),)
+
+
+def _tell_them(order: str, forms: CompoundForms) -> str:
+    """Return an order with what is told to "him" as words to be said where he was seen."""
+    for pattern, plain in forms.tells:
+        order = pattern.sub(plain, order)
+    return order
+
+
+def _call(steps: tuple[Step, ...], person: str, forms: CompoundForms) -> tuple[Step, ...]:
+    """Put a person's name before the words for them: whoever else hears them knows it then."""
+    return tuple(_called(step, person, forms) for step in steps)
+
+
+def _called(step: Step, person: str, forms: CompoundForms) -> Step:
+    if isinstance(step, Say) and person.lower() not in step.text.lower():
+        return Say(text=f"{person}{forms.calls}{step.text}"[:500])
+    if isinstance(step, Ask) and person.lower() not in step.question.lower():
+        return Ask(question=f"{person}{forms.calls}{step.question}"[:500])
+    return step
 
 
 def _name_there(order: str, name: str, forms: CompoundForms) -> str:
@@ -206,23 +246,43 @@ def _asked_of_memory(
     return asked, parts.denied
 
 
+@dataclass(frozen=True, slots=True)
+class SightCondition:
+    """Hold a condition that eyes tell: the look, and who is meant where somebody is."""
+
+    look: Look
+    denied: bool
+    """It holds where the look says no."""
+    is_somebody: bool
+    person: str = ""
+    """A person's name, as it is written."""
+    anybody: Look | None = None
+    """The look for anybody, where one is named: no eye tells who is who."""
+
+
 def _asked_of_eyes(
     condition: str, forms: CompoundForms, read: PartReaders
-) -> tuple[Look, bool] | None:
+) -> SightCondition | None:
     """Return the look that tells a condition, and whether that holds where it says no."""
     parts = forms.read_condition(condition.strip(" ,"))
-    if parts is None or resolve(parts.thing) is None:
+    person = read.person(parts.thing) if parts is not None else None
+    kind = resolve(parts.thing) if parts is not None else None
+    if parts is None or (kind is None and person is None):
         return None
-    look = _look(parts, read)
-    return (look, parts.denied) if look is not None else None
+    look = _look(parts.question, parts, read)
+    if look is None:
+        return None
+    somebody = person is not None or (kind is not None and kind[0] == "person")
+    anybody = _look(parts.anybody, parts, read) if person and parts.anybody else None
+    return SightCondition(look, parts.denied, somebody, person or "", anybody)
 
 
-def _look(parts: ConditionParts, read: PartReaders) -> Look | None:
+def _look(question: str, parts: ConditionParts, read: PartReaders) -> Look | None:
     """Return the look that answers a question, where one does; the way there is its own.
 
     Where a place is said, it must be known: else the words are cut in the wrong spot.
     """
-    steps = read.steps(parts.question)
+    steps = read.steps(question)
     last = steps[-1] if steps else None
     if not isinstance(last, Look) or steps is None or (parts.is_placed and last.place is None):
         return None

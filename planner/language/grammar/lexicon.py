@@ -14,6 +14,7 @@ from functools import lru_cache
 from rapidfuzz.distance import OSA
 from rapidfuzz.fuzz import ratio
 
+from planner.language import person_names
 from planner.language.grammar.sentence_text import squash
 from planner.plan import Bilingual, Entry, Vocabulary
 
@@ -210,50 +211,6 @@ def lexicon_of(vocabulary: Vocabulary) -> Lexicon:
     return lexicon
 
 
-_GIVEN = (
-    "adam|alan|albert|alex|alexander|alice|amanda|amy|andrea|andrew|angela|anna|anne|anthony|"
-    "arthur|ashley|barbara|ben|benjamin|betty|brandon|brian|carl|carol|caroline|catherine|charles|"
-    "charlie|charlotte|chris|christina|christopher|claire|cynthia|daniel|david|deborah|dennis|"
-    "diana|"
-    "donald|donna|dorothy|douglas|edward|elena|elizabeth|ella|emily|emma|eric|ethan|eva|evelyn|"
-    "florian|francis|frank|gary|george|gloria|gregory|hannah|harold|harry|heather|helen|henry|"
-    "isabella|jack|jacob|james|jane|janet|jason|jean|jeffrey|jennifer|jeremy|jerry|jessica|jim|"
-    "joan|"
-    "joe|john|jonathan|jose|joseph|joshua|juan|judith|julia|julie|justin|karen|kate|katherine|"
-    "keith|"
-    "kelly|kenneth|kevin|kim|kyle|larry|laura|lauren|leo|linda|lisa|louis|lucas|lucy|luis|madison|"
-    "margaret|maria|marie|marilyn|martha|martin|mary|matthew|megan|mia|michael|michelle|mike|nancy|"
-    "natalie|nathan|nicholas|nicole|noah|nora|oliver|olivia|pamela|patricia|patrick|paul|peter|"
-    "philip|rachel|ralph|raymond|rebecca|richard|robert|robin|roger|ronald|roy|russell|ruth|ryan|"
-    "samantha|samuel|sandra|sara|sarah|scott|sean|sharon|shirley|simon|skyler|sofia|sophia|stefan|"
-    "stephanie|stephen|steve|steven|susan|teresa|theresa|thomas|timothy|tom|tyler|victoria|vincent|"
-    "virginia|walter|wayne|william|zachary"
-)
-_KIN = (
-    r"(?:(?:my|our|your) )?(?:mom|mum|mommy|mummy|mother|dad|daddy|father|grand(?:ma|pa|mother|"
-    r"father)|"
-    r"granny|wife|husband|son|daughter|brother|sister|uncle|aunt|boss|neighbou?r)"
-)
-_KIN_ZH = (
-    r"(?:我的?|你的?)?(?:爸爸|妈妈|老爸|老妈|奶奶|爷爷|外公|外婆|姥姥|姥爷|哥哥|姐姐|弟弟|妹妹|"
-    r"叔叔|阿姨|"
-    r"老公|老婆|丈夫|妻子|儿子|女儿|老板)"
-    r"|小[明红华丽强军刚芳伟王李张刘陈杨赵周吴林美]|老[王李张刘陈杨赵黄周吴]|张三|李四|王五"
-    r"|[王李张刘陈杨赵黄周吴徐孙马朱胡郭何高林](?:先生|女士|小姐|老师|总|医生|师傅|阿姨|奶奶|爷爷|"
-    r"叔叔)"
-)
-_KNOWN = re.compile(rf"(?<![a-z])(?:{_GIVEN}|{_KIN})(?![a-z])|{_KIN_ZH}")
-_WORD = re.compile(r"[A-Za-z][A-Za-z'’-]*|[.!?:;\"“”]")
-_NO_NAMES = frozenset({
-    "i", "tv", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday",
-    "january", "february", "march", "april", "may", "june", "july", "august", "september",
-    "october", "november", "december", "english", "chinese", "robot", "pons", "please", "tell",
-    "could", "would", "can", "go", "the", "then", "and", "ok", "bring", "find", "navigate",
-    "follow", "say", "come", "back", "first",
-})  # fmt: skip
-_ARTICLES = frozenset(("the", "a", "an", "my", "your", "some", "any", "this", "that"))
-
-
 def mark_people(marked: MarkedText, original: str) -> MarkedText:
     """Replace each name of a person by one private character; places are marked already."""
     written: list[str] = []
@@ -261,33 +218,14 @@ def mark_people(marked: MarkedText, original: str) -> MarkedText:
     def set_aside(found: re.Match[str]) -> str:
         if len(written) >= NAMES:
             return found[0]
-        written.append(_title(found[0]))
+        written.append(person_names.write_name(found[0]))
         return chr(FIRST_NAME + len(written) - 1)
 
-    text = _KNOWN.sub(set_aside, marked.text)
-    capital = _find_capitals(original)
-    if capital:
-        names = "|".join(sorted(map(re.escape, capital), key=len, reverse=True))
-        text = re.sub(rf"(?<![a-z])(?:{names})(?![a-z])", set_aside, text)
+    text = person_names.replace_names(marked.text, original, set_aside)
     return MarkedText(text, marked.mentions, tuple(written))
 
 
-def _title(name: str) -> str:
-    plain = name if " " in name or not name.isascii() else name.title()
-    return re.sub(r"^(?:your|my|our) ", "", plain)
-
-
-def _find_capitals(original: str) -> set[str]:
-    """Return words with a capital inside a sentence, but where all words have one."""
-    words = _WORD.findall(original)
-    plain = [word for word in words if word[0].isalpha()]
-    if sum(word[0].isupper() for word in plain) * 2 > len(plain) > 3:
-        return set()
-    found: set[str] = set()
-    before = "."
-    for word in words:
-        inside = before[0].isalpha() and before.casefold() not in _ARTICLES
-        if inside and word[:1].isupper() and not word.isupper():
-            found.add(word.casefold())
-        before = word
-    return found - _NO_NAMES
+def person_named(words: str, original: str) -> str | None:
+    """Return a person's name as it is written, where words of a sentence are nothing else."""
+    marked = mark_people(MarkedText(words, ()), original)
+    return marked.people[0] if re.fullmatch(NAME, marked.text) else None

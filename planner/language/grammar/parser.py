@@ -7,32 +7,51 @@ place that a plan drives to is named by the sentence.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime
-from itertools import chain
 
 from planner.language.catalogue import message, say
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
+from planner.language.grammar.asides import answer_praise
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
-from planner.language.grammar.clauses import ClauseReading, Grammar, at_each, in_order, take_quotes
+from planner.language.grammar.clauses import (
+    ClauseReading,
+    Grammar,
+    at_each,
+    in_order,
+    put_quotes_back,
+    take_quotes,
+)
 from planner.language.grammar.compound import PartReaders, read_compound
+from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.guessed_order import NOTHING, guess_order
-from planner.language.grammar.lexicon import MARK, MarkedText, lexicon_of, mark_people
+from planner.language.grammar.joined_condition import in_one_condition
+from planner.language.grammar.lexicon import (
+    MARK,
+    MarkedText,
+    lexicon_of,
+    mark_people,
+    person_named,
+)
+from planner.language.grammar.means import limit_to_means
 from planner.language.grammar.parse_result import (
     ClauseContext,
     ClauseProblem,
     Meaning,
     Reading,
-    Steps,
     TopicQuestion,
     read_by,
 )
-from planner.language.grammar.plain_words import asks_whether, in_plain_words, without_sending
+from planner.language.grammar.plain_words import (
+    asks_whether,
+    in_plain_words,
+    leave_asides_out,
+    without_sending,
+)
 from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
@@ -48,13 +67,9 @@ from planner.language.recall import read_recall
 from planner.language.stop import StopReading
 from planner.language.utterance import parse
 from planner.plan import (
-    NEEDS_CAMERA,
-    RUNNABLE,
     AnswerPlan,
     Clarify,
     Code,
-    Frozen,
-    GoTo,
     Language,
     Option,
     Patrol,
@@ -65,7 +80,6 @@ from planner.plan import (
     StepPlan,
     Vocabulary,
     check_plan,
-    lacking,
 )
 
 _OTHER = rf"(?:{MARK}|[{HAN}])"
@@ -76,36 +90,40 @@ _LATIN = re.compile(r"[a-z]")
 _SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
 
 
-class Context(Frozen):
-    """Hold a brain's facts besides the sentence: place, time, the robot's capabilities."""
-
-    room: str | None = None
-    language: Language | None = None
-    now: datetime | None = None  # for "what time is it"
-    runnable: frozenset[str] = RUNNABLE  # kinds of steps the robot can do
-    blind: Code = Code.NO_CAMERA  # what is said of looking where it can't
-    things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
-    remembers: bool = False  # something that the sentence names is remembered
-    departed: bool = False  # an order before led the robot away: "come back" is back from there
-    moved: bool = False  # it is a part of an order: the robot has driven somewhere before it
-
-
-NOWHERE = Context()
-
-
 def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
+    text = in_one_condition(text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context))
     made = _plan_as_said(without_sending(text), vocabulary, context)
-    if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_AGAIN:
+    if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:
         return made
-    plainer = in_plain_words(text, vocabulary)
-    second = None if plainer is None else _plan_as_said(plainer, vocabulary, context)
+    second: StepPlan | AnswerPlan | Clarify | Refuse | None = None
+    asked: Clarify | None = None
+    for said in _in_other_words(text, vocabulary, plainer=made.code in _READ_AGAIN):
+        second = _plan_as_said(said, vocabulary, context)
+        if isinstance(second, StepPlan):
+            break
+        if isinstance(second, Clarify) and second.code is Code.INCOMPLETE and second.options:
+            asked = asked or second
     if not isinstance(second, StepPlan):
-        return _guess(made, text, vocabulary, context)
-    asked = made.code is Code.INCOMPLETE  # what is asked for must not be guessed, but "the rounds"
-    return made if asked and not _has_rounds_alone(second) else second
+        guessed = _guess(made, text, vocabulary, context)
+        lost = guessed.code is Code.NOT_UNDERSTOOD
+        offers = isinstance(guessed, Clarify) and guessed.options
+        return (answer_praise(text) or asked or guessed) if lost and not offers else guessed
+    missing = made.code is Code.INCOMPLETE  # what is asked for is not guessed, but "the rounds"
+    return made if missing and not _has_rounds_alone(second) else second
+
+
+def _in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:
+    """Yield a sentence without what is said around its order, and in plainer words."""
+    ordered = leave_asides_out(text, vocabulary)
+    if ordered is not None:
+        yield without_sending(ordered)
+    for said in (text, ordered) if plainer else (ordered,):
+        plain = in_plain_words(said, vocabulary) if said is not None else None
+        if plain is not None:
+            yield plain
 
 
 def _guess(
@@ -145,6 +163,9 @@ _READ_AGAIN = frozenset(
         Code.CONDITIONAL, Code.AMBIGUOUS,
     }
 )  # fmt: skip
+
+_READ_ANEW = _READ_AGAIN | {Code.NEGATED, Code.OUT_OF_SCOPE}
+"""Without what is said around the order: "I can't get up, go …" denies nothing of it."""
 
 
 def _plan_as_said(
@@ -205,15 +226,23 @@ def _read_compound(
     part_of = context.model_copy(update={"moved": True})
 
     def read_steps(part: str) -> tuple[Step, ...] | None:
-        made = _read_once(part, sentence, vocabulary, part_of, offers=False)
+        spoken = put_quotes_back(part, sentence.quotes)
+        apart, quotes = take_quotes(spoken)
+        of_part = _Sentence(spoken, f"{apart}. {sentence.apart}", quotes)
+        made = _read_once(normalise(apart), of_part, vocabulary, part_of, offers=False)
         return made.steps if isinstance(made, StepPlan) else None
+
+    def read_person(words: str) -> str | None:
+        return person_named(words, sentence.apart)
 
     def read_memory(question: str) -> Recall | None:
         asked = read_recall(question, vocabulary, context.room)
         return asked.step if asked is not None and "recall" in context.runnable else None
 
     tongue = Language.ZH if has_chinese(said) else Language.EN
-    readers = PartReaders(read_steps, read_memory, lambda place: vocabulary.name(place).of(tongue))
+    readers = PartReaders(
+        read_steps, read_memory, lambda place: vocabulary.name(place).of(tongue), read_person
+    )
     forms = CHINESE_COMPOUND if tongue is Language.ZH else ENGLISH_COMPOUND
     made = read_compound(said.strip(" ,.!?;。"), forms, readers)
     lacks = made is None or check_plan(made, vocabulary, context.runnable, context.blind)
@@ -265,7 +294,7 @@ def _read_once(
         return compose([topic], bare, setting)
     ordered = replace(marked, text=in_order(marked.text))
     meanings = [
-        _limit_to_means(meaning, context.runnable, context.blind)
+        limit_to_means(meaning, context.runnable, context.blind)
         for meaning in _meanings(
             ordered, reading, Language.ZH if has_chinese(text) else Language.EN
         )
@@ -273,32 +302,6 @@ def _read_once(
     if not meanings:
         return Refuse(code=Code.EMPTY_GOAL, reason=message(Code.EMPTY_GOAL, example=EXAMPLE))
     return compose(meanings, marked.restore(marked.text), setting)
-
-
-def _limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
-    """Turn steps that this robot can't do into the problem that it lacks the means."""
-    if isinstance(meaning, ClauseProblem):
-        can = tuple(step for step in meaning.before if step.kind in runnable)
-        offered = chain(meaning.instead, *meaning.choices)
-        if all(step.kind in runnable for step in offered):
-            return replace(meaning, before=can)
-        return ClauseProblem(blind, meaning.part, before=can)
-    if isinstance(meaning, Steps) and "count" not in runnable:  # nothing to look with
-        meaning = replace(meaning, steps=tuple(map(_without_look, meaning.steps)))
-    lacks = (
-        [s for s in meaning.steps if s.kind not in runnable] if isinstance(meaning, Steps) else []
-    )
-    if not lacks or not isinstance(meaning, Steps):
-        return meaning
-    code = blind if any(s.kind in NEEDS_CAMERA for s in lacks) else lacking(lacks[0])
-    patrolled = [p for s in lacks if isinstance(s, Patrol) for p in s.places]
-    can = tuple(s for s in meaning.steps if isinstance(s, GoTo))
-    can = (*can, *(GoTo(place=place) for place in patrolled))
-    return ClauseProblem(code, meaning.part, before=can)
-
-
-def _without_look(step: Step) -> Step:
-    return step.model_copy(update={"look": False}) if isinstance(step, Patrol) else step
 
 
 def _apply_vetoes(

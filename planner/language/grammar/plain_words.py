@@ -11,12 +11,14 @@ from collections import Counter
 
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
+from planner.language.grammar.asides import without_asides
 from planner.language.grammar.checks import without_compounds
 from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.everyday import rewrite
-from planner.language.grammar.lexicon import MARK, lexicon_of
+from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
+from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
@@ -34,6 +36,15 @@ def without_sending(text: str) -> str:
     said = normalise(text)
     plain = rewrite(said, ASKED_AND_SENT if has_chinese(text) else TOLD_TWICE)
     return text if plain == rewrite(said, ()) else plain
+
+
+def leave_asides_out(text: str, vocabulary: Vocabulary) -> str | None:
+    """Return a sentence without what it takes back, courtesy, praise and statements of how things
+    stand; None where it has none of them.
+    """
+    marked = lexicon_of(vocabulary).mark(normalise(text))
+    left = without_asides(take_last_word(marked.text) or marked.text)
+    return marked.restore(left) if left != marked.text else None
 
 
 def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
@@ -67,19 +78,24 @@ def held_back(text: str) -> Counter[str]:
 
 _WHETHER = re.compile(
     r"\b(tell (?:me|us)|check(?:ing)?|see(?:ing)?|look(?:ing)?|find(?:ing)? out|report"
-    r"|let (?:me|us) know) (?:if|whether)\b"
+    r"|let (?:me|us) know"
+    rf"|ask(?: (?:him|her|them|(?:every|any|some)(?:one|body)|{NAME}|(?:(?:the|my|our|a) )?[a-z]+)"
+    rf"(?: (?:in|at|on|by|near) (?:the )?(?:{MARK}|[a-z]+(?: room)?))?)?) (?:if|whether)\b"
     r"|(?<=[看查认下])(?:一下|看)?(?:是否|是不是|有没有)"
 )
 
 
-_A_NOT_A = re.compile(r"((?:看|查|确认)[^,。;!?]*?)([^,。;!?])不\2")
+_A_NOT_A = re.compile(r"((?:看|查|确认|问)[^,。;!?]*?)([^,。;!?])不\2")
 """看看她在不在: to be looked at, no negation."""
 
 _DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?[着了])没有?(?=[,。;!?]|$)")
 """看看电视开着没有, 看看门关了没: likewise."""
 
+_ASKS_THEM = re.compile(r"(问[^,。;!?]{0,12}?)(?:要不要|想不想|是不是|是否|能不能|有没有|需不需要)")
+"""问问妈妈要不要喝茶: asked of somebody, no condition."""
+
 
 def asks_whether(text: str) -> str:
     """Return the text without the "if" of a question that looking answers: no condition."""
-    plain = _DONE_OR_NOT.sub(r"\1", _A_NOT_A.sub(r"\1\2", text))
+    plain = _DONE_OR_NOT.sub(r"\1", _A_NOT_A.sub(r"\1\2", _ASKS_THEM.sub(r"\1要", text)))
     return _WHETHER.sub(lambda found: found[1] or "有", plain)

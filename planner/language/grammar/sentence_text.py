@@ -59,6 +59,12 @@ _CONTRACTIONS = (
     (re.compile(r"\bwon'?t\b"), "will not"),
     (re.compile(r"\b(do|does|did|is|are|would|could|should|must)n'?t\b"), r"\1 not"),
     (re.compile(r"\b(what|where|who|how)'?s\b"), r"\1 is"),
+    (re.compile(r"\b(there|here|(?:no|some|any|every)(?:body|one))'s\b"), r"\1 is"),
+    (
+        re.compile(r"(?<=[a-z])'s (?=(?:in|at|on|not|there|here|asleep|awake|gone|home|ready)\b)"),
+        " is ",
+    ),
+    (re.compile(r"\b(they|we)'re\b"), r"\1 are"),
     (re.compile(r"\blet's\b"), "let us"),
     (re.compile(r"\bi'd\b"), "i would"),
     (re.compile(r"\bi'm\b"), "i am"),

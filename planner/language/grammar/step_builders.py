@@ -15,6 +15,7 @@ from planner.language.catalogue import build, noun, raw, say
 from planner.language.grammar.lexicon import MARK, NAME
 from planner.language.grammar.noun_phrases import ONE_AT_A_TIME, go_to, several
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
+from planner.language.person_names import is_given_name
 from planner.plan import (
     MAX_STEPS,
     Bilingual,
@@ -58,9 +59,13 @@ _AT_HAND = re.compile(
     r"|^(?:所有|全部|每个|各个)的?房间(?:里面?)?的(?=.)"
 )
 """What says no more of a thing than that the robot is to see it, in the home that it is in."""
+_IN_A_ROOM = re.compile(
+    r".+ (?:in|inside) (?P<room>(?:the|my|our|your)"
+    r" (?!(?:whole |entire )?(?:house|home|flat|apartment|place|building|rooms?)\b)[a-z][a-z ]*)"
+)
 _TITLE = 80
-_DONE = re.compile(r"了|完$|[过吗]$|没有?$")
-"""What no thing's name holds: "找到杯子了吗" and "数完了" tell or ask of what was done."""
+_DONE = re.compile(r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?|since|because)\b")
+"""What no thing's name holds: "找到杯子了吗", "数完了" and "my legs are tired" tell or ask."""
 ASIDE = re.compile(
     r"\b(?:behind (?:you|me|us)|(?:on|to|at|by) (?:your|my|the) (?:left|right)"
     r"|(?:left|right) of (?:you|me))\b|^[你您我]?的?(?:[身背]后|后[面边方]|[左右]手?[边侧面])的"
@@ -123,9 +128,23 @@ def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> M
         return missing(WHERE_IS, words, reading, person)
     # Who was met is still there; who was only asked about may be nowhere.
     again = words in _THEY and where is None and reading.scene.kind != "look"
+    if saying and _is_named(words) and not is_given_name(person):
+        person = noun("noun.person").of(reading.language)  # eyes know no more of it than of a thing
     steps: tuple[Step, ...] = () if again else (Find(object=person, place=place),)
-    said = (Say(text=saying),) if saying else ()
+    said = (Say(text=call(words, saying, reading)),) if saying else ()
     return Steps((*arrive(place, reading), *steps, *said), person=person, seen=True)
+
+
+def _is_named(words: str) -> bool:
+    return re.fullmatch(NAME, words) is not None
+
+
+def call(words: str, saying: str, reading: Reading) -> str:
+    """Return what is said to somebody, behind their name: no eye tells who is who."""
+    name = label_of(words, reading)
+    if not _is_named(words) or name.lower() in saying.lower():
+        return saying
+    return f"{name}{', ' if name.isascii() else ','}{saying}"[:500]
 
 
 def follow(words: str, start: str | None, end: str | None, reading: Reading) -> Meaning:
@@ -202,6 +221,9 @@ def count(words: str, where: str | None, reading: Reading) -> Meaning:
         return missing(WHO, words, reading)
     if _DONE.search(label):
         return replace(reading.problem(Code.NOT_UNDERSTOOD, words), places=())
+    elsewhere = _IN_A_ROOM.fullmatch(words) if place is None else None
+    if elsewhere is not None:  # counted all over the home it would be another order
+        return go_to(elsewhere["room"], reading)
     steps = (*arrive(place, reading), Count(object=label, place=place))
     return Steps(steps, thing=label, seen=True)
 

@@ -10,7 +10,7 @@ import re
 from collections import Counter
 from functools import lru_cache
 
-from planner.language.grammar.parser import Context
+from planner.language.grammar.context import Context
 from planner.language.grammar.parser import plan as read_order
 from planner.language.motion_guard.mentioned_names import plain
 from planner.plan import (

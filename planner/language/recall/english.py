@@ -18,7 +18,7 @@ LEAD = re.compile(
 REMEMBERS = re.compile(r"(?:do|can|could) you (?:still )?(?:remember|recall) |remember (?=wh)")
 TAIL = re.compile(
     r"(?:[ ,]+(?:(?:the )?last time you (?:looked|were (?:in )?there)|please|(?<!just )now|thanks"
-    r"|thank you|again|at all|robot|pons))+$"
+    r"|thank you|again|at all|before|previously|robot|pons))+$"
 )
 SPANS = (
     ("hour", r"(?:with)?in the (?:last|past) (?:half )?hour|just now|a moment ago|a minute ago"),
@@ -95,7 +95,9 @@ ENTERS = re.compile(
     rf"who entered(?: {_THE}(?P<at>{MARK}))?|did (?:{_SOMEBODY}) enter {_THE}(?P<at2>{MARK})"
 )
 DEEDS = re.compile(
-    r"what (?:all )?(?:did you do|have you (?:done|been doing|been up to)|were you (?:doing|up to))"
+    r"what (?:all )?(?:did you do|have you (?:done|been doing|been up to)"
+    r"|were you (?:just )?(?:doing|up to)"
+    r"|did you just do)"
     r"|what you (?:did|have done|were doing|have been doing)"
     r"|where (?:all )?(?:did you (?:go|drive)|have you been|were you)|where you (?:went|were"
     r"|have been)"
@@ -112,6 +114,8 @@ TOLD = re.compile(
     rf"|what (?:i|we) (?:told you|said|taught you)(?: about {_WHAT.replace('what', 'b')})?"
     rf"|what (?:do you|you) (?:still )?(?:remember|know) about {_WHAT.replace('what', 'c')}"
     rf"|what you (?:remember|know) about {_WHAT.replace('what', 'd')}"
+    rf"|(?:everything|anything|all) (?:that )?you (?:remember|know|have) (?:about|on)"
+    rf" {_WHAT.replace('what', 'f')}"
     rf"|what (?:do you|you) (?:still )?remember"
     rf"|(?:do you remember|remember) anything about {_WHAT.replace('what', 'e')}"
 )

@@ -15,7 +15,7 @@ from planner.language.object_names import name_object
 from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
 from planner.mission.skills.conditions import HOLDS, with_answer
 from planner.mission.skills.model_search import seek, tell_found
-from planner.mission.skills.object_matching import found, wanted_of
+from planner.mission.skills.object_matching import anybody_for, found, wanted_of
 from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.result_text import by_neighbour, found_at, looked_in, unknown_words
 from planner.mission.skills.search import alike, find_spent_budget, search
@@ -26,7 +26,7 @@ from planner.plan import JUDGED, Code
 
 def find(scene: Scene[FindState]) -> SkillAction:
     """Return the search's next act, or its result."""
-    wanted = wanted_of(scene)
+    wanted = wanted_of(scene) or anybody_for(scene.step.object or "", scene.eyes.classes)
     if wanted is None and not scene.eyes.searches:
         return unknown(scene)
     if scene.pose is None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from planner.language.folding import fold
 from planner.language.object_classes import kind_of
 from planner.language.object_names import first_named, resolve, singles_out
+from planner.language.person_names import is_given_name
 from planner.language.questions import split_relation
 from planner.mission.skills.perception import WantedObject
 from planner.mission.skills.spatial_relations import stands
@@ -49,6 +50,14 @@ def read_object(words: str, language: Language, classes: tuple[str, ...]) -> Wan
     related = _read_related(words, language, classes)
     found = resolve("person" if somebody else words, language, classes) if not related else None
     return related or (WantedObject(*found) if found is not None else None)
+
+
+def anybody_for(words: str, classes: tuple[str, ...]) -> WantedObject | None:
+    """Return a person for the name of one: nobody is recognised, and anybody may be spoken to.
+
+    For a search alone: who is followed or driven up to must be the one who is meant.
+    """
+    return WantedObject("person") if "person" in classes and is_given_name(words) else None
 
 
 @lru_cache(maxsize=64)

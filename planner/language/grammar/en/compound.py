@@ -36,6 +36,11 @@ _SEES = re.compile(
 _BODY = re.compile(
     rf"(?P<thing>{_PERSON}|{_NOBODY})(?: is|'s) (?:there )?(?P<where>(?:in|on|at|near|by) .+)"
 )
+_PLACED = re.compile(
+    r"(?P<thing>(?!there\b|it\b|he\b|she\b|they\b|that\b|this\b|you\b|i\b|we\b|what\b|who\b).+?)"
+    r"(?: (?:is|are)|'s)(?P<not> not)?(?: still| already| now)?(?P<where> (?:in|on|at|near|by) .+)"
+)
+"""Somebody or something known: "if Dad is in the study", "if the dog is not at the door"."""
 _NO_THING = re.compile(r"(?:no|not any) (?P<thing>.+)")
 _ARTICLE = re.compile(r"^(?:a|an|any|some|the|my|our|your)\b ?")
 
@@ -43,7 +48,7 @@ _ARTICLE = re.compile(r"^(?:a|an|any|some|the|my|our|your)\b ?")
 def _read_condition(said: str) -> ConditionParts | None:
     found = _THERE.fullmatch(said) or _SEES.fullmatch(said) or _BODY.fullmatch(said)
     if found is None:
-        return None
+        return _read_placed(said)
     thing, where = found["thing"].strip(), (found["where"] or "").strip()
     denied = re.fullmatch(_NOBODY, thing) is not None
     if denied:
@@ -56,6 +61,22 @@ def _read_condition(said: str) -> ConditionParts | None:
         _ARTICLE.sub("", thing).strip(),
         denied,
         is_placed=bool(where),
+    )
+
+
+def _read_placed(said: str) -> ConditionParts | None:
+    """Return the question whether one known person or thing is somewhere."""
+    found = _PLACED.fullmatch(said)
+    if found is None:
+        return None
+    thing, where = found["thing"].strip(), found["where"].strip()
+    are = "are" if re.fullmatch(r"people|.*(?:[^s]s|people|children)", thing) else "is"
+    return ConditionParts(
+        f"{are} {thing} {where}",
+        _ARTICLE.sub("", thing).strip(),
+        found["not"] is not None,
+        is_placed=True,
+        anybody=f"is there somebody {where}",
     )
 
 
@@ -143,6 +164,9 @@ _GO_ON = r"(?:[,;.]? ?(?:and then|then|and|,) ?(?P<rest>.+))?"
 _BEFORE = r"(?:(?P<before>.+?)(?:,| and then|, then| and|;|\.) )?"
 _STAY = r"(?:please )?(?:wait|stay|stand|hold on)(?: here| there| still| right here)*"
 
+_THEM = r"(?:him|her|them)"
+_TOLD_END = r"(?=$|[,;]| and (?:then )?(?:go|come|drive|return|look|find|wait|follow|turn|head)\b)"
+
 ENGLISH_COMPOUND = CompoundForms(
     trigger=re.compile(
         r"\b(?:if|in case|until|till|twice|thrice|times|wait for|slowly|carefully|follow)\b",
@@ -172,6 +196,32 @@ ENGLISH_COMPOUND = CompoundForms(
         r"\b(?P<verb>go|drive|move|head|come|return|get|walk|proceed)(?: over| back)? there\b"
     ),
     to=" to the ",
+    tells=(
+        (
+            re.compile(
+                rf"\b(?:tell|inform|remind|let) {_THEM} (?:know )?to (?P<w>[^,;\"]+?){_TOLD_END}"
+            ),
+            r'say "please \g<w>"',
+        ),
+        (
+            re.compile(
+                rf"\b(?:tell|inform|remind|let) {_THEM} (?:know )?(?:that )?"
+                r"(?!(?:if|whether|where|what|who|how|when|why|about)\b|(?:a|the) [a-z]+(?:$|[,;]))"
+                rf"(?P<w>[^,;\"]+?){_TOLD_END}"
+            ),
+            r'say "\g<w>"',
+        ),
+        (
+            re.compile(rf"\bask {_THEM} (?=(?:if|whether|what|where|when|how|why|which|who)\b)"),
+            "ask ",
+        ),
+        (re.compile(rf"\bsay (?P<w>[^,;\"]+?) to {_THEM}(?=$|[,;]| and\b)"), r'say "\g<w>"'),
+    ),
+    reports=re.compile(
+        r"(?:please )?(?:(?:tell|inform|notify|warn|say) me|let me know|say so|report(?: back)?)"
+        r"(?: about it| please)?"
+    ),
+    calls=", ",
     cuts=re.compile(rf" then | (?={_VERBS}\b)"),
     failures=re.compile(
         rf"(?:try to )?(?P<main>.+?)[,;.]? (?:and |but |or )?{_IF} {_FAILS}"

@@ -24,9 +24,7 @@ _GOES = (
     r" (?:way|trip)|take (?:yourself|a (?:trip|walk|stroll|drive|run))|get (?:yourself|your [a-z]+)"
     r"|bring yourself|(?:drag|move|drive|roll|wheel|take) yourself|find your way|head|proceed|get|come)"
 )
-_ASIDE = (
-    r"(?: (?:on|off|over|down|up|along|out|back|round|around|across|across the hall|straight))*"
-)
+_ASIDE = r"(?: (?:on|off|over|down|up|along|out|back|round|around|across|across the hall|straight|through))*"
 _ONE = (
     r"(?:i|he|she|it|they|we|(?:the |my |our )?(?:baby|kids?|dog|cat|mum|dad|mom|granny|grandma))"
 )
@@ -92,11 +90,21 @@ COURTESY = table(
 )  # fmt: skip
 """Conditions that are none."""
 
+_WHOEVER = (
+    r"^(?:please )?tell (?:whoever|everyone who|everybody who|anyone who|anybody who)(?:'s| is) "
+)
 _UNLESS_SOMEBODY = (
     r"^unless (?:there is |there's )?(?:somebody|someone|anybody|anyone)(?: is|'s)?"
     r" (?P<a>(?:in|at|by) (?:the |my |our )?[a-z']+(?: (?!go|drive|come|look|find|say|count)[a-z']+)?)"
 )
 TOLD_TWICE = table(
+    (r"\bare (?:sat|seated|sitting|standing|stood|lying|left|kept) (?=(?:in|at|on|by|near|there)\b)", "are "),
+    (r"^(?:please )?(?:go|drive|head|get) back (?:to )?where you (?:were|came from|come from|started)(?: before| from)?[.!]*$", "come back"),
+    (r"^where do (?:we|you|i|they) (?:keep|put|store) (?P<t>(?:the|our|my) [a-z]+)\?*$", r"where is \g<t>?"),
+    (rf"{_WHOEVER}(?:in|at) (?P<p>(?:the |my |our )?[a-z]+(?: [a-z]+)?) that (?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
+    (r"\b(?P<o>otherwise|or else|if not),? (?:then )?try (?P<p>(?:the|my|our) [a-z]+(?: [a-z]+)?)$", r"\g<o> look in \g<p>"),
+    (r"\bcome (?:back )?and (?:tell me|let me know)(?=$|[,;.])", "come back"),
+    (r"\bif you will (?=(?:see|find|spot|notice|meet)\b)", "if you "),
     (r"\bturn (?:yourself )?(?:a?round|about)[, ]+(?:and |so (?:that )?you (?:are |can )?)?fac(?:e|ing)"
      r" (?:the other way|away)\b", "turn around"),
     (r"^if you can ?not (?:find|see|spot) (?P<t>[a-z' ]+?) (?P<a>(?:in|at|on|by) [a-z' ]+?)[, ]+(?:then )?"
@@ -159,7 +167,21 @@ ENGLISH_EVERYDAY = table(
      r"(?: on (?:the|your) way(?: there)?| first)?$", r"go to \g<q> then go to \g<p>"),
     (rf"\b(?:go|drive|roll|pop|head) past (?P<p>{_PLACE})", r"go to \g<p>"),
     (rf"(?P<p>{_PLACE}) area\b", r"\g<p>"),
-    (rf"\bgo to where (?P<p>{_PLACE}) is\b", r"go to \g<p>"),
+    (rf"\bgo (?:to )?where (?P<p>{_PLACE}) is\b", r"go to \g<p>"),
+    (rf"^(?:over|off|up|down|across|straight|along|round) to (?P<p>{_PLACE})(?=$|[,.])", r"go to \g<p>"),
+    (rf"^(?:let us|can we|could we|can i|could i|may i|we need to|i need to|i want to|i would like to) have you"
+     rf"(?: over)? (?:in|at|by|on|near|next to) (?P<p>{_PLACE})", r"go to \g<p>"),
+    (rf"^(?:get|come|go|move) out of {_PLACE},? (?:and )?(?:in)?to (?P<p>{_PLACE})$", r"go to \g<p>"),
+    (r",? and (?P<b>[^,]+?) (?:when|once) you(?: get| are| arrive| have got)(?: there| in)?$", r", then \g<b>"),
+    (rf"^(?P<v>tell|ask|remind) (?P<n>(?:my |our )?[a-z]+) (?P<w>[^,]+), (?:he|she|they)(?:'s| is| are)(?: in|at)+"
+     rf" (?P<p>{_PLACE})$", r"\g<v> \g<n> in \g<p> \g<w>"),
+    (rf"^(?:go )?look (?:under|behind|beside|on|next to) (?P<p>{_PLACE}) for (?P<t>(?:the|my|our|a|any) [a-z ]+)$", r"look for \g<t> at \g<p>"),
+    (rf"^(?:is there )?(?:any chance )?(?:that )?there is (?P<t>(?:a|an|any|some) [a-z ]+?) (?P<w>in|at|on|by) (?P<p>{_PLACE})\?$",
+     r"is there \g<t> \g<w> \g<p>?"),
+    (r"\b(?:have|take) a (?:scout|look|hunt|search|scour|nose|rummage|root|poke)(?: a?round| about)? for (?P<t>(?:a|an|the|my|our|some) [a-z ]+)$",
+     r"find \g<t>"),
+    (r"\b(?:see|check) if you can (?:spot|find|see|locate) (?P<t>(?:a|an|the|my|our|[a-z]+'s) [a-z ]+?)(?: anywhere| somewhere| around)?$",
+     r"find \g<t>"),
     (rf"^go (?P<p>{MARK})(?= then\b|,| and\b|$)", r"go to \g<p>"),
     (rf"^to (?P<p>{_PLACE})[.!]*$", r"go to \g<p>"),
     (r",? in (?:that|this) order$", ""),

@@ -6,6 +6,7 @@ A clause is read whole or not at all; the rules name every word that they pass o
 from __future__ import annotations
 
 import re
+from re import Match
 
 from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_EN
@@ -13,7 +14,7 @@ from planner.language.grammar.clauses import Grammar
 from planner.language.grammar.driving_steps import next_place
 from planner.language.grammar.en import PERSON, driving, objects, people
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.parse_result import lacks, rule, unread
+from planner.language.grammar.parse_result import Meaning, Reading, Steps, lacks, rule, unread
 from planner.language.grammar.unsupported import lacks_arm
 from planner.plan import Code
 
@@ -115,6 +116,12 @@ _PURPOSE = (
     r"close|follow|clean|take|deliver|put|describe|watch|observe"
 )
 
+
+def _tell_nothing(_found: Match[str], reading: Reading) -> Meaning | None:
+    """Add nothing behind "come back": who is back tells what came of the order by itself."""
+    return Steps(()) if reading.scene.kind == "come_back" else None
+
+
 ENGLISH = Grammar(
     asked=re.compile(r"(?!)()"),  # "can you …" is a courtesy that needs no closing word
     vetoes=(
@@ -142,6 +149,11 @@ ENGLISH = Grammar(
         *driving.TALK,
         *unsupported.PAST_ENGLISH,
         *unsupported.ASIDE_ENGLISH,
+        rule(
+            r"(?:tell|inform|notify) (?:me|us)(?: (?:all )?about it)?|let (?:me|us) know"
+            r"|report(?: back)?(?: to (?:me|us))?",
+            _tell_nothing,
+        ),
         *people.RULES,
         *driving.RULES,
         rule(

@@ -24,6 +24,7 @@ from planner.language.grammar.parse_result import (
 )
 from planner.language.grammar.small_talk import Topic, answer_topic, topic_of
 from planner.language.grammar.step_builders import (
+    call,
     follow,
     guide,
     label_of,
@@ -152,12 +153,55 @@ def _request(found: Match[str], reading: Reading) -> Meaning:
     return meet(found["who"], read_place(found, "at"), reading, words[:500])
 
 
+_VERB_OF = {"has": "have", "does": "do", "goes": "go", "is": "be"}
+_ASKED_OF_THEM = re.compile(
+    r"(?:(?P<word>what|where|when|how|why|which [a-z]+|what [a-z]+|how [a-z]+) |(?:if|whether) )"
+    r"(?P<who>he|she|they|any(?:one|body)|some(?:one|body)|every(?:one|body))"
+    r"(?P<rest>(?: |'s |'d |'re ).+)"
+)
+_WHERE_IT_IS = re.compile(
+    r"(?P<word>where|what|who|how|when) (?P<what>(?:the|my|our|your|his|her) [a-z]+(?: [a-z]+)?)"
+    r" (?P<be>is|are|was|were)"
+)
+_MODAL = re.compile(
+    r"(?P<modal>can|could|will|would|should|must|may|might|did|had|have got|has got) (?P<rest>.+)"
+)
+
+
+def ask_directly(question: str) -> str:
+    """Return "if she wants tea" as it is asked: "do you want tea?"."""
+    found = _ASKED_OF_THEM.fullmatch(question)
+    if found is None:
+        turned = _WHERE_IT_IS.fullmatch(question)
+        return f"{turned['word']} {turned['be']} {turned['what']}?" if turned else question
+    word = f"{found['word']} " if found["word"] else ""
+    they = "you" if found["who"] in ("he", "she", "they") else found["who"].replace("some", "any")
+    rest = found["rest"].replace("'d ", " would ", 1).replace("'s ", " is ", 1)
+    rest = rest.replace("'re ", " are ", 1).strip()
+    modal = _MODAL.fullmatch(rest)
+    if modal is not None:
+        may, what = modal["modal"], modal["rest"]
+        if may in ("have got", "has got"):
+            may, what = "do", f"have {what}"
+        return f"{word}{may} {they} {what}?"
+    verb, _, more = rest.partition(" ")
+    if verb in ("is", "are", "was", "were"):
+        be = {"is": "are", "was": "were"}.get(verb, verb) if they == "you" else verb
+        return f"{word}{be} {they}{' ' if more else ''}{more}?"
+    base = _VERB_OF.get(verb, re.sub(r"(?<=[a-z]{2})(?<!s)s$", "", verb))
+    do = "do" if they == "you" else "does"
+    return f"{word}{do} {they} {base}{' ' if more else ''}{more}?"
+
+
 def _ask(found: Match[str], reading: Reading) -> Meaning:
-    question = Ask(question=reading.marked.restore(found["question"])[:500])
+    words = ask_directly(reading.marked.restore(found["question"]))
     if found["who"] is None:
-        return Steps((question,))
-    met = meet(found["who"], read_place(found, "at"), reading)
-    return Steps((*met.steps, question), person=met.person) if isinstance(met, Steps) else met
+        return Steps((Ask(question=words[:500]),))
+    met = meet(found["who"], read_place(found, "at"), reading, words)
+    if not isinstance(met, Steps):
+        return met
+    asked = Ask(question=call(found["who"], words, reading)[:500])
+    return Steps((*met.steps[:-1], asked), person=met.person)
 
 
 def _describe(found: Match[str], reading: Reading) -> Meaning:
@@ -223,7 +267,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(
         rf"ask(?: (?P<who>{PERSON}){_AT})? (?P<question>(?:what|where|who|how|when|why|which|for|"
-        r"about|their|his|her) .+)",
+        r"about|their|his|her|if|whether) .+)",
         _ask,
     ),
     rule(

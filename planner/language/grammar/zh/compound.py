@@ -27,10 +27,24 @@ def _read_condition(said: str) -> ConditionParts | None:
         plain,
     )
     if found is None:
-        return None
+        return _read_placed(plain)
     where, thing = found["where"].strip(), found["thing"].strip()
     asks = f"{where}有没有{thing}"
-    return ConditionParts(asks, thing, found["has"] != "有", is_placed=bool(where))
+    anybody = f"{where}有没有人"
+    return ConditionParts(asks, thing, found["has"] != "有", is_placed=bool(where), anybody=anybody)
+
+
+def _read_placed(plain: str) -> ConditionParts | None:
+    """Return the question whether one known person or thing is somewhere: 爸爸在书房."""
+    found = re.fullmatch(
+        r"(?P<thing>[^在不没他她它]{1,10}?)还?(?P<has>不在|没在|在)(?P<where>[^在了]{1,10}?)", plain
+    )
+    if found is None:
+        return None
+    where, thing = found["where"], found["thing"]
+    anybody = f"{where}有没有人"
+    asks = f"{where}有没有{thing}"
+    return ConditionParts(asks, thing, found["has"] != "在", is_placed=True, anybody=anybody)
 
 
 _SEE = r"(?:看到|看见|见到|碰到|碰见|遇到|发现|瞧见|见)"
@@ -93,8 +107,14 @@ _STAY = (
     r"(?:直到|到)?"
 )
 _BEFORE = r"(?:(?P<before>[^等]+?)[,，]?(?:然后|再)?)??"
-_ORDER = r"(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开)"
+_ORDER = (
+    r"(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开"
+    r"|告诉|问|叫|喊|吱|吭|报告|通知|对|提醒|让)"
+)
 _PLACE_HAS = r"[^,，;；。]*?(?:没有|没|有)[^,，;；。]*?"
+_IS_AT = r"[^,，;；。有没不在]{1,10}?还?(?:不在|没在|在)[^,，;；。有没了在]{1,10}?"
+_THEM = r"(?:他们?|她们?|那个?人|大家)"
+_TOLD = r"(?P<w>[^,，;；。\"“”]{1,60}?)(?=$|[,，;；。])"
 
 CHINESE_COMPOUND = CompoundForms(
     trigger=re.compile(
@@ -135,6 +155,10 @@ CHINESE_COMPOUND = CompoundForms(
             rf"(?P<then>{_ORDER}.+)"
         ),
         re.compile(
+            rf"(?:请)?{_IF}(?P<if>{_IS_AT})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
+        ),
+        re.compile(rf"(?:请)?{_IF}(?P<if>{_IS_AT})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"),
+        re.compile(
             rf"(?P<if>{_PLACE_HAS})(?:的话)[,，]?(?:就|便)"
             rf"(?P<then>{_ORDER}.+)"
         ),
@@ -151,6 +175,22 @@ CHINESE_COMPOUND = CompoundForms(
     ),
     go_there=re.compile(r"(?P<verb>去|到|回到?|前往|开到)(?:那里|那儿|那边)"),
     to="",
+    tells=(
+        (
+            re.compile(
+                rf"(?:(?:告诉|通知|提醒)(?:一下)?{_THEM}(?:说|讲)?|(?:跟|对|和|向|给){_THEM}(?:说|讲|讲讲|说说))"
+                rf"(?:一声|一下)?[:：]?{_TOLD}"
+            ),
+            r"说“\g<w>”",
+        ),
+        (re.compile(r"(?:问问|问一下|询问|问)(?:他们?|她们?)(?=[^,，;；。]{2})"), "问问"),
+        (re.compile(rf"(?:叫|让|喊|请){_THEM}{_TOLD}"), r"说“请\g<w>”"),
+    ),
+    reports=re.compile(
+        r"(?:你)?(?:就)?(?:告诉|通知|提醒|喊|叫|跟|和|向|给)我"
+        r"(?:说|讲|报告)?(?:一声|一下)?|(?:说|吱|吭)一?声"
+    ),
+    calls=",",
     cuts=re.compile(r"(?!)"),
     failures=re.compile(
         rf"(?P<main>.+?)[,，;；。](?:{_FAILS})[,，]?(?:就|便|再)?(?:改)?(?P<else>.+)"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from re import Match
 
 from planner.language.catalogue import say
@@ -20,6 +21,7 @@ from planner.language.grammar.parse_result import (
 )
 from planner.language.grammar.small_talk import Topic, answer_topic, topic_of
 from planner.language.grammar.step_builders import (
+    call,
     follow,
     guide,
     label_of,
@@ -103,13 +105,19 @@ def _quote_to(found: Match[str], reading: Reading) -> Meaning:
 
 
 def _ask(found: Match[str], reading: Reading) -> Meaning:
-    question = Ask(question=reading.marked.restore(found["question"])[:500])
+    words = _OF_THEM.sub("你", reading.marked.restore(found["question"]))
     who = found["who"]
     if who is None or who in ("大家", "他们", "她们"):
-        return Steps((question,))
-    met = meet(who, read_place(found, "at"), reading)
-    return Steps((*met.steps, question), person=met.person) if isinstance(met, Steps) else met
+        return Steps((Ask(question=words[:500]),))
+    met = meet(who, read_place(found, "at2") or read_place(found, "at"), reading, words)
+    if not isinstance(met, Steps):
+        return met
+    asked = Ask(question=call(who, words, reading)[:500])
+    return Steps((*met.steps[:-1], asked), person=met.person)
 
+
+_OF_THEM = re.compile(r"^(?:他|她)(?!们)")
+"""Asked of themselves: 问妈妈她想吃什么 is 妈妈，你想吃什么."""
 
 _AT = rf"(?:{loc('at')})?"
 _AT2 = rf"(?:{loc('at2')})?"
@@ -145,11 +153,11 @@ RULES: tuple[Rule, ...] = (
     rule(rf"{_AT}(?:告诉|对|跟|和|向|通知){_WHO}(?:说|讲|喊)?[:]?(?P<quote>{QUOTE})", _quote_to),
     rule(
         rf"{_AT}(?:告诉|通知|提醒|叫|让|请|对|跟){_AT2}{_WHO}(?:说|讲)?(?:一下|"
-        r"一声)?(?P<words>[^,]+)",
+        r"一声)?(?P<words>(?![说讲]$)[^,]+)",
         _tell_words,
     ),
     rule(
-        rf"{_AT}(?:问问?|询问)(?P<who>{PERSON})?(?:一下)?(?P<question>.+)",
+        rf"{_AT}(?:问问|问一下|问下|问|询问)(?:一下)?(?:{_AT2}(?P<who>{PERSON}))?(?:一下|一声)?(?P<question>.+)",
         _ask,
     ),
     rule(

@@ -21,6 +21,7 @@ from planner.language.commands import (
     Replace,
     ResumeCommand,
     Slower,
+    TeachFact,
     WhereCommand,
     intent_of,
 )
@@ -325,3 +326,28 @@ def test_words_said_over_and_over_are_read_in_no_time(text: str) -> None:
     """Would a pattern try every way to cut them, this would not end."""
     for times in (2, 9, 30, 120):
         intent_of((text * times)[:299])
+
+
+@pytest.mark.parametrize(
+    "before", ["remember that ", "please remember: ", "记住，", "帮我记一下："]
+)
+@pytest.mark.parametrize("length", [10, 290, 310, 900, 1900])
+def test_a_fact_is_one_however_long_it_is(before: str, length: int) -> None:
+    """It is told to be too long where it is kept; "not understood" would tell nobody why."""
+    fact = ("the blue box holds cables " if before.isascii() else "蓝色的箱子里有电线") * length
+    made = intent_of(before + fact[:length].strip())
+    assert isinstance(made, TeachFact)
+    assert made.words == fact[:length].strip()
+
+
+@pytest.mark.parametrize(
+    "order", ["go to the kitchen and then ", "去厨房，然后", "remember to go and "]
+)
+@pytest.mark.parametrize("length", [400, 1500])
+def test_a_long_order_is_no_fact(order: str, length: int) -> None:
+    assert intent_of((order * length)[:length]) is None
+
+
+@pytest.mark.parametrize("before", ["remember that ", "记住，"])
+def test_nothing_endless_is_read(before: str) -> None:
+    assert intent_of(before + "x" * 2000) is None

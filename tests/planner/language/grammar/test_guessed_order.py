@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.language.grammar.context import Context
 from planner.language.grammar.guessed_order import NOTHING, ORDERS, guess_order, write_order
 from planner.language.grammar.lexicon import lexicon_of
-from planner.language.grammar.parser import Context, plan
+from planner.language.grammar.parser import plan
 from planner.language.grammar.sentence_text import normalise
 from planner.language.intent.features import units_of
 from planner.language.intent.intent_model import Guess

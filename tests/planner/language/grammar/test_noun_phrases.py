@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from planner.language.grammar.parser import Context, plan
+from planner.language.grammar.context import Context
+from planner.language.grammar.parser import plan
 from planner.plan import (
     EVERY_KIND,
     Clarify,

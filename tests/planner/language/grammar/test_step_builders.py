@@ -9,7 +9,8 @@ from collections.abc import Callable
 
 import pytest
 
-from planner.language.grammar.parser import Context, plan
+from planner.language.grammar.context import Context
+from planner.language.grammar.parser import plan
 from planner.plan import EVERY_KIND, Clarify, Code, Find, StepPlan, Vocabulary
 
 AT_A_PLACE = {

@@ -12,7 +12,8 @@ from planner.brain.interface import ThinkRequest
 from planner.brain.offline_brain import OfflineBrain
 from planner.brain.situation import RememberedItem, Situation
 from planner.language.commands import ForgetFacts, TeachFact, read_statement
-from planner.language.grammar.parser import Context, plan
+from planner.language.grammar.context import Context
+from planner.language.grammar.parser import plan
 from planner.language.motion_guard.step_words import moves
 from planner.language.recall import read_recall
 from planner.language.utterance import parse

@@ -8,6 +8,7 @@ import pytest
 
 from planner.language.questions import Relation
 from planner.mission.skills import WantedObject
+from planner.mission.skills.object_matching import anybody_for
 from planner.mission.skills.object_query import FLOOR, ObjectQuery, sought_in
 from planner.plan import Bilingual
 from planner.site.site_view import SiteView, Target
@@ -102,3 +103,16 @@ def test_a_place_to_look_in_is_no_neighbour(
     question: str, place: str | None, sought: ObjectQuery
 ) -> None:
     assert sought_in(question, HOME, place, CLASSES) == sought
+
+
+@pytest.mark.parametrize("name", ["Dad", "Anna", "my mum", "奶奶", "爸爸"])
+def test_a_name_is_searched_for_as_anybody(name: str) -> None:
+    """Nobody is recognised: who is found is told as a person, and is never followed by a name."""
+    assert anybody_for(name, CLASSES) == WantedObject("person")
+    assert anybody_for(name, ("cup",)) is None
+    assert anybody_for(f"{name} cup", CLASSES) is None
+
+
+@pytest.mark.parametrize("thing", ["cup", "lego", "the red box", "杯子", ""])
+def test_a_thing_is_nobody(thing: str) -> None:
+    assert anybody_for(thing, CLASSES) is None

@@ -1,0 +1,104 @@
+"""He, they and there mean whom and what the orders before spoke of, or stay as they were said."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from planner.language.utterance import parse
+from planner.mission.events import Planned, Submitted
+from planner.mission.follow_up import LEANS_S, meaning_of
+from planner.mission.reducer import advance
+from planner.plan import Find, GoTo, Look, StepPlan
+from tests.planner.mission.test_pronouns import NOW_S, book_after
+
+if TYPE_CHECKING:
+    from planner.mission.state import MissionState
+
+PLACES = (("kitchen", "厨房"), ("study", "书房"))
+
+
+def asked(who: str, place: tuple[str, str], *, chinese: bool = False) -> MissionState:
+    text = f"{who}在{place[1]}吗" if chinese else f"is {who} in the {place[0]}?"
+    look = Look(question=text.rstrip("?"), place=place[0])
+    return book_after(GoTo(place=place[0]), look, text=text)
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize(
+    ("said", "means"),
+    [
+        ("if he is, tell him tea is ready", "if Dad is in the {p}, tell him tea is ready"),
+        ("if he isn't, come back", "if Dad is not in the {p}, come back"),
+        (
+            "then say hello, otherwise come back",
+            "if Dad is in the {p}, say hello, otherwise come back",
+        ),
+        ("tell him tea is ready", "tell Dad in the {p} tea is ready"),
+        ("please ask him what he wants", "please ask Dad in the {p} what he wants"),
+        ("go there", "go to the {p}"),
+        ("go there and wait", "go to the {p} and wait"),
+        ("wait there", "wait in the {p}"),
+    ],
+)
+def test_they_mean_those_of_the_question_before(
+    said: str, means: str, place: tuple[str, str]
+) -> None:
+    assert meaning_of(asked("Dad", place), said, NOW_S) == means.format(p=place[0])
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize(
+    ("said", "means"),
+    [
+        ("如果他在，就告诉他吃饭了", "如果{p}有爸爸，就告诉他吃饭了"),
+        ("要是不在就回来", "如果{p}没有爸爸，就回来"),
+        ("跟他说吃饭了", "告诉{p}的爸爸吃饭了"),
+        ("问问他要不要喝茶", "问问{p}的爸爸要不要喝茶"),
+        ("去那里", "去{p}"),
+    ],
+)
+def test_so_they_do_in_chinese(said: str, means: str, place: tuple[str, str]) -> None:
+    book = asked("爸爸", place, chinese=True)
+    assert meaning_of(book, said, NOW_S) == means.format(p=place[1])
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        *(
+            "tell her tea is ready",
+            "tell him and tell her tea is ready",
+            "if he is hungry, come back",
+        ),
+        *("Anna said to tell him tea is ready", "go there or come back"),
+    ][:4],
+)
+def test_in_doubt_it_stays_as_it_was_said(said: str) -> None:
+    assert meaning_of(asked("Dad", PLACES[1]), said, NOW_S) == said
+
+
+def test_two_people_are_told_apart_by_nobody() -> None:
+    book = book_after(GoTo(place="study"), text="are Tom and Peter in the study?")
+    assert meaning_of(book, "tell him tea is ready", NOW_S) == "tell him tea is ready"
+
+
+def test_an_order_that_speaks_of_nobody_between_changes_nothing() -> None:
+    book = asked("Dad", PLACES[1])
+    text = "go to the kitchen"
+    two, _ = advance(book, Submitted("g1", text, parse(text).language), NOW_S)
+    two, _ = advance(two, Planned("g1", StepPlan(steps=(GoTo(place="kitchen"),))), NOW_S)
+    assert meaning_of(two, "tell him tea is ready", NOW_S) == "tell Dad in the study tea is ready"
+    assert meaning_of(two, "if he is, come back", NOW_S) == "if he is, come back"
+
+
+def test_a_place_of_an_answer_is_none_that_a_person_named() -> None:
+    book = book_after(Find(object="cup", place="kitchen"), text="an order")
+    assert meaning_of(book, "go there", NOW_S) == "go there"
+
+
+def test_long_ago_is_forgotten() -> None:
+    book = asked("Dad", PLACES[1])
+    said = "if he is, come back"
+    assert meaning_of(book, said, NOW_S + LEANS_S + 1.0) == said
