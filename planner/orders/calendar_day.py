@@ -36,7 +36,11 @@ def day_of(said: DayTime, now: datetime, hour: int) -> date:
     today = now.date()
     over = (hour, said.minute) <= (now.hour, now.minute)
     if said.day is not None:
-        return _dated(said, today) if said.month is not None else _numbered(said, today, over=over)
+        return (
+            _find_date(said, today)
+            if said.month is not None
+            else _find_day_number(said, today, over=over)
+        )
     if said.days_ahead is not None:
         return today + timedelta(days=said.days_ahead)
     if said.weekday is None:
@@ -58,7 +62,7 @@ def days_of_next(said: DayTime, now: datetime) -> tuple[date, date] | None:
     return (coming, after) if coming != after else None
 
 
-def _dated(said: DayTime, today: date) -> date:
+def _find_date(said: DayTime, today: date) -> date:
     """Return the day of a month that is named."""
     month, day = said.month or 1, said.day or 1
     if said.year is not None or said.years_ahead is not None:
@@ -68,7 +72,7 @@ def _dated(said: DayTime, today: date) -> date:
     return _make(since.year + int(not is_of_that_year), month, day)
 
 
-def _numbered(said: DayTime, today: date, *, over: bool) -> date:
+def _find_day_number(said: DayTime, today: date, *, over: bool) -> date:
     """Return the day of which only the number is said: of this month, of the next one, or next."""
     day = said.day or 1
     if said.months_ahead is not None:

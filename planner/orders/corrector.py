@@ -13,7 +13,7 @@ from planner.language.schedule import CorrectOrder, Delay, LeaveOutDays, RemindA
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder
 from planner.orders.order import StandingOrder
-from planner.orders.retiming import can_take, corrected, fits_time
+from planner.orders.retiming import can_take, correct_rule, fits_time
 from planner.orders.rule import next_due
 from planner.orders.selection import pick, select
 from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Language, Option, Refuse
@@ -74,7 +74,7 @@ class OrderCorrector:
         """
         try:
             if isinstance(command.change, RemindAgain) and not command.which:
-                return await self._again(command.change, language, goal_id, is_busy=is_busy)
+                return await self._remind_again(command.change, language, goal_id, is_busy=is_busy)
             return await self._change(command, language)
         except OrderRefusal as refused:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
@@ -82,7 +82,7 @@ class OrderCorrector:
 
     def pick(self, command: CorrectOrder, answer: str) -> str | None:
         """Return the id of the order that an answer picks of those that a correction may mean."""
-        found = self._named(command) if command.which else self._spoken_of(command)
+        found = self._find_named(command) if command.which else self._spoken_of(command)
         picked = pick(found, answer)
         return picked[0].id if len(picked) == 1 else None
 
@@ -91,7 +91,7 @@ class OrderCorrector:
     async def _change(
         self, command: CorrectOrder, language: Language
     ) -> AnswerPlan | Clarify | Refuse | None:
-        found = self._named(command) if command.which else self._spoken_of(command)
+        found = self._find_named(command) if command.which else self._spoken_of(command)
         if not found:
             if not command.is_sure:
                 return None
@@ -107,7 +107,7 @@ class OrderCorrector:
         said = self._desk.line(changed) if changed.paused else self._desk.tell_one(changed)
         return AnswerPlan(text=say("standing.changed", line=said))
 
-    def _named(self, command: CorrectOrder) -> tuple[StandingOrder, ...]:
+    def _find_named(self, command: CorrectOrder) -> tuple[StandingOrder, ...]:
         live = self._keeper.book.orders.values()
         found = select(live, command.which, self._keeper.book.zone, reminders=False)
         return self._that_can(command, found) or found
@@ -166,7 +166,7 @@ class OrderCorrector:
             if kept is None or kept.ended:
                 raise OrderRefusal("order_ended", order.id)
             now_s, zone = self._keeper.clocks.unix(), self._keeper.book.zone
-            rule = corrected(kept.rule, command.change, now_s, zone)
+            rule = correct_rule(kept.rule, command.change, now_s, zone)
             self._desk.judge_quiet(rule, now_s)
             words = kept.reminder or kept.order  # the sentence would tell the old time
             try:
@@ -180,7 +180,7 @@ class OrderCorrector:
 
     # Again --------------------------------------------------------------------------------------
 
-    async def _again(
+    async def _remind_again(
         self, change: RemindAgain, language: Language, goal_id: str, *, is_busy: bool
     ) -> AnswerPlan | Clarify | None:
         now_s = self._keeper.clocks.unix()

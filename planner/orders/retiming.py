@@ -80,7 +80,7 @@ def _read_days(week: str) -> frozenset[int]:
     return frozenset(found)
 
 
-def corrected(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) -> Rule:
+def correct_rule(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) -> Rule:
     """Return the rule after a correction that is said now.
 
     Raises:
@@ -89,11 +89,11 @@ def corrected(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) 
     """
     match change:
         case Retime(parts=parts):
-            new = _retimed(rule, parts, now_unix_s, zone)
+            new = _retime_rule(rule, parts, now_unix_s, zone)
         case LeaveOutDays():
             new = _on_days(rule, change)
         case Delay(seconds=seconds):
-            new = _delayed(rule, seconds)
+            new = _delay_rule(rule, seconds)
         case _:
             raise _unfit(rule)
     if new == rule:
@@ -105,7 +105,7 @@ def corrected(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) 
 def can_take(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) -> bool:
     """Tell whether a rule can be corrected so, whatever comes of it."""
     try:
-        corrected(rule, change, now_unix_s, zone)
+        correct_rule(rule, change, now_unix_s, zone)
     except OrderRefusal as refused:
         return refused.code != "order_change_unfit"
     return True
@@ -115,7 +115,7 @@ def _unfit(rule: Rule) -> OrderRefusal:
     return OrderRefusal("order_change_unfit", f"{rule.model_dump()} can't be changed so")
 
 
-def _retimed(rule: Rule, parts: tuple[Part, ...], now_unix_s: float, zone: tzinfo) -> Rule:
+def _retime_rule(rule: Rule, parts: tuple[Part, ...], now_unix_s: float, zone: tzinfo) -> Rule:
     clock = next((p for p in parts if isinstance(p, TimeOfDay)), None)
     part = next((p for p in parts if isinstance(p, DayPart)), None)
     others = [p for p in parts if not isinstance(p, (TimeOfDay, DayPart))]
@@ -153,11 +153,11 @@ def _hour_minute(
         return clock.hour % 24, clock.minute
     halves = (clock.hour % 12, clock.hour % 12 + 12)
     same_half = halves[before[0] >= 12]
-    hour = min(halves, key=lambda h: (_apart(h, before[0]), h != same_half))
+    hour = min(halves, key=lambda h: (_hours_apart(h, before[0]), h != same_half))
     return hour, clock.minute
 
 
-def _apart(hour: int, other: int) -> int:
+def _hours_apart(hour: int, other: int) -> int:
     ahead = (hour - other) % 24
     return min(ahead, 24 - ahead)
 
@@ -243,7 +243,7 @@ def _on_days(rule: Rule, change: LeaveOutDays) -> Rule:
     return WeeklyTime(weekly.minute, weekly.hour, days).rule
 
 
-def _delayed(rule: Rule, seconds: float) -> Rule:
+def _delay_rule(rule: Rule, seconds: float) -> Rule:
     if isinstance(rule, AtRule):
         return rule.model_copy(update={"unix_s": max(0.0, rule.unix_s + seconds)})
     weekly = read_weekly(rule)

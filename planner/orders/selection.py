@@ -138,10 +138,10 @@ def _is_then(order: StandingOrder, parts: tuple[Part, ...], rest: str, zone: tzi
     due_s = next_due(order.rule, order.handled_unix_s, zone)
     if not fits_time(order.rule, parts, due_s, zone):
         return False
-    return not _weighed(rest) or _fits(order, rest, zone)
+    return not _weigh_words(rest) or _fits(order, rest, zone)
 
 
-def _weighed(words: str) -> list[str]:
+def _weigh_words(words: str) -> list[str]:
     if has_chinese(words):
         return [bare] if (bare := _LITTLE_ZH.sub("", words)) else []
     return [word for word in _WORD.findall(words) if word not in _LITTLE]

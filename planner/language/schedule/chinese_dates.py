@@ -47,7 +47,7 @@ def _number(word: str) -> int:
     return -1 if value is None else int(value)
 
 
-def _dated(found: re.Match[str]) -> tuple[Part, ...]:
+def _read_date(found: re.Match[str]) -> tuple[Part, ...]:
     group = found.groupdict()
     year = int(group["year"]) if group["year"] else None
     ahead = 1 if group.get("nextyear") else None
@@ -58,7 +58,7 @@ def _of_month(found: re.Match[str]) -> tuple[Part, ...]:
     return (MonthDay(_number(found["day"]), months_ahead=1 if found["next"] else 0),)
 
 
-def _numbered(found: re.Match[str]) -> tuple[Part, ...]:
+def _read_day_number(found: re.Match[str]) -> tuple[Part, ...]:
     return (MonthDay(_number(found["day"])),)
 
 
@@ -82,10 +82,10 @@ def _later(found: re.Match[str]) -> tuple[Part, ...]:
 
 
 DATES: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
-    (_DATE, _dated),
-    (_ISO, _dated),
+    (_DATE, _read_date),
+    (_ISO, _read_date),
     (_OF_MONTH, _of_month),
-    (_NUMBER, _numbered),
+    (_NUMBER, _read_day_number),
     (_FEAST, _feast),
     (_WEEKDAY, _weekday),
     (_LATER, _later),

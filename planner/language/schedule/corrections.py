@@ -161,9 +161,9 @@ class _English:
 
     def read(self, said: str) -> _Found | None:
         """Return the change and the order's name."""
-        return self._again(said) or self._later(said) or self._days(said) or self._retime(said)
+        return self._read_again(said) or self._later(said) or self._days(said) or self._retime(said)
 
-    def _again(self, said: str) -> _Found | None:
+    def _read_again(self, said: str) -> _Found | None:
         found = _AGAIN.fullmatch(said)
         if found is None or _GIVE_ALONE.fullmatch(said):
             return None
@@ -272,9 +272,9 @@ class _Chinese:
 
     def read(self, said: str) -> _Found | None:
         """Return the change and the order's name."""
-        return self._again(said) or self._later(said) or self._days(said) or self._retime(said)
+        return self._read_again(said) or self._later(said) or self._days(said) or self._retime(said)
 
-    def _again(self, said: str) -> _Found | None:
+    def _read_again(self, said: str) -> _Found | None:
         found = _ZH_AGAIN.fullmatch(said)
         if found is None:
             return None

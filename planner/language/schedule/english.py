@@ -149,7 +149,8 @@ PAST = re.compile(
 )
 """An order whose time is over."""
 REMARK = re.compile(
-    r"(?:see (?:you|ya)|(?:talk|speak|chat) to you|it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
+    r"(?:not (?:the|my|our|at|in)|see (?:you|ya)|(?:talk|speak|chat) to you"
+    r"|it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
     r"|there(?:'s| is| are| was| were)|(?:my|our|the|his|her) [a-z]+ (?:is|are|was|were|has|had))\b"
 )
 """How what is no order begins, beside a time: "it's cold tonight", "tomorrow is my birthday"."""

@@ -79,7 +79,7 @@ def _number(word: str) -> int:
     return _ORDINALS[word] if word in _ORDINALS else int(re.sub(r"\D", "", word))
 
 
-def _dated(found: re.Match[str]) -> tuple[Part, ...]:
+def _read_date(found: re.Match[str]) -> tuple[Part, ...]:
     group = found.groupdict()
     if "th" in group and not (group["on"] or group["th"] or group["day"] in _ORDINALS):
         return ()  # "march 2 metres": an order to move
@@ -92,7 +92,7 @@ def _dated(found: re.Match[str]) -> tuple[Part, ...]:
     )
 
 
-def _numbered(found: re.Match[str]) -> tuple[Part, ...]:
+def _read_day_number(found: re.Match[str]) -> tuple[Part, ...]:
     word = found["day"] or found["word"] or found["after"]
     following = found["next"] or found["next2"] or found["wnext"] or found["wnext2"]
     ahead = 1 if following or found["after"] else None
@@ -123,10 +123,10 @@ def _days_on(found: re.Match[str]) -> tuple[Part, ...]:
 
 
 DATES: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
-    (_DAY_MONTH, _dated),
-    (_MONTH_DAY, _dated),
-    (_ISO, _dated),
-    (_NUMBER, _numbered),
+    (_DAY_MONTH, _read_date),
+    (_MONTH_DAY, _read_date),
+    (_ISO, _read_date),
+    (_NUMBER, _read_day_number),
     (_FEAST, _feast),
     (_NEXT_DAY, _next_day),
     (_DAYS_ON, _days_on),

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from planner.language.schedule import CorrectOrder, OrderChange, read_order_command
 from planner.orders.errors import OrderRefusal
-from planner.orders.retiming import WeeklyTime, corrected, read_weekly
+from planner.orders.retiming import WeeklyTime, correct_rule, read_weekly
 from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, Rule, WorldEvent
 from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S
 
@@ -27,7 +27,7 @@ def change_of(text: str) -> OrderChange:
 
 
 def after(rule: Rule, text: str) -> Rule:
-    return corrected(rule, change_of(text), NOON_UNIX_S, BERLIN)
+    return correct_rule(rule, change_of(text), NOON_UNIX_S, BERLIN)
 
 
 @pytest.mark.parametrize(
