@@ -331,10 +331,9 @@ class Missions:
         return self.goal(given.id)
 
     async def _ask_brain(self, ask: AskBrain) -> Planned:
-        book, names, find = self.loop.book, self.memory.vocabulary, self._lookup.find_relevant
-        eyes = (self._hearing, book.means, book.eyes.classes)
-        refuses = self.commands.refuse_offer
-        return await thinker(self._brain, names, *eyes, remember=find, refuse_offer=refuses)(ask)
+        book, find, refuse = self.loop.book, self._lookup.find_relevant, self.commands.refuse_offer
+        eyes = (self.memory.vocabulary, self._hearing, book.means, book.eyes.classes)
+        return await thinker(self._brain, *eyes, remember=find, refuse_offer=refuse)(ask)
 
     def _on_places(self) -> None:
         self.loop.event(Known(self.memory.facts))

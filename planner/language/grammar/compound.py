@@ -202,10 +202,10 @@ def _tell_them(order: str, forms: CompoundForms) -> str:
 
 def _call(steps: tuple[Step, ...], person: str, forms: CompoundForms) -> tuple[Step, ...]:
     """Put a person's name before the words for them: whoever else hears them knows it then."""
-    return tuple(_called(step, person, forms) for step in steps)
+    return tuple(_put_name(step, person, forms) for step in steps)
 
 
-def _called(step: Step, person: str, forms: CompoundForms) -> Step:
+def _put_name(step: Step, person: str, forms: CompoundForms) -> Step:
     if isinstance(step, Say) and person.lower() not in step.text.lower():
         return Say(text=f"{person}{forms.calls}{step.text}"[:500])
     if isinstance(step, Ask) and person.lower() not in step.question.lower():

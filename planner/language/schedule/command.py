@@ -5,11 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from planner.language.schedule.parts import OnceDay, Part
+from planner.language.schedule.parts import OnceDay, Part, Problem
 from planner.plan.timing import DayTime, InRule, SpokenRule
-
-Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past",
-                  "order_no_such_date"]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

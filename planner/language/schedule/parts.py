@@ -8,7 +8,7 @@ from __future__ import annotations
 from calendar import monthrange
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from planner.plan.timing import (
     MAX_AHEAD_S,
@@ -24,7 +24,9 @@ from planner.plan.timing import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from planner.language.schedule.command import Problem
+Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past",
+                  "order_no_such_date"]  # fmt: skip
+"""Why a when that was said can't be kept."""
 
 
 class DayPart(StrEnum):
