@@ -55,10 +55,6 @@ ASKED_AND_SENT = table(
         "看看周围",
     ),
     (
-        r"^(?P<p>[^,。?!]{1,6}?)来了(?:几个|多少)(?:个)?(?:客)?人(?:[,。?]?(?:你)?(?:去)?(?:数一?下|数数|点点))?[?]?$",
-        r"数一下\g<p>的人",
-    ),
-    (
         r"^(?P<n>[^,。?!有没不在去到我你想]{1,6})要在(?P<p>[^,。?!就]{1,6})(?=就)",
         r"如果\g<n>在\g<p>",
     ),
@@ -125,6 +121,7 @@ ASKED_AND_SENT = table(
 one turn that is told twice, first to which side and then how far."""
 
 CHINESE_EVERYDAY = table(
+    (rf"^(?P<p>{MARK})来了(?:几个|多少)(?:客)?人[,。?]?(?:你)?(?:去)?(?:数一?下|数数|点点)[?]?$", r"数一下\g<p>的人"),
     # words for somebody behind a comma: they are no state of things
     (r"(?:跟|对|向|和|告诉|通知)(?P<n>[^,。去到回来跟说讲]{1,6})(?:说|讲)?(?:一声|一下)?[,:]+(?:就说)?(?=[^,。]{2})", r"告诉\g<n>"),
     # hesitation, address, courtesy
