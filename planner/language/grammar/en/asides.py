@@ -101,7 +101,7 @@ _VETO = (
     r"|movie|film|song|rather|instead|never|done|finished|enough|later|tomorrow|tonight|minutes?|hours?"
     r"|seconds?|before|after|when|while|until|till|if|unless|only|except|but|or|without|o'clock|safe"
     r"|danger\w*|broken|blocked|locked|closed|shut|wet|slippery|glass|fire|burning|smoke|careful"
-    r"|somewhere|there|one|two|three|four|five|six|seven|eight|nine|ten)\b))"
+    r"|what|where|who|whose|which|how|why|somewhere|there|one|two|three|four|five|six|seven|eight|nine|ten)\b))"
 )
 _DENIES = r"(?![^,.!;?]*(?:\b(?:not|no|nobody|nothing|none|cannot|nor|neither)\b|n't\b))"
 _I = r"(?:i|we)(?:'m|'ve|'ll|'d)?"

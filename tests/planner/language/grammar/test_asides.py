@@ -145,7 +145,7 @@ def test_neither_in_chinese(home: Vocabulary, aside: str, held: str) -> None:
             "老师让我，",
             "如果我睡着了，",
             "我不想，",
-            "地上很滑，",
+            *("地上很滑，", "他是谁，", "I wonder where it is, "),
         ),
     ],
 )
