@@ -103,6 +103,20 @@ def test_a_question_is_answered_by_a_button(robot: Robot, open_page: OpenPage) -
     page.locator("#past li[data-state=cancelled]").first.wait_for()
 
 
+def test_why_an_order_came_to_nothing_stands_where_a_person_looks(
+    robot: Robot, open_page: OpenPage
+) -> None:
+    page = open_page()
+    goal_id = give(page, "forget the place kitchen")
+    told = page.locator(f"#now .unfinished[data-goal='{goal_id}']")
+    told.wait_for()
+    outcome = robot.system.goal(goal_id)["outcome"]
+    assert outcome["code"] == "place_not_kept"
+    assert outcome["message"]["en"] in told.inner_text()
+    give(page, "where are you?")
+    told.wait_for(state="detached")
+
+
 def spoken(robot: Robot, page: Page) -> Json:
     """Say the order into the page, again as a person would where it was not heard as that.
 
