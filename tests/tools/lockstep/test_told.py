@@ -90,7 +90,7 @@ def test_behind_a_blocked_door_nobody_arrives_and_nothing_is_denied(
         world.think_with(ScriptedBrain([look] * 3))
     errand, looked = told
     assert errand.en.startswith("The way to kitchen is blocked by something 0.")
-    assert "m wide at the door between living room and the kitchen, since " in errand.en
+    assert "m wide at the door between the living room and the kitchen, since " in errand.en
     assert errand.en.endswith(". Instead: Said: “dinner is ready”.")
     assert "Arrived" not in errand.en
     assert looked.en == "I found no way to kitchen."
