@@ -94,7 +94,7 @@ class GlobalSearch:
         Args:
             points_m: returns in ``base``, shape (n, 2).
             lidar_m: where the lidar is in ``base``.
-            near: where a person says the robot is; then one place at most is returned.
+            near: where a person says the robot is, and which way it looks if the person knows.
         """
         if near is None:
             return self.everywhere(points_m, lidar_m)
@@ -105,7 +105,7 @@ class GlobalSearch:
     def find_within(
         self, points_m: Floats, lidar_m: tuple[float, float], near: SearchArea
     ) -> tuple[Candidate, ...]:
-        """Return the best place in an area whichever way the robot looks, or none."""
+        """Return at most five places in an area that fit best, whichever way the robot looks."""
         away_m = np.hypot(*(self._xy_m - np.array(near.pose[:2])).T)
         inside = away_m <= near.radius_m
         if near.outline:
@@ -139,18 +139,17 @@ class GlobalSearch:
             return ()
         start = self._window.best(points_m, pose, radius_m, radians(30.0))
         found = self._judge(points_m, lidar_m, np.stack((start, pose)))
-        return self._near(found, (float(pose[0]), float(pose[1]), float(pose[2])), radius_m)
+        return self._near(found, (float(pose[0]), float(pose[1]), float(pose[2])), radius_m)[:1]
 
     def _near(
         self, found: tuple[Candidate, ...], pose: tuple[float, float, float], radius_m: float
     ) -> tuple[Candidate, ...]:
-        """Return the best of the places within a radius, or none."""
-        near = (
+        """Return those of the places that lie within a radius."""
+        return tuple(
             one
             for one in found
             if np.hypot(one.pose[0] - pose[0], one.pose[1] - pose[1]) <= radius_m
         )
-        return tuple(near)[:1]
 
     def _rated_starts(self, beams: Floats, inside: Bools | None = None) -> Floats:
         """Return the lattice's best poses, none close to another that is better."""

@@ -148,26 +148,24 @@ class Localizer:
             return
         self._open = None
         self.candidates = candidates
-        best = candidates[0] if candidates else None
+        best, place = candidates[0] if candidates else None, None
+        if self._placed is not None and self._unseen_m() <= UNSEEN_M:
+            place = known_place(self._placed, candidates, search.carried)
+        fits, place = place is not None or is_sure(candidates), place or best
         if search.hint is not None:
             # A pose that scans confirm yields only to one that they confirm as well.
             least = self.score - BETTER if self.state is LocalizerState.TRACKING else ENOUGH_SCORE
-            fits = best is not None and best.score >= max(ENOUGH_SCORE, least)
-            if not fits:
+            if best is None or best.score < max(ENOUGH_SCORE, least):
+                fits = False
                 self._answer_hint("does_not_fit", best.score if best else 0.0)
+            elif not fits:  # a room that looks alike from its other end
+                self._answer_hint("ambiguous", best.score)
         elif self._placed is not None and self.state is not LocalizerState.LOST:
-            least = self.score + FAR_BETTER
+            least, place = self.score + FAR_BETTER, best
             fits = is_elsewhere(self._placed, candidates, search.carried, least)
             self.state = LocalizerState.LOST if fits else self.state
-        else:
-            known = None
-            if self._placed is not None and self._unseen_m() <= UNSEEN_M:
-                known = known_place(self._placed, candidates, search.carried)
-            fits = known is not None or is_sure(candidates)
-            best = known or best
-        if fits and best is not None:
-            placed = PlacedBase(Pose2(*best.pose), search.carried)
-            self._trial = (placed, search.hint)
+        if fits and place is not None:
+            self._trial = (PlacedBase(Pose2(*place.pose), search.carried), search.hint)
 
     def search_request(self) -> SearchRequest | None:
         """Return the question for the search process, once; None while there is none."""

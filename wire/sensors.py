@@ -235,7 +235,9 @@ class PoseHint(Record):
     """In ``map`` [m]: it is inside this room; empty: anywhere in the circle."""
 
 
-HintCode = Literal["accepted", "moving", "no_scan", "does_not_fit", "busy", "no_answer"]
+HintCode = Literal[
+    "accepted", "moving", "no_scan", "does_not_fit", "ambiguous", "busy", "no_answer"
+]
 
 
 class HintVerdict(Record):

@@ -25,7 +25,14 @@ if TYPE_CHECKING:
 
 ENOUGH_SCORE = 0.6
 """What localization asks of a place at least (localization.quality), for what a person is told."""
-_STATUS = {"moving": 409, "busy": 409, "no_scan": 503, "no_answer": 503, "does_not_fit": 422}
+_STATUS = {
+    "moving": 409,
+    "busy": 409,
+    "no_scan": 503,
+    "no_answer": 503,
+    "does_not_fit": 422,
+    "ambiguous": 422,
+}
 
 
 class HereHint(Body):
@@ -94,8 +101,10 @@ def _problem(
     code: str, status: int, score: float | None = None, now: LocalizerStatus | None = None
 ) -> HttpProblem:
     said = say(f"hint.{code}")
-    if score is not None and score >= ENOUGH_SCORE and now is not None and now.state == "tracking":
+    tracks = code == "does_not_fit" and now is not None and now.state == "tracking"
+    if score is not None and score >= ENOUGH_SCORE and now is not None and tracks:
         said = say("hint.fits_less", there=score, here=now.score)
         return HttpProblem(status, f"hint_{code}", said.en, message=said.model_dump())
-    needs = f" (score {score:.2f}, needs {ENOUGH_SCORE:.2f})" if score is not None else ""
+    low = score is not None and score < ENOUGH_SCORE
+    needs = f" (score {score:.2f}, needs {ENOUGH_SCORE:.2f})" if low else ""
     return HttpProblem(status, f"hint_{code}", f"{said.en}{needs}", message=said.model_dump())

