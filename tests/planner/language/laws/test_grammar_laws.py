@@ -21,7 +21,9 @@ from planner.plan import (
     Clarify,
     Entry,
     GoTo,
+    Patrol,
     Refuse,
+    Step,
     StepPlan,
     Vocabulary,
     places_of,
@@ -141,17 +143,30 @@ def names(place: str, text: str) -> bool:
     return any(len(name) >= 6 and partial_ratio(name, plain) >= 80 for name in spellings)
 
 
+ROOMS = {entry.id for entry in HOME.entries if entry.kind == "room"}
+WHOLE_HOME = re.compile(
+    "house|home|flat|apartment|building|every|all|round|家|屋|房|每|所有|到处|四处"
+)
+
+
+def is_round_of_all(step: Step, text: str) -> bool:
+    """Tell whether a step visits just the rooms that "the house" means, and a text says so."""
+    named = WHOLE_HOME.search(text.lower()) is not None
+    return isinstance(step, Patrol) and set(step.places) == ROOMS and named
+
+
 def assert_law(text: str) -> None:
     made = plan(text, HOME)
     assert PLAN.validate_json(PLAN.dump_json(made)) == made
     for step in made.steps if isinstance(made, StepPlan) else ():
-        for place in places_of(step):
+        for place in () if is_round_of_all(step, text) else places_of(step):
             assert names(place, text), f"{text!r} does not name {place}"
     if isinstance(made, StepPlan):
         assert not re.search("don't|别|\\bor\\b", text), f"{text!r} is no plain order"
 
 
 @given(st.text(max_size=300))
+@example("PATRO THE HOUSE")
 @settings(max_examples=120)
 def test_random_text_names_where_it_goes(text: str) -> None:
     assert_law(text)
