@@ -3,8 +3,10 @@ import { t } from "../i18n";
 import { candidates, matchShare, poseLost } from "../state/store";
 import { percent } from "./format";
 
-/** A scan that fits less is no proof of a place (localization's own measure, as its refusals say). */
-export const ENOUGH = 0.6;
+/** A pose that is tracked is kept while so much of a scan agrees (KEPT_SCORE of localization.quality). */
+export const KEPT = 0.5;
+/** A scan that fits less places no robot anew; below it the gauge changes its colour. */
+const ENOUGH = 0.6;
 
 export function Match() {
   const share = matchShare.value;
@@ -12,7 +14,7 @@ export function Match() {
   return (
     <div class="match" id="match">
       <meter min={0} max={1} low={ENOUGH} optimum={1} value={share} aria-label={t("match.label")} />
-      <span>{t("match.share", { share: percent(share), least: percent(ENOUGH) })}</span>
+      <span>{t("match.share", { share: percent(share), least: percent(KEPT) })}</span>
     </div>
   );
 }
