@@ -116,7 +116,8 @@ def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told(world_with: 
     outcome = goal.record.outcome
     assert outcome is not None
     assert outcome.code is Code.NO_ROOM
-    assert "not for 5.0 m" in outcome.message.en
+    assert outcome.message.en.startswith("In a straight line I know of free floor for ")
+    assert outcome.message.en.endswith(" m, not for 5.0 m.")
 
 
 def test_a_patrol_visits_its_places_in_their_order(world_with: World) -> None:
