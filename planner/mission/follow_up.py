@@ -45,6 +45,8 @@ OLD_POSE_S = 1.0
 """A status older than this says nothing of where the robot is."""
 Point = tuple[float, float, float]
 """x [m], y [m], yaw [rad] in ``map``."""
+_LOOKS = frozenset({"count", "find", "look"})
+_HERE = re.compile(r" ?\b(?:right )?(?:over )?(?:in )?here\b|(?:在)?(?:这里|这儿|这边)面?")
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
 _HEDGE = re.compile(
     r"^(?:it|he|she|they) (?:should|must|might|could|may|has to) be (?=(?:in|at|on) )"
@@ -85,7 +87,11 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
     if place is None:
         takes_back = isinstance(intent, Replace) and not intent.corrects
         return rest if takes_back or _ORDERS.match(plain(rest)) else text
-    again = _with_place(book.facts, last.order_text, place, rest) if last is not None else None
+    if last is None:
+        return _drive_to(book.facts, place, rest)
+    again = _with_place(book.facts, last.order_text, place, rest)
+    if again is None and isinstance(intent, AppendCommand) and intent.asks:
+        again = _look_there(book.facts, last, place, rest)
     return again or _drive_to(book.facts, place, rest)
 
 
@@ -161,6 +167,27 @@ def _with_place(facts: SiteView, order: str, place: str, said: str) -> str | Non
     for each in reversed(found):
         words = words[: each.start] + name + words[each.end :]
     return words
+
+
+def _look_there(facts: SiteView, last: Mission, place: str, said: str) -> str | None:
+    """Return what the last order looked for, asked of one place; None where it looked for nothing.
+
+    "And in the study?" after chairs were counted in two rooms, or here, wants them counted there.
+    """
+    step = next((step for step in reversed(last.steps) if step.kind in _LOOKS), None)
+    if step is None:
+        return None
+    chinese, thing = has_chinese(last.order_text), step.object or ""
+    name = _name(facts, place, chinese, said)
+    match step.kind:
+        case "count":
+            return f"数一下{name}的{thing}" if chinese else f"count the {thing} in the {name}"
+        case "find":
+            return f"去{name}找{thing}" if chinese else f"look for the {thing} in the {name}"
+    asked = _HERE.sub("", plain(step.text or last.order_text)).strip(" ?？.。")
+    if find_places(asked, names_of(facts)):
+        return f"去{name}看看" if chinese else f"look around the {name}"
+    return f"{name}{asked}" if chinese else f"{asked} in the {name}"
 
 
 def _other_place(facts: SiteView, last: Mission | None) -> str | None:

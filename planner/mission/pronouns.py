@@ -52,6 +52,16 @@ _THERE_ZH = re.compile(
 
 
 _FOUND_ZH = re.compile(r"你?(?:有没有)?找(?:到|着)(?P<what>[^了,]{0,6})了?(?P<asks>吗|没有?)?")
+_SAW = re.compile(
+    r"(?:(?:so|and|well|ok|okay)[ ,]+)*"
+    r"(?:see|seen|saw|spot|spotted|notice|noticed|meet|met|find|found)"
+    r" (?P<what>(?:any|some)(?:one|body|thing)(?: [a-z]+){0,2}|any [a-z]+(?: [a-z]+)?)"
+)
+_SAW_ZH = re.compile(
+    r"你?(?:刚才|刚刚|一路上|路上)?(?:有没有)?(?:看到|看见|见到|发现|碰到|遇到)(?:过)?"
+    r"(?P<what>[^了,在]{1,6}?)(?:了没有?|了吗|没有?|了|吗)?"
+)
+_ASKS_ZH = re.compile(r"没有?$|吗$|有没有")
 _LOOKED = frozenset({"find", "count", "look", "patrol", "follow"})
 
 
@@ -62,6 +72,10 @@ def name_pronouns(text: str, last: Mission, facts: SiteView) -> str:
     found = _FOUND_ZH.fullmatch(said)
     if found is not None and (found["asks"] or text.rstrip().endswith(("?", "？"))):
         return _found_in_chinese(found["what"], last) or text
+    if text.rstrip().endswith(("?", "？")) or chinese:
+        seen = _ask_what_was_seen(said, last, chinese=chinese)
+        if seen is not None:
+            return seen
     said = said.removesuffix("吗").removesuffix("呢") if chinese else said
     thing, place = _thing_of(last, chinese=chinese), _place_of(last, facts, chinese=chinese)
     return _write_out(said, thing, place, chinese=chinese) or text
@@ -85,6 +99,16 @@ def _write_out(said: str, thing: str | None, place: str | None, *, chinese: bool
             return f"{there['head'].removesuffix('在')}在{place}{there['rest']}"
         return f"{there['head']} in the {place}"
     return None
+
+
+def _ask_what_was_seen(said: str, last: Mission, *, chinese: bool) -> str | None:
+    """Return "see anyone?" as the question about before that it is once a look is over."""
+    looked = last.has_ended and any(step.kind in _LOOKED for step in last.steps)
+    found = (_SAW_ZH if chinese else _SAW).fullmatch(said) if looked else None
+    if found is None or (chinese and not _ASKS_ZH.search(said)):
+        return None
+    what = found["what"]
+    return f"你看到过{what}吗" if chinese else f"did you see {what}"
 
 
 def _found_in_chinese(what: str, last: Mission) -> str | None:

@@ -82,6 +82,8 @@ class AppendCommand:
     """Do the rest of the sentence right after the current goal."""
 
     rest: str
+    asks: bool = False
+    """It asks what was asked before: "and in the study?"."""
 
 
 @dataclass(frozen=True, slots=True)

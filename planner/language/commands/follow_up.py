@@ -198,13 +198,14 @@ def _also(bare: str, *, chinese: bool) -> AppendCommand | None:
     """Read "and then the kitchen too"; "and" alone joins nothing to a goal that ran before."""
     patterns = (_ALSO_ZH, _SAME_ZH) if chinese else (_ALSO_BEFORE, _TOO, _SAME)
     rest, found = bare, False
+    asks = (_SAME_ZH if chinese else _SAME).fullmatch(bare) is not None
     for pattern in patterns:
         match = pattern.fullmatch(rest)
         if match is not None:
             rest, found = next(t for t in match.groups() if t is not None), True
     rest = _strip(_POLITE_ZH if chinese else _POLITE, rest).strip(_ENDS)
     rest = _ONWARD.sub("", rest)
-    return AppendCommand(rest) if found and rest and consents(rest) is None else None
+    return AppendCommand(rest, asks) if found and rest and consents(rest) is None else None
 
 
 def _strip(pattern: re.Pattern[str], text: str) -> str:

@@ -11,11 +11,14 @@ from planner.mission.events import Planned, Submitted
 from planner.mission.follow_up import LEANS_S, meaning_of
 from planner.mission.reception import receive
 from planner.mission.reducer import advance
+from planner.mission.skills import Eyesight
 from planner.mission.state import Mission, MissionState
-from planner.plan import GoTo, Language, StepPlan
+from planner.perception.snapshot import Sight
+from planner.plan import Count, Find, GoTo, Language, Look, StepPlan
 from planner.site import Site
 from planner.site.site_view import facts_of
 from tests.conftest import ROOT
+from wire import CameraConfig
 
 FACTS = facts_of(Site.load(ROOT / "sites" / "home"))
 NOW_S = 1000.0
@@ -188,3 +191,52 @@ def test_a_place_is_left_out_of_what_is_still_to_do(text: str, left: str) -> Non
 def test_who_has_one_place_to_go_to_leaves_none_out() -> None:
     assert meant(BEDROOM, "skip the bedroom") == "skip the bedroom"
     assert meant(BARE, "skip the bedroom") == "skip the bedroom"
+
+
+ROUNDS = (
+    (Count(object="chairs", place="kitchen"), Count(object="chairs", place="bedroom")),
+    (Find(object="red cup"),),
+    (Look(question="how many cups are there here?"),),
+)
+ASKED = ("and in the study?", "what about the study?", "and the study?")
+ASKED_ZH = ("书房呢", "那书房里呢")
+
+
+@pytest.mark.parametrize(
+    ("steps", "text", "means"),
+    [
+        (
+            ROUNDS[0],
+            "count the chairs in the kitchen and the bedroom",
+            "count the chairs in the {}",
+        ),
+        (ROUNDS[1], "find my red cup", "look for the red cup in the {}"),
+        (ROUNDS[2], "how many cups are there here?", "how many cups are there in the {}"),
+    ],
+)
+@pytest.mark.parametrize("asked", ASKED)
+def test_what_was_looked_for_is_asked_of_one_more_place(
+    steps: tuple[Any, ...], text: str, means: str, asked: str
+) -> None:
+    assert meaning_of(book_of_looks(steps, text), asked, NOW_S) == means.format("study")
+
+
+@pytest.mark.parametrize(
+    ("steps", "text", "means"),
+    [
+        ((Count(object="椅子", place="kitchen"),), "去厨房和客厅数椅子", "数一下{}的椅子"),
+        ((Find(object="红杯子"),), "找红杯子", "去{}找红杯子"),
+        ((Look(question="这里有几把椅子"),), "这里有几把椅子", "{}有几把椅子"),
+    ],
+)
+@pytest.mark.parametrize("asked", ASKED_ZH)
+def test_so_it_is_in_chinese(steps: tuple[Any, ...], text: str, means: str, asked: str) -> None:
+    assert meaning_of(book_of_looks(steps, text), asked, NOW_S) == means.format("书房")
+
+
+def book_of_looks(steps: tuple[Any, ...], text: str) -> MissionState:
+    """Return the book after an order that looks for something."""
+    book = MissionState(FACTS, eyes=Eyesight(CameraConfig(), ("cup", "chair")), sight=Sight())
+    book, _ = advance(book, Submitted("g0", text, parse(text).language), NOW_S)
+    book, _ = advance(book, Planned("g0", StepPlan(steps=steps)), NOW_S)
+    return book

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -13,7 +14,7 @@ from planner.mission.reducer import advance
 from planner.mission.skills import Eyesight
 from planner.mission.state import MissionState
 from planner.perception.snapshot import Sight
-from planner.plan import Find, GoTo, Recall, StepPlan
+from planner.plan import Find, GoalState, GoTo, Patrol, Recall, StepPlan
 from planner.site import Site
 from planner.site.site_view import facts_of
 from tests.conftest import ROOT
@@ -101,3 +102,23 @@ def test_a_thing_that_was_named_in_another_language_is_no_word_for_it(said: str)
 def test_other_sentences_stay_as_they_are(said: str) -> None:
     book = book_after(Find(object="cup", place="study"))
     assert meaning_of(book, said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    ("said", "means"),
+    [
+        ("see anyone?", "did you see anyone"),
+        ("so, seen anything odd?", "did you see anything odd"),
+        ("spot any cups?", "did you see any cups"),
+        ("看到人了吗", "你看到过人吗"),
+        ("刚才看见猫没有", "你看到过猫吗"),
+        ("有没有看到什么", "你看到过什么吗"),
+    ],
+)
+def test_what_was_seen_is_asked_once_a_look_is_over_and_never_before(said: str, means: str) -> None:
+    runs = book_after(Patrol(places=("kitchen", "study"), look=True))
+    over = runs.missions["g0"].model_copy(update={"state": GoalState.SUCCEEDED})
+    done = replace(runs, missions={"g0": over}, running=None)
+    assert meaning_of(done, said, NOW_S) == means
+    assert meaning_of(runs, said, NOW_S) == said
+    assert meaning_of(book_after(GoTo(place="kitchen")), said, NOW_S) == said
