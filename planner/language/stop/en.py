@@ -184,7 +184,9 @@ DENIAL = _compile_any(
     r"\bstay (?:right |just |exactly )?(?:there|put|where|here|back|away|down|as you are|off)\b",
     rf"(?:^|, ){_CALLS}stay(?: stay)*{_END}",
     r"\b(?:remain|wait) (?:right |just |exactly )?(?:there|where you|here|put)(?: ,| please| now|$"
-    r"| you| for (?:me|us)\b)|\b(?:remain|stay|wait|stand|hold) (?:right )?where you are\b",
+    r"| you| for (?:me|us)\b"
+    r"| (?:just )?(?:a|one|half a) (?:sec|second|minute|moment|mo|tick|bit)\b)"
+    r"|\b(?:remain|stay|wait|stand|hold) (?:right )?where you are\b",
     r"(?<!to )(?<!do you )(?<!i )\bwait\b(?! (?:here|there|in|at|by|until|till|outside|inside|near"
     r"|with|\d|two|three|four|five|six|seven|eight|nine|ten|fifteen|twenty|thirty|forty|fifty"
     r"|sixty"

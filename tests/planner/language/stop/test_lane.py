@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.language.stop import StopReading, is_stop, read_stop
+from planner.language.utterance import parse
 
 STOPS = [
     # plain
@@ -233,6 +234,22 @@ def test_stops(text: str) -> None:
 @pytest.mark.parametrize("text", GOES_ON)
 def test_goes_on(text: str) -> None:
     assert not is_stop(text)
+
+
+STANDING = (
+    *("wait there a second", "wait right there one moment", "remain here a minute"),
+    *("停在原处", "停在原位", "停在原地"),
+)
+AROUND = ("{}", "no no, {}, let me move my case", "不对，{}，我要过去")
+
+
+@pytest.mark.parametrize("order", STANDING)
+@pytest.mark.parametrize("around", AROUND)
+def test_an_order_to_stand_where_it_is_stops_whatever_is_said_around_it(
+    order: str, around: str
+) -> None:
+    said = around.format(order)
+    assert parse(said).reading is not StopReading.NONE
 
 
 def test_the_tables_hold_no_sentence_twice() -> None:
