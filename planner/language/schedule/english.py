@@ -63,14 +63,20 @@ _DAY = "|".join(_DAYS)
 _END = r"(?![\w'])"
 
 _CLOCK = re.compile(
-    rf"(?:at |by )?(?:about |around |exactly )?(?:(?P<h>\d{{1,2}})[:.](?P<m>\d{{2}}){_half('ap')}?(?: ?h\b)?"
+    rf"(?:at |by )?(?:(?:round )?about |around |roughly |exactly )?(?:(?P<h>\d{{1,2}})[:.](?P<m>\d{{2}}){_half('ap')}?(?: ?h\b)?"
     rf"|(?P<past>{_M}) (?P<way>past|to|after|before) (?P<ph>{_H}){_half('ap4')}?"
     rf"|(?P<oh>{_H})(?: (?P<om>{_M}))?(?: ?o'clock{_half('ap2')}?"
     rf"|{_half('ap3')})"
-    rf"|(?P<noon>noon|midday|midnight))(?: sharp)?{_END}"
+    rf"|(?P<noon>noon|midday|midnight))(?: sharp| or so)?{_END}"
+)
+_ABOUT = r"(?:(?:round )?about|around|roughly|approximately)"
+_ORDERS = (
+    r"(?:please|can|could|would|go|have|check|look|see|do|drive|come|remind|say|tell|ask|count|find"
+    r"|patrol|make|take|give|you)"
 )
 _AT = re.compile(
-    rf"at (?:about |around |exactly )?(?P<h>{_H})(?: (?P<m>{_M}))?(?: sharp)?{_END}(?! (?:past|to) (?:{_H})\b)"
+    rf"(?:at (?:{_ABOUT} |exactly )?|{_ABOUT} (?=(?:{_H})(?: (?:{_M}))?(?: or so|[,.;!]|$| {_ORDERS}\b)))"
+    rf"(?P<h>{_H})(?: (?P<m>{_M}))?(?: sharp| or so|ish)?{_END}(?! (?:past|to) (?:{_H})\b)"
 )
 _IN_THE = re.compile(rf"(?:in the (?P<a>{_PART})|at (?P<b>night|noon)){_END}")
 _EVERY = re.compile(

@@ -36,3 +36,33 @@ def test_about_so_long_is_so_long() -> None:
     assert isinstance(plain, ScheduleCommand)
     assert isinstance(about, ScheduleCommand)
     assert (about.when, about.order) == (plain.when, plain.order)
+
+
+@pytest.mark.parametrize(
+    ("plain", "about"),
+    [
+        (
+            "every evening at nine",
+            ("about nine", "around nine", "at roughly nine", "at nine or so"),
+        ),
+        ("every day at 8:15", ("at about 8:15", "around 8:15", "at 8:15 or so")),
+        ("每天晚上九点", ("每天晚上大概九点", "每天晚上差不多九点", "每天晚上九点左右")),
+    ],
+)
+def test_about_a_time_is_that_time_and_no_word_of_the_order(
+    plain: str, about: tuple[str, ...]
+) -> None:
+    order = "check the front door" if plain.isascii() else "看看大门"
+    exact = read_order_command(f"{plain}, {order}")
+    assert isinstance(exact, ScheduleCommand)
+    day = plain.rsplit(" at ", 1)[0] if " at " in plain else ""
+    for words in about:
+        said = read_order_command(f"{day} {words}, {order}".strip())
+        assert isinstance(said, ScheduleCommand)
+        assert (said.when, said.order) == (exact.when, order)
+
+
+def test_about_nine_bottles_is_no_time() -> None:
+    command = read_order_command("every evening count about nine bottles")
+    assert isinstance(command, ScheduleCommand)
+    assert command.order == "count about nine bottles"
