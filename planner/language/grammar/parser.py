@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from planner.language.catalogue import message, say
+from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.asides import answer_praise
@@ -28,7 +28,7 @@ from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.guessed_order import NOTHING, guess_order
+from planner.language.grammar.guessed_order import GuessKind, answer_guess, guess_meaning
 from planner.language.grammar.joined_condition import in_one_condition
 from planner.language.grammar.lexicon import (
     MARK,
@@ -108,7 +108,7 @@ def plan(
             asked = asked or second
     if not isinstance(second, StepPlan):
         guessed = _guess(made, text, vocabulary, context)
-        lost = guessed.code is Code.NOT_UNDERSTOOD
+        lost = isinstance(guessed, Clarify) and guessed.code is Code.NOT_UNDERSTOOD
         offers = isinstance(guessed, Clarify) and guessed.options
         return (answer_praise(text) or asked or guessed) if lost and not offers else guessed
     missing = made.code is Code.INCOMPLETE  # what is asked for is not guessed, but "the rounds"
@@ -128,26 +128,20 @@ def _in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iter
 
 def _guess(
     made: Clarify | Refuse, text: str, vocabulary: Vocabulary, context: Context
-) -> Clarify | Refuse:
-    """Offer what a sentence may mean that was not understood, where it can be guessed.
-
-    Law: a guess is a button below a question. It is an order that the grammar reads by itself.
-    """
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
+    """Answer by what a sentence may mean that was not understood, where it can be guessed."""
     if made.code is not Code.NOT_UNDERSTOOD or not isinstance(made, Clarify):
         return made
-    lexicon = lexicon_of(vocabulary)
-    language = context.language or parse(text).language
-    order = guess_order(lexicon.mark(normalise(text)), language)
-    if order == NOTHING:  # "the kitchen is lovely": to offer a drive there would be silly
-        return made.model_copy(update={"options": ()})
-    meant = None if order is None else _plan_as_said(order, vocabulary, context)
-    if not isinstance(meant, StepPlan):
-        return made
-    button = option(meant.steps, vocabulary, lexicon, language)
-    if not _reads_back(button, vocabulary, context):
-        return made
-    question = say("grammar.guessed", order=button.label)
-    return Clarify(code=made.code, question=question, options=(button,))
+    lexicon, language = lexicon_of(vocabulary), context.language or parse(text).language
+    guessed = guess_meaning(lexicon.mark(normalise(text)), language)
+    if guessed is not None and guessed.kind is GuessKind.TALK and (thanks := answer_praise(text)):
+        return thanks
+    return answer_guess(
+        made,
+        guessed,
+        lambda order: _plan_as_said(order, vocabulary, context),
+        lambda steps: option(steps, vocabulary, lexicon, language),
+    )
 
 
 def _has_rounds_alone(plan: StepPlan) -> bool:

@@ -41,8 +41,8 @@ def sentence_features(units: Sequence[str]) -> list[int]:
     return [_bucket(feature) for feature in _of_sentence(("^", *units, "$"))]
 
 
-def unit_features(units: Sequence[str], at: int) -> list[int]:
-    """Return the buckets that tell whether the unit at a position names a thing."""
+def unit_features(units: Sequence[str], at: int, intent: str) -> list[int]:
+    """Return the buckets that tell what the unit at a position belongs to, by its neighbours."""
     around = ("^", "^", *units, "$", "$")
     before2, before, unit, after, after2 = around[at : at + 5]
     return [
@@ -50,12 +50,20 @@ def unit_features(units: Sequence[str], at: int) -> list[int]:
         for feature in (
             f"0 {unit}",
             f"-1 {before}",
-            f"-2 {before2} {before}",
             f"+1 {after}",
-            f"+2 {after} {after2}",
+            f"-2 {before2}",
+            f"+2 {after2}",
+            f"-2-1 {before2} {before}",
+            f"+1+2 {after} {after2}",
             f"-1 0 {before} {unit}",
             f"0 +1 {unit} {after}",
-            f"end {unit[-2:]}",
+            f"-1 0 +1 {before} {unit} {after}",
+            f"end {unit[-3:]}",
+            f"begin {unit[:3]}",
+            f"{intent}",
+            f"{intent} 0 {unit}",
+            f"{intent} -1 {before}",
+            f"{intent} +1 {after}",
         )
     ]
 

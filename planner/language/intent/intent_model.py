@@ -1,7 +1,8 @@
-"""Own the intent model: a table of small vectors and two layers, read and run without a library.
+"""Own the intent model: what a sentence asks for, and which words are a thing, words, a person.
 
-The planner's own process loads neither numpy nor onnxruntime, and a hundred vectors of 32 numbers
-are added in a fifth of a millisecond. Made by ``python -m tools.train_intent``.
+A table of small vectors and two layers tell the intent; a chain of labels over the units, each
+scored by the units around it, tells the slots. Read and run without a library: the planner's own
+process loads neither numpy nor onnxruntime. Made by ``python -m tools.train_intent``.
 """
 
 from __future__ import annotations
@@ -19,20 +20,26 @@ from typing import TYPE_CHECKING
 from planner.language.intent.features import BUCKETS, sentence_features, unit_features
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Container, Sequence
 
 MODEL = Path(__file__).with_name("intent_model.bin")
-VERSION = 1
+VERSION = 2
+OTHER, THING, WORDS, NAME = range(4)
+"""What a unit belongs to: nothing, what is sought, what is to be said or asked, who is meant."""
+LABELS = 4
+BEGIN = LABELS
+"""Row of the transitions into a sentence's first unit."""
 
 
 @dataclass(frozen=True, slots=True)
 class Guess:
-    """Hold what a sentence may ask for, how sure that is, and which units name a thing."""
+    """Hold what a sentence may ask for, how sure that is, and what its units belong to."""
 
     intent: str
     share: float
-    """Of all intents, 0 to 1."""
-    thing: tuple[bool, ...]
+    """Of those intents that may be meant, 0 to 1."""
+    labels: tuple[int, ...]
+    """A label a unit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,12 +51,17 @@ class IntentModel:
     scale: float  # of the embedding
     hidden: tuple[tuple[float, ...], ...]  # a row a hidden unit, its bias last
     output: tuple[tuple[float, ...], ...]  # a row an intent, its bias last
-    tags: array[int]  # BUCKETS numbers, int8
-    tag_scale: float
-    tag_bias: float
+    slots: tuple[Sequence[float], ...]  # a row a label of BUCKETS numbers, int8
+    slot_scale: float
+    transitions: tuple[tuple[float, ...], ...]  # from a label, or BEGIN, to a label
 
-    def guess(self, units: Sequence[str]) -> Guess:
-        """Return what a sentence of at least one unit asks for, as the model has it."""
+    def guess(self, units: Sequence[str], meant: Container[str] | None = None) -> Guess:
+        """Return what a sentence of at least one unit asks for, as the model has it.
+
+        Args:
+            units: of the sentence.
+            meant: the intents that may be; left out, all.
+        """
         width = len(self.hidden[0]) - 1
         buckets = sentence_features(units)
         total: Sequence[float] = (0,) * width
@@ -58,15 +70,38 @@ class IntentModel:
         mean = [value * self.scale / len(buckets) for value in total]
         hidden = [max(0.0, _weigh(row, mean)) for row in self.hidden]
         scores = [_weigh(row, hidden) for row in self.output]
-        top = max(scores)
-        best = scores.index(top)
-        share = 1.0 / sum(exp(score - top) for score in scores)
-        things = tuple(self._names_thing(units, at) for at in range(len(units)))
-        return Guess(self.intents[best], share, things)
+        likely = [
+            (score, intent)
+            for score, intent in zip(scores, self.intents, strict=True)
+            if meant is None or intent in meant
+        ]
+        top, intent = max(likely)
+        share = 1.0 / sum(exp(score - top) for score, _ in likely)
+        return Guess(intent, share, self.label(units, intent))
 
-    def _names_thing(self, units: Sequence[str], at: int) -> bool:
-        total = sum(self.tags[bucket] for bucket in unit_features(units, at))
-        return total * self.tag_scale + self.tag_bias > 0.0
+    def label(self, units: Sequence[str], intent: str) -> tuple[int, ...]:
+        """Return the likeliest chain of labels (Viterbi 1967) of a sentence with this intent."""
+        totals: Sequence[float] = self.transitions[BEGIN]
+        came: list[list[int]] = []
+        for at in range(len(units)):
+            buckets = unit_features(units, at, intent)
+            own = [sum(map(row.__getitem__, buckets)) * self.slot_scale for row in self.slots]
+            if at == 0:
+                totals = list(map(add, totals, own))
+                continue
+            ways = [
+                max((totals[label] + self.transitions[label][to], -label) for label in _LABELS)
+                for to in _LABELS
+            ]
+            came.append([-label for _, label in ways])
+            totals = [score + own[to] for to, (score, _) in enumerate(ways)]
+        chain = [totals.index(max(totals))]
+        for step in reversed(came):
+            chain.append(step[chain[-1]])
+        return tuple(reversed(chain))
+
+
+_LABELS = range(LABELS)
 
 
 def _weigh(row: Sequence[float], values: Sequence[float]) -> float:
@@ -82,7 +117,7 @@ def load_intent_model(path: Path = MODEL) -> IntentModel | None:
         width, hidden, intents = told["embedded"], told["hidden"], tuple(told["intents"])
         sizes = (
             BUCKETS * width,
-            BUCKETS,
+            BUCKETS * LABELS,
             4 * hidden * (width + 1),
             4 * len(intents) * (hidden + 1),
         )
@@ -98,9 +133,11 @@ def load_intent_model(path: Path = MODEL) -> IntentModel | None:
             scale=told["scale"],
             hidden=_rows(parts[2], width + 1),
             output=_rows(parts[3], hidden + 1),
-            tags=array("b", parts[1]),
-            tag_scale=told["tag_scale"],
-            tag_bias=told["tag_bias"],
+            slots=tuple(
+                array("b", parts[1][row * BUCKETS : (row + 1) * BUCKETS]) for row in _LABELS
+            ),
+            slot_scale=told["slot_scale"],
+            transitions=tuple(tuple(row) for row in told["transitions"]),
         )
     except (OSError, ValueError, KeyError, TypeError):
         return None

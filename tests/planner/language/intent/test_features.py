@@ -20,7 +20,7 @@ def test_every_feature_is_a_bucket(text: str) -> None:
     units = units_of(text)
     found = [
         *sentence_features(units),
-        *(b for at in range(len(units)) for b in unit_features(units, at)),
+        *(b for at in range(len(units)) for b in unit_features(units, at, "go")),
     ]
     assert all(0 <= bucket < BUCKETS for bucket in found)
 
