@@ -64,7 +64,7 @@ export const zh: Record<Key, string> = {
 
   "notice.title": "需要您处理",
   "notice.watch": "目前",
-  "notice.disarmed": "驱动未上电。解锁后才能行驶。",
+  "notice.disarmed": "驱动未解锁。解锁后才能行驶。",
   "notice.waiting": "正在等待：{what}",
   "notice.comma": "、",
   "notice.latched": "需要有人复位，否则一直停住。",
@@ -75,7 +75,7 @@ export const zh: Record<Key, string> = {
   "notice.disk_full": "磁盘已满，无法记录。机器人可以继续行驶，但不能解锁：请清理磁盘。",
 
   "op.arm": "解锁",
-  "op.arm.ask": "给驱动上电？机器人会保持静止，有任务时才行驶。",
+  "op.arm.ask": "解锁驱动？机器人会保持静止，有任务时才行驶。",
   "op.arm.yes": "确认解锁",
   "op.disarm": "上锁",
   "op.disarm.ask": "减速到零并断开驱动电源？",
@@ -451,8 +451,8 @@ export const zh: Record<Key, string> = {
   "robot.pose": "位置",
   "robot.drive": "驱动",
   "robot.virtual": "仿真",
-  "robot.powered": "已上电",
-  "robot.unpowered": "未上电",
+  "robot.powered": "已解锁",
+  "robot.unpowered": "未解锁",
   "robot.battery": "电池",
   "robot.speed": "速度，米/秒",
   "robot.turn": "转动，弧度/秒",
@@ -472,7 +472,7 @@ export const zh: Record<Key, string> = {
   "by.fence": "围栏",
   "by.contact": "防撞条或悬崖传感器",
   "by.no_scan": "没有激光雷达数据",
-  "by.unpowered": "未上电",
+  "by.unpowered": "未解锁",
   "by.weak_brakes": "制动力不足设定的一半",
 
   "rows.title": "安全桥的监视项",

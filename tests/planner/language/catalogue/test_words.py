@@ -148,3 +148,9 @@ def test_words_from_elsewhere_are_quoted_where_none_are_ours() -> None:
     assert say_or_quote("paused", "operator").en == "a person paused it"
     assert say_or_quote("paused", "odd") == say_same("odd")
     assert template(Code.BLIND).en == "I can't see now ({why})."
+
+
+def test_to_arm_is_one_chinese_word() -> None:
+    chinese = next(each.messages for each in CATALOGUE.words if each.language == "zh")
+    assert "解锁" in chinese["order_reason.disarmed"]
+    assert not [code for code, text in chinese.items() if "上电" in text]
