@@ -208,6 +208,7 @@ export const zh: Record<Key, string> = {
   "orders.quiet": "安静时段：{quiet}。",
   "orders.next": "下一次：{time}",
   "orders.paused": "已暂停",
+  "orders.paused_until": "已暂停，{time} 恢复",
   "orders.ended": "已结束",
   "orders.counts": "完成 {fired} 次，错过 {missed} 次",
   "orders.pause": "暂停",
