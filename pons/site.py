@@ -256,8 +256,9 @@ def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
 
     proposals = {room.id: room for room in read_proposals(folder)}
     if room_id not in proposals:
-        known = ", ".join(proposals) or "none"
-        text, zh = f"got {room_id!r}; proposed: {known}", f"没有 {room_id!r}；已有提议：{known}"
+        known = ", ".join(proposals)
+        text = f"got {room_id!r}; proposed: {known or 'none'}"
+        zh = f"没有 {room_id!r}；已有提议：{known or '无'}"
         raise SiteError("room_unknown", text, zh)
     room = proposals[room_id]
     vocabulary = vocabulary_of(Site.load(folder))
@@ -266,7 +267,7 @@ def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
         for name in names:
             check_not_order(name, vocabulary)
     except PlaceRefusal as refused:
-        text, zh = f"{refused.why.en} ({refused.detail})", f"{refused.why.zh}（{refused.detail}）"
+        text, zh = f"{refused.why.en} ({refused.detail})", refused.why.zh
         raise SiteError(refused.code, text, zh) from None
     place_id = re.sub(r"[^a-z0-9]+", "_", names[0].lower()).strip("_")
     if not place_id[:1].isalpha():
