@@ -31,21 +31,21 @@ REASONS = MappingProxyType(
         "place_name_mixed": "名称混用了相似的字母",
         "place_name_reserved": "该名称会被当作命令或回答",
         "home_unknown": "未知的起始地点",
-        "map_too_ragged": "地图边界过于零碎",
+        "map_too_ragged": "地图边界过于零碎：请清理图像中的杂点，或自行画出围栏",
         "map_no_floor": "地图上没有可站立的空地",
-        "map_no_drive": "录制中没有可用来建图的行驶",
+        "map_no_drive": "录制中没有可用来建图的行驶：请边扫描边行驶至少一米",
         "map_not_begun": "还没有为这个名称建图",
         "keyframes_malformed": "保存的关键帧已损坏",
-        "map_of_two_runs": "录制来自不同的运行",
+        "map_of_two_runs": "录制来自不同的运行，请只给出同一次运行的",
         "map_too_large": "地图过大",
         "carmen_malformed": "不是可用的 CARMEN 日志",
         "drive_elsewhere": "这次行驶不在这张地图上",
-        "recordings_none": "没有可用的录制",
-        "mend_unknown": "没有这份地图修改提案",
-        "mend_stale": "提案之后地图已被更换",
-        "mend_change_unknown": "没有这个编号的变化",
-        "robot_running": "机器人正在运行",
-        "taught_places_full": "记住的地点已满",
+        "recordings_none": "没有可用的录制：请先在家中行驶一遍",
+        "mend_unknown": "没有这份地图修改提案，或它已被采用；可运行 pons map 名称 --mend 新建一份",
+        "mend_stale": "提案之后地图已被更换：请重新运行 pons map 名称 --mend",
+        "mend_change_unknown": "没有这个编号的变化；--without 须与 --mend 同用",
+        "robot_running": "机器人正在运行，它仍用原来的地图：请先停止 pons up",
+        "taught_places_full": "记住的地点已满：请先忘记一些",
         "map_unknown_word": "未知区域是否可通行需要人来说明",
         "mask_elsewhere": "掩膜与地图不重叠",
         "disk_full": "磁盘空间不足",
@@ -68,7 +68,7 @@ class SiteError(ConfigError):
         Args:
             code: one of ``REASONS``.
             message: the sentence in English.
-            zh: the same in Chinese; None: that of ``REASONS``, with the English one behind it.
+            zh: the same in Chinese; None: that of ``REASONS``, shown below the English one.
         """
         super().__init__(code, message)
-        self.message = {"en": message, "zh": zh or f"{REASONS[code]}：{message}"}
+        self.message = {"en": message, "zh": zh or REASONS[code]}

@@ -194,7 +194,8 @@ def _decode_png(data: bytes, where: Path) -> GreyImage:
 
 def _check_size(width: int, height: int, where: Path) -> None:
     text = f"{where}: {width} x {height} pixels; expected 1 to {MAX_PIXELS} in all"
+    zh = f"{where}：{width} x {height} 个像素，应共有 1 到 {MAX_PIXELS} 个"
     if not width * height > 0:
-        raise SiteError("map_image_malformed", text)
+        raise SiteError("map_image_malformed", text, zh)
     if not width * height <= MAX_PIXELS:
-        raise SiteError("map_image_too_large", text)
+        raise SiteError("map_image_too_large", text, zh)

@@ -33,7 +33,6 @@ from localization.mapping.mend_proposal import (
 )
 from localization.mapping.pose_graph import PoseGraph
 from maps import SiteError, load_map
-from planner.navigation.site_check import check_site
 from planner.site import Site
 from planner.site.fence import load_fence
 from planner.site.taught_places import MAX_KEPT, TaughtPlaces
@@ -41,6 +40,7 @@ from pons.folder_swap import swap_folders, sync_folder
 from pons.home_lock import HomeLock, HomeTaken
 from pons.settings import site_of
 from pons.site import site_missing
+from pons.site_findings import print_findings
 from pons_assets import SITES
 from wire import ConfigError
 from wire.fence import fence_text
@@ -170,7 +170,8 @@ def accept_mend(settings: LaunchSettings, name: str, mend_id: str, robot: RobotD
             shutil.rmtree(beside, ignore_errors=True)
             target.parent.mkdir(parents=True, exist_ok=True)
             _build(folder, where, beside)
-            _check_loads(beside, robot)
+            _check_loads(beside)
+            print_findings(beside, settings.home, robot.base.radius_m, taught_in=folder)
             carried = _carry_taught(settings.home, read_map_id(folder), read_map_id(beside))
             _put_in_place(beside, target)
         except OSError as error:
@@ -242,8 +243,8 @@ def _sync_file(path: Path) -> None:
         os.close(descriptor)
 
 
-def _check_loads(beside: Path, robot: RobotDescription) -> None:
-    """Refuse a map on which the site's own places no longer stand; print what else is wrong."""
+def _check_loads(beside: Path) -> None:
+    """Refuse a map on which the site's own places no longer stand."""
     try:
         Site.load(beside)
     except SiteError as error:
@@ -251,8 +252,6 @@ def _check_loads(beside: Path, robot: RobotDescription) -> None:
         text = f"{error.message['en']}; leave that change out (--without), or move the place"
         zh = f"{error.message['zh']}；可用 --without 略去这处变化，或移动该地点"
         raise SiteError(error.code, text, zh) from error
-    for finding in check_site(beside, robot.base.radius_m):
-        print(f"{finding.level}: {finding.code}: {finding.words.en}\n  {finding.words.zh}")
 
 
 def _put_in_place(beside: Path, target: Path) -> None:

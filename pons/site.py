@@ -20,7 +20,8 @@ from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text
 from maps.room_proposals import read_proposals
 from pons.settings import site_of
-from pons.site_rooms import has_named_room, print_rooms, proposal_line
+from pons.site_findings import print_findings
+from pons.site_rooms import print_rooms, proposal_line
 from wire import ConfigError, Pose2, load_robot, wrap
 from wire.fence import fence_text
 
@@ -141,7 +142,7 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
         print(f"{loaded.kept_unknown} pixels of about grey 205 were taken for {taken_for}")
     print(proposal_line(made))
     print_rooms(folder, settings.home)
-    if _has_errors(_print_check(settings, folder, robot.base.radius_m)):
+    if _has_errors(print_findings(folder, settings.home, robot.base.radius_m)):
         print("before you drive there, mend what is an error / 出发前请先解决上面的错误（error）")
         return EXIT_FOUND
     print(f"drive there: pons up --site {said.name}")
@@ -255,8 +256,9 @@ def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
 
     proposals = {room.id: room for room in read_proposals(folder)}
     if room_id not in proposals:
-        known = ", ".join(proposals) or "none"
-        text, zh = f"got {room_id!r}; proposed: {known}", f"没有 {room_id!r}；已有提议：{known}"
+        known = ", ".join(proposals)
+        text = f"got {room_id!r}; proposed: {known or 'none'}"
+        zh = f"没有 {room_id!r}；已有提议：{known or '无'}"
         raise SiteError("room_unknown", text, zh)
     room = proposals[room_id]
     vocabulary = vocabulary_of(Site.load(folder))
@@ -265,7 +267,7 @@ def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
         for name in names:
             check_not_order(name, vocabulary)
     except PlaceRefusal as refused:
-        text, zh = f"{refused.why.en} ({refused.detail})", f"{refused.why.zh}（{refused.detail}）"
+        text, zh = f"{refused.why.en} ({refused.detail})", refused.why.zh
         raise SiteError(refused.code, text, zh) from None
     place_id = re.sub(r"[^a-z0-9]+", "_", names[0].lower()).strip("_")
     if not place_id[:1].isalpha():
@@ -314,22 +316,10 @@ def _print_fence_with_masks(
 
 
 def _check(settings: LaunchSettings, folder: Path) -> int:
-    found = _print_check(settings, folder, _radius_m(settings))
+    found = print_findings(folder, settings.home, _radius_m(settings))
     if not found:
         print(f"{folder.name}: nothing is wrong / 没有问题")
     return EXIT_FOUND if found else EXIT_DONE
-
-
-def _print_check(settings: LaunchSettings, folder: Path, radius_m: float) -> list[SiteFinding]:
-    from planner.navigation.site_check import check_site
-
-    found = list(check_site(folder, radius_m))
-    if any(finding.code == "no_rooms" for finding in found):  # the check knows the files alone
-        named = has_named_room(folder, settings.home)
-        found = [finding for finding in found if not (named and finding.code == "no_rooms")]
-    for finding in found:
-        print(f"{finding.level}: {finding.code}: {finding.words.en}\n  {finding.words.zh}")
-    return found
 
 
 def _has_errors(found: list[SiteFinding]) -> bool:

@@ -24,8 +24,8 @@ HTTP_TIMEOUT_S = 2.5
 CONFIRMED = "stop taken, the robot ramps to a stand / 已收到停止，正在停稳 (bridge confirmed)"
 SENT = "stop sent; asking the bridge itself / 停止已发出，正在向 bridge 核实"
 SAID_BY_PLANNER = (
-    "the planner says that the bridge took the stop / 规划器称 bridge 已收到停止 "
-    "(not asked from here: {why})"
+    "the planner says that the bridge took the stop (not asked from here: {why})"
+    " / 规划器称 bridge 已收到停止（此处无法直接核实）"
 )
 
 
@@ -49,9 +49,10 @@ def run(settings: LaunchSettings) -> int:
     if by_http.confirmed:
         planner = "it says that the bridge confirmed, and is not believed"
     print(
-        "no_bridge: the bridge itself did not confirm the stop / 没有得到确认. "
+        "no_bridge: the bridge itself did not confirm the stop. "
         "Without a bridge the drive's own time-out stops the wheels; use the robot's stop button. "
-        f"Planner: {planner}. Bridge: {trouble}",
+        f"Planner: {planner}. Bridge: {trouble}\n"
+        "bridge 没有确认停止。没有 bridge 时，驱动自身的超时会让轮子停下；请按机器人上的停止按钮。",
         file=sys.stderr,
     )
     return 1

@@ -204,9 +204,8 @@ class Supervisor:
 def what_to_try(settings: LaunchSettings) -> str:
     """Return a line for a person who has just started a robot."""
     if settings.mapping is not None:
-        steps = (
-            'pons say "explore the house"   pons say "go forward 1 metre"   pons say 探索一下房子'
-        )
+        # No distance: nobody knows yet how much room there is ahead.
+        steps = 'pons say "turn around"   pons say "explore the house"   pons say 探索一下房子'
         return f"try: {steps}, then: pons map {settings.mapping}"
     return f"try: {drives_to_try(settings.site)}   pons stop"
 

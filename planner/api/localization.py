@@ -28,6 +28,7 @@ ENOUGH_SCORE = 0.6
 _STATUS = {
     "moving": 409,
     "busy": 409,
+    "map_grows": 409,
     "no_scan": 503,
     "no_answer": 503,
     "does_not_fit": 422,
@@ -74,6 +75,8 @@ def localizer_view(services: Services) -> dict[str, Any] | None:
 
 async def give_hint(services: Services, word: HereHint) -> dict[str, Any]:
     """Bring a hint to localization and return what it made of it."""
+    if services.memory.facts.grows:  # the mapper takes no hints: nobody would answer
+        raise _problem("map_grows", _STATUS["map_grows"])
     if services.robot.localizer is None:
         raise _problem("no_localizer", 503)
     point = word.point

@@ -22,6 +22,8 @@ from planner.plan import Code, say_same
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from planner.plan import Bilingual
+
 
 _LENGTH = say("problem.length")
 _BROKEN = say("problem.broken")
@@ -63,14 +65,8 @@ SAYINGS = {
 }  # fmt: skip
 
 
-AS_SENT = frozenset({"invalid_request", "malformed_json"})
-"""A person meets these too, by a name or words that are too long; the detail says which."""
-
-
-def saying_of(code: str, detail: str = "") -> dict[str, dict[str, str]]:
+def saying_of(code: str) -> dict[str, dict[str, str]]:
     """Return the sentence for a person as ``message``, where the code has one."""
-    if code in AS_SENT:
-        return {"message": say("problem.as_sent", detail=detail).model_dump()}
     return {"message": SAYINGS[code].model_dump()} if code in SAYINGS else {}
 
 
@@ -100,7 +96,7 @@ def unknown_place(wanted: str, known: Iterable[str]) -> HttpProblem:
 
 def body(status: int, code: str, detail: str, **more: Any) -> dict[str, Any]:
     """Return the JSON of a problem; ``message`` where a person may be the one who reads it."""
-    said = saying_of(code, detail)
+    said = saying_of(code)
     title = HTTPStatus(status).phrase
     return {"type": f"urn:pons:problem:{code}", "title": title, "status": status,
             "code": code, "detail": detail, **said, **more}  # fmt: skip
@@ -133,30 +129,45 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
     first = error.errors()[0]
     if first["type"] == "json_invalid":
         why = f"{first['ctx']['error']} at character {first['loc'][-1]}"
-        return response(400, "malformed_json", f"the body is no JSON: {why}; expected an object")
-    return response(422, "invalid_request", _what_is_wrong(first) + _what_exists(request))
+        return _as_sent(400, "malformed_json", say("as_sent.no_json", why=why))
+    wrong, keys = _what_is_wrong(first), _keys_of(request)
+    wrong = say("as_sent.keys", wrong=wrong, keys=keys) if keys else wrong
+    return _as_sent(422, "invalid_request", wrong)
 
 
-def _what_is_wrong(error: Mapping[str, Any]) -> str:
-    where = ".".join(str(part) for part in error["loc"])
-    found = repr(error.get("input"))[:MAX_FOUND]
-    if error["type"] == "extra_forbidden":
-        return f"{where}: unknown key, with the value {found}"
-    if error["type"] == "missing":
-        return f"{where}: missing"
-    if error["type"] == "model_attributes_type":
-        return f"{where}: expected a JSON object; got {found}"
-    return f"{where}: {error['msg']}; got {found}"
+def _as_sent(status: int, code: str, wrong: Bilingual) -> JSONResponse:
+    """Refuse what can't be taken as it was sent; both languages say what is wrong with it."""
+    return response(status, code, wrong.en, **_tell(wrong))
 
 
-def _what_exists(request: Request) -> str:
+def _tell(wrong: Bilingual) -> dict[str, dict[str, str]]:
+    """Return the sentence for a person, who meets this by a name or words that are too long."""
+    return {"message": say("problem.as_sent", detail=wrong).model_dump()}
+
+
+_FLAWS = frozenset(
+    {"extra_forbidden", "missing", "model_attributes_type", "string_too_long", "string_too_short"}
+)
+
+
+def _what_is_wrong(error: Mapping[str, Any]) -> Bilingual:
+    at = ".".join(str(part) for part in error["loc"])
+    came = repr(error.get("input"))[:MAX_FOUND]
+    flaw = error["type"] if error["type"] in _FLAWS else "other"
+    limits = {name: str(limit) for name, limit in error.get("ctx", {}).items()}
+    most, least = limits.get("max_length", ""), limits.get("min_length", "")
+    told = error["msg"]
+    return say(f"as_sent.{flaw}", at=at, came=came, told=told, most=most, least=least)
+
+
+def _keys_of(request: Request) -> str:
     """Return the keys that the route's body takes; empty where it takes none."""
     taken = getattr(request.scope.get("route"), "body_field", None)
     model = taken.field_info.annotation if taken is not None else None
     for kind in (model, *get_args(model)):
         if isinstance(kind, type) and issubclass(kind, BaseModel):
             keys = (n if f.is_required() else f"{n}?" for n, f in kind.model_fields.items())
-            return f"; the body takes: {', '.join(keys)}"
+            return ", ".join(keys)
     return ""
 
 
@@ -174,17 +185,18 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
     status, asked = error.status_code, f"{request.method} {request.url.path}"
     code = _CODES.get(status, f"http_{status}")
     headers = dict(error.headers or {})
-    detail = f"{asked}: {error.detail}"
+    detail, more = f"{asked}: {error.detail}", {}
     if status == 400:  # the framework's only one: bytes that json can't read, for two reasons
         nested = isinstance(error.__cause__, RecursionError)
-        why = "is nested too deep" if nested else "is no text in UTF-8"
-        detail = f"{asked}: the body {why}; expected a JSON object"
+        flaw = "too_deep" if nested else "no_text"
+        wrong = say(f"as_sent.{flaw}", asked=asked)
+        detail, more = wrong.en, _tell(wrong)
     elif status == 404:
         detail = f"no route {asked}; /openapi.json lists what exists"
     elif status == 405:
         headers["Allow"] = _methods(request)
         detail = f"no {asked}; allowed there: {headers['Allow']}"
-    return response(status, code, detail, headers=headers)
+    return response(status, code, detail, headers=headers, **more)
 
 
 def _methods(request: Request) -> str:

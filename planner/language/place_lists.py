@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import list_names, message, say
-from planner.plan import Code, Outcome, say_same
+from planner.language.catalogue import list_names, message, say, say_or_quote
+from planner.plan import Code, Outcome
 
 if TYPE_CHECKING:
     from planner.plan import Bilingual, PlanRejection, Vocabulary
@@ -28,7 +28,7 @@ def rejection_outcome(rejection: PlanRejection, vocabulary: Vocabulary) -> Outco
     if first.code is Code.UNKNOWN_PLACE:
         said = message(first.code, name=first.what, near="", known=known_places(vocabulary))
     elif first.code is Code.BAD_PLAN:
-        said = message(first.code, why=first.what)
+        said = message(first.code, why=say("plan.flaw", what=first.what))
     else:
-        said = message(first.code, part=say_same(first.what))
+        said = message(first.code, part=say_or_quote("step_kind", first.what))
     return Outcome(code=first.code, message=said)

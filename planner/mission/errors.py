@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.language.catalogue import say
+from planner.language.catalogue import list_names, say, say_or_quote
 from planner.plan import Bilingual, GoalState
 
 
@@ -11,7 +11,7 @@ class MissionError(Exception):
 
     code = "mission_error"
 
-    def __init__(self, **facts: str | int) -> None:
+    def __init__(self, **facts: str | int | Bilingual) -> None:
         self.message: Bilingual = say(f"refusal.{self.code}", **facts)
         super().__init__(f"{self.code}: {self.message.en}")
 
@@ -22,7 +22,7 @@ class UnknownGoal(MissionError):
     code = "unknown_goal"
 
     def __init__(self, goal_id: str, known: tuple[str, ...]) -> None:
-        newest = ", ".join(known[-5:]) or "none"
+        newest = ", ".join(known[-5:]) or say("refusal.no_goals")
         shown = goal_id[:64]
         super().__init__(shown=shown, newest=newest)
 
@@ -33,8 +33,12 @@ class BadState(MissionError):
     code = "bad_state"
 
     def __init__(self, goal_id: str, what: str, state: GoalState, allowed: tuple[str, ...]) -> None:
-        needs = ", ".join(allowed)
-        super().__init__(what=what, goal_id=goal_id, state=state.value, needs=needs)
+        super().__init__(
+            what=say_or_quote("goal_act", what),
+            goal_id=goal_id,
+            state=say_or_quote("goal_state", state.value),
+            needs=list_names(say_or_quote("goal_state", each) for each in allowed),
+        )
 
 
 class NothingToResume(MissionError):
@@ -69,5 +73,7 @@ class JournalDown(MissionError):
 
     code = "journal_unavailable"
 
-    def __init__(self, why: str) -> None:
-        super().__init__(why=why)
+    def __init__(self, trouble: str | None) -> None:
+        """Take what the system says; None: the disk was only too slow."""
+        slow = say("refusal.disk_slow")
+        super().__init__(why=slow if trouble is None else say("refusal.disk_fails", why=trouble))

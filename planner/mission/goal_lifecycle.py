@@ -156,8 +156,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         _end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True, also=also)
         return
     if plan is None:
-        unsaid = Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why="no answer"))
-        outcome = event.failure or unsaid
+        unsaid = message(Code.BAD_PLAN, why=say("plan.no_answer"))
+        outcome = event.failure or Outcome(code=Code.BAD_PLAN, message=unsaid)
         unavailable = outcome.code is Code.MODEL_UNAVAILABLE
         mission = turn.put(mission, brain=event.brain)
         cause = BrainCause.FAILS if unavailable else BrainCause.REFUSES

@@ -169,7 +169,7 @@ class JournalSync:
             async with asyncio.timeout(SAFE_WITHIN_S):
                 await future
         except TimeoutError:
-            raise JournalDown(self.trouble or "the disk is slow") from None
+            raise JournalDown(self.trouble) from None
 
     async def close(self) -> None:
         """Write what waits and end the thread, without holding the loop."""

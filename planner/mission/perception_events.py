@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import hypot
 
-from planner.language.catalogue import message
+from planner.language.catalogue import message, say_or_quote
 from planner.mission.activity import AskingImage, Driving, Observing
 from planner.mission.bridge_status import standing
 from planner.mission.effects import KeepPicture, SavePicture
@@ -26,7 +26,7 @@ from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.perception.snapshot import Sight
-from planner.plan import Code, say_same
+from planner.plan import Code
 from wire import wrap
 
 SETTLE_S = 0.15
@@ -109,7 +109,7 @@ def end_gaze_if_due(turn: Transaction) -> None:
         _end_gaze(turn, activity)
     else:
         why = turn.book.sight.blind or "camera_silent"
-        said = message(Code.BLIND, why=say_same(why))
+        said = message(Code.BLIND, why=say_or_quote("blind", why))
         fail_step(turn, Fail(Code.BLIND, why, said))
 
 

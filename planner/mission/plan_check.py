@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from planner.language.catalogue import message, say
+from planner.language.catalogue import list_names, message, say, say_or_quote
 from planner.mission.skills import SKILLS
 from planner.mission.skills.object_matching import anybody_for, picks_out, read_object
 from planner.mission.skills.object_query import unknown_kind
@@ -24,7 +24,6 @@ from planner.plan import (
     Outcome,
     StepRecord,
     check_plan,
-    say_same,
 )
 
 NO_STEPS = say("plan.no_steps")
@@ -48,12 +47,12 @@ def unwalkable(
     first = rejection.first
     match first.code:
         case Code.BAD_PLAN:
-            said = message(first.code, why=first.what if steps else NO_STEPS)
+            said = message(first.code, why=say("plan.flaw", what=first.what) if steps else NO_STEPS)
         case Code.UNKNOWN_PLACE:
-            known = say_same(", ".join(sorted(book.facts.targets)))
+            known = list_names(target.name for target in book.facts.targets.values())
             said = message(first.code, name=first.what, near="", known=known)
         case _:
-            said = first.said or message(first.code, part=say_same(first.what))
+            said = first.said or message(first.code, part=say_or_quote("step_kind", first.what))
     return Outcome(code=first.code, message=said)
 
 

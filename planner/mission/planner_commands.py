@@ -213,6 +213,8 @@ class PlannerCommands:
 
     async def _hint(self, name: str) -> AnswerPlan | Refuse:
         """Tell localization where a person says the robot is, and say what scans make of it."""
+        if self._memory.facts.grows:  # the mapper takes no hints: nobody would answer
+            return _hint_refused("map_grows")
         place = self._place(name)
         if place is None or self._link.localizer is None:
             return _hint_refused("no_localizer")

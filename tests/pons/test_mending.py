@@ -81,6 +81,28 @@ def test_a_drive_mends_a_site_and_nothing_of_it_is_lost(
     assert "mend_unknown" in capsys.readouterr().err
 
 
+def test_rooms_that_were_named_at_the_page_are_known_to_the_mended_map(
+    drive: Drive, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = stale_site(settings)
+    kitchen = Site.load(folder).rooms[0]
+    places = folder / "places.yaml"
+    home_alone = (
+        "version: 1\nhome: home\nplaces:\n- {id: home, kind: place, name: {en: home, zh: 家}, "
+    )
+    places.write_text(f"{home_alone}pose: {{x_m: 1.0, y_m: 4.2, yaw_rad: 0.0}}}}\n", "utf-8")
+    named = taught("cook", kitchen.pose.x_m, kitchen.pose.y_m, Site.load(folder).map_id)
+    named = named.model_copy(update={"polygon": kitchen.polygon})
+    for names, told in (((), True), ((named,), False)):
+        TaughtPlaces.in_home(settings.home).save(names)
+        assert mapping.run(settings, ["den", "--mend", str(drive[0])]) == 0
+        mend_id = capsys.readouterr().out.split("--accept ")[1].split()[0]
+        assert mapping.run(settings, ["den", "--accept", mend_id]) == 0
+        assert ("no_rooms" in capsys.readouterr().out) is told
+        assert mapping.run(settings, ["den", "--undo"]) == 0
+        capsys.readouterr()
+
+
 def test_a_change_that_is_left_out_is_not_made(
     drive: Drive, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
 ) -> None:

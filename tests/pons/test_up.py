@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from planner.brain import OfflineBrain, ThinkRequest
+from planner.plan import Means, StepPlan, Vocabulary
 from pons.launch_checks import CannotStart
 from pons.settings import CHECKOUT, LaunchSettings
 from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, Supervisor, describe_base, what_to_try
@@ -82,6 +85,12 @@ def test_who_maps_a_home_is_told_what_the_page_can_do(tmp_path: Path) -> None:
     maps = LaunchSettings(tmp_path, tmp_path, tmp_path, "127.0.0.1", 1, mapping="flat")
     assert "explore the house" in what_to_try(maps)
     assert what_to_try(maps).endswith("then: pons map flat")
+    assert "forward" not in what_to_try(maps), "where it starts there may be no room ahead"
+    nothing, can = Vocabulary(entries=()), Means(growing_map=True).runnable
+    for said in ("turn around", "explore the house", "探索一下房子"):
+        assert said in what_to_try(maps)
+        asked = ThinkRequest(text=said, vocabulary=nothing, runnable=can)
+        assert isinstance(asyncio.run(OfflineBrain().think(asked)).plan, StepPlan)
 
 
 def test_what_to_try_names_places_of_the_site_itself(tmp_path: Path) -> None:

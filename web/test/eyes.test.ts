@@ -117,6 +117,8 @@ describe("things", () => {
     receive(JSON.stringify(snapshot(1)));
     expect(blindFor.value).toBe("");
     tell(2, "camera_silent");
+    now.value = later(0.9);
+    expect(blindFor.value).toBe(""); // "at least 0 s" would tell nothing
     now.value = later(7.9);
     expect(blindFor.value).toBe("For at least 7 s.");
     tell(3, "camera_silent"); // told again: it lasts

@@ -33,6 +33,14 @@ describe("catalogues", () => {
     expect(all).not.toMatch(/emergency stop|certified|safety-rated|紧急停止|急停/i);
   });
 
+  it("have one Chinese word for to arm", () => {
+    const bridge = [rows, codes.sentences, codes.wants].flatMap((all) => Object.values(all));
+    expect([...Object.values(zh), ...bridge.map((words) => words.zh)].join("\n")).not.toMatch(
+      /上电/,
+    );
+    expect(zh["op.arm"]).toBe("解锁");
+  });
+
   it("say every row and every other code of the bridge in both languages", () => {
     for (const words of [rows, codes.sentences, codes.wants].flatMap((all) => Object.values(all))) {
       expect(words.en).not.toBe("");

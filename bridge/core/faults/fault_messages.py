@@ -10,7 +10,7 @@ WORDS: dict[str, tuple[str, str]] = {
     "BRAIN_LOST": ("The planner is silent; the robot holds.", "规划器没有响应，机器人停住。"),
     "BRAIN_GONE": (
         "The planner has been silent for 5 seconds; the drive is off. Arm to go on.",
-        "规划器已失联五秒，驱动已断开。请重新上电后继续。",
+        "规划器已失联五秒，驱动已断开。请重新解锁后继续。",
     ),
     "BRAIN_STALE": (
         "The planner is alive but thinks on old data; the robot holds.",
@@ -52,7 +52,7 @@ WORDS: dict[str, tuple[str, str]] = {
     ),
     "POSE_JUMP": (
         "The position jumped; the route must be made anew (after three jumps: arm).",
-        "定位发生跳变，需要重新规划路线（连续三次后需重新上电）。",
+        "定位发生跳变，需要重新规划路线（连续三次后需重新解锁）。",
     ),
     "STUCK": ("The wheels should turn but the robot does not move.", "机器人被卡住，无法移动。"),
     "RUNAWAY": (
@@ -69,7 +69,7 @@ WORDS: dict[str, tuple[str, str]] = {
         "The drive follows another's commands; stopped. Restart the drive, then reset.",
         "驱动在执行他人的指令，已停车。请重启驱动，然后复位。",
     ),
-    "DRIVE_REBOOT": ("The drive has restarted; arm to go on.", "驱动已重启，请重新上电后继续。"),
+    "DRIVE_REBOOT": ("The drive has restarted; arm to go on.", "驱动已重启，请重新解锁后继续。"),
     "OVERCURRENT": (
         "The motors draw too much current; the drive is off.",
         "电机电流过大，驱动已断开。",

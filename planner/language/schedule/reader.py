@@ -18,6 +18,8 @@ from planner.language.schedule.about import read_about
 from planner.language.schedule.command import OrderCommand, RemindAgain, ScheduleCommand
 from planner.language.schedule.corrections import read_correction
 from planner.language.schedule.parts import EventPart, Part, Timing, combine
+from planner.language.schedule.statements import begins_with_statement, ends_in_statement
+from planner.plan.timing import DayTime, InRule
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -119,6 +121,10 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
         joined = combine((*before.parts, *after.parts))
         if joined is None or (joined.problem == "order_nested" and not _repeats(after.parts)):
             after = _Found((), len(rest.folded))  # "every day at eight say good night at ten"
+    if after.parts and grammar is english and not _lacks_time(before.parts):
+        words = rest.folded[: after.at].rstrip(" ")
+        if ends_in_statement(words, reminds=remind is not None):
+            after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"
     order = rest.part(0, after.at) if after.parts else rest
     timing = combine((*before.parts, *after.parts))
     if timing is None:
@@ -126,9 +132,18 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     words = _words(said, rest, before, after)
     if remind is not None:
         return _reminder(order, timing, words, grammar, woken=bool(remind["wake"]))
-    if grammar.REMARK.match(order.bare().folded) is not None:
-        return None  # "it's cold tonight": a time, and no order
+    said_first = order.bare().folded
+    remark = grammar.REMARK.match(said_first) is not None
+    once = isinstance(timing.when, DayTime | InRule) and before.parts
+    if remark or (once and begins_with_statement(said_first, chinese=grammar is chinese)):
+        return None  # "it's cold tonight", "at nine the doctor comes, …": a time, and no order
     return _order(order.bare(), timing, words)
+
+
+def _lacks_time(parts: tuple[Part, ...]) -> bool:
+    """Tell whether these name a day, and not when on it: "every day", "tomorrow"."""
+    timing = combine(parts)
+    return timing is not None and timing.problem == "order_time_missing"
 
 
 def _repeats(parts: tuple[Part, ...]) -> bool:

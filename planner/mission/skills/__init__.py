@@ -8,7 +8,7 @@ from collections.abc import Callable
 from types import MappingProxyType, NoneType
 from typing import Any
 
-from planner.language.catalogue import message
+from planner.language.catalogue import message, say_or_quote
 from planner.mission.skills.actions import (
     AskImage,
     DriveLeg,
@@ -47,7 +47,7 @@ from planner.mission.skills.stand_at import stand_at
 from planner.mission.skills.turn import turn
 from planner.mission.skills.wait import wait
 from planner.mission.skills.wait_for import wait_for
-from planner.plan import Code, say_same
+from planner.plan import Code
 
 SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProxyType(
     {
@@ -91,7 +91,7 @@ def act_of(scene: Scene[Any]) -> SkillAction:
     if skill is not None and code is None:
         return judge_condition(scene, skill(scene))
     code = code or Code.NO_CAPABILITY
-    return Fail(code, code.value, message(code, part=say_same(kind)))
+    return Fail(code, code.value, message(code, part=say_or_quote("step_kind", kind)))
 
 
 __all__ = [

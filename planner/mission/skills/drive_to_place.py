@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from planner.language.catalogue import message
+from planner.language.catalogue import list_names, message
 from planner.mission.skills.actions import DriveLeg, Fail, Finish, Scene, SkillAction
-from planner.plan import Code, say_same
+from planner.plan import Code
 
 if TYPE_CHECKING:
     from planner.site.site_view import SiteView
@@ -29,7 +29,7 @@ def drive_to(scene: Scene[Any], place: str) -> DriveLeg | Fail:
 
 def place_gone(facts: SiteView, place: str) -> Fail:
     """Tell that a place was forgotten since the plan was made, and the places there are."""
-    known = say_same(", ".join(sorted(facts.targets)))
+    known = list_names(target.name for target in facts.targets.values())
     said = message(Code.UNKNOWN_PLACE, name=place, near="", known=known)
     return Fail(Code.UNKNOWN_PLACE, "place_gone", said)
 

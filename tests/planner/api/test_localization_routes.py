@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from starlette.testclient import TestClient
 
+from maps.growing_map import GROWING_MAP
+from planner.site import KnownPlaces
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.wire.examples import EXAMPLES
@@ -129,6 +133,20 @@ def test_a_robot_without_a_localizer_says_so(client: TestClient, services: FakeS
     assert client.get("/v1/localization").json() == {"localizer": None}
     robot = client.get("/v1/robot").json()
     assert (robot["localizer"], robot["match"]) == (None, None)
+
+
+def test_while_a_map_grows_a_hint_is_refused_at_once(
+    client: TestClient, services: FakeServices, tmp_path: Path
+) -> None:
+    (tmp_path / GROWING_MAP).touch()
+    services.memory = KnownPlaces(replace(services.site, folder=tmp_path))
+    room = services.site.rooms[0]
+    for where in ({"point": {"x_m": 1.0, "y_m": 4.2}}, {"place": room.name.en}):
+        answer = client.post(HINT, json=where)
+        assert (answer.status_code, answer.json()["code"]) == (409, "hint_map_grows")
+        assert "a map is being made" in answer.json()["message"]["en"]
+        assert "正在建图" in answer.json()["message"]["zh"]
+    assert not services.robot.hints, "the mapper would never answer"
 
 
 def test_what_it_does_is_shown(client: TestClient) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import base64
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -126,6 +127,31 @@ def test_malformed_goals_are_refused_and_told_what_was_expected(
     told = answer.json()["message"]
     assert told["en"] != told["zh"]
     assert services.goals.calls == []
+
+
+@pytest.mark.parametrize(
+    ("content", "chinese"),
+    [
+        (b"{", "正文不是 JSON"),
+        (b"\x00\xff\x80", "正文不是 UTF-8 文字"),
+        (b"{}", "body.text：缺少；可用的键：text, language?"),
+        (b'{"text": 7}', "body.text：值不合要求，收到 7"),
+        (b'{"text": "go", "speed": 3}', "body.speed：未知的键，值为 3"),
+    ],
+)
+def test_what_was_sent_wrongly_is_told_in_chinese_as_a_whole(
+    client: TestClient, content: bytes, chinese: str
+) -> None:
+    told = client.post("/v1/goals", content=content, headers=JSON).json()["message"]["zh"]
+    assert told.startswith("发来的内容无法接受：")
+    assert chinese in told
+    assert not re.search("expected|valid|should|missing|unknown", told)
+
+
+def test_what_is_too_short_is_told_in_chinese_with_the_bound(client: TestClient) -> None:
+    answer = client.post("/v1/localization/hint", json={"place": ""}).json()
+    assert "body.place：至少 1 个字符，收到 ''" in answer["message"]["zh"]
+    assert "body.place: at least 1 characters; got ''" in answer["detail"]
 
 
 def test_deep_nesting_is_refused(client: TestClient) -> None:

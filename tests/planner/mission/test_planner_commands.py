@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from maps.growing_map import GROWING_MAP
 from planner.language.commands import HereCommand
 from planner.mission.effects import AskBrain
 from planner.mission.errors import MissionError
@@ -49,8 +51,8 @@ async def think(ask: AskBrain) -> Planned:
     raise AssertionError(ask)
 
 
-def hinted(localizer: Localizer) -> object:
-    commands = PlannerCommands(think, KnownPlaces(SITE), Missions(), localizer)
+def hinted(localizer: Localizer, site: Site = SITE) -> object:
+    commands = PlannerCommands(think, KnownPlaces(site), Missions(), localizer)
     return asyncio.run(commands.carry_out(HereCommand("kitchen"), MISSION))
 
 
@@ -78,3 +80,12 @@ def test_a_word_that_changed_nothing_is_refused_and_says_why(
     assert said.code is Code.HINT_REFUSED
     assert said.reason.en == f"I do not take myself to be there: {why}."
     assert said.reason.zh.startswith("我不能确认自己在那里：")
+
+
+def test_while_a_map_grows_nobody_is_asked(tmp_path: Path) -> None:
+    (tmp_path / GROWING_MAP).touch()
+    said = hinted(Localizer("accepted"), replace(SITE, folder=tmp_path))
+    assert isinstance(said, Refuse)
+    assert said.code is Code.HINT_REFUSED
+    assert "a map is being made" in said.reason.en
+    assert "正在建图" in said.reason.zh

@@ -180,6 +180,7 @@ def test_empty_and_long_plans_are_refused(count: int) -> None:
     verdict = rejected((GoTo(place="kitchen"),) * count)
     assert rejection_outcome(verdict, HOME).code is Code.BAD_PLAN
     assert str(count) in rejection_outcome(verdict, HOME).message.en
+    assert not re.search("[a-z]{2}", rejection_outcome(verdict, HOME).message.zh)
 
 
 def test_twenty_steps_pass() -> None:
@@ -198,6 +199,8 @@ def test_what_cannot_run_is_refused_with_its_code(step: dict[str, Any]) -> None:
     camera = step["kind"] in NEEDS_CAMERA
     lack = Code.NO_CAMERA if camera else Code.NOT_MAPPING
     assert rejection_outcome(verdict, HOME).code is lack
+    chinese = rejection_outcome(verdict, HOME).message.zh.replace("`pons up --map", "")
+    assert not re.search("[a-z]{2}", chinese), chinese
     assert not verdict.repairable
 
 

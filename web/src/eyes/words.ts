@@ -21,9 +21,10 @@ function floored(ageS: number): number {
   return Math.floor(ageS / unit) * unit;
 }
 
-/** Say for how long it has been blind; the page may have come later than the trouble. */
+/** Say for how long it has been blind; "" within the first second, which tells nothing. The page
+ * may have come later than the trouble. */
 export const blindForWords = (ageS: number): string =>
-  t("blind.for", { age: wholeSeconds(floored(ageS)) });
+  ageS < 1 ? "" : t("blind.for", { age: wholeSeconds(floored(ageS)) });
 
 /** Say how old a grey picture is. */
 export const pictureAgeWords = (ageS: number): string =>

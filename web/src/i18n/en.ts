@@ -217,6 +217,7 @@ export const en = {
   "orders.quiet": "Quiet hours: {quiet}.",
   "orders.next": "Next: {time}",
   "orders.paused": "Paused",
+  "orders.paused_until": "Paused until {time}",
   "orders.ended": "Over",
   "orders.counts": "done {fired}, missed {missed}",
   "orders.pause": "Pause",

@@ -5,6 +5,7 @@ import { say, t } from "../i18n";
 import { fetchHistory, fetchOrders } from "../net/api";
 import { keepOrder, turnOrder } from "../state/acts";
 import { ordersVersion, pageFresh } from "../state/store";
+import { localTime, standsWords } from "./standing";
 import type { Firing, StandingOrder, StandingOrders } from "../wire/types";
 
 const known = signal<StandingOrders | null>(null);
@@ -114,7 +115,7 @@ function Line({ order }: { order: StandingOrder }) {
           {order.text}
         </span>
         <span class="fine">
-          {order.state !== "active" && `${t(`orders.${order.state}`)} · `}
+          {order.state !== "active" && `${standsWords(order.state, order.resumes)} · `}
           {order.next !== null && `${t("orders.next", { time: localTime(order.next) })} · `}
           {t("orders.counts", { fired: `${order.fired}`, missed: `${order.missed}` })}
         </span>
@@ -201,6 +202,3 @@ function stateWords(firing: Firing): string {
       return t("orders.left_out");
   }
 }
-
-/** Show an instant as the robot's own clock has it: the reader may be elsewhere. */
-const localTime = (iso: string): string => iso.slice(0, 16).replace("T", " ");

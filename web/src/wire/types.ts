@@ -494,6 +494,7 @@ export type StandingOrder = {
   readonly when: Bilingual;
   readonly does: Bilingual;
   readonly state: "active" | "paused" | "ended";
+  readonly resumes: string | null; // where it was put off, until when
   readonly next: string | null; // on the robot's own clock
   readonly fired: number;
   readonly missed: number;

@@ -30,7 +30,9 @@ from planner.language.catalogue import (
     words,
 )
 from planner.language.place_lists import known_places
+from planner.mission.errors import JournalDown
 from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Entry, Language, Vocabulary, say_same
+from planner.plan.steps import CONTROL, EVERY_KIND
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -148,3 +150,26 @@ def test_words_from_elsewhere_are_quoted_where_none_are_ours() -> None:
     assert say_or_quote("paused", "operator").en == "a person paused it"
     assert say_or_quote("paused", "odd") == say_same("odd")
     assert template(Code.BLIND).en == "I can't see now ({why})."
+
+
+def test_to_arm_is_one_chinese_word() -> None:
+    chinese = next(each.messages for each in CATALOGUE.words if each.language == "zh")
+    assert "解锁" in chinese["order_reason.disarmed"]
+    assert not [code for code, text in chinese.items() if "上电" in text]
+
+
+@pytest.mark.parametrize("group", ["blind", "step_kind", "goal_act", "goal_state", "plan"])
+def test_what_is_put_into_a_chinese_sentence_is_chinese(group: str) -> None:
+    for key in CATALOGUE.keys(group):
+        assert not re.search("[a-z]{2}", CATALOGUE.raw(f"{group}.{key}", "zh")), key
+
+
+def test_every_step_that_a_robot_may_lack_the_means_for_has_words() -> None:
+    assert set(CATALOGUE.keys("step_kind")) == EVERY_KIND - CONTROL
+
+
+def test_a_journal_that_fails_is_told_in_each_language() -> None:
+    assert JournalDown(None).message.zh == "任务日志无法写入（磁盘太慢）；恢复之前不接受任务"
+    failed = JournalDown("disk I/O error").message
+    assert "disk I/O error" in failed.en
+    assert "error" not in failed.zh

@@ -1,0 +1,71 @@
+"""Tell a statement of how things stand from an order: a time in it is no time of the order.
+
+"The doctor's at nine", "it's nearly noon", 九点我要开会 say when something else is. Pure, on folded text.
+"""
+
+from __future__ import annotations
+
+import re
+
+_HAPPENS = (
+    r"(?:is|are|was|were|has|have|had|will|comes?|came|starts?|begins?|ends?|leaves?|left|arrives?"
+    r"|opens?|closes?|finish(?:es)?|hurts?|visits?|rings?)"
+)
+_WHO = (
+    r"(?:he|she|it|they|that|this|there|somebody|someone|everybody|everyone|nobody"
+    r"|mum|mom|dad|grandma|grandpa|nana)"
+)
+_OURS = r"(?:my|our|the|his|her|their) (?:[a-z]+ ){0,2}?[a-z]+"
+_BESIDE = (
+    r"(?: (?:at|on|in|due|here|back|home|over|up|nearly|almost|already|about|only|just|not|always"
+    r"|usually|[a-z]+ing)\b.*)?"
+)
+_ORDERS = (
+    r"(?!.*\byou\b|.*\b(?:is|are|has|have|had|need|needs) to be\b|it(?:'s| is) (?:\w+ )?time to\b)"
+)
+_STATES = (
+    r"(?:i'm|we're|they're|i've|we've|they've|i'll be|we'll be"
+    r"|(?:i|we) (?:am|are|was|were|have|had|will be|need to|must (?:be|go|leave)|feel|felt|leave|start"
+    r"|begin|finish|eat|expect|got)"
+    rf"|{_WHO}(?:'s|'ll| {_HAPPENS})|{_OURS} {_HAPPENS}|there (?:is|are))\b"
+)
+_OPENS = rf"{_ORDERS}(?:(?:well|anyway|[a-z]+ly)[ ,]+)?"
+_STATEMENT = re.compile(rf"{_OPENS}{_STATES}")
+_OF_OURS = re.compile(rf"{_OPENS}{_OURS}'s{_BESIDE}$")
+"""Without a mark before it, "the doctor's" is as well a place."""
+_MARKS = re.compile(r"[,;:!.]+ *(?:(?:and|but|so|because|since|as|for) )?|\s[-–—]+\s|—+")
+_WORDS = re.compile(r"(?<= )(?:and|but|because|'?cause|cos|since|as|please) ")
+_SPEAKS = re.compile(r"\b(?:tell|say|ask|announce|shout|call out|inform|repeat|warn)\b")
+_ZH_WHO = r"(?:我们?|咱们?|客人们?|医生|大夫)"
+_ZH_STATEMENT = re.compile(
+    r"(?:就|都|快)?(?:到)?[了啦][,啊呀]"
+    rf"|(?:就|都)?{_ZH_WHO}(?!.{{0,2}}(?:要|想|叫|让|请|希望|需要|想让|想要)你)[^,你]+,"
+    r"|(?:就|都)?(?:要|得|有)?(?:个|一个)?(?:开会|上课|上班|上场|出门|直播|考试|面试|会议|复诊)[^,你]{0,4},"
+)
+_ZH_RECALLS = re.compile(r"提醒|[叫喊]醒?我")
+
+
+def ends_in_statement(words: str, *, reminds: bool = False) -> bool:
+    """Return whether English words before a time end in a statement, whose time it then is.
+
+    Args:
+        words: what stands before the time.
+        reminds: a person is to be reminded of them: what they begin with is no statement.
+    """
+    marks = [found.end() for found in _MARKS.finditer(words)]
+    strong = marks[-1] if marks else 0
+    if (strong or not reminds) and _STATEMENT.match(words, strong) is not None:
+        return True
+    if strong and _OF_OURS.match(words, strong) is not None:
+        return True
+    if reminds or _SPEAKS.search(words) is not None:  # it may be part of what is to be said
+        return False
+    weak = [found.end() for found in _WORDS.finditer(words)]
+    return any(_STATEMENT.match(words, at) is not None for at in weak if at > strong)
+
+
+def begins_with_statement(words: str, *, chinese: bool) -> bool:
+    """Return whether the words behind a time begin with a statement, whose time it then is."""
+    if chinese:
+        return _ZH_STATEMENT.match(words) is not None and _ZH_RECALLS.search(words) is None
+    return _STATEMENT.match(words) is not None

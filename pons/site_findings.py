@@ -1,0 +1,40 @@
+"""Print what is wrong with a site, by its files and by what people taught on its map.
+
+The check of a site reads its folder alone; rooms named at the page lie in the home's store.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pons.site_rooms import has_named_room
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from planner.navigation.site_check import SiteFinding
+
+
+def print_findings(
+    folder: Path, home: Path, radius_m: float, *, taught_in: Path | None = None
+) -> list[SiteFinding]:
+    """Print two lines for each finding, in English and in Chinese; return the findings.
+
+    Args:
+        folder: the site's.
+        home: where the state lies, and in it what people taught.
+        radius_m: of the robot.
+        taught_in: the site on whose map they taught it; None: on this one's.
+
+    Raises:
+        SiteError: the site or the store of taught places can't be read.
+    """
+    from planner.navigation.site_check import check_site
+
+    found = list(check_site(folder, radius_m))
+    if any(finding.code == "no_rooms" for finding in found):
+        named = has_named_room(taught_in or folder, home)
+        found = [finding for finding in found if not (named and finding.code == "no_rooms")]
+    for finding in found:
+        print(f"{finding.level}: {finding.code}: {finding.words.en}\n  {finding.words.zh}")
+    return found
