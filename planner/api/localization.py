@@ -74,7 +74,7 @@ def localizer_view(services: Services) -> dict[str, Any] | None:
 
 async def give_hint(services: Services, word: HereHint) -> dict[str, Any]:
     """Bring a hint to localization and return what it made of it."""
-    if services.robot.localizer is None:
+    if not services.robot.takes_hints:
         raise _problem("no_localizer", 503)
     point = word.point
     if point is not None:

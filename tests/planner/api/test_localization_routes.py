@@ -123,12 +123,20 @@ def test_what_is_no_place_is_refused(
 
 
 def test_a_robot_without_a_localizer_says_so(client: TestClient, services: FakeServices) -> None:
-    services.robot.localizer = None
+    services.robot.localizer, services.robot.takes_hints = None, False
     answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
     assert (answer.status_code, answer.json()["code"]) == (503, "hint_no_localizer")
     assert client.get("/v1/localization").json() == {"localizer": None}
     robot = client.get("/v1/robot").json()
     assert (robot["localizer"], robot["match"]) == (None, None)
+
+
+def test_a_localizer_that_fell_silent_is_said_not_to_answer(
+    client: TestClient, services: FakeServices
+) -> None:
+    services.robot.localizer, services.robot.hint_code = None, None
+    answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
+    assert (answer.status_code, answer.json()["code"]) == (503, "hint_no_answer")
 
 
 def test_what_it_does_is_shown(client: TestClient) -> None:
