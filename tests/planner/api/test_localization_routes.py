@@ -39,7 +39,7 @@ def test_a_point_without_a_heading_is_sought_with_every_one(
     assert answer.json()["code"] == "accepted"
     (hint,) = services.robot.hints
     assert (hint.pose.x_m, hint.pose.y_m, hint.any_heading) == (1.0, 4.2, True)
-    client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2, "yaw_rad": 0.5}})
+    client.post(HINT, json={"point": {"x_m": 1, "y_m": 4.2, "yaw_rad": 0.5}})
     assert not services.robot.hints[-1].any_heading
 
 
@@ -110,6 +110,9 @@ def test_a_room_that_looks_alike_from_both_ends_is_told_so(
         ({"place": "kitchen", "point": {"x_m": 1.0, "y_m": 1.0}}, 422, "invalid_request"),
         ({"place": "attic"}, 404, "unknown_place"),
         ({"point": {"x_m": "here", "y_m": 1.0}}, 422, "invalid_request"),
+        ({"point": {"x_m": "2", "y_m": 1.0}}, 422, "invalid_request"),
+        ({"point": {"x_m": True, "y_m": 1.0}}, 422, "invalid_request"),
+        ({"point": {"x_m": 1.0, "y_m": 1.0, "yaw_rad": False}}, 422, "invalid_request"),
         ({"point": {"x_m": 1e9, "y_m": 1.0}}, 422, "invalid_request"),
     ],
 )
