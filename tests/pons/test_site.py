@@ -175,6 +175,21 @@ def test_a_room_is_not_called_by_an_order(
     assert not Site.load(site_of("mine", settings.home)).rooms
 
 
+@pytest.mark.parametrize("again", [["kitchen"], ["KITCHEN"], ["galley", "--zh", "厨房"]])
+def test_a_name_that_a_place_has_is_told_with_that_place(
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str], again: list[str]
+) -> None:
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    assert site.run(settings, ["name", "mine", "room_1", "kitchen", "--zh", "厨房"]) == 0
+    before = (site_of("mine", settings.home) / "places.yaml").read_bytes()
+    assert site.run(settings, ["name", "mine", "room_1", *again]) == 3
+    english, chinese = capsys.readouterr().err.strip().split("\n")
+    assert "place_name_taken" in english
+    assert f"{again[-1]!r} is a name of 'kitchen' already" in english
+    assert f"{again[-1]!r} 已是 'kitchen' 的名称" in chinese
+    assert (site_of("mine", settings.home) / "places.yaml").read_bytes() == before
+
+
 def test_a_site_that_is_not_there_is_told_with_those_that_are(
     settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
 ) -> None:
