@@ -20,7 +20,7 @@ from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text
 from maps.room_proposals import read_proposals
 from pons.settings import site_of
-from pons.site_rooms import has_named_room, print_rooms, proposal_line
+from pons.site_rooms import has_named_room, print_rooms, proposal_line, reserved_name_findings
 from wire import ConfigError, Pose2, load_robot, wrap
 from wire.fence import fence_text
 
@@ -336,7 +336,7 @@ def _check(settings: LaunchSettings, folder: Path) -> int:
 def _print_check(settings: LaunchSettings, folder: Path, radius_m: float) -> list[SiteFinding]:
     from planner.navigation.site_check import check_site
 
-    found = list(check_site(folder, radius_m))
+    found = [*check_site(folder, radius_m), *reserved_name_findings(folder)]
     if any(finding.code == "no_rooms" for finding in found):  # the check knows the files alone
         named = has_named_room(folder, settings.home)
         found = [finding for finding in found if not (named and finding.code == "no_rooms")]

@@ -9,7 +9,7 @@ from planner.site.known_places import KeptPlace, KnownPlaces, Lesson, owner_of
 from planner.site.places import Place, normalise
 from planner.site.site import Site
 from planner.site.site_view import SiteView, Target, facts_of, vocabulary_of
-from planner.site.taught_place_check import check_not_order, check_spot, plain_name
+from planner.site.taught_place_check import check_not_order, check_spot, plain_name, reserved_names
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_HERE, TaughtPlace, TaughtPlaces
 
@@ -46,5 +46,6 @@ __all__ = [
     "normalise",
     "owner_of",
     "plain_name",
+    "reserved_names",
     "vocabulary_of",
 ]
