@@ -30,6 +30,7 @@ REASONS = MappingProxyType(
         "place_name_malformed": "名称不合要求",
         "place_name_mixed": "名称混用了相似的字母",
         "place_name_reserved": "该名称会被当作命令或回答",
+        "place_name_taken": "该名称已属于另一个地点",
         "home_unknown": "未知的起始地点",
         "map_too_ragged": "地图边界过于零碎：请清理图像中的杂点，或自行画出围栏",
         "map_no_floor": "地图上没有可站立的空地",

@@ -132,21 +132,26 @@ def _deep_values(raw: bytes, white: int) -> bytes | None:
     return np.round(values.astype(np.float32) * (255 / white)).astype(np.uint8).tobytes()
 
 
-def _plain_values(body: bytes, wanted: int, white: int, where: Path) -> bytes | None:
+def _plain_values(body: bytes, wanted: int, white: int, where: Path) -> bytes:
     found = bytearray()
     # One at a time: a list of them all takes forty times the file.
     for match in islice(re.finditer(rb"\S+", body), wanted):
-        try:
-            value = int(match[0])
-        except ValueError as error:
-            at, came = len(found) + 1, match[0][:20]
-            text = f"{where}: pixel {at} is {came!r}, expected 0 to {white}"
-            zh = f"{where}：第 {at} 个像素是 {came!r}，应为 0 到 {white}"
-            raise SiteError("map_image_malformed", text, zh) from error
-        if not 0 <= value <= white:
-            return None
+        value = _number(match[0])
+        if value is None or not 0 <= value <= white:
+            at = len(found) + 1
+            came = repr(match[0][:20]) if value is None else match[0][:20].decode("ascii")
+            text = f"{where}: pixel {at} is {came}, expected 0 to {white}"
+            zh = f"{where}：第 {at} 个像素是 {came}，应为 0 到 {white}"
+            raise SiteError("map_image_malformed", text, zh)
         found.append(round(value * 255 / white))
     return bytes(found)
+
+
+def _number(text: bytes) -> int | None:
+    try:
+        return int(text)
+    except ValueError:
+        return None
 
 
 def _decode_png(data: bytes, where: Path) -> GreyImage:

@@ -39,6 +39,9 @@ _EXPECTED: Mapping[str, tuple[str, str]] = {
 }
 """By pydantic's kind of error. Source: docs.pydantic.dev, "Validation Errors"."""
 
+_KINDS = frozenset({"bool", "int", "float", "str"})
+"""What pydantic sets behind the key of a value of several kinds; no file has such a key."""
+
 
 def describe(flaw: ErrorDetails, known: tuple[str, ...]) -> tuple[str, str]:
     """Return where a flaw is and what was expected, in English and in Chinese.
@@ -47,16 +50,17 @@ def describe(flaw: ErrorDetails, known: tuple[str, ...]) -> tuple[str, str]:
         flaw: one of pydantic's errors.
         known: the keys that stand at the file's top.
     """
-    at = ".".join(map(str, flaw["loc"]))
-    kind, last = flaw["type"], flaw["loc"][-1] if flaw["loc"] else None
+    loc = tuple(part for part in flaw["loc"] if not _names_a_kind(part))
+    at = ".".join(map(str, loc))
+    kind, last = flaw["type"], loc[-1] if loc else None
     came = repr(flaw.get("input"))[:_LONGEST]
     if kind == "missing":
         if isinstance(last, int):
-            above = ".".join(map(str, flaw["loc"][:-1]))
+            above = ".".join(map(str, loc[:-1]))
             return f"{above}: value {last + 1} is missing; got {came}", (
                 f"{above}：缺少第 {last + 1} 个值，收到 {came}"
             )
-        keys = ", ".join(known) if len(flaw["loc"]) == 1 else ""
+        keys = ", ".join(known) if len(loc) == 1 else ""
         return f"the key {at!r} is missing" + (
             f"; known keys of the file: {keys}" if keys else ""
         ), (f"缺少键 {at!r}" + (f"；文件可用的键：{keys}" if keys else ""))
@@ -69,6 +73,11 @@ def describe(flaw: ErrorDetails, known: tuple[str, ...]) -> tuple[str, str]:
         f"{at or 'the file'}: expected {english.format_map(facts)}, got {came}",
         f"{at or '文件'}：应为{_set_apart(chinese.format_map(facts))}，收到 {came}",
     )
+
+
+def _names_a_kind(part: int | str) -> bool:
+    """Return whether pydantic means one of a value's kinds by it, as in ``literal[0,1]``."""
+    return isinstance(part, str) and (part in _KINDS or "[" in part)
 
 
 def _at(at: str, told: str) -> tuple[str, str]:

@@ -58,6 +58,11 @@ class LinkedRobot:
         return heard.value if heard is not None and heard.age_s <= LOCALIZER_S else None
 
     @property
+    def takes_hints(self) -> bool:
+        """Tell whether a localizer ever spoke: one that is silent now may still be told a place."""
+        return self._link.localizer is not None
+
+    @property
     def localized_map(self) -> str | None:
         """Return the map_id that localization says it localizes on; None where none spoke lately.
 

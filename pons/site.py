@@ -252,7 +252,14 @@ def _list(settings: LaunchSettings) -> int:
 
 
 def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
-    from planner.site import PlaceRefusal, Site, check_not_order, plain_name, vocabulary_of
+    from planner.site import (
+        PlaceRefusal,
+        Site,
+        check_not_order,
+        owner_of,
+        plain_name,
+        vocabulary_of,
+    )
 
     proposals = {room.id: room for room in read_proposals(folder)}
     if room_id not in proposals:
@@ -261,10 +268,16 @@ def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
         zh = f"没有 {room_id!r}；已有提议：{known or '无'}"
         raise SiteError("room_unknown", text, zh)
     room = proposals[room_id]
-    vocabulary = vocabulary_of(Site.load(folder))
+    site = Site.load(folder)
+    vocabulary = vocabulary_of(site)
     try:
         names = (plain_name(english), plain_name(chinese))
         for name in names:
+            owner = owner_of(name, site.places)
+            if owner is not None:  # before its reading: what names a place reads as an order
+                text = f"{name!r} is a name of {owner.id!r} already; choose another"
+                zh = f"{name!r} 已是 {owner.id!r} 的名称，请换一个"
+                raise SiteError("place_name_taken", text, zh)
             check_not_order(name, vocabulary)
     except PlaceRefusal as refused:
         text, zh = f"{refused.why.en} ({refused.detail})", refused.why.zh

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pons.site_rooms import has_named_room
+from pons.site_rooms import has_named_room, reserved_name_findings
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -31,7 +31,7 @@ def print_findings(
     """
     from planner.navigation.site_check import check_site
 
-    found = list(check_site(folder, radius_m))
+    found = [*check_site(folder, radius_m), *reserved_name_findings(folder)]
     if any(finding.code == "no_rooms" for finding in found):
         named = has_named_room(taught_in or folder, home)
         found = [finding for finding in found if not (named and finding.code == "no_rooms")]

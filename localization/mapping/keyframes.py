@@ -113,7 +113,8 @@ def read_keyframes(data: bytes) -> tuple[tuple[Keyframe, ...], Floats]:
             stamps_s, counts = held["stamps_s"].astype(np.float64), held["counts"].astype(np.int64)
             points_m, edges = held["points_mm"] / 1e3, np.asarray(held["edges"], np.float64)
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
-        raise KeyframeFileError(f"not a file of keyframes: {error}") from error
+        # Without numpy's words: for what it can't read it advises to unpickle it.
+        raise KeyframeFileError("not a file of keyframes") from error
     fits = (
         kind == FORMAT
         and poses.shape == (len(counts), 3)

@@ -77,7 +77,7 @@ async def give_hint(services: Services, word: HereHint) -> dict[str, Any]:
     """Bring a hint to localization and return what it made of it."""
     if services.memory.facts.grows:  # the mapper takes no hints: nobody would answer
         raise _problem("map_grows", _STATUS["map_grows"])
-    if services.robot.localizer is None:
+    if not services.robot.takes_hints:
         raise _problem("no_localizer", 503)
     point = word.point
     if point is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from maps.room_proposals import RoomProposal
 from planner.api.interfaces import Services
@@ -46,6 +46,8 @@ class PlaceNames(Body):
 
 class Point(Body):
     """Give a point of ``map``; without a heading it is the robot's of now."""
+
+    model_config = ConfigDict(strict=True)  # true is no 1, and text no number
 
     x_m: Metres
     y_m: Metres

@@ -33,10 +33,15 @@ def name_reads_as_order(name: str, vocabulary: Vocabulary) -> bool:
     plain = normalise(name)
     if _FUNCTION.search(plain) or _ALONE.fullmatch(plain):
         return True
-    if is_stop(name) or intent_of(name) is not None:
+    if name_is_command(name):
         return True
     sentences = (name, f"go to the {name}", f"去{name}")
     return not all(_harmless(plan(sentence, vocabulary)) for sentence in sentences)
+
+
+def name_is_command(name: str) -> bool:
+    """Tell whether a name said alone stops, pauses or otherwise commands the planner."""
+    return is_stop(name) or intent_of(name) is not None
 
 
 def _harmless(read: Plan) -> bool:

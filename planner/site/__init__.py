@@ -5,11 +5,11 @@ from planner.site.fence import Fence, SpeedZone
 from planner.site.fence_check import FenceRefusal, check_fence
 from planner.site.fence_diff import FenceDiff, fence_diff
 from planner.site.fence_store import FenceProposal, FenceProposals
-from planner.site.known_places import KeptPlace, KnownPlaces, Lesson
+from planner.site.known_places import KeptPlace, KnownPlaces, Lesson, owner_of
 from planner.site.places import Place, normalise
 from planner.site.site import Site
 from planner.site.site_view import SiteView, Target, facts_of, vocabulary_of
-from planner.site.taught_place_check import check_not_order, check_spot, plain_name
+from planner.site.taught_place_check import check_not_order, check_spot, plain_name, reserved_names
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_HERE, TaughtPlace, TaughtPlaces
 
@@ -44,6 +44,8 @@ __all__ = [
     "fence_diff",
     "load_map",
     "normalise",
+    "owner_of",
     "plain_name",
+    "reserved_names",
     "vocabulary_of",
 ]

@@ -209,7 +209,7 @@ class KnownPlaces:
 
     def _unknown(self, name: str, here: list[TaughtPlace]) -> PlaceRefusal:
         got = f"got {name[:40]!r}"
-        if _owner(name, self.site.places) is not None:
+        if owner_of(name, self.site.places) is not None:
             return PlaceRefusal("place_of_site", got)
         names = ", ".join(kept.name.en for kept in here) or "none"
         return PlaceRefusal("unknown_taught_place", f"{got}; taught on this map: {names}")
@@ -234,7 +234,7 @@ class KnownPlaces:
         """Say why a kept place can't be used: the site's files may have changed since."""
         if not self._is_here(kept):
             return "other_map"
-        if any(_owner(name, known) is not None for name in kept.as_place().spoken_names):
+        if any(owner_of(name, known) is not None for name in kept.as_place().spoken_names):
             return "place_name_taken"
         try:
             check_spot(self.site, kept.pose, 0.0)
@@ -259,7 +259,7 @@ class KnownPlaces:
                 raise PlaceRefusal("place_of_site", f"got {lesson.place_id!r}")
             asked.add(plain_name(lesson.place_id.replace("_", " ")))  # an id can be said as well
         for name in sorted(asked):
-            owner = _owner(name, others)
+            owner = owner_of(name, others)
             if owner is not None:
                 raise PlaceRefusal("place_name_taken", f"{name!r} names {owner.id!r}")
             alike = _drawn_alike(name, others)
@@ -325,7 +325,7 @@ def _names(lesson: Lesson) -> Names:
     )
 
 
-def _owner(name: str, places: tuple[Place, ...]) -> Place | None:
+def owner_of(name: str, places: tuple[Place, ...]) -> Place | None:
     """Return the place that answers to a name, as a sentence is read, or None."""
     wanted = squash(name)
     return next((place for place in places if wanted in map(squash, place.spoken_names)), None)

@@ -12,6 +12,7 @@ from maps.yaml_records import SiteRecord, parse_yaml, read_bytes
 from planner.language.folding import fold_words
 from planner.site.fence import Outline
 from planner.site.polygon import area_m2, contains
+from wire.fence import crosses_itself
 from wire.geometry import Pose2
 
 Name = Annotated[str, Field(min_length=1, max_length=80)]
@@ -47,7 +48,7 @@ class Place(SiteRecord):
         if self.kind == "room" and self.polygon is None:
             raise ValueError(f"the room {self.id!r} needs a polygon")
         if self.polygon is not None and not area_m2(self.polygon) > 0.0:
-            raise ValueError(f"the outline of {self.id!r} has no area")
+            raise ValueError(f"the outline of {self.id!r} {_flaw(self.polygon)}")
         return self
 
     @property
@@ -65,6 +66,16 @@ class Place(SiteRecord):
     def contains(self, x_m: float, y_m: float) -> bool:
         """Tell whether a point of ``map`` lies in the outline; never where there is none."""
         return self.polygon is not None and contains(self.polygon, x_m, y_m)
+
+
+def _flaw(outline: Outline) -> str:
+    """Return why an outline encloses nothing: its parts cancel out where its sides cross."""
+    crossing, corners = crosses_itself(outline), tuple(dict.fromkeys(outline))
+    (ax, ay), (bx, by) = corners[0], corners[-1]
+    is_line = all((bx - ax) * (y - ay) == (by - ay) * (x - ax) for x, y in corners)
+    if crossing is None or is_line:
+        return "has no area"
+    return f"has sides that cross: those from {crossing[0]} and from {crossing[1]}"
 
 
 class PlacesRecord(SiteRecord):

@@ -9,7 +9,9 @@ from math import ceil, hypot
 from maps.grid import FREE
 from planner.language.folding import fold, fold_width, unmask
 from planner.plan import Vocabulary
+from planner.site.places import Place
 from planner.site.site import Site
+from planner.site.site_view import vocabulary_of
 from planner.site.taught_place_errors import PlaceRefusal
 from wire.geometry import Pose2
 
@@ -46,13 +48,40 @@ def check_not_order(name: str, vocabulary: Vocabulary) -> None:
     Raises:
         PlaceRefusal: ``place_name_reserved``.
     """
-    # Late: only who teaches a place reads its name as a sentence.
-    from planner.language.reserved_names import name_reads_as_order
+    if _answers(name) or _is_order(name, vocabulary):
+        raise PlaceRefusal("place_name_reserved", f"got {name!r}")
+
+
+def reserved_names(site: Site) -> Iterator[tuple[Place, str]]:
+    """Yield each name of a site's files that may not be taught, with its place.
+
+    Aliases and what home is called are held to less: that they command and answer nothing.
+    "Charging dock" reads as an order because it is where the robot goes home to.
+    """
+    from planner.language.reserved_names import name_is_command
+
+    vocabulary = vocabulary_of(site)
+    for place in site.places:
+        entries = tuple(entry for entry in vocabulary.entries if entry.id != place.id)
+        others = Vocabulary(entries=entries)
+        main = () if place.id == site.home.id else (place.name.en, place.name.zh)
+        for name in dict.fromkeys(place.spoken_names):
+            alone = _answers(name) or name_is_command(name)
+            if alone or (name in main and _is_order(name, others)):
+                yield place, name
+
+
+def _answers(name: str) -> bool:
+    # Late, as below: only what teaches or checks a place reads its name as a sentence.
     from planner.language.yes_no import consents
 
-    answers = any(consents(said) is not None for said in (name, unmask(fold(name))))
-    if answers or name_reads_as_order(name, vocabulary):
-        raise PlaceRefusal("place_name_reserved", f"got {name!r}")
+    return any(consents(said) is not None for said in (name, unmask(fold(name))))
+
+
+def _is_order(name: str, vocabulary: Vocabulary) -> bool:
+    from planner.language.reserved_names import name_reads_as_order
+
+    return name_reads_as_order(name, vocabulary)
 
 
 def _alphabet(char: str) -> str:

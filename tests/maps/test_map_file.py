@@ -359,6 +359,8 @@ def test_a_broken_picture_is_refused(tmp_path: Path, image: bytes, code: str) ->
         (b"words", "a file that begins b'words'", "请先转换"),
         (b"P5 0 2 255\n", "0 x 2 pixels; expected 1 to", "0 x 2"),
         (b"P2 3 2 255\n0 1 x", "pixel 3 is b'x', expected 0 to 255", "第 3 个像素"),
+        (b"P2 3 2 255\n0 999 0 0 0 0", "pixel 2 is 999, expected 0 to 255", "第 2 个像素是 999"),
+        (b"P2 3 2 100\n0 0 0 0 0 -1", "pixel 6 is -1, expected 0 to 100", "应为 0 到 100"),
         (b"P2 3 2 255\n# here\n0 1", "a comment (#) behind the value of white", "注释"),
         (b"P5 3 2 255\n# here\n" + PIXELS, "a comment (#) behind the value", "注释"),
     ],

@@ -52,7 +52,7 @@ def refusal(**changed: str) -> SiteError:
         ),
         ({"origin": "here"}, "origin: expected a list, got 'here'", "应为列表"),
         ({"mode": "maps"}, "expected 'trinary', 'scale' or 'raw', got 'maps'", "应为 'trinary'"),
-        ({"negate": "2"}, "expected 0 or 1, got 2", "应为 0"),
+        ({"negate": "2"}, ": negate: expected 0 or 1, got 2", "：negate：应为 0"),
     ],
 )
 def test_each_says_what_came_and_what_was_expected(

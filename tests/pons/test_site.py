@@ -11,7 +11,8 @@ import pytest
 from planner.site import Site
 from pons import site
 from pons.settings import LaunchSettings, site_of
-from pons_assets import ROBOT_FILE
+from pons.site_rooms import reserved_name_findings
+from pons_assets import ROBOT_FILE, SITES
 from wire import FenceFile
 
 
@@ -173,6 +174,57 @@ def test_a_room_is_not_called_by_an_order(
     assert "place_name_reserved" in english
     assert "名称" in chinese
     assert not Site.load(site_of("mine", settings.home)).rooms
+
+
+@pytest.mark.parametrize("again", [["kitchen"], ["KITCHEN"], ["galley", "--zh", "厨房"]])
+def test_a_name_that_a_place_has_is_told_with_that_place(
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str], again: list[str]
+) -> None:
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    assert site.run(settings, ["name", "mine", "room_1", "kitchen", "--zh", "厨房"]) == 0
+    before = (site_of("mine", settings.home) / "places.yaml").read_bytes()
+    assert site.run(settings, ["name", "mine", "room_1", *again]) == 3
+    english, chinese = capsys.readouterr().err.strip().split("\n")
+    assert "place_name_taken" in english
+    assert f"{again[-1]!r} is a name of 'kitchen' already" in english
+    assert f"{again[-1]!r} 已是 'kitchen' 的名称" in chinese
+    assert (site_of("mine", settings.home) / "places.yaml").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("line", "reserved"),
+    [
+        ("  name: {en: shelf, zh: 架子}\n", []),
+        ("  name: {en: stop, zh: 架子}\n", ["stop"]),
+        ("  name: {en: do not, zh: 停}\n", ["do not", "停"]),
+        ("  name: {en: shelf, zh: 架子}\n  aliases: {en: [halt, yes], zh: []}\n", ["halt", "yes"]),
+    ],
+)
+def test_a_name_in_the_files_that_reads_as_an_order_is_found(
+    settings: LaunchSettings,
+    plan: Path,
+    capsys: pytest.CaptureFixture[str],
+    line: str,
+    reserved: list[str],
+) -> None:
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    places = site_of("mine", settings.home) / "places.yaml"
+    home = Site.load(places.parent).home.pose
+    spot = f"  pose: {{x_m: {home.x_m}, y_m: {home.y_m}, yaw_rad: 0.0}}\n"
+    places.write_text(
+        f"{places.read_text('utf-8')}- id: thing\n  kind: place\n{line}{spot}", "utf-8"
+    )
+    capsys.readouterr()
+    site.run(settings, ["check", "mine"])
+    said = [line for line in capsys.readouterr().out.split("\n") if "reserved" in line]
+    assert len(said) == len(reserved)
+    for told, name in zip(said, reserved, strict=True):
+        assert f"“{name}”, a name of “thing”" in told
+
+
+@pytest.mark.parametrize("name", ["home", "two_room"])
+def test_no_name_of_the_sites_that_come_along_is_reserved(name: str) -> None:
+    assert not reserved_name_findings(SITES / name)
 
 
 def test_a_site_that_is_not_there_is_told_with_those_that_are(

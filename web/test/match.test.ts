@@ -1,4 +1,5 @@
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it } from "vitest";
+import { language, modeWords } from "../src/i18n";
 import { percent } from "../src/panels/format";
 import {
   candidates,
@@ -6,11 +7,12 @@ import {
   path,
   poseDoubtful,
   poseLost,
+  poseUnknown,
   receive,
   shown,
 } from "../src/state/store";
 import type { Robot } from "../src/wire/types";
-import { robot } from "./examples";
+import { robot, status } from "./examples";
 
 const guess = { pose: { x_m: 1, y_m: 2, yaw_rad: 0 }, score: 0.54 };
 function hear(more: Partial<Robot>): void {
@@ -50,6 +52,48 @@ describe("a pose that scans do not confirm", () => {
   ] as const)("is doubtful while the localizer is %s: %s", (localizer, doubtful) => {
     hear({ localizer });
     expect(poseDoubtful.value).toBe(doubtful);
+  });
+});
+
+const MODES = ["BOOT", "SELFTEST", "DISARMED", "HOLD", "ACTIVE", "TELEOP", "STOPPING", "ESTOPPED"];
+
+describe("a robot that is lost", () => {
+  afterEach(() => {
+    language.value = "en";
+  });
+
+  it.each([
+    ["tracking", [], null],
+    ["coasting", [], null],
+    ["coasting", ["POSE_LOST.0"], "lost"],
+    [null, ["POSE_LOST.1"], "lost"],
+    ["tracking", ["LIDAR_STALE.0", "POSE_LOST.0"], "lost"],
+    ["tracking", ["POSE_JUMP.0"], null],
+    ["searching", ["POSE_LOST.0"], "searching"],
+    ["lost", [], "lost"],
+  ] as const)("is known by localizer %s and rows %j: %s", (localizer, names, unknown) => {
+    const rows = names.map((row) => ({
+      row,
+      action: "HOLD2",
+      for_s: 1,
+      evidence: "",
+      binding: false,
+    }));
+    hear({ localizer, status: { ...status, rows } });
+    expect(poseUnknown.value).toBe(unknown);
+  });
+
+  it.each(["en", "zh"] as const)("says so in its first line in every mode (%s)", (code) => {
+    language.value = code;
+    for (const lost of ["lost", "searching"]) {
+      const word = modeWords("HOLD", lost);
+      for (const mode of [...MODES, "FAULT"]) {
+        const line = modeWords(mode, lost);
+        expect(line).toContain(word);
+        expect(line).not.toContain(modeWords("HOLD", null));
+        if (mode !== "HOLD") expect(line).toContain(modeWords(mode, null));
+      }
+    }
   });
 });
 

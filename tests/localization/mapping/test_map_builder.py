@@ -146,9 +146,11 @@ def test_a_keyframe_needs_a_relation() -> None:
         builder.add(link)
 
 
-@pytest.mark.parametrize("data", [b"", b"PK\x03\x04", b"\x93NUMPY" + bytes(50), bytes(200)])
+@pytest.mark.parametrize(
+    "data", [b"", b"PK\x03\x04", b"\x93NUMPY" + bytes(50), bytes(200), b"\x80\x04junk"]
+)
 def test_a_file_that_is_not_ours_is_refused(data: bytes) -> None:
-    with pytest.raises(KeyframeFileError, match="keyframes"):
+    with pytest.raises(KeyframeFileError, match=r"^not a file of keyframes$"):
         read_keyframes(data)
 
 

@@ -152,6 +152,7 @@ class FakeRobot:
         self.hint_code: HintCode | None = "accepted"
         self.hint_score = 0.4
         self.localizer: LocalizerStatus | None = None
+        self.takes_hints = True
         self.localized_map: str | None = None
         self.steers: list[tuple[str, float, float, bool]] = []
         self.points: list[tuple[float, float]] = []

@@ -43,7 +43,7 @@ def test_a_point_without_a_heading_is_sought_with_every_one(
     assert answer.json()["code"] == "accepted"
     (hint,) = services.robot.hints
     assert (hint.pose.x_m, hint.pose.y_m, hint.any_heading) == (1.0, 4.2, True)
-    client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2, "yaw_rad": 0.5}})
+    client.post(HINT, json={"point": {"x_m": 1, "y_m": 4.2, "yaw_rad": 0.5}})
     assert not services.robot.hints[-1].any_heading
 
 
@@ -114,6 +114,9 @@ def test_a_room_that_looks_alike_from_both_ends_is_told_so(
         ({"place": "kitchen", "point": {"x_m": 1.0, "y_m": 1.0}}, 422, "invalid_request"),
         ({"place": "attic"}, 404, "unknown_place"),
         ({"point": {"x_m": "here", "y_m": 1.0}}, 422, "invalid_request"),
+        ({"point": {"x_m": "2", "y_m": 1.0}}, 422, "invalid_request"),
+        ({"point": {"x_m": True, "y_m": 1.0}}, 422, "invalid_request"),
+        ({"point": {"x_m": 1.0, "y_m": 1.0, "yaw_rad": False}}, 422, "invalid_request"),
         ({"point": {"x_m": 1e9, "y_m": 1.0}}, 422, "invalid_request"),
     ],
 )
@@ -127,7 +130,7 @@ def test_what_is_no_place_is_refused(
 
 
 def test_a_robot_without_a_localizer_says_so(client: TestClient, services: FakeServices) -> None:
-    services.robot.localizer = None
+    services.robot.localizer, services.robot.takes_hints = None, False
     answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
     assert (answer.status_code, answer.json()["code"]) == (503, "hint_no_localizer")
     assert client.get("/v1/localization").json() == {"localizer": None}
@@ -147,6 +150,14 @@ def test_while_a_map_grows_a_hint_is_refused_at_once(
         assert "a map is being made" in answer.json()["message"]["en"]
         assert "正在建图" in answer.json()["message"]["zh"]
     assert not services.robot.hints, "the mapper would never answer"
+
+
+def test_a_localizer_that_fell_silent_is_said_not_to_answer(
+    client: TestClient, services: FakeServices
+) -> None:
+    services.robot.localizer, services.robot.hint_code = None, None
+    answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
+    assert (answer.status_code, answer.json()["code"]) == (503, "hint_no_answer")
 
 
 def test_what_it_does_is_shown(client: TestClient) -> None:

@@ -128,6 +128,21 @@ def test_wrong_places_are_refused(
     assert refused(write_site, places=change(where, value)).code == code
 
 
+@pytest.mark.parametrize(
+    ("outline", "told"),
+    [
+        ([[0, 0], [1, 1], [2, 2]], "'b' has no area"),
+        ([[0, 0], [0, 0], [0, 0]], "'b' has no area"),
+        ([[0, 0], [1, 1], [1, 0], [0, 1]], "'b' has sides that cross: those from (0.0, 0.0)"),
+    ],
+)
+def test_an_outline_of_nothing_is_told_from_one_that_crosses_itself(
+    write_site: Callable[..., Path], outline: list[list[float]], told: str
+) -> None:
+    error = refused(write_site, places=change(("places", 1, "polygon"), outline))
+    assert told in error.message["en"]
+
+
 def test_a_place_in_a_wall_is_refused(write_site: Callable[..., Path]) -> None:
     image = b"P5 40 20 255\n" + b"\xfe" * 400 + b"\0" * 400  # the lower half is wall
     error = refused(write_site, image=image, places=change(("places", 1, "pose", "y_m"), -0.5))

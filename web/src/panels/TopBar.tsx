@@ -1,6 +1,6 @@
 /** Show who speaks to this page and how fresh it is, and let the person choose the language. */
 import { computed } from "@preact/signals";
-import { choose, language, t, word } from "../i18n";
+import { choose, language, modeWords, t } from "../i18n";
 import {
   age,
   bridgeFresh,
@@ -8,9 +8,9 @@ import {
   open,
   pageFresh,
   pageHeard,
-  poseLost,
   shown,
   shownStatus,
+  poseUnknown,
 } from "../state/store";
 import { seconds } from "./format";
 import { inSetup } from "../state/trial";
@@ -59,8 +59,7 @@ export function TopBar() {
 
 function Mode() {
   const mode = modeNow.value;
-  const told = inSetup.value ? "setup" : mode;
-  const lost = bridgeFresh.value && mode === "HOLD" ? poseLost.value : null; // "Ready" would be untrue
+  const lost = bridgeFresh.value && !inSetup.value ? poseUnknown.value : null;
   const state = lost === null ? `mode-${mode}` : "bad";
   return (
     <span
@@ -68,7 +67,7 @@ function Mode() {
       id="mode"
       data-mode={mode}
     >
-      {word("mode", lost ?? told)}
+      {modeWords(inSetup.value ? "setup" : mode, lost)}
     </span>
   );
 }

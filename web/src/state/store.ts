@@ -47,6 +47,12 @@ export const poseLost = computed(() => {
   const state = shown.value?.localizer;
   return state === "searching" || state === "lost" ? state : null;
 });
+/** The robot does not know where it is: the localizer says so, or the bridge, which then holds it. */
+export const poseUnknown = computed(
+  () => poseLost.value ?? (shownStatus.value?.rows.some(isPoseLost) ? "lost" : null),
+);
+const isPoseLost = ({ row }: { readonly row: string }): boolean =>
+  row.split(".")[0] === "POSE_LOST";
 /** Scans do not confirm the pose that is drawn: it goes by its wheels, or nobody knows. */
 export const poseDoubtful = computed(() => {
   const state = shown.value?.localizer ?? null;
