@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from maps import SiteError, load_map
+from maps.file_errors import unwritable
 from maps.map_file import FARTHEST_M, load_picture
 from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text
@@ -290,7 +291,7 @@ def _replace(path: Path, data: bytes) -> None:
         beside.write_bytes(data)
         beside.replace(path)
     except OSError as error:
-        raise SiteError("site_unwritable", f"{path}: {error.strerror}") from error
+        raise unwritable(path, error) from error
 
 
 def _print_fence_with_masks(
