@@ -64,18 +64,27 @@ def describe(flaw: ErrorDetails, known: tuple[str, ...]) -> tuple[str, str]:
             f"; known keys of the file: {keys}" if keys else ""
         ), (f"缺少键 {at!r}" + (f"；文件可用的键：{keys}" if keys else ""))
     if kind == "value_error":  # one of our own laws, which says what came
-        law = flaw.get("ctx", {}).get("error")
         told = flaw["msg"].removeprefix("Value error, ")
-        return _at(at, told, law.zh if isinstance(law, BilingualError) else _UNFIT)
-    english, chinese = _EXPECTED.get(kind, (flaw["msg"], ""))
+        return _at(at, told, expected_zh(flaw))
+    english, _ = _EXPECTED.get(kind, (flaw["msg"], ""))
     facts: dict[str, Any] = dict(flaw.get("ctx", {}))
-    facts_zh = {**facts, "expected": str(facts.get("expected", "")).replace(" or ", " 或 ")}
     return (
         f"{at or 'the file'}: expected {english.format_map(facts)}, got {came}",
-        f"{at or '文件'}：应为{_set_apart(chinese.format_map(facts_zh))}，收到 {came}"
-        if chinese
-        else f"{at or '文件'}：{_UNFIT}，收到 {came}",
+        f"{at or '文件'}：{expected_zh(flaw)}，收到 {came}",
     )
+
+
+def expected_zh(flaw: Mapping[str, Any]) -> str:
+    """Return in Chinese what pydantic expected in a value's place, or which law it breaks."""
+    facts: dict[str, Any] = dict(flaw.get("ctx", {}))
+    law = facts.get("error")
+    if isinstance(law, BilingualError):
+        return law.zh
+    _, chinese = _EXPECTED.get(flaw["type"], ("", ""))
+    if not chinese:
+        return _UNFIT
+    facts["expected"] = str(facts.get("expected", "")).replace(" or ", " 或 ")
+    return f"应为{_set_apart(chinese.format_map(facts))}"
 
 
 def _at(at: str, told: str, told_zh: str) -> tuple[str, str]:

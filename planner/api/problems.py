@@ -16,11 +16,15 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.routing import Match
 
+from maps.value_flaws import expected_zh
 from planner.language.catalogue import message, say
-from planner.plan import Code, say_same
+from planner.language.place_lists import known_places
+from planner.plan import Bilingual, Code
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
+
+    from planner.plan import Vocabulary
 
 
 _LENGTH = say("problem.length")
@@ -63,19 +67,14 @@ SAYINGS = {
 }  # fmt: skip
 
 
-AS_SENT = frozenset({"invalid_request", "malformed_json"})
-"""A person meets these too, by a name or words that are too long; the detail says which."""
-
-
-def saying_of(code: str, detail: str = "") -> dict[str, dict[str, str]]:
+def saying_of(code: str) -> dict[str, dict[str, str]]:
     """Return the sentence for a person as ``message``, where the code has one."""
-    if code in AS_SENT:
-        return {"message": say("problem.as_sent", detail=detail).model_dump()}
     return {"message": SAYINGS[code].model_dump()} if code in SAYINGS else {}
 
 
 MEDIA_TYPE = "application/problem+json"
 MAX_FOUND = 80
+MAX_PLACES = 20
 METHODS = ("DELETE", "GET", "HEAD", "PATCH", "POST", "PUT")
 
 
@@ -90,17 +89,18 @@ class HttpProblem(Exception):
         self.more = more
 
 
-def unknown_place(wanted: str, known: Iterable[str]) -> HttpProblem:
+def unknown_place(wanted: str, vocabulary: Vocabulary) -> HttpProblem:
     """Return the refusal of a place that nobody knows, with those that there are."""
-    exist = ", ".join(list(known)[:20])
-    said = message(Code.UNKNOWN_PLACE, name=wanted[:40], near="", known=say_same(exist))
+    exist = ", ".join(entry.id for entry in vocabulary.entries[:MAX_PLACES])
+    known = known_places(vocabulary, MAX_PLACES)
+    said = message(Code.UNKNOWN_PLACE, name=wanted[:40], near="", known=known)
     detail = f"got {wanted[:40]!r}; known: {exist}"
     return HttpProblem(404, "unknown_place", detail, message=said.model_dump())
 
 
 def body(status: int, code: str, detail: str, **more: Any) -> dict[str, Any]:
     """Return the JSON of a problem; ``message`` where a person may be the one who reads it."""
-    said = saying_of(code, detail)
+    said = saying_of(code)
     title = HTTPStatus(status).phrase
     return {"type": f"urn:pons:problem:{code}", "title": title, "status": status,
             "code": code, "detail": detail, **said, **more}  # fmt: skip
@@ -132,21 +132,30 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
         raise error
     first = error.errors()[0]
     if first["type"] == "json_invalid":
-        why = f"{first['ctx']['error']} at character {first['loc'][-1]}"
-        return response(400, "malformed_json", f"the body is no JSON: {why}; expected an object")
-    return response(422, "invalid_request", _what_is_wrong(first) + _what_exists(request))
+        at = first["loc"][-1]
+        why = say("request.no_json", why=str(first["ctx"]["error"]), at=at)
+        return _as_sent(400, "malformed_json", why)
+    why, keys = _what_is_wrong(first), _what_exists(request)
+    if keys:
+        why = say("request.takes", why=why, keys=keys)
+    return _as_sent(422, "invalid_request", why)
 
 
-def _what_is_wrong(error: Mapping[str, Any]) -> str:
+def _as_sent(
+    status: int, code: str, why: Bilingual, headers: Mapping[str, str] | None = None
+) -> JSONResponse:
+    """Return the refusal of what was sent. A person meets it too, by a name that is too long."""
+    told = say("problem.as_sent", detail=why).model_dump()
+    return response(status, code, why.en, headers=headers, message=told)
+
+
+def _what_is_wrong(error: Mapping[str, Any]) -> Bilingual:
     where = ".".join(str(part) for part in error["loc"])
     found = repr(error.get("input"))[:MAX_FOUND]
-    if error["type"] == "extra_forbidden":
-        return f"{where}: unknown key, with the value {found}"
-    if error["type"] == "missing":
-        return f"{where}: missing"
-    if error["type"] == "model_attributes_type":
-        return f"{where}: expected a JSON object; got {found}"
-    return f"{where}: {error['msg']}; got {found}"
+    if error["type"] in ("extra_forbidden", "missing", "model_attributes_type"):
+        return say(f"request.{error['type']}", at=where, found=found)
+    expected = Bilingual(en=error["msg"], zh=expected_zh(error))
+    return say("request.unfit", at=where, expected=expected, found=found)
 
 
 def _what_exists(request: Request) -> str:
@@ -156,7 +165,7 @@ def _what_exists(request: Request) -> str:
     for kind in (model, *get_args(model)):
         if isinstance(kind, type) and issubclass(kind, BaseModel):
             keys = (n if f.is_required() else f"{n}?" for n, f in kind.model_fields.items())
-            return f"; the body takes: {', '.join(keys)}"
+            return ", ".join(keys)
     return ""
 
 
@@ -177,14 +186,16 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
     detail = f"{asked}: {error.detail}"
     if status == 400:  # the framework's only one: bytes that json can't read, for two reasons
         nested = isinstance(error.__cause__, RecursionError)
-        why = "is nested too deep" if nested else "is no text in UTF-8"
-        detail = f"{asked}: the body {why}; expected a JSON object"
-    elif status == 404:
-        detail = f"no route {asked}; /openapi.json lists what exists"
+        why = say(f"request.{'nested' if nested else 'no_text'}", asked=asked)
+        return _as_sent(status, code, why, headers)
+    if status == 404:
+        told = say("request.no_route", asked=asked)
     elif status == 405:
         headers["Allow"] = _methods(request)
-        detail = f"no {asked}; allowed there: {headers['Allow']}"
-    return response(status, code, detail, headers=headers)
+        told = say("request.no_method", asked=asked, methods=headers["Allow"])
+    else:
+        return response(status, code, detail, headers=headers)
+    return response(status, code, told.en, headers=headers, message=told.model_dump())
 
 
 def _methods(request: Request) -> str:
