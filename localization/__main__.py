@@ -108,7 +108,8 @@ def _serve_mapping(
     try:
         known = load_builder(canvas, (robot.lidar.x_m, robot.lidar.y_m)).keyframes
     except ValueError as error:
-        raise SiteError("keyframes_malformed", f"{canvas}: {error}") from error
+        zh = f"{canvas}：保存的关键帧已损坏，无法读取"
+        raise SiteError("keyframes_malformed", f"{canvas}: {error}", zh) from error
     builder = BuilderClient(canvas, robot.lidar, len(known))
     builder.start()  # before the rank, which the builder must not inherit
     try:

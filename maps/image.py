@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from maps.errors import SiteError
+from maps.errors import BilingualError, SiteError
+from maps.file_errors import system_reason_zh, too_long_zh
 from maps.png_rows import count_rows_bytes
 from wire.plain_file import read_plain_file
 from wire.png import SIGNATURE, chunks_fit
@@ -27,11 +28,11 @@ _PGM_HEAD = re.compile(
     rb"(P[25])(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})(?:\s|#[^\n]*\n)+(\d{1,9})\s"
 )
 _FORMATS = {
-    b"\xff\xd8": "a JPEG",
-    b"GI": "a GIF",
-    b"BM": "a BMP",
-    b"P6": "a PPM (P6)",
-    b"P3": "a PPM (P3)",
+    b"\xff\xd8": "JPEG",
+    b"GI": "GIF",
+    b"BM": "BMP",
+    b"P6": "PPM (P6)",
+    b"P3": "PPM (P3)",
 }
 _PNG_CHANNELS = {0: 1, 2: 3, 3: 4, 4: 2, 6: 4}
 """By colour type; OpenCV unpacks a palette to colours. Source: PNG specification, "IHDR"."""
@@ -58,11 +59,13 @@ def read_image(path: Path) -> tuple[bytes, GreyImage]:
         data = read_plain_file(path, MOST_IMAGE_BYTES)
     except OSError as error:
         if error.errno == errno.EFBIG:
-            raise SiteError("map_image_too_large", f"{path}: {error.strerror}") from error
+            zh = f"{path}：{too_long_zh(MOST_IMAGE_BYTES)}"
+            raise SiteError("map_image_too_large", f"{path}: {error.strerror}", zh) from error
         there = sorted(p.name for p in path.parent.glob("*.p[gn][mg]") if p.is_file())
         others = ", ".join(there)
         text = f"the map's image {path} cannot be read ({error.strerror})"
-        zh = f"无法读取地图图像 {path}（{error.strerror}）；那里的图像：{others or '无'}"
+        why = system_reason_zh(error)
+        zh = f"无法读取地图图像 {path}（{why}）；那里的图像：{others or '无'}"
         text = f"{text}; images there: {others or 'none'}"
         raise SiteError("map_image_missing", text, zh) from error
     return data, decode(data, path)
@@ -78,20 +81,32 @@ def decode(data: bytes, where: Path) -> GreyImage:
         return _decode_png(data, where)
     head = _PGM_HEAD.match(data)
     if head is None:
-        came = _FORMATS.get(
-            data[:2], f"a file that begins {data[:8]!r}" if data else "an empty file"
-        )
+        came, came_zh = _describe_format(data)
         text = f"{where}: got {came}, expected PGM (P2, P5) or PNG; convert it"
-        zh = f"{where}：收到 {came}，应为 PGM（P2、P5）或 PNG，请先转换"
+        zh = f"{where}：收到{came_zh}，应为 PGM（P2、P5）或 PNG，请先转换"
         raise SiteError("map_image_malformed", text, zh)
     return _decode_pgm(head, data, where)
+
+
+def _describe_format(data: bytes) -> tuple[str, str]:
+    """Return what a file that is no map image is, in English and in Chinese."""
+    if not data:
+        return "an empty file", "空文件"
+    known = _FORMATS.get(data[:2])
+    if known is not None:
+        return f"a {known}", f" {known}"
+    return f"a file that begins {data[:8]!r}", f"开头为 {data[:8]!r} 的文件"
 
 
 def _decode_pgm(head: re.Match[bytes], data: bytes, where: Path) -> GreyImage:
     width, height, white = (int(text) for text in head.groups()[1:])
     _check_size(width, height, where)
     if not 1 <= white <= 65535:
-        raise SiteError("map_image_malformed", f"{where}: white is {white}; expected 1 to 65535")
+        text, zh = (
+            f"{where}: white is {white}; expected 1 to 65535",
+            f"{where}：最大灰度值为 {white}",
+        )
+        raise SiteError("map_image_malformed", text, f"{zh}；应为 1 到 65535")
     wanted = width * height
     deep = white > 255
     if data.startswith(b"#", head.end()):
@@ -101,6 +116,7 @@ def _decode_pgm(head: re.Match[bytes], data: bytes, where: Path) -> GreyImage:
             text = f"{where}: a comment (#) behind the value of white; it belongs before the size"
             zh = f"{where}：注释（#）写在最大灰度值之后，应写在尺寸之前"
             raise SiteError("map_image_malformed", text, zh)
+    greys: bytes | None
     if head[1] == b"P2":
         greys = _plain_values(data[head.end() :], wanted, white, where)
     else:
@@ -109,7 +125,9 @@ def _decode_pgm(head: re.Match[bytes], data: bytes, where: Path) -> GreyImage:
     if greys is None or len(greys) < wanted:
         came = f"{len(data) - head.end()} bytes came"
         text = f"{where}: {width} x {height} pixels up to {white} announced, {came}"
-        raise SiteError("map_image_malformed", text)
+        zh = f"{where}：文件头称有 {width} x {height} 个像素，灰度不超过 {white}"
+        zh = f"{zh}；其后有 {len(data) - head.end()} 字节，与之不符"
+        raise SiteError("map_image_malformed", text, zh)
     return GreyImage(width, height, greys)
 
 
@@ -160,20 +178,16 @@ def _decode_png(data: bytes, where: Path) -> GreyImage:
     _check_size(width, height, where)
     if not chunks_fit(data):
         text = f"{where}: {len(data)} bytes came, and its chunks speak of more"
-        raise SiteError("map_image_malformed", text)
+        zh = f"{where}：文件有 {len(data)} 字节，与其数据块所述的长度不符"
+        raise SiteError("map_image_malformed", text, zh)
     depth, color = data[24], data[25]
     unpacked = width * height * _PNG_CHANNELS.get(color, 4) * (2 if depth == 16 else 1)
     if not unpacked <= MAX_UNPACKED_BYTES:
         text = f"{where}: {width} x {height} pixels of colour type {color} and {depth} bits"
-        raise SiteError("map_image_too_large", f"{text}; at most {MAX_UNPACKED_BYTES} bytes")
-    try:
-        held, wanted = count_rows_bytes(data)
-    except ValueError as error:
-        raise SiteError("map_image_malformed", f"{where}: {error}") from error
-    if held != wanted:
-        text = f"{where}: its header says {width} x {height} pixels, which its data do not hold"
-        zh = f"{where}：文件头称有 {width} x {height} 个像素，与数据不符"
-        raise SiteError("map_image_malformed", text, zh)
+        zh = f"{where}：{width} x {height} 个像素，颜色类型 {color}，{depth} 位"
+        zh = f"{zh}；最多 {MAX_UNPACKED_BYTES} 字节"
+        raise SiteError("map_image_too_large", f"{text}; at most {MAX_UNPACKED_BYTES} bytes", zh)
+    _check_rows(data, where)
     import cv2
     import numpy as np
 
@@ -182,7 +196,8 @@ def _decode_png(data: bytes, where: Path) -> GreyImage:
     except cv2.error:
         pixels = None
     if pixels is None or pixels.shape[:2] != (height, width):
-        raise SiteError("map_image_malformed", f"{where}: the PNG cannot be decoded")
+        text, zh = f"{where}: the PNG cannot be decoded", f"{where}：PNG 无法解码"
+        raise SiteError("map_image_malformed", text, zh)
     white = 65535 if pixels.dtype == np.uint16 else 255
     opaque = None
     if pixels.ndim == 3:
@@ -199,8 +214,22 @@ def _decode_png(data: bytes, where: Path) -> GreyImage:
 
 def _check_size(width: int, height: int, where: Path) -> None:
     text = f"{where}: {width} x {height} pixels; expected 1 to {MAX_PIXELS} in all"
-    zh = f"{where}：{width} x {height} 个像素，应共有 1 到 {MAX_PIXELS} 个"
+    zh = f"{where}：{width} x {height} 个像素；总数应为 1 到 {MAX_PIXELS}"
     if not width * height > 0:
         raise SiteError("map_image_malformed", text, zh)
     if not width * height <= MAX_PIXELS:
         raise SiteError("map_image_too_large", text, zh)
+
+
+def _check_rows(data: bytes, where: Path) -> None:
+    try:
+        held, wanted = count_rows_bytes(data)
+    except BilingualError as error:
+        raise SiteError(
+            "map_image_malformed", f"{where}: {error}", f"{where}：{error.zh}"
+        ) from error
+    if held != wanted:
+        size = f"{int.from_bytes(data[16:20])} x {int.from_bytes(data[20:24])}"
+        text = f"{where}: its header says {size} pixels, which its data do not hold"
+        zh = f"{where}：文件头称有 {size} 个像素，与数据不符"
+        raise SiteError("map_image_malformed", text, zh)

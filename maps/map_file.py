@@ -181,6 +181,8 @@ def _check_extent(grid: GridMap, path: Path) -> None:
         span = f"x {ends[0]:.2f} to {right_m:.2f}, y {ends[1]:.2f} to {top_m:.2f} m"
         most = f"{-FARTHEST_M:.0f} to {FARTHEST_M:.0f}"
         text = f"{path}: the map spans {span}; expected within {most}: mend its origin"
+        span = f"x {ends[0]:.2f} 到 {right_m:.2f}，y {ends[1]:.2f} 到 {top_m:.2f} 米"
+        most = f"{-FARTHEST_M:.0f} 到 {FARTHEST_M:.0f}"
         zh = f"{path}：地图范围为 {span}，应在 {most} 之内：请修改 origin"
         raise SiteError("value_malformed", text, zh)
 
@@ -196,12 +198,14 @@ def _image_path(path: Path, text: bytes, record: MapRecord) -> Path:
     seen = image_name(text)
     if seen != record.image:
         detail = f"{path}: image is {record.image!r} to YAML and {seen!r} read plainly; write it so"
-        raise SiteError("map_image_ambiguous", f"{detail}: 'image: map.pgm'")
+        zh = f"{path}：image 按 YAML 是 {record.image!r}，直接读是 {seen!r}；应写作'image: map.pgm'"
+        raise SiteError("map_image_ambiguous", f"{detail}: 'image: map.pgm'", zh)
     try:
         return image_in(path.parent, record.image)
     except ValueError as error:
         detail = f"{path}: image {record.image!r}: {error}"
-        raise SiteError("map_image_outside", detail) from error
+        zh = f"{path}：图像 {record.image!r} 不在站点文件夹 {path.parent} 内，或文件名不可用"
+        raise SiteError("map_image_outside", detail, zh) from error
 
 
 def _occupancy(grey: int, record: MapRecord) -> float:

@@ -98,7 +98,9 @@ def join_masks(fence: FenceFile, masks: Sequence[MaskAreas]) -> FenceFile:
     corners = sum(map(len, lines))
     if not (corners <= MAX_CORNERS and len(keep_outs) <= 200 and len(zones) <= 200):
         text = f"with the masks the fence takes {corners} corners in {len(lines)} outlines"
-        raise SiteError("map_too_ragged", f"{text}; at most {MAX_CORNERS} and 200 of a kind")
+        zh = f"加上掩膜后，围栏的 {len(lines)} 条边界共有 {corners} 个角"
+        zh = f"{zh}；最多 {MAX_CORNERS} 个角，每种区域 200 个"
+        raise SiteError("map_too_ragged", f"{text}; at most {MAX_CORNERS} and 200 of a kind", zh)
     return FenceFile(
         version=1,
         map_id=fence.map_id,
@@ -178,6 +180,7 @@ def _values(path: Path, onto: GridMap) -> tuple[NDArray[np.uint8], _Frame]:
         left, low = f"x {onto.origin_x_m:.2f}", f"y {onto.origin_y_m:.2f}"
         floor_plan = f"{left} to {right_m:.2f}, {low} to {top_m:.2f}"
         text = f"{path}: the mask spans {mask}; the map spans {floor_plan}: mend the mask's origin"
+        mask, floor_plan = mask.replace(" to ", " 到 "), floor_plan.replace(" to ", " 到 ")
         zh = f"{path}：掩膜范围为 {mask}，地图范围为 {floor_plan}：请修改掩膜的 origin"
         raise SiteError("mask_elsewhere", text, zh)
     return values, frame

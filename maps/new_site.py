@@ -17,6 +17,7 @@ import numpy as np
 
 from maps.cell_array import cell_array
 from maps.errors import SiteError
+from maps.file_errors import unwritable
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
 from maps.map_file import SAVED_UNKNOWN
 from maps.room_proposals import ROOMS_JSON, RoomProposal, RoomProposals
@@ -68,7 +69,7 @@ class NewSite:
             beside.rename(folder)
         except OSError as error:
             shutil.rmtree(beside, ignore_errors=True)
-            raise SiteError("site_unwritable", f"{folder}: {error.strerror}") from error
+            raise unwritable(folder, error) from error
 
 
 def new_site(

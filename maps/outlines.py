@@ -73,7 +73,8 @@ def outlines(marked: Mask, grid: GridMap, tolerance_cells: float) -> CellOutline
         else:
             return CellOutlines(tuple(outer), tuple(holes))
     text = "however they are smoothed, its borders cross themselves or take over 1000 corners"
-    raise SiteError("map_too_ragged", text)
+    zh = "无论怎样平滑，边界仍会自相交，或超过 1000 个角"
+    raise SiteError("map_too_ragged", text, zh)
 
 
 def _simple(line: NDArray[Any], grid: GridMap, tolerance_cells: float) -> Polygon | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import zlib
 from typing import TYPE_CHECKING
 
+from maps.errors import BilingualError
 from wire.png import SIGNATURE
 
 if TYPE_CHECKING:
@@ -42,7 +43,8 @@ def count_rows_bytes(data: bytes) -> tuple[int, int]:
                 held += len(unpacker.decompress(rest, _PIECE))
                 rest = unpacker.unconsumed_tail
     except zlib.error as error:
-        raise ValueError(f"its pixels cannot be unpacked ({error})") from error
+        text = f"its pixels cannot be unpacked ({error})"
+        raise BilingualError(text, "像素数据无法解压") from error
     return min(held, wanted + 1), wanted
 
 
@@ -50,7 +52,8 @@ def _count_due(data: bytes) -> int:
     width, height = int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
     depth, color, interlaced = data[24], data[25], data[28] == 1
     if color not in _SAMPLES:
-        raise ValueError(f"its colour type is {color}; expected 0, 2, 3, 4 or 6")
+        text = f"its colour type is {color}; expected 0, 2, 3, 4 or 6"
+        raise BilingualError(text, f"颜色类型为 {color}；应为 0、2、3、4 或 6")
     bits = depth * _SAMPLES[color]
     sizes = [(width, height)]
     if interlaced:

@@ -52,7 +52,9 @@ def straighten(grid: GridMap, yaw_rad: float, where: Path) -> GridMap:
     height = ceil(max(c[1] for c in corners) - 1e-6) - low
     if not width * height <= MAX_PIXELS:
         text = f"{where}: turned by {yaw_rad} rad it covers {width} x {height} cells"
-        raise SiteError("map_image_too_large", f"{text}; expected at most {MAX_PIXELS} in all")
+        zh = f"{where}：旋转 {yaw_rad} 弧度后占 {width} x {height} 格；总数最多 {MAX_PIXELS}"
+        text = f"{text}; expected at most {MAX_PIXELS} in all"
+        raise SiteError("map_image_too_large", text, zh)
     source = np.pad(cell_array(grid), 1, constant_values=UNKNOWN)
     turned = np.empty((height, width), np.uint8)
     x = left + np.arange(width) + 0.5

@@ -88,7 +88,9 @@ def draw_fence(
     if ragged is not None:
         raise ragged
     text = f"its fence takes {corners} corners; at most {MAX_CORNERS}"
-    raise SiteError("map_too_ragged", f"{text}. Clean the picture of speckles, or draw a fence")
+    zh = f"围栏有 {corners} 个角；最多 {MAX_CORNERS} 个。请清除图像上的杂点，或自己画围栏"
+    text = f"{text}. Clean the picture of speckles, or draw a fence"
+    raise SiteError("map_too_ragged", text, zh)
 
 
 def _mark_allowed(grid: GridMap, floor: Cells, radius_m: float, tolerance: float) -> Cells:

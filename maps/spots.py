@@ -35,7 +35,9 @@ def check_on_floor(grid: GridMap, name: str, name_zh: str, pose: Pose2) -> None:
             f"{name} at {at} is off the map, which spans {span}",
             f"{name_zh} {at} 在地图之外",
         )
-        raise SiteError("place_outside_map", text, f"{zh}，地图范围为 {span}")
+        raise SiteError(
+            "place_outside_map", text, f"{zh}，地图范围为 {span.replace(' to ', ' 到 ')}"
+        )
     kind = grid.at(pose.x_m, pose.y_m)
     if kind != FREE:
         en, zh = _GROUNDS[kind]

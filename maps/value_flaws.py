@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from maps.errors import BilingualError
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from pydantic_core import ErrorDetails
 
 _LONGEST = 80
+_UNFIT = "这个值不合要求"
 _NUMBER = ("a number", "数字")
 _KEYS = ("keys with their values", "键和值")
 _EXPECTED: Mapping[str, tuple[str, str]] = {
@@ -66,12 +69,12 @@ def describe(flaw: ErrorDetails, known: tuple[str, ...]) -> tuple[str, str]:
         ), (f"缺少键 {at!r}" + (f"；文件可用的键：{keys}" if keys else ""))
     if kind == "value_error":  # one of our own laws, which says what came
         told = flaw["msg"].removeprefix("Value error, ")
-        return _at(at, told)
-    english, chinese = _EXPECTED.get(kind, (flaw["msg"], flaw["msg"]))
+        return _at(at, told, expected_zh(flaw))
+    english, _ = _EXPECTED.get(kind, (flaw["msg"], ""))
     facts: dict[str, Any] = dict(flaw.get("ctx", {}))
     return (
         f"{at or 'the file'}: expected {english.format_map(facts)}, got {came}",
-        f"{at or '文件'}：应为{_set_apart(chinese.format_map(facts))}，收到 {came}",
+        f"{at or '文件'}：{expected_zh(flaw)}，收到 {came}",
     )
 
 
@@ -80,8 +83,21 @@ def _names_a_kind(part: int | str) -> bool:
     return isinstance(part, str) and (part in _KINDS or "[" in part)
 
 
-def _at(at: str, told: str) -> tuple[str, str]:
-    return f"{at or 'the file'}: {told}", f"{at or '文件'}：{told}"
+def expected_zh(flaw: Mapping[str, Any]) -> str:
+    """Return in Chinese what pydantic expected in a value's place, or which law it breaks."""
+    facts: dict[str, Any] = dict(flaw.get("ctx", {}))
+    law = facts.get("error")
+    if isinstance(law, BilingualError):
+        return law.zh
+    _, chinese = _EXPECTED.get(flaw["type"], ("", ""))
+    if not chinese:
+        return _UNFIT
+    facts["expected"] = str(facts.get("expected", "")).replace(" or ", " 或 ")
+    return f"应为{_set_apart(chinese.format_map(facts))}"
+
+
+def _at(at: str, told: str, told_zh: str) -> tuple[str, str]:
+    return f"{at or 'the file'}: {told}", f"{at or '文件'}：{told_zh}"
 
 
 def _set_apart(chinese: str) -> str:

@@ -14,7 +14,8 @@ from typing import Any, TypeVar
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from maps.errors import SiteError
+from maps.errors import BilingualError, SiteError
+from maps.file_errors import system_reason_zh, too_long_zh
 from maps.value_flaws import describe
 from wire.plain_file import read_plain_file
 
@@ -46,8 +47,10 @@ def read_bytes(path: Path, most_bytes: int = MAX_TEXT_BYTES) -> bytes:
         return read_plain_file(path, most_bytes)
     except OSError as error:
         if error.errno == errno.EFBIG:
-            raise SiteError("value_malformed", f"{path}: {error.strerror}") from error
-        raise SiteError("site_file_missing", f"cannot read {path}: {error.strerror}") from error
+            zh = f"{path}：{too_long_zh(most_bytes)}"
+            raise SiteError("value_malformed", f"{path}: {error.strerror}", zh) from error
+        text, zh = f"cannot read {path}: {error.strerror}", system_reason_zh(error)
+        raise SiteError("site_file_missing", text, f"缺少站点文件 {path}：{zh}") from error
 
 
 def parse_yaml(data: bytes, model: type[R], where: Path) -> R:
@@ -59,7 +62,8 @@ def parse_yaml(data: bytes, model: type[R], where: Path) -> R:
     try:
         value = yaml.load(data, Loader=_UniqueKeys)
     except UNREADABLE as error:
-        raise SiteError("yaml_malformed", f"{where}: {error}") from error
+        zh = f"{where}：YAML 格式错误：{_why_zh(error)}"
+        raise SiteError("yaml_malformed", f"{where}: {error}", zh) from error
     return validate_record(value, model, where)
 
 
@@ -72,7 +76,8 @@ def parse_json(data: bytes, model: type[R], where: Path) -> R:
     try:
         value = json.loads(data, object_pairs_hook=_unique_pairs)
     except (ValueError, RecursionError) as error:
-        raise SiteError("json_malformed", f"{where}: {error}") from error
+        zh = f"{where}：JSON 格式错误：{_why_zh(error)}"
+        raise SiteError("json_malformed", f"{where}: {error}", zh) from error
     return validate_record(value, model, where)
 
 
@@ -99,6 +104,22 @@ def validate_record(value: object, model: type[R], where: Path) -> R:
         raise SiteError("value_malformed", text, f"{where}：{chinese}") from None
 
 
+def _why_zh(error: Exception) -> str:
+    """Return why YAML or JSON could not be read, in Chinese: the line and column, where known."""
+    if isinstance(error, BilingualError):
+        return error.zh
+    if isinstance(error, RecursionError):
+        return "嵌套过深"
+    if isinstance(error, json.JSONDecodeError):
+        return f"第 {error.lineno} 行第 {error.colno} 列不符合 JSON 语法"
+    if isinstance(error, UnicodeDecodeError | yaml.reader.ReaderError):
+        return "含有无法识别的字节；应为 UTF-8 文本"
+    mark = error.problem_mark if isinstance(error, yaml.MarkedYAMLError) else None
+    if mark is not None:
+        return f"第 {mark.line + 1} 行第 {mark.column + 1} 列无法读取"
+    return "其中的值无法读取"
+
+
 class _UniqueKeys(yaml.SafeLoader):
     """Load plain YAML; refuse a key that is given twice, and any alias."""
 
@@ -107,7 +128,8 @@ class _UniqueKeys(yaml.SafeLoader):
         if self.check_event(yaml.AliasEvent):
             event = self.peek_event()  # type: ignore[no-untyped-call]  # PyYAML says no types
             line = event.start_mark.line + 1
-            raise ValueError(f"line {line}: an alias (*); write the value out")
+            text = f"line {line}: an alias (*); write the value out"
+            raise BilingualError(text, f"第 {line} 行是别名（*）；请把值直接写出")
         return super().compose_node(parent, index)
 
 
@@ -123,9 +145,9 @@ def _unique_pairs(pairs: list[tuple[Any, Any]]) -> dict[Any, Any]:
     found: dict[Any, Any] = {}
     for key, value in pairs:
         if not isinstance(key, str):
-            raise ValueError(f"the key {key!r} is not a string")
+            raise BilingualError(f"the key {key!r} is not a string", f"键 {key!r} 不是文字")
         if key in found:
-            raise ValueError(f"the key {key!r} is given twice")
+            raise BilingualError(f"the key {key!r} is given twice", f"键 {key!r} 出现了两次")
         found[key] = value
     return found
 

@@ -24,11 +24,14 @@ from localization.mapping.map_replay import MapReplay
 from localization.mapping.occupancy import MapTooLarge
 from maps import LoadedMap, MapRecord, SiteError
 from maps.canvas import canvas_site
+from maps.errors import BilingualError
 from maps.new_site import new_site
+from planner.language.catalogue import say
 from planner.site.polygon import contains
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_KEPT, TaughtPlaces
 from pons.site import is_site_name, site_name_malformed
+from pons.site_refusals import keyframes_malformed, recording_refused, site_refusal
 from pons.site_rooms import proposal_line
 from wire import ConfigError, load_robot
 from wire.fingerprint import map_id
@@ -40,6 +43,7 @@ if TYPE_CHECKING:
     from localization.mapping.map_builder import MapBuilder
     from maps.new_site import NewSite
     from maps.room_proposals import RoomProposal
+    from planner.plan import Bilingual
     from planner.site.taught_places import TaughtPlace
     from pons.settings import LaunchSettings
     from wire import Pose2, RobotDescription
@@ -49,7 +53,6 @@ EXIT_DONE, EXIT_REFUSED = 0, 3
 
 FEWEST_KEYFRAMES = 3
 """Fewer are a robot that stood: a map of one spot is no site."""
-_RECORDING_ZH = "录制文件无法使用"
 MIN_FREE_BYTES = 50 * 1024 * 1024
 
 
@@ -95,7 +98,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         if said.mend or said.accept or said.undo:
             return _mend(settings, said)
         if said.without:
-            raise SiteError("mend_change_unknown", "--without goes with --mend")
+            raise site_refusal("mend_change_unknown", "without_mend")
         folder = _new_folder(settings.home / "sites", said.name, of_drive=not said.recordings)
         robot = load_robot(settings.robot)
         if said.recordings:
@@ -107,9 +110,6 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         made = _site(builder, robot.base.radius_m)
         made.write(folder)
         names = 0 if said.recordings else _carry_names(settings.home, said.name, made)
-    except BadRecording as refused:
-        print(f"refused: {refused}\n{_RECORDING_ZH}：{refused}", file=sys.stderr)
-        return EXIT_REFUSED
     except PlaceRefusal as refused:
         text = f"refused: its names could not be kept: {refused}"
         print(f"{text}\n名称未能保存：{refused.why.zh}", file=sys.stderr)
@@ -154,7 +154,7 @@ def newest_run(folder: Path) -> list[Path]:
     """
     found = sorted(folder.glob(f"*{SUFFIX}"))
     if not found:
-        raise SiteError("recordings_none", f"{folder} holds none: drive through the home first")
+        raise site_refusal("recordings_none", folder=str(folder))
     boot = found[-1].name.split("-")[1:2]
     return [path for path in found if path.name.split("-")[1:2] == boot]
 
@@ -172,7 +172,8 @@ def _new_folder(sites: Path, name: str, *, of_drive: bool) -> Path:
     above = next(path for path in folder.parents if path.is_dir())
     free = shutil.disk_usage(above).free
     if not free >= MIN_FREE_BYTES:
-        raise SiteError("disk_full", f"{above} has {free} bytes, needs {MIN_FREE_BYTES}")
+        needed = MIN_FREE_BYTES
+        raise site_refusal("disk_full", folder=str(above), free=free, needed=needed)
     return folder
 
 
@@ -182,11 +183,15 @@ def _replay(recordings: list[Path], replay: MapReplay) -> MapReplay:
         if path.suffix == SUFFIX:
             try:
                 replay.hear(read_motion(path))
-            except ValueError as error:
-                raise SiteError("map_of_two_runs", f"{path}: {error}") from error
+            except BadRecording as error:
+                raise recording_refused(path, error) from error
+            except BilingualError as error:
+                raise SiteError(
+                    "map_of_two_runs", f"{path}: {error}", f"{path}：{error.zh}"
+                ) from error
         else:
             _replay_carmen(path, replay)
-    _check_driven(len(replay.links), f"{replay.scans} scans")
+    _check_driven(len(replay.links), say("site_refusal.of_scans", scans=replay.scans))
     return replay
 
 
@@ -196,7 +201,8 @@ def _replay_carmen(path: Path, replay: MapReplay) -> None:
             replay.place_scan(scan.points_m, scan.laser_in_odom, scan.stamp_s)
     except CarmenError as error:
         text = f"{path}: {error}; recordings of the bridge end in {SUFFIX}"
-        raise SiteError("carmen_malformed", text) from error
+        zh = f"{path}：{error.zh}；桥接进程的记录以 {SUFFIX} 结尾"
+        raise SiteError("carmen_malformed", text, zh) from error
 
 
 def _lidar_of(recordings: Sequence[Path], robot: RobotDescription) -> LidarConfig:
@@ -207,7 +213,7 @@ def _lidar_of(recordings: Sequence[Path], robot: RobotDescription) -> LidarConfi
     """
     kinds = {path.suffix == SUFFIX for path in recordings}
     if len(kinds) > 1:
-        raise SiteError("map_of_two_runs", "a recording of the bridge beside a CARMEN log")
+        raise site_refusal("map_of_two_runs", "two_kinds")
     if True in kinds:
         return robot.lidar
     return robot.lidar.model_copy(update={"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0})
@@ -229,8 +235,8 @@ def _read_canvas(canvas: Path, robot: RobotDescription) -> MapBuilder:
     try:
         builder = load_builder(canvas, (robot.lidar.x_m, robot.lidar.y_m))
     except ValueError as error:
-        raise SiteError("keyframes_malformed", f"{canvas}: {error}") from error
-    _check_driven(len(builder.keyframes), "the drive")
+        raise keyframes_malformed(canvas, error) from error
+    _check_driven(len(builder.keyframes), say("site_refusal.of_drive"))
     return builder
 
 
@@ -279,10 +285,10 @@ def _room_around(rooms: Sequence[RoomProposal], pose: Pose2) -> RoomProposal | N
     return min(around, key=lambda room: room.area_m2, default=None)
 
 
-def _check_driven(count: int, source: str) -> None:
+def _check_driven(count: int, source: Bilingual) -> None:
     if not count >= FEWEST_KEYFRAMES:
-        text = f"{source} gave {count} keyframes, expected {FEWEST_KEYFRAMES}"
-        raise SiteError("map_no_drive", f"{text}: drive at least a metre while it scans")
+        fewest = FEWEST_KEYFRAMES
+        raise site_refusal("map_no_drive", source=source, count=count, fewest=fewest)
 
 
 def prepare_canvas(settings: LaunchSettings, name: str, robot: RobotDescription) -> None:
@@ -310,7 +316,7 @@ def _site(builder: MapBuilder, radius_m: float) -> NewSite:
     try:
         grid = builder.draw()
     except MapTooLarge as error:
-        raise SiteError("map_too_large", str(error)) from error
+        raise SiteError("map_too_large", str(error), error.zh) from error
     record = MapRecord(
         image="map.pgm",
         resolution=grid.resolution_m,

@@ -33,6 +33,9 @@ from localization.mapping.mend_proposal import (
 )
 from localization.mapping.pose_graph import PoseGraph
 from maps import SiteError, load_map
+from maps.file_errors import system_reason_zh, unwritable
+from planner.language.catalogue import say
+from planner.plan import Bilingual
 from planner.site import Site
 from planner.site.fence import load_fence
 from planner.site.taught_places import MAX_KEPT, TaughtPlaces
@@ -41,6 +44,7 @@ from pons.home_lock import HomeLock, HomeTaken
 from pons.settings import site_of
 from pons.site import site_missing
 from pons.site_findings import print_findings
+from pons.site_refusals import keyframes_malformed, site_refusal
 from pons_assets import SITES
 from wire import ConfigError
 from wire.fence import fence_text
@@ -98,8 +102,8 @@ def place_drive(
     try:
         drive = place_on_map(links, DistanceField.of_map(grid), lidar_m)
     except DriveElsewhere as error:
-        text = f"{error}. Is it a drive through {folder.name}?"
-        raise SiteError("drive_elsewhere", text) from error
+        why = Bilingual(en=str(error), zh=error.zh)
+        raise site_refusal("drive_elsewhere", why=why, site=folder.name) from error
     dropped = f", {drive.dropped} left out" if drive.dropped else ""
     print(f"{len(drive.keyframes)} keyframes placed on {folder.name}{dropped}; "
           f"{drive.share:.0%} agree with its map")  # fmt: skip
@@ -148,7 +152,7 @@ def kept_drive(settings: LaunchSettings, name: str) -> tuple[Keyframe, ...]:
     try:
         return read_keyframes(path.read_bytes())[0]
     except (OSError, KeyframeFileError) as error:
-        raise SiteError("keyframes_malformed", f"{path}: {error}") from error
+        raise keyframes_malformed(path, error) from error
 
 
 def accept_mend(settings: LaunchSettings, name: str, mend_id: str, robot: RobotDescription) -> None:
@@ -162,7 +166,7 @@ def accept_mend(settings: LaunchSettings, name: str, mend_id: str, robot: RobotD
     folder = known_site(settings, name)
     told, where = _read_list(settings, folder), _proposal_folder(settings, folder)
     if told["id"] != mend_id:
-        raise SiteError("mend_unknown", f"{mend_id!r}; the one that waits is {told['id']}")
+        raise site_refusal("mend_unknown", "mend_other", id=repr(mend_id), waits=told["id"])
     target = folder if folder.parent != SITES else settings.home / "sites" / folder.name
     beside = _new_folder_beside(target)
     with _standing_robot(settings):
@@ -176,9 +180,11 @@ def accept_mend(settings: LaunchSettings, name: str, mend_id: str, robot: RobotD
             _put_in_place(beside, target)
         except OSError as error:
             shutil.rmtree(beside, ignore_errors=True)
-            why = "this disk can't exchange two folders at once"
-            text = why if error.errno in (errno.ENOSYS, errno.EINVAL) else error.strerror
-            raise SiteError("site_unwritable", f"{target}: {text}; nothing changed") from error
+            why = Bilingual(en=str(error.strerror), zh=system_reason_zh(error))
+            if error.errno in (errno.ENOSYS, errno.EINVAL):
+                why = say("site_refusal.no_exchange")
+            at = str(target)
+            raise site_refusal("site_unwritable", "nothing_changed", folder=at, why=why) from error
     shutil.rmtree(where, ignore_errors=True)
     print(f"{target}: map {told['id']} in place of {told['base']}; places, rooms, fence as before")
     if carried:
@@ -199,12 +205,12 @@ def undo_mend(settings: LaunchSettings, name: str) -> None:
     folder = known_site(settings, name)
     before = _previous_folder(folder)
     if not (before / "map.yaml").is_file():
-        raise SiteError("mend_unknown", f"{folder} was not mended, or that was taken back already")
+        raise site_refusal("mend_unknown", "not_mended", folder=str(folder))
     with _standing_robot(settings):
         try:
             swap_folders(before, folder)
         except OSError as error:
-            raise SiteError("site_unwritable", f"{folder}: {error.strerror}") from error
+            raise unwritable(folder, error) from error
         shutil.rmtree(before, ignore_errors=True)
     print(f"{folder}: map {read_map_id(folder)} again; a robot takes it at its next start")
 
@@ -226,7 +232,7 @@ def _build(folder: Path, where: Path, beside: Path) -> None:
         try:
             builder = MapBuilder.of_bytes(path.read_bytes(), (0.0, 0.0))
         except ValueError as error:
-            raise SiteError("keyframes_malformed", f"{folder}: {error}") from error
+            raise keyframes_malformed(folder, error) from error
         builder.append_placed(read_keyframes((where / DRIVE_FILE).read_bytes())[0])
         path.write_bytes(builder.to_bytes())
     for file in beside.iterdir():
@@ -249,9 +255,7 @@ def _check_loads(beside: Path) -> None:
         Site.load(beside)
     except SiteError as error:
         shutil.rmtree(beside, ignore_errors=True)
-        text = f"{error.message['en']}; leave that change out (--without), or move the place"
-        zh = f"{error.message['zh']}；可用 --without 略去这处变化，或移动该地点"
-        raise SiteError(error.code, text, zh) from error
+        raise site_refusal(error.code, "leave_out", why=Bilingual(**error.message)) from error
 
 
 def _put_in_place(beside: Path, target: Path) -> None:
@@ -284,8 +288,8 @@ def _carry_taught(home: Path, old_id: str, new_id: str) -> int:
         if place.map_id == old_id and place.id not in known
     )
     if not len(taught) + len(carried) <= MAX_KEPT:
-        text = f"{len(taught)} places are taught on all maps, {len(carried)} more would be"
-        raise SiteError("taught_places_full", f"{text}; at most {MAX_KEPT}: forget some first")
+        more = len(carried)
+        raise site_refusal("taught_places_full", taught=len(taught), more=more, most=MAX_KEPT)
     if carried:
         store.save((*taught, *carried))
     return len(carried)
@@ -298,8 +302,8 @@ def _standing_robot(settings: LaunchSettings) -> Iterator[None]:
         with HomeLock(settings.home):
             yield
     except HomeTaken as error:
-        text = "it goes on with the map that it began with; stop pons up first"
-        raise SiteError("robot_running", f"{text} ({error})") from error
+        facts = {"home": str(settings.home), "why": str(error)}
+        raise site_refusal("robot_running", **facts) from error
 
 
 def _proposal_folder(settings: LaunchSettings, folder: Path) -> Path:
@@ -325,14 +329,13 @@ def _read_list(settings: LaunchSettings, folder: Path) -> dict[str, str]:
         told = json.loads(path.read_bytes())
         found = {"id": str(told["id"]), "base": str(told["base"])}
     except FileNotFoundError:
-        text = f"none waits for {folder.name}; make one: pons map {folder.name} --mend"
-        raise SiteError("mend_unknown", text) from None
+        raise site_refusal("mend_unknown", "mend_none", site=folder.name) from None
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise SiteError("mend_unknown", f"{path}: {error}") from error
+        facts = {"path": str(path), "why": str(error)}
+        raise site_refusal("mend_unknown", "mend_unread", **facts) from error
     current = read_map_id(folder)
     if found["base"] != current:
-        text = f"it is of map {found['base']}, {folder.name} has {current} by now"
-        raise SiteError("mend_stale", f"{text}: pons map {folder.name} --mend")
+        raise site_refusal("mend_stale", **found, site=folder.name, current=current)
     return found
 
 

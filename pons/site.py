@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from maps import SiteError, load_map
+from maps.file_errors import unwritable
 from maps.map_file import FARTHEST_M, load_picture
 from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text
@@ -123,9 +124,7 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     is_topic = said.map.startswith(SCHEME)
     is_yaml = is_topic or Path(said.map).suffix in (".yaml", ".yml")
     if is_yaml == (said.resolution is not None):
-        told = "a map.yaml says its resolution" if is_yaml else "a picture needs --resolution"
-        print(f"resolution_once: {told}", file=sys.stderr)
-        return EXIT_USAGE
+        return _print_usage("resolution_once", "resolution_twice" if is_yaml else "resolution_due")
     robot = load_robot(settings.robot)
     loaded = _load_topic(said, robot) if is_topic else _load(said)
     start = None if said.start is None else _start(said.start)
@@ -147,6 +146,15 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
         return EXIT_FOUND
     print(f"drive there: pons up --site {said.name}")
     return EXIT_DONE
+
+
+def _print_usage(code: str, told: str) -> int:
+    """Print what an order lacks, in both languages; return the status of a bad order."""
+    from planner.language.catalogue import say
+
+    words = say(f"site_refusal.{told}")
+    print(f"{code}: {words.en}\n{words.zh}", file=sys.stderr)
+    return EXIT_USAGE
 
 
 def site_missing(given: str, home: Path) -> SiteError:
@@ -280,7 +288,8 @@ def _name_room(folder: Path, room_id: str, english: str, chinese: str) -> int:
                 raise SiteError("place_name_taken", text, zh)
             check_not_order(name, vocabulary)
     except PlaceRefusal as refused:
-        text, zh = f"{refused.why.en} ({refused.detail})", refused.why.zh
+        came = "、".join(map(repr, dict.fromkeys((english, chinese))))
+        text, zh = f"{refused.why.en} ({refused.detail})", f"{refused.why.zh}（收到 {came}）"
         raise SiteError(refused.code, text, zh) from None
     place_id = re.sub(r"[^a-z0-9]+", "_", names[0].lower()).strip("_")
     if not place_id[:1].isalpha():
@@ -305,7 +314,7 @@ def _replace(path: Path, data: bytes) -> None:
         beside.write_bytes(data)
         beside.replace(path)
     except OSError as error:
-        raise SiteError("site_unwritable", f"{path}: {error.strerror}") from error
+        raise unwritable(path, error) from error
 
 
 def _print_fence_with_masks(
@@ -315,8 +324,7 @@ def _print_fence_with_masks(
     from planner.site import Site
 
     if said.keepout is None and said.speed is None:
-        print("masks_none: say --keepout MASK.yaml, --speed MASK.yaml or both", file=sys.stderr)
-        return EXIT_USAGE
+        return _print_usage("masks_none", "masks_none")
     site = Site.load(folder)
     masks = _masks(said, site.grid, load_robot(settings.robot))
     fence = join_masks(site.fence.record, masks)

@@ -14,6 +14,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from maps.errors import BilingualError
+from maps.file_errors import system_reason_zh
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
@@ -34,7 +37,7 @@ NEAREST_M = 0.02
 """Nearer than this a laser says that it saw nothing."""
 
 
-class CarmenError(ValueError):
+class CarmenError(BilingualError):
     """Report a file that is no CARMEN log, or a line of it that can't be read."""
 
 
@@ -64,13 +67,15 @@ def read_carmen(path: Path) -> Iterator[CarmenScan]:
         try:
             scan = _parse_line(words)
         except (ValueError, IndexError) as error:
-            pending = CarmenError(f"line {number}, {words[0]}: {error}")
+            zh = f"第 {number} 行（{words[0]}）中的数值不完整或无法读取"
+            pending = CarmenError(f"line {number}, {words[0]}: {error}", zh)
             continue
         if scan is not None:
             found += 1
             yield scan
     if not found:
-        raise CarmenError("it holds no line of FLASER or ROBOTLASER1 with a scan")
+        text = "it holds no line of FLASER or ROBOTLASER1 with a scan"
+        raise CarmenError(text, "其中没有含扫描的 FLASER 或 ROBOTLASER1 行")
 
 
 def _lines(path: Path) -> Iterator[str]:
@@ -82,10 +87,12 @@ def _lines(path: Path) -> Iterator[str]:
             while line := file.readline(LONGEST_LINE):
                 taken += len(line)
                 if len(line) == LONGEST_LINE or not taken <= MOST_BYTES:
-                    raise CarmenError("a line or the whole of it is too long for a log")
+                    text = "a line or the whole of it is too long for a log"
+                    raise CarmenError(text, "某一行或整个文件过长，不是日志")
                 yield line.decode("ascii", "replace")
     except (OSError, EOFError) as error:  # gzip's BadGzipFile is an OSError
-        raise CarmenError(str(error)) from error
+        zh = system_reason_zh(error) if isinstance(error, OSError) else "压缩文件不完整"
+        raise CarmenError(str(error), zh) from error
 
 
 def _parse_line(words: list[str]) -> CarmenScan | None:

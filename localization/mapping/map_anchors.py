@@ -19,6 +19,7 @@ from localization.mapping.keyframes import pose_after, pose_between
 from localization.mapping.pose_graph import PoseEdge, PoseGraph
 from localization.quality import ENOUGH_SCORE, scores
 from localization.scan_matching import align
+from maps.errors import BilingualError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -51,7 +52,7 @@ HELD_KEYFRAMES = 12
 """From an anchor, 6 m: farther off the chain may have drifted by half a cell."""
 
 
-class DriveElsewhere(ValueError):
+class DriveElsewhere(BilingualError):
     """Report a drive that is nowhere on the map."""
 
 
@@ -97,10 +98,12 @@ def place_on_map(
         if best.agree.mean() >= ENOUGH_SHARE:
             break
     if best is None:
-        raise DriveElsewhere("none of its scans is found on the map for sure")
+        text = "none of its scans is found on the map for sure"
+        raise DriveElsewhere(text, "没有一次扫描能在地图上确定位置")
     share = float(best.agree.mean())
     if not share >= ENOUGH_SHARE:
-        raise DriveElsewhere(f"{share:.0%} of its scans agree with the map, expected half")
+        text = f"{share:.0%} of its scans agree with the map, expected half"
+        raise DriveElsewhere(text, f"只有 {share:.0%} 的扫描与地图吻合，应有一半")
     poses = _settle(links, best)
     anchors = np.flatnonzero(best.anchored)
     numbers = np.arange(len(links))

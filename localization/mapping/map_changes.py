@@ -80,7 +80,7 @@ def frame_around(old: GridMap, keyframes: Sequence[Keyframe]) -> GridMap:
         return old
     columns, rows = old.width + left + right, old.height + below + above
     if not columns * rows <= LARGEST_CELLS:
-        raise MapTooLarge(f"{columns} x {rows} cells of {size_m} m; at most {LARGEST_CELLS}")
+        raise MapTooLarge(columns, rows, size_m)
     cells = np.pad(cell_array(old), ((below, above), (left, right)), constant_values=UNKNOWN)
     return GridMap(
         columns,

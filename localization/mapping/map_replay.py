@@ -14,6 +14,7 @@ from localization.deskew import deskew, sweep_s
 from localization.mapping.map_builder import MapBuilder
 from localization.mapping.scan_tracker import ScanTracker
 from localization.odometry_integration import OdometryTrail
+from maps.errors import BilingualError
 from wire import Odometry
 
 if TYPE_CHECKING:
@@ -63,13 +64,17 @@ class MapReplay:
         """Take messages in the order of their arrival.
 
         Raises:
-            ValueError: ``odom_id`` changed: nobody knows how the robot moved between two frames.
+            BilingualError: ``odom_id`` changed: how the robot moved between two frames is unknown.
         """
         for message in messages:
             if isinstance(message, Odometry):
                 if self._odom_id not in {None, message.odom_id}:
                     text = f"odometry {message.odom_id} after {self._odom_id}"
-                    raise ValueError(f"{text}; give the recordings of one run of the bridge")
+                    raise BilingualError(
+                        f"{text}; give the recordings of one run of the bridge",
+                        f"里程计 {message.odom_id} 接在 {self._odom_id} 之后；"
+                        "请给出桥接进程同一次运行的记录",
+                    )
                 self._odom_id = message.odom_id
                 self._trail.add(message)
             else:

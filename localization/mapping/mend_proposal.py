@@ -20,6 +20,7 @@ from localization.mapping.map_changes import MapChange, apply_changes, find_chan
 from localization.mapping.occupancy import MapTooLarge
 from maps import FREE, OCCUPIED, SiteError
 from maps.cell_array import cell_array
+from maps.file_errors import unwritable
 from maps.new_site import map_picture, map_yaml
 from wire.fingerprint import map_id
 
@@ -100,12 +101,13 @@ def propose(
     try:
         frame = frame_around(grid, keyframes)
     except MapTooLarge as error:
-        raise SiteError("map_too_large", str(error)) from error
+        raise SiteError("map_too_large", str(error), error.zh) from error
     changes = find_changes(frame, keyframes, lidar_m)
     unknown = sorted(left_out - set(range(1, len(changes) + 1)))
     if unknown:
         text = f"{', '.join(map(str, unknown))}; there are changes 1 to {len(changes)}"
-        raise SiteError("mend_change_unknown", text)
+        zh = f"没有 {'、'.join(map(str, unknown))} 号变化；变化编号为 1 到 {len(changes)}"
+        raise SiteError("mend_change_unknown", text, zh)
     return MendProposal(base, frame, changes, left_out, tuple(keyframes))
 
 
@@ -138,7 +140,7 @@ def keep(proposal: MendProposal, folder: Path, drive: bytes) -> None:
         os.replace(beside, folder)  # noqa: PTH105  # a kill before it loses a proposal, no map
     except OSError as error:
         shutil.rmtree(beside, ignore_errors=True)
-        raise SiteError("site_unwritable", f"{folder}: {error.strerror}") from error
+        raise unwritable(folder, error) from error
 
 
 def _record(number: int, change: MapChange) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 
 from maps import FREE, OCCUPIED, UNKNOWN, GridMap
+from maps.errors import BilingualError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -39,8 +40,14 @@ MARGIN_M = 0.5
 LARGEST_CELLS = 64_000_000
 
 
-class MapTooLarge(ValueError):
+class MapTooLarge(BilingualError):
     """Report keyframes so far apart that no map holds them."""
+
+    def __init__(self, columns: int, rows: int, cell_m: float) -> None:
+        super().__init__(
+            f"{columns} x {rows} cells of {cell_m} m; at most {LARGEST_CELLS}",
+            f"地图需要 {columns} x {rows} 个 {cell_m} 米的格子；最多 {LARGEST_CELLS} 个",
+        )
 
 
 def draw_grid(
@@ -65,8 +72,7 @@ def draw_grid(
     high = np.ceil((every.max(axis=0) + MARGIN_M) / resolution_m).astype(np.int64)
     columns, rows = (high - low).tolist()
     if not columns * rows <= LARGEST_CELLS:
-        text = f"{columns} x {rows} cells of {resolution_m} m; at most {LARGEST_CELLS}"
-        raise MapTooLarge(text)
+        raise MapTooLarge(columns, rows, resolution_m)
     origin_m = low * resolution_m
     corner_m = (float(origin_m[0]), float(origin_m[1]))
     empty = GridMap(columns, rows, resolution_m, *corner_m, b"")

@@ -13,7 +13,7 @@ from pydantic import Field, model_validator
 from planner.api.interfaces import Services
 from planner.api.places import Point
 from planner.api.problems import HttpProblem, unknown_place
-from planner.api.schemas import Body
+from planner.api.schemas import Body, law_broken
 from planner.language.catalogue import say
 from planner.site import Place
 from planner.site.places import normalise
@@ -46,7 +46,7 @@ class HereHint(Body):
     @model_validator(mode="after")
     def _one_of_both(self) -> HereHint:
         if (self.point is None) == (self.place is None):
-            raise ValueError("say point or place, one of both")
+            raise law_broken("point_or_place")
         return self
 
 
@@ -97,7 +97,7 @@ def _place(services: Services, word: HereHint) -> Place:
     for place in services.memory.places:
         if normalise(wanted) in map(normalise, place.spoken_names):
             return place
-    raise unknown_place(wanted, (place.id for place in services.memory.places))
+    raise unknown_place(wanted, services.memory.vocabulary)
 
 
 def _problem(

@@ -61,7 +61,7 @@ def routes(services: Services) -> APIRouter:
     async def teach(new: NewFact) -> dict[str, Any]:
         """Keep a fact; the same words again renew it. It orders nothing, whatever it says."""
         if new.place is not None and new.place not in services.memory.vocabulary:
-            raise unknown_place(new.place, services.memory.vocabulary.by_id)
+            raise unknown_place(new.place, services.memory.vocabulary)
         try:
             kept = await services.recollection.teach(
                 new.text, said_by=new.source, room=new.place, map_id=services.site.map_id

@@ -16,7 +16,7 @@ from planner.api.crowd import address_of
 from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
-from planner.api.schemas import Body
+from planner.api.schemas import Body, law_broken
 from planner.language.utterance import language_of
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, order_of_text, tell_question
@@ -74,7 +74,7 @@ class OrderTime(Body):
     def _one_time(self) -> OrderTime:
         given = [n for n in type(self).model_fields if getattr(self, n) is not None]
         if len(given) != 1:
-            raise ValueError("say exactly one of cron, at, in_s, every_s, event")
+            raise law_broken("one_time")
         return self
 
     @property
@@ -108,9 +108,9 @@ class NewStandingOrder(Body):
     @model_validator(mode="after")
     def _one_deed(self) -> NewStandingOrder:
         if (self.text is None) == (self.reminder is None):
-            raise ValueError("say text or reminder, one of the two")
+            raise law_broken("text_or_reminder")
         if self.reminder is not None and self.when is None:
-            raise ValueError("a reminder needs when; or say it as a whole sentence in text")
+            raise law_broken("reminder_when")
         return self
 
 

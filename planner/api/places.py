@@ -10,7 +10,7 @@ from pydantic import ConfigDict, Field, model_validator
 from maps.room_proposals import RoomProposal
 from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem
-from planner.api.schemas import Body
+from planner.api.schemas import Body, law_broken
 from planner.language.catalogue import say
 from planner.site import MAX_HERE, PlaceRefusal, TaughtPlace
 from planner.site.known_places import KeptPlace, KnownPlaces, Lesson
@@ -65,7 +65,7 @@ class NewPlace(Body):
     @model_validator(mode="after")
     def _one_spot(self) -> NewPlace:
         if self.point is not None and self.room is not None:
-            raise ValueError("say point or room, not both: a room says its own spot")
+            raise law_broken("point_or_room")
         return self
 
 

@@ -16,13 +16,15 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.routing import Match
 
+from maps.value_flaws import expected_zh
 from planner.language.catalogue import message, say
-from planner.plan import Code, say_same
+from planner.language.place_lists import known_places
+from planner.plan import Bilingual, Code
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
-    from planner.plan import Bilingual
+    from planner.plan import Vocabulary
 
 
 _LENGTH = say("problem.length")
@@ -72,6 +74,7 @@ def saying_of(code: str) -> dict[str, dict[str, str]]:
 
 MEDIA_TYPE = "application/problem+json"
 MAX_FOUND = 80
+MAX_PLACES = 20
 METHODS = ("DELETE", "GET", "HEAD", "PATCH", "POST", "PUT")
 
 
@@ -86,10 +89,11 @@ class HttpProblem(Exception):
         self.more = more
 
 
-def unknown_place(wanted: str, known: Iterable[str]) -> HttpProblem:
+def unknown_place(wanted: str, vocabulary: Vocabulary) -> HttpProblem:
     """Return the refusal of a place that nobody knows, with those that there are."""
-    exist = ", ".join(list(known)[:20])
-    said = message(Code.UNKNOWN_PLACE, name=wanted[:40], near="", known=say_same(exist))
+    exist = ", ".join(entry.id for entry in vocabulary.entries[:MAX_PLACES])
+    known = known_places(vocabulary, MAX_PLACES)
+    said = message(Code.UNKNOWN_PLACE, name=wanted[:40], near="", known=known)
     detail = f"got {wanted[:40]!r}; known: {exist}"
     return HttpProblem(404, "unknown_place", detail, message=said.model_dump())
 
@@ -128,39 +132,33 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
         raise error
     first = error.errors()[0]
     if first["type"] == "json_invalid":
-        why = f"{first['ctx']['error']} at character {first['loc'][-1]}"
-        return _as_sent(400, "malformed_json", say("as_sent.no_json", why=why))
-    wrong, keys = _what_is_wrong(first), _keys_of(request)
-    wrong = say("as_sent.keys", wrong=wrong, keys=keys) if keys else wrong
-    return _as_sent(422, "invalid_request", wrong)
+        at = first["loc"][-1]
+        why = say("request.no_json", why=str(first["ctx"]["error"]), at=at)
+        return _as_sent(400, "malformed_json", why)
+    why, keys = _what_is_wrong(first), _what_exists(request)
+    if keys:
+        why = say("request.takes", why=why, keys=keys)
+    return _as_sent(422, "invalid_request", why)
 
 
-def _as_sent(status: int, code: str, wrong: Bilingual) -> JSONResponse:
-    """Refuse what can't be taken as it was sent; both languages say what is wrong with it."""
-    return response(status, code, wrong.en, **_tell(wrong))
-
-
-def _tell(wrong: Bilingual) -> dict[str, dict[str, str]]:
-    """Return the sentence for a person, who meets this by a name or words that are too long."""
-    return {"message": say("problem.as_sent", detail=wrong).model_dump()}
-
-
-_FLAWS = frozenset(
-    {"extra_forbidden", "missing", "model_attributes_type", "string_too_long", "string_too_short"}
-)
+def _as_sent(
+    status: int, code: str, why: Bilingual, headers: Mapping[str, str] | None = None
+) -> JSONResponse:
+    """Return the refusal of what was sent. A person meets it too, by a name that is too long."""
+    told = say("problem.as_sent", detail=why).model_dump()
+    return response(status, code, why.en, headers=headers, message=told)
 
 
 def _what_is_wrong(error: Mapping[str, Any]) -> Bilingual:
-    at = ".".join(str(part) for part in error["loc"])
-    came = repr(error.get("input"))[:MAX_FOUND]
-    flaw = error["type"] if error["type"] in _FLAWS else "other"
-    limits = {name: str(limit) for name, limit in error.get("ctx", {}).items()}
-    most, least = limits.get("max_length", ""), limits.get("min_length", "")
-    told = error["msg"]
-    return say(f"as_sent.{flaw}", at=at, came=came, told=told, most=most, least=least)
+    where = ".".join(str(part) for part in error["loc"])
+    found = repr(error.get("input"))[:MAX_FOUND]
+    if error["type"] in ("extra_forbidden", "missing", "model_attributes_type"):
+        return say(f"request.{error['type']}", at=where, found=found)
+    expected = Bilingual(en=error["msg"], zh=expected_zh(error))
+    return say("request.unfit", at=where, expected=expected, found=found)
 
 
-def _keys_of(request: Request) -> str:
+def _what_exists(request: Request) -> str:
     """Return the keys that the route's body takes; empty where it takes none."""
     taken = getattr(request.scope.get("route"), "body_field", None)
     model = taken.field_info.annotation if taken is not None else None
@@ -185,18 +183,19 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
     status, asked = error.status_code, f"{request.method} {request.url.path}"
     code = _CODES.get(status, f"http_{status}")
     headers = dict(error.headers or {})
-    detail, more = f"{asked}: {error.detail}", {}
+    detail = f"{asked}: {error.detail}"
     if status == 400:  # the framework's only one: bytes that json can't read, for two reasons
         nested = isinstance(error.__cause__, RecursionError)
-        flaw = "too_deep" if nested else "no_text"
-        wrong = say(f"as_sent.{flaw}", asked=asked)
-        detail, more = wrong.en, _tell(wrong)
-    elif status == 404:
-        detail = f"no route {asked}; /openapi.json lists what exists"
+        why = say(f"request.{'nested' if nested else 'no_text'}", asked=asked)
+        return _as_sent(status, code, why, headers)
+    if status == 404:
+        told = say("request.no_route", asked=asked)
     elif status == 405:
         headers["Allow"] = _methods(request)
-        detail = f"no {asked}; allowed there: {headers['Allow']}"
-    return response(status, code, detail, headers=headers, **more)
+        told = say("request.no_method", asked=asked, methods=headers["Allow"])
+    else:
+        return response(status, code, detail, headers=headers)
+    return response(status, code, told.en, headers=headers, message=told.model_dump())
 
 
 def _methods(request: Request) -> str:

@@ -6,6 +6,8 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool
 
+from maps.errors import BilingualError
+from planner.language.catalogue import say
 from planner.plan import Language
 from wire import Proof, TrialAct
 from wire.bounded_types import Count, Name
@@ -111,3 +113,9 @@ class TrialAsk(Body):
     """Of a watch: the number of the newest question whose answer is "done"."""
     proof: Proof | None = None
     """Of a begin, over "trial", the robot's id, the status's nonce and this id."""
+
+
+def law_broken(law: str) -> BilingualError:
+    """Return what a body breaks, for pydantic to carry: both sentences reach the answer."""
+    told = say(f"request.{law}")
+    return BilingualError(told.en, told.zh)

@@ -138,7 +138,8 @@ class ThingStore:
     def _old_things(self) -> StoredThings:
         kept = parse_json(read_bytes(self._old_file), StoredThings, self._old_file)
         if len({thing.id for thing in kept.things}) != len(kept.things):
-            raise SiteError("value_malformed", f"{self._old_file} gives an id twice")
+            text, zh = f"{self._old_file} gives an id twice", f"{self._old_file} 中有编号出现了两次"
+            raise SiteError("value_malformed", text, zh)
         return kept
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from maps.errors import SiteError
 from maps.yaml_records import parse_json, read_bytes
 from planner.site.polygon import Polygon, border_distance_m, contains
-from wire.fence import FenceFile, Outline, SpeedZone, flaw
+from wire.fence import MIN_AREA_M2, FenceFile, Outline, SpeedZone, area_m2, crosses_itself, flaw
 from wire.fingerprint import fingerprint
 
 __all__ = ["Fence", "Outline", "SpeedZone", "load_fence"]
@@ -60,5 +60,17 @@ def load_fence(path: Path) -> Fence:
     record = parse_json(data, FenceFile, path)
     wrong = flaw(record)
     if wrong is not None:
-        raise SiteError(_FLAWS[wrong[0]], f"{path}: {wrong[1]}")
+        code, text = wrong
+        zh = f"{path}：{_flaw_zh(code, record)}"
+        raise SiteError(_FLAWS[code], f"{path}: {text}", zh)
     return Fence(record, fingerprint(data))
+
+
+def _flaw_zh(code: str, record: FenceFile) -> str:
+    """Return in Chinese what :func:`flaw` found, by its code."""
+    if code == "fence_degenerate":
+        outline = next(line for line in record.outlines if not area_m2(line) > MIN_AREA_M2)
+        corners = "、".join(f"({x}, {y})" for x, y in outline[:4])
+        return f"有一条边界没有面积，其角为 {corners}{' 等' if len(outline) > 4 else ''}"
+    (ax, ay), (bx, by) = next(filter(None, map(crosses_itself, record.outlines)))
+    return f"边界自相交或自相接触：始于 ({ax}, {ay}) 与 ({bx}, {by}) 的两条边相遇"

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from maps.errors import SiteError
+from maps.errors import BilingualError, SiteError
 from maps.yaml_records import SiteRecord, parse_yaml, read_bytes
 from planner.language.folding import fold_words
 from planner.site.fence import Outline
@@ -46,9 +46,13 @@ class Place(SiteRecord):
     @model_validator(mode="after")
     def _room_has_an_outline(self) -> Place:
         if self.kind == "room" and self.polygon is None:
-            raise ValueError(f"the room {self.id!r} needs a polygon")
+            text, zh = f"the room {self.id!r} needs a polygon", f"房间 {self.id!r} 缺少 polygon"
+            raise BilingualError(text, zh)
         if self.polygon is not None and not area_m2(self.polygon) > 0.0:
-            raise ValueError(f"the outline of {self.id!r} {_flaw(self.polygon)}")
+            flaw, flaw_zh = _flaw(self.polygon)
+            raise BilingualError(
+                f"the outline of {self.id!r} {flaw}", f"{self.id!r} 的轮廓{flaw_zh}"
+            )
         return self
 
     @property
@@ -68,14 +72,18 @@ class Place(SiteRecord):
         return self.polygon is not None and contains(self.polygon, x_m, y_m)
 
 
-def _flaw(outline: Outline) -> str:
+def _flaw(outline: Outline) -> tuple[str, str]:
     """Return why an outline encloses nothing: its parts cancel out where its sides cross."""
     crossing, corners = crosses_itself(outline), tuple(dict.fromkeys(outline))
     (ax, ay), (bx, by) = corners[0], corners[-1]
     is_line = all((bx - ax) * (y - ay) == (by - ay) * (x - ax) for x, y in corners)
     if crossing is None or is_line:
-        return "has no area"
-    return f"has sides that cross: those from {crossing[0]} and from {crossing[1]}"
+        return "has no area", "没有面积"
+    first, second = crossing
+    return (
+        f"has sides that cross: those from {first} and from {second}",
+        f"自相交：始于 {first} 和 {second} 的两条边",
+    )
 
 
 class PlacesRecord(SiteRecord):
@@ -111,7 +119,8 @@ def load_places(path: Path) -> PlacesRecord:
     ids = sorted(place.id for place in record.places)
     if record.home not in ids:
         text = f"{path}: home {record.home!r} is no place; known places: {', '.join(ids)}"
-        raise SiteError("home_unknown", text)
+        zh = f"{path}：起始地点 {record.home!r} 不在地点之中；已有地点：{', '.join(ids)}"
+        raise SiteError("home_unknown", text, zh)
     return record
 
 
@@ -120,10 +129,12 @@ def _check_names(record: PlacesRecord, path: Path) -> None:
     owner: dict[str, str] = {}
     for place in record.places:
         if place.id in ids:
-            raise SiteError("place_duplicate_id", f"{path}: the id {place.id!r} is given twice")
+            text, zh = f"{path}: the id {place.id!r} is given twice", f"{path}：编号 {place.id!r}"
+            raise SiteError("place_duplicate_id", text, f"{zh} 出现了两次")
         ids.add(place.id)
         for name in place.spoken_names:
             first = owner.setdefault(normalise(name), place.id)
             if first != place.id:
                 text = f"{path}: {name!r} names both {first!r} and {place.id!r}"
-                raise SiteError("place_alias_clash", text)
+                zh = f"{path}：{name!r} 同时是 {first!r} 和 {place.id!r} 的名称"
+                raise SiteError("place_alias_clash", text, zh)

@@ -36,7 +36,8 @@ class Site:
         fence = load_fence(folder / "fence.json")
         if fence.record.map_id != loaded.map_id:
             text = f"{folder}: fence.json is for map {fence.record.map_id}, not {loaded.map_id}"
-            raise SiteError("fence_map_mismatch", text)
+            zh = f"{folder}：fence.json 属于地图 {fence.record.map_id}，不属于 {loaded.map_id}"
+            raise SiteError("fence_map_mismatch", text, zh)
         record = load_places(folder / "places.yaml")
         for place in record.places:
             _check_standing(place, loaded.grid, fence)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from maps.errors import SiteError
+from maps.file_errors import system_reason_zh
 from maps.yaml_records import SiteRecord, parse_json, read_bytes
 from planner.site.fence import Outline
 from planner.site.places import Names, Place, PlaceId
@@ -86,7 +87,8 @@ class TaughtPlaces:
         try:
             rows = self._database.read("SELECT record FROM places ORDER BY position")
         except StateUnavailable as error:
-            raise SiteError("site_file_missing", f"cannot read {path}: {error.strerror}") from error
+            text, zh = f"cannot read {path}: {error.strerror}", system_reason_zh(error)
+            raise SiteError("site_file_missing", text, f"无法读取 {path}：{zh}") from error
         return tuple(parse_json(record.encode(), TaughtPlace, path) for (record,) in rows)
 
     def save(self, places: tuple[TaughtPlace, ...]) -> None:
@@ -111,7 +113,8 @@ class TaughtPlaces:
         record = parse_json(read_bytes(self._old_file), TaughtFile, self._old_file)
         ids = [(place.map_id, place.id) for place in record.places]
         if len(set(ids)) != len(ids):
-            raise SiteError("place_duplicate_id", f"{self._old_file}: an id is given twice")
+            text, zh = f"{self._old_file}: an id is given twice", f"{self._old_file}：有编号"
+            raise SiteError("place_duplicate_id", text, f"{zh}出现了两次")
         return record.places
 
 

@@ -1,22 +1,30 @@
-"""Every code of a site that can't be used has a Chinese sentence without an English tail."""
+"""Test the judge of Chinese sentences, and that an error keeps both of its sentences."""
 
 from __future__ import annotations
 
-import re
-
 import pytest
 
-from maps.errors import REASONS, SiteError
-
-_COMMANDS = re.compile(r"pons (?:map|up)|--mend|--without|YAML|JSON|CARMEN")
-
-
-@pytest.mark.parametrize("code", REASONS)
-def test_a_refusal_without_a_chinese_sentence_of_its_own_has_that_of_its_code(code: str) -> None:
-    refused = SiteError(code, "/tmp/den: is a directory")
-    assert refused.message["en"] == "/tmp/den: is a directory"
-    assert not re.search("[a-z]{2}", _COMMANDS.sub("", refused.message["zh"]))
+from maps.errors import BilingualError, SiteError
+from tests.site_sentences import english_in
 
 
-def test_a_chinese_sentence_of_its_own_is_kept() -> None:
-    assert SiteError("site_exists", "it exists", "已存在").message["zh"] == "已存在"
+@pytest.mark.parametrize(
+    ("chinese", "english"),
+    [
+        ("无法读取 /tmp/a b/map.pgm（没有权限）", ""),
+        ("请写成 'image: the map.pgm here'", ""),
+        ("新建：`pons site import MAP.yaml NAME`", ""),
+        ("新建：pons map attic --mend", ""),
+        ("请说明：--unknown unknown 或 --unknown free", ""),
+        ("地图格式错误：the key is given twice", "the key is given twice"),
+    ],
+)
+def test_english_is_found_beside_names_and_commands(chinese: str, english: str) -> None:
+    assert english_in(chinese) == english
+
+
+def test_an_error_keeps_both_sentences() -> None:
+    error = SiteError("site_missing", "no site", "没有站点")
+    assert error.message == {"en": "no site", "zh": "没有站点"}
+    inner = BilingualError("no area", "没有面积")
+    assert (str(inner), inner.zh) == ("no area", "没有面积")

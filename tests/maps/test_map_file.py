@@ -355,7 +355,7 @@ def test_a_broken_picture_is_refused(tmp_path: Path, image: bytes, code: str) ->
     ("image", "en", "zh"),
     [
         (b"", "got an empty file, expected PGM (P2, P5) or PNG", "请先转换"),
-        (b"\xff\xd8\xff\xe0", "got a JPEG, expected PGM", "收到 a JPEG"),
+        (b"\xff\xd8\xff\xe0", "got a JPEG, expected PGM", "收到 JPEG"),
         (b"words", "a file that begins b'words'", "请先转换"),
         (b"P5 0 2 255\n", "0 x 2 pixels; expected 1 to", "0 x 2"),
         (b"P2 3 2 255\n0 1 x", "pixel 3 is b'x', expected 0 to 255", "第 3 个像素"),

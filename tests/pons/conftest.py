@@ -13,7 +13,10 @@ from pons_assets import ROBOT_FILE
 from tests.bridge.recorded import Taken, stream_of, written
 from tests.pons.drives import Drive, keep_ticks
 from tests.pons.served_goals import Planner, served_goals
+from tests.site_sentences import refusals_are_whole_in_chinese
 from tools.lockstep import LockstepWorld
+
+__all__ = ["refusals_are_whole_in_chinese"]
 
 
 @pytest.fixture

@@ -12,6 +12,7 @@ from pons.launch_words import CHINESE, chinese_cure
     [
         ("robot_toml_syntax: my.toml: Unterminated string", "robot_toml_syntax"),
         ("bridge refused to start:\nbridge: port_forbidden: drive.port /dev/x", "port_forbidden"),
+        ("bridge refused to start:\nbridge: fence_invalid: fence.json: x: y", "fence_invalid"),
         ("setup refused to start:\nsetup: operator_key_missing: /h", "operator_key_missing"),
     ],
 )

@@ -13,6 +13,7 @@ from pons import site
 from pons.settings import LaunchSettings, site_of
 from pons.site_rooms import reserved_name_findings
 from pons_assets import ROBOT_FILE, SITES
+from tests.site_sentences import english_in
 from wire import FenceFile
 
 
@@ -92,7 +93,10 @@ def test_what_cannot_be_is_refused_by_name(
     image = plan.parent / "map.pgm"
     given = [word.format(plan=plan, image=image) for word in words]
     assert site.run(settings, given) == status
-    assert code in capsys.readouterr().err
+    english, chinese = capsys.readouterr().err.splitlines()
+    assert code in english
+    assert any(ord(letter) > 0x2E80 for letter in chinese)
+    assert english_in(chinese) == ""
 
 
 @pytest.mark.parametrize(
@@ -257,7 +261,9 @@ def test_masks_of_a_site_that_exists_make_a_fence_to_propose(
     assert "pons fence propose" in said.err
     assert (folder / "fence.json").read_bytes() == before, "nothing is in force yet"
     assert site.run(settings, ["masks", "mine"]) == 2
-    assert "masks_none" in capsys.readouterr().err
+    lacking = capsys.readouterr().err
+    assert "masks_none: say --keepout MASK.yaml" in lacking
+    assert "请给出 --keepout MASK.yaml" in lacking
 
 
 def test_our_own_sites_are_well(settings: LaunchSettings) -> None:

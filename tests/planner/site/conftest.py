@@ -11,7 +11,10 @@ import pytest
 import yaml
 
 from planner.site import Site
+from tests.site_sentences import refusals_are_whole_in_chinese
 from wire import map_id
+
+__all__ = ["refusals_are_whole_in_chinese"]
 
 SiteFolder = Callable[..., Path]
 
