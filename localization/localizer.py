@@ -307,6 +307,17 @@ class Localizer:
     def _is_blind(self, now_s: float) -> bool:
         return self._used_s is None or not now_s - self._used_s <= FADING_S
 
+    def report_state(self, now_s: float) -> tuple[LocalizerState, float]:
+        """Return state and score as people are told them: without scans nothing is tracked."""
+        if not self._is_blind(now_s):
+            return self.state, self.score
+        state = LocalizerState.COASTING if self.state is LocalizerState.TRACKING else self.state
+        return state, min(self.score, self._quality(now_s))
+
+    def _quality(self, at_s: float) -> float:
+        unseen_s = at_s - self._accepted_at[0]
+        return quality_of(self._accepted_score, unseen_s, self._unseen_m(), self._blind_axis_m)
+
     def _unseen_m(self) -> float:
         newest = self._trail.newest
         if newest is None:
@@ -324,10 +335,7 @@ class Localizer:
             return None
         quality = 0.0
         if self.state in {LocalizerState.TRACKING, LocalizerState.COASTING}:
-            unseen_s = newest.stamp_s - self._accepted_at[0]
-            quality = quality_of(
-                self._accepted_score, unseen_s, self._unseen_m(), self._blind_axis_m
-            )
+            quality = self._quality(newest.stamp_s)
         base_in_map = self._placed.at(newest.carried)
         odom_in_map = compose(base_in_map, inverse(newest.base_in_odom))
         odom_in_map, quality = self._jump_law.apply(odom_in_map, newest.base_in_odom, quality)
