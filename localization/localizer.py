@@ -21,11 +21,11 @@ from typing import TYPE_CHECKING
 
 from localization.deskew import PointCloud, deskew, drop_crowd, sweep_s
 from localization.global_search import Candidate, is_sure
+from localization.hint_dialogue import HintDialogue
 from localization.jump_law import JumpLaw
-from localization.localizer_status import bounded_score
 from localization.odometry_integration import OdometryTrail
 from localization.pose_fusion import PoseFusion, pose_array
-from localization.quality import ENOUGH_SCORE, KEPT_SCORE, quality_of
+from localization.quality import ENOUGH_SCORE, FADING_S, KEPT_SCORE, quality_of
 from localization.relocation import (
     OpenSearch,
     PlacedBase,
@@ -34,7 +34,7 @@ from localization.relocation import (
     known_place,
 )
 from localization.scan_fit import BETTER, FAR_BETTER, ScanFitter
-from wire import HintVerdict, Localization, Pose2, PoseHint, between, compose, inverse
+from wire import Localization, Pose2, PoseHint, between, compose, inverse
 
 if TYPE_CHECKING:
     import numpy as np
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
     from localization.distance_field import DistanceField
     from localization.scan_fit import ScanFit
-    from wire import HintCode, Odometry, Scan
+    from wire import HintVerdict, Odometry, Scan
     from wire.lidar_config import LidarConfig
 
     Floats = NDArray[np.float64]
@@ -64,7 +64,7 @@ SEARCH_PAUSE_S, DOUBT_SEARCH_PAUSE_S = 0.5, 2.0
 """Between searches of the whole map: while lost; while a pose is kept with a poor score."""
 ANSWER_S = 20.0
 """A search that has not answered by then never will; its client waits for 18 s."""
-OLD_SCAN_S, STANDING_MPS, STANDING_RADPS = 0.5, 0.02, 0.05
+OLD_SCAN_S = 0.5
 
 
 class LocalizerState(StrEnum):
@@ -106,9 +106,8 @@ class Localizer:
         self._searched_s = -SEARCH_PAUSE_S
         self._request: SearchRequest | None = None
         self._requests = 0
-        self._hint: PoseHint | None = None
-        self.hint_answer: HintVerdict | None = None
-        """To the newest hint, once there is one."""
+        self._hints = HintDialogue()
+        self._used_s: float | None = None  # stamp of the newest scan that says something
         self._jump_law = JumpLaw()
         self._said_s: float | None = None
         self._seq = 0
@@ -128,18 +127,8 @@ class Localizer:
 
     def hear_hint(self, hint: PoseHint) -> None:
         """Take a person's word on where the robot is; the same id again is the same hint."""
-        twist = None if self._odometry is None else self._odometry.twist
-        known = (self._hint, self.hint_answer)
-        if any(one is not None and one.id == hint.id for one in known):
-            return
-        if self._hint is not None:
-            self.hint_answer = HintVerdict(id=hint.id, code="busy", score=None)
-        elif twist is None or self._taken is None:
-            self.hint_answer = HintVerdict(id=hint.id, code="no_scan", score=None)
-        elif not (abs(twist.v_mps) < STANDING_MPS and abs(twist.w_radps) < STANDING_RADPS):
-            self.hint_answer = HintVerdict(id=hint.id, code="moving", score=None)
-        else:
-            self._hint, self._open = hint, None
+        if self._hints.hear(hint, self._odometry, has_scan=self._taken is not None):
+            self._open = None
 
     def hear_candidates(self, number: int, candidates: tuple[Candidate, ...]) -> None:
         """Take a search's answer; an answer to a question that is not open is ignored."""
@@ -157,9 +146,9 @@ class Localizer:
             least = self.score - BETTER if self.state is LocalizerState.TRACKING else ENOUGH_SCORE
             if best is None or best.score < max(ENOUGH_SCORE, least):
                 fits = False
-                self._answer_hint("does_not_fit", best.score if best else 0.0)
+                self._hints.settle("does_not_fit", best.score if best else 0.0)
             elif not fits:  # a room that looks alike from its other end
-                self._answer_hint("ambiguous", best.score)
+                self._hints.settle("ambiguous", best.score)
         elif self._placed is not None and self.state is not LocalizerState.LOST:
             least, place = self.score + FAR_BETTER, best
             fits = is_elsewhere(self._placed, candidates, search.carried, least)
@@ -198,11 +187,11 @@ class Localizer:
             self._miss()
 
     def _use(self, cloud: PointCloud, now_s: float) -> None:
-        carried = self._trail.at(cloud.stamp_s)
+        self._used_s, carried = cloud.stamp_s, self._trail.at(cloud.stamp_s)
         if self._trial is not None and self._try_answer(cloud, carried):
             return
-        if self._hint is not None and self._open is None:
-            self._ask(cloud, carried, now_s, self._hint)
+        if self._hints.pending is not None and self._open is None:
+            self._ask(cloud, carried, now_s, self._hints.pending)
         if self._placed is None or self.state is LocalizerState.LOST:
             self._search(cloud, carried, now_s)
             return
@@ -284,19 +273,16 @@ class Localizer:
             self._fusion.restart()
             self._accept(cloud, fit.pose, carried, fit)
         if hint is not None:
-            self._answer_hint("accepted" if fits else "does_not_fit", fit.score)
+            self._hints.settle("accepted" if fits else "does_not_fit", fit.score)
         return fits
-
-    def _answer_hint(self, code: HintCode, score: float | None = None) -> None:
-        if self._hint is not None:
-            held = None if score is None else bounded_score(score)
-            self.hint_answer = HintVerdict(id=self._hint.id, code=code, score=held)
-            self._hint = None
 
     def _drop_dead_search(self, now_s: float) -> None:
         if self._open is not None and now_s - self._open.asked_s > ANSWER_S:
             self._open = None
-            self._answer_hint("no_answer")
+            self._hints.settle("no_answer")
+        if self._hints.pending is not None and self._is_blind(now_s):
+            self._open = self._trial = None
+            self._hints.settle("no_scan")
 
     def _change_odometry(self) -> None:
         """Begin another frame where the last one ended: nobody says that the robot was moved."""
@@ -308,10 +294,29 @@ class Localizer:
         self._accepted_at = (self._accepted_at[0], 0.0, 0.0)
         self._spread_at = (0.0, 0.0)
         self._open = self._trial = None
-        self._answer_hint("no_answer")
+        self._hints.settle("no_answer")
         self._jump_law.clear()
 
     # What is said ---------------------------------------------------------------------------
+
+    @property
+    def hint_answer(self) -> HintVerdict | None:
+        """Return the answer to the newest hint, once there is one."""
+        return self._hints.answer
+
+    def _is_blind(self, now_s: float) -> bool:
+        return self._used_s is None or not now_s - self._used_s <= FADING_S
+
+    def report_state(self, now_s: float) -> tuple[LocalizerState, float]:
+        """Return state and score as people are told them: without scans nothing is tracked."""
+        if not self._is_blind(now_s):
+            return self.state, self.score
+        state = LocalizerState.COASTING if self.state is LocalizerState.TRACKING else self.state
+        return state, min(self.score, self._quality(now_s))
+
+    def _quality(self, at_s: float) -> float:
+        unseen_s = at_s - self._accepted_at[0]
+        return quality_of(self._accepted_score, unseen_s, self._unseen_m(), self._blind_axis_m)
 
     def _unseen_m(self) -> float:
         newest = self._trail.newest
@@ -330,10 +335,7 @@ class Localizer:
             return None
         quality = 0.0
         if self.state in {LocalizerState.TRACKING, LocalizerState.COASTING}:
-            unseen_s = newest.stamp_s - self._accepted_at[0]
-            quality = quality_of(
-                self._accepted_score, unseen_s, self._unseen_m(), self._blind_axis_m
-            )
+            quality = self._quality(newest.stamp_s)
         base_in_map = self._placed.at(newest.carried)
         odom_in_map = compose(base_in_map, inverse(newest.base_in_odom))
         odom_in_map, quality = self._jump_law.apply(odom_in_map, newest.base_in_odom, quality)

@@ -8,6 +8,7 @@ from wire import HintVerdict, LocalizerStatus, Pose2, PoseCandidate
 
 if TYPE_CHECKING:
     from localization.global_search import Candidate
+    from wire import LocalizerTrouble
 
 MOST_CANDIDATES = 5
 
@@ -18,6 +19,7 @@ def make_status(
     candidates: tuple[Candidate, ...],
     hint: HintVerdict | None,
     stamp: tuple[str, int, float],
+    trouble: LocalizerTrouble | None = None,
 ) -> LocalizerStatus:
     """Return what it does now; candidates only while there is no pose.
 
@@ -27,6 +29,7 @@ def make_status(
         candidates: what the newest search found, best first.
         hint: its verdict on the newest hint.
         stamp: boot_id, seq and stamp_s of the message.
+        trouble: why it has no pose, where it knows that.
     """
     boot_id, seq, stamp_s = stamp
     found = () if state in ("tracking", "coasting") else candidates[:MOST_CANDIDATES]
@@ -40,6 +43,7 @@ def make_status(
             PoseCandidate(pose=Pose2(*one.pose), score=bounded_score(one.score)) for one in found
         ),
         hint=hint,
+        trouble=trouble,
     )
 
 

@@ -85,15 +85,14 @@ class LocalizerNode:
         self._say_state(now_s)
 
     def _say_state(self, now_s: float) -> None:
-        news = (self._localizer.state, self._localizer.hint_answer)
+        one = self._localizer
+        state, score = one.report_state(now_s)
+        news = (state, one.hint_answer)
         if news != self._said or now_s - self._said_s >= STATE_S:
             self._said, self._said_s = news, now_s
             self._seq += 1
-            one = self._localizer
             stamp = (self._boot_id, self._seq, now_s)
-            self._state.put(
-                make_status(one.state.value, one.score, one.candidates, one.hint_answer, stamp)
-            )
+            self._state.put(make_status(state.value, score, one.candidates, one.hint_answer, stamp))
 
 
 class StandInNode:

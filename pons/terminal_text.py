@@ -149,6 +149,9 @@ def robot_lines(robot: Json) -> list[str]:
         braking_line(status["braking"]),
     ]
     without_pose = WITHOUT_POSE.get(robot.get("localizer") or "", ())
+    trouble = robot.get("localizer_trouble")
+    if trouble is not None:
+        without_pose = (trouble["message"]["en"], trouble["message"]["zh"])
     lines = [*_other_map(robot), *without_pose, *lines]
     if limits["by"] == "weak_brakes":
         lines.append(WEAK_BRAKES)

@@ -256,6 +256,9 @@ class PoseCandidate(Record):
     score: Score
 
 
+LocalizerTrouble = Literal["carried_while_mapping"]
+
+
 class LocalizerStatus(Record):
     """Say what the localizer does, for people and for the planner; the bridge needs none of it."""
 
@@ -271,6 +274,8 @@ class LocalizerStatus(Record):
     """While it searches: what the newest search found, best first."""
     hint: HintVerdict | None = None
     """On the newest hint."""
+    trouble: LocalizerTrouble | None = None
+    """Why it has no pose, where it knows that."""
 
 
 class ImageHeader(Record):

@@ -13,7 +13,8 @@ import numpy as np
 
 from localization.deskew import deskew, sweep_s
 from localization.jump_law import JumpLaw
-from localization.mapping.scan_tracker import ENOUGH_FIT, ScanTracker
+from localization.mapping.carry_law import CarryLaw
+from localization.mapping.scan_tracker import ScanTracker
 from localization.odometry_integration import OdometryTrail
 from localization.quality import FADING_M, FADING_S, POOR_QUALITY
 from wire import Localization, Pose2, compose, inverse
@@ -54,7 +55,8 @@ class LiveMapper:
             known: keyframes of another day, which this day's go on from.
         """
         self._lidar, self._map_id = lidar, map_id
-        self._tracker = ScanTracker(start, known)
+        self._carry_law = CarryLaw()
+        self._tracker = ScanTracker(start, known, self._carry_law, (lidar.x_m, lidar.y_m))
         self._trail = OdometryTrail()
         self._odometry: Odometry | None = None
         self._scan: Scan | None = None
@@ -71,9 +73,23 @@ class LiveMapper:
         return self._tracker.fit
 
     @property
-    def is_placed(self) -> bool:
+    def is_lost(self) -> bool:
+        """Return whether the robot stands where odometry can't have brought it."""
+        return self._carry_law.is_lost
+
+    def is_placed(self, now_s: float) -> bool:
         """Return whether scans hold the pose now."""
-        return self._placed is not None and self._tracker.fit >= ENOUGH_FIT
+        placed = self._placed
+        return placed is not None and self._tracker.is_placed and now_s - placed[0] <= FADING_S
+
+    def quality(self, now_s: float) -> float:
+        """Return the pose's quality, in [0, 1]; it falls with time and metres without a scan."""
+        newest = self._trail.newest
+        if self._placed is None or newest is None or self.is_lost:
+            return 0.0
+        placed_s, placed_m = self._placed
+        unseen = max((now_s - placed_s) / FADING_S, (newest.travelled_m - placed_m) / FADING_M)
+        return min(max(1.0 - (1.0 - POOR_QUALITY) * unseen, 0.0), 1.0)
 
     def hear_odometry(self, odometry: Odometry) -> None:
         """Take the bridge's odometry; another odom_id is another frame, joined on here."""
@@ -117,7 +133,7 @@ class LiveMapper:
         link = self._tracker.use_scan(cloud.points_m, _array(at), cloud.stamp_s)
         if link is not None:
             self._links.append(link)
-        if self._tracker.fit >= ENOUGH_FIT:
+        if self._tracker.is_placed:
             self._placed = (cloud.stamp_s, self._trail.counters_at(cloud.stamp_s)[0])
 
     def answer(self, now_s: float) -> Localization | None:
@@ -127,11 +143,7 @@ class LiveMapper:
             return None
         if not now_s - newest.stamp_s <= OLDEST_S or newest.stamp_s == self._said_s:
             return None
-        placed_s, placed_m = self._placed
-        unseen = max(
-            (newest.stamp_s - placed_s) / FADING_S, (newest.travelled_m - placed_m) / FADING_M
-        )
-        quality = min(max(1.0 - (1.0 - POOR_QUALITY) * unseen, 0.0), 1.0)
+        quality = self.quality(newest.stamp_s)
         x_m, y_m, yaw = self._tracker.predict(_array(newest.carried)).tolist()
         odom_in_map = compose(Pose2(x_m, y_m, yaw), inverse(newest.base_in_odom))
         odom_in_map, quality = self._jump_law.apply(odom_in_map, newest.base_in_odom, quality)

@@ -80,9 +80,12 @@ class LocalMap:
             start: x, y, yaw in ``map``.
         """
         result = align(self._field, points_m, pose_after(self._from_map, start)[None])
-        x_m, y_m = to_map(result.poses, points_m)
-        fit = float((self._field.distance(x_m, y_m) <= NEAR_M).mean())
+        fit = self._near_share(points_m, result.poses)
         return pose_after(self._in_map, result.poses[0]), fit, bool(result.free_axis.any())
+
+    def fit(self, points_m: Floats, pose: Floats) -> float:
+        """Return the share of a scan's returns that lie on what was seen, at a pose."""
+        return self._near_share(points_m, pose_after(self._from_map, pose)[None])
 
     def search(
         self, points_m: Floats, around: Floats, window_m: float, window_rad: float
@@ -97,6 +100,10 @@ class LocalMap:
         """Return the share of a scan's beams that would pass through what was seen."""
         poses = pose_after(self._from_map, pose)[None]
         return float(passed_share(self._field, points_m[::PASSED_EVERY], lidar_m, poses)[0])
+
+    def _near_share(self, points_m: Floats, poses: Floats) -> float:
+        x_m, y_m = to_map(poses, points_m)
+        return float((self._field.distance(x_m, y_m) <= NEAR_M).mean())
 
 
 def crests(counts: NDArray[np.float32]) -> NDArray[np.bool_]:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from localization.global_search import Candidate
     from localization.mapping.keyframes import Keyframe
     from localization.mapping.scan_tracker import KeyframeLink
-    from wire import Scan
+    from wire import LocalizerTrouble, Scan
     from wire.lidar_config import LidarConfig
     from wire.session import Session
 
@@ -123,16 +123,23 @@ class MappingNode:
             self._builder.find(deskew(scan, self._lidar, self._trail).points_m)
 
     def _say_state(self, now_s: float) -> None:
-        state = self._name_state()
+        state = self._name_state(now_s)
         if state == self._said and now_s - self._said_s < STATE_S:
             return
         self._said, self._said_s = state, now_s
         self._seq += 1
-        fit = 0.0 if self._mapper is None else self._mapper.fit
+        score, found = 0.0, self._candidates
+        if self._mapper is not None:
+            score, found = self._mapper.fit, ()  # a growing map is not searched
+            if state != "tracking":
+                score = min(score, self._mapper.quality(now_s))
         stamp = (self._boot_id, self._seq, now_s)
-        self._state.put(make_status(state, fit, self._candidates, None, stamp))
+        trouble: LocalizerTrouble | None = "carried_while_mapping" if state == "lost" else None
+        self._state.put(make_status(state, score, found, None, stamp, trouble))
 
-    def _name_state(self) -> Literal["searching", "tracking", "coasting"]:
+    def _name_state(self, now_s: float) -> Literal["searching", "tracking", "coasting", "lost"]:
         if self._mapper is None:
             return "searching"
-        return "tracking" if self._mapper.is_placed else "coasting"
+        if self._mapper.is_lost:
+            return "lost"
+        return "tracking" if self._mapper.is_placed(now_s) else "coasting"

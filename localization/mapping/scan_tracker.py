@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from localization.mapping.carry_law import CarryLaw
     from localization.mapping.keyframes import Keyframe
 
     Floats = NDArray[np.float64]
@@ -60,16 +61,27 @@ class KeyframeLink:
 class ScanTracker:
     """Hold the pose in a growing map, by scans against the latest keyframes."""
 
-    def __init__(self, start: Floats | None = None, known: Sequence[Keyframe] = ()) -> None:
+    def __init__(
+        self,
+        start: Floats | None = None,
+        known: Sequence[Keyframe] = (),
+        carry_law: CarryLaw | None = None,
+        lidar_m: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
         """Begin at a pose.
 
         Args:
             start: x, y, yaw in ``map``; the frame's origin if left out.
             known: all keyframes of the map so far, which the new ones go on from.
+            carry_law: what scans count, of a robot that somebody may carry; None: all that fit.
+            lidar_m: where the lidar is in ``base``; needed by the law alone.
         """
         self.pose = np.zeros(3) if start is None else np.array(start, np.float64)
         self.fit = 1.0
         """Of the newest scan: the share of its returns that lie on what was seen before."""
+        self.is_placed = False
+        """Whether the newest scan holds the pose."""
+        self._carry_law, self._lidar_m = carry_law, lidar_m
         self._carried: Floats | None = None
         self._references = _nearest(known, self.pose)
         """Keyframes by their number; the last is the end of the chain."""
@@ -99,21 +111,34 @@ class ScanTracker:
         step = np.zeros(3) if self._carried is None else pose_between(self._carried, carried)
         predicted = pose_after(self.pose, step)
         self._carried = carried
-        if len(points_m) < FEW_RETURNS:
+        if self._carry_law is not None:
+            self._carry_law.carry(step)
+        self.is_placed = len(points_m) >= FEW_RETURNS
+        if not self.is_placed:
             self._coast(predicted, step)
             return None
         if self._seen is not None:
             self._turned_rad = abs(float(step[2]))
             pose, self.fit = self._match(points_m, predicted)
-            if self.fit >= ENOUGH_FIT:
+            self.is_placed = self.fit >= ENOUGH_FIT and self._counts(points_m, predicted, pose)
+            if self.is_placed:
                 self.pose = pose
             else:
                 self._coast(predicted, step)
+            if self._carry_law is not None and not self.is_placed:
+                # Its score is told at the pose that is kept; nothing is written from there.
+                self.fit = self._seen.fit(points_m, predicted)
+                self._carry_law.refuse()
+                return None
+        if self._carry_law is not None:
+            self._carry_law.count(self.fit)
         return self._keyframe(points_m, stamp_s)
 
     def forget_odometry(self) -> None:
         """Join the next scan on where the robot stands: odometry has begun another frame."""
         self._carried = None
+        if self._carry_law is not None:
+            self._carry_law.join()
 
     def correct(self, poses: Floats) -> None:
         """Take the poses that keyframes have once a loop is closed; the robot moves along.
@@ -148,6 +173,18 @@ class ScanTracker:
             if other_fit > fit + BETTER_FIT:
                 return other, other_fit
         return pose, fit
+
+    def _counts(self, points_m: Floats, predicted: Floats, pose: Floats) -> bool:
+        """Return whether odometry allows a match, and the map where the robot was lost."""
+        if self._carry_law is None or self._seen is None:
+            return True
+        bound, off = self._carry_law.bound_match(), pose_between(predicted, pose)
+        near = np.hypot(off[0], off[1]) <= bound.off_m and abs(off[2]) <= bound.off_rad
+        if not (near and self.fit >= bound.fit):
+            return False
+        if self.fit >= bound.sure_fit:
+            return True
+        return self._seen.passed_share(points_m, self._lidar_m, pose) <= bound.passed
 
     def _coast(self, predicted: Floats, step: Floats) -> None:
         self.pose = predicted

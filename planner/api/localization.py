@@ -57,7 +57,7 @@ def routes(services: Services) -> APIRouter:
     @router.get("", operation_id="get_localization")
     async def localization() -> dict[str, Any]:
         """Say what the localizer does: its state, its score, and candidates while it searches."""
-        return {"localizer": localizer_view(services)}
+        return {"localizer": localizer_view(services), "trouble": trouble_view(services)}
 
     @router.post("/hint", operation_id="hint_localization")
     async def hint(word: HereHint) -> dict[str, Any]:
@@ -71,6 +71,14 @@ def localizer_view(services: Services) -> dict[str, Any] | None:
     """Return what the localizer says that it does; None where none speaks."""
     said = services.robot.localizer
     return None if said is None else said.model_dump(mode="json")
+
+
+def trouble_view(services: Services) -> dict[str, Any] | None:
+    """Return why the localizer has no pose and what helps, where it knows that."""
+    said = services.robot.localizer
+    if said is None or said.trouble is None:
+        return None
+    return {"code": said.trouble, "message": say(f"localization.{said.trouble}").model_dump()}
 
 
 async def give_hint(services: Services, word: HereHint) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from fastapi import APIRouter
 
 from maps.growing_map import GROWING_MAP, GrowingMap, GrowingMapError, read_growing_map
 from planner.api.interfaces import Services
+from planner.api.localization import trouble_view
 from planner.api.setup import setup_view
 from planner.brain import mind_of
 from planner.mission import Leg, tell_doubt
@@ -64,6 +65,7 @@ def robot_view(services: Services) -> dict[str, Any]:
         "localization": _localization_kind(services),
         "localized_map": services.robot.localized_map,
         "localizer": services.robot.localizer.state if services.robot.localizer else None,
+        "localizer_trouble": trouble_view(services),
         "match": match_view(services),
         "setup": setup_view(services),
         "brain": mind_of(services.brain).model_dump(mode="json"),

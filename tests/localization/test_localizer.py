@@ -174,6 +174,31 @@ def test_without_scans_quality_fades_with_time_and_with_metres(drive: Drive) -> 
     assert drive.said[-1].quality < POOR_QUALITY
 
 
+def test_without_scans_nothing_is_said_to_be_tracked(drive: Drive) -> None:
+    assert drive.localizer.report_state(drive.now_s) == (
+        LocalizerState.TRACKING,
+        drive.localizer.score,
+    )
+    drive.blind = True
+    scores = []
+    for _ in range(60):
+        word = drive.turn()
+        state, score = drive.localizer.report_state(drive.now_s)
+        scores.append(score)
+        assert word is not None
+        assert (state is LocalizerState.TRACKING) == (word.quality >= POOR_QUALITY)
+        assert state is LocalizerState.TRACKING or score == word.quality
+    assert drive.localizer.report_state(drive.now_s)[0] is LocalizerState.COASTING
+    assert scores == sorted(scores, reverse=True)
+    assert scores[-1] == 0.0
+    drive.blind = False
+    drive.run(0.3)
+    assert drive.localizer.report_state(drive.now_s) == (
+        LocalizerState.TRACKING,
+        drive.localizer.score,
+    )
+
+
 def test_carried_away_it_is_lost_within_half_a_second_and_found_within_two(drive: Drive) -> None:
     drive.true = ELSEWHERE
     began = len(drive.said)

@@ -176,6 +176,25 @@ def test_a_persons_word_is_refused_in_motion_and_before_a_scan(drive: Drive) -> 
     assert drive.localizer.hint_answer.code == "moving"
 
 
+def test_a_word_that_no_scan_comes_to_judge_is_answered_so(drive: Drive) -> None:
+    drive.blind = True
+    drive.run(1.2)
+    drive.localizer.hear_hint(hint("here-1", START, 1.0))
+    drive.run(0.05)
+    assert answer_code(drive) == "no_scan"
+    drive.blind = False
+    drive.run(0.5)
+    drive.localizer.hear_hint(hint("here-2", START, 1.0))
+    drive.blind = True
+    drive.run(1.2)
+    assert answer_code(drive) == "no_scan", "the lidar fell silent after the word"
+    drive.blind = False
+    drive.run(0.3)
+    drive.localizer.hear_hint(hint("here-3", START, 1.0))
+    drive.run(1.0)
+    assert answer_code(drive) == "accepted"
+
+
 def test_answers_that_nobody_waits_for_change_nothing(drive: Drive) -> None:
     drive.localizer.hear_candidates(999, (Candidate((1.0, 1.0, 0.0), 1.0),))
     drive.run(0.3)

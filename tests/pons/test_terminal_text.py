@@ -121,6 +121,13 @@ def test_a_robot_without_a_pose_says_so_first_in_both_languages(state: str) -> N
     assert well == robot_lines({"status": said, "room": None})
 
 
+def test_a_robot_that_knows_why_it_has_no_pose_says_that_first() -> None:
+    said, message = STATUS.model_dump(mode="json"), {"en": "Put me back.", "zh": "请放回原处。"}
+    trouble = {"code": "carried_while_mapping", "message": message}
+    robot = {"status": said, "room": None, "localizer": "lost", "localizer_trouble": trouble}
+    assert robot_lines(robot)[:2] == ["Put me back.", "请放回原处。"]
+
+
 def test_a_map_that_was_changed_under_way_is_named_first_in_both_languages() -> None:
     said = STATUS.model_dump(mode="json")
     robot = {"status": said, "room": None, "localizer": "tracking", "map_id": "a" * 16}

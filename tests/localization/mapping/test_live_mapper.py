@@ -69,7 +69,7 @@ def test_before_the_first_scan_it_says_nothing() -> None:
     drive.is_blind = True
     drive.go(1.0)
     assert drive.said == []
-    assert not drive.mapper.is_placed
+    assert not drive.mapper.is_placed(drive.now_s)
 
 
 def test_without_scans_its_quality_falls_until_the_robot_is_held() -> None:

@@ -133,7 +133,7 @@ def test_a_robot_without_a_localizer_says_so(client: TestClient, services: FakeS
     services.robot.localizer, services.robot.takes_hints = None, False
     answer = client.post(HINT, json={"point": {"x_m": 1.0, "y_m": 4.2}})
     assert (answer.status_code, answer.json()["code"]) == (503, "hint_no_localizer")
-    assert client.get("/v1/localization").json() == {"localizer": None}
+    assert client.get("/v1/localization").json() == {"localizer": None, "trouble": None}
     robot = client.get("/v1/robot").json()
     assert (robot["localizer"], robot["match"]) == (None, None)
 
@@ -166,6 +166,19 @@ def test_what_it_does_is_shown(client: TestClient) -> None:
     robot = client.get("/v1/robot").json()
     assert robot["localizer"] == "lost"
     assert robot["match"] == {"score": shown["score"], "candidates": shown["candidates"]}
+
+
+def test_why_there_is_no_pose_is_told_in_both_languages(
+    client: TestClient, services: FakeServices
+) -> None:
+    said = services.robot.localizer
+    assert said is not None
+    services.robot.localizer = said.model_copy(update={"trouble": "carried_while_mapping"})
+    trouble = client.get("/v1/localization").json()["trouble"]
+    assert trouble["code"] == "carried_while_mapping"
+    assert "Put me back where I was" in trouble["message"]["en"]
+    assert "放回原处" in trouble["message"]["zh"]
+    assert client.get("/v1/robot").json()["localizer_trouble"] == trouble
 
 
 def test_another_map_of_the_localizer_is_shown(client: TestClient, services: FakeServices) -> None:
