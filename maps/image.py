@@ -101,6 +101,7 @@ def _decode_pgm(head: re.Match[bytes], data: bytes, where: Path) -> GreyImage:
             text = f"{where}: a comment (#) behind the value of white; it belongs before the size"
             zh = f"{where}：注释（#）写在最大灰度值之后，应写在尺寸之前"
             raise SiteError("map_image_malformed", text, zh)
+    greys: bytes | None
     if head[1] == b"P2":
         greys = _plain_values(data[head.end() :], wanted, white, where)
     else:
