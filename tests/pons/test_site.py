@@ -201,7 +201,7 @@ def test_a_name_that_a_place_has_is_told_with_that_place(
         ("  name: {en: shelf, zh: 架子}\n", []),
         ("  name: {en: stop, zh: 架子}\n", ["stop"]),
         ("  name: {en: do not, zh: 停}\n", ["do not", "停"]),
-        ("  name: {en: shelf, zh: 架子}\n  aliases: {en: [halt, yes], zh: []}\n", ["halt", "yes"]),
+        ("  name: {en: shelf, zh: 架子}\n  aliases: {en: [halt, 'yes']}\n", ["halt", "yes"]),
     ],
 )
 def test_a_name_in_the_files_that_reads_as_an_order_is_found(
