@@ -17,7 +17,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from planner.language.grammar.guessed_order import ORDERS, admitted
+from planner.language.grammar.guessed_order import ORDERS, admit_intents
 from planner.language.intent.features import sentence_features
 from planner.language.intent.intent_model import (
     MODEL,
@@ -90,7 +90,7 @@ def judge(model: IntentModel, away: frozenset[str]) -> None:
             for one in said_by_people()
             if one.writer in away and one.language == language
         ]
-        guesses = [model.guess(e.units, admitted(_places(e))) for e in said]
+        guesses = [model.guess(e.units, admit_intents(_places(e))) for e in said]
         right = sum(g.intent == e.intent for g, e in zip(guesses, said, strict=True))
         print(f"{language}: {right} of {len(said)} intents right")
         for least in (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9):

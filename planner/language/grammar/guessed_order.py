@@ -143,7 +143,7 @@ def guess_meaning(marked: MarkedText, language: Language) -> GuessedMeaning | No
     if model is None or not 0 < len(units) <= MOST_UNITS:
         return None
     places = len(set(re.findall(MARK, marked.text)))
-    guess = model.guess(units, admitted(places))
+    guess = model.guess(units, admit_intents(places))
     if not guess.share >= SURE:
         return None
     if guess.intent in (NONE, REFUSED) and guess.share >= SURE_OF_TALK and not places:
@@ -201,7 +201,7 @@ def _offer(button: Option) -> Clarify:
 
 
 @cache
-def admitted(places: int) -> frozenset[str]:
+def admit_intents(places: int) -> frozenset[str]:
     """Return the intents that a sentence may have which names so many places."""
     orders = {
         intent

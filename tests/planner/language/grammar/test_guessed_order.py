@@ -15,7 +15,7 @@ from planner.language.grammar.guessed_order import (
     OTHERS,
     REMEMBERS,
     GuessKind,
-    admitted,
+    admit_intents,
     guess_meaning,
     write_order,
 )
@@ -118,6 +118,6 @@ def test_an_order_of_any_guess_names_the_sentences_places_and_no_other(
         driven = {place for step in made.steps for place in places_of(step)}
         assert driven <= named
     if intent in ORDERS:
-        assert intent in admitted(len(set(re.findall("[\ue000-\ue7ff]", marked.text))))
+        assert intent in admit_intents(len(set(re.findall("[\ue000-\ue7ff]", marked.text))))
     elif isinstance(made, StepPlan):
         assert all(isinstance(step, Recall) for step in made.steps)
