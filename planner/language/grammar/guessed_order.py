@@ -104,10 +104,21 @@ _PLACE_SLOTS = ("{p}", "{q}")
 _DENIES_NOTHING = re.compile(
     r"不知道?|不晓得|不清楚|[找看]不[着到见]|不见了|不早了|不放心|不好意思|走不[开动]|腿脚不好|忙不过来|听不清"
     r"|要不(?=你|咱|我们)|差不多"
-    r"|\b(?:can ?not|could not) (?:find|see|reach|get up|walk|leave|come)\b"
-    r"|\b(?:do|does|did) not (?:know|remember|see|feel well)\b|\bnot sure\b|\bno idea\b"
+    # A-not-A asks; 没 tells what was not; 看不见 tells what can't be
+    r"|([^\s,.;!?。])[不没]\1|没(?!必要|[叫让]你)|[看听弄找弯站够记睡坐赶认想起抬拿]不(?:[见到清懂了动下起着住出来及过完]|得(?!进))"
+    r"|不(?:太|大|怎么)?(?:踏实|舒服|方便|安|对劲|亮|响|转|够|在|安心|好使|利索|灵|稳|敢|信|记得|着急)"
+    r"|[扑冒搜找跑想翻认露掉漏]出来|还不出来|滚(?=[到在进着了去])|忘(?:了|记)?(?=[带拿关锁在放])"
+    r"|\b(?:can ?not|could not) (?:for the life of (?:me|us) )?"
+    r"(?:find|see|reach|get up|walk|leave|come|hear|tell|bend|move|stand|sleep|remember|think)\b"
+    r"|\b(?:do|does|did) not (?:know|remember|see|feel well)\b|\bnot sure\b"
+    r"|\bno (?:idea|clue|sign|luck|rush|hurry|sound|noise|answer|dawdling|messing)\b"
+    r"|(?<=[a-z] )(?<!you )(?:am|is|are|was|were|has|have|had|does|did) not\b"
+    r"(?! (?:to|allowed|for you|want|like|need|let|wish))"
+    r"|\bnobody (?:has|is|was|did)\b|\b(?:all|be|sits?|sitting|is) alone\b"
+    r"|\bwhile (?=i|we|she|he|they|it|the|my)\b|\bwhoever(?: is|'s)?\b"
+    r"|\b(?:know|wonder|wondering|sure|tell|see|check) if\b"
 )
-"""Said of the person or of what is lost, it forbids nothing."""
+"""Said of a person, of what is lost or of how things stand, it forbids nothing."""
 _OWN = re.compile(r"^(?:(?:the|a|an|my|our|your|any|some) )+")
 _TIGHT = re.compile(r" ([,.;:?!])")
 

@@ -178,7 +178,14 @@ def _weekly(again: WeekDays, clock: TimeOfDay | None, daypart: DayPart | None) -
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
-    return Timing(CronRule(cron=f"{at[1]} {at[0]} * * {list_days(again.days)}"))
+    hour, minute = at
+    if clock is not None and not clock.sure and daypart is None and hour in _BY_DAY:
+        hour += 12  # nobody who says "every day at three" means the night
+    return Timing(CronRule(cron=f"{minute} {hour} * * {list_days(again.days)}"))
+
+
+_BY_DAY = range(1, 5)
+"""Hours of a dial that mean the afternoon where nothing else is said."""
 
 
 def list_days(days: frozenset[int]) -> str:

@@ -42,6 +42,10 @@ _ZH_STATEMENT = re.compile(
     rf"|(?:就|都)?{_ZH_WHO}(?!.{{0,2}}(?:要|想|叫|让|请|希望|需要|想让|想要)你)[^,你]+,"
     r"|(?:就|都)?(?:要|得|有)?(?:个|一个)?(?:开会|上课|上班|上场|出门|直播|考试|面试|会议|复诊)[^,你]{0,4},"
 )
+_ZH_TWO_TIMES = re.compile(
+    r"(?:就|都|得|要)*我们?[^,你叫提]{1,8},.*[\d一二三四五六七八九十两](?:点|:\d)"
+)
+"""明早六点我出车，五点半叫我: the first time is of the statement."""
 _ZH_RECALLS = re.compile(r"提醒|[叫喊]醒?我")
 
 
@@ -66,6 +70,8 @@ def ends_in_statement(words: str, *, reminds: bool = False) -> bool:
 
 def begins_with_statement(words: str, *, chinese: bool) -> bool:
     """Return whether the words behind a time begin with a statement, whose time it then is."""
+    if chinese and _ZH_TWO_TIMES.match(words) is not None:
+        return True
     if chinese:
         return _ZH_STATEMENT.match(words) is not None and _ZH_RECALLS.search(words) is None
     return _STATEMENT.match(words) is not None

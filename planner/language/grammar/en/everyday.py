@@ -98,6 +98,8 @@ _UNLESS_SOMEBODY = (
     r" (?P<a>(?:in|at|by) (?:the |my |our )?[a-z']+(?: (?!go|drive|come|look|find|say|count)[a-z']+)?)"
 )
 TOLD_TWICE = table(
+    (r"\bcount (?:down )?(?:from |to )?(?P<n>\d+|ten|twenty|thirty|forty|fifty|sixty)(?: seconds)?(?=$|[,.;!]| (?:and|then)\b)",
+     r"wait \g<n> seconds"),
     (r"\bare (?:sat|seated|sitting|standing|stood|lying|left|kept) (?=(?:in|at|on|by|near|there)\b)", "are "),
     (r"^(?:please )?(?:go|drive|head|get) back (?:to )?where you (?:were|came from|come from|started)(?: before| from)?[.!]*$", "come back"),
     (r"^where do (?:we|you|i|they) (?:keep|put|store) (?P<t>(?:the|our|my) [a-z]+)\?*$", r"where is \g<t>?"),

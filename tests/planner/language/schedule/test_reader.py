@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner.language.schedule import ScheduleCommand, read_order_command
+from planner.plan.timing import CronRule
 
 OVER = (
     "yesterday at eight go to the kitchen", "remind me yesterday to take my pills",
@@ -60,6 +61,27 @@ def test_about_a_time_is_that_time_and_no_word_of_the_order(
         said = read_order_command(f"{day} {words}, {order}".strip())
         assert isinstance(said, ScheduleCommand)
         assert (said.when, said.order) == (exact.when, order)
+
+
+@pytest.mark.parametrize(
+    ("text", "cron"),
+    [
+        ("every day at three, count the cups", "0 15 * * *"),
+        ("every morning at three, count the cups", "0 3 * * *"),
+        ("every day at five thirty, wake me up", "30 5 * * *"),
+        ("每天三点数杯子", "0 15 * * *"),
+        ("每天凌晨三点数杯子", "0 3 * * *"),
+    ],
+)
+def test_an_hour_of_the_night_is_meant_only_where_the_night_is_named(text: str, cron: str) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, ScheduleCommand)
+    assert isinstance(command.when, CronRule)
+    assert command.when.cron == cron
+
+
+def test_the_time_of_a_statement_is_not_that_of_the_order_behind_it() -> None:
+    assert read_order_command("明早六点我出车，五点半到床边叫我") is None
 
 
 def test_about_nine_bottles_is_no_time() -> None:
