@@ -302,8 +302,7 @@ def _standing_robot(settings: LaunchSettings) -> Iterator[None]:
         with HomeLock(settings.home):
             yield
     except HomeTaken as error:
-        facts = {"home": str(settings.home), "why": str(error)}
-        raise site_refusal("robot_running", **facts) from error
+        raise site_refusal("robot_running", why=str(error)) from error
 
 
 def _proposal_folder(settings: LaunchSettings, folder: Path) -> Path:

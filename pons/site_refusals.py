@@ -30,5 +30,6 @@ def keyframes_malformed(path: Path, error: Exception) -> SiteError:
 
 def recording_refused(path: Path, error: BadRecording) -> SiteError:
     """Return the refusal of a recording that can't be read."""
-    why = Bilingual(en=error.detail, zh=say(f"recording_refusal.{error.code}").zh)
+    particulars = error.detail.removeprefix(str(path)).lstrip(":, ")
+    why = Bilingual(en=particulars, zh=say(f"recording_refusal.{error.code}").zh)
     return site_refusal(error.code, "recording", path=str(path), why=why)

@@ -33,6 +33,16 @@ def test_a_recording_is_refused_by_its_readers_code(code: str) -> None:
     assert error.message["zh"].startswith("录制文件 /a.mcap 无法使用：")
 
 
+def test_no_blank_stands_in_the_chinese_alone() -> None:
+    for group in ("site_refusal", "recording_refusal"):
+        for told in CATALOGUE.keys(group):
+            blanks = [
+                set(re.findall(r"\{(\w+)", raw(f"{group}.{told}", language)))
+                for language in ("en", "zh")
+            ]
+            assert blanks[1] <= blanks[0], told
+
+
 def test_what_a_library_says_of_keyframes_stays_out_of_the_chinese() -> None:
     error = keyframes_malformed(Path("/k.npz"), ValueError("File is not a zip file"))
     assert error.message["zh"] == "/k.npz：保存的关键帧已损坏，无法读取"
