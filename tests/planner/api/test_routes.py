@@ -133,9 +133,9 @@ def test_malformed_goals_are_refused_and_told_what_was_expected(
     ("content", "chinese"),
     [
         (b"{", "正文不是 JSON"),
-        (b"\x00\xff\x80", "正文不是 UTF-8 文字"),
-        (b"{}", "body.text：缺少；可用的键：text, language?"),
-        (b'{"text": 7}', "body.text：值不合要求，收到 7"),
+        (b"\x00\xff\x80", "正文不是 UTF-8 文本"),
+        (b"{}", "body.text：缺少；正文可用的键：text, language?"),
+        (b'{"text": 7}', "body.text：应为文字，收到 7"),
         (b'{"text": "go", "speed": 3}', "body.speed：未知的键，值为 3"),
     ],
 )
@@ -150,8 +150,8 @@ def test_what_was_sent_wrongly_is_told_in_chinese_as_a_whole(
 
 def test_what_is_too_short_is_told_in_chinese_with_the_bound(client: TestClient) -> None:
     answer = client.post("/v1/localization/hint", json={"place": ""}).json()
-    assert "body.place：至少 1 个字符，收到 ''" in answer["message"]["zh"]
-    assert "body.place: at least 1 characters; got ''" in answer["detail"]
+    assert "body.place：应为至少 1 个字符，收到 ''" in answer["message"]["zh"]
+    assert "body.place: String should have at least 1 character; got ''" in answer["detail"]
 
 
 def test_deep_nesting_is_refused(client: TestClient) -> None:

@@ -58,7 +58,7 @@ ORDERS = {
         ("去坐标(1,2)", "速度和坐标不由指令决定"),
     ),
     Code.NOT_UNDERSTOOD: (
-        ("colourless ideas sleep", "I did not understand “colourless ideas sleep”"),
+        ("colourless green ideas", "I did not understand “colourless green ideas”"),
         ("天地玄黄", "我没听懂“天地玄黄”"),
     ),
 }
