@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pons.site_rooms import has_named_room, reserved_name_findings
+from pons.site_rooms import has_named_room
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,3 +38,20 @@ def print_findings(
     for finding in found:
         print(f"{finding.level}: {finding.code}: {finding.words.en}\n  {finding.words.zh}")
     return found
+
+
+def reserved_name_findings(folder: Path) -> list[SiteFinding]:
+    """Return a finding for each name of the site's files that `pons site name` would refuse."""
+    from planner.language.catalogue import say
+    from planner.navigation.site_check import SiteFinding
+    from planner.site import Site, SiteError, reserved_names
+
+    try:
+        site = Site.load(folder)
+    except SiteError:
+        return []  # the check tells why
+    code = "place_name_reserved"
+    return [
+        SiteFinding(code, "warning", say(f"site_check.{code}", place=place.id, name=name))
+        for place, name in reserved_names(site)
+    ]

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from maps.new_site import NewSite
-    from planner.navigation.site_check import SiteFinding
     from planner.site.known_places import KnownPlaces
 
 
@@ -47,28 +46,6 @@ def print_rooms(folder: Path, home: Path) -> None:
 def has_named_room(folder: Path, home: Path) -> bool:
     """Return whether any room of the site has a name, by its files or by a person's teaching."""
     return any(place.kind == "room" for place in _places(folder, home).places)
-
-
-def reserved_name_findings(folder: Path) -> list[SiteFinding]:
-    """Return a finding for each name of the site's files that `pons site name` would refuse."""
-    from planner.language.catalogue import say
-    from planner.navigation.site_check import SiteFinding
-    from planner.site import Site, SiteError, reserved_names
-
-    try:
-        site = Site.load(folder)
-    except SiteError:
-        return []  # the check tells why
-    code = "place_name_reserved"
-    found = ((place.id, name) for place, name in reserved_names(site))
-    return [
-        SiteFinding(
-            code,
-            "warning",
-            say(f"site_check.{code}", place=place_id, name=name),
-        )
-        for place_id, name in found
-    ]
 
 
 def _places(folder: Path, home: Path) -> KnownPlaces:

@@ -11,7 +11,7 @@ import pytest
 from planner.site import Site
 from pons import site
 from pons.settings import LaunchSettings, site_of
-from pons.site_rooms import reserved_name_findings
+from pons.site_findings import reserved_name_findings
 from pons_assets import ROBOT_FILE, SITES
 from tests.site_sentences import english_in
 from wire import FenceFile

@@ -174,7 +174,7 @@ def guess_meaning(marked: MarkedText, language: Language) -> GuessedMeaning | No
 
 def answer_guess(
     made: Clarify, guessed: GuessedMeaning | None, read: ReadsOrder, name: NamesSteps
-) -> StepPlan | Clarify | Refuse:
+) -> StepPlan | Clarify:
     """Return what becomes of a sentence that was not understood.
 
     Law: a guess that moves is a button below a question, an order that the grammar reads by itself.

@@ -28,7 +28,7 @@ from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.guessed_order import GuessKind, answer_guess, guess_meaning
+from planner.language.grammar.guessed_order import answer_guess, guess_meaning
 from planner.language.grammar.joined_condition import in_one_condition
 from planner.language.grammar.lexicon import (
     MARK,
@@ -128,14 +128,12 @@ def _in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iter
 
 def _guess(
     made: Clarify | Refuse, text: str, vocabulary: Vocabulary, context: Context
-) -> StepPlan | AnswerPlan | Clarify | Refuse:
+) -> StepPlan | Clarify | Refuse:
     """Answer by what a sentence may mean that was not understood, where it can be guessed."""
     if made.code is not Code.NOT_UNDERSTOOD or not isinstance(made, Clarify):
         return made
     lexicon, language = lexicon_of(vocabulary), context.language or parse(text).language
     guessed = guess_meaning(lexicon.mark(normalise(text)), language)
-    if guessed is not None and guessed.kind is GuessKind.TALK and (thanks := answer_praise(text)):
-        return thanks
     return answer_guess(
         made,
         guessed,

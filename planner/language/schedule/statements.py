@@ -70,8 +70,7 @@ def ends_in_statement(words: str, *, reminds: bool = False) -> bool:
 
 def begins_with_statement(words: str, *, chinese: bool) -> bool:
     """Return whether the words behind a time begin with a statement, whose time it then is."""
-    if chinese and _ZH_TWO_TIMES.match(words) is not None:
-        return True
     if chinese:
-        return _ZH_STATEMENT.match(words) is not None and _ZH_RECALLS.search(words) is None
+        states = _ZH_STATEMENT.match(words) is not None and _ZH_RECALLS.search(words) is None
+        return states or _ZH_TWO_TIMES.match(words) is not None
     return _STATEMENT.match(words) is not None
