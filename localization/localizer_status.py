@@ -21,7 +21,7 @@ def make_status(
     stamp: tuple[str, int, float],
     trouble: LocalizerTrouble | None = None,
 ) -> LocalizerStatus:
-    """Return what it does now; candidates only while there is no pose.
+    """Return what it does now; candidates and trouble only while there is no pose.
 
     Args:
         state: its state.
@@ -32,7 +32,8 @@ def make_status(
         trouble: why it has no pose, where it knows that.
     """
     boot_id, seq, stamp_s = stamp
-    found = () if state in ("tracking", "coasting") else candidates[:MOST_CANDIDATES]
+    placed = state in ("tracking", "coasting")
+    found = () if placed else candidates[:MOST_CANDIDATES]
     return LocalizerStatus(
         boot_id=boot_id,
         seq=seq,
@@ -43,7 +44,7 @@ def make_status(
             PoseCandidate(pose=Pose2(*one.pose), score=bounded_score(one.score)) for one in found
         ),
         hint=hint,
-        trouble=trouble,
+        trouble=None if placed else trouble,
     )
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from localization.localizer import Localizer
     from localization.relocation import SearchRequest
     from localization.standin import StandIn
+    from wire import LocalizerTrouble
     from wire.session import Session
 
 PERIOD_S = 0.05
@@ -44,6 +45,10 @@ class SearchPort(Protocol):
 
     def answers(self) -> list[tuple[int, tuple[Candidate, ...]]]:
         """Return what was answered since the last call: request number and candidates."""
+
+    @property
+    def trouble(self) -> LocalizerTrouble | None:
+        """Return why the newest request was not answered; None where it was, or is open."""
 
 
 class LocalizerNode:
@@ -87,12 +92,14 @@ class LocalizerNode:
     def _say_state(self, now_s: float) -> None:
         one = self._localizer
         state, score = one.report_state(now_s)
-        news = (state, one.hint_answer)
+        trouble = self._search.trouble
+        news = (state, one.hint_answer, trouble)
         if news != self._said or now_s - self._said_s >= STATE_S:
             self._said, self._said_s = news, now_s
             self._seq += 1
-            stamp = (self._boot_id, self._seq, now_s)
-            self._state.put(make_status(state.value, score, one.candidates, one.hint_answer, stamp))
+            stamp, found = (self._boot_id, self._seq, now_s), one.candidates
+            told = make_status(state.value, score, found, one.hint_answer, stamp, trouble)
+            self._state.put(told)
 
 
 class StandInNode:

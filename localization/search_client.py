@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from localization.relocation import SearchRequest
     from processes.worker_protocol import Frame
+    from wire import LocalizerTrouble
     from wire.lidar_config import LidarConfig
 
 log = logging.getLogger(__name__)
@@ -28,6 +29,7 @@ and judged by another scan, so that a late answer harms nobody."""
 class SearchFailure(WorkerFailure):
     """Why a search gave no answer."""
 
+    code: LocalizerTrouble
     reasons = {  # noqa: RUF012  # ClassVar in its base
         "search_unavailable": ("the search process does not run", "搜索进程没有运行"),
         "search_died": ("the search process ended during a search", "搜索进程在搜索中退出"),
@@ -51,6 +53,8 @@ class SearchClient:
         arguments = (str(site.absolute()),)
         self._thread = WorkerThread("search", "localization.search_process", arguments, CODES)
         self._answers: deque[tuple[int, tuple[Candidate, ...]]] = deque(maxlen=8)
+        self.trouble: LocalizerTrouble | None = None
+        """Why the newest request was not answered; None where it was."""
 
     def start(self) -> None:
         """Start the search process."""
@@ -84,8 +88,10 @@ class SearchClient:
             found = await self._thread.worker.ask(
                 head, (request.points_m.tobytes(),), SEARCH_S, _read_candidates
             )
-        except WorkerFailure as failure:
+            self.trouble = None
+        except SearchFailure as failure:
             log.warning("%s", failure)
+            self.trouble = failure.code
             found = ()  # no place is known: the localizer asks again
         self._answers.append((request.number, found))
 

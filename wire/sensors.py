@@ -256,7 +256,9 @@ class PoseCandidate(Record):
     score: Score
 
 
-LocalizerTrouble = Literal["carried_while_mapping"]
+LocalizerTrouble = Literal[
+    "carried_while_mapping", "search_unavailable", "search_died", "search_timed_out"
+]
 
 
 class LocalizerStatus(Record):

@@ -22,6 +22,12 @@ def test_candidates_are_told_while_there_is_no_pose(state: str, told: int) -> No
     assert all(one.pose == Pose2(float(k), 1.0, 0.5) for k, one in enumerate(said.candidates))
 
 
+@pytest.mark.parametrize("state", ["searching", "lost", "tracking", "coasting"])
+def test_why_there_is_no_pose_is_told_while_there_is_none(state: str) -> None:
+    said = make_status(state, 0.4, FOUND, None, STAMP, "search_timed_out")  # type: ignore[arg-type]  # by parametrize
+    assert said.trouble == ("search_timed_out" if state in {"searching", "lost"} else None)
+
+
 @given(st.floats(-3.0, 3.0))
 def test_a_score_stays_within_what_the_wire_takes(score: float) -> None:
     assert -1.0 <= bounded_score(score) <= 1.0

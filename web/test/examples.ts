@@ -34,6 +34,7 @@ export const robot: Robot = {
   site: "two_room",
   map_id: "0123456789abcdef",
   localizer: "tracking",
+  localizer_trouble: null,
   match: { score: 0.93, candidates: [] },
   setup: { is_there: false, trial: null },
   brain: { name: "offline", breaker: null, rests_s: 0, last_error: null },

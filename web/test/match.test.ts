@@ -7,6 +7,7 @@ import {
   path,
   poseDoubtful,
   poseLost,
+  poseTrouble,
   poseUnknown,
   receive,
   shown,
@@ -94,6 +95,20 @@ describe("a robot that is lost", () => {
         if (mode !== "HOLD") expect(line).toContain(modeWords(mode, null));
       }
     }
+  });
+});
+
+describe("why it is lost", () => {
+  const message = { en: "Put me back.", zh: "请放回原处。" };
+  const localizer_trouble = { code: "carried_while_mapping", message };
+
+  it("is told while it is lost, and no longer", () => {
+    hear({ localizer: "lost", localizer_trouble });
+    expect(poseTrouble.value?.message).toEqual(message);
+    hear({ localizer: "lost" });
+    expect(poseTrouble.value).toBeNull();
+    hear({ localizer: "tracking", localizer_trouble });
+    expect(poseTrouble.value).toBeNull();
   });
 });
 

@@ -1,5 +1,5 @@
 /** Say in a whole sentence, over everything, that what is shown is not now. */
-import { t } from "../i18n";
+import { say, t } from "../i18n";
 import {
   age,
   bridgeFresh,
@@ -8,6 +8,7 @@ import {
   pageFresh,
   pageHeard,
   poseLost,
+  poseTrouble,
 } from "../state/store";
 import { seconds } from "./format";
 import { Here } from "./Here";
@@ -23,9 +24,10 @@ export function Lost() {
 
 /** Say that the robot does not know where it is, and let a person tell it. */
 function Whereabouts({ state }: { state: "searching" | "lost" }) {
+  const trouble = poseTrouble.value;
   return (
-    <div class="lost" id="pose-lost" data-state={state} role="status">
-      <span>{t(`here.${state}`)}</span>
+    <div class="lost" id="pose-lost" data-state={state} data-why={trouble?.code} role="status">
+      <span>{trouble ? say(trouble.message) : t(`here.${state}`)}</span>
       <Guesses />
       <Here />
     </div>

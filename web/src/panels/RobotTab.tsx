@@ -10,6 +10,7 @@ import {
   ignored,
   mind,
   pageFresh,
+  poseTrouble,
   shown,
   setup,
   shownStatus,
@@ -63,7 +64,11 @@ export function RobotTab() {
       {shown.value?.localizer && (
         <section class="card" aria-labelledby="here-title" id="here">
           <h2 id="here-title">{t("here.title")}</h2>
-          <p class="fine">{t(`here.now_${shown.value.localizer}`)}</p>
+          <p class="fine">
+            {poseTrouble.value
+              ? say(poseTrouble.value.message)
+              : t(`here.now_${shown.value.localizer}`)}
+          </p>
           <Match />
           <Here />
         </section>

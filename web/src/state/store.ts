@@ -47,6 +47,10 @@ export const poseLost = computed(() => {
   const state = shown.value?.localizer;
   return state === "searching" || state === "lost" ? state : null;
 });
+/** Why the localizer is without a pose and what helps; null where it does not know. */
+export const poseTrouble = steady(() =>
+  poseLost.value === null ? null : (shown.value?.localizer_trouble ?? null),
+);
 /** The robot does not know where it is: the localizer says so, or the bridge, which then holds it. */
 export const poseUnknown = computed(
   () => poseLost.value ?? (shownStatus.value?.rows.some(isPoseLost) ? "lost" : null),

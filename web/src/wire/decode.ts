@@ -119,6 +119,9 @@ const isSetup = (value: unknown): boolean =>
   typeof value.is_there === "boolean" &&
   (value.trial === null || isTrial(value.trial));
 
+const isTrouble = (value: unknown): boolean =>
+  bag(value) && text(value.code) && words(value.message);
+
 function isRobot(value: unknown): value is Robot {
   return (
     bag(value) &&
@@ -128,6 +131,7 @@ function isRobot(value: unknown): value is Robot {
     text(value.map_id) &&
     isMind(value.brain) &&
     textOrNull(value.localizer) &&
+    (value.localizer_trouble === null || isTrouble(value.localizer_trouble)) &&
     (value.match === null || isMatch(value.match)) &&
     isSetup(value.setup) &&
     bag(value.ages_s) &&

@@ -125,6 +125,8 @@ export type Robot = {
   readonly map_id: string;
   /** What the localizer does; null where none speaks. */
   readonly localizer: "searching" | "tracking" | "coasting" | "lost" | null;
+  /** Why it has no pose and what helps, where it knows that. */
+  readonly localizer_trouble: { readonly code: string; readonly message: Bilingual } | null;
   readonly match: Match | null;
   readonly setup: Setup;
   readonly brain: Mind;
