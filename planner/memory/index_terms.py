@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from planner.language.color_names import color_of
-from planner.language.folding import CHINESE, fold
+from planner.language.folding import CHINESE, fold, has_chinese
 from planner.language.object_classes import KINDS
 from planner.language.object_names import canonical
 
@@ -68,8 +68,13 @@ def match_query(words: str, *, loosely: bool = False) -> str | None:
         terms, gap = (*read.kinds, *read.words), " OR "
     else:
         terms, gap = (*read.kinds, *read.colors, *read.words), " AND "
-    quoted = [f'"{term}"' for term in terms[:MOST_TERMS]]
+    quoted = [_quote(term) for term in terms[:MOST_TERMS]]
     return gap.join(quoted) or None
+
+
+def _quote(term: str) -> str:
+    """Return a term as FTS5 reads it; one Chinese character is the beginning of a pair."""
+    return f'"{term}"*' if len(term) == 1 and has_chinese(term) else f'"{term}"'
 
 
 @lru_cache(maxsize=256)
@@ -99,6 +104,9 @@ def _read_run(
             last = at + length == len(parts)
             term = _term_of(gap.join(parts[at : at + length]), last=last)
             if term is not None:
+                if not gap and rest and (color := color_of(rest[-1])) is not None:
+                    named.append(_color_term(color))  # 红杯子: a colour of one character
+                    covered.append(rest.pop())
                 words += _plain_terms(rest, gap)
                 covered += _plain_terms(parts[at : at + length], gap)
                 named.append(term)
@@ -107,6 +115,9 @@ def _read_run(
         else:
             rest.append(parts[at])
             at += 1
+    if not gap and len(parts) == 1 and (color := color_of("".join(rest))) is not None:
+        named.append(_color_term(color))  # 红的杯子: its run ends before 的
+        covered.append(rest.pop())
     words += _plain_terms(rest, gap)
 
 
