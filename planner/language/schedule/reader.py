@@ -31,6 +31,7 @@ _MARKS = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": "
 _SPACES = re.compile(r"\s+")
 _MOST_PARTS = 6
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
+_UNTIL = re.compile(r"\b(?:until|till)$")
 _QUOTE = re.compile('["“”「」『』]')
 
 
@@ -123,8 +124,8 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
             after = _Found((), len(rest.folded))  # "every day at eight say good night at ten"
     if after.parts and grammar is english and not _lacks_time(before.parts):
         words = rest.folded[: after.at].rstrip(" ")
-        if ends_in_statement(words, reminds=remind is not None):
-            after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"
+        if ends_in_statement(words, reminds=remind is not None) or _UNTIL.search(words):
+            after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"; "wait until 18:30"
     order = rest.part(0, after.at) if after.parts else rest
     timing = combine((*before.parts, *after.parts))
     if timing is None:

@@ -103,3 +103,9 @@ def test_an_order_that_sounds_like_a_statement_keeps_its_time(text: str, order: 
     command = read_order_command(text)
     assert isinstance(command, ScheduleCommand)
     assert command.order == order
+
+
+@given(ORDERS, sampled_from(("18:30", "nine", "half past six", "tomorrow")))
+def test_the_time_until_which_somebody_waits_is_no_time_of_the_order(order: str, time: str) -> None:
+    for text in (f"wait until {time}", f"{order} and wait till {time}", f"stay here until {time}"):
+        assert not isinstance(read_order_command(text), ScheduleCommand), text
