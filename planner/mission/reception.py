@@ -184,7 +184,8 @@ def receive_answer(
     """Return the decision on words that came as the answer to a goal.
 
     What is said to the planner itself ("where are you", "hold on") is done beside the question,
-    which stays open: no sentence that needs no proof is ever taken as the answer.
+    which stays open: but for a plain no, which answers the goal that it names and no other, no
+    sentence that needs no proof is ever taken as the answer.
     """
     intent = said.intent
     if said.orders_stop or (said.consent is None and hears_stop(book, said, now_s)):
@@ -201,7 +202,8 @@ def receive_answer(
         meant = meaning_of(book, said.text, now_unix_s)
         return AnswerReception(command=Cancel(goal_id), sentence=meant, answers=False)
     own_question = takes_yes(book.missions[goal_id])  # "go on" may be its answer
-    if said.stays_put or (isinstance(intent, GoOn) and not own_question):
+    declines = said.consent is False and (own_question or asks_freely(book.missions[goal_id]))
+    if (said.stays_put and not declines) or (isinstance(intent, GoOn) and not own_question):
         return AnswerReception(sentence=said.text)
     if isinstance(intent, Replace) and not intent.corrects:
         return AnswerReception(command=Cancel(goal_id), sentence=intent.rest, answers=False)

@@ -258,6 +258,17 @@ def test_what_words_do_that_come_as_an_answer(
     assert receive_answer(_book_of(state), parse(text), "g1", 1.0) == expected
 
 
+@pytest.mark.parametrize("text", ["no", "No, thanks.", "不要", "不用，谢谢"])
+def test_a_no_answers_the_goal_that_it_names_and_no_other(text: str) -> None:
+    book = _book_of(GoalState.AWAITING_CONFIRMATION)
+    other = book.missions["g1"].model_copy(update={"id": "g2", "order": 2})
+    book.missions["g2"] = other
+    heard = receive_answer(book, parse(text), "g1", 1.0)
+    assert heard in (
+        AnswerReception(command=Reply("g1", text)), AnswerReception(command=Cancel("g1")),
+    )  # fmt: skip
+
+
 def test_a_goal_that_asks_nothing_takes_no_answer() -> None:
     heard = receive_answer(_book_of(GoalState.SUCCEEDED), parse("yes"), "g1", 1.0)
     assert heard.refused is not None
