@@ -17,6 +17,7 @@ from planner.mission.open_questions import (
     asks,
     close_older,
     confirms,
+    find_choice,
     find_offer,
     make_room,
     take_answer,
@@ -260,7 +261,7 @@ def reply(turn: Transaction, mission: Mission, text: str) -> None:
     elif confirms(mission):
         ask_plainly(turn, mission)
     else:
-        _reply_about_order(turn, mission, order if agreed and order is not None else text)
+        _reply_about_order(turn, mission, (order if agreed else find_choice(mission, text)) or text)
 
 
 def _reply_about_order(turn: Transaction, mission: Mission, text: str) -> None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, list_names, message, say
+from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
 from planner.language.stop import is_stop
 from planner.language.utterance import parse
@@ -63,6 +64,19 @@ def find_offer(mission: Mission) -> str | None:
         return None
     only = plan.options[0].text if len(plan.options) == 1 else None
     return only if only is not None and not is_stop(only) else None
+
+
+def find_choice(mission: Mission, answer: str) -> str | None:
+    """Return the one of several orders, offered by the grammar's question, that an answer names.
+
+    A model reads the answer itself.
+    """
+    plan, brain = mission.plan, mission.brain
+    if plan is None or brain is None or brain.name != OFFLINE:
+        return None
+    offers = [(each.text, each.label.en, each.label.zh) for each in plan.options]
+    chosen = choose(offers, answer)
+    return plan.options[chosen].text if chosen is not None else None
 
 
 def tell_offer(mission: Mission, question: Bilingual) -> Bilingual:

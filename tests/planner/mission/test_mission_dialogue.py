@@ -6,11 +6,12 @@ import asyncio
 from pathlib import Path
 
 from planner.brain.interface import Exchange, Observation, ThinkRequest
-from planner.brain.offline_brain import OfflineBrain
+from planner.brain.offline_brain import TAG, OfflineBrain
 from planner.mission.events import Reply
 from planner.plan import (
     Ask,
     Bilingual,
+    BrainTag,
     Clarify,
     Code,
     GoalState,
@@ -90,6 +91,22 @@ def test_a_brain_behind_the_door_hears_it(tmp_path: Path, site: Site) -> None:
             assert heard.exchanges[0].asked == "Which room?"
 
     run(story())
+
+
+def test_an_answer_that_names_one_of_the_grammars_offers_is_that_order() -> None:
+    offers = ("go to the kitchen", "go to the hall")
+    for brain, heard in (
+        (TAG, "go to the hall"),
+        (BrainTag(name="model", version="1"), "the hall, please"),
+    ):
+        world = Rethinking(thoughts=[which("Which one?", *offers), go("hall")])
+        world.run(0.2)
+        goal = world.give(None)
+        mission = world.goal(goal).model_copy(update={"brain": brain})
+        world.engine.book.missions[goal] = mission
+        world.event(Reply(goal, "the hall, please"))
+        assert world.asked[1].text == heard, "a model reads the answer itself"
+        world.run_until(goal, SUCCEEDED)
 
 
 def test_an_order_in_place_of_the_answer_stands_alone(tmp_path: Path, site: Site) -> None:
