@@ -210,6 +210,8 @@ CHINESE_COMPOUND = CompoundForms(
         ),
     ),
     time=_time,
-    slowly=re.compile(r"(?<![不太])(?:慢慢|缓慢|慢一?点儿?)地?(?=[去到回来开走往跟])"),
+    slowly=re.compile(
+        r"(?<![不太])(?:慢慢|缓慢|慢一?点儿?)地?(?=[去到回来开走往跟前后退倒转移靠绕向])"
+    ),
     follows=re.compile(rf"(?P<main>.*跟.+?){ZH_DURATION}"),
 )

@@ -53,3 +53,12 @@ def test_a_round_may_name_its_stops_first(frame: str, understood: Callable[[str]
 
 def test_who_comes_back_tells_what_came_of_it(understood: Callable[[str], str]) -> None:
     assert understood("去书房，回来告诉我") == "study come_back"
+
+
+@pytest.mark.parametrize(
+    "order", ["后退半米", "前进半米", "转一圈", "向左转", "往前走半米", "去厨房"]
+)
+def test_whatever_moves_may_be_asked_for_slowly(
+    order: str, understood: Callable[[str], str]
+) -> None:
+    assert understood(f"慢慢地{order}") == understood(f"慢慢{order}") == understood(order)
