@@ -163,13 +163,19 @@ def singles_out(words: str, classes: Collection[str] = ()) -> bool:
 
 def name_object(label: str, color: str | None = None) -> Bilingual:
     """Return a thing's name, with its colour where one is given."""
-    return _with_color(noun(f"noun.{label}") if label in KINDS else _own_name(label), color)
+    name = noun(f"noun.{label}") if label in KINDS else _own_name(label)
+    return _with_color(name, told_color(label, color))
+
+
+def told_color(label: str, color: str | None) -> str | None:
+    """Return the colour that a thing is told with; a person's is of clothes, and is not told."""
+    return None if label == "person" else color
 
 
 def named_several(label: str, color: str | None = None) -> Bilingual:
     """Return what to call several of a thing."""
     if label in KINDS:
-        return _with_color(plural(f"noun.{label}"), color)
+        return _with_color(plural(f"noun.{label}"), told_color(label, color))
     name = _own_name(label)
     *first, last = name.en.split(" ")
     return _with_color(Bilingual(en=" ".join((*first, _regular_plural(last))), zh=name.zh), color)

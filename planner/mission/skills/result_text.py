@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.object_classes import HOME
 from planner.language.object_names import list_kinds as labels_listed
-from planner.language.object_names import name_object, named_several, singles_out
+from planner.language.object_names import name_object, named_several, singles_out, told_color
 from planner.mission.skills.spatial_relations import name_related
 from planner.plan import Bilingual, Code, say_same
 
@@ -103,7 +103,7 @@ def looked_in(facts: SiteView, rooms: Iterable[str], shut: Iterable[str], spent:
 
 def list_things(things: Iterable[Thing]) -> Bilingual:
     """List things by kind and colour with their numbers: ``2 chairs, 1 red cup``."""
-    kinds = Counter((t.label, t.color) for t in things)
+    kinds = Counter((t.label, told_color(t.label, t.color)) for t in things)
     said = [
         name_count(n, *kind) for kind, n in sorted(kinds.items(), key=lambda k: (-k[1], str(k)))
     ]

@@ -63,7 +63,12 @@ def on_floor(thing: Thing) -> bool | None:
 
 
 def support_of(thing: Thing, things: tuple[Thing, ...]) -> str | None:
-    """Return the class of what a thing stands on, the nearest; None where that is not known."""
+    """Return the class of what a thing stands on, the nearest; None where that is not known.
+
+    Only furniture is stood on. A person is told by the room: two looks at one person lie close.
+    """
+    if thing.label == "person":
+        return None
     on = [by for by in things if judge_relation(thing, Relation.ON, by) is True]
     nearest = min(on, key=lambda by: hypot(thing.x_m - by.x_m, thing.y_m - by.y_m), default=None)
     large = nearest is not None and kind_of(nearest.label).reach_m >= FURNITURE_M

@@ -38,6 +38,7 @@ from planner.mission.skills.skill_state import (
     LookState,
     PointingStage,
 )
+from planner.mission.skills.spatial_relations import support_of
 from planner.mission.skills.viewpoints import REACH_M, in_order, room_of, spots_in
 from planner.plan import Bilingual, Code
 from planner.settings.model import ModelSettings
@@ -131,6 +132,15 @@ def test_a_large_room_is_looked_at_from_several_spots(
                for y, dy in ((0, 0.3), (deep_m, -0.3))]  # fmt: skip
     for x, y in corners:
         assert min(hypot(s.at[0] - x, s.at[1] - y) for s in spots) < REACH_M + 0.4
+
+
+def test_people_are_told_without_the_colour_of_their_clothes_and_stand_on_nothing() -> None:
+    somebody = thing(label="person", color="green", sightings=9)
+    other = replace(somebody, id="2", color="red")
+    assert list_things([somebody, other]) == Bilingual(en="2 people", zh="2 个人")
+    assert found_at(FACTS, "person", "green", None, None).en == "I found a person."
+    sofa = replace(somebody, id="3", label="sofa")
+    assert support_of(somebody, (somebody, other, sofa)) is None
 
 
 def test_sentences_are_whole_in_both_languages() -> None:
