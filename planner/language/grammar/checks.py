@@ -234,7 +234,8 @@ def _find_all(text: str, vetoes: Sequence[Vetoes]) -> dict[Code, int]:
     }
 
 
-def _condition(text: str) -> str | None:
+def condition_in(text: str) -> str | None:
+    """Return the words of a condition that a normalised text holds, or None."""
     found = _IF_EN.search(text) or _IF_ZH.search(text)
     return found["if"].strip() if found else None
 
@@ -250,7 +251,7 @@ def _alternatives(text: str) -> str | None:
 
 _TOLD: tuple[tuple[Code, Callable[[str], str | None]], ...] = (
     (Code.NEGATED, denied_part),
-    (Code.CONDITIONAL, _condition),
+    (Code.CONDITIONAL, condition_in),
     (Code.AMBIGUOUS, _alternatives),
     (Code.OUT_OF_SCOPE, _speed),
 )

@@ -14,6 +14,7 @@ from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.asides import answer_praise
+from planner.language.grammar.branch_words import plain_branches
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
 from planner.language.grammar.clauses import (
     ClauseReading,
@@ -60,6 +61,7 @@ from planner.language.grammar.sentence_text import (
     refuse_bad_text,
     words_of,
 )
+from planner.language.grammar.unread_branch import tell_unread
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
 from planner.language.grammar.zh.orders import CHINESE
@@ -94,6 +96,15 @@ def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
+    made = _plan(text, vocabulary, context)
+    if isinstance(made, Refuse):
+        return tell_unread(made, text, lambda said: _plan(said, vocabulary, context))
+    return made
+
+
+def _plan(
+    text: str, vocabulary: Vocabulary, context: Context
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
     text = in_one_condition(text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context))
     made = _plan_as_said(without_sending(text), vocabulary, context)
     if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:
@@ -236,7 +247,7 @@ def _read_compound(
         read_steps, read_memory, lambda place: vocabulary.name(place).of(tongue), read_person
     )
     forms = CHINESE_COMPOUND if tongue is Language.ZH else ENGLISH_COMPOUND
-    made = read_compound(said.strip(" ,.!?;。"), forms, readers)
+    made = read_compound(plain_branches(said), forms, readers)
     lacks = made is None or check_plan(made, vocabulary, context.runnable, context.blind)
     return None if lacks else made
 
