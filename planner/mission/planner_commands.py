@@ -203,6 +203,8 @@ class PlannerCommands:
             return AnswerPlan(text=error.message)
         mission = self._loop.book.missions[running]
         share, text = f"{100.0 * mission.speed_share:.0f} %", mission.text[:60]
+        if mission.speed_share == 1.0:
+            return AnswerPlan(text=say("commands.full_speed", text=text))
         return AnswerPlan(text=say("commands.speed_cap", share=share, text=text))
 
     def _place(self, name: str) -> Place | None:

@@ -301,3 +301,17 @@ def test_a_stop_within_an_answer_waits_for_no_disk_and_no_question(
             assert together.bridge.held is not None
 
     run(story())
+
+
+def test_faster_tells_that_it_never_drives_faster_than_planned(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, KITCHEN) as together:
+            goal = await together.missions.submit(TO_KITCHEN)
+            await together.reach(goal.id, GoalState.RUNNING)
+            assert "50 %" in told(await say(together, "slow down"))
+            for _ in range(2):
+                heard = await say(together, "faster")
+                assert "as fast as planned" in told(heard)
+                assert "%" not in told(heard)
+
+    run(story())
