@@ -9,16 +9,17 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, message, say
-from planner.plan import Code, GoalState, say_same
+from planner.plan import Code, GoalState, StepState, say_same
 
 if TYPE_CHECKING:
     from planner.mission.spans import Bounds
     from planner.mission.state import Mission, MissionState
-    from planner.plan import Bilingual, Span
+    from planner.plan import Bilingual, Span, StepRecord
 
 MOST_TOLD = 6
 _ORDER, _TOLD = 60, 90  # characters
 _NO_DEEDS = frozenset({"recall", "decide", "say", "ask"})
+_BEGUN = frozenset({StepState.RUNNING, StepState.SUCCEEDED, StepState.FAILED})
 _UNBEGUN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.REFUSED})
 
 
@@ -39,24 +40,51 @@ def find_deeds(
         for mission in book.missions.values()
         if mission.id != asking
         and mission.state not in _UNBEGUN
-        and any(step.kind not in _NO_DEEDS for step in mission.steps)
-        and (place is None or any(place in (s.place, *s.places) for s in mission.steps))
+        and _has_done(mission)
+        and (place is None or any(_was_at(step, place) for step in mission.steps))
         and (since is None or mission.updated_unix_s >= since)
         and (until is None or mission.created_unix_s <= until)
     ]
     return tuple(sorted(found, key=lambda m: m.order))
 
 
-def tell_deeds(deeds: tuple[Mission, ...], when: Span | None, now: datetime) -> Bilingual:
-    """Return the newest deeds in their order, and how many there were before."""
+def _has_done(mission: Mission) -> bool:
+    """Return whether anything of a goal was begun: a plan that was declined is no deed."""
+    moved = mission.outcome is not None and (mission.outcome.metres or 0.0) > 0.0
+    deeds = [step for step in mission.steps if step.kind not in _NO_DEEDS]
+    return bool(deeds) and (moved or any(step.state in _BEGUN for step in deeds))
+
+
+def _was_at(step: StepRecord, place: str) -> bool:
+    """Return whether a step brought the robot to a place, or looked round in it."""
+    if step.kind in _NO_DEEDS or any(stop.place == place and stop.shut for stop in step.stops):
+        return False
+    reached = step.reached is not None and place in (step.reached.place, step.reached.room)
+    done = step.state is StepState.SUCCEEDED and place in (step.place, *step.places)
+    seen = any(stop.place == place for stop in step.stops)
+    return reached or done or seen or place in step.places[: step.visited or 0]
+
+
+def tell_deeds(
+    deeds: tuple[Mission, ...], when: Span | None, now: datetime, place: Bilingual | None = None
+) -> Bilingual:
+    """Return the newest deeds in their order, and how many there were before.
+
+    Args:
+        deeds: the goals, oldest first.
+        when: the time that was asked about.
+        now: by people's clock.
+        place: the place that was asked about.
+    """
     span = say(f"memory.span_{when}") if when else say("memory.span_ever")
+    at = "_at" if place is not None else ""
     if not deeds:
-        return message(Code.NOT_REMEMBERED, what=say("memory.deeds_of", span=span))
+        what = say(f"memory.deeds_of{at}", span=span, place=place)
+        return message(Code.NOT_REMEMBERED, what=what)
     told = [_tell(mission, now) for mission in deeds[-MOST_TOLD:]]
     more = len(deeds) - len(told)
-    head = say(
-        "memory.deeds_more" if more else "memory.deeds", span=span, count=len(deeds), more=more
-    )
+    code = f"memory.deeds{'_more' if more else ''}{at}"
+    head = say(code, span=span, count=len(deeds), more=more, place=place)
     return join((head, *told))
 
 

@@ -63,7 +63,8 @@ class MemoryLookup:
         if ask.deeds:
             deeds = find_deeds(book, ask.id, bounds_of(ask.when, now), ask.place)
             code = Code.RECALLED if deeds else Code.NOT_REMEMBERED
-            return Recalled(ask.id, ask.ticket, code, tell_deeds(deeds, ask.when, now))
+            place = book.facts.targets[ask.place].name if ask.place in book.facts.targets else None
+            return Recalled(ask.id, ask.ticket, code, tell_deeds(deeds, ask.when, now, place))
         if self.recollection is None:
             return await recall_nothing(ask)
         try:

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from datetime import datetime
 from pathlib import Path
 
 import pytest
 
 from planner.brain.scripted import Reply
 from planner.memory import MemoryStore, ObjectSighting, Recollection
+from planner.mission.deeds import find_deeds, tell_deeds
 from planner.mission.events import Recalled, Resume, Tick
+from planner.mission.events import Reply as AnswerGiven
 from planner.plan import (
     Attempt,
+    Bilingual,
     Code,
     Decide,
     GoTo,
@@ -170,6 +174,25 @@ def test_deeds_are_told_of_goals_that_did_something(tmp_path: Path) -> None:
             assert "“please go to the sofa”: " in told(answer)
 
     run(story())
+
+
+def test_only_a_place_that_was_driven_to_was_visited() -> None:
+    world = Lockstep()
+    world.run(0.2)
+    declined = world.give(StepPlan(steps=(GoTo(place="kitchen"),)), confirm=True)
+    world.event(AnswerGiven(declined, "no"))
+    driven = world.give(StepPlan(steps=(GoTo(place="hall"),)))
+    world.run_until(driven, SUCCEEDED)
+    asking = world.give(StepPlan(steps=(Recall(deeds=True),)))
+    ever = (None, None)
+    assert [m.id for m in find_deeds(world.book, asking, ever)] == [driven], "a no is no deed"
+    assert find_deeds(world.book, asking, ever, "kitchen") == ()
+    (visit,) = find_deeds(world.book, asking, ever, "hall")
+    name, now = Bilingual(en="hall", zh="门厅"), datetime.fromtimestamp(NOW_S).astimezone()
+    assert tell_deeds((visit,), "today", now, name).en.startswith("I was at “hall” today: ")
+    assert tell_deeds((), "yesterday", now, name) == Bilingual(
+        en="I remember nothing of being at “hall” yesterday.", zh="我不记得昨天去过“门厅”。"
+    )
 
 
 def test_a_brain_is_shown_what_is_named_first_and_cleaned(tmp_path: Path) -> None:
