@@ -64,6 +64,7 @@ NOW = re.compile(
     rf"|where (?:does|do|did) [a-z' ]{{1,20}}? (?:keep|put|leave|store"
     rf"|park) {_WHAT.replace('what', 'f')}"
     rf"|whose (?:is|are) {_WHAT.replace('what', 'g')}"
+    rf"|whose {_WHAT.replace('what', 'm')} (?:is|are) (?P<here>this|that|it|these|those)"
     rf"|who does {_WHAT.replace('what', 'h')} belong to"
     rf"|who owns {_WHAT.replace('what', 'i')}|what(?:'s| is) (?P<j>my (?:name"
     rf"|favou?rite [a-z ]{{2,30}}))"

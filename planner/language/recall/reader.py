@@ -108,7 +108,6 @@ def _place(mark: str | None, marked: MarkedText) -> str | None:
 
 
 def _read_english(asked: _Question, room: str | None) -> RecallReading | None:
-    del room
     text = asked.text
     if english.DEEDS.fullmatch(text):
         return _reading(asked, deeds=True) if asked.place is None else None
@@ -128,7 +127,8 @@ def _read_english(asked: _Question, room: str | None) -> RecallReading | None:
         return _name_thing(asked, _first(seen), english)
     if (now := english.NOW.fullmatch(text)) is not None:
         past = asked.when is not None or asked.remembers
-        return _name_thing(asked, _first(now), english, present=not past)
+        place = _spot(now, asked, room)
+        return _name_thing(asked, _first(now), english, place=place, present=not past)
     return None
 
 
@@ -155,7 +155,8 @@ def _read_chinese(asked: _Question, room: str | None) -> RecallReading | None:
         if (seen := pattern.fullmatch(text)) is not None:
             return _name_thing(asked, _first(seen), chinese, place=_spot(seen, asked, room))
     if (now := chinese.NOW.fullmatch(text)) is not None:
-        return _name_thing(asked, _first(now), chinese, present=asked.when is None)
+        place = _spot(now, asked, room)
+        return _name_thing(asked, _first(now), chinese, place=place, present=asked.when is None)
     return None
 
 

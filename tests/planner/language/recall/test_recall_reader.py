@@ -201,6 +201,16 @@ def test_what_was_told_is_asked_of_memory(text: str, what: str) -> None:
     assert (read.step.object, read.present) == (what, True)
 
 
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [("whose room is this?", "room"), ("whose cup is that", "cup"), ("这是谁的房间？", "房间")],
+)
+def test_whose_something_here_is_asks_of_this_room(text: str, what: str) -> None:
+    read = read_recall(text, HOME, "study")
+    assert read is not None
+    assert (read.step.object, read.step.place, read.present) == (what, "study", True)
+
+
 @given(place=st.sampled_from(sorted(PLACES)), span=st.sampled_from(sorted(SPANS)))
 def test_whether_it_was_somewhere_is_asked_of_its_deeds(place: str, span: str) -> None:
     when, zh = SPANS[span]
