@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import list_names, message, say
 from planner.language.formatting import angle, metres
-from planner.mission.scene import name_deed
+from planner.mission.scene import name_deed, name_sought
 from planner.plan import Bilingual, Code, Outcome, StepRecord, say_same
 
 if TYPE_CHECKING:
@@ -68,6 +68,7 @@ def _tell(facts: SiteView, step: StepRecord) -> Bilingual:
     if step.place and step.kind != "go_to":
         name = facts.targets[step.place].name if step.place in facts.targets else None
         there = say("deed.drive_to", name=name if name is not None else say_same(step.place))
-        what = step.object
-        return there if what is None else say("deed.drive_and_seek", there=there, what=what)
+        if step.object is None:
+            return there
+        return say("deed.drive_and_seek", there=there, what=name_sought(step))
     return name_deed(facts, step)

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import CATALOGUE, say
+from planner.language.object_classes import KINDS
+from planner.language.object_names import name_object
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
 from planner.mission.queue import skill_state_now
@@ -106,7 +108,13 @@ def name_deed(facts: SiteView, step: StepRecord) -> Bilingual:
         name = facts.targets[place].name if place in facts.targets else say_same(place)
         return say("deed.drive_to", name=name)
     code = f"deed.{step.kind}"
-    return say(code if CATALOGUE.has(code) else "deed.go_on", what=step.object or "")
+    return say(code if CATALOGUE.has(code) else "deed.go_on", what=name_sought(step))
+
+
+def name_sought(step: StepRecord) -> Bilingual:
+    """Name a step's object: a kind of thing in both languages, else as it was written."""
+    words = step.object or ""
+    return name_object(words) if words in KINDS else say_same(words)
 
 
 def can_think(rules: Rules, mission: Mission) -> bool:

@@ -19,6 +19,7 @@ from planner.plan import (
     Clarify,
     Code,
     Decide,
+    Find,
     Follow,
     GoTo,
     Language,
@@ -167,6 +168,16 @@ def test_the_question_names_every_deed_and_none_twice() -> None:
     for deed in ("kitchen", "57", "2.00 m", "dock", "“me”"):
         assert deed in said.message.en, deed
     assert said.message.en.count("kitchen") == 1
+
+
+def test_a_kind_of_thing_is_named_in_both_languages() -> None:
+    sought = (Follow(object="person"), Find(object="cup", place="kitchen"))
+    steps = plan_record(StepPlan(steps=sought))
+    said = ask_for_motion(FACTS, (), steps.steps, (0, 1))
+    assert said is not None
+    assert "跟随“人”" in said.message.zh
+    assert "找“杯子”" in said.message.zh
+    assert "follow “person”" in said.message.en
 
 
 def test_what_a_goal_was_allowed_before_is_not_asked_again() -> None:
