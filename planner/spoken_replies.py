@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any
 
+from planner.language.catalogue import say
 from planner.plan import GoalState, Language
 
 if TYPE_CHECKING:
@@ -54,9 +55,14 @@ class SpokenReplies:
         self._note(self._states, goal_id, state)
         if state == GoalState.CANCELLED:
             self._mouth.hush()
-        words = self._words(goal)
-        if words and words != self._said.get(goal_id):
-            self._mouth.say(words, Language(goal["language"]))
+        words, language = self._words(goal), Language(goal["language"])
+        if words and not self._repeats(goal_id, words, language):
+            self._mouth.say(words, language)
+
+    def _repeats(self, goal_id: str, words: str, language: Language) -> bool:
+        """Return whether an end tells of nothing but the words that were heard already."""
+        heard = self._said.get(goal_id)
+        return heard is not None and words in (heard, say("account.said", text=heard).of(language))
 
     def _words(self, goal: dict[str, Any]) -> str:
         """Return the sentence that a goal's new state is told in; empty for none."""

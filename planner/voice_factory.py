@@ -53,7 +53,8 @@ class VoiceParts:
     def abilities(self) -> VoiceAbilities:
         """Show what is heard and spoken."""
         trouble, server = self.speaker.trouble, self._server
-        heard_by = "server" if server else "sherpa" if self._model else "grammar"
+        model_hears = self._model is not None and self._model.failure is None
+        heard_by = "server" if server else "sherpa" if model_hears else "grammar"
         return VoiceAbilities(
             languages=(Language.EN,) if heard_by == "grammar" else tuple(Language),
             recogniser=heard_by,

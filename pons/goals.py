@@ -70,7 +70,8 @@ def say_wav(settings: LaunchSettings, path: Path, *, wait: bool, replace: bool =
         with path.open("rb") as file:
             sound = file.read(MAX_WAV_BYTES + 1)
     except OSError as error:
-        print(f"unreadable_file: {path}: {error.strerror}", file=sys.stderr)
+        told = f"unreadable_file: {path}: {error.strerror}\n  无法读取该文件：请检查路径和权限"
+        print(told, file=sys.stderr)
         return EXIT_NO_FILE
     address = "/v1/voice?replace=true" if replace else "/v1/voice"
     sent = {"Content-Type": "audio/wav"}

@@ -36,6 +36,24 @@ CHINESE: Final[Mapping[str, str]] = {
     "map_missing": "站点没有可读取的 map.yaml：请检查 --site 的路径",
     "map_image_missing": "map.yaml 没有写明图像，或该图像无法读取",
     "map_image_outside": "map.yaml 写明的图像不在站点目录内",
+    "settings_malformed": "settings.toml 中有未知的键、不允许的值或语法错误：请按上面所示修改",
+    "settings_unreadable": "无法读取 settings.toml：请检查它的权限",
+    "model_incomplete": "[model] 不完整：请填写上面所缺的键",
+    "model_url": "[model] 的 url 不可用：请填写普通的 http 或 https 地址",
+    "model_offhost": "人们说的话会离开本机：若确实需要，请在 [model] 中设 allow_offhost = true",
+    "model_key": "[model] 的密钥为空或缺失：请检查所写的文件或环境变量",
+    "budget_contradictory": "[budget] 与其他设置矛盾：请按上面所示修改",
+    "voice_url": "[voice] 的 url 不可用：请填写普通的 http 或 https 地址",
+    "voice_offhost": "人们的声音会离开本机：若确实需要，请在 [voice] 中设 allow_offhost = true",
+    "voice_key": "[voice] 的密钥为空或缺失：请检查所写的文件或环境变量",
+    "voice_folder": "[voice] 的 folder 中没有完整的流式模型：请补齐上面所缺的文件",
+    "voice_package": "缺少 sherpa-onnx：请运行 pip install 'pons-robot[sherpa]'",
+    "voice_contradictory": "[voice] 中 url 与 folder 只能有一个：请去掉其中之一",
+    "speech_url": "[speech] 的 url 不可用：请填写普通的 http 或 https 地址",
+    "speech_offhost": "机器人说的话会离开本机：若确实需要，请在 [speech] 中设 allow_offhost = true",
+    "speech_key": "[speech] 的密钥为空或缺失：请检查所写的文件或环境变量",
+    "speech_incomplete": '[speech] engine = "server" 需要 url：请填写',
+    "speech_program": "[speech] 需要的程序没有安装：请安装上面所示的程序",
     "ros2_not_configured": "请在 robot.toml 中添加 [ros2] 部分",
     **{code: chinese for code, (_, chinese) in PORT_CURES.items()},
 }
@@ -44,8 +62,18 @@ CHINESE: Final[Mapping[str, str]] = {
 
 def chinese_cure(refusal: str) -> str | None:
     """Return the cure of the first known code in a refusal; None where none is known."""
-    known = (CHINESE.get(code) for code in _CODE.findall(refusal))
+    known = (CHINESE.get(code) or _detector_flaw(code) for code in _CODE.findall(refusal))
     return next((words for words in known if words is not None), None)
+
+
+def _detector_flaw(code: str) -> str | None:
+    """Return why a detector's file was refused; None where the code is none of those."""
+    from planner.language.catalogue import UnknownMessage, say  # late: `pons status` is here too
+
+    try:
+        return f"{say(f'vision_failure.{code}').zh}：请按上面所示修改 [vision]"
+    except UnknownMessage:
+        return None
 
 
 def chinese_line(refusal: str) -> str:

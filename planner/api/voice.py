@@ -30,8 +30,6 @@ STATUS = {
     "audio_too_long": 413,
     "body_too_large": 413,
 }
-NOT_HEARD = say("voice.not_heard")
-NO_ANSWER_HEARD = say("voice.no_answer_heard")
 _BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
@@ -93,7 +91,9 @@ def routes(services: Services) -> APIRouter:
         heard = await _recognise(services, await request.body())
         if not (heard.understood or _may_be_stop(services, heard)):
             response.status_code = 200
-            told = NO_ANSWER_HEARD if services.goals.awaits_answer() else NOT_HEARD
+            code = "no_answer_heard" if services.goals.awaits_answer() else "not_heard"
+            both = len(services.voice.languages) > 1 and heard.instead_of is None
+            told = say(f"voice.{code}_in_any" if both else f"voice.{code}")
             outcome = SpokenOutcome(code="not_heard", message=told)
             return VoiceResult(**_facts(heard), outcome=outcome)
         text = heard.transcript

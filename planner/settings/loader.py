@@ -290,5 +290,6 @@ def _describe_error(where: tuple[int | str, ...], kind: str, text: str) -> str:
     name = ".".join(map(str, where))
     if kind == "extra_forbidden":
         known = _TABLES[table].model_fields if (table := _table(where)) in _TABLES else {}
-        return f"unknown key {name!r}; known: {', '.join(known)}"
+        told = (each for field in known for each in (_KEY_SOURCES if field == "key" else (field,)))
+        return f"unknown key {name!r}; known: {', '.join(told)}"
     return f"{name} is missing" if kind == "missing" else f"{name}: {text}"

@@ -60,6 +60,8 @@ class VoiceWorker:
         self._warming: asyncio.Task[None] | None = None
         self._at_work: set[asyncio.Task[Recognition]] = set()
         self.left_out: tuple[str, ...] = ()
+        self.failure: VoiceFailure | None = None
+        """Why the newest start came to nothing; None once one has."""
 
     @property
     def pid(self) -> int | None:
@@ -142,7 +144,8 @@ class VoiceWorker:
             async with self._turn:
                 await self._ready()
         except VoiceFailure as failure:
-            log.warning("no spoken orders: %s", failure)
+            heard_by = "the model that is set" if self._model else "the built-in recogniser"
+            log.warning("%s hears nothing: %s", heard_by, failure)
 
     async def _hear(self, sound: Sound, more: Mapping[str, Any]) -> Recognition:
         process = await self._ready()
@@ -175,6 +178,15 @@ class VoiceWorker:
         Raises:
             VoiceFailure: there is none, and it says why.
         """
+        try:
+            process = await self._start()
+        except VoiceFailure as failure:
+            self.failure = failure
+            raise
+        self.failure = None
+        return process
+
+    async def _start(self) -> Process:
         alive = self._process is not None and self._process.returncode is None
         if self._process is not None and alive and self._told == self._names:
             return self._process

@@ -12,6 +12,8 @@ from pons.evals.world import EvalWorld
 
 HOLD_OUT_SEED = 5
 TUNED, HELD_OUT = "tuned", "held out"
+FORM = "tuned or held, group, sentence, expectation"
+COLUMNS = 4
 
 
 class MissingSuite(Exception):
@@ -63,9 +65,16 @@ def read_tsv(path: Path, world: EvalWorld) -> Suite:
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         if not line.strip() or line.startswith("#"):
             continue
+        columns = line.split("\t")
         try:
-            split, group, text, expected = line.split("\t")
-            cases.append(Case(text, group, wanted=read_expectation(expected), split=_split(split)))
+            if len(columns) != COLUMNS:
+                raise BadMatcher(f"{len(columns)} columns between tabs; expected {COLUMNS}: {FORM}")
+            split, group, text, expected = columns
+            wanted = read_expectation(expected)
+            if unknown := sorted(wanted.places - world.vocabulary.by_id.keys()):
+                known = ", ".join(world.vocabulary.by_id)
+                raise BadMatcher(f"unknown place {', '.join(unknown)}; known: {known}")
+            cases.append(Case(text, group, wanted=wanted, split=_split(split)))
         except ValueError as wrong:
             raise BadMatcher(f"{path.name}:{number}: {wrong}") from wrong
     return Suite(path.stem, world, tuple(cases))

@@ -18,7 +18,8 @@ from pons.evals.cases import MissingSuite, Suite
 from pons.evals.matchers import BadMatcher
 from pons.evals.report import as_json, content, has_passed, table
 from pons.evals.score import SentenceVerdict, score_each
-from pons.evals.suites import DATA, HOME_SITE, load, suite_names
+from pons.evals.suites import DATA, HOME_SITE, OF_TURNS, load, suite_names
+from pons.launch_words import chinese_line
 from wire import ConfigError
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 REACHED, MISSED, REFUSED = 0, 1, 2
-TALK, MEMORY, ORDERS, PERSON, TRIAL = "talk", "memory", "orders", "person", "trial"
+TALK, MEMORY, ORDERS, PERSON, TRIAL = OF_TURNS
 GOAL = 0.9
 PERSON_GOAL = 0.95
 Scored = TypeVar("Scored")
@@ -65,10 +66,10 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
             return _guard(suites)
         brain, scored = asyncio.run(_score_suites(settings, suites, said.model, yes=said.yes))
     except (MissingSuite, BadMatcher, SiteError) as wrong:
-        print(f"pons eval: {wrong}", file=sys.stderr)
+        print(f"pons eval: {wrong}\n  {_in_chinese(wrong)}", file=sys.stderr)
         return REFUSED
     except ConfigError as wrong:
-        print(f"pons eval: {wrong.code}: {wrong}", file=sys.stderr)
+        print(f"pons eval: {wrong}{chinese_line(str(wrong))}", file=sys.stderr)
         return REFUSED
     if not any(one.verdicts for one in scored) and any(one.left for one in scored):
         return REFUSED
@@ -77,6 +78,15 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
     else:
         print("\n\n".join(table(one.name, brain, one.verdicts, one.left) for one in scored))
     return REACHED if all(has_passed(one.verdicts, one.left) for one in scored) else MISSED
+
+
+def _in_chinese(wrong: MissingSuite | BadMatcher | SiteError) -> str:
+    """Return in Chinese why nothing could be asked; the names stand in the line above."""
+    if isinstance(wrong, SiteError):
+        return wrong.message["zh"]
+    if isinstance(wrong, BadMatcher):
+        return "句集文件有一行无法读取：请按上面所示修改"
+    return "没有这个句集：请从上面列出的名称中选择，或给出 .tsv 文件"
 
 
 def _talk(settings: LaunchSettings, said: argparse.Namespace) -> int:
@@ -103,7 +113,7 @@ def _talk(settings: LaunchSettings, said: argparse.Namespace) -> int:
     try:
         return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
     except (SiteError, ConfigError) as wrong:
-        print(f"pons eval: {wrong}", file=sys.stderr)
+        print(f"pons eval: {wrong}{chinese_line(str(wrong))}", file=sys.stderr)
         return REFUSED
 
 
@@ -122,7 +132,7 @@ def _orders(settings: LaunchSettings, said: argparse.Namespace) -> int:
     try:
         return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
     except (SiteError, ConfigError) as wrong:
-        print(f"pons eval: {wrong}", file=sys.stderr)
+        print(f"pons eval: {wrong}{chinese_line(str(wrong))}", file=sys.stderr)
         return REFUSED
 
 
@@ -175,7 +185,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "suite",
         nargs="?",
-        help=f"{', '.join((*suite_names(), TALK, MEMORY, ORDERS, PERSON, TRIAL))}, or a .tsv file",
+        help=f"{', '.join((*suite_names(), *OF_TURNS))}, or a .tsv file",
     )
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(

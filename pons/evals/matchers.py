@@ -87,6 +87,14 @@ class Expectation:
         return any(still.fits(made) for still in self.stills)
 
     @property
+    def places(self) -> frozenset[str]:
+        """Return the ids of the places that the plans speak of."""
+        items = (item for plan in self.plans for item in plan)
+        acts = [a for item in items for a in (item if isinstance(item, tuple) else (item,))]
+        driven = {word for act in acts if act.kind == "at" for word in act.words}
+        return frozenset((driven | {act.where or "" for act in acts}) - {START, HOME, ""})
+
+    @property
     def may_move(self) -> bool:
         """Tell whether any plan is expected at all."""
         return bool(self.plans)
@@ -151,7 +159,10 @@ def _act(text: str) -> Act:
     if kind in ("wait", "turn", "move", "repeat"):
         if kind == "repeat" and not words:  # as often as it takes
             return Act(kind, optional=optional)
-        number = radians(float(words)) if kind == "turn" else float(words)
+        try:
+            number = radians(float(words)) if kind == "turn" else float(words)
+        except ValueError:
+            raise BadMatcher(f"{text!r}: {kind} needs a number, not {words!r}") from None
         return Act(kind, number=number, optional=optional)
     kind = {"approach": "go_to_object", "waitfor": "wait_for"}.get(kind, kind)
     return Act(kind, tuple(plain(words).split("/")) if words else (), where, optional=optional)

@@ -22,6 +22,10 @@ SETS = {
 }
 
 
+OF_TURNS = ("talk", "memory", "orders", "person", "trial")
+"""Suites of words that lean on what was before; they have readers of their own."""
+
+
 def suite_names() -> tuple[str, ...]:
     """Return the names of suites and of sets of them."""
     return (*SETS, *(path.stem for path in sorted(OURS.glob("*.tsv"))), "gpsr", "zh")
@@ -48,5 +52,6 @@ def _one(name: str, data: Path, site: Path) -> Suite:
         return (gpsr(data) if name == "gpsr" else chinese(data)).split_in_half()
     path = Path(name) if name.endswith(".tsv") else OURS / f"{name}.tsv"
     if not path.is_file():
-        raise MissingSuite(f"no suite {name!r}; known: {', '.join(suite_names())}, or a .tsv file")
+        known = ", ".join((*suite_names(), *OF_TURNS))
+        raise MissingSuite(f"no suite {name!r}; known: {known}, or a .tsv file")
     return read_tsv(path, site_world(site, room="study"))

@@ -20,6 +20,7 @@ import hashlib
 import json
 import logging
 import re
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -245,6 +246,8 @@ log = logging.getLogger(__name__)
 FILE = "model_dialects.json"
 MAX_BYTES = 256 * 1024
 MAX_KEPT = 50
+CLIMB_S = 86_400.0
+"""After so long a server is asked from the first rung again: it may have been updated."""
 _SHAPE = TypeAdapter(Dialect)
 
 
@@ -255,7 +258,9 @@ class Dialects:
         self._path = home / FILE
         self._key = hashlib.sha256(f"{url}\n{settings.name}".encode()).hexdigest()[:24]
         first = Dialect.first(settings)
-        known = _known_dialect(self._load().get(self._key))
+        row = self._load().get(self._key)
+        known, self._climbed_unix_s = _known_dialect(row), _climbed_unix_s(row)
+        self._first_mode = first.mode
         self.kept = known is not None
         """The server is known to have taken this."""
         self._now = first if known is None else known
@@ -264,17 +269,26 @@ class Dialects:
 
     @property
     def current(self) -> Dialect:
-        """Return how to ask."""
-        return self._now
+        """Return how to ask; what was found out a day ago is tried from the first rung again."""
+        return replace(self._now, mode=self._first_mode) if self._may_climb() else self._now
+
+    def _may_climb(self) -> bool:
+        lower = LADDER.index(self._now.mode) > LADDER.index(self._first_mode)
+        fresh = 0.0 <= time.time() - self._climbed_unix_s < CLIMB_S
+        return self.kept and lower and not self._now.fixed and not fresh
 
     def keep(self, dialect: Dialect) -> None:
         """Remember what the server took. A disk that refuses costs a call at the next start."""
-        if dialect == self._now and self.kept:
+        climbed = not self.kept or self._may_climb()
+        if dialect == self._now and not climbed:
             return
+        if climbed:
+            self._climbed_unix_s = time.time()
         self._now, self.kept = dialect, True
         kept = {k: v for k, v in self._load().items() if k != self._key}
         kept = dict([*kept.items()][-(MAX_KEPT - 1) :])
-        kept[self._key] = asdict(replace(dialect, fixed=False))
+        row = asdict(replace(dialect, fixed=False))
+        kept[self._key] = row | {"climbed_unix_s": self._climbed_unix_s}
         fresh = self._path.with_suffix(".new")
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
@@ -290,6 +304,12 @@ class Dialects:
         except (OSError, ValueError, RecursionError):
             return {}
         return found if isinstance(found, dict) else {}
+
+
+def _climbed_unix_s(row: object) -> float:
+    """Return when a server was last asked from the first rung; long ago where nothing says so."""
+    said = row.get("climbed_unix_s") if isinstance(row, dict) else None
+    return float(said) if isinstance(said, int | float) and not isinstance(said, bool) else 0.0
 
 
 def _known_dialect(known: object) -> Dialect | None:

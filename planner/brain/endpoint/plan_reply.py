@@ -17,6 +17,7 @@ from pydantic import ValidationError
 from planner.brain.endpoint.reply_object import NoObject, read_reply
 from planner.brain.schema import CLARIFY_CODES, KINDS, REFUSE_CODES
 from planner.language.folding import fold_words
+from planner.language.yes_no import consents
 from planner.plan import (
     MAX_DEPTH,
     MAX_STEPS,
@@ -209,7 +210,9 @@ def _words(kind: str, filled: dict[str, Any], vocabulary: Vocabulary) -> dict[st
     options = filled.get("options", [])
     if not isinstance(options, list) or not all(isinstance(each, str) for each in options):
         return Unusable(("options must be a list of texts",))
-    words = [short for each in options[:MAX_OPTIONS] if not says_nothing(short := _short(each))]
+    short = [_short(each) for each in options[:MAX_OPTIONS]]
+    # "Yes" orders nothing: who says it answers the question itself, which a model then reads.
+    words = [each for each in short if not says_nothing(each) and consents(each) is None]
     buttons = [{"label": {"en": each, "zh": each}, "text": each} for each in words]
     return {"kind": kind, "code": code, "question": said, "options": buttons}
 

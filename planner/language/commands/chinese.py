@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 
+_WHAT_IT_CAN = r"(?!够?[干做](?:些|点)?(?:什么|啥|嘛))"
+"""你能做什么 asks what it is able to do, and 你做什么 what it is doing."""
 _POLITE = (
-    r"请|麻烦|拜托|帮我|您|你|机器人|小车|喂|嘿|嗨|哎|诶|嗯|哦|好吧|好的|好了|好|行|可以了|可以"
-    r"|没事|那就|那|就"
-    r"|现在|马上|能不能|可不可以|能|先|please|robot|pons|ok"
+    r"请|麻烦|拜托|帮我|您|你|机器人|小车|喂|嘿|嗨|哎|诶|嗯|哦|好吧|好的|好了|好|行|可以了"
+    rf"|可以{_WHAT_IT_CAN}|没事|那就|那|就"
+    rf"|现在|马上|能不能|可不可以|能{_WHAT_IT_CAN}|先|please|robot|pons|ok"
 )
 COURTEOUS = re.compile(r"(?:请问|请|你|您|机器人|小车|现在|,)*(?:能不能|可不可以|能|可以)")
 """With these 吗 is courtesy; without them it asks."""

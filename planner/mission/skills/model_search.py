@@ -256,10 +256,11 @@ def _tell_pictures(scene: Scene[Any]) -> Bilingual:
         n for r in dict.fromkeys(s.room for s in state.seen) if (n := room_name(scene.facts, r))
     ]
     figures: dict[str, Any] = {"count": paid.pictures, "tokens": paid.tokens}
+    shown = "seek.shown_one" if paid.pictures == 1 else "seek.shown"
     told = [
-        say("seek.shown_of", rooms=list_names(names, "joint.and"), **figures)
+        say(f"{shown}_of", rooms=list_names(names, "joint.and"), **figures)
         if names
-        else say("seek.shown", **figures)
+        else say(shown, **figures)
     ]
     if paid.money is not None:
         told.append(say("seek.money", money=f"{paid.money:.4g}", currency=paid.currency))

@@ -75,6 +75,27 @@ def test_what_is_not_heard_is_an_outcome_and_no_goal(
     assert services.goals.calls == []
 
 
+@pytest.mark.parametrize(
+    ("languages", "instead_of", "typed"),
+    [
+        ((Language.EN,), None, True),
+        ((Language.EN, Language.ZH), None, False),
+        ((Language.EN, Language.ZH), "server", True),
+    ],
+)
+def test_chinese_is_to_be_typed_only_where_nothing_hears_it(
+    client: TestClient,
+    services: FakeServices,
+    languages: tuple[Language, ...],
+    instead_of: Any,
+    typed: bool,
+) -> None:
+    services.voice = VoiceAbilities(languages=languages)
+    services.ears.heard = Recognition("", 0.0, understood=False, instead_of=instead_of)
+    told = client.post("/v1/voice", content=SECOND, headers=WAV).json()["outcome"]["message"]
+    assert ("中文目前请用文字输入" in told["zh"]) is typed
+
+
 def test_what_is_heard_but_not_surely_waits_for_a_yes(
     client: TestClient, services: FakeServices
 ) -> None:

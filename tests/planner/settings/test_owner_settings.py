@@ -121,6 +121,7 @@ def test_a_key_stays_with_its_host(tmp_path: Path) -> None:
         ("[mission]\nreplan = 1\n", {}, "settings_malformed",
          "'mission.replan'; known: replans, decides, answer_s"),
         ("[budget.goal]\ncall = 1\n", {}, "settings_malformed", "known: calls"),
+        ("[voice]\nurll = 'x'\n", {}, "settings_malformed", "key, key_env, key_file, timeout_s"),
         (LOCAL + "timeout_s = nan\n", {}, "settings_malformed", "timeout_s"),
         (LOCAL + "timeout_s = 1e9\n", {}, "settings_malformed", "timeout_s"),
         (LOCAL + 'mode = "magic"\n', {}, "settings_malformed", "mode"),

@@ -14,9 +14,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.plan import Language
-from planner.settings import VoiceSettings
+from planner.settings import Settings, VoiceSettings
 from planner.voice import Recognition, Sound, VoiceFailure, VoiceWorker
 from planner.voice.sherpa_model import find_model, open_model
+from planner.voice_factory import VoiceParts
 from tests.planner.voice.toy_transducer import FAINT, LOUD, MIDDLING, write_model
 from tests.processes.small_worker import story
 from wire import ConfigError
@@ -159,6 +160,22 @@ async def test_files_that_are_no_model_cost_the_process_and_never_the_planner(
     with pytest.raises(VoiceFailure) as failure:
         await hear(folder, noise(LOUD))
     assert failure.value.code == "recogniser_unavailable"
+
+
+@needs_sherpa
+@story
+async def test_a_model_that_can_not_be_read_is_not_told_as_what_hears(tmp_path: Path) -> None:
+    folder = write_model(tmp_path)
+    parts = VoiceParts(Settings(voice=VoiceSettings(folder=folder)), list)
+    assert parts.abilities().recogniser == "sherpa"
+    (folder / "encoder.onnx").write_text("hello", "utf-8")
+    recogniser = parts.recogniser()
+    try:
+        assert (await recogniser.hear(noise(LOUD))).instead_of == "sherpa"
+        assert parts.abilities().recogniser == "grammar"
+        assert parts.abilities().languages == (Language.EN,)
+    finally:
+        await parts.close()
 
 
 @needs_sherpa

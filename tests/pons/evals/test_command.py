@@ -51,6 +51,34 @@ def test_our_own_suites_reach_the_goal(capsys: pytest.CaptureFixture[str]) -> No
     assert "held out" in shown
 
 
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("tuned\tdrive\tgo to the kitchen", "mine.tsv:1: 3 columns between tabs; expected 4"),
+        ("tuned\tdrive\tgo to Narnia\tgo narnia", "mine.tsv:1: unknown place narnia; known: "),
+        ("tuned\tfind\tfind it\tfind cup @attic", "mine.tsv:1: unknown place attic; known: "),
+        ("tuned\tturn\tturn left\tturn left", "mine.tsv:1: 'turn left': turn needs a number"),
+    ],
+)
+def test_a_line_that_can_not_be_read_is_told_with_its_number(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], line: str, told: str
+) -> None:
+    path = tmp_path / "mine.tsv"
+    path.write_text(f"{line}\n", encoding="utf-8")
+    assert main(["eval", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert told in said
+    assert "句集文件" in said
+
+
+def test_an_unknown_suite_is_told_with_all_that_there_are(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["eval", "nosuch"]) == 2
+    said = capsys.readouterr().err
+    assert all(name in said for name in ("home", "talk", "person", "没有这个句集"))
+
+
 @pytest.mark.parametrize("name", ["chat_en", "chat_zh"])
 def test_what_asks_for_nothing_moves_nothing(name: str) -> None:
     (ours,) = load(name)

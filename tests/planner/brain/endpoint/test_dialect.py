@@ -145,3 +145,26 @@ def test_a_mode_of_the_owner_is_kept_whatever_is_remembered(
         server = Server(lambda: wrote(GO))
         think(brain(server, tmp_path, mode=mode), home)
         assert [rung(body) for body in server.bodies] == [mode.value]
+
+
+def test_the_ladder_is_climbed_again_after_a_day(home: Vocabulary, tmp_path: Path) -> None:
+    no = refused("response_format: no support here")
+    server = Server(no, *[lambda: wrote(GO)] * 2, no, *[lambda: wrote(GO)] * 3)
+    for _ in range(2):
+        think(brain(server, tmp_path), home)
+    assert [rung(body) for body in server.bodies] == ["json_schema", "tool", "tool"]
+    _age_by_a_day(tmp_path)
+    for _ in range(2):  # it still refuses, which holds for another day
+        think(brain(server, tmp_path), home)
+    assert [rung(body) for body in server.bodies[3:]] == ["json_schema", "tool", "tool"]
+    _age_by_a_day(tmp_path)
+    for _ in range(2):  # it was updated
+        think(brain(server, tmp_path), home)
+    assert [rung(body) for body in server.bodies[6:]] == ["json_schema", "json_schema"]
+
+
+def _age_by_a_day(home: Path) -> None:
+    kept = json.loads((home / FILE).read_text("utf-8"))
+    for row in kept.values():
+        row["climbed_unix_s"] -= 86_401.0
+    (home / FILE).write_text(json.dumps(kept), "utf-8")

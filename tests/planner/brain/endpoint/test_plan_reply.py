@@ -258,3 +258,11 @@ def test_any_json_is_a_valid_plan_or_refused(content: object, around: str) -> No
 def test_any_text_is_read_without_a_fault(text: str) -> None:
     with contextlib.suppress(NoObject):
         assert isinstance(one_object(text), dict)
+
+
+@pytest.mark.parametrize("words", ["yes", "No.", "好的", "不用了", "OK"])
+def test_a_yes_or_no_is_no_order_to_offer(words: str) -> None:
+    reply = {"kind": "clarify", "code": "ambiguous", "en": "Which?", "zh": "哪个？"}
+    judged = judge(json.dumps(reply | {"options": [words, "go to the kitchen"]}), HOME)
+    assert isinstance(judged, Clarify)
+    assert [option.text for option in judged.options] == ["go to the kitchen"]

@@ -156,6 +156,7 @@ CHINESE: tuple[tuple[str, Intent], ...] = (
     ("你要去哪儿", Doing()),
 )
 NONE = (
+    *("你能做什么", "你能干啥", "你可以做些什么？", "你好，你能做什么"),
     # English: goes on, is denied, asks, or speaks of something else.
     "don't continue",
     "do not continue to the kitchen",

@@ -332,3 +332,11 @@ def test_an_offer_is_an_order_that_is_planned_without_a_question(
 
 def test_a_world_of_places_is_named(home: Vocabulary) -> None:
     assert len(SIMPLE) == len(home.entries)
+
+
+@pytest.mark.parametrize(
+    "text", ["我的眼镜找不到了", "找不到我的手机", "我看不到电视了", "够不到冰箱"]
+)
+def test_what_could_not_be_done_denies_no_order(text: str) -> None:
+    assert getattr(plan(text), "code", None) is not Code.NEGATED, plan(text)
+    assert getattr(plan("不到厨房去"), "code", None) is Code.NEGATED

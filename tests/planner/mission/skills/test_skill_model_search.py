@@ -81,6 +81,11 @@ def walk(kind: str, model: Model, *, eyes: Eyesight = EYES, **step: Any) -> Walk
     raise AssertionError("the search does not end")
 
 
+def test_one_picture_is_told_as_one() -> None:
+    told = walk("find", lambda _, n: YES, place="kitchen")
+    assert told.end.said.en.startswith("I showed the vision model 1 picture, of the kitchen (")
+
+
 def test_it_turns_direction_by_direction_and_asks_once_a_picture() -> None:
     told = walk("find", lambda _, n: YES if n == 4 else NO, place="kitchen")
     assert told.kind == "Finish"
