@@ -121,18 +121,6 @@ _STATES = re.compile(
 )
 
 
-_GOES = re.compile(
-    r"(?:(?:please|pons|robot|hey|now|and|can you|could you|would you|will you)[, ]+)*"
-    r"(?:go|drive|head|come|move|run|roll|walk|get)\b|[请麻烦你您帮我到去开过走 ,，]*[去到开走过]"
-)
-
-
-def orders_somewhere(text: str) -> bool:
-    """Tell whether a sentence begins as an order to drive: no report, and nothing before it."""
-    said = plain(text)
-    return _GOES.match(said) is not None and not _DENIES.search(said)
-
-
 def read_grammar(
     text: str, vocabulary: Vocabulary, room: str | None
 ) -> tuple[Counter[object], Counter[object], Code | None]:

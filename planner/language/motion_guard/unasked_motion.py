@@ -24,7 +24,6 @@ from planner.language.motion_guard.second_reader import (
     branch_of,
     hangs_on_more,
     key_of_step,
-    orders_somewhere,
     read_branches,
     read_grammar,
     spare_clauses,
@@ -178,8 +177,6 @@ class _Judge:
             if spared is not None:  # "somebody knocks at the door, go and look"
                 self._veto = None
                 self._scopes = (*self._scopes[:-1], read_scope(spared))
-        self._names_a_thing = self._veto is Code.UNKNOWN_PLACE and orders_somewhere(newest)
-        """"Go to the guitar": no place of the grammar's, and a thing that a model may know."""
         self._done: Counter[object] = Counter()
         self._at = ""
         self._repeats = any(_REPEATS.search(scope.upon) for scope in self._scopes)
@@ -194,7 +191,7 @@ class _Judge:
             upon: what stands on a condition counts.
             asked: places that the conditions ask about on which the step hangs.
         """
-        if self._veto is not None and not (step.kind == "go_to_object" and self._names_a_thing):
+        if self._veto is not None:
             return f"the order itself is {self._veto.value}"
         if not places_of(step):
             self._at = ""  # wherever it leads

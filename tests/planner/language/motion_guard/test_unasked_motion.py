@@ -278,31 +278,3 @@ def test_what_never_moves_is_never_asked_about(text: str) -> None:
     still = (Say(text="hello"), Wait(seconds=5.0), Look(question="what is ahead?"))
     assert not any(can_move(step) for step in still)
     assert unasked(text, *still) == ()
-
-
-@pytest.mark.parametrize(
-    ("said", "thing"),
-    [
-        ("go to the guitar", "guitar"),
-        ("Please drive up to the guitar", "guitar"),
-        ("去吉他那里", "吉他"),
-        ("请你开到吉他旁边", "吉他"),
-    ],
-)
-def test_a_thing_that_only_a_vision_model_knows_may_be_gone_to(said: str, thing: str) -> None:
-    plan = StepPlan(steps=(GoToObject(object=thing),))
-    assert find_unasked(plan, PersonWords((said,)), HOME) == ()
-    for other in (GoToObject(object="piano"), KITCHEN, Find(object=thing), Follow(object=thing)):
-        assert find_unasked(StepPlan(steps=(other,)), PersonWords((said,)), HOME)
-
-
-@pytest.mark.parametrize(
-    ("said", "thing"),
-    [
-        ("do not go to the guitar", "guitar"),
-        ("别去吉他那里", "吉他"),
-        ("never drive up to the guitar", "guitar"),
-    ],
-)
-def test_a_denial_leads_to_no_such_thing(said: str, thing: str) -> None:
-    assert find_unasked(StepPlan(steps=(GoToObject(object=thing),)), PersonWords((said,)), HOME)
