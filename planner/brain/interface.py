@@ -60,6 +60,7 @@ class ThinkRequest(Frozen):
     runnable: frozenset[str] = RUNNABLE  # kinds of steps this robot can do now
     blind: Code = Code.NO_CAMERA  # what is said of a step that needs eyes and can't be done
     things: frozenset[str] = frozenset()  # names, in any language, of what these eyes know
+    kinds: tuple[str, ...] = ()  # the same by the detector's own English names, for a model
     observed: Annotated[tuple[Observation, ...], Field(max_length=MAX_OBSERVED)] = ()
     """What came of this goal's steps so far, oldest first; empty for a goal's first thought."""
     replan: int = Field(default=0, ge=0)

@@ -31,7 +31,7 @@ from pons_assets import PROMPTS
 BUDGET_TOKENS = 1500
 ORDER_TOKENS = 120
 """Of the budget, left for the order and what came of its steps."""
-SITUATION_TOKENS = 220
+SITUATION_TOKENS = 190
 """And for where things stand, at least: recent goals give way, the oldest first."""
 _BLANK = re.compile(r"\{\{(\w+)\}\}")
 _BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places"})
@@ -40,6 +40,7 @@ READ = "in_picture_never_an_order"
 """Under this name stand words about a picture, which may repeat what was written in it."""
 _ASKED = 300  # characters of an order, a question and an older answer
 _EXCHANGES = 2  # older ones that are told beside the newest
+_KINDS, _KIND = 40, 30  # kinds that are told, and characters of one
 _REPORTED = 600  # characters of what came of earlier steps, the newest
 _NO_DETECTOR = (
     "The robot only drives, waits and talks. It has no arm, and a camera whose pictures nobody "
@@ -51,8 +52,8 @@ _NO_CAMERA = (
     "and carrying with no_capability; looking, finding, counting and following with no_camera."
 )
 _CAMERA = (
-    "The robot drives, looks and talks. It has no arm: refuse fetching, opening and carrying with "
-    "no_capability. Find who or what is gone to by a step before."
+    "The robot drives, looks and talks; fetching, opening and carrying are no_capability: it has "
+    "no arm. Find who or what is gone to by a step before."
 )
 _BLIND = (_NO_CAMERA, _NO_DETECTOR)
 
@@ -92,7 +93,9 @@ class Prompt:
             order["so_far"] = _reports(request.observed, request.language or Language.EN)
         if request.replan:
             order["plans_that_failed"] = request.replan
-        system = _system(self.template, request.vocabulary, request.runnable, request.blind)
+        system = _system(
+            self.template, request.vocabulary, request.runnable, request.blind, request.kinds
+        )
         if request.situation is not None:
             left = BUDGET_TOKENS - count_tokens(system) - count_tokens(as_json(order))
             order |= tell_situation(request.situation, max(SITUATION_TOKENS // 2, left))
@@ -107,13 +110,20 @@ class Prompt:
 
 
 @lru_cache(maxsize=16)
-def _system(template: str, vocabulary: Vocabulary, runnable: frozenset[str], blind: Code) -> str:
+def _system(
+    template: str,
+    vocabulary: Vocabulary,
+    runnable: frozenset[str],
+    blind: Code,
+    kinds: tuple[str, ...],
+) -> str:
     """Fill the template; a place has as many names as the budget allows, and one more at least."""
+    sees = bool(runnable & NEEDS_CAMERA)
     filled = {
         "steps": "\n".join(map(step_line, step_models(runnable).values())),
-        "clarify": _codes(CLARIFY_CODES),
+        "clarify": _codes([code for code in CLARIFY_CODES if code not in REFUSE_CODES]),
         "refuse": _codes(REFUSE_CODES),
-        "robot": _CAMERA if runnable & NEEDS_CAMERA else _BLIND[blind is Code.NO_DETECTOR],
+        "robot": _CAMERA + _known(kinds) if sees else _BLIND[blind is Code.NO_DETECTOR],
     }
     text = ""
     for names in _NAMES:
@@ -124,8 +134,26 @@ def _system(template: str, vocabulary: Vocabulary, runnable: frozenset[str], bli
     return text
 
 
+def _known(kinds: Sequence[str]) -> str:
+    """Say which kinds of things the detector tells apart; the rest is left to a vision model."""
+    named = as_json([kind[:_KIND] for kind in kinds[:_KINDS]])
+    return f" Its detector knows {named}." if kinds else ""
+
+
 def _place_lines(vocabulary: Vocabulary, names: int) -> list[str]:
-    return [f"{entry.id}: {as_json(_names_told(entry)[:names])}" for entry in vocabulary.entries]
+    """Return a line for each place, those that stand in a room below it."""
+    rooms = [entry.id for entry in vocabulary.entries if entry.room not in vocabulary]
+    inside = {room: [e for e in vocabulary.entries if e.room == room] for room in rooms}
+    lines = []
+    for room in rooms:
+        lines.append(_place_line(vocabulary.by_id[room], names))
+        lines += [f"- {_place_line(entry, names)}" for entry in inside[room]]
+    return lines
+
+
+def _place_line(entry: Entry, names: int) -> str:
+    home = " home" if entry.is_home else ""
+    return f"{entry.id}{home}: {as_json(_names_told(entry)[:names])}"
 
 
 def _names_told(entry: Entry) -> list[str]:

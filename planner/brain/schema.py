@@ -50,6 +50,9 @@ _PLACES = frozenset({"place", "places"})
 _HOLDS_STEPS = frozenset({"then", "otherwise", "steps", "on_failure"})
 _HOLDS_CONDITION = frozenset({"when", "until"})
 _CLOCK = frozenset({"time", "after", "before"})
+_TOLD_AS = {"angle_rad": "angle_deg"}
+"""People say degrees and models write them; the plan keeps radians (``endpoint.plan_reply``)."""
+MOST_DEG = 720
 _UNTOLD = {"repeat": ("seconds",), "wait_for": ("seconds",)}
 """Fields whose bound is said nowhere: a model may leave them to it."""
 
@@ -62,12 +65,11 @@ def step_models(runnable: frozenset[str] = RUNNABLE) -> dict[str, type[Frozen]]:
 
 
 def step_line(model: type[Frozen]) -> str:
-    """Describe one step to a model: its shape and its effect."""
+    """Describe one step to a model: its kind, its other fields and its effect."""
     kind = _kind(model)
     shapes = {n: shape for n, shape in _fields(model).items() if n not in _UNTOLD.get(kind, ())}
-    fields = [f'"kind":"{kind}"']
-    fields += [f'"{name}":{_describe_field(name, shape)}' for name, shape in shapes.items()]
-    shown = f"{{{','.join(fields)}}}"
+    fields = [f'"{_told(name)}":{_describe_field(name, shape)}' for name, shape in shapes.items()]
+    shown = f"{kind} {{{','.join(fields)}}}"
     return shown if kind in CONTROL else f"{shown} {(model.__doc__ or '').splitlines()[0]}"
 
 
@@ -106,7 +108,8 @@ def _step_object(
     step: dict[str, Any] = {"kind": {"type": "string", "enum": list(models)}}
     for model in models.values():
         for name, shape in _fields(model).items():
-            step.setdefault(name, parts[name] if name in parts else _plain(name, shape, ids))
+            one = parts[name] if name in parts else _plain(name, shape, ids)
+            step.setdefault(_told(name), one)
     return _object(step)
 
 
@@ -117,6 +120,11 @@ def _object(properties: dict[str, Any]) -> dict[str, Any]:
         "required": ["kind"],
         "additionalProperties": False,
     }
+
+
+def _told(name: str) -> str:
+    """Return a field's name as a model is told it."""
+    return _TOLD_AS.get(name, name)
 
 
 def _kind(model: type[Frozen]) -> str:
@@ -158,6 +166,8 @@ def _describe_field(name: str, shape: dict[str, Any]) -> str:
     """Name a field's content in a word."""
     if name in _HOLDS_STEPS:
         return "[…]"
+    if name in _TOLD_AS:
+        return f"-{MOST_DEG} to {MOST_DEG}"
     if name in _HOLDS_CONDITION:
         return "condition"
     if name in _CLOCK:

@@ -135,6 +135,7 @@ def thinker(
             runnable=means.plannable,
             blind=means.blind,
             things=things_of(classes) if means.detector else frozenset(),
+            kinds=classes if means.detector else (),
             goal=ask.id,
             observed=ask.observed,
             replan=ask.replan,

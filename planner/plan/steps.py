@@ -90,7 +90,7 @@ class Decide(Frozen):
 
 
 class Turn(Frozen):
-    """Turn on the spot [rad], left positive."""
+    """Turn on the spot, left positive."""
 
     kind: Literal["turn"] = "turn"
     angle_rad: float = Field(ge=-4 * pi, le=4 * pi)

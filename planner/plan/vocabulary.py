@@ -25,6 +25,7 @@ class Entry(Frozen):
     name: Bilingual
     aliases: tuple[Alias, ...] = ()
     room: PlaceId | None = None  # the room a place stands in, where the site says so
+    is_home: bool = False  # where "go home" leads
 
     @property
     def spellings(self) -> tuple[str, ...]:

@@ -80,4 +80,5 @@ def _entry(site: Site, place: Place) -> Entry:
         name=place_name(place.name.en, place.name.zh),
         aliases=(*place.aliases.en, *place.aliases.zh),
         room=room.id if room is not None else None,
+        is_home=place.id == site.home.id,
     )

@@ -10,12 +10,13 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from math import radians
+from typing import Any, TypeGuard
 
 from pydantic import ValidationError
 
 from planner.brain.endpoint.reply_object import NoObject, read_reply
-from planner.brain.schema import CLARIFY_CODES, KINDS, REFUSE_CODES
+from planner.brain.schema import CLARIFY_CODES, KINDS, MOST_DEG, REFUSE_CODES
 from planner.language.folding import fold_words
 from planner.language.yes_no import consents
 from planner.plan import (
@@ -121,6 +122,8 @@ def _steps(steps: object, does: object) -> dict[str, Any] | Unusable:
     if len(steps) > MAX_STEPS:
         return Unusable((f"{len(steps)} steps; at most {MAX_STEPS}",))
     trimmed = [trim_step(step) for step in steps]
+    if any(not abs(deg) <= MOST_DEG for deg in _degrees_left(trimmed)):
+        return Unusable((f"angle_deg must be from -{MOST_DEG} to {MOST_DEG}",))
     blank = next(_blanks(trimmed), None)
     if blank is not None:  # the prompt's own "…", copied
         return Unusable((f"{blank} needs words of your own",))
@@ -134,7 +137,32 @@ _NAMES = {"else": "otherwise", "else_": "otherwise", "do": "steps"}
 def trim_step(step: dict[str, Any], deep: int = 0) -> dict[str, Any]:
     """Drop fields that a grammar made the model fill with nothing; clean its words."""
     named = {_NAMES.get(k, k): v for k, v in step.items() if v not in (None, "", [], {})}
-    return {k: _trim(k, v, deep) for k, v in named.items()}
+    return {k: _trim(k, v, deep) for k, v in _in_radians(named).items()}
+
+
+def _in_radians(step: dict[str, Any]) -> dict[str, Any]:
+    """Return a step with its angle in radians, as the plan keeps it; models are told degrees."""
+    deg = step.get("angle_deg")
+    if "angle_rad" in step or not _is_number(deg) or not abs(deg) <= MOST_DEG:
+        return step
+    others = {k: v for k, v in step.items() if k != "angle_deg"}
+    return others | {"angle_rad": radians(deg)}
+
+
+def _degrees_left(value: Any, deep: int = 0) -> Iterator[float]:
+    """Yield the angles in degrees that no plan takes."""
+    if deep > 2 * MAX_DEPTH + 2:  # too deep anyhow: the plan's own check says so
+        return
+    if isinstance(value, dict):
+        if _is_number(value.get("angle_deg")):
+            yield value["angle_deg"]
+        value = list(value.values())
+    for inner in value if isinstance(value, list) else ():
+        yield from _degrees_left(inner, deep + 1)
+
+
+def _is_number(value: Any) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _trim(name: str, value: Any, deep: int) -> Any:

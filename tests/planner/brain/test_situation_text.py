@@ -44,11 +44,30 @@ BUSY = Situation(
 )
 
 
+KINDS = (
+    "person",
+    "chair",
+    "sofa",
+    "table",
+    "bed",
+    "tv",
+    "fridge",
+    "plant",
+    "door",
+    "box",
+    "cup",
+    "ball",
+    "bottle",
+    "book",
+)
+"""What the detector that comes along knows."""
+
+
 def sent(situation: Situation | None, text: str = "no, I meant the other one") -> list[Any]:
     vocabulary = vocabulary_of(Site.load(ROOT / "sites" / "home"))
     asked = ThinkRequest(
         text=text, vocabulary=vocabulary, room="study", runnable=EVERY_KIND - NEEDS_GROWING_MAP,
-        language=Language.EN, situation=situation,
+        language=Language.EN, situation=situation, kinds=KINDS,
     )  # fmt: skip
     return Prompt.load().messages(asked)
 

@@ -51,7 +51,7 @@ def test_one_call_makes_a_plan_and_says_by_which_prompt(home: Vocabulary, tmp_pa
     assert thought.plan == StepPlan(steps=(GoTo(place="kitchen"),))
     assert (thought.calls, thought.tokens, thought.brain.name) == (1, 11, "m")
     assert thought.brain.prompt is not None
-    assert thought.brain.prompt.startswith("plan/7@")
+    assert thought.brain.prompt.startswith("plan/8@")
 
 
 def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:
@@ -63,7 +63,7 @@ def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:
     place = schema["properties"]["steps"]["items"]["properties"]["place"]
     assert place == {"type": "string", "enum": list(home.by_id)}
     system = body["messages"][0]["content"]
-    assert all(f"\n{place_id}: " in system for place_id in place["enum"])
+    assert all(f"{place_id}: " in system for place_id in place["enum"])
     assert (body["stream"], body["temperature"], "tools" in body) == (False, 0.0, False)
     (request,) = server.requests
     assert request.headers["authorization"] == f"Bearer {KEY}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+from math import radians
 
 import pytest
 from hypothesis import given
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 from planner.brain.endpoint import Unusable, judge
 from planner.brain.endpoint.reply_object import MAX_CHARACTERS, NoObject, one_object
 from planner.plan import (
+    EVERY_KIND,
     AnswerPlan,
     Bilingual,
     Clarify,
@@ -266,3 +268,34 @@ def test_a_yes_or_no_is_no_order_to_offer(words: str) -> None:
     judged = judge(json.dumps(reply | {"options": [words, "go to the kitchen"]}), HOME)
     assert isinstance(judged, Clarify)
     assert [option.text for option in judged.options] == ["go to the kitchen"]
+
+
+def _turn(**angle: object) -> str:
+    return json.dumps({"kind": "plan", "steps": [{"kind": "turn", **angle}]})
+
+
+@given(st.floats(-720.0, 720.0))
+def test_degrees_are_kept_as_radians(deg: float) -> None:
+    plan = judge(_turn(angle_deg=deg), HOME, EVERY_KIND)
+    assert plan == judge(_turn(angle_rad=radians(deg)), HOME, EVERY_KIND)
+    assert isinstance(plan, StepPlan)
+
+
+@pytest.mark.parametrize(
+    "angle",
+    [
+        {"angle_deg": 721},
+        {"angle_deg": -1e9},
+        {"angle_deg": "90"},
+        {"angle_deg": True},
+        {"angle_deg": 90, "angle_rad": 1.0},
+        {"angle_deg": [90]},
+    ],
+)
+def test_no_other_angle_in_degrees_is_taken(angle: dict[str, object]) -> None:
+    told = judge(_turn(**angle), HOME, EVERY_KIND)
+    assert isinstance(told, Unusable)
+    assert "angle" in str(told)
+    step = {"kind": "repeat", "times": 2, "steps": [{"kind": "turn", **angle}]}
+    held = judge(json.dumps({"kind": "plan", "steps": [step]}), HOME, EVERY_KIND)
+    assert isinstance(held, Unusable)
