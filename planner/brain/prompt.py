@@ -123,7 +123,7 @@ def _system(
         "steps": "\n".join(map(step_line, step_models(runnable).values())),
         "clarify": _codes([code for code in CLARIFY_CODES if code not in REFUSE_CODES]),
         "refuse": _codes(REFUSE_CODES),
-        "robot": _CAMERA + _known(kinds) if sees else _BLIND[blind is Code.NO_DETECTOR],
+        "robot": _CAMERA + _tell_kinds(kinds) if sees else _BLIND[blind is Code.NO_DETECTOR],
     }
     text = ""
     for names in _NAMES:
@@ -134,7 +134,7 @@ def _system(
     return text
 
 
-def _known(kinds: Sequence[str]) -> str:
+def _tell_kinds(kinds: Sequence[str]) -> str:
     """Say which kinds of things the detector tells apart; the rest is left to a vision model."""
     named = as_json([kind[:_KIND] for kind in kinds[:_KINDS]])
     return f" Its detector knows {named}." if kinds else ""

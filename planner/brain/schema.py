@@ -68,7 +68,10 @@ def step_line(model: type[Frozen]) -> str:
     """Describe one step to a model: its kind, its other fields and its effect."""
     kind = _kind(model)
     shapes = {n: shape for n, shape in _fields(model).items() if n not in _UNTOLD.get(kind, ())}
-    fields = [f'"{_told(name)}":{_describe_field(name, shape)}' for name, shape in shapes.items()]
+    fields = [
+        f'"{_name_for_model(name)}":{_describe_field(name, shape)}'
+        for name, shape in shapes.items()
+    ]
     shown = f"{kind} {{{','.join(fields)}}}"
     return shown if kind in CONTROL else f"{shown} {(model.__doc__ or '').splitlines()[0]}"
 
@@ -109,7 +112,7 @@ def _step_object(
     for model in models.values():
         for name, shape in _fields(model).items():
             one = parts[name] if name in parts else _plain(name, shape, ids)
-            step.setdefault(_told(name), one)
+            step.setdefault(_name_for_model(name), one)
     return _object(step)
 
 
@@ -122,7 +125,7 @@ def _object(properties: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _told(name: str) -> str:
+def _name_for_model(name: str) -> str:
     """Return a field's name as a model is told it."""
     return _TOLD_AS.get(name, name)
 

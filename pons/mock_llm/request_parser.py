@@ -14,8 +14,8 @@ from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocab
 
 MAX_DEPTH = 12
 MAX_PLACES = 2000
-_LINE = re.compile(r"^([a-z0-9][a-z0-9_]{0,63}): (\[.*\])$", re.MULTILINE)
-_STEP = re.compile(r'^\{"kind":"([a-z_]+)"', re.MULTILINE)
+_LINE = re.compile(r"^(?:- )?([a-z0-9][a-z0-9_]{0,63})(?: home)?: (\[.*\])$", re.MULTILINE)
+_STEP = re.compile(r"^([a-z_]+) \{", re.MULTILINE)
 
 
 def request_of(body: dict[str, Any]) -> ThinkRequest:
