@@ -50,11 +50,11 @@ def choose(offers: Sequence[Sequence[str]], answer: str) -> int | None:
     if counted:
         return counted[0]
     by_wording = zip(*offers, strict=True)
-    named = {at for wordings in by_wording for at in _named(wordings, said)}
+    named = {at for wordings in by_wording for at in _find_named(wordings, said)}
     return named.pop() if len(named) == 1 else None
 
 
-def _named(wordings: Sequence[str], said: str) -> list[int]:
+def _find_named(wordings: Sequence[str], said: str) -> list[int]:
     """Return the wordings whose own part, that no other one has, is what was said."""
     chinese = has_chinese("".join(wordings))
     cut = [list(fold(each)) if chinese else _MARKS.split(fold(each)) for each in wordings]
