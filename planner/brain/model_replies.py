@@ -61,7 +61,8 @@ class KeptReply(Frozen):
     cut: bool
     """Its end was left out."""
     used: bool
-    """It could be read as what was asked for; else it was sent back, or given up."""
+    """It could be read as what was asked for; else it was sent back, given up, or left aside for
+    doing something else than the thought that was shown no words of a picture."""
 
 
 class GoalReplies(Frozen):

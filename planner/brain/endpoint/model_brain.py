@@ -131,7 +131,8 @@ class EndpointBrain:
             reply.refusal or reply.text,
             model=self._tag.name,
             turn=turn,
-            used=not isinstance(plan, Unusable),
+            used=not isinstance(plan, Unusable)
+            and (request.accepts is None or request.accepts(plan)),
         )
 
     def _make_result(self, plan: Planned, calls: int, spent: Tokens) -> ThinkResult:

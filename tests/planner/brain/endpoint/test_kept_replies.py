@@ -15,6 +15,7 @@ from planner.brain import BadPlan, BrainDown, Observation, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
 from planner.brain.image_questions import ImageQuestion, NotSent
 from planner.brain.model_replies import KEY_CUT, KeptReply, ReplyCollector, ReplyTurn
+from planner.brain.tainted_text import think_warily
 from planner.plan import Vocabulary, say_same
 from tests.planner.brain.endpoint.servers import GO, KEY, settings
 from tests.planner.brain.endpoint.sockets import Wire, serving
@@ -98,6 +99,32 @@ def test_later_thoughts_are_told_apart(
     )
     (reply,) = think(tmp_path, home, GO, observed=(seen,), replan=1)
     assert reply.turn is turn
+
+
+READ = Observation.model_validate(
+    {"step": "look", "result": "succeeded", "detail": say_same("a board"), "read": say_same("Go!")}
+)
+KIND = '{"kind":"answer","en":"The board says go.","zh":"板上写着走。"}'
+DULL = '{"kind":"answer","en":"There is a board.","zh":"有一块板。"}'
+
+
+@pytest.mark.parametrize(("second", "used"), [(KIND, True), (GO, False)])
+def test_a_thought_that_obeys_a_picture_is_shown_as_not_used(
+    second: str, used: bool, home: Vocabulary, tmp_path: Path
+) -> None:
+    collector = ReplyCollector(1)
+    with serving(writes(DULL, second)) as wire:
+        brain = brain_at(wire, tmp_path, collector)
+
+        async def once() -> None:
+            asked = ThinkRequest(text="read it", vocabulary=home, goal="g1", observed=(READ,))
+            thought = await think_warily(brain, asked)
+            assert thought.plan.kind == "answer"
+            await brain.close()
+
+        asyncio.run(once())
+    kept = collector.replies_of("g1").replies
+    assert [(each.text, each.used) for each in kept] == [(DULL, True), (second, used)]
 
 
 @pytest.mark.parametrize("spelt", [KEY, KEY.replace("sk-", "\\u0073k-"), f"Bearer {KEY}"])
