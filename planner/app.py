@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.api import Access, build, warm_up
 from planner.brain import Brain, FallbackBrain, OfflineBrain
+from planner.brain.model_replies import ReplyCollector
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
 from planner.memory import MemoryLimits, MemoryStore, Recollection, SightingRecorder
@@ -23,7 +24,7 @@ from planner.orders.factory import standing_orders_of
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of, picture_limits, spent_by
 from planner.robot_service import LinkedRobot
-from planner.settings import load_settings
+from planner.settings import list_keys, load_settings
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.spoken_replies import SpokenReplies
@@ -75,7 +76,8 @@ class Planner:
         self._state = StateDatabase(where.home)
         self._state.put_aside_if_spoilt()
         self.budget = purse_of(self.settings, where.home, self._state)
-        self._model = _model(self.settings, where.home, self.budget)
+        self.replies = collector_of(self.settings)
+        self._model = _model(self.settings, where.home, self.budget, self.replies)
         self.description: RobotDescription = load_robot(where.robot)
         self.site = Site.load(where.site)
         self.brain = _brain(self._model, self.settings)
@@ -189,14 +191,22 @@ class Planner:
         self._session.close()
 
 
-def _model(settings: Settings, home: Path, meter: Meter) -> EndpointBrain | None:
+def collector_of(settings: Settings) -> ReplyCollector:
+    """Return the keeper of what a model writes; it keeps nothing unless the owner has set it."""
+    most_goals = 0 if settings.model is None else settings.model.keep_replies
+    return ReplyCollector(most_goals, list_keys(settings))
+
+
+def _model(
+    settings: Settings, home: Path, meter: Meter, replies: ReplyCollector | None = None
+) -> EndpointBrain | None:
     """Return the brain of the model that the owner has set, if one is."""
     if settings.model is None:
         return None
     from planner.brain.endpoint import EndpointBrain, warm_up  # httpx costs 0.1 s: not for nothing
 
     logging.getLogger("httpx").setLevel(logging.WARNING)  # a line for each call is too much
-    model = EndpointBrain(settings.model, home, meter=meter)
+    model = EndpointBrain(settings.model, home, meter=meter, replies=replies)
     warm_up()
     log.info("plans come from %s at %s", model.tag.name, model.address.host)
     return model

@@ -150,8 +150,9 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
 _BARE_TOOLS = frozenset({"tls", "why", "key"})
 """Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
-_TOOLS = _BARE_TOOLS | {
-    "doctor", "braking", "fence", "places", "orders", "calibrate", "fault", "replay", "detect",
+_PLANNERS = frozenset({"places", "orders", "replies"})
+_TOOLS = _BARE_TOOLS | _PLANNERS | {
+    "doctor", "braking", "fence", "calibrate", "fault", "replay", "detect",
 }  # fmt: skip
 
 
@@ -185,14 +186,8 @@ def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
         from pons import fence
 
         return fence.run(settings, said.act, said.what)
-    if said.word == "places":
-        from pons import places
-
-        return places.run(settings, said.act, said.name, chinese=said.zh)
-    if said.word == "orders":
-        from pons import orders
-
-        return orders.run(settings, said.act, said.words, as_json=said.json)
+    if said.word in _PLANNERS:
+        return _ask_planner(settings, said)
     if said.word == "fault":
         from pons import fault
 
@@ -206,6 +201,21 @@ def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
     if said.with_model is not None:
         return replay.with_model(settings, said)
     return replay.run(said.files)
+
+
+def _ask_planner(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    """Run a command that shows or changes what the planner keeps."""
+    if said.word == "places":
+        from pons import places
+
+        return places.run(settings, said.act, said.name, chinese=said.zh)
+    if said.word == "orders":
+        from pons import orders
+
+        return orders.run(settings, said.act, said.words, as_json=said.json)
+    from pons import replies
+
+    return replies.run(settings, said.goal)
 
 
 if __name__ == "__main__":

@@ -55,6 +55,8 @@ def parser() -> argparse.ArgumentParser:
     _doctor(words)
     _calibrate(words)
     words.add_parser("why", help="explain the last stop: row, evidence, what to do")
+    wrote = words.add_parser("replies", help="show what the model wrote about a goal, if kept")
+    wrote.add_argument("goal", nargs="?", metavar="GOAL", help="the newest unless named")
     keyed = words.add_parser("key", help="make the key by which the bridge knows its operator")
     keyed.add_argument("act", choices=("new",))
     brakes = words.add_parser("braking", help="show what stops have taught of the brakes")

@@ -42,7 +42,7 @@ ASKERS = (
           "order, read or frame the robot"),
     ThreatAsker("who has the viewer's token",
           "read all that the page shows; stop, protective stop, disarm",
-          "make anything move, arm, change a place or the fence"),
+          "make anything move, arm, change a place or the fence; read what a model wrote"),
     ThreatAsker("who has the operator's token",
           "give goals, steer by hand within its meter",
           "arm or clear a hold of a robot of metal without the operator's key"),

@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import hmac
 import ipaddress
+import re
 from dataclasses import dataclass
 from enum import StrEnum
 from urllib.parse import urlsplit
@@ -40,6 +41,8 @@ TYPED_METHODS = frozenset({"POST", "PUT", "PATCH", "DELETE"})
 """The methods that change something; no route takes any other, and the router says so (405)."""
 STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 """Whoever may look may also stop, and needs no content type to do it."""
+OPERATORS_READING = re.compile(r"/v1/goals/[^/]*/replies/?")
+"""What a viewer may not even read: people's words and words out of pictures may stand in it."""
 
 
 FORWARDED = ("forwarded", "via")
@@ -96,6 +99,9 @@ class Access:
         if websocket and not token:
             token = _find_token(headers.get("sec-websocket-protocol", ""))
         role = self._role(token)
+        if role is not Role.OPERATOR and OPERATORS_READING.fullmatch(path):
+            detail = f"the viewer's token came; {method} {path[:80]} needs the operator's"
+            raise AccessError(403, "operator_needed", detail)
         if not websocket and method not in SAFE_METHODS and path not in STOPPING_PATHS:
             if method in TYPED_METHODS:
                 _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))

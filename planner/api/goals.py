@@ -13,6 +13,7 @@ from planner.api.operator import act_behind, persons_act
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
 from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalMove, GoalOrder, GoalReply, NewGoal
+from planner.brain.model_replies import GoalReplies
 from planner.language.catalogue import say
 from planner.language.utterance import Utterance, parse
 from planner.mission.errors import MissionError
@@ -113,6 +114,14 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
     async def one(goal_id: str) -> Goal:
         """Show one goal whole."""
         return goals.goal(goal_id)
+
+    @router.get("/{goal_id}/replies", operation_id="list_goal_replies")
+    async def replies(goal_id: str) -> GoalReplies:
+        """Show what the model wrote about a goal, to operators alone.
+
+        ``kept`` is the setting ``keep_replies``; where it is 0, nothing is kept of any goal.
+        """
+        return services.replies.replies_of(goals.goal(goal_id).id)
 
 
 def _acting(router: APIRouter, services: Services, door: GoalIntake) -> None:

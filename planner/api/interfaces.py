@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Mapping, Sequence
 
     from planner.brain import Brain
+    from planner.brain.model_replies import ReplyCollector
     from planner.budget import Usage
     from planner.memory import Recollection
     from planner.mission import Leg
@@ -214,6 +215,9 @@ class Services(Protocol):
 
     @property
     def brain(self) -> Brain: ...
+
+    @property
+    def replies(self) -> ReplyCollector: ...
 
     @property
     def budget(self) -> Budget: ...

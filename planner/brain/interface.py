@@ -72,6 +72,8 @@ class ThinkRequest(Frozen):
     goal: str = ""  # the id of the goal that is thought about: what it may cost is counted by it
     refuse_offer: Callable[[str], Bilingual | None] | None = Field(default=None, exclude=True)
     """Says why a standing order that a question offers could not be kept; None: it could."""
+    accepts: Callable[[Plan], bool] | None = Field(default=None, exclude=True)
+    """Says whether the asker will take a plan, for the record of what was used; None: any."""
 
 
 class ThinkResult(Frozen):

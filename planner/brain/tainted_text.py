@@ -83,13 +83,17 @@ async def think_warily(
     acts = await brain.think(withheld(request))
     if not speaks(acts.plan):
         return acts
+
+    def does_the_same(plan: Plan) -> bool:
+        return deeds(plan) == deeds(acts.plan)
+
     try:
-        says = await brain.think(request)
+        says = await brain.think(request.model_copy(update={"accepts": does_the_same}))
     except (BrainDown, BadPlan):
         return acts
     cost = {
         name: getattr(acts, name) + getattr(says, name)
         for name in ("calls", "tokens", "prompt_tokens", "reply_tokens")
     }
-    better = says if deeds(says.plan) == deeds(acts.plan) else acts
+    better = says if does_the_same(says.plan) else acts
     return better.model_copy(update=cost)

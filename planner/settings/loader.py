@@ -14,7 +14,7 @@ from stat import S_IMODE
 from typing import Any
 from urllib.parse import urlsplit
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, SecretStr, ValidationError
 
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price, contradiction
 from planner.settings.memory import MemorySettings
@@ -94,6 +94,18 @@ def find_exposed(home: Path) -> list[str]:
     apart = (table.get("key_file") for table in tables)
     files += [(home / name, True) for name in apart if isinstance(name, str) and name]
     return [text for path, keyed in files if (text := _exposure(path, keyed=keyed)) is not None]
+
+
+def list_keys(settings: BaseModel) -> tuple[str, ...]:
+    """Return every key that is set, so that none of them is ever shown."""
+    found: list[str] = []
+    for name in type(settings).model_fields:
+        value = getattr(settings, name)
+        if isinstance(value, SecretStr):
+            found.append(value.get_secret_value())
+        elif isinstance(value, BaseModel):
+            found += list_keys(value)
+    return tuple(found)
 
 
 def _exposure(path: Path, *, keyed: bool) -> str | None:

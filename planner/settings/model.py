@@ -67,6 +67,9 @@ class ModelSettings(BaseModel):
     allow_offhost: bool = False
     """Let people's sentences leave this machine: needed for every host but loopback."""
 
+    keep_replies: int = Field(default=0, ge=0, le=200, strict=True)
+    """Goals of which what the model wrote is kept in memory and can be shown; 0: none."""
+
     pictures: bool | None = None
     """Whether the model takes pictures; None: found out at the first one and remembered."""
     allow_pictures_offhost: bool = False

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from planner.__main__ import REFUSED, main
-from planner.app import _brain, _model
+from planner.app import _brain, _model, collector_of
 from planner.brain import FallbackBrain, OfflineBrain
+from planner.brain.model_replies import ReplyTurn
 from planner.budget import purse_of
 from planner.settings import FILE, load_settings
 from tests.conftest import ROOT
@@ -43,6 +44,22 @@ def test_with_a_setting_the_model_thinks_first(
     purse.close()
     assert "m at 127.0.0.1" in caplog.text
     assert KEY not in caplog.text
+
+
+@pytest.mark.parametrize(("more", "kept"), [("", 0), ("keep_replies = 3\n", 3)])
+def test_what_a_model_writes_is_kept_where_that_is_set_without_any_key(
+    more: str, kept: int, tmp_path: Path
+) -> None:
+    model = f'[model]\nurl = "http://127.0.0.1:1/v1"\nname = "m"\nkey = "{KEY}"\n{more}'
+    voice = '[voice]\nurl = "http://127.0.0.1:1/v1"\nkey = "hear-hear"\n'
+    (tmp_path / FILE).write_text(model + voice)
+    replies = collector_of(load_settings(tmp_path, {}))
+    replies.keep("g1", f"{KEY} hear-hear", model="m", turn=ReplyTurn.PLAN, used=True)
+    found = replies.replies_of("g1")
+    assert found.kept == kept
+    assert [each.text for each in found.replies] == ["[key cut] [key cut]"][:kept]
+    (tmp_path / FILE).unlink()
+    assert collector_of(load_settings(tmp_path, {})).replies_of("g1").kept == 0
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,7 @@ url = "{url}"
 name = "mock"
 timeout_s = 8
 rest_s = 4
+keep_replies = 5
 """
 
 OpenPage = Callable[..., Page]

@@ -97,3 +97,22 @@ def test_the_offline_brain_is_seen_standing_in(
     for _ in range(2):
         ended(page, give(page, SHORT))
     page.locator("#mind").wait_for(state="detached")
+
+
+@pytest.mark.parametrize(
+    ("locale", "title", "used"),
+    [("en-US", "What the model wrote", "plan · used"), ("zh-CN", "模型原文", "规划 · 已采用")],
+)
+def test_what_the_model_wrote_is_shown_on_request(
+    robot: Robot, open_page: OpenPage, locale: str, title: str, used: str
+) -> None:
+    page = open_page(locale=locale)
+    planned = give(page, SHORT)
+    ended(page, planned)
+    past = page.locator(f"#past li[data-goal='{planned}']")
+    assert past.locator(".replies").count() == 0, "of a goal that is not open nothing is fetched"
+    past.locator("summary").click()
+    past.get_by_text(title).click()
+    reply = past.locator(".replies li[data-turn=plan]")
+    assert used in reply.locator("p").inner_text()
+    assert '"kind"' in reply.locator("pre").inner_text()

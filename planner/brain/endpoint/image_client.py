@@ -39,9 +39,11 @@ from planner.brain.image_questions import (
     PosedPicture,
 )
 from planner.brain.jpeg_metadata import jpeg_size, without_notes
+from planner.brain.model_replies import ReplyCollector, ReplyTurn
 from planner.brain.prompt_template import Template, repair
 from planner.brain.response_format import LOOK_FORM, POINT_FORM, SEEK_FORM, ReplyForm
 from planner.brain.schema import Message
+from planner.brain.usage_meter import THINKING_ABOUT
 from planner.plan import Bilingual, BrainTag
 
 _LOOK = frozenset({"picture", "seen", "en", "zh"})
@@ -180,7 +182,11 @@ class EndpointLooker:
     """Look through a model behind an OpenAI-compatible endpoint."""
 
     def __init__(
-        self, line: Line, shrink: Shrink | None = None, lay_out: LayOut | None = None
+        self,
+        line: Line,
+        shrink: Shrink | None = None,
+        lay_out: LayOut | None = None,
+        replies: ReplyCollector | None = None,
     ) -> None:
         """Read the prompts.
 
@@ -188,11 +194,13 @@ class EndpointLooker:
             line: shared with whoever plans by the same model.
             shrink: makes a large picture smaller; None: a large one is not sent.
             lay_out: puts several pictures on one sheet; None: no sheet is sent.
+            replies: keeps what the model wrote; None: nothing is kept.
 
         Raises:
             ConfigError: ``prompt_missing``, ``prompt_malformed``.
         """
         self._line, self._shrink, self._lay_out = line, shrink, lay_out
+        self._replies = replies or ReplyCollector(0)
         self._prompts = LookPrompts()
         prompts = (self._prompts.look, self._prompts.point, self._prompts.seek)
         self._look, self._point, self._seek = map(self._make_tag, prompts)
@@ -302,12 +310,14 @@ class EndpointLooker:
         """Return the verdict on a reply, after one repair turn at most."""
         reasons: list[str] = []
         asked = messages
-        for _ in range(2):
+        for turn in (ReplyTurn.LOOK, ReplyTurn.REPAIR):
             form, schema = wanted
             reply = await self._line.asker.ask(asked, schema, end_s, None, form=form, picture=url)
             if reply.refusal is not None:
+                self._keep(turn, reply.refusal, used=False)
                 raise BadPlan(f"the model declined: {clean(reply.refusal)[:200]}")
             found = judged(reply.text)
+            self._keep(turn, reply.text, used=not isinstance(found, NoPicture | Unusable))
             if isinstance(found, NoPicture):
                 raise NotSent("the model says that no picture came with it", why="no_pictures")
             if not isinstance(found, Unusable):
@@ -317,6 +327,10 @@ class EndpointLooker:
             log.info("%s wrote no %s, asked again: %s", self._look.name, form.name, reasons)
             asked = [*messages, *repair(reply.text, reasons)]
         raise BadPlan(f"asked twice: {'; '.join(reasons)}"[:400])
+
+    def _keep(self, turn: ReplyTurn, text: str, *, used: bool) -> None:
+        goal = THINKING_ABOUT.get() or ""
+        self._replies.keep(goal, text, model=self._look.name, turn=turn, used=used)
 
     def _redact(self, text: Bilingual) -> Bilingual:
         struck = self._line.client.secret.redact

@@ -16,6 +16,7 @@ from planner.brain.endpoint.plan_reply import Planned, Unusable, clean, judge
 from planner.brain.endpoint.session import Line
 from planner.brain.errors import BadPlan
 from planner.brain.interface import ThinkRequest, ThinkResult
+from planner.brain.model_replies import ReplyCollector, ReplyTurn
 from planner.brain.prompt import Prompt
 from planner.brain.schema import schema_of
 from planner.brain.streamed_draft import Hear
@@ -41,6 +42,7 @@ class EndpointBrain:
         prompt: Prompt | None = None,
         transport: httpx.AsyncBaseTransport | None = None,
         meter: Meter | None = None,
+        replies: ReplyCollector | None = None,
     ) -> None:
         """Judge the address and read the prompt; nothing is asked yet.
 
@@ -50,12 +52,14 @@ class EndpointBrain:
             prompt: another than prompts/plan.md.
             transport: another than the network, for tests.
             meter: counts every call and may refuse it; None: nobody keeps a budget.
+            replies: keeps what the model wrote; None: nothing is kept.
 
         Raises:
             ConfigError: ``model_url``, ``model_offhost``, ``prompt_missing``,
                 ``prompt_malformed``.
         """
         self._line = Line(settings, home, transport, meter)
+        self._replies = replies or ReplyCollector(0)
         self.address = self._line.address
         self._prompt = prompt or Prompt.load()
         self._client, self._asker = self._line.client, self._line.asker
@@ -80,7 +84,7 @@ class EndpointBrain:
         Raises:
             ConfigError: ``prompt_missing``, ``prompt_malformed``.
         """
-        return EndpointLooker(self._line, shrink, lay_out)
+        return EndpointLooker(self._line, shrink, lay_out, self._replies)
 
     async def close(self) -> None:
         """Give the connections back."""
@@ -106,16 +110,30 @@ class EndpointBrain:
         told = None if hear is None else Drafting(request.vocabulary, request.runnable, hear)
         first = await self._asker.ask(messages, schema, end_s, told)
         plan = _without_vain_offers(self._plan_of(first, request), request)
+        self._keep(request, _turn_of(request), first, plan)
         if not isinstance(plan, Unusable):
             return self._make_result(plan, 1, first.tokens)
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
         again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
         second = await self._asker.ask(again, schema, end_s, told)
         mended = self._plan_of(second, request)
+        self._keep(request, ReplyTurn.REPAIR, second, mended)
         if isinstance(mended, Unusable):
             cost = (first.tokens + second.tokens).total
             raise BadPlan(f"asked twice: {mended}"[:400], calls=2, tokens=cost)
         return self._make_result(mended, 2, first.tokens + second.tokens)
+
+    def _keep(
+        self, request: ThinkRequest, turn: ReplyTurn, reply: ModelReply, plan: Planned | Unusable
+    ) -> None:
+        self._replies.keep(
+            request.goal,
+            reply.refusal or reply.text,
+            model=self._tag.name,
+            turn=turn,
+            used=not isinstance(plan, Unusable)
+            and (request.accepts is None or request.accepts(plan)),
+        )
 
     def _make_result(self, plan: Planned, calls: int, spent: Tokens) -> ThinkResult:
         return ThinkResult(
@@ -139,6 +157,14 @@ class EndpointBrain:
             return judged if safe == written else PLAN.validate_json(safe)
         reasons = judged.reasons if reply.trouble is None else (reply.trouble, *judged.reasons)
         return Unusable(tuple(map(struck, reasons)))
+
+
+def _turn_of(request: ThinkRequest) -> ReplyTurn:
+    """Return what the first reply to a request is asked for."""
+    if not request.observed:
+        return ReplyTurn.PLAN
+    failed = request.observed[-1].result == "failed"
+    return ReplyTurn.REPLAN if failed else ReplyTurn.DECIDE
 
 
 def _without_vain_offers(plan: Planned | Unusable, request: ThinkRequest) -> Planned | Unusable:

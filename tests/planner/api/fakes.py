@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from planner.brain import Brain, OfflineBrain
+from planner.brain.model_replies import ReplyCollector
 from planner.budget import Amounts, BudgetLimits, Usage
 from planner.language.stop import is_stop
 from planner.memory import MemoryStore, Recollection
@@ -306,6 +307,7 @@ class FakeServices:
         self.speaker = FakeSpeech()
         self.voice = VoiceAbilities()
         self.budget = FakeBudget()
+        self.replies = ReplyCollector(0)
         self.eyes = FakeEyes()
         self.brain: Brain = OfflineBrain()
         self.site = two_room()

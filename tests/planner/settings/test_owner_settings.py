@@ -6,7 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from planner.settings import FILE, JsonMode, ModelSettings, find_exposed, load_settings
+from planner.settings import (
+    FILE,
+    JsonMode,
+    ModelSettings,
+    find_exposed,
+    list_keys,
+    load_settings,
+)
 from wire import ConfigError
 
 KEY = "sk-secret-0123456789"
@@ -43,6 +50,24 @@ def test_a_model_by_file(tmp_path: Path) -> None:
     assert found is not None
     assert (found.name, found.timeout_s, found.mode) == ("qwen3:8b", 7.5, JsonMode.PROMPT)
     assert (found.allow_offhost, found.parallel) == (True, 1)
+
+
+def test_what_a_model_writes_is_kept_of_as_many_goals_as_are_set(tmp_path: Path) -> None:
+    for more, goals in (("", 0), ("keep_replies = 1\n", 1), ("keep_replies = 200\n", 200)):
+        found = model(tmp_path, LOCAL + more)
+        assert found is not None
+        assert found.keep_replies == goals
+
+
+def test_every_key_that_is_set_is_listed(tmp_path: Path) -> None:
+    keyed = [f'key = "{KEY}-{name}"\n' for name in ("model", "voice", "speech")]
+    text = f'{LOCAL}{keyed[0]}[voice]\nurl = "http://127.0.0.1:1/v1"\n{keyed[1]}'
+    text += f'[speech]\nengine = "server"\nurl = "http://127.0.0.1:1/v1"\n{keyed[2]}'
+    (tmp_path / FILE).write_text(text, "utf-8")
+    keys = list_keys(load_settings(tmp_path, {}))
+    assert sorted(keys) == [f"{KEY}-{name}" for name in ("model", "speech", "voice")]
+    (tmp_path / FILE).write_text(LOCAL, "utf-8")
+    assert list_keys(load_settings(tmp_path, {})) == ()
 
 
 def test_a_model_by_environment(tmp_path: Path) -> None:
@@ -105,6 +130,9 @@ def test_a_key_stays_with_its_host(tmp_path: Path) -> None:
     [
         (LOCAL + "tiemout_s = 3\n", {}, "settings_malformed", "unknown key 'model.tiemout_s'"),
         ("[modle]\nurl = 'x'\n", {}, "settings_malformed", "unknown key 'modle'"),
+        (LOCAL + "keep_replies = 201\n", {}, "settings_malformed", "model.keep_replies"),
+        (LOCAL + "keep_replies = -1\n", {}, "settings_malformed", "model.keep_replies"),
+        (LOCAL + "keep_replies = true\n", {}, "settings_malformed", "model.keep_replies"),
         ("model = 3\n", {}, "settings_malformed", "table"),
         ("[model\n", {}, "settings_malformed", "TOML"),
         ("a = [" * 2000, {}, "settings_malformed", "TOML"),

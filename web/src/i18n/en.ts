@@ -173,6 +173,16 @@ export const en = {
 
   "draft.title": "Being written …",
 
+  "replies.title": "What the model wrote",
+  "replies.turn.plan": "plan",
+  "replies.turn.repair": "repair",
+  "replies.turn.decide": "how to go on",
+  "replies.turn.replan": "another plan",
+  "replies.turn.look": "picture",
+  "replies.used": "used",
+  "replies.unused": "not used",
+  "replies.empty": "(nothing)",
+
   "meter.title": "The model today",
   "meter.asking": "asking",
   "meter.share": "Share of today's budget",

@@ -167,6 +167,16 @@ export const zh: Record<Key, string> = {
 
   "draft.title": "正在生成计划…",
 
+  "replies.title": "模型原文",
+  "replies.turn.plan": "规划",
+  "replies.turn.repair": "修正",
+  "replies.turn.decide": "决定下一步",
+  "replies.turn.replan": "重新规划",
+  "replies.turn.look": "看图",
+  "replies.used": "已采用",
+  "replies.unused": "未采用",
+  "replies.empty": "（空）",
+
   "meter.title": "今日模型用量",
   "meter.asking": "请求中",
   "meter.share": "今日预算已用比例",

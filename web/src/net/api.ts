@@ -3,6 +3,7 @@ import type {
   Bilingual,
   Firing,
   Goal,
+  GoalReplies,
   Grid,
   KeptPicture,
   Known,
@@ -252,6 +253,11 @@ async function fetchBlob(path: string): Promise<Blob> {
 export async function listPictures(goal: string): Promise<readonly KeptPicture[]> {
   const shown = await call("GET", `/v1/pictures?${new URLSearchParams({ goal })}`);
   return (shown as { readonly pictures: readonly KeptPicture[] }).pictures;
+}
+
+/** Return what the model wrote about a goal, as far as it is kept. */
+export async function listReplies(goal: string): Promise<GoalReplies> {
+  return (await call("GET", `/v1/goals/${encodeURIComponent(goal)}/replies`)) as GoalReplies;
 }
 
 export async function forgetPicture(id: number): Promise<void> {

@@ -1,5 +1,5 @@
 /** Gather what a person needs to drive: the goal box, what runs, what waits, what was before. */
-import { computed } from "@preact/signals";
+import { computed, useSignal } from "@preact/signals";
 import { say, t, word } from "../i18n";
 import { act, doInstead, give, moveBy } from "../state/acts";
 import { age, currentGoals, pageFresh, pageHeard, pastGoals, queuedGoals } from "../state/store";
@@ -9,6 +9,7 @@ import { seconds } from "./format";
 import { Ended, GoalCard, PlannedBy, Steps } from "./GoalCard";
 import { Meter } from "./Meter";
 import { MindLine } from "./MindLine";
+import { Replies } from "./Replies";
 import { reasonWords } from "./steps";
 
 const SHOWN_PAST = 20;
@@ -136,24 +137,39 @@ function Past() {
       <h2 id="past-title">{t("goal.past")}</h2>
       <ul class="past">
         {goals.map((goal, index) => (
-          <li key={goal.id} data-goal={goal.id} data-state={goal.state}>
-            <details open={index === 0 && goal.outcome?.code === "answered"}>
-              <summary>
-                <span class={`chip state-${goal.state}`}>{word("state", goal.state)}</span>
-                <span class="said clip" dir="auto">
-                  {goal.text}
-                </span>
-              </summary>
-              {goal.outcome && <Ended outcome={goal.outcome} />}
-              {goal.plan && <Steps steps={goal.plan.steps} />}
-              {goal.brain && <PlannedBy tag={goal.brain} />}
-              <button type="button" onClick={() => void give(goal.text)}>
-                {t("goal.again")}
-              </button>
-            </details>
-          </li>
+          <PastGoal
+            key={goal.id}
+            goal={goal}
+            open={index === 0 && goal.outcome?.code === "answered"}
+          />
         ))}
       </ul>
     </section>
+  );
+}
+
+function PastGoal({ goal, open }: { goal: Goal; open: boolean }) {
+  const wasOpened = useSignal(open); // what the model wrote is fetched then, not for all of them
+  return (
+    <li data-goal={goal.id} data-state={goal.state}>
+      <details
+        open={open}
+        onToggle={(event) => (wasOpened.value = wasOpened.value || event.currentTarget.open)}
+      >
+        <summary>
+          <span class={`chip state-${goal.state}`}>{word("state", goal.state)}</span>
+          <span class="said clip" dir="auto">
+            {goal.text}
+          </span>
+        </summary>
+        {goal.outcome && <Ended outcome={goal.outcome} />}
+        {goal.plan && <Steps steps={goal.plan.steps} />}
+        {goal.brain && <PlannedBy tag={goal.brain} />}
+        {wasOpened.value && <Replies goal={goal} />}
+        <button type="button" onClick={() => void give(goal.text)}>
+          {t("goal.again")}
+        </button>
+      </details>
+    </li>
   );
 }

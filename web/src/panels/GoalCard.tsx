@@ -5,6 +5,7 @@ import { act, answer } from "../state/acts";
 import type { Goal, Outcome, Step, Tag } from "../wire/types";
 import { DraftOf } from "./Draft";
 import { fixed } from "./format";
+import { Replies } from "./Replies";
 import { Stops } from "./Stops";
 import { brainName, needed, reasonWords, roleWords, stepWords } from "./steps";
 import { verdict } from "./verdict";
@@ -36,6 +37,7 @@ export function GoalCard({ goal }: { goal: Goal }) {
       {asks && <Question goal={goal} />}
       {goal.outcome && !asks && <Ended outcome={goal.outcome} />}
       {goal.brain && <PlannedBy tag={goal.brain} />}
+      <Replies goal={goal} />
       <Buttons goal={goal} />
     </article>
   );

@@ -487,6 +487,19 @@ export type KeptPicture = {
   readonly names: readonly Bilingual[];
 };
 
+/** What a model wrote in one turn, its keys cut out. */
+export type ModelReply = {
+  readonly at: string;
+  readonly model: string;
+  readonly turn: string;
+  readonly text: string;
+  readonly cut: boolean;
+  readonly used: boolean;
+};
+
+/** What a model wrote about a goal; of so many goals at most it is kept. */
+export type GoalReplies = { readonly kept: number; readonly replies: readonly ModelReply[] };
+
 export type Memories = { readonly memories: readonly Memory[] };
 
 /** A standing order, as the planner shows it. */
