@@ -50,8 +50,9 @@ EN_LENGTH = (
 ZH_LENGTH = rf"(?P<length>{_DIGITS}|{_ZH_DIGIT})个?(?P<unit>厘米|公分|米|m|cm)(?P<half>半)?"
 EN_ANGLE = rf"(?P<angle>{_DIGITS}|{_EN_NUMBER}) ?(?P<arc>degrees?|deg|°|radians?|rad)"
 ZH_ANGLE = rf"(?P<angle>{_DIGITS}|{_ZH_DIGIT})(?P<arc>度|°|弧度)"
+ZH_TURNS = r"(?P<turns>[两二三四五2345])"
 TIMES = r"(?P<times>once|twice|thrice|two times|three times|four times|\d times)"
-_TIMES = {"once": 1, "twice": 2, "thrice": 3, "two": 2, "three": 3, "four": 4}
+_TIMES = {"once": 1, "twice": 2, "thrice": 3, "two": 2, "three": 3, "four": 4, "five": 5}
 
 
 def metres(number: str, unit: str) -> float | None:
@@ -72,9 +73,9 @@ def angle_rad(number: str, unit: str) -> float | None:
 
 
 def times(words: str) -> int:
-    """Return how often "twice" and "3 times" are."""
+    """Return how often "twice", "3 times" and 三 are."""
     first = words.split(maxsplit=1)[0]
-    return _TIMES.get(first) or int(first)
+    return _TIMES.get(first) or round(_value(first) or 0.0)
 
 
 def seconds(number: str, unit: str) -> float | None:

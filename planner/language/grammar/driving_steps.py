@@ -186,11 +186,13 @@ def stand_at(found: Match[str], reading: Reading) -> Meaning | None:
 
 
 def turn(found: Match[str], reading: Reading) -> Meaning:
-    """Turn by the groups `angle` and `unit`, else a quarter to a side, else about."""
+    """Turn by the groups `angle` and `unit`, by `turns`, else a quarter to a side, else about."""
     groups = found.groupdict()
     side = groups.get("side") or groups.get("side2") or ""
     if groups.get("angle"):
         angle = angle_rad(groups["angle"], groups["arc"])
+    elif groups.get("turns"):
+        return Steps((Turn(angle_rad=2 * pi),) * times(groups["turns"]))
     elif groups.get("whole"):
         angle = 2 * pi
     else:

@@ -100,6 +100,14 @@ COMMANDS: dict[str, tuple[str, str]] = {
 """What the planner itself does upon a yes; ``{s}`` is the sentence."""
 OTHERS = (NONE, REFUSED, "other", "order", "orders", "forget", "stop", "cancel")
 """What else a sentence may be: no drive is offered then."""
+_TURNS = ("turn", "left", "right")
+_SIDES = {"left": r"\bleft\b|左", "right": r"\bright\b(?! ?,| now| away| here| there)|右"}
+_SLIGHT = re.compile(r"\b(?:bit|little|touch|tad|slightly)\b|一[点些丢]|稍|略|偏")
+_SLIGHTLY = {
+    "left": ("turn left 30 degrees", "左转30度"),
+    "right": ("turn right 30 degrees", "右转30度"),
+}
+"""By "a bit" people mean 15 to 45 degrees; the button says how far."""
 _PLACE_SLOTS = ("{p}", "{q}")
 _DENIES_NOTHING = re.compile(
     r"不知道?|不晓得|不清楚|[找看]不[着到见]|不见了|不早了|不放心|不好意思|走不[开动]|腿脚不好|忙不过来|听不清"
@@ -239,8 +247,11 @@ def write_order(
 ) -> str | None:
     """Return the order of a guess; None where a place is left out, or a place or slot lacks."""
     chinese = language is Language.ZH
-    form = {**ORDERS, **REMEMBERS}.get(guess.intent, ("", ""))[chinese]
+    intent = _turn_of(guess.intent, marked.text)
+    form = {**ORDERS, **REMEMBERS}.get(intent, ("", ""))[chinese]
     named = list(dict.fromkeys(re.findall(MARK, marked.text)))
+    if intent in _SIDES and _SLIGHT.search(marked.text):
+        form = _SLIGHTLY[intent][chinese]
     wanted = [slot for slot in _PLACE_SLOTS if slot in form]
     left_out = len(named) != len(wanted) and guess.intent not in REMEMBERS
     if not form or left_out or any(len(marked.mention(mark).ids) != 1 for mark in named):
@@ -259,6 +270,12 @@ def write_order(
     for slot, name in zip(wanted, written, strict=False):
         form = form.replace(slot, name if chinese else f"the {name}")
     return form
+
+
+def _turn_of(intent: str, text: str) -> str:
+    """Return a guessed turn towards the side that the sentence names, where it names one."""
+    sides = [side for side, words in _SIDES.items() if re.search(words, text)]
+    return sides[0] if intent in _TURNS and len(sides) == 1 else intent
 
 
 def _longest(

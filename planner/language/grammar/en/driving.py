@@ -75,6 +75,7 @@ _SIDE = (
     r"anti-?clockwise)(?: side| hand side)?"
 )
 _SPIN = r"(?:turn|rotate|spin|pivot|swivel|face)(?: (?:yourself|the robot|in place|on the spot))?"
+_TURNS = r"(?P<turns>twice|thrice|(?:two|three|four|five|[2-5]) times)"
 _HEAD = r"(?:move|go|drive|walk|come|step|roll|travel|advance)"
 _WAY = (
     r"(?:to the )?(?P<way>forwards?|ahead|straight(?: (?:ahead|on|forward))?|backwards?|back|front)"
@@ -200,6 +201,8 @@ RULES: tuple[Rule, ...] = (
     rule(rf"(?:{_HEAD} )?(?:for )?{_WAY}(?: (?:for|by|about))*(?: {EN_LENGTH})?", move),
     rule(rf"(?P<way>reverse|back up)(?: (?:for|by|about))*(?: {EN_LENGTH})?", move),
     rule(rf"{_SPIN} (?:by |about )?{EN_ANGLE}(?: {_SIDE})?", turn),
+    rule(rf"spin(?: around| round)? {_TURNS}", turn),
+    rule(r"(?P<whole>spin) (?:around|round)", turn),
     rule(
         rf"(?:{_SPIN}|make|do) (?:a )?(?:(?P<quarter>quarter)|(?P<about>half))[ -](?:turn|"
         rf"circle)(?: {_SIDE})?",

@@ -40,7 +40,7 @@ from planner.language.grammar.parse_result import (
 from planner.language.grammar.small_talk import Topic
 from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
 from planner.language.grammar.zh import ALL_ROOMS, GO
-from planner.language.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH
+from planner.language.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH, ZH_TURNS
 from planner.plan import Code, Say
 
 _AFTER = r"(?:去一下|去一趟|去|来|过去|待命|停下来?|等我|一下|一趟|走一趟|转转|转一圈)?"
@@ -176,6 +176,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"{_FACE}{_SIDE}(?:边|侧|手边)?{_TURN}(?:个|了)?(?:{ZH_ANGLE})?(?:个?弯)?", turn),
     rule(rf"{_TURN}(?:{ZH_ANGLE})", turn),
+    rule(rf"(?:原地)?(?:转|旋转){ZH_TURNS}(?:圈|周)", turn),
     rule(r"(?P<about>掉头|调头|转身|向后转|转过身(?:来|去)?|掉个头)", turn),
     rule(r"(?:原地)?(?:转|旋转)(?P<whole>一?圈|一周|1圈)", turn),
     rule(

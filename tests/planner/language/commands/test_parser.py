@@ -102,6 +102,7 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("forget that, stop", Replace("stop", now=True)),
     ("go to the kitchen instead", Replace("go to the kitchen", now=False)),
     ("how is your battery doing?", BatteryCommand()),
+    ("what is your battery at?", BatteryCommand()),
     ("do you have enough charge for a patrol", BatteryCommand()),
     ("have you finished yet?", Doing()),
     ("that's enough, quit it", CancelCommand()),

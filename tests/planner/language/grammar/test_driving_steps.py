@@ -1,11 +1,14 @@
-"""Orders to explore: read while a map is made, and nothing new where none is."""
+"""Orders to explore, read while a map is made; spins that are whole circles."""
 
 from __future__ import annotations
+
+from math import degrees
 
 import pytest
 
 from planner.language.grammar import Context, plan
 from planner.plan import (
+    EVERY_KIND,
     NEEDS_GROWING_MAP,
     RUNNABLE,
     Bilingual,
@@ -13,10 +16,12 @@ from planner.plan import (
     Code,
     Entry,
     Refuse,
+    Repeat,
     StepPlan,
+    Turn,
     Vocabulary,
 )
-from tests.planner.language.grammar.conftest import in_short
+from tests.planner.language.grammar.conftest import HOME, NOON, in_short
 
 MAKING = RUNNABLE | NEEDS_GROWING_MAP
 BEGUN = Vocabulary(
@@ -95,3 +100,23 @@ def test_the_order_on_a_button_reads_back_as_itself(home: Vocabulary) -> None:
             again = plan(text, home, Context(runnable=MAKING))
             assert isinstance(again, StepPlan), text
             assert again.steps[0].kind == "explore"
+
+
+@pytest.mark.parametrize(
+    ("text", "degrees_told"),
+    [
+        ("spin around", [360]),
+        ("spin round twice", [360]),
+        ("原地转两圈", [360, 360]),
+        ("转三圈", [360, 360, 360]),
+    ],
+)
+def test_a_spin_is_whole(text: str, degrees_told: list[int]) -> None:
+    made = plan(text, HOME, Context(room="study", runnable=EVERY_KIND, now=NOON))
+    assert isinstance(made, StepPlan)
+    steps = made.steps
+    if isinstance(steps[0], Repeat):
+        assert steps[0].times == 2
+        steps = steps[0].steps
+    turned = [round(degrees(step.angle_rad)) for step in steps if isinstance(step, Turn)]
+    assert turned == degrees_told

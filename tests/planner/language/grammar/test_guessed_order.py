@@ -68,6 +68,19 @@ def test_a_guess_is_offered_as_an_order_that_the_grammar_reads() -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "offered"),
+    [
+        ("turn left a bit more", "turn left 30 degrees"),
+        ("turn left a bit", "turn left 30 degrees"),
+        ("再往左偏一偏", "向左转30度"),
+        ("往右转一点", "向右转30度"),
+    ],
+)
+def test_a_guessed_turn_is_offered_to_the_side_that_is_named(text: str, offered: str) -> None:
+    assert [button.text for button in said(text).options] == [offered]
+
+
+@pytest.mark.parametrize(
     "text",
     [
         "the kitchen is lovely",
