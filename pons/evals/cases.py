@@ -7,13 +7,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pons.evals.category_rules import Law
+from pons.evals.course import OrderCourse, read_course
 from pons.evals.matchers import BadMatcher, Expectation, read_expectation
 from pons.evals.world import EvalWorld
 
 HOLD_OUT_SEED = 5
 TUNED, HELD_OUT = "tuned", "held out"
-FORM = "tuned or held, group, sentence, expectation"
-COLUMNS = 4
+FORM = "tuned or held, group, sentence, expectation (a turn: its course before that)"
+COLUMNS, COLUMNS_OF_TURN = 4, 5
 
 
 class MissingSuite(Exception):
@@ -22,13 +23,22 @@ class MissingSuite(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """Hold one sentence and its expectation: a law by category, or a matcher."""
+    """Hold one sentence and its expectation: a law by category, or a matcher.
+
+    With a course the brain is asked again in the middle of the order, and not at its beginning.
+    """
 
     text: str
     group: str
     law: Law | None = None
     wanted: Expectation | None = None
     split: str = TUNED
+    course: OrderCourse | None = None
+
+    @property
+    def full_text(self) -> str:
+        """Return the sentence with its course, for people."""
+        return self.text if self.course is None else f"{self.text} | {self.course.told}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +65,8 @@ class Suite:
 def read_tsv(path: Path, world: EvalWorld) -> Suite:
     """Read a suite of our own: split, group, sentence and expectation in four columns.
 
+    A turn has a fifth before the last: what came of the sentence's steps so far.
+
     Raises:
         MissingSuite: there is no such file.
         BadMatcher: a line can't be read.
@@ -67,14 +79,16 @@ def read_tsv(path: Path, world: EvalWorld) -> Suite:
             continue
         columns = line.split("\t")
         try:
-            if len(columns) != COLUMNS:
+            if len(columns) not in (COLUMNS, COLUMNS_OF_TURN):
                 raise BadMatcher(f"{len(columns)} columns between tabs; expected {COLUMNS}: {FORM}")
-            split, group, text, expected = columns
+            split, group, text, *told, expected = columns
+            course = read_course(told[0], world) if told else None
             wanted = read_expectation(expected)
             if unknown := sorted(wanted.places - world.vocabulary.by_id.keys()):
                 known = ", ".join(world.vocabulary.by_id)
                 raise BadMatcher(f"unknown place {', '.join(unknown)}; known: {known}")
-            cases.append(Case(text, group, wanted=wanted, split=_split(split)))
+            kept = _split(split)
+            cases.append(Case(text, group, wanted=wanted, split=kept, course=course))
         except ValueError as wrong:
             raise BadMatcher(f"{path.name}:{number}: {wrong}") from wrong
     return Suite(path.stem, world, tuple(cases))

@@ -4,34 +4,31 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import os
 import sys
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from maps.errors import SiteError
 from planner.brain import Brain, OfflineBrain, OutOfBudget
 from planner.site import Site
+from pons.evals.brain_choice import with_brain
 from pons.evals.cases import MissingSuite, Suite
 from pons.evals.matchers import BadMatcher
 from pons.evals.report import as_json, content, has_passed, table
 from pons.evals.score import SentenceVerdict, score_each
-from pons.evals.suites import DATA, HOME_SITE, OF_TURNS, load, suite_names
+from pons.evals.suites import DATA, HOME_SITE, OTHERS, load, suite_names
 from pons.launch_words import chinese_line
 from wire import ConfigError
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
-
     from pons.settings import LaunchSettings
 
 REACHED, MISSED, REFUSED = 0, 1, 2
-TALK, MEMORY, ORDERS, PERSON, TRIAL = OF_TURNS
+TALK, MEMORY, ORDERS, PERSON, TRIAL, LOOK = OTHERS
 GOAL = 0.9
 PERSON_GOAL = 0.95
-Scored = TypeVar("Scored")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,12 +51,8 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
         return _quick(settings, said) if said.quick else _journal(settings, said)
     if said.suite is None:
         parser.error("give a SUITE, --quick or --journal")
-    if said.suite in (TALK, MEMORY):
-        return _talk(settings, said)
-    if said.suite == ORDERS:
-        return _orders(settings, said)
-    if said.suite in (PERSON, TRIAL):
-        return _person(settings, said)
+    if said.suite in OTHERS:
+        return _score_other(settings, said)
     try:
         suites = load(said.suite, said.data, said.site)
         if said.guard:
@@ -78,6 +71,17 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
     else:
         print("\n\n".join(table(one.name, brain, one.verdicts, one.left) for one in scored))
     return REACHED if all(has_passed(one.verdicts, one.left) for one in scored) else MISSED
+
+
+def _score_other(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    """Score a suite that has a reader of its own."""
+    if said.suite == LOOK:
+        from pons.evals.look_command import run
+
+        return run(settings, said.model, yes=said.yes)
+    if said.suite == ORDERS:
+        return _orders(settings, said)
+    return _person(settings, said) if said.suite in (PERSON, TRIAL) else _talk(settings, said)
 
 
 def _in_chinese(wrong: MissingSuite | BadMatcher | SiteError) -> str:
@@ -111,7 +115,7 @@ def _talk(settings: LaunchSettings, said: argparse.Namespace) -> int:
         return REACHED if right >= GOAL * asked else MISSED
 
     try:
-        return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
+        return asyncio.run(with_brain(settings, said.model, score, yes=said.yes))
     except (SiteError, ConfigError) as wrong:
         print(f"pons eval: {wrong}{chinese_line(str(wrong))}", file=sys.stderr)
         return REFUSED
@@ -130,7 +134,7 @@ def _orders(settings: LaunchSettings, said: argparse.Namespace) -> int:
         return REACHED if right >= GOAL * count else MISSED
 
     try:
-        return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
+        return asyncio.run(with_brain(settings, said.model, score, yes=said.yes))
     except (SiteError, ConfigError) as wrong:
         print(f"pons eval: {wrong}{chinese_line(str(wrong))}", file=sys.stderr)
         return REFUSED
@@ -171,7 +175,7 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
         return REACHED if right >= PERSON_GOAL * count else MISSED
 
     try:
-        return asyncio.run(_with_brain(settings, said.model, score, yes=said.yes))
+        return asyncio.run(with_brain(settings, said.model, score, yes=said.yes))
     except (BadMatcher, SiteError, ConfigError) as wrong:
         print(f"pons eval: {wrong}", file=sys.stderr)
         return REFUSED
@@ -185,7 +189,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "suite",
         nargs="?",
-        help=f"{', '.join((*suite_names(), *OF_TURNS))}, or a .tsv file",
+        help=f"{', '.join((*suite_names(), *OTHERS))}, or a .tsv file",
     )
     parser.add_argument("--quick", action="store_true", help="examine a model for a minute")
     parser.add_argument(
@@ -233,6 +237,13 @@ def _guard(suites: tuple[Suite, ...]) -> int:
     """Measure the guard: 0 nothing unasked is walked and little is asked in vain, 1 otherwise."""
     from pons.evals.guard_score import score_guard, show
 
+    if any(case.course is not None for suite in suites for case in suite.cases):
+        print(
+            "pons eval: guard_of_turns: --guard is for sentences; of turns the table with --model "
+            "tells the guard's word\n  --guard 只用于单句；轮次句集请用 --model，结果在表中",
+            file=sys.stderr,
+        )
+        return REFUSED
     scores = [asyncio.run(score_guard(suite)) for suite in suites]
     print("\n".join(map(show, scores)))
     return REACHED if all(score.has_passed for score in scores) else MISSED
@@ -246,45 +257,7 @@ async def _score_suites(
     async def score(brain: Brain) -> tuple[str, list[SuiteScore]]:
         return await score_whole(suites, brain)
 
-    return await _with_brain(settings, model, score, yes=yes, count=count)
-
-
-async def _with_brain(
-    settings: LaunchSettings,
-    model: str | None,
-    score: Callable[[Brain], Awaitable[Scored]],
-    *,
-    yes: bool,
-    count: int = 0,
-) -> Scored:
-    """Score the brain that is meant; a model is paid for by the owner's budget.
-
-    Raises:
-        ConfigError: ``model_offhost`` and what a model's settings may lack.
-    """
-    if model is None:
-        return await score(OfflineBrain())
-    from planner.brain.endpoint import EndpointBrain
-    from planner.budget import Ledger, Purse
-    from planner.outbound import Address
-    from pons.evals.model_access import choose_model
-
-    owner, whom = choose_model(model, settings.home, os.environ)
-    address = Address.parse(whom.url)
-    if not address.local and not yes:
-        sentences = f"{count} sentences" if count else "the sentences"
-        detail = f"{sentences} would be sent to {address.host}; if that is meant, say --yes"
-        raise ConfigError("model_offhost", detail)
-    ledger = Ledger.in_home(settings.home)
-    purse = Purse(owner.budget, ledger, model=whom.name, most_reply=whom.max_tokens)
-    brain = EndpointBrain(
-        whom.model_copy(update={"allow_offhost": True}), settings.home, meter=purse
-    )
-    try:
-        return await score(brain)
-    finally:
-        await brain.close()
-        purse.close()
+    return await with_brain(settings, model, score, yes=yes, count=count)
 
 
 def _tell_progress(done: int, count: int) -> None:

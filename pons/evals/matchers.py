@@ -10,7 +10,7 @@ home > end`` and its like hold steps in steps.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import chain, permutations
 from math import radians
 
 from planner.language.motion_guard.mentioned_names import plain
@@ -22,6 +22,8 @@ CLOSE = 0.02
 _FREE = frozenset({"say", "watch"})
 """May be done without being expected: words, and a look at a patrol's stop."""
 _STILL = frozenset({"clarify", "refuse", "still", "answer"})
+_STAYS = ("still", "answer", "say", "ask", "ask > decide")
+"""Ways in which nothing moves, words and a question on the way among them."""
 _KINDS = frozenset(
     {"go", "back", "home", "wait", "say", "ask", "turn", "move", "find", "count", "look"}
     | {"follow", "decide", "approach", "recall", "waitfor", "clock", "watch", "stand"}
@@ -87,12 +89,25 @@ class Expectation:
         return any(still.fits(made) for still in self.stills)
 
     @property
+    def _acts(self) -> tuple[Act, ...]:
+        items = (item for plan in self.plans for item in plan)
+        return tuple(a for item in items for a in (item if isinstance(item, tuple) else (item,)))
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        """Return the kinds of all that is expected to be done."""
+        return frozenset(act.kind for act in self._acts)
+
+    @property
+    def destinations(self) -> frozenset[str]:
+        """Return where the plans drive: ids of places, the start and the site's home."""
+        driven = {word for act in self._acts if act.kind == "at" for word in act.words}
+        return frozenset((driven | {act.where or "" for act in self._acts}) - {""})
+
+    @property
     def places(self) -> frozenset[str]:
         """Return the ids of the places that the plans speak of."""
-        items = (item for plan in self.plans for item in plan)
-        acts = [a for item in items for a in (item if isinstance(item, tuple) else (item,))]
-        driven = {word for act in acts if act.kind == "at" for word in act.words}
-        return frozenset((driven | {act.where or "" for act in acts}) - {START, HOME, ""})
+        return self.destinations - {START, HOME}
 
     @property
     def may_move(self) -> bool:
@@ -107,7 +122,8 @@ def read_expectation(text: str) -> Expectation:
         BadMatcher: it can't be read.
     """
     plans, stills = [], []
-    for way in (part.strip() for part in text.split("|")):
+    ways = [part.strip() for part in text.split("|")]
+    for way in chain.from_iterable(_STAYS if way == "stays" else (way,) for way in ways):
         word, *codes = way.split() or [""]
         if word in _STILL:
             kinds = frozenset({"clarify", "refuse"}) if word == "still" else frozenset({word})

@@ -112,7 +112,8 @@ def table(name: str, brain: str, verdicts: Sequence[SentenceVerdict], left: int 
     faults = [verdict for verdict in verdicts if not verdict.right]
     rows += ["", "not right:"] if faults else []
     rows += [
-        f"  {v.case.group}: {v.case.text}\n    {v.kind_and_code}; {v.explanation}" for v in faults
+        f"  {v.case.group}: {v.case.full_text}\n    {v.kind_and_code}; {v.explanation}"
+        for v in faults
     ]
     return "\n".join(rows)
 
@@ -182,7 +183,7 @@ def _plain(line: GroupLine) -> dict[str, Any]:
 
 def _failure(verdict: SentenceVerdict) -> dict[str, Any]:
     return {
-        "text": verdict.case.text,
+        "text": verdict.case.full_text,
         "group": verdict.case.group,
         "made": verdict.made.model_dump(mode="json"),
         "why": verdict.explanation,

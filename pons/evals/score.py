@@ -11,6 +11,7 @@ from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass, replace
 
 from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest, ThinkResult
+from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
 from planner.language.motion_guard.step_words import moves, wrong_motions
 from planner.language.motion_guard.unasked_motion import can_move
@@ -19,6 +20,7 @@ from planner.language.stop import is_stop
 from planner.mission.plan_request import unasked_of
 from planner.plan import EVERY_KIND, Clarify, Code, Refuse, StepPlan, check_plan, list_nodes
 from pons.evals.cases import Case, Suite
+from pons.evals.course import turn_request, wrong_turn_motions
 from pons.evals.matchers import Made
 from pons.evals.world import EvalWorld
 
@@ -94,18 +96,12 @@ async def score_each(
 async def _one(
     case: Case, world: EvalWorld, brain: Brain, clock: Callable[[], float], goal: str
 ) -> SentenceVerdict:
-    asked = ThinkRequest(
-        text=case.text,
-        vocabulary=world.vocabulary,
-        room=world.room,
-        runnable=EVERY_KIND,
-        goal=goal,
-    )
+    asked = _request(case, world, goal)
     began = clock()
     if is_stop(case.text):  # as at run time: a stop asks no brain
         return judge(case, _no(Code.STOPPED), world, clock() - began)
     try:
-        thought = await brain.think(asked)
+        thought = await think_warily(brain, asked)
     except OutOfBudget:
         raise
     except BadPlan as rejected:
@@ -123,6 +119,18 @@ async def _one(
         return verdict
     taken = await brain.think(asked.model_copy(update={"text": options[0].text}))
     return replace(verdict, after_yes=judge(case, taken.plan, world).right)
+
+
+def _request(case: Case, world: EvalWorld, goal: str) -> ThinkRequest:
+    if case.course is not None:
+        return turn_request(case.text, case.course, world, goal)
+    return ThinkRequest(
+        text=case.text,
+        vocabulary=world.vocabulary,
+        room=world.room,
+        runnable=EVERY_KIND,
+        goal=goal,
+    )
 
 
 def _needs_yes(thought: ThinkResult, asked: ThinkRequest) -> bool | None:
@@ -166,6 +174,10 @@ def _fault(case: Case, made: Made, world: EvalWorld) -> str:
 def _wrong(case: Case, made: Made, world: EvalWorld) -> tuple[str, ...]:
     if not isinstance(made, StepPlan):
         return ()
+    if case.course is not None and case.wanted is not None:
+        if case.wanted.fits(made):
+            return ()
+        return wrong_turn_motions(made, case.text, case.course, case.wanted, world)
     may_move = case.law.steps if case.law is not None else case.wanted and case.wanted.may_move
     if not may_move and any(moves(node.step) for node in list_nodes(made.steps)):
         return ("moves where nothing may move",)
