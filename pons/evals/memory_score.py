@@ -19,6 +19,7 @@ from planner.language.utterance import parse
 from planner.plan import EVERY_KIND, Recall, StepPlan
 from pons.evals.cases import HELD_OUT, TUNED
 from pons.evals.matchers import BadMatcher, read_expectation
+from pons.evals.world import new_goal
 
 if TYPE_CHECKING:
     from planner.brain import Brain
@@ -83,6 +84,7 @@ async def _score(case: MemoryCase, brain: Brain, world: EvalWorld) -> MemoryVerd
             room=world.room,
             runnable=EVERY_KIND,
             situation=_KNOWN,
+            goal=new_goal("memory"),
         )
         made = (await brain.think(asked)).plan
         done = _name(made)

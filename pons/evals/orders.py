@@ -25,6 +25,7 @@ from planner.site.site_view import vocabulary_of
 from pons.evals.cases import HELD_OUT, TUNED
 from pons.evals.matchers import BadMatcher, read_expectation
 from pons.evals.order_words import describe_change, describe_day, describe_question
+from pons.evals.world import new_goal
 
 if TYPE_CHECKING:
     from planner.brain import Brain
@@ -153,7 +154,7 @@ async def _fits(case: OrderCase, intent: ScheduleCommand, brain: Brain, site: Si
         return intent.reminder is not None and (not words or words == intent.reminder)
     means = Means(camera=True, detector=True)
     think = thinker(brain, vocabulary_of(site), None, means)
-    planned = await think(AskBrain("order", intent.order, parse(case.text).language))
+    planned = await think(AskBrain(new_goal("order"), intent.order, parse(case.text).language))
     if planned.plan is None or planned.unasked:
         return False
     return read_expectation(case.does).fits(planned.plan)

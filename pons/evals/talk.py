@@ -24,6 +24,7 @@ from planner.site.site_view import facts_of, vocabulary_of
 from pons.evals.cases import HELD_OUT, TUNED, Case
 from pons.evals.hostile_plans import expected_plan
 from pons.evals.matchers import BadMatcher, Expectation, read_expectation
+from pons.evals.world import new_goal
 
 if TYPE_CHECKING:
     from planner.brain import Brain
@@ -98,7 +99,7 @@ async def score_talks(
 async def score_talk(case: TalkCase, brain: Brain, site: Site) -> TalkVerdict:
     """Return what a sentence comes to behind the orders before it."""
     book = _book_after(case, site)
-    given = Submitted("said", case.text, parse(case.text).language)
+    given = Submitted(new_goal("talk"), case.text, parse(case.text).language)
     heard = receive(book, parse(case.text), given, _NOW_S)
     _, effects = advance(book, heard.given, _NOW_S)
     think = thinker(brain, vocabulary_of(site), None, Means(camera=True, detector=True))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from secrets import token_hex
 from typing import Any
 
 from planner.plan import (
@@ -30,6 +31,11 @@ from planner.site.site import Site
 from planner.site.site_view import vocabulary_of
 
 START, HOME, SOMEWHERE = "start", "home", "?"
+
+
+def new_goal(suite: str) -> str:
+    """Return the id of another goal: by it is counted what a model's answers to a sentence cost."""
+    return f"{suite}-{token_hex(6)}"
 
 
 @dataclass(frozen=True, slots=True)

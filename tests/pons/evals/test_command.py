@@ -28,6 +28,7 @@ from pons.evals.matchers import read_expectation
 from pons.evals.report import GuardCount, content, guard_count, has_passed, table
 from pons.evals.score import score
 from pons.evals.suites import load
+from tests.pons.evals.model_server import served_model
 from tests.pons.mock_llm.mocks import running_mock
 
 SUITE = """# split, group, sentence, expectation
@@ -256,3 +257,15 @@ def test_without_the_tools_of_a_checkout_no_plan_is_driven(
     assert "pons eval --journal: tools_missing: " in capsys.readouterr().err
     assert main(["eval", "--journal", str(tmp_path), "--drives", "0"]) == 2
     assert "journal_missing: " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("suite", ["memory", "talk"])
+def test_what_a_model_may_cost_a_goal_is_counted_sentence_by_sentence(
+    suite: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A goal of one's own may take 30 calls; a suite has more sentences."""
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    no = '{"kind":"refuse","code":"not_understood","en":"No.","zh":"不。"}'
+    with served_model(lambda _: no) as served:
+        assert main(["eval", suite, "--model", f"m@{served.url}"]) == 1
+    assert len(served.bodies) > 50
