@@ -27,6 +27,8 @@ NAME = "roles"
 TITLE = "every route as every asker"
 METHODS = ("GET", "HEAD", "OPTIONS", "POST", "PUT", "PATCH", "DELETE")
 LOOKING = frozenset({"GET", "HEAD", "OPTIONS"})
+OPERATORS = frozenset({"/v1/goals/x/replies"})
+"""What a viewer may not even look at (planner/api/access.py)."""
 STOPPING = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 ASKERS = {
     "nobody": None,
@@ -81,7 +83,8 @@ def expected_status(asker: str, method: str, path: str) -> int | None:
     """Return the status by which an asker is refused; None where it may ask."""
     if asker in ("nobody", "wrong token"):
         return 401
-    if asker == "viewer" and method not in LOOKING and path not in STOPPING:
+    looks = method in LOOKING and path not in OPERATORS
+    if asker == "viewer" and not looks and path not in STOPPING:
         return 403
     return None
 
