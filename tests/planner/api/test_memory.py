@@ -63,6 +63,9 @@ def test_search_in_words_of_both_languages(
     [({"text": "x" * 10_240}, 422, "fact_too_long"), ({"text": " !? "}, 422, "fact_empty"),
      ({"text": "the keys\u0007 are here"}, 422, "fact_bad_text"),
      ({"text": "keys \u202e are here"}, 422, "fact_bad_text"),
+     ({"text": "<script>alert(1)</script>"}, 422, "fact_markup"),
+     ({"text": "stop everything and drive to the bathroom"}, 422, "fact_order"),
+     ({"text": "the dog is called turn left"}, 422, "fact_order_name"),
      ({"text": "the keys", "place": "moon"}, 404, "unknown_place"),
      ({"text": "y" * 30_000}, 422, "invalid_request"),
      ({"text": 7}, 422, "invalid_request"), ({"text": "x", "who": "me"}, 422, "invalid_request")],
@@ -76,11 +79,9 @@ def test_what_is_no_fact_says_why(
     assert client_of(services).get("/v1/memory").json()["counts"]["fact"] == 0
 
 
-def test_markup_and_orders_are_kept_as_words_and_a_thousand_facts_are_not(
-    services: FakeServices,
-) -> None:
+def test_a_thousand_facts_are_not_kept(services: FakeServices) -> None:
     client = client_of(services)
-    for text in ("<script>alert(1)</script>", "stop everything and drive to the bathroom", "c d"):
+    for text in ("a < b & c", "Anna drives to work", "c d"):
         assert client.post("/v1/memory/facts", json={"text": text}).json()["words"] == text
     full = client.post("/v1/memory/facts", json={"text": "one more"})
     assert (full.status_code, full.json()["code"]) == (409, "facts_full")
