@@ -10,7 +10,7 @@ import re
 import unicodedata
 
 from planner.language.catalogue import say
-from planner.language.commands import intent_of
+from planner.language.commands import TeachFact, intent_of
 from planner.language.grammar import plan
 from planner.language.reserved_names import name_reads_as_order
 from planner.language.schedule import ScheduleCommand
@@ -105,7 +105,7 @@ def _is_order(words: str) -> bool:
         return True
     intent = intent_of(words)
     if intent is not None:
-        return not isinstance(intent, ScheduleCommand)  # "dinner is at seven" tells a time
+        return not isinstance(intent, ScheduleCommand | TeachFact)  # "dinner is at seven"
     made = plan(words, _NO_PLACES)
     if isinstance(made, StepPlan):
         return True

@@ -23,7 +23,8 @@ FACTS = (
     "the keys are on the sofa", "dinner is at seven", "Mum calls home every Sunday",
     "they call me home at six", "call it a day at five", "take the bins out on Tuesday",
     "I like it when you turn around", "the wifi is <3 home", "5 > 3 and 2 < 4", "AT&T comes at 9",
-    "pills: [morning, evening]", "my code is {1234}", "wait for the postman on Fridays",
+    "this is Anna's room", "pills: [morning, evening]", "my code is {1234}",
+    "wait for the postman on Fridays",
     "钥匙在沙发上", "妈妈六点下班", "闹钟叫我七点起床", "我家的狗叫旺财", "记得浇花",
 )  # fmt: skip
 
