@@ -39,6 +39,21 @@ _NEAR = 66.0  # of 100; below it two names only share letters
 _TYPO_ROOM = 3  # no other place may be this near
 
 
+_DOOR_NAME = re.compile(r".+ door|[^门]+门")
+_DOOR = re.compile(
+    r"(?<=\b(?:the|our) )door\b(?! (?:of|to|from|in|into|between|bell|handle|mat|frame)\b|')"
+    r"|(?<=[看查检]一下|[看查瞧瞅]一眼)门(?=$|[,。?!;]|[有是关开锁好没了])"
+    r"|(?<=检查|查看|看看|瞧瞧|瞅瞅)门(?=$|[,。?!;]|[有是关开锁好没了])"
+    r"|(?<=[去到在])门(?=那[儿边里]?)"
+)
+"""The door that nobody says more of: no room's, no cupboard's."""
+_MOVES_DOOR = re.compile(
+    r"\b(?:close|shut|open|lock|unlock|bolt|slam|answer|hold|knock on|bang on|push|pull|ram|hit"
+    r"|kick|paint|clean|fix|repair|get|through|out of|behind|under) (?:the|our) $"
+)
+"""Said before it, the door is what something is done to, not where."""
+
+
 @dataclass(frozen=True, slots=True)
 class Mention:
     """Remember which places a marked name can mean, and how it was written."""
@@ -80,6 +95,12 @@ class Lexicon:
         self._ids = {key: tuple(found) for key, found in ids.items() if found}
         self._spaced = spaced
         self._longest = max(map(len, self._ids), default=0)
+        doors = {
+            entry.id
+            for entry in vocabulary.entries
+            if any(_DOOR_NAME.fullmatch(spelling.casefold()) for spelling in entry.spellings)
+        }
+        self._only_door = doors.pop() if len(doors) == 1 else None
 
     def mark(self, text: str) -> MarkedText:
         """Replace each place name of a normalised sentence, the longest first."""
@@ -96,7 +117,18 @@ class Lexicon:
                 mentions.append(Mention(self._ids[key], text[start:end]))
                 copied = end
             at = max(after, at + 1)
-        return MarkedText("".join(out) + text[copied:], tuple(mentions))
+        marked = "".join(out) + text[copied:]
+        if self._only_door is not None and len(mentions) < MARKS:
+            marked = _DOOR.sub(lambda found: self._mark_door(found, mentions), marked)
+        return MarkedText(marked, tuple(mentions))
+
+    def _mark_door(self, found: re.Match[str], mentions: list[Mention]) -> str:
+        """Return the mark of the only place that is a door, for "the door"."""
+        before = found.string[: found.start()]
+        if self._only_door is None or _MOVES_DOOR.search(before) or len(mentions) >= MARKS:
+            return found[0]
+        mentions.append(Mention((self._only_door,), found[0]))
+        return chr(FIRST_MARK + len(mentions) - 1)
 
     def mark_slips(self, marked: MarkedText) -> MarkedText:
         """Replace misspelt place names as well, where one can mean nothing else."""

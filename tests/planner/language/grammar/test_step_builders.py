@@ -77,7 +77,7 @@ OTHERS = {
     "数一下家里有几把椅子": "count=椅子",
     "厨房有几个人和几把椅子": "kitchen count=人@kitchen count=椅子@kitchen",
     "家里有几个人和多少只猫": "count=人 count=猫",
-    "看看门关了没": "look=看看门关了没",
+    "看看门关了没": "front_door look=看看门关了没@front_door",
     "检查一下冰箱关好了没有": "fridge look=检查一下冰箱关好了没有@fridge",
     "find the cup behind you": "clarify not_understood",
     "find my phone on your left": "clarify not_understood",
