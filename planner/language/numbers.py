@@ -45,7 +45,8 @@ ZH_DURATION = (
 _DIGITS = r"\d{1,5}(?:\.\d{1,4})?"
 _ZH_DIGIT = r"[零一二三四五六七八九十两半百]{1,5}"
 EN_LENGTH = (
-    rf"(?P<length>{_DIGITS}|{_EN_NUMBER}) ?(?P<unit>met(?:er|re)s?|m|centimet(?:er|re)s?|cm)"
+    rf"(?P<length>{_DIGITS}|{_EN_NUMBER}) ?(?P<unit>met(?:er|re)s?|m|centimet(?:er|re)s?|cm"
+    r"|feet|foot|ft|inch(?:es)?|yards?|yd)\b"
 )
 ZH_LENGTH = rf"(?P<length>{_DIGITS}|{_ZH_DIGIT})个?(?P<unit>厘米|公分|米|m|cm)(?P<half>半)?"
 EN_ANGLE = rf"(?P<angle>{_DIGITS}|{_EN_NUMBER}) ?(?P<arc>degrees?|deg|°|radians?|rad)"
@@ -54,13 +55,15 @@ ZH_TURNS = r"(?P<turns>[两二三四五2345])"
 TIMES = r"(?P<times>once|twice|thrice|two times|three times|four times|\d times)"
 _TIMES = {"once": 1, "twice": 2, "thrice": 3, "two": 2, "three": 3, "four": 4, "five": 5}
 
+_UNITS_M = (("c", 0.01), ("厘", 0.01), ("公", 0.01), ("f", 0.3048), ("i", 0.0254), ("y", 0.9144))
+
 
 def metres(number: str, unit: str) -> float | None:
     """Return a length [m], or None where the number is no number."""
     value = _value(number)
     if value is None:
         return None
-    return value * (0.01 if unit.startswith(("c", "厘", "公")) else 1.0)
+    return value * next((m for begin, m in _UNITS_M if unit.startswith(begin)), 1.0)
 
 
 def angle_rad(number: str, unit: str) -> float | None:

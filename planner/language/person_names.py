@@ -49,7 +49,8 @@ _KIN_ZH = (
 _KNOWN = re.compile(rf"(?<![a-z])(?:{_GIVEN}|{_KIN})(?![a-z])|{_KIN_ZH}")
 _WORD = re.compile(r"[A-Za-z][A-Za-z'’-]*|[.!?:;\"“”]")
 _NO_NAMES = frozenset({
-    "i", "tv", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday",
+    "i", "i'll", "i'm", "i've", "i'd", "i’ll", "i’m", "i’ve", "i’d",
+    "tv", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday",
     "january", "february", "march", "april", "may", "june", "july", "august", "september",
     "october", "november", "december", "english", "chinese", "robot", "pons", "please", "tell",
     "could", "would", "can", "go", "the", "then", "and", "ok", "bring", "find", "navigate",

@@ -13,7 +13,7 @@ from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.asides import without_asides
 from planner.language.grammar.checks import without_compounds
-from planner.language.grammar.en.everyday import COURTESY as EN_COURTESY
+from planner.language.grammar.en.courtesy import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.everyday import rewrite

@@ -64,7 +64,7 @@ _IN_A_ROOM = re.compile(
     r" (?!(?:whole |entire )?(?:house|home|flat|apartment|place|building|rooms?)\b)[a-z][a-z ]*)"
 )
 _TITLE = 80
-_DONE = re.compile(r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?|since|because)\b")
+_DONE = re.compile(r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?|since|because|had)\b")
 """What no thing's name holds: "找到杯子了吗", "数完了" and "my legs are tired" tell or ask."""
 ASIDE = re.compile(
     r"\b(?:behind (?:you|me|us)|(?:on|to|at|by) (?:your|my|the) (?:left|right)"

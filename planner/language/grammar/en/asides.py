@@ -92,7 +92,14 @@ _FORMULAS = (
     r"|(?:oh )?my (?:back|feet|legs|head|poor [a-z]+|goodness)|bother|blast|crikey|blimey|gosh",
     r"(?:it|this) (?:will not|won't|should not|shouldn't) take (?:long|a (?:minute|moment|second|sec))",
     r"(?:do not|don't) (?:worry|fret|mind|fuss)(?: (?:about|yourself|me|us|over|for)(?: [a-z]+){0,3})?",
-    r"sorry|there (?:should|ought to|must|will) be (?:[a-z]+|\d+)(?: of them)?(?: somewhere)?",
+    r"sorry|(?:i (?:bet|reckon|think|guess|am sure|expect) )?there(?: (?:should|ought to|must|will|has to|(?:might|may)"
+    r"(?= (?:still )?be (?:one|some|more|two|three|several)\b))(?: still)? be| is bound to be|'ll be) (?:(?!not\b|no\b|none\b)[a-z]+|\d+)(?: of (?:them|[a-z]+))?"
+    r"(?: left)?(?: lying)?(?: around| about)?(?: somewhere)?(?: in there)?",
+    r"(?:i (?:bet|reckon|guess|imagine|suppose|expect|am sure|am afraid|hope|fear)|surely|probably)(?: that)?"
+    r" there(?: is|'s| are|'ll be| will be) (?:loads|lots|plenty|tons|heaps|hundreds|millions|quite a few|a few|some"
+    r"|a lot|too many|enough|one)(?: of (?:them|[a-z]+))?(?: left)?(?: lying)?(?: around| about)?(?: somewhere)?",
+    rf"(?:bed|tea|dinner|lunch|nap|home|bath|charging|sleepy|play|work|break) ?time(?: now)?{_ADDRESS}",
+    rf"(?:it is|it's) (?:late|early|bed ?time|home ?time|time for bed|nearly (?:bed|dinner|tea|lunch) ?time){_ADDRESS}",
 )
 _VETO = (
     rf"(?![^,.!;?]*(?:{MARK}|\d|\b(?:go|going|come|coming|drive|driving|find|look|stop|halt|wait|turn"
@@ -119,12 +126,40 @@ _WEAK = (
     r"|am not|are not|'m not|'re not|do not|don't|did not|didn't)"
     r" (?:quite |really |even |ever )?(?:get up|stand(?: up)?|walk(?: (?:far|well|much))?|see(?: (?:well|much"
     r"|a thing|that far))?|hear(?: (?:well|much|a thing))?|reach(?: (?:it|that|that far))?|move(?: much)?"
-    r"|leave|bend(?: down)?|sleep|manage|manage it|face it|be bothered|feel (?:well|good|great|my [a-z]+)"
+    r"|get (?:past|by|through|round|around)(?: you| there)?|leave|bend(?: down)?|sleep|manage|manage it|face it|be bothered|feel (?:well|good|great|my [a-z]+)"
     r"|find (?:my|the|our) [a-z]+(?: [a-z]+)?|remember(?: (?:where|what)(?: [a-z]+){1,5})?|know where (?:[a-z]+ ){1,4}"
     r"(?:is|are)|cope|well|feeling (?:well|great|too good)|up to it|too (?:steady|well|good|sure)|sure|free"
     r"|so young|as young as i was)"
 )
 _STATE = rf"{_VETO}{_DENIES}{_SUBJECT}(?:(?: {_VERB})\b[^,.!;?]*|(?<='s|'m) [^,.!;?]+|(?<='re|'ve|'ll) [^,.!;?]+)"
+_NO_WISH = (
+    rf"(?![^,.!;?]*(?:{MARK}|\b(?:you (?!something|to)|if|unless|until|till|when|while|before|after|but|or|only"
+    r"|except|instead|rather|stop|wait|go|come|find|first|later|tomorrow)\b))"
+)
+_WANTS = (
+    rf"{_NO_WISH}{_DENIES}(?:i|we)(?: just| only| really)?(?: want| need| have| would like|'d like| am going| are going| am trying"
+    r"| are trying|'re trying| am about)(?: got)? to (?:show|film|record|photograph|have|take|eat|get|make|sleep|work|read"
+    r"|rest|relax|pay|cook|surprise|play|practi[sc]e|shower|wash|hoover|pack|dress|study|concentrate)\b[^,.!;?]*"
+)
+_COMES = (
+    r"(?:(?:i|we|he|she|they|(?:the|my|our) [a-z]+(?: [a-z]+)?|mum|mom|dad|granny|grandma|grandpa|nana|nan"
+    r"|company|guests|visitors|people|somebody|someone)(?: is| are| am|'s|'re|'m))(?: (?:already|just|all|also))?"
+    r" (?:coming|on (?:my|his|her|our|their|the) way|going (?:out|to (?:bed|work|sleep)))"
+    r"(?: (?:over|round|home|soon|too|now|today|tonight|for (?:dinner|tea|lunch|supper|a visit)))*"
+)
+_SOON = r"(?: (?:soon|later|then|in (?:a|one|two|five|ten) (?:secs?|seconds?|mins?|minutes?|moment|bit)))?"
+_JOINS = (
+    r"i(?:'ll| will) (?:join (?:you|them)|be (?:right )?(?:there|along|with you|behind you)|follow(?: you)?"
+    rf"|catch (?:you )?up|(?:see|meet) you there|come(?: too| along)?){_SOON}"
+    r"|we(?:'re| are) (?:having|expecting|getting) (?:some )?(?:guests|visitors|people|company|friends|family)"
+    r"(?: (?:over|round|tonight|today|later|soon|tomorrow|for (?:dinner|tea|lunch|supper)))*"
+    r"|you know (?:the (?:drill|way|routine)|what to do)"
+)
+_HAD = (
+    r"(?:i|we|he|she|they|it)(?: only| just| definitely)? (?:had|saw|was|used) (?:it|them|here|there)"
+    r"(?: only| just)? (?:(?:a|one|two|five|ten|a few) (?:secs?|seconds?|mins?|minutes?|moments?|hours?|days?) ago"
+    r"|earlier|yesterday|last night|this (?:morning|afternoon))"
+)
 _CANNOT = rf"(?![^,.!;?]*{MARK}){_I} {_WEAK}(?: (?:right now|today|just now|at the moment|these days|any more))?"
 _YOU_ARE_FREE = (
     r"you(?: are|'re) (?:already |so |just )?(?:free|here|up|awake|idle|around|bored|passing"
@@ -159,5 +194,6 @@ ENGLISH_ASIDES = AsideForms(
         re.compile(rf"{_JOIN}?{_STATE}"),
         re.compile(rf"{_JOIN}?{_CANNOT}"),
         re.compile(rf"{_JOIN}?{_YOU_ARE_FREE}"),
+        re.compile(rf"{_JOIN}?(?:{_WANTS}|{_COMES}|{_JOINS}|{_HAD})"),
     ),
 )

@@ -43,9 +43,15 @@ _LOOKS = (
 )
 _HAVE_A_LOOK = (
     r"(?:please |now |just |could you |can you )*(?:go |come )?(?:and )?(?:have a (?:quick )?(?:look"
-    r"|search|check)|take a look|look|check|see|search|count(?: them)?|find out|hunt for it|find it"
-    r"|look for it)(?: for me| please| will you| would you| now)*"
+    r"|search|check)|take a look|look|check|see|search|count(?: them)?|find out|hunt for it"
+    r"|(?:find|look for|track down) (?:it|him|her|them))(?: for me| please| will you| would you| now)*"
 )
+_SAYABLE = (
+    r"(?:(?!(?:if|unless|when|until|till|while|before|after|or|and|then|tomorrow|tonight|later)\b)[a-z0-9']+ ?)+?"
+    r"(?:(?: in|in) (?:a|one|two|five|ten|half an?) (?:minutes?|mins?|moment|seconds?|secs?|hours?|bit|while))?"
+)
+"""Words to be said: when they are true is theirs, not the order's."""
+_SOUGHT = r"(?P<t>(?:the|my|our|a|an|any) [a-z]+(?: [a-z]+){0,2}?)(?=$|[,.]| and\b)"
 _SAYS = r"(?:shout|yell|call out|announce|holler|proclaim)(?: out)?"
 _HOME = r"(?:house|home|flat|apartment|place|building|rooms|premises)"
 _AROUND = rf"(?: (?:of|round|around|through|about) (?:the |our |my )?(?:whole |entire )?{_HOME})?"
@@ -54,7 +60,7 @@ _NUMBER = (
     r"|\d{1,3})"
 )
 
-_A_BIT = r"(?:just )?(?:a (?:little bit|bit|little|tad|touch|smidge|step)|slightly)"
+_A_BIT = r"(?:just )?(?:a (?:(?:little |wee |tiny )?bit|wee|little|tad|touch|smidge|step)|slightly)"
 """The robot takes 20 cm for it: a short step."""
 
 _NO_ASIDE = (
@@ -70,26 +76,10 @@ _STATES = (
 )
 """A clause that says how things stand and orders nothing: why something is ordered."""
 
-COURTESY = table(
-    (rf"(?:^|,) ?if you(?: would|'d| could)? be so (?:kind|good)(?: as to)?{_END}", " please"),
-    (rf"(?:^|,)? ?if (?:you do not mind|you would not mind|you please|you would|you could|you may"
-     rf"|you can|you like|that is ok(?:ay)?|possible|it is not too much trouble){_END}", ""),
-    (r"(?:^|,)? ?when(?:ever)? you(?: have| get|'ve got| have got)? (?:a|one|the|some|any) (?:moment"
-     rf"|minute|sec|second|chance|time){_END}", ""),
-    (r"\bif you see (?:it|him|her|them)\b", ""),
-    (r"^if (?:it is|that is) not (?:too much|any|a) (?:trouble|bother),? ", ""),
-    (rf"(?:^|,)? ?when(?:ever)? you are ready{_END}", ""),
-    (r"^when(?:ever)? you are ready,? ", ""),
-    (rf"\b(?:stay|wait|remain|stand)(?: right)? (?:by|at|in|near|next to) (?P<p>{_PLACE}) (?:until|till)"
-     r" (?:i(?:'m| am)? (?:come |am |get )?(?:back|return|come|here)|i(?:'m| am) back)(?: again)?",
-     r"go to \g<p> and wait for somebody"),
-    (r"^why (?:do not|don't) you (?:just )?(?=(?:go|come|drive|look|find|have|take|check)\b)", ""),
-    (r"^(?:it(?: would|'d) be (?:so |very |really )?(?:lovely|great|nice|good|kind|wonderful|helpful)"
-     r"|i(?: would|'d) (?:be (?:so |very )?(?:grateful|glad|happy|pleased)|appreciate it|feel better"
-     r"|feel safer))(?: of you)? if you(?: could| would|'d)? (?=[a-z])", ""),
-)  # fmt: skip
-"""Conditions that are none."""
-
+_LOST = (
+    r"(?:i (?:can ?not|could not) (?:find|see)|(?:i|we)(?:'ve| have)? (?:just )?lost|have you seen"
+    r"|where (?:on earth )?(?:is|are|has|have|did i (?:put|leave)))"
+)
 _WHOEVER = (
     r"^(?:please )?tell (?:whoever|everyone who|everybody who|anyone who|anybody who)(?:'s| is) "
 )
@@ -105,7 +95,19 @@ TOLD_TWICE = table(
     (r"^where do (?:we|you|i|they) (?:keep|put|store) (?P<t>(?:the|our|my) [a-z]+)\?*$", r"where is \g<t>?"),
     (rf"{_WHOEVER}(?:in|at) (?P<p>(?:the |my |our )?[a-z]+(?: [a-z]+)?) that (?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
     (r"\b(?P<o>otherwise|or else|if not),? (?:then )?try (?P<p>(?:the|my|our) [a-z]+(?: [a-z]+)?)$", r"\g<o> look in \g<p>"),
-    (r"\bcome (?:back )?and (?:tell me|let me know)(?=$|[,;.])", "come back"),
+    (r"\bcome (?:back )?(?:(?:and|to) )?(?:tell (?:me|us)|let (?:me|us) know)(?=[!.]*$|[,;.])", "come back"),
+    (r"\b(?:(?:have|take) a (?:good |quick |little |proper )*)?look (?:a?round|through|over|all over) "
+     rf"(?:the|our|my) (?:(?:whole|entire) {_HOME}|house|flat|apartment)(?!(?: again| now)? for\b)", "patrol the house"),
+    (r"\b(?:(?:have|take) a (?:good |quick |little |proper )*)?look (?:a?round|through|over|all over) "
+     rf"(?:the|our|my) (?:whole |entire )?{_HOME} for (?P<t>(?:the|my|our|a|an) [a-z]+(?: [a-z]+)??)(?=[.!]*$)",
+     r"find \g<t>"),
+    (r"(?<=[a-z])[,.;]+ ?you (?:look|seem|sound) (?:a (?:bit|little) |very |so |really |dead )*(?:tired|exhausted|knackered"
+     r"|sleepy|worn out|shattered|dusty|bored|lonely)(?=[.!]*$)", ""),
+    (r"\bcount (?P<t>(?:(?:all|the|my|our) )+[a-z]+(?: [a-z]+)?) (?P<p>(?:in|at|on) [a-z ]+?),? (?:and|then|and then)"
+     r" (?:count )?(?:the ones|those) (?=(?:in|at|on)\b)", r"count \g<t> \g<p> and then count \g<t> "),
+    (rf"^{_LOST} (?P<t>(?:my|our|the|me) [a-z]+(?: [a-z]+)??)(?: (?:got to|gone|hiding|anywhere|any more|again|lately|around))?[,.;!?]+ (?:so |please "
+     r"|can you |could you |will you |would you )*(?:go )?(?:and )?(?:look|search|hunt|have a look|find|track down)(?: for)?"
+     r" (?:it|him|her|them)(?: please| for me)*[.?!]*$", r"find \g<t>"),
     (r"\bif you will (?=(?:see|find|spot|notice|meet)\b)", "if you "),
     (r"\bturn (?:yourself )?(?:a?round|about)[, ]+(?:and |so (?:that )?you (?:are |can )?)?fac(?:e|ing)"
      r" (?:the other way|away)\b", "turn around"),
@@ -129,6 +131,9 @@ ENGLISH_EVERYDAY = table(
         ("whats", "what is"), ("wheres", "where is"), ("thats", "that is"), ("theres", "there is"),
         ("d'you", "do you"), ("pleeease|pleez|pleeze", "please"), ("kichen|kitchn", "kitchen"),
     )),
+    # towards the person or away from them? Only a reason tells
+    (rf"\bcome back {_A_BIT}(?=[,.!;]+ ?(?:you are|you're) (?:on my|blocking|too close|in (?:my|the) way))",
+     "move back 20 cm"),
     # "The kitchen" alone names it, "kitchen" and "the kitchen, please" order
     (rf"^(?P<p>{_PLACE}),? (?:please|pls|now|at once)[.!]*$", r"go to \g<p>"),
     # hesitation, address, courtesy
@@ -187,6 +192,16 @@ ENGLISH_EVERYDAY = table(
     (rf"^go (?P<p>{MARK})(?= then\b|,| and\b|$)", r"go to \g<p>"),
     (rf"^to (?P<p>{_PLACE})[.!]*$", r"go to \g<p>"),
     (r",? in (?:that|this) order$", ""),
+    (rf"^(?P<p>{_PLACE}) first,? (?=(?:and |then )+)", r"go to \g<p>, "),
+    (rf"\bcome (?:on )?(?:over |back |up )?here (?:to|by|into|in|next to|near) (?P<p>{_PLACE})", r"go to \g<p>"),
+    (rf"\bgo (?:down|along|up|across) (?P<p>{_PLACE}){_END}", r"go to \g<p>"),
+    (r"\breport(?: back)?(?: to me)? (?:over |back )?here(?=[!.]*$|[,;.])", "come back"),
+    (r"\bcheck for (?=(?:the|my|our|a|an|any|some) )", "look for "),
+    (r"(?:,| and| then)+ (?:stop|halt|stay) there(?=[.!]*$)", ""),
+    (rf"^(?:go )?(?:and )?(?:check|search|try|look in|look at|look on) (?P<a>{_PLACE}),? and (?:then )?(?:in |at |on )?"
+     rf"(?P<b>{_PLACE}) for {_SOUGHT}", r"go to \g<a> and see if there is \g<t>, then go to \g<b> and see if there is \g<t>"),
+    (rf"\b(?:{_LOOKS}|look|check)(?: for it)? (?:in|at|on|under|by) (?P<p>{_PLACE})(?:,| and| then)+ (?:in|at|on|by|under)"
+     rf" (?P<q>{_PLACE})(?=$|[,.]| and\b| then\b)", r"look in \g<p>, then look in \g<q>"),
     (rf"\bgo over there (?:by|to|at|near) (?P<p>{_PLACE})", r"go to \g<p>"),
     (rf"\b{_LOOKS} (?:a?round|at|in|inside|into|through)? ?(?P<p>{_PLACE}) and (?=(?:see|check|tell|find)\b)",
      r"go to \g<p> and "),
@@ -205,7 +220,7 @@ ENGLISH_EVERYDAY = table(
     (rf"\bcome (?:and )?(?:find|see|meet|join|get) me (?:in|at|by|on|near) (?P<p>{_PLACE})", r"go to \g<p>"),
     (rf"\bcome to (?P<p>{_PLACE})[,.]+ (?:i(?:'m| am)) (?:in |over |right )?(?:here|there)$", r"go to \g<p>"),
     # lengths, angles, times
-    (rf"\b(?P<v>back up|reverse|(?:go|move|scoot|shuffle|roll|drive) back(?:wards?)?) {_A_BIT}(?=$|[,.])",
+    (rf"\b(?P<v>back up|reverse|(?:go|move|get|scoot|shuffle|roll|drive) back(?:wards?)?) {_A_BIT}{_END}",
      "move back 20 cm"),
     (rf"\b(?:move|go|drive|roll|scoot|shuffle|inch|edge|come) (?:{_A_BIT} )?(?:forwards?|ahead|closer)(?: {_A_BIT})?(?=$|[,.])",
      "move forward 20 cm"),
@@ -236,6 +251,8 @@ ENGLISH_EVERYDAY = table(
     (r"\btell (?:whoever|anyone|anybody|everyone|everybody|the people)(?:'s| is| who is|s)? in"
      rf" (?P<p>{_PLACE}) (?:that )?(?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
     (rf"\b{_SAYS}(?: that)? (?P<w>[^\",;]+)$", r'say "\g<w>"'),
+    (rf"\bsay (?:that )?(?P<w>(?:i|we|he|she|they)(?:'ll| will|'re| are|'m| am|'s| is) {_SAYABLE})"
+     r"(?=[.!]*$|[,;]| and (?:then )?(?:come|go|drive|head|return)\b)", r'say "\g<w>"'),
     (rf"\bsay (?P<w>[^\",;]*{MARK}[^\",;]*)$", r'say "\g<w>"'),
     (r"(?<=then )tell (?:them|him|her|everyone) (?:that )?(?P<w>[^\",;]+?)(?=$|[,;])", r'say "\g<w>"'),
     (r"^(?P<c>if\b[^\"]+?)[, ]+(?:then )?tell (?:them|him|her|everyone|everybody) (?:that )?"
@@ -275,13 +292,17 @@ ENGLISH_EVERYDAY = table(
      rf" (?P<l>{_PLACE}(?:(?:,? and|,) {_PLACE})+)$", r"patrol \g<l>, \g<n> times"),
     (rf"\b(?:go )?(?:and )?(?:park|plug|dock|plonk|sit|put) yourself(?: in| down)? (?:on|at|in|into|to|by|near|next to) (?P<p>{_PLACE})",
      r"go to \g<p>"),
-    (rf"\b(?:go |come )?back to (?P<p>{_PLACE})$", r"go to \g<p>"),
+    (rf"\b(?:go |come |get |head )?(?:on |right |straight )?back (?:to|on|onto|in|into) (?P<p>{_PLACE})$", r"go to \g<p>"),
     (r"\b(?:park|plug|dock) yourself(?: in)?(?: (?:on|at|in|into|to) (?:the |your )?(?:charger|dock"
      r"|charging (?:dock|station)|station))?\b|\b(?:back|off) to (?:base|the dock|your (?:dock|charger)"
      r"|the charger)\b|\bcharge up(?: (?:at|on) (?:the |your )?(?:station|dock|charger))?"
-     r"|\b(?:go )?(?:get )?charge yourself(?: up)?\b|\b(?:go|head|run) (?:on )?home\b", "go charge"),
+     r"|\bgo back (?:and |to )charge\b|\b(?:go )?(?:get )?charge yourself(?: up)?\b|\b(?:go|head|run) (?:on )?home\b", "go charge"),
+    (r"\b(?:go|drive|walk|wander|roam|run)(?: all)? (?:a?round|through|into) (?:all|every|each)(?: of)?(?: single)?"
+     r"(?: (?:the|our|my))? rooms?\b", "patrol all rooms"),
+    (rf"\b(?:do|make|take|drive|go) (?P<n>two|three|four|five|[2-5]) (?:laps|rounds|tours|circuits) (?:of|round|around|through)"
+     rf" (?:the|our|my) (?:whole |entire )?{_HOME}(?=$|[.!])", r"patrol the house, \g<n> times"),
     (rf"\b(?:do|make|take|have|go on|go for) (?:a|the|your|one|another) (?:quick |little |full )*(?:lap|round"
-     rf"|rounds|tour|sweep|circuit|patrol|walk|turn){_AROUND}(?=$|[,.!?]| \w+ times| twice| and\b)"
+     rf"|rounds|tour|sweep|circuit|patrol|walk|turn|(?:wander|stroll|drive|scout)(?= (?:a?round|through))){_AROUND}(?=$|[,.!?]| \w+ times| twice| and\b)"
      rf"|\bpatrol(?: (?:the|our|my) (?:whole |entire )?{_HOME})?(?=$|[,.!?]| \w+ times| twice| and\b)"
      rf"|\b(?:tour|circle|walk around|go around|wander around|cruise around) (?:the|our|my) (?:whole |entire )?{_HOME}",
      "patrol the house"),

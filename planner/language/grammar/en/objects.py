@@ -71,6 +71,12 @@ _THERE_IS = (
     r"(?:has|have)(?= (?:the|any|you|my|our)\b))"
 )
 _SOMEBODY = r"(?:any|some)(?:one|body|thing)"
+_WE_HAVE = (
+    r"(?: (?:(?:we|i|they|you)(?:'ve| have)|have (?:we|i|they|you)"
+    r"|do (?:we|i|they|you) (?:still )?have)"
+    r"(?: still)?(?: got)?)?(?: (?:are )?left(?: over)?)?"
+)
+"""What says of things only that they are somebody's: "how many bottles we've got left"."""
 _SEEN_HERE = (
     r"(?:(?:(?:are|do you see|can you see|you see) )?(?:in )?here|"
     r"(?:do|can) you see|you see|are (?:there )?in front of you|(?:are )?in sight|are around|"
@@ -195,7 +201,7 @@ RULES: tuple[Rule, ...] = (
     rule(rf"count {_COUNTED} (?:(?:in )?here|in this room|around you|you see)", _seen_here),
     rule(
         r"(?:(?:tell (?:me|us)|say|report|find out|check|let me know|"
-        rf"see) )?how many (?P<what>{_COUNTED})"
+        rf"see) )?how many (?P<what>{_COUNTED}){_WE_HAVE}"
         r"(?: (?:there are|are there|are|is|do you see|can you see|you see|"
         rf"were))?(?: there)?{_MUST}"
         r"(?: (?:who |that )?(?:(?:there )?are )?(?P<how>[a-z' -]+?))?",
@@ -203,7 +209,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(
         r"(?:(?:tell (?:me|us)|say|report|find out|check|let me know|"
-        rf"see) )?how many (?P<what>{_COUNTED})"
+        rf"see) )?how many (?P<what>{_COUNTED}){_WE_HAVE}"
         r"(?: (?:there are|are there|are|do you see|can you see|you see))?(?: (?P<at_there>there|"
         r"here))?(?P<at>)?",
         _count,

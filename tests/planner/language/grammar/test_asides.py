@@ -27,6 +27,7 @@ BEFORE = (
     *("sorry to trouble you, ", "I hate to ask, but ", "I know you're busy but ", "listen, "),
     *("how about you ", "why not ", "I'd be ever so grateful if you could ", "let me think, "),
     *("hello, how are you? ", "are you awake? ", "can you hear me? ", "I can't get up, "),
+    *("bedtime robot, ", "it's late, ", "granny's on her way, "),
     *("my back hurts so ", "since you're free, ", "the doorbell just rang, ", "can you like "),
 )
 BEHIND = (
@@ -34,6 +35,10 @@ BEHIND = (
     *(", I'd appreciate it", ", don't worry about the noise", ", it won't take long", ", yeah?"),
     *(", aren't you clever", ", do you hear me?", ", as usual", ", like a good boy"),
     *(" because I can't find my glasses", ", my legs are tired"),
+    *(", I bet there's loads", ", there should be one of them somewhere", ", I'm coming"),
+    *(", I want to film it", ", I can't get past you", ", my mum is coming over for dinner"),
+    *(", I'll join you in a minute", ", it was here a minute ago", ", we're having guests tonight"),
+    *(", I'd like to have a shower", ", there's bound to be some left"),
 )
 INSIDE = (", have you had a nice day, ", ", bless you, ", ", oh my back, ", ", I'm so tired, ")
 ORDERS_ZH = ("去厨房", "去厨房看看", "数一下书房的椅子", "去厨房，然后回来", "找红色的杯子")
@@ -137,6 +142,8 @@ def test_neither_in_chinese(home: Vocabulary, aside: str, held: str) -> None:
             "如果我睡着了，",
             "我不想，",
             *("地上很滑，", "他是谁，", "I wonder where it is, "),
+            *("there might be glass, ", "I want to stop, ", "mum is coming to the study, "),
+            *("I'll come and stop you, ", "I want to have lunch in the study, "),
         ),
     ],
 )
