@@ -29,7 +29,7 @@ _REASON = (
 )
 
 _STATES = (
-    rf"(?![^,。!]*(?:{MARK}|[去到回来找看跟等停转说问告别没不莫再也就要想把给让叫请快慢先才只或和湿滑危险锁堵坏]))"
+    rf"(?![^,。!]*(?:{MARK}|[去到回来找看跟等停转说问告别没不莫再也就要想把给让叫请快慢先才只或和湿滑危险锁堵坏错改骗逗悔]|自己|玩笑|说笑))"
     r"[^,。!]{2,9}(?:了|呢|啦|着|咯|的)"
 )
 """A clause that says how things stand and orders nothing: why something is ordered."""
