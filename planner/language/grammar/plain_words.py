@@ -51,6 +51,8 @@ _REPORTS = re.compile(
 """Words for the speaker: what follows is no speech."""
 _MOST_SAID = 120
 """Characters; nobody says more in one breath, and the rows take longer the longer a clause is."""
+_ASKS_IF_DONE = re.compile(r"(?<![关开锁亮灭熄停拔盖好上住掉])[了过][吗么][?。!]*$")
+"""全屋走一遍了吗 orders nothing; 大门锁了吗 is looked at."""
 _AFTER_SPEECH = re.compile(
     r"(?<=[,。])(?:你)?[说讲问叫喊]完(?:了|以后|之后|后)?[,]?(?:就|再|然后)*(?=[回充]|过来)"
 )
@@ -63,15 +65,15 @@ def in_order_words(text: str, vocabulary: Vocabulary) -> str:
     words may be said to others.
     """
     said = normalise(text)
-    if not has_chinese(said) or len(said) > _MOST_SAID:
+    if not has_chinese(said) or len(said) > _MOST_SAID or _ASKS_IF_DONE.search(said):
         return text
     marked = lexicon_of(vocabulary).mark(said)
     own = _AFTER_SPEECH.sub("然后", marked.text)
     speech = _SPEAKS.search(_REPORTS.sub(lambda found: "〇" * len(found[0]), own))
     start = speech.start() if speech is not None else len(own)
-    plain = own[:start]
-    for phrases in (LOOK_PHRASES, DRIVE_PHRASES, LOOK_PHRASES):
-        plain = rewrite(plain, phrases)
+    looks = rewrite(own[:start], LOOK_PHRASES)
+    plain = rewrite(looks, DRIVE_PHRASES)
+    plain = plain if plain == looks else rewrite(plain, LOOK_PHRASES)
     if plain and start < len(own) and own[start - 1] in ",.;!?。":
         plain += own[start - 1]
     plain += own[start:]

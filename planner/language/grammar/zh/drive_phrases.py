@@ -72,7 +72,7 @@ DRIVE_PHRASES = table(
     (rf"{BEGIN}{LEAD}(?:看着|看向|盯着)(?P<p>{PLACE})转过[去来]{END}", r"面对\g<p>"),
     (rf"{BEGIN}{LEAD}{_FACE}(?P<p>{PLACE})转(?:过[去来]|身){END}", r"面对\g<p>"),
     (rf"{BEGIN}{LEAD}转(?:过身|身)?过[去来]{END}|{BEGIN}{LEAD}转个身{END}", "转身"),
-    (rf"{BEGIN}{LEAD}转(?:过身|身)?过[去来](?={LOOKS}|告诉我)", "转身,"),
+    (rf"{BEGIN}{LEAD}转(?:过身|身)?过[去来](?={LOOKS}(?!着)|告诉我)", "转身,"),
     (rf"{BEGIN}{LEAD}(?:[向往朝]后转(?:一下|过去|身)?|转(?:个|了)?半圈){END}", "转身"),
     (rf"(?P<t>[左右]转|\d度|[一二三四五六七八九十百]度)(?={LOOKS})", r"\g<t>,"),
     (rf"(?P<w>[往向朝][前后])面?(?P<l>{ZH_LENGTH})", r"\g<w>走\g<l>"),
@@ -158,7 +158,7 @@ DRIVE_PHRASES = table(
     ),
     (
         rf"{BEGIN}{LEAD}[把去到]?(?P<l>{MARK}(?:和{MARK})+)(?:这?[几两三]个(?:地方|房间))?[里那]?{_EACH}+(?:去|帮我|给我)*"
-        rf"{LOOKS}(?![到见着过了完])",
+        rf"{LOOKS}(?![到见着过了完看瞧一])",
         r"去\g<l>看看",
     ),
     (
