@@ -103,6 +103,11 @@ LOOK_PHRASES = table(
         rf"{BEGIN}{LEAD}{_TOPIC}(?:好像|可能|是不是|大概|应该)(?:没|忘了?|忘记)(?P<v>{_STATE}{_SO})了?[,。?!]{_HAVE_A_LOOK}{END}",
         r"看看\g<t>\g<v>了没有",
     ),
+    (
+        rf"{BEGIN}{LEAD}(?P<q>[^,。;!?{_NO_TOPIC}去到在]{{2,10}}?[着了])没有?[,。?!](?:你|帮我|快)*[去到](?P<p>{PLACE}){SIDE}{LOOKS}{END}",
+        r"去\g<p>看看\g<q>没有",
+    ),
+    (rf"{BEGIN}(?P<q>你?(?:能|可以)(?:看见|看到|看得见|看得到)[^,。;]{{1,6}}?)不{END}", r"\g<q>吗"),
     # whereabouts
     (
         rf"{BEGIN}{LEAD}我?(?:好像|可能|应该|大概)?把{_THING}(?:落|放|忘|丢|搁|留)(?:在|到)?(?P<p>{PLACE}){SIDE}了?{_ASKED_TO}(?:{_SEARCH}|{LOOKS}){END}",
@@ -139,7 +144,7 @@ LOOK_PHRASES = table(
         r"找\g<t>",
     ),
     (rf"{BEGIN}{LEAD}(?:去)?{_SEARCH}(?:{_AT_HOME}|家)?还?有没有{_THING}{END}", r"找\g<t>"),
-    (rf"{BEGIN}{LEAD}(?:去)?{LOOKS}{_AT_HOME}(?P<q>有(?:没有|谁|几)[^,。;{MARK[1:-1]}]{{0,8}}?){END}", r"去每个房间看看\g<q>"),
+    (rf"{BEGIN}{LEAD}(?:去)?{LOOKS}{_AT_HOME}(?P<q>有(?:没有|谁|几|什么)[^,。;{MARK[1:-1]}]{{0,8}}?){END}", r"去每个房间看看\g<q>"),
     (rf"{BEGIN}{LEAD}(?:去)?{LOOKS}谁在家里?{END}", "去每个房间看看有没有人"),
     (rf"{BEGIN}{LEAD}(?:去)?{LOOKS}(?:哪个房间|哪里|哪儿|哪间房)里?有{_THING}{END}", r"找\g<t>"),
     (
@@ -155,6 +160,10 @@ LOOK_PHRASES = table(
         r"看看\g<p>\g<h>有没有\g<t>",
     ),
     # numbers
+    (
+        rf"{BEGIN}{_THING}(?:还剩|一共有|还有|有)(?:几|多少)[个把本张只瓶双]?[,。?!](?:你|帮我|快)*[去到](?P<p>{PLACE}){SIDE}(?:数数|数一下|数一数|{LOOKS}){END}",
+        r"去\g<p>数\g<t>",
+    ),
     (rf"(?:点一下|点点|点一点|清点一下|算算|算一下|数一下看看?|数数看看?)(?=[^,。;]{{0,8}}?{_MANY})", "数一下"),
     (rf"(?P<v>数一下|数一数|数数|数)(?:现在|到底)(?=[^,。;]{{0,6}}?{_MANY})", r"\g<v>"),
     (rf"(?P<v>数一下|数一数|数数|数)还?剩[下了]?(?={_MANY})", r"\g<v>有"),
