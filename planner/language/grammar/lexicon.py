@@ -30,6 +30,8 @@ NAME = rf"[{chr(FIRST_NAME)}-{chr(FIRST_NAME + NAMES - 1)}]"
 # "home" is a step of its own (return_home), whatever a site calls its home.
 _RESERVED = frozenset({"home", "base", "家", "here", "there", "it", "back"})
 _PIECE = re.compile(r"[a-z0-9']+|\S")
+_OTHER_WORDS = re.compile(r"(?<=起)床|(?<=赖)床")
+"""A place's name within a word of its own: 起床 goes to no bed."""
 _TYPO_LETTERS = 6  # shorter words have too many neighbours that are words: desk/deck, couch/coach
 _SLIPS = (
     re.compile(r"(?<![a-z'])[a-z]{3,} [a-z]{3,}(?![a-z'])"),
@@ -109,7 +111,7 @@ class Lexicon:
         mentions: list[Mention] = []
         at, copied = 0, 0
         while at < len(pieces):
-            after = self._match(text, pieces, at)
+            after = at if _OTHER_WORDS.match(text, pieces[at][0]) else self._match(text, pieces, at)
             if after > at and len(mentions) < MARKS:
                 start, end = pieces[at][0], pieces[after - 1][1]
                 key = _join(text, pieces, at, after)

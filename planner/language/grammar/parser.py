@@ -51,6 +51,7 @@ from planner.language.grammar.plain_words import (
     asks_whether,
     in_plain_words,
     leave_asides_out,
+    read_in_order_words,
     without_sending,
 )
 from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
@@ -96,7 +97,7 @@ def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
-    made = _plan(text, vocabulary, context)
+    made = read_in_order_words(text, vocabulary, lambda said: _plan(said, vocabulary, context))
     if isinstance(made, Refuse):
         return tell_unread(made, text, lambda said: _plan(said, vocabulary, context))
     return made

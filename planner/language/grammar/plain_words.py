@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Callable
 
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
@@ -20,10 +21,12 @@ from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
+from planner.language.grammar.zh.drive_phrases import DRIVE_PHRASES
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
+from planner.language.grammar.zh.look_phrases import LOOK_PHRASES
 from planner.language.grammar.zh.orders import CHINESE
-from planner.plan import Vocabulary
+from planner.plan import AnswerPlan, Clarify, Code, Refuse, StepPlan, Vocabulary
 
 _NAMED = re.compile(rf"[^{HAN}]{{0,8}}{MARK}[呢吗么]?[?]+")
 
@@ -36,6 +39,65 @@ def without_sending(text: str) -> str:
     said = normalise(text)
     plain = rewrite(said, ASKED_AND_SENT if has_chinese(text) else TOLD_TWICE)
     return text if plain == rewrite(said, ()) else plain
+
+
+_SPEAKS = re.compile(
+    r"[^,.;!?。]*?(?:[\"“”「」]|(?:说|讲)(?!说|讲)|[问喊叫念]|告诉|提醒|通知|转告|回答|带(?:个|句)话|如果|要是)"
+)
+_REPORTS = re.compile(
+    r"(?:告诉|通知|[跟和向给对])我们?(?:说说|讲讲|说|讲|报告|汇报)?|(?:说说|讲讲|说一下)(?=你|看)"
+    r"|(?:回来|过来)(?:后|再|就)*(?:说说|讲讲)"
+)
+"""Words for the speaker: what follows is no speech."""
+_MOST_SAID = 120
+"""Characters; nobody says more in one breath, and the rows take longer the longer a clause is."""
+_ASKS_IF_DONE = re.compile(r"(?<![关开锁亮灭熄停拔盖好上住掉])[了过][吗么][?。!]*$")
+"""全屋走一遍了吗 orders nothing; 大门锁了吗 is looked at."""
+_AFTER_SPEECH = re.compile(
+    r"(?<=[,。])(?:你)?[说讲问叫喊]完(?:了|以后|之后|后)?[,]?(?:就|再|然后)*(?=[回充]|过来)"
+)
+
+
+def in_order_words(text: str, vocabulary: Vocabulary) -> str:
+    """Return a Chinese text with each clause in the grammar's own words of order.
+
+    Nothing is changed from the clause on that speaks to somebody, quotes, or opens a condition: its
+    words may be said to others.
+    """
+    said = normalise(text)
+    if not has_chinese(said) or len(said) > _MOST_SAID or _ASKS_IF_DONE.search(said):
+        return text
+    marked = lexicon_of(vocabulary).mark(said)
+    own = _AFTER_SPEECH.sub("然后", marked.text)
+    speech = _SPEAKS.search(_REPORTS.sub(lambda found: "〇" * len(found[0]), own))
+    start = speech.start() if speech is not None else len(own)
+    looks = rewrite(own[:start], LOOK_PHRASES)
+    plain = rewrite(looks, DRIVE_PHRASES)
+    plain = plain if plain == looks else rewrite(plain, LOOK_PHRASES)
+    if plain and start < len(own) and own[start - 1] in ",.;!?。":
+        plain += own[start - 1]
+    plain += own[start:]
+    return text if plain == own == marked.text else marked.restore(plain)
+
+
+Read = Callable[[str], StepPlan | AnswerPlan | Clarify | Refuse]
+_LOST = frozenset({Code.NOT_UNDERSTOOD, Code.UNKNOWN_PLACE})
+
+
+def read_in_order_words(
+    text: str, vocabulary: Vocabulary, read: Read
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
+    """Return the plan of a text by the grammar's own words of order, else by the person's.
+
+    It is asked about in the person's words, but where only the others tell what is missing.
+    """
+    plain = in_order_words(text, vocabulary)
+    made = read(plain)
+    if plain == text or isinstance(made, StepPlan | AnswerPlan):
+        return made
+    own = read(text)
+    lacks = made.code is Code.INCOMPLETE and getattr(own, "code", None) in _LOST
+    return made if lacks else own
 
 
 def leave_asides_out(text: str, vocabulary: Vocabulary) -> str | None:

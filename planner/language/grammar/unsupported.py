@@ -185,15 +185,22 @@ def _side_rad(said: str) -> float:
     return pi / 2 if _LEFT.search(said) else -pi / 2
 
 
-def _look_aside(found: Match[str], _reading: Reading) -> Meaning:
-    """Turn to the side that is to be looked at."""
-    return Steps((Turn(angle_rad=_side_rad(found[0])), Look(question=found[0])), seen=True)
+def _look_aside(found: Match[str], reading: Reading) -> Meaning:
+    """Turn to the side that is to be looked at, where the order has not turned there already."""
+    look = Look(question=found[0])
+    if _has_turned(found[0], reading):
+        return Steps((look,), seen=True)
+    return Steps((Turn(angle_rad=_side_rad(found[0])), look), seen=True)
+
+
+def _has_turned(said: str, reading: Reading) -> bool:
+    turned_rad = reading.scene.turned_rad
+    return turned_rad is not None and cos(turned_rad - _side_rad(said)) > _SAME_SIDE
 
 
 def _unseen(found: Match[str], reading: Reading) -> Meaning | None:
     """Say no to a question about a side that the camera does not see; None where it does."""
-    turned_rad = reading.scene.turned_rad
-    if turned_rad is not None and cos(turned_rad - _side_rad(found[0])) > _SAME_SIDE:
+    if _has_turned(found[0], reading):
         return None
     return reading.problem(Code.NOT_UNDERSTOOD, found[0])
 

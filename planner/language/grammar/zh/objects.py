@@ -24,17 +24,19 @@ from planner.language.grammar.parse_result import (
     rule,
 )
 from planner.language.grammar.step_builders import arrive, count, find, look, offer_search, place_of
-from planner.language.grammar.zh import SEE, SPOT, THING, UNIT, WHAT, WHETHER, loc
+from planner.language.grammar.zh import IN, SEE, SPOT, THING, UNIT, WHAT, WHETHER, loc
 from planner.plan import Code, Count, Step
 
 _AT = rf"(?:{loc('at')})?"
 _MUST = loc("at")
-_FIND = r"(?:找到|寻找|找找看?|找一找|找一下|找|搜索|搜寻|搜一下|定位|识别|寻)(?:一下|一个|个)?"
+_FIND = (
+    r"(?:找到|寻找|找找看?|找一找|找一下|找下|找|搜索|搜寻|搜一下|定位|识别|寻)(?:一下|一个|个)?"
+)
 _IS_THERE = rf"(?:{WHETHER}|[都还]?有)"
 _ASKS = r"(?:吗|呢|么|嘛|啊)?"
 _ASKING = re.compile(r"[吗谁啥哪几]|[什怎]么|么$|如何|多少|有没有|有无|是否|是不是")
 """What makes a question of words that else only tell: "客厅的灯亮着" asks for nothing."""
-_AND_MANY = re.compile(rf"(?:和|与|跟|以及|还有)有?(?:几|多少){UNIT}")
+_AND_MANY = re.compile(rf"(?:(?:和|与|跟|以及|还有|、)有?|(?<!有))(?:几|多少){UNIT}(?=.)")
 _AROUND = (
     r"(?:在?(?:你|您)?的?(?:这里|这儿|这边|那里|那儿|那边|附近|周围|四周|身边|旁边|边上|面前|眼前|"
     r"前面|前方)|(?:地上|地板上|地面上)|(?:这个?|这间)?(?:屋里|屋子里|房间里面?|房里))"
@@ -130,12 +132,12 @@ RULES: tuple[Rule, ...] = (
         _count,
     ),
     rule(
-        rf"{_AT}(?:数一数|数一下|数数|数|清点|统计)(?:一下)?(?:(?P<at2>{SPOT})(?:里面?|上面?|"
-        rf"中)?(?:的)?)?(?:有)?(?:几|多少)?{UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
+        rf"{_AT}(?:数一数|数一下|数数|数|清点|统计)(?:一下)?(?:(?P<at2>{SPOT}){IN})?"
+        rf"(?:一共|总共|现在|还)*(?:有|坐着|站着|躺着|摆着|放着)?(?:几|多少)?{UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
         _count,
     ),
     rule(
-        rf"(?:{SEE})?{_AT}(?:{SEE})?(?:一共|总共|现在)?(?:有|坐着|站着|躺着|摆着|放着|停着|坐了|"
+        rf"(?:{SEE})?{_AT}(?:{SEE})?(?:一共|总共|现在|还)*(?:有|坐着|站着|躺着|摆着|放着|停着|坐了|"
         rf"站了)?(?:几|多少){UNIT}(?P<what>(?!到|我|你|不|岁|点){THING})",
         _count,
     ),

@@ -54,10 +54,21 @@ BEFORE_ZH = (
         "我手上都是面粉，",
     ),
     *("今天好累啊，", "都十一点了，", "哎呀，", "我想麻烦你", "听话，"),
+    *(
+        "要出门了，",
+        "我要睡了，",
+        "我们要打扫卫生了，",
+        "快迟到了，",
+        "我在做饭走不开，",
+        "天黑了，",
+    ),
+    *("好像有人敲门，", "我好像听到声音了，", "没你事了，", "今天就到这，", "你挡着电视了，"),
 )
 BEHIND_ZH = (
     *("，麻烦你了", "，听到没", "，明白吗", "，不着急", "，慢慢来", "，就这样", "，成不成"),
     *("，我走不动了", "，我没力气了", "，我手上都是面粉", "，因为我很累", "，没问题吧"),
+    *("，我要出门了", "，小孩上学要用的", "，明天要用", "，我怕窗户没关", "，我忘了放哪了"),
+    *("，我要扫地", "，你挡到我了", "，外面好吵啊", "，孩子在写作业", "，有人按门铃"),
 )
 INSIDE_ZH = ("，你忙不忙，", "，今天天气真好，", "，我累死了，")
 
@@ -111,6 +122,35 @@ def test_nothing_that_holds_an_order_back_is_left_out(
     for text in (aside + held, f"{held}, bless you", f"{held}, my back hurts"):
         made = plan(text, home, WHOLE)
         assert isinstance(made, Clarify | Refuse), text
+
+
+TAKEN_BACK = (
+    *("不用了", "我自己来", "我去吧", "我改主意了", "我说错了", "我开玩笑的", "算了", "我弄错了"),
+    *("明天再去", "等我说了再去", "我不想让你去", "我觉得不用了", "我自己去就行"),
+)
+PLACED = ("我只要红色的", "我要两个", "我要红色的那个", "他在楼上", "好像在外面", "不要蓝的")
+
+
+@pytest.mark.parametrize("said", TAKEN_BACK, ids=ascii)
+def test_what_takes_an_order_back_is_no_aside(home: Vocabulary, said: str) -> None:
+    assert motion(f"去厨房，{said}", home) is None
+
+
+@pytest.mark.parametrize("said", PLACED, ids=ascii)
+def test_what_says_which_or_where_is_no_aside(home: Vocabulary, said: str) -> None:
+    assert motion(f"找杯子，{said}", home) is None
+
+
+@pytest.mark.parametrize("said", [each.strip("，") for each in (*BEFORE_ZH[16:], *BEHIND_ZH[12:])])
+def test_an_aside_alone_moves_nothing(home: Vocabulary, said: str) -> None:
+    assert not motion(said, home)
+
+
+def test_an_order_stands_beside_boiling_water_and_a_blocked_way(home: Vocabulary) -> None:
+    assert motion("水烧开了，去厨房", home) == motion("去厨房", home)
+    assert motion("你挡住路了，去厨房", home) == motion("去厨房", home)
+    for harm in ("去挡住路", "去撞我", "撞到他了也去厨房", "把沙发烧了"):
+        assert motion(harm, home) is None
 
 
 @pytest.mark.parametrize("aside", BEFORE_ZH[:5] + BEFORE_ZH[11:16])
