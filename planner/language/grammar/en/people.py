@@ -74,7 +74,8 @@ def _meet(found: Match[str], reading: Reading) -> Meaning:
             if isinstance(place, ClauseProblem)
             else one_at_a_time(found["who"], place, reading)
         )
-    return meet(found["who"], read_place(found, "at"), reading)
+    sought = _SEEKS.match(found[0]) is not None
+    return meet(found["who"], read_place(found, "at"), reading, sought=sought)
 
 
 def _go_up_to(found: Match[str], reading: Reading) -> Meaning:

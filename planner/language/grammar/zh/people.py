@@ -54,7 +54,7 @@ def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
             if isinstance(place, ClauseProblem)
             else one_at_a_time(found["who"], place, reading)
         )
-    return meet(found["who"], at, reading)
+    return meet(found["who"], at, reading, sought="找" in found[0])
 
 
 def _greet(found: Match[str], reading: Reading) -> Meaning:
