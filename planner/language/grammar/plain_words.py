@@ -88,7 +88,7 @@ _WHETHER = re.compile(
 _A_NOT_A = re.compile(r"((?:看|查|确认|问)[^,。;!?]*?)([^,。;!?])不\2")
 """看看她在不在: to be looked at, no negation."""
 
-_DONE_OR_NOT = re.compile(r"((?:看|查|确认)[^,。;!?]*?[着了])没有?(?=[,。;!?]|$)")
+_DONE_OR_NOT = re.compile(r"((?:看|查|确认|问)[^,。;!?]*?[着了完好过])没有?(?=[,。;!?]|$)")
 """看看电视开着没有, 看看门关了没: likewise."""
 
 _ASKS_THEM = re.compile(r"(问[^,。;!?]{0,12}?)(?:要不要|想不想|是不是|是否|能不能|有没有|需不需要)")

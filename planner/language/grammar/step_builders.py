@@ -39,7 +39,7 @@ SEARCH = say("grammar.search")
 WHERE_ARE_YOU = say("grammar.where_are_you")
 
 _SELF = frozenset({"me", "us", "我", "我们"})
-_THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta"})
+_THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta", "人家"})
 _IT = frozenset({"it", "them", "one", "它", "它们"})
 _WHO_IS_THERE = re.compile(r"\b(?:any|some)(?:one|body)\b|\bwho\b|\bpeople\b|有(?:没有)?人|谁|有人")
 """A question about people: "tell them …" means whoever is found."""
@@ -124,6 +124,8 @@ def meet(
     named; whom the robot is to follow or lead is asked for.
     """
     person, place = person_of(words, reading), place_of(where, reading)
+    if isinstance(person, ClauseProblem) and saying and isinstance(place, str) and words in _THEY:
+        person = noun("noun.person").of(reading.language)  # "go there and tell them"
     if isinstance(person, ClauseProblem):
         return person
     if isinstance(place, ClauseProblem):

@@ -64,3 +64,59 @@ def test_who_is_followed_or_led_is_asked_for(home: Vocabulary, said: str) -> Non
 )
 def test_who_is_only_spoken_of_is_not_searched_for(home: Vocabulary, said: str) -> None:
     assert not isinstance(plan(said, home, HERE), StepPlan)
+
+
+@pytest.mark.parametrize(
+    ("said", "who", "words"),
+    [
+        ("去叫阿公吃饭", "阿公", "阿公,吃饭"),
+        ("喊小明出来吃饭", "小明", "小明,出来吃饭"),
+        ("跟闺女讲一声该睡觉了", "闺女", "闺女,该睡觉了"),
+        ("跟妈妈说吃完饭再去厨房", "妈妈", "妈妈,吃完饭再去厨房"),
+        ("跟小明说作业写完再看电视", "小明", "小明,作业写完再看电视"),
+    ],
+)
+def test_who_is_called_to_something_hears_it_whole(
+    home: Vocabulary, said: str, who: str, words: str
+) -> None:
+    made = plan(said, home, HERE)
+    assert isinstance(made, StepPlan)
+    assert made.steps == (Find(object=who), Say(text=words))
+
+
+@pytest.mark.parametrize(
+    ("said", "same"),
+    [
+        ("去找我儿子，问他作业写完没有，回来跟我讲", "问我儿子作业写完没有，然后回来"),
+        ("去问问我爸几点出门，问完回来跟我说", "去问问我爸几点出门，然后回来"),
+        ("叫老爸接电话，叫完就回去充电", "叫老爸接电话，然后回去充电"),
+    ],
+)
+def test_what_is_done_after_it_is_told_is_a_step_of_its_own(
+    home: Vocabulary, said: str, same: str
+) -> None:
+    made = plan(said, home, HERE)
+    assert isinstance(made, StepPlan)
+    assert made == plan(same, home, HERE)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "不要叫阿公吃饭",
+        "叫阿公还是阿婆吃饭",
+        "阿公叫我去厨房",
+        "我跟妈妈说了去厨房",
+        "给妈妈倒杯水",
+        "叫外卖给妈妈",
+        "叫我起床",
+    ],
+)
+def test_talk_of_calling_is_no_call(home: Vocabulary, said: str) -> None:
+    assert not isinstance(plan(said, home, HERE), StepPlan)
+
+
+def test_whoever_is_there_is_meant_by_them(home: Vocabulary) -> None:
+    made = plan("去门口看看谁来了，跟人家说我马上下来", home, HERE)
+    assert isinstance(made, StepPlan)
+    assert made.steps[-1] == Say(text="我马上下来")
