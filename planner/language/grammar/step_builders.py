@@ -115,6 +115,12 @@ _ALL = re.compile(
 """Who hears it where the robot stands: told without a place, nobody is looked for."""
 
 
+_WHOEVER = re.compile(
+    r"every(?:one|body)|any(?:one|body)|some(?:one|body)|whoever(?: is|'s)?"
+    r"|(?:(?:the|our|my) )?little ones?|大家|所有人"
+)
+
+
 def meet(
     words: str, where: str | None, reading: Reading, saying: str = "", *, sought: bool = False
 ) -> Meaning:
@@ -136,6 +142,8 @@ def meet(
         return missing(WHERE_IS, words, reading, person)
     # Who was met is still there; who was only asked about may be nowhere.
     again = words in _THEY and where is None and reading.scene.kind != "look"
+    if place is not None and _WHOEVER.fullmatch(words):
+        person = noun("noun.person").of(reading.language)  # "everybody" is whoever is there
     if saying and _is_named(words) and not is_given_name(person):
         person = noun("noun.person").of(reading.language)  # eyes know no more of it than of a thing
     steps: tuple[Step, ...] = () if again else (Find(object=person, place=place),)

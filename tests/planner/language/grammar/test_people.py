@@ -120,3 +120,66 @@ def test_whoever_is_there_is_meant_by_them(home: Vocabulary) -> None:
     made = plan("去门口看看谁来了，跟人家说我马上下来", home, HERE)
     assert isinstance(made, StepPlan)
     assert made.steps[-1] == Say(text="我马上下来")
+
+
+@pytest.mark.parametrize(
+    ("said", "question"),
+    [
+        ("ask Mum if she's taken her tablets", "Mum, have you taken your tablets?"),
+        ("ask Mum if she's tired", "Mum, are you tired?"),
+        ("ask Mum how she slept", "Mum, how did you sleep?"),
+        ("ask Mum when she's free", "Mum, when are you free?"),
+    ],
+)
+def test_a_question_is_asked_as_of_themselves(home: Vocabulary, said: str, question: str) -> None:
+    made = plan(said, home, HERE)
+    assert isinstance(made, StepPlan)
+    assert made.steps == (Find(object="Mum"), Ask(question=question))
+
+
+@pytest.mark.parametrize(
+    ("said", "same"),
+    [
+        (
+            "ask Dad if he wants tea and let me know what he says",
+            "ask Dad if he wants tea and come back",
+        ),
+        ("ask Dad if he wants tea and tell me his answer", "ask Dad if he wants tea and come back"),
+        (
+            "ask whoever's in the kitchen if they want tea",
+            "ask anybody in the kitchen if they want tea",
+        ),
+        (
+            "say goodnight to the little one in the bedroom and then go off and charge",
+            "say goodnight to the little one in the bedroom, then go charge",
+        ),
+    ],
+)
+def test_words_for_people_end_where_the_next_order_begins(
+    home: Vocabulary, said: str, same: str
+) -> None:
+    made = plan(said, home, HERE)
+    assert isinstance(made, StepPlan)
+    assert made == plan(same, home, HERE)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "ask Dad when he's back if he wants tea",
+        "ask Dad when he is back",
+        "tell me when Dad is free",
+        "whoever is in the kitchen should come here",
+        "tell whoever is hungry that dinner is ready",
+        "don't say goodnight to Mum",
+        "Dad said goodnight to Mum",
+    ],
+)
+def test_a_time_a_choice_or_talk_is_nobody_to_be_told(home: Vocabulary, said: str) -> None:
+    assert not isinstance(plan(said, home, HERE), StepPlan)
+
+
+def test_quoted_words_order_nothing(home: Vocabulary) -> None:
+    made = plan('say "go to the kitchen and then come back"', home, HERE)
+    assert isinstance(made, StepPlan)
+    assert made.steps == (Say(text="go to the kitchen and then come back"),)
