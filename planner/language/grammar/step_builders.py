@@ -39,7 +39,7 @@ SEARCH = say("grammar.search")
 WHERE_ARE_YOU = say("grammar.where_are_you")
 
 _SELF = frozenset({"me", "us", "我", "我们"})
-_THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta"})
+_THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta", "人家"})
 _IT = frozenset({"it", "them", "one", "它", "它们"})
 _WHO_IS_THERE = re.compile(r"\b(?:any|some)(?:one|body)\b|\bwho\b|\bpeople\b|有(?:没有)?人|谁|有人")
 """A question about people: "tell them …" means whoever is found."""
@@ -115,19 +115,35 @@ _ALL = re.compile(
 """Who hears it where the robot stands: told without a place, nobody is looked for."""
 
 
-def meet(words: str, where: str | None, reading: Reading, saying: str = "") -> Meaning:
-    """Go to where somebody is, and look for them."""
+_WHOEVER = re.compile(
+    r"every(?:one|body)|any(?:one|body)|some(?:one|body)|whoever(?: is|'s)?"
+    r"|(?:(?:the|our|my) )?little ones?|大家|所有人"
+)
+
+
+def meet(
+    words: str, where: str | None, reading: Reading, saying: str = "", *, sought: bool = False
+) -> Meaning:
+    """Go to where somebody is, and look for them.
+
+    Who is to be told something, or is `sought`, is looked for through the rooms where no place is
+    named; whom the robot is to follow or lead is asked for.
+    """
     person, place = person_of(words, reading), place_of(where, reading)
+    if isinstance(person, ClauseProblem) and saying and isinstance(place, str) and words in _THEY:
+        person = noun("noun.person").of(reading.language)  # "go there and tell them"
     if isinstance(person, ClauseProblem):
         return person
     if isinstance(place, ClauseProblem):
         return place
     if saying and place is None and reading.scene.place is None and _ALL.fullmatch(words):
         return Steps((Say(text=saying),))
-    if place is None and re.search(NAME, words):
+    if place is None and re.search(NAME, words) and not (saying or sought):
         return missing(WHERE_IS, words, reading, person)
     # Who was met is still there; who was only asked about may be nowhere.
     again = words in _THEY and where is None and reading.scene.kind != "look"
+    if place is not None and _WHOEVER.fullmatch(words):
+        person = noun("noun.person").of(reading.language)  # "everybody" is whoever is there
     if saying and _is_named(words) and not is_given_name(person):
         person = noun("noun.person").of(reading.language)  # eyes know no more of it than of a thing
     steps: tuple[Step, ...] = () if again else (Find(object=person, place=place),)
@@ -141,10 +157,17 @@ def _is_named(words: str) -> bool:
 
 def call(words: str, saying: str, reading: Reading) -> str:
     """Return what is said to somebody, behind their name: no eye tells who is who."""
-    name = label_of(words, reading)
-    if not _is_named(words) or name.lower() in saying.lower():
+    sought = reading.scene.person if reading.scene.kind == "find" and words in _THEY else None
+    named = sought is not None and is_given_name(sought)  # "find Dad and tell him …"
+    name = sought if named and sought else label_of(words, reading)
+    if not (named or _is_named(words)) or name.lower() in saying.lower():
         return saying
+    if not name.isascii():
+        name = _OF_MINE.sub("", name)  # nobody is called 我老公
     return f"{name}{', ' if name.isascii() else ','}{saying}"[:500]
+
+
+_OF_MINE = re.compile(r"^[我你您咱]们?(?:家|的)?(?=.{2}|[妈爸哥姐弟妹])")
 
 
 def follow(words: str, start: str | None, end: str | None, reading: Reading) -> Meaning:

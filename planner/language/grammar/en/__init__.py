@@ -25,10 +25,12 @@ DESCRIPTION = rf"(?:{_DESCRIBES} )*?{_DESCRIBES}(?<! in)(?<! at)(?<! on)(?<! nea
 _WHO = (
     r"(?:person|people|man|men|woman|women|boy|girl|child|children|kid|elder|guest|lady|ladies|"
     r"gentleman|gentlemen|guy|visitor|patient|customer|human|stranger|baby|host|friend|operator|"
-    r"user|owner|colleague|student|teacher|doctor|nurse|adult|male|female|family)s?"
+    r"little one|user|owner|colleague|student|teacher|doctor|nurse|adult|male|female|family)s?"
 )
 PERSON = (
-    rf"(?:{NAME}|him|her|them|(?:every|any|some)(?:one|body)(?: {DESCRIPTION})??"
+    rf"(?:{NAME}|him|her|them|"
+    r"whoever(?: is|'s)(?= (?:in|at|on|by|near)\b)|"
+    rf"(?:every|any|some)(?:one|body)(?: {DESCRIPTION})??"
     r"|(?:all (?:of )?(?:the )?|every |each |the |a |an |any |some |my |our |your |that |this |"
     r"another )?"
     rf"(?:{WORD} ){{0,3}}?{_WHO}(?: {DESCRIPTION})??)"

@@ -35,7 +35,7 @@ from planner.language.grammar.step_builders import (
     saying,
     told_in,
 )
-from planner.plan import Ask, Code, Decide, GoToObject, Say
+from planner.plan import Ask, Code, ComeBack, Decide, GoToObject, Say
 
 _FIND = (
     r"(?:find|locate|look for|search for|seek|spot|pinpoint|identify|meet(?: with)?|contact|"
@@ -47,9 +47,10 @@ _FIND = (
 _GO_UP = r"(?:(?:go|walk|come|drive|move) (?:up |over )?to|approach|face)"
 _SEEKS = re.compile(r"(?:find|locate|look for|search for|seek|spot|pinpoint)\b")
 _GREET = (
-    r"(?:greet|welcome|say (?:hello|hi|good (?:morning|evening|afternoon|night)|welcome|"
+    r"(?:greet|welcome|say (?:hello|hi|good (?:morning|evening|afternoon)|welcome|"
     r"goodbye|bye) to|wish)"
 )
+_WISH = r"(?:good ?night|night night|sweet dreams|thank you|happy [a-z]+|merry christmas|well done)"
 _FOLLOW = (
     r"(?:follow|(?:start|keep|keep on|continue|begin) following|come after|go after|go behind|"
     r"come behind|run after|walk behind|drive behind|trail|"
@@ -74,7 +75,8 @@ def _meet(found: Match[str], reading: Reading) -> Meaning:
             if isinstance(place, ClauseProblem)
             else one_at_a_time(found["who"], place, reading)
         )
-    return meet(found["who"], read_place(found, "at"), reading)
+    sought = _SEEKS.match(found[0]) is not None
+    return meet(found["who"], read_place(found, "at"), reading, sought=sought)
 
 
 def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
@@ -154,11 +156,22 @@ def _request(found: Match[str], reading: Reading) -> Meaning:
 
 
 _VERB_OF = {"has": "have", "does": "do", "goes": "go", "is": "be"}
+_PAST = {
+    "slept": "sleep", "went": "go", "ate": "eat", "took": "take", "saw": "see", "got": "get",
+    "found": "find", "said": "say", "wanted": "want", "liked": "like", "left": "leave",
+}  # fmt: skip
+_HAS_DONE = re.compile(
+    r"(?:is|has) (?P<what>(?:already |just |ever )?(?:taken|eaten|seen|had|been|found|fed|drunk"
+    r"|brushed|washed|called|rung|heard|got|read|packed|done (?:his|her|their|the|it)"
+    r"|finished (?:his|her|their|the))\b.*)"
+)
+"""What "he's taken" and "she has had" mean; "he's done" is "he is done"."""
 _ASKED_OF_THEM = re.compile(
     r"(?:(?P<word>what|where|when|how|why|which [a-z]+|what [a-z]+|how [a-z]+) |(?:if|whether) )"
     r"(?P<who>he|she|they|any(?:one|body)|some(?:one|body)|every(?:one|body))"
     r"(?P<rest>(?: |'s |'d |'re ).+)"
 )
+_THEIRS = {"he": "his", "she": "her", "they": "their"}
 _WHERE_IT_IS = re.compile(
     r"(?P<word>where|what|who|how|when) (?P<what>(?:the|my|our|your|his|her) [a-z]+(?: [a-z]+)?)"
     r" (?P<be>is|are|was|were)"
@@ -175,16 +188,23 @@ def ask_directly(question: str) -> str:
         turned = _WHERE_IT_IS.fullmatch(question)
         return f"{turned['word']} {turned['be']} {turned['what']}?" if turned else question
     word = f"{found['word']} " if found["word"] else ""
-    they = "you" if found["who"] in ("he", "she", "they") else found["who"].replace("some", "any")
+    they = "you" if found["who"] in _THEIRS else found["who"].replace("some", "any")
     rest = found["rest"].replace("'d ", " would ", 1).replace("'s ", " is ", 1)
     rest = rest.replace("'re ", " are ", 1).strip()
+    if found["who"] in _THEIRS:
+        rest = re.sub(rf"\b{_THEIRS[found['who']]} (?=[a-z])", "your ", rest)
     modal = _MODAL.fullmatch(rest)
     if modal is not None:
         may, what = modal["modal"], modal["rest"]
         if may in ("have got", "has got"):
             may, what = "do", f"have {what}"
         return f"{word}{may} {they} {what}?"
+    done = _HAS_DONE.fullmatch(rest)
+    if done is not None:
+        return f"{word}{'have' if they == 'you' else 'has'} {they} {done['what']}?"
     verb, _, more = rest.partition(" ")
+    if verb in _PAST:
+        return f"{word}did {they} {_PAST[verb]}{' ' if more else ''}{more}?"
     if verb in ("is", "are", "was", "were"):
         be = {"is": "are", "was": "were"}.get(verb, verb) if they == "you" else verb
         return f"{word}{be} {they}{' ' if more else ''}{more}?"
@@ -202,6 +222,13 @@ def _ask(found: Match[str], reading: Reading) -> Meaning:
         return met
     asked = Ask(question=call(found["who"], words, reading)[:500])
     return Steps((*met.steps[:-1], asked), person=met.person)
+
+
+def _bring_answer(_found: Match[str], reading: Reading) -> Meaning | None:
+    """Come back with what somebody answered, where they were searched for to be asked."""
+    if reading.scene.kind == "come_back":
+        return Steps(())
+    return Steps((ComeBack(),)) if reading.scene.kind == "ask" and reading.scene.person else None
 
 
 def _describe(found: Match[str], reading: Reading) -> Meaning:
@@ -228,9 +255,17 @@ _AT = loc("at")
 _WHO = rf"(?P<who>{PERSON})"
 
 RULES: tuple[Rule, ...] = (
+    rule(
+        r"(?:tell (?:me|us)|let (?:me|us) know|report(?: back)?(?: to (?:me|us))?) "
+        r"(?:(?:what|how|if|"
+        r"whether) (?:he|she|they) (?:says?|said|answers?|answered|thinks?|wants?|replied|does)"
+        r"|(?:what )?(?:his|her|their|the) (?:answer|reply)(?: is| was)?)",
+        _bring_answer,
+    ),
     rule(rf"introduce (?P<who>{PERSON}){_AT} to (?P<other>{PERSON}){loc('at2')}", _introduce),
     rule(rf"(?:introduce|present) yourself(?: to {_WHO}{_AT})", _present_itself),
     rule(rf"{_GREET} {_WHO}{_AT}", _greet),
+    rule(rf"(?:say|shout) (?P<words>{_WISH}) to {_WHO}{_AT}", _tell_words),
     rule(
         rf"(?:answer|reply to|take|respond to) (?:a|an|the|some|any|his|her|their)?(?: |)questions?"
         rf"(?: (?:to|of|from|by|for) {_WHO}{_AT})?",

@@ -54,7 +54,7 @@ def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
             if isinstance(place, ClauseProblem)
             else one_at_a_time(found["who"], place, reading)
         )
-    return meet(found["who"], at, reading)
+    return meet(found["who"], at, reading, sought="找" in found[0])
 
 
 def _greet(found: Match[str], reading: Reading) -> Meaning:
@@ -152,7 +152,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"{_AT}(?:告诉|对|跟|和|向|通知){_WHO}(?:说|讲|喊)?[:]?(?P<quote>{QUOTE})", _quote_to),
     rule(
-        rf"{_AT}(?:告诉|通知|提醒|叫|让|请|对|跟){_AT2}{_WHO}(?:说|讲)?(?:一下|"
+        rf"{_AT}(?:(?:告诉|通知|提醒|叫|喊|让|请|对|跟)|给(?=[^,]{{1,8}}[说讲])){_AT2}{_WHO}(?:说|讲)?(?:一下|"
         r"一声)?(?P<words>(?![说讲]$)[^,]+)",
         _tell_words,
     ),
