@@ -131,7 +131,7 @@ def say(found: Match[str], reading: Reading) -> Meaning:
     if groups.get("quote"):
         words = reading.quotes[ord(found["quote"]) - FIRST_QUOTE].strip()
     else:
-        words = found["words"]
+        words = reading.marked.restore(found["words"])
     if not 1 <= len(words) <= 500:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
     return Steps((Say(text=words),))
