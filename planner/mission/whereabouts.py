@@ -62,10 +62,15 @@ _LEFT_IT = (
 _PLACE = r"(?:(?:the|my|our|your|his|her|their) )?[a-z][a-z' -]{1,30}?"
 _REASON = (
     r"(?:(?:because |since |as )?(?:it|he|she|they)\b(?!.*\b(?:not|never|if|or|unless)\b|.*n't)"
-    r"[a-z' ]{2,40}"
+    r"(?=.*\b(?:there|in|keeps?|kept|usually|always|lives?|belongs?|sits?|works?|sleeps?|working"
+    r"|sleeping|reading|cooking|resting)\b)[a-z' ]{2,40}"
     r"|(?:i|we)(?:'ve| have)?(?: just| only)?(?: think)?(?: i| we)? (?:saw|left|put|had|used|heard"
     r"|met) (?:it|him|her|them)\b[a-z' ]{0,30}"
-    r"|that(?:'s| is) where (?:i|we|it|he|she|they)\b[a-z' ]{2,40})"
+    r"|that(?:'s| is) where (?:(?:i|we)(?: usually| always| last)? (?:saw|left|put|had|used|keep"
+    r"|kept)"
+    r"|(?:it|he|she|they)(?:'s|'re| is| are| was| were| usually| always| lives?| sits?"
+    r"| belongs?))\b"
+    r"[a-z' ]{0,30})"
 )
 _TAIL = (
     rf"(?:{_HEDGE}|as (?:usual|always|ever)|then|again|instead|first|please|thanks|thank you|now"
@@ -114,7 +119,7 @@ _ZH = re.compile(
 )
 _ALL = (
     r"(?:all (?:of )?(?:them|(?:the )?rooms)|them all|every(?:where| room| one of them)"
-    r"|any(?:where| of them| room)|all over(?: the (?:house|place|flat))?|the (?:whole"
+    r"|any(?:where| of them| room)|all over the (?:house|place|flat)|the (?:whole"
     r"|entire) (?:house|flat|place|home|apartment))"
 )
 _OTHERS = (
@@ -135,7 +140,8 @@ _EVERYWHERE_ZH = re.compile(
     rf"(?:都|全|也|挨个|一个个)*{_SEEKS_ZH}?(?:一遍)?{_TAIL_ZH}*"
 )
 _ALL_ZH = re.compile(
-    r"到处|每个?(?:房间|屋|地方)|所有|全部|全家|都|别处|(?:别|其[他它])的?(?:房间|屋|地方)"
+    r"到处|每个?(?:房间|屋|地方)|所有|全部|全家|都(?:去|再)?[找看问瞧]|别处|(?:别"
+    r"|其[他它])的?(?:房间|屋|地方)"
 )
 _WHO, _WHO_ZH = re.compile(r"\b(?:him|her)\b"), re.compile(r"[他她](?!们)")
 _NAMED = re.compile(

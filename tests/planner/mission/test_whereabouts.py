@@ -31,6 +31,8 @@ GUESSES = (
     "I'd say the kitchen",
     "ok, try the kitchen again",
     "most likely in the kitchen, as always",
+    "the kitchen, that's where I saw it last",
+    "the kitchen, it's always in there",
     "you could look in the kitchen first",
     "have another look in the kitchen, it was there this morning",
 )
@@ -96,7 +98,12 @@ def test_so_it_is_completed_in_chinese(said: str) -> None:
         *("the kitchen is dirty", "not the kitchen", "the kitchen or the study"),
         *("is it in the kitchen?", "it isn't in the kitchen", "I was in the kitchen"),
         *("go to the kitchen", "she's in the kitchen", "all of them are broken"),
-        *("try the kitchen if the door is open", "everywhere is a mess", "I don't know"),
+        *(
+            "try the kitchen if the door is open",
+            "everywhere is a mess",
+            "I don't know",
+            "all over",
+        ),
         *("probably", "I guess so", "it's in my hand"),
     ],
 )
@@ -105,7 +112,8 @@ def test_another_sentence_narrows_nothing(said: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "said", ["厨房很脏", "别去厨房", "厨房还是书房", "去厨房", "在厨房吗", "都行"]
+    "said",
+    ["厨房很脏", "别去厨房", "厨房还是书房", "去厨房", "在厨房吗", "都行", "都好了", "都在吧"],
 )
 def test_nor_does_it_in_chinese(said: str) -> None:
     assert meaning_of(CUP_ZH, said, NOW_S) == said
