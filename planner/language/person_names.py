@@ -36,7 +36,8 @@ _GIVEN = (
 _KIN = (
     r"(?:(?:my|our|your) )?(?:mom|mum|mommy|mummy|mother|dad|daddy|father|grand(?:ma|pa|mother|"
     r"father)|"
-    r"granny|nana|nan|gran|grand?dad|gramps|auntie|papa|mama|wife|husband|son|daughter|brother|sister|uncle|aunt|boss|neighbou?r)"
+    r"granny|nana|nan|gran|grand?dad|gramps|auntie|papa|mama|wife|husband|son|daughter|brother"
+    r"|sister|uncle|aunt|boss|neighbou?r)"
 )
 _KIN_ZH = (
     r"(?:我的?|你的?)?(?:爸爸|妈妈|老爸|老妈|奶奶|爷爷|外公|外婆|姥姥|姥爷|哥哥|姐姐|弟弟|妹妹|"
@@ -110,7 +111,8 @@ def _find_capitals(original: str) -> set[str]:
     before = "."
     for word in words:
         inside = before[0].isalpha() and before.casefold() not in _ARTICLES
-        if inside and word[:1].isupper() and not word.isupper():
+        is_i = word[:2] in ("I'", "I’")
+        if inside and word[:1].isupper() and not word.isupper() and not is_i:
             found.add(word.casefold().removesuffix("'s").removesuffix("’s"))
         before = word
     return found - _NO_NAMES

@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 ORDERS_BACK = 3
 """Orders before the newest one in which a person may have been spoken of."""
 _HER = re.compile(
-    r"(?:mom|mum|mommy|mummy|mother|grandma|grandmother|granny|nana|nan|gran|mama|wife|daughter|sister|aunt|auntie)$"
+    r"(?:mom|mum|mommy|mummy|mother|grandma|grandmother|granny|nana|nan|gran|mama|wife|daughter"
+    r"|sister|aunt|auntie)$"
     r"|妈|奶奶|外婆|姥姥|姐|妹|阿姨|老婆|妻|女",
     re.IGNORECASE,
 )
@@ -41,7 +42,8 @@ _SPEAKS = re.compile(
     re.IGNORECASE,
 )
 _SPEAKS_ZH = re.compile(
-    r"(?P<verb>告诉|通知|提醒|问一下|问问|询问|问|跟(?=[他她]们?(?:说|讲))|对(?=[他她]们?(?:说|讲))|和(?=[他她]们?(?:说|讲))"
+    r"(?P<verb>告诉|通知|提醒|问一下|问问|询问|问|跟(?=[他她]们?(?:说|讲))|对(?=[他她]们?(?:说"
+    r"|讲))|和(?=[他她]们?(?:说|讲))"
     r"|叫(?=[他她])|喊(?=[他她]))(?:一下)?(?P<who>他们|她们|他|她)(?P<says>说一声|说一下|说|讲)?"
 )
 _GO_THERE = re.compile(
@@ -52,6 +54,13 @@ _GO_THERE = re.compile(
     re.IGNORECASE,
 )
 _GO_THERE_ZH = re.compile(r"(?P<head>去|到|回|回到|开到|前往)(?:那里|那儿|那边)")
+_GO_BACK = re.compile(
+    r"\b(?:go|head|pop|drive|nip)(?: right| straight)? back(?: (?:in )?there)?(?: again)?(?:,| and"
+    r"| to) $"
+    r"|(?:再)?(?:回去|过去|去)(?:再)?(?=$)",
+    re.IGNORECASE,
+)
+"""Before an order about a person whose place is named besides."""
 _WAITS = re.compile(r"(?:wait|stay|look|stand)", re.IGNORECASE)
 
 
@@ -113,7 +122,8 @@ def _name_person(
 
 
 _PEOPLE = re.compile(
-    r"\b(?:some|any|every)(?:one|body)\b|\bpe(?:rson|ople)\b|\b(?:guest|visitor)s?\b|人|谁|客",
+    r"\b(?:some|any|every)(?:one|body)\b|\bpe(?:rson|ople)\b|\b(?:guest|visitor)s?\b"
+    r"|\bwho\b|人|谁|客",
     re.IGNORECASE,
 )
 
@@ -136,12 +146,14 @@ def _put_person(
     if has_chinese(order.order_text) is not chinese or len(people) > 1:
         return None
     person = people[0] if people else ("人" if chinese else "the person")
-    if people and not _fits(who, person):
+    if people and not fits(who, person):
         return None
     here = find_places(text, names)
     there = {place.id for place in find_places(order.order_text, names)}
     name = facts.targets[there.pop()].name.of("zh" if chinese else "en") if len(there) == 1 else ""
     start, end = text[: found.start()], text[found.end() :]
+    if name:  # "go back and ask her": back to her
+        start = _GO_BACK.sub("", start)
     if chinese:
         verb = found["verb"].replace("跟", "告诉").replace("对", "告诉").replace("和", "告诉")
         at = f"{name}的" if name and not here else ""
@@ -151,7 +163,7 @@ def _put_person(
     return f"{start}{verb} {person}{at}{end}"
 
 
-def _fits(pronoun: str, person: str) -> bool:
+def fits(pronoun: str, person: str) -> bool:
     """Tell whether a pronoun can mean a person of this name."""
     she, he = _HER.search(person) is not None, _HIM.search(person) is not None
     if pronoun.lower() in ("him", "他"):

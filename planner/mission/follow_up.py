@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.commands import (
     AppendCommand,
+    HereCommand,
     Intent,
     LeaningCommand,
     LeaveOutCommand,
@@ -28,9 +29,12 @@ from planner.language.commands import (
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
 from planner.mission.antecedents import name_antecedents
+from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
 from planner.mission.pronouns import name_pronouns
+from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
 from planner.mission.state import ORDER_SOURCE
+from planner.mission.whereabouts import search_of_place
 from planner.plan import Code, Entry, GoalState, Vocabulary
 
 if TYPE_CHECKING:
@@ -69,6 +73,9 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
     """Return the order that a sentence is, in words that lean on nothing."""
     intent: Intent | None = intent_of(text)
     last = last_order(book, now_unix_s)
+    short = find_short_follow_up(book, text, now_unix_s)
+    if short is not None:
+        return short.order
     if (intent is None or isinstance(intent, OutcomeCommand)) and last is not None:
         orders = last_orders(book, now_unix_s)
         named = name_antecedents(text, orders, book.facts, names_of(book.facts))
@@ -86,13 +93,33 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
     place = place_alone(rest, names) or place_alone(_ASIDE.sub("", rest), names)
     if place is None:
         takes_back = isinstance(intent, Replace) and not intent.corrects
-        return rest if takes_back or _ORDERS.match(plain(rest)) else text
+        if not (takes_back or _ORDERS.match(plain(rest))):
+            return text
+        named = name_antecedents(rest, last_orders(book, now_unix_s), book.facts, names)
+        return named or rest
     if last is None:
         return _drive_to(book.facts, place, rest)
     again = _with_place(book.facts, last.order_text, place, rest)
     if again is None and isinstance(intent, AppendCommand) and intent.asks:
         again = _look_there(book.facts, last, place, rest)
+    if again is None and isinstance(intent, Replace) and intent.corrects:
+        again = search_of_place(last, place, book.facts)
     return again or _drive_to(book.facts, place, rest)
+
+
+def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> ShortFollowUp | None:
+    """Return what a few words make of the newest order; None where they are more, or less."""
+    intent, last = intent_of(text), last_order(book, now_unix_s)
+    waiting = [m for m in book.missions.values() if m.state is GoalState.NEEDS_CLARIFICATION]
+    asked = max(waiting, key=lambda m: m.order, default=None)
+    chosen = find_choice(asked, text) if asked is not None and intent is None else None
+    if chosen is not None:
+        return ShortFollowUp(chosen)
+    open_to = (AppendCommand, RepeatCommand, Replace, *((HereCommand,) if asked is last else ()))
+    if last is None or not (intent is None or isinstance(intent, open_to)):
+        return None
+    here = book.status.base_in_map if book.status is not None else None
+    return read_short_follow_up(text, last, book.facts, names_of(book.facts), here)
 
 
 def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:

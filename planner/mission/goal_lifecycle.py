@@ -5,6 +5,7 @@ from __future__ import annotations
 from planner.language.catalogue import join, message, say
 from planner.language.utterance import parse
 from planner.mission.activity import Thinking
+from planner.mission.answered_order import complete_order
 from planner.mission.conversation import situation_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
@@ -17,7 +18,6 @@ from planner.mission.open_questions import (
     asks,
     close_older,
     confirms,
-    find_choice,
     find_offer,
     make_room,
     take_answer,
@@ -261,7 +261,7 @@ def reply(turn: Transaction, mission: Mission, text: str) -> None:
     elif confirms(mission):
         ask_plainly(turn, mission)
     else:
-        _reply_about_order(turn, mission, (order if agreed else find_choice(mission, text)) or text)
+        _reply_about_order(turn, mission, complete_order(turn.book.facts, mission, text))
 
 
 def _reply_about_order(turn: Transaction, mission: Mission, text: str) -> None:

@@ -31,7 +31,7 @@ from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
-from planner.mission.follow_up import leans, meaning_of
+from planner.mission.follow_up import find_short_follow_up, last_order, leans, meaning_of
 from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
 from planner.mission.state import GoalKey, MissionState
@@ -40,6 +40,7 @@ from planner.plan import GoalState
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from planner.language.commands import Intent
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
 
@@ -128,15 +129,9 @@ def receive(
         return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
     if before is not None:
         return Reception(given, repeats=before.goal)
-    after = isinstance(intent, LeaningCommand)
-    meant = leans(book, intent, said.text, now_s + book.wall_offset_s)
-    if (after or (isinstance(intent, Replace) and intent.corrects)) and not meant:
-        intent, after = None, False  # "and you?": a sentence like any other
-    ends = isinstance(intent, OtherPlaceCommand | LeaveOutCommand) or (
-        isinstance(intent, Replace) and intent.now
-    )
-    first = ends or isinstance(intent, AppendCommand)
-    replaces = after or isinstance(intent, Replace)
+    lean = _lean_of(book, said, now_s + book.wall_offset_s, asked=bool(asking))
+    intent, ends, first = lean.intent, lean.ends, lean.first
+    replaces = isinstance(intent, LeaningCommand | Replace)
     local = bool(asking) or (intent is not None and not replaces)
     marked = replace(
         given,
@@ -153,6 +148,40 @@ def receive(
     request = GoalKey(key, body, given.id) if key is not None else None
     takes_back = goal_to_end(book) if ends else None
     return Reception(marked, takes_back=takes_back, request=request)
+
+
+@dataclass(frozen=True, slots=True)
+class _Lean:
+    """Hold how a sentence leans on the goals before it."""
+
+    intent: Intent | None
+    """None: it is a sentence like any other, or means an order by a few words."""
+    ends: bool
+    """It ends what runs."""
+    first: bool
+    """It is done right after what runs, or in its place."""
+
+
+def _lean_of(book: MissionState, said: Utterance, now_unix_s: float, *, asked: bool) -> _Lean:
+    """Return how a sentence leans on the goals before it; `asked`: it answers one of them."""
+    intent, short = said.intent, find_short_follow_up(book, said.text, now_unix_s)
+    if short is not None and not asked:
+        ends = short.ends and _is_under_way(book, now_unix_s)
+        return _Lean(None, ends, first=ends or short.joins)
+    corrects = isinstance(intent, Replace) and intent.corrects
+    leaning = isinstance(intent, LeaningCommand) or corrects
+    if leaning and not leans(book, intent, said.text, now_unix_s):
+        intent = None  # "and you?": a sentence like any other
+    ends = isinstance(intent, OtherPlaceCommand | LeaveOutCommand) or (
+        isinstance(intent, Replace) and intent.now
+    )
+    return _Lean(intent, ends, first=ends or isinstance(intent, AppendCommand))
+
+
+def _is_under_way(book: MissionState, now_unix_s: float) -> bool:
+    """Tell whether the goal that would be ended is the newest order itself."""
+    last = last_order(book, now_unix_s)
+    return last is not None and not last.has_ended and goal_to_end(book) == last.id
 
 
 def _body_of(given: Submitted) -> str:

@@ -77,18 +77,48 @@ TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
 """What may stand before the order that comes in place of the current one."""
 ORDERS = re.compile(
     r"(?:not|don't|do not|never (?!mind))\b"
-    r"|.*\b(?:go|come|drive|head|find|look|search|count|follow|patrol|wait|bring|take|turn|say|tell|ask"
+    r"|.*\b(?:go|come|drive|head|find|look|search|count|follow|patrol|wait|bring|take|turn|say"
+    r"|tell|ask"
     r"|remind|remember|if|when|unless|until)\b"
 )
 """With these a clause is no mere reason."""
+_SOMEBODY = (
+    r"(?:i|we|he|she|it|they|somebody|someone|that)(?='|\b)|(?:the|my|our|his|her) [a-z]+"
+    r"|mum|mom|dad|daddy|mummy|mommy|grandma|grandpa|granny|nan|gran"
+)
 REASON = re.compile(
     r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|remember(?:ed)?|know|did|done"
     r"|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
     r"|you (?:do not|don't) (?:have|need) to(?: [a-z ]{1,20})?|no need(?: to [a-z ]{1,20})?"
     r"|(?:it|that|they|she|he)(?:'s| is| are|'re| was| were) (?:already |right |all |not )*"
     r"(?:fine|ok|okay|here|right|found|done|sorted|important|needed|gone|too late)\b[a-z' ]*"
+    rf"|(?:{_SOMEBODY})(?:'s|'re|'m| is| are| am| was| were)(?: just| already| still| now)*"
+    r" (?:on (?:his|her|their|my|our|the|its) way|coming|back|home|up|down|in|out|asleep|sleeping"
+    r"|awake|busy|eating|leaving)\b(?!.*\b(?:you|but|and|or|so|then|if)\b)[a-z' ]*"
+    rf"|(?:{_SOMEBODY})(?:'s|'ve| has| have)?(?: just| already| finally)* (?:came|come|been|gone"
+    rf"|went"
+    rf"|left"
+    r"|arrived|turned up|showed up|woke|woken|got|called|rang|rung|phoned|texted|answered|did|done"
+    r"|finished|found|brought|fetched|taken|took|told|said|are|is|was|am)\b"
+    r"(?!.*\b(?:you|but|and|or|so|then|if)\b)[a-z' ]*"
 )
 """Why something is taken back, said behind it: it orders nothing."""
+POSTPONED = re.compile(
+    r"(?:(?:no|wait|oh)[ ,]+)*(?:not (?:just )?yet|not (?:right )?now|not straight away"
+    r"|in a minute)"
+    r"(?: actually| though)?|(?:actually|oh)[ ,]+not (?:yet|now)"
+)
+"""Puts off what runs, where an order follows that comes first: "not yet, come with me"."""
+PAUSE_REASON = re.compile(
+    rf"(?:there|someone|(?:the|my|our) (?:[a-z]+ )?[a-z]+|{_SOMEBODY})"
+    r"(?:'s|'re|'m|'ve|'ll be| is| are| am| has| have| need| needs| got| was)\b"
+    r"(?!.*\b(?:you|if|or|then|so|go|come|turn|kitchen instead)\b)[a-z' ]*"
+)
+"""Why the robot is to wait a moment: it orders nothing, and corrects nothing."""
+COMES_FIRST = re.compile(
+    r"(?:first[ ,]+|please[ ,]+|you (?:need|have) to )*(?:go|come|drive|head|find|look|search|count"
+    r"|follow|turn|say|tell|ask|take|check|move|back up)\b(?!.*\b(?:if|unless|when|until|or)\b)"
+)
 DENIES = re.compile(r"(?:don't|do not) (?:go|bother)\b.*|drop (?:it|this|that one)")
 """Of these, what means the whole sentence where it goes on with "and": "don't go and turn left"."""
 GOES_ON = re.compile(r"(?:and|or|then)\b")

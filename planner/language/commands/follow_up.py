@@ -65,11 +65,18 @@ _OTHER_ZH = re.compile(
 )
 
 _LEFT_OUT = re.compile(
-    r"(?:skip|leave out|omit|miss out|pass over) (?P<rest>(?:the |my |our )?[a-z][a-z' -]{1,30}?)"
+    r"(?:you (?:can|could|may) )?(?:skip|leave out|omit|miss out|pass over) (?P<rest>(?:the |my "
+    r"|our )?[a-z][a-z' -]{1,30}?)"
     r"(?:[,;.] (?:because |since |for )?(?:the|my|our|she|he|it|they|i|we|somebody|someone)\b.*)?"
-    r"|leave (?P<rest2>(?:the |my |our )?[a-z][a-z' -]{1,30}?) out"
+    r"|(?:you (?:can|could|may) )?leave (?P<rest2>(?:the |my |our )?[a-z][a-z' -]{1,30}?) out"
+    r"|(?:but )?(?:except(?: for)?|apart from|without) (?P<rest3>(?:the |my "
+    r"|our )[a-z][a-z' -]{1,30}?)"
 )
-_LEFT_OUT_ZH = re.compile(r"(?:跳过|略过)(?P<rest>[^,。;]{1,8}?)(?:别去|不去)?了?")
+_LEFT_OUT_ZH = re.compile(
+    r"(?:(?:跳过|略过)(?P<rest>[^,。;]{1,8}?)(?:别去|不去)?了?|除了(?P<rest2>[^,。;]{1,8}?)(?:以外"
+    r"|之外)?)"
+    r"(?:,(?:因为)?(?:有人|我|[他她]|宝宝|孩子|妈|爸|奶奶|爷爷|客人|里面|那里)[^,去到]{0,10})?"
+)
 
 _ALSO_BEFORE = re.compile(
     r"(?:and (?:then|also|after that)|and then also|also|after that|afterwards|and) (?P<rest>.+)"
@@ -90,20 +97,24 @@ _DONE = re.compile(
     r"|that(?:'s| is) (?:done|finished))[ ,]+(?:then )?(?P<rest>.+)"
 )
 _DONE_ZH = re.compile(
-    r"(?:等你?|你)?(?:[弄做干忙办找数看说转走跑去查绕]|巡[逻视查]|检查|探索)?完(?:了|这个|那个|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
+    r"(?:等你?|你)?(?:[弄做干忙办找数看说转走跑去查绕]|巡[逻视查]|检查|探索)?完(?:了|这个|那个"
+    r"|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
 )
 _SAME_ZH = re.compile(
-    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次|下))"
+    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次"
+    r"|下))"
 )
 _TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
 _ALSO_ZH = re.compile(
-    r"(?:然后|接着|之后|完了(?:以后|之后)?|还有|另外)[,]?(?:也|还|再)?(?P<rest>.+?)(?:也(?:去一下|去|要))?"
+    r"(?:然后|接着|之后|完了(?:以后|之后)?|还有|另外)[,]?(?:也|还|再)?(?P<rest>.+?)(?:也(?:去一下"
+    r"|去|要))?"
     r"|(?P<rest2>.{1,12}?)也(?:要)?(?:去一下|去一趟|去|看看|看一下|要)"
 )
 
 _ONWARD = re.compile(r"^(?:on|over|off|back)(?: again)? (?=(?:in)?to )")
 _TAKEN = (
-    r"(?:(?:no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong|not that(?: one| room)?"
+    r"(?:(?:oh|ah|(?:oh )?no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong"
+    r"|not that(?: one| room)?"
     r"|actually)[ ,.!;]+)"
 )
 _MEANT = (
@@ -118,11 +129,11 @@ _CORRECTION = re.compile(
     rf"{_TAKEN}++{_MEANT} (?P<a>.+?){_GO_THERE}"
     rf"|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN}?){_GO_THERE}"
     r"|(?:(?:no|nope|nah|wrong room|wrong place|not that one|not (?:t?here)|oops)[ ,.!;]+"
-    r"(?:wait[ ,.!;]+)?)+"
+    r"(?:(?:wait|sorry|actually|hang on|i mean)[ ,.!;]+)*)+"
     r"(?:rather |try |better |instead )?"
     rf"(?P<c>(?:to |in |into |at |by |near |beside |next to )?(?:the|my|our) [a-z][a-z' -]{{1,30}}?"
     rf"|{_DRIVE_EN})"
-    r"(?: first| instead| rather)?"
+    r"(?: first| instead| rather| i meant?)?"
     rf"|(?:(?:no|wait|hold on|hang on)[ ,]+)*not (?:to )?(?:the|my|our) [a-z' -]{{2,24}}[,;.]?"
     rf" (?:but )?(?:rather )?(?:i (?:want|need) you (?:to (?:go|come|be) )?(?:in |to |at )?)?"
     rf"(?P<d>(?:to )?(?:the|my|our) [a-z][a-z' -]{{1,30}})"
@@ -130,19 +141,23 @@ _CORRECTION = re.compile(
     r"(?P<k>(?:to |in )?(?:the|my|our) [a-z][a-z' -]{1,30}?)[ ,]+i meant?"
 )
 _CORRECTION_ZH = re.compile(
-    r"(?:(?:不对)+|不是|错了|搞错了|我?说错了|不不|不)[,。!！]+"
+    r"(?:(?:不对)+|(?:不是)+|错了|搞错了|我?说错了|不不|不)[,。!！]+"
     r"(?P<a>(?:去|到|回|找|看看|数).+|(?:我(?:说|要|指)的?是|我是说|是|应该是).{1,12})"
-    r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>(?!应该|可能|好像|大概|也许|多半|在)[^我你您没不好行].{0,7})"
+    r"|(?:不对|错了|搞错了|我?说错了)[,。!！]+(?P<e>(?!应该|可能|好像|大概|也许|多半"
+    r"|在)[^我你您没不好行].{0,7})"
     r"|(?:(?:等等|等一?下|不)[,。!！]+)?我是说(?P<f>.{1,12})"
     r"|(?:不对,?)?不是[^,是]{1,10}?[,]?(?:而)?是(?P<b>.{1,12})"
     r"|还是(?P<g>(?:去|到|回).{1,12}?)(?:好了|吧|得了)"
-    r"|(?:(?:等一?下|等等|不对)[,。!！]+)?不是[^,是]{1,10}?[,。]我(?:是)?(?:要|想要?|让)你(?:去|到)(?P<i>.{1,12})"
+    r"|(?:(?:等一?下|等等|不对)[,。!！]+)?不是[^,是]{1,10}?[,。]我(?:是)?(?:要|想要?|让)你(?:去"
+    r"|到)(?P<i>.{1,12})"
     r"|(?:不对|不是?|错了)[,。!！]+(?:应该|可能|好像|大概|也许|多半)?(?:是)?在(?P<h>.{1,8})"
     r"|我(?:说|指|要)的(?:是|可是)(?P<c>.{1,12}?)(?:[,]?不是.{1,12})?"
 )
 _SORRY_ZH = re.compile(
-    r"^(?:[哦噢喔啊哎呀诶欸唉嗯呃]+[,。!！]*)?(?:(?:真的?|很|实在)?(?:不好意思|抱歉|对不起)(?:了|啊|呀|哈|哦)?[,。!！]*)+"
+    r"^(?:[哦噢喔啊哎呀诶欸唉嗯呃]+[,。!！]*)?(?:(?:真的?|很|实在)?(?:不好意思|抱歉|对不起)(?:了"
+    r"|啊|呀|哈|哦)?[,。!！]*)+"
 )
+_SORRY = re.compile(r"(?<=[a-z])[ ,]+(?:i am |i'm )?sorry$")
 """An apology before a correction; alone, or before a plain order, it takes nothing back."""
 _LEAD_ZH = re.compile(r"^(?:我(?:说|要|指|想)的?(?:可)?是|我是说|应该是|而是|是)")
 _LEAD = re.compile(rf"^(?:{_MEANT}) ")
@@ -185,7 +200,7 @@ def _times_of(said: dict[str, str | None], *, chinese: bool) -> int | None:
 
 
 def _correction(plain: str, *, chinese: bool) -> Replace | None:
-    said = _SORRY_ZH.sub("", plain) if chinese else plain
+    said = _SORRY_ZH.sub("", plain) if chinese else _SORRY.sub("", plain)
     found = (_CORRECTION_ZH if chinese else _CORRECTION).fullmatch(said)
     if found is None:
         return None

@@ -105,6 +105,7 @@ def _read(said: FoldedText, grammar: ModuleType) -> Intent | None:
         _read_lesson(said, grammar)
         or read_fact_order(said, grammar)
         or _taking_back(said, grammar)
+        or _pausing(said, grammar)
         or _replacing(said, grammar)
         or _slowing(said, grammar)
     )
@@ -115,6 +116,17 @@ def _slowing(said: FoldedText, grammar: ModuleType) -> Intent | None:
     cut = _SEPARATOR.search(said.folded)
     first = _plain(said.part(0, cut.start()), grammar).folded if cut is not None else ""
     return Slower() if grammar.SLOWER.fullmatch(first) else None
+
+
+def _pausing(said: FoldedText, grammar: ModuleType) -> PauseCommand | None:
+    """Read "hold on, somebody is at the door": a reason behind it changes nothing."""
+    cut = _SEPARATOR.search(said.folded)
+    if cut is None:
+        return None
+    first = _plain(said.part(0, cut.start()), grammar).folded.replace(" ", _gap(grammar))
+    rest = said.part(cut.end(), len(said.folded)).strip(_END)
+    reason = grammar.PAUSE_REASON.fullmatch(rest.folded) is not None
+    return PauseCommand() if reason and grammar.PAUSE.fullmatch(first) is not None else None
 
 
 def _taking_back(said: FoldedText, grammar: ModuleType) -> CancelCommand | None:
@@ -202,6 +214,10 @@ def _replacing(said: FoldedText, grammar: ModuleType) -> Intent | None:
         return _replace(said.part(bare.end(), len(said.folded)), now=True)
     for cut in islice(_SEPARATOR.finditer(said.folded), 2):  # behind a courtesy at most
         first = _plain(said.part(0, cut.start()), grammar)
+        order = said.part(cut.end(), len(said.folded)).strip(_END)
+        put_off = said.part(0, cut.start()).strip(_END).folded  # "now" is no courtesy here
+        if grammar.POSTPONED.fullmatch(put_off) and grammar.COMES_FIRST.match(order.folded):
+            return _replace(order, now=True)
         if grammar.TAKEN_BACK.fullmatch(first.folded.replace(" ", _gap(grammar))):
             rest = said.part(cut.end(), len(said.folded)).strip(_END)
             cancels = grammar.CANCEL.fullmatch(first.folded.replace(" ", _gap(grammar)))

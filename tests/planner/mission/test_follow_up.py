@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from planner.brain.offline_brain import TAG
 from planner.language.utterance import parse
 from planner.mission.events import Planned, Submitted
 from planner.mission.follow_up import LEANS_S, meaning_of
@@ -14,7 +15,18 @@ from planner.mission.reducer import advance
 from planner.mission.skills import Eyesight
 from planner.mission.state import Mission, MissionState
 from planner.perception.snapshot import Sight
-from planner.plan import Count, Find, GoTo, Language, Look, StepPlan
+from planner.plan import (
+    Clarify,
+    Code,
+    Count,
+    Find,
+    GoTo,
+    Language,
+    Look,
+    Option,
+    StepPlan,
+    say_same,
+)
 from planner.site import Site
 from planner.site.site_view import facts_of
 from tests.conftest import ROOT
@@ -41,6 +53,9 @@ EITHER = book_after(("go to the kitchen or the study, whichever you like", "kitc
 
 MEANINGS = (
     (BEDROOM, "no, I meant the study", "go to the study"),
+    (BEDROOM, "No, sorry, the study.", "go to the study"),
+    (BEDROOM, "oh no, I meant the study, sorry", "go to the study"),
+    (ZH, "不是不是，是书房", "去书房找我的杯子"),
     (BEDROOM, "no I meant the study", "go to the study"),
     (BEDROOM, "No, the study!", "go to the study"),
     (BEDROOM, "not the bedroom, the study", "go to the study"),
@@ -180,6 +195,11 @@ BARE = MissionState(FACTS)
     [("skip the bathroom", "go to the bedroom, then go to the hallway"),
      ("leave the bedroom out", "go to the bathroom, then go to the hallway"),
      ("skip the kitchen", "skip the kitchen"),
+     ("you can leave out the bathroom", "go to the bedroom, then go to the hallway"),
+     ("except the bathroom", "go to the bedroom, then go to the hallway"),
+     ("except my dog", "except my dog"),
+     ("跳过卫生间，有人在洗澡", "go to the bedroom, then go to the hallway"),
+     ("除了卫生间", "go to the bedroom, then go to the hallway"),
      ("跳过卫生间", "go to the bedroom, then go to the hallway")],
 )  # fmt: skip
 def test_a_place_is_left_out_of_what_is_still_to_do(text: str, left: str) -> None:
@@ -240,3 +260,21 @@ def book_of_looks(steps: tuple[Any, ...], text: str) -> MissionState:
     book, _ = advance(book, Submitted("g0", text, parse(text).language), NOW_S)
     book, _ = advance(book, Planned("g0", StepPlan(steps=steps)), NOW_S)
     return book
+
+
+@pytest.mark.parametrize("said", ["the second one", "the study, please", "the study"])
+def test_an_order_that_a_question_offers_is_chosen_aloud(said: str) -> None:
+    book = MissionState(FACTS)
+    text = "go to the kitchen or the study"
+    book, _ = advance(book, Submitted("g0", text, Language.EN), NOW_S)
+    options = tuple(Option(text=f"go to the {place}", label=say_same(f"go to the {place}"))
+                    for place in ("kitchen", "study"))  # fmt: skip
+    asks = Clarify(code=Code.AMBIGUOUS, question=say_same("Which one?"), options=options)
+    book, _ = advance(book, Planned("g0", asks, None, TAG), NOW_S)
+    assert meaning_of(book, said, NOW_S) == "go to the study"
+    assert meaning_of(book, "the third one", NOW_S) == "the third one"
+
+
+def test_a_correction_of_a_search_without_a_place_narrows_it() -> None:
+    search = book_of_looks((Find(object="red cup"),), "find my red cup")
+    assert meaning_of(search, "no, the study", NOW_S) == "look for the red cup in the study"

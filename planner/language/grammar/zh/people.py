@@ -6,7 +6,7 @@ import re
 from re import Match
 
 from planner.language.catalogue import say
-from planner.language.grammar.clauses import QUOTE
+from planner.language.grammar.clauses import QUOTE, put_quotes_back
 from planner.language.grammar.noun_phrases import several
 from planner.language.grammar.parse_result import (
     ClauseProblem,
@@ -36,7 +36,8 @@ _FIND = r"(?:接到?|找到|寻找|找找看?|找一下|找|见见|见|看看|�
 _WHETHER = r"(?:(?<=找)|(?<=找看)|(?<=找一下))还?(?:有没有|是否有|是不是有|有无)"
 """Whether somebody is there is searched for where the words say so; else looking answers it."""
 _GREET = (
-    r"(?:打(?:个|一?声)?招呼|问(?:个|声)?好|问候|打招呼|挥手|说(?:一声)?(?:你好|您好|早上好|晚上好|晚安|"
+    r"(?:打(?:个|一?声)?招呼|问(?:个|声)?好|问候|打招呼|挥手|说(?:一声)?(?:你好|您好|早上好|晚上好"
+    r"|晚安|"
     r"再见|欢迎))"
 )
 _FOLLOW = (
@@ -93,7 +94,7 @@ def _present(found: Match[str], reading: Reading) -> Meaning:
 
 
 def _tell_words(found: Match[str], reading: Reading) -> Meaning:
-    words = reading.marked.restore(found["words"])
+    words = put_quotes_back(reading.marked.restore(found["words"]), reading.quotes).strip('" ')
     return meet(
         found["who"], read_place(found, "at2") or read_place(found, "at"), reading, words[:500]
     )
@@ -157,7 +158,8 @@ RULES: tuple[Rule, ...] = (
         _tell_words,
     ),
     rule(
-        rf"{_AT}(?:问问|问一下|问下|问|询问)(?:一下)?(?:{_AT2}(?P<who>{PERSON}))?(?:一下|一声)?(?P<question>.+)",
+        rf"{_AT}(?:问问|问一下|问下|问|询问)(?:一下)?(?:{_AT2}(?P<who>{PERSON}))?(?:一下"
+        rf"|一声)?(?P<question>.+)",
         _ask,
     ),
     rule(

@@ -353,3 +353,62 @@ def test_a_long_order_is_no_fact(order: str, length: int) -> None:
 @pytest.mark.parametrize("before", ["remember that ", "记住，"])
 def test_nothing_endless_is_read(before: str) -> None:
     assert intent_of(before + "x" * 2000) is None
+
+
+@pytest.mark.parametrize(
+    "reason",
+    [
+        *("she just came out", "Dad's already gone", "my sister found it", "he's on his way down"),
+        *("the postman has already been", "she's asleep", "somebody answered"),
+    ],
+)
+def test_news_behind_it_takes_back_as_well(reason: str) -> None:
+    assert intent_of(f"never mind, {reason}") == CancelCommand()
+    assert not isinstance(intent_of(f"{reason} and then go there"), CancelCommand)
+
+
+@pytest.mark.parametrize("reason", ["她出来了", "妈妈已经回来了", "宝宝醒了"])
+def test_so_it_does_in_chinese(reason: str) -> None:
+    assert intent_of(f"算了，{reason}") == CancelCommand()
+    assert intent_of(f"算了，{reason}你再去") != CancelCommand()
+
+
+@pytest.mark.parametrize(
+    ("said", "order"),
+    [
+        ("not yet actually, come with me first", "come with me first"),
+        ("no, not now, go to the study", "go to the study"),
+        ("等会再去，先跟我来", "先跟我来"),
+    ],
+)
+def test_what_is_put_off_makes_way_for_an_order(said: str, order: str) -> None:
+    assert intent_of(said) == Replace(order, now=True)
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["not yet", "not now, the baby is asleep", "not yet, if you can", "先别去，等我", "等会再去"],
+)
+def test_what_is_put_off_alone_makes_way_for_nothing(said: str) -> None:
+    assert not isinstance(intent_of(said), Replace)
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["hold on, somebody's at the door", "hang on, my phone is ringing", "等一下，有客人来了"],
+)
+def test_a_reason_behind_it_pauses_as_well(said: str) -> None:
+    assert intent_of(said) == PauseCommand()
+
+
+@pytest.mark.parametrize(
+    "said", ["hold on, go to the study", "hang on, the study", "hold on, is somebody there?",
+             "hold on, he is there so go back", "等一下，去书房"],
+)  # fmt: skip
+def test_an_order_or_a_place_behind_it_pauses_nothing(said: str) -> None:
+    assert intent_of(said) != PauseCommand()
+
+
+def test_enough_before_going_on_goes_on() -> None:
+    assert intent_of("行了，接着走吧") == ResumeCommand()
+    assert intent_of("行了，不用找了") == CancelCommand()

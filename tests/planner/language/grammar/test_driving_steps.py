@@ -120,3 +120,10 @@ def test_a_spin_is_whole(text: str, degrees_told: list[int]) -> None:
         steps = steps[0].steps
     turned = [round(degrees(step.angle_rad)) for step in steps if isinstance(step, Turn)]
     assert turned == degrees_told
+
+
+@pytest.mark.parametrize("words", ["happy birthday to Nan", "good luck in the kitchen"])
+def test_names_are_said_as_they_are_written(words: str) -> None:
+    made = plan(f"say {words}", HOME)
+    assert isinstance(made, StepPlan)
+    assert [getattr(step, "text", None) for step in made.steps][-1] == words

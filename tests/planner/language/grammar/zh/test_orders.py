@@ -62,3 +62,10 @@ def test_whatever_moves_may_be_asked_for_slowly(
     order: str, understood: Callable[[str], str]
 ) -> None:
     assert understood(f"慢慢地{order}") == understood(f"慢慢{order}") == understood(order)
+
+
+@pytest.mark.parametrize("frame", ["跟{}的妈妈说“{}”", "去{}跟妈妈说“{}”", "告诉{}的妈妈{}"])
+def test_somebody_is_told_the_words_whether_in_marks_or_not(
+    frame: str, understood: Callable[[str], str]
+) -> None:
+    assert understood(frame.format("卧室", "饭好了")).endswith("say=妈妈,饭好了")

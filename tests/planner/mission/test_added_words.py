@@ -1,0 +1,58 @@
+"""One more person is told the same, or the same person more; of two nobody is chosen."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.language.utterance import parse
+from planner.mission.events import Submitted
+from planner.mission.follow_up import meaning_of
+from planner.mission.reception import receive
+from planner.plan import Find, GoTo, Language, Say
+from tests.planner.mission.leaning import NOW_S, order_asked_about, order_under_way
+
+STEPS = (GoTo(place="study"), Find(object="Dad", place="study"), Say(text="Dad, tea is ready"))
+DAD = order_under_way("tell Dad in the study that tea is ready", *STEPS)
+DAD_ZH = order_under_way("去书房叫爸爸吃饭", *STEPS)
+MUM_ZH = order_under_way("跟卧室的妈妈说我出门了", *STEPS)
+
+
+@pytest.mark.parametrize("said", ["and Grandma too", "Grandma as well", "and tell Grandma too"])
+def test_one_more_person_is_told_the_same(said: str) -> None:
+    assert meaning_of(DAD, said, NOW_S) == "tell Grandma in the study that tea is ready".replace(
+        "Grandma", "grandma"
+    )
+    heard = receive(DAD, parse(said), Submitted("new", said, Language.EN), NOW_S)
+    assert (heard.takes_back, heard.given.first) == (None, True)
+
+
+@pytest.mark.parametrize("said", ["顺便叫上奶奶", "奶奶也叫一下", "还有奶奶", "也叫奶奶一声"])
+def test_so_it_is_in_chinese(said: str) -> None:
+    assert meaning_of(DAD_ZH, said, NOW_S) == "去书房叫奶奶吃饭"
+
+
+@pytest.mark.parametrize("said", ["还要讲晚上不回来吃饭", "再跟她说一声晚上不回来吃饭"])
+def test_the_same_person_is_told_more(said: str) -> None:
+    assert meaning_of(MUM_ZH, said, NOW_S) == "跟卧室的妈妈说“晚上不回来吃饭”"
+    asked = order_asked_about("跟妈妈说我出门了")
+    assert meaning_of(asked, said, NOW_S) == "跟妈妈说“我出门了，晚上不回来吃饭”"
+
+
+def test_her_whom_the_order_before_names_is_told_more() -> None:
+    wanted = "tell Dad in the study dinner is ready"
+    assert meaning_of(DAD, "and tell him dinner is ready", NOW_S) == wanted
+
+
+@pytest.mark.parametrize("said", ["me too", "and me", "and the robot too", "and Dad", "and Dad?"])
+def test_nobody_else_is_added(said: str) -> None:
+    assert meaning_of(DAD, said, NOW_S) == said
+
+
+@pytest.mark.parametrize("said", ["还要吃饭", "还要说什么", "爸爸呢", "顺便看看"])
+def test_nor_is_anybody_in_chinese(said: str) -> None:
+    assert meaning_of(DAD_ZH, said, NOW_S) == said
+
+
+def test_who_else_is_meant_waits_until_it_is_known_where_the_first_is() -> None:
+    asked = order_asked_about("去叫爸爸吃饭")
+    assert meaning_of(asked, "顺便叫上奶奶", NOW_S) == "顺便叫上奶奶"
