@@ -17,6 +17,7 @@ from planner.language.schedule.command import (
     Retime,
 )
 from planner.language.schedule.parts import After, OnceDay, WeekDays
+from planner.language.schedule.windows import read_half, read_window
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import OrderChange
@@ -142,7 +143,8 @@ def read_correction(
         return read_correction(by_id["rest"], reads, chinese=chinese, named=by_id["id"])
     found = (_Chinese if chinese else _English)(reads).read(folded)
     if found is None:
-        return None
+        hours = read_window(folded, reads, chinese=chinese) or read_half(folded, chinese=chinese)
+        return CorrectOrder(hours, folded, named) if hours is not None else None
     change, which, words = found
     sure = bool(named or (which and _KIND.search(which)))
     return CorrectOrder(change, words or folded, named or which, is_sure=sure)
