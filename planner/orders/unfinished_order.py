@@ -9,7 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planner.language.catalogue import say
+from planner.language.folding import has_chinese
 from planner.language.schedule import ScheduleCommand, complete_order
+from planner.language.schedule.reasons import is_reason
 from planner.plan import Clarify, Code, Option
 
 WAITS_S = 600.0
@@ -52,7 +54,9 @@ class UnfinishedOrder:
         """
         if said is not None and command.problem == MISSING:
             return complete_order(command, said) or command
-        alone = not command.order.strip() and command.reminder is None and command.problem is None
+        order = command.order.strip().lower()
+        beside = not order or is_reason(order, chinese=has_chinese(order))  # "after tea, at seven"
+        alone = beside and command.reminder is None and command.problem is None
         waits = self.command is not None and 0.0 <= now_unix_s - self.asked_unix_s <= WAITS_S
         if not alone or not waits or self.command is None:
             return command

@@ -9,31 +9,27 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal
 
 from planner.language.schedule.asked import KINDS, MY, ZH_ALL, ZH_KINDS, read_asked
 from planner.language.schedule.command import ChangeOrders
-from planner.language.schedule.parts import DayPart, MonthDay, OnceDay, TimeOfDay, combine
+from planner.language.schedule.parts import (
+    EVERY_DAY,
+    DayPart,
+    MonthDay,
+    OnceDay,
+    TimeOfDay,
+    WeekDays,
+    combine,
+)
 from planner.language.schedule.removals import read_removal
 from planner.plan.timing import DayTime, InRule
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import OrderCommand
-    from planner.language.schedule.parts import Part
+    from planner.language.schedule.parts import Part, ReadsTiming, ReadsWhole
 
     Act = Literal["remove", "pause", "resume"]
-
-
-class ReadsWhole(Protocol):
-    """Return the parts of a time that a whole text is; none where it is anything else."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
-
-
-class ReadsTiming(Protocol):
-    """Tell whether a text is, or ends with, a time that comes again."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> bool: ...
 
 
 _OFTEN = (
@@ -162,6 +158,8 @@ def _read_named(act: Act, rest: str, reads: ReadsTiming) -> ChangeOrders | None:
     kind = found["kind"] or found["kind2"] or ""
     names = ("of", "what", "often", "id", "one", "called")
     which = next((found[name] for name in names if found[name]), "")
+    if re.search(r"\bor\b", which) is not None:
+        return None  # a choice
     if found["one"] and not reads(found["one"], in_chinese=False):
         return None
     alone = bool(found["kind"]) and not which and _ONE.fullmatch(kind) is not None
@@ -197,6 +195,9 @@ def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeO
     return _zh_denied(folded, whole)
 
 
+_ZH_GENERAL = re.compile(r"(?:提醒|叫|喊|做|去|来|说|弄)(?:我们?)?")
+
+
 def _zh_denied(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     """Read 晚上别再检查门了: not "tonight", which is one day's."""
     found = re.fullmatch(rf"(?:以后|今后)?(?P<t>.+?)(?:以后|今后)?(?:都|就)?{_ZH_NOT}(?P<what>[^别不了用要必需].+?)了?",
@@ -207,6 +208,9 @@ def _zh_denied(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     clocked = any(isinstance(part, TimeOfDay) for part in parts)
     if clocked and re.match(rf"{re.escape(found['t'])}(?:以后|今后)", folded):
         return None  # 晚上十点以后别说了: an hour from which it is not done
+    days = [part for part in parts if isinstance(part, WeekDays) and part.days != EVERY_DAY]
+    if days and len(days) == len(parts) and _ZH_GENERAL.fullmatch(found["what"]):
+        return None  # 周末就别提醒了: days that the order of a moment ago leaves out
     one_day = any(isinstance(part, (OnceDay, MonthDay)) for part in parts)
     if not parts or one_day:
         return None

@@ -84,6 +84,12 @@ _SEES_ZH = re.compile(
 )
 
 
+_SEES_TO_TELL_ZH = re.compile(
+    rf"(?:要是|如果|一旦|只要|每次)?(?:你)?(?:看到|看见|见到)(?:有人|人|{_KIN_ZH})[^,你]{{1,8}},?就(?:你|请)?"
+    r"(?:[跟和对给][他她]们?(?:说|讲)|告诉[他她]们?|提醒[他她]们?)(?:一声)?[,:]?(?P<what>[^,]{2,20})"
+)
+
+
 @dataclass(frozen=True, slots=True)
 class Arrival:
     """Hold who is waited for, and the order in words that name them."""
@@ -144,6 +150,9 @@ def offer_event(folded: str, *, chinese: bool) -> str | None:
     None of a sentence that waits for no such event; empty where none comes near.
     """
     if chinese:
+        told = _SEES_TO_TELL_ZH.fullmatch(folded)
+        if told is not None:
+            return f"看到人的时候，说{told['what']}"
         seen = _SEES_ZH.fullmatch(folded)
         if seen is None:
             return None
@@ -151,6 +160,8 @@ def offer_event(folded: str, *, chinese: bool) -> str | None:
         return f"{'晚上' if when in ('晚上', '夜里', '半夜') else ''}看到人的时候，说我看到有人了"
     sees = _SEES_EN.fullmatch(folded)
     if sees is not None:
+        if not sees["at"] and not folded.startswith("if"):
+            return None  # "whenever you see somebody, tell me": an event
         begins = folded.startswith("if ") and not folded.startswith(("if you ever", "if ever"))
         if begins and not sees["when"]:
             return None  # "if you see anybody in the kitchen, tell me": a look now

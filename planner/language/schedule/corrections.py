@@ -150,7 +150,7 @@ def read_correction(
     return CorrectOrder(change, words or folded, named or which, is_sure=sure)
 
 
-_KIND = re.compile(r"\b(?:reminder|alarm|timer|standing order|routine)s?\b|提醒|闹钟|定时")
+_KIND = re.compile(r"\b(?:reminder|alarm|timer|standing order|routine)s?\b|提醒|闹钟|定时|[叫喊]我")
 _Found = tuple["OrderChange", str, str]
 """The change, the words that name an order, and the change in words where others stand with it."""
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from calendar import monthrange
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Protocol
 
 from planner.plan.timing import (
     MAX_AHEAD_S,
@@ -136,6 +136,18 @@ class EventPart:
 Part = (
     WeekDays | Interval | OnceDay | MonthDay | After | TimeOfDay | MinutePart | EventPart | DayPart
 )
+
+
+class ReadsWhole(Protocol):
+    """Return the parts of a time that a whole text is; none where it is anything else."""
+
+    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
+
+
+class ReadsTiming(Protocol):
+    """Tell whether a text is, or ends with, a time that comes again."""
+
+    def __call__(self, folded: str, *, in_chinese: bool) -> bool: ...
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,6 +47,13 @@ _MOST_PARTS = 6
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
 _UNTIL = re.compile(r"\b(?:until|till)$")
 _CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
+_DAYS_ER = re.compile(
+    r"(?<!说)([今明后])儿个?(?=[早上中下晚夜]|[一二三四五六七八九十两\d]{1,2}[点:])"
+)
+"""明儿早上 is 明天早上."""
+_DENIAL = re.compile(
+    r"(?:[就都也])*(?:别|不要|不用|不准|不许)|(?:don't|do not|never|not) ", re.IGNORECASE
+)
 _QUOTE = re.compile('["“”「」『』]')
 
 
@@ -93,13 +100,22 @@ def read_order_command(text: str) -> OrderCommand | None:
     said = _FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
     command = _read_command(said, grammar, text, asks=asks)
-    if command is not None or asks:
+    if asks or not (command is None or _denies(command)):
         return command
     bare = leave_reasons_out(said.folded, chinese=grammar is chinese)
     if bare is None:
-        return None
+        return command
     bare = _FoldedSentence(bare, bare).strip(grammar.POLITE).strip_end(grammar.POLITE_END).folded
-    return _read_about_kept(bare.strip(_ENDS), grammar)
+    about = _read_about_kept(bare.strip(_ENDS), grammar)
+    alone = _FoldedSentence(bare.strip(_ENDS), bare.strip(_ENDS))
+    timed = about is None and _whole_parts(alone.folded, in_chinese=grammar is chinese)
+    return (_read(alone, grammar) if timed else about) or command
+
+
+def _denies(command: OrderCommand) -> bool:
+    """Tell whether an order says what is not to be done: a change of one that is kept, perhaps."""
+    plain = isinstance(command, ScheduleCommand) and command.reminder is None
+    return plain and isinstance(command, ScheduleCommand) and bool(_DENIAL.match(command.order))
 
 
 def _read_about_kept(folded: str, grammar: ModuleType) -> OrderCommand | None:
@@ -157,10 +173,8 @@ def _read_event(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand |
     if arrival is not None:
         when = EventRule(event=WorldEvent.PERSON_SEEN)
         return ScheduleCommand(when, arrival.order, "", who=arrival.who)
-    if grammar.PARTS and _first_parts(said.folded, grammar).parts:
-        return None
     offer = offer_event(said.folded, chinese=is_chinese)
-    if offer is None:
+    if offer is None or (not offer and _first_parts(said.folded, grammar).parts):
         return None
     problem: Problem = "order_event_place" if offer else "order_no_event"
     return ScheduleCommand(None, said.written, "", problem=problem, offer=offer)
@@ -168,6 +182,7 @@ def _read_event(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand |
 
 def _fold(text: str) -> _FoldedSentence:
     spaced = _SPACES.sub(" ", fold_width(text).translate(_MARKS)).strip()
+    spaced = _DAYS_ER.sub(r"\1天", spaced)
     if has_chinese(spaced):  # spaces between characters mean nothing; between Latin words they do
         spaced = re.sub(r"(?<![A-Za-z0-9]) | (?![A-Za-z0-9])", "", spaced)
     folded = spaced.lower()

@@ -41,11 +41,12 @@ def leave_reasons_out(folded: str, *, chinese: bool) -> str | None:
     clauses = [each for each in _CUT.split(folded) if each]
     if not 2 <= len(clauses) <= _MOST:
         return None
-    left = [each for each in clauses if not _is_reason(each, chinese=chinese)]
+    left = [each for each in clauses if not is_reason(each, chinese=chinese)]
     return left[0] if len(left) == 1 else None
 
 
-def _is_reason(clause: str, *, chinese: bool) -> bool:
+def is_reason(clause: str, *, chinese: bool) -> bool:
+    """Tell whether a clause says why, or how things stand, and orders nothing."""
     if chinese:
         return _ORDERS_ZH.search(clause) is None and _STATES_ZH.fullmatch(clause) is not None
     if _WHILE.fullmatch(clause) is not None:

@@ -7,25 +7,13 @@ and no time that comes again drops nothing ("forget the kitchen", 不要了).
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from planner.language.schedule.asked import KINDS, ZH_KINDS
 from planner.language.schedule.command import ChangeOrders
 
 if TYPE_CHECKING:
-    from planner.language.schedule.parts import Part
-
-
-class ReadsWhole(Protocol):
-    """Return the parts of a time that a whole text is; none where it is anything else."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
-
-
-class ReadsTiming(Protocol):
-    """Tell whether a text is, or ends with, a time that comes again."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> bool: ...
+    from planner.language.schedule.parts import ReadsTiming, ReadsWhole
 
 
 _MORE = (
@@ -65,7 +53,9 @@ _TOLD = re.compile(
     r" (?:i|we)(?:'ve| have)? (?:told|asked|got|made|given|set|want|wanted)(?: you)? (?:to do|doing|do)(?: (?P<when>.+?))?"
     rf"{_MORE}"
 )
-_ZH_ALL = r"(?:所有|全部|一切|每[一个条]+|这些|那些)"
+_ZH_ALL = (
+    r"(?:我?(?:给你)?(?:定|设|安排)的(?:那些|所有|全部)?|所有|全部|一切|每[一个条]+|这些|那些)"
+)
 _ZH_GO = (
     r"(?:都|全|全部|统统|通通|全都|给我|帮我|就|先|一起|可以|也|已经)*"
     r"(?:取消|删除|删|去掉|清除|清空|清|撤销|撤|关|停|作废|不要|不用|不需要|免)(?:掉|了|吧|啦|算了)*"
@@ -84,6 +74,10 @@ _ZH_TOLD = re.compile(
     r"(?:把)?我(?:都)?(?:让|叫|要|请|安排|交代)(?:给)?你(?:每天|天天|定时|平时|按时)?(?:做|干|办)?的(?:那些)?(?:事情?|活儿?|任务|东西)?"
     rf"{_ZH_GO}"
 )
+_SEVERAL = re.compile(
+    r"\b(?:or|unless|if|but|then)\b|\band (?:the|my|your|go|come|tell|drive)\b|还是|或者?|如果|要是|然后"
+)
+"""A choice, a condition or a second order: nothing is dropped."""
 _ASKS_ZH = re.compile(r"[吗呢?？]|什么|几|哪|谁|没有?$")
 
 
@@ -91,6 +85,8 @@ def read_removal(
     folded: str, reads: ReadsTiming, whole: ReadsWhole, *, chinese: bool
 ) -> ChangeOrders | None:
     """Return what a sentence drops; None where it drops no standing order."""
+    if _SEVERAL.search(folded) is not None:
+        return None
     return _read_chinese(folded, reads) if chinese else _read_english(folded, whole)
 
 

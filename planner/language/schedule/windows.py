@@ -6,19 +6,13 @@ Pure, both languages, whole sentences only. Law: words that are no time of day m
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from planner.language.schedule.command import KeepHalf, KeepToHours
 from planner.language.schedule.parts import HOURS_OF, DayPart, TimeOfDay, hour_in
 
 if TYPE_CHECKING:
-    from planner.language.schedule.parts import Part
-
-
-class ReadsParts(Protocol):
-    """Return the parts of a time that a whole text is; none where it is anything else."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
+    from planner.language.schedule.parts import ReadsWhole
 
 
 _NO = r"(?:(?:no|but|and|actually|oh|well|please)[ ,.!]+)*"
@@ -37,7 +31,10 @@ _EN = (
     ("part", re.compile(
         rf"{_NO}(?:{_DO})?(?:only|just) (?:(?:in|during) the |at )?(?P<t>mornings?|afternoons?|evenings?|nights?|noon)")),
 )  # fmt: skip
-_NOT_ZH = r"(?:就|都|也|你)*(?:别|不要|不用|不准|不许|甭)(?:再)?[^,，。]{0,8}?"
+_NOT_ZH = (
+    r"(?:就|都|也|你)*(?:别|不要|不用|不准|不许|甭)(?:再)?"
+    r"(?:[说讲叫喊问吵念播]|打招呼|提醒|出声|告诉).{0,6}?"
+)
 _ZH = (
     ("within", re.compile(r"(?:但是?|不过)?(?:只|仅)(?:在|要|能|限)?(?P<t>.+?)(?:到|至)(?P<u>.+?)(?:之间|中间)?(?:才?[^,，点]{0,6})?")),
     ("after", re.compile(
@@ -53,7 +50,7 @@ _DAY_BEGINS, _DAY_ENDS = 6 * 60, 0
 """Before them people are not meant, and midnight."""
 
 
-def read_window(folded: str, reads: ReadsParts, *, chinese: bool) -> KeepToHours | None:
+def read_window(folded: str, reads: ReadsWhole, *, chinese: bool) -> KeepToHours | None:
     """Return the hours that a sentence keeps an order to; None where it names none."""
     for kind, pattern in _ZH if chinese else _EN:
         found = pattern.fullmatch(folded)
@@ -104,7 +101,7 @@ def _span(first: int, last: int) -> str:
     return f"{first // 60:02}:{first % 60:02}-{last // 60:02}:{last % 60:02}"
 
 
-def _minute_of(words: str, reads: ReadsParts, *, chinese: bool, early: bool = False) -> int | None:
+def _minute_of(words: str, reads: ReadsWhole, *, chinese: bool, early: bool = False) -> int | None:
     """Return the minute of the day of a time; an hour of a dial is one by day, or of the evening."""
     leads = ("",) if chinese else ("", "at ")
     parts = next((p for lead in leads if (p := reads(lead + words, in_chinese=chinese))), ())
