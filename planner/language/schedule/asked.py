@@ -59,7 +59,7 @@ _AT_TIME = re.compile(
     r"|(?:what|which reminders) (?:do (?:i|we) have|have (?:i|we) got)(?: on| planned| coming up)?(?: for)?"
     r" (?P<c>.+)"
     r"|(?:what(?:'s| is) (?:the|my|your|our) (?:plan|schedule|agenda|programme|program)(?: for| on)? (?P<d>.+))"
-    r"|(?:do (?:i|we) have anything|have (?:i|we) got anything)(?: on| planned)?(?: for)? (?P<e>.+)"
+    r"|(?:do (?:i|we) have anything|have (?:i|we) got anything)(?: on| planned| set| down| coming up)?(?: for)? (?P<e>.+)"
 )
 _LEFT = re.compile(
     r"how (?:long|much (?:time|longer)|many minutes)(?: more)?"

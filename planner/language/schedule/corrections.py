@@ -65,7 +65,7 @@ _LEAVE_OUT = re.compile(
 )
 _KEEP_TO = re.compile(
     rf"{_NO}(?:(?:make|do) it )?(?:but )?(?:only|just)(?: (?:on|at|for))?(?: the)? (?P<d>[a-z, ]+?)"
-    rf"|{_NO}(?:(?:make|do) it )?(?:on|at) (?P<d2>[a-z, ]+?) only"
+    rf"|{_NO}(?:(?:make|do) it )?(?:on |at )?(?P<d2>[a-z, ]+?) only"
 )
 _DAYS_NAMED = re.compile(
     rf"(?:(?:do|run) )?{_W}(?:,|,? but)? (?:(?P<not>not|never|except)|only|just)(?: on| at)?(?: the)?"
@@ -104,7 +104,7 @@ _ZH_RETIME = (
     re.compile(r"(?:我说的是|我是说|应该是)(?P<t>.+)"),
 )
 _ZH_RENAMED = re.compile(rf"(?:把|将)?(?P<w>.+?)(?:的)?(?:时间)?{_ZH_CHANGE}(?P<t>.+)")
-_ZH_NONE = r"(?:就?(?:不用|不要|不必|不需要|别|免了?|除外)(?:了|做|去|叫|提醒|来)*)"
+_ZH_NONE = r"(?:就?(?:不用|不要|不必|不需要|别|免了?|除外|算了)(?:了|做|去|叫|提醒|来)*)"
 _ZH_LEAVE_OUT = re.compile(
     rf"{_ZH_NO}(?:但|但是)?(?:除了?)?(?P<d>.+?){_ZH_NONE}|{_ZH_NO}除了(?P<d2>.+?)(?:以外|之外|外)?"
 )

@@ -149,7 +149,7 @@ POLITE_END = re.compile(
 )
 ASKS = re.compile(
     r"(?:what|who|whom|whose|where|why|how|which|is|are|was|were|did|does|do (?:you|i|we|they)"
-    r"|have you|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
+    r"|have (?:you|i|we)|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
 )
 """A question, or a condition that is no event."""
 _GONE = (

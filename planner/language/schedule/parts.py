@@ -24,8 +24,6 @@ from planner.plan.timing import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from planner.language.schedule.command import LeaveOutDays
-
 Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past",
                   "order_no_such_date", "order_no_event", "order_event_place"]  # fmt: skip
 """Why a when that was said can't be kept."""
@@ -296,9 +294,9 @@ def hour_in(hour: int, daypart: DayPart) -> int:
             return hour % 12 + 12
 
 
-def leave_days_out(rule: CronRule, change: LeaveOutDays) -> CronRule | None:
+def leave_days_out(rule: CronRule, named: frozenset[int], *, keeps: bool) -> CronRule | None:
     """Return a rule without these days of the week, or on them alone; None where none is left."""
     *at, week = rule.cron.split()
     days = read_days(week)
-    days = days & change.days if change.keeps else days - change.days
+    days = days & named if keeps else days - named
     return CronRule(cron=" ".join((*at, list_days(days)))) if days else None

@@ -114,8 +114,9 @@ def read_order_command(text: str) -> OrderCommand | None:
 
 def _denies(command: OrderCommand) -> bool:
     """Tell whether an order says what is not to be done: a change of one that is kept, perhaps."""
-    plain = isinstance(command, ScheduleCommand) and command.reminder is None
-    return plain and isinstance(command, ScheduleCommand) and bool(_DENIAL.match(command.order))
+    if not isinstance(command, ScheduleCommand) or command.reminder is not None:
+        return False
+    return _DENIAL.match(command.order) is not None
 
 
 def _read_about_kept(folded: str, grammar: ModuleType) -> OrderCommand | None:
@@ -160,7 +161,7 @@ def _read_excepting(said: _FoldedSentence, grammar: ModuleType) -> ScheduleComma
         order = _read(said.part(0, cut.start()).bare(), grammar)
         if order is None or not isinstance(order.when, CronRule) or order.problem is not None:
             return None
-        when = leave_days_out(order.when, days.change)
+        when = leave_days_out(order.when, days.change.days, keeps=days.change.keeps)
         words = f"{order.words} {said.written[cut.end() :]}"
         return None if when is None else replace(order, when=when, words=words)
     return None
@@ -208,7 +209,7 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     after = _last_parts(rest.folded, grammar)
     if before.parts and after.parts and remind is None and combine(before.parts) is not None:
         joined = combine((*before.parts, *after.parts))
-        if joined is None or (joined.problem == "order_nested" and not _repeats(after.parts)):
+        if joined is None or (joined.problem == "order_nested" and combine(after.parts) is None):
             after = _Found((), len(rest.folded))  # "every day at eight say good night at ten"
     if after.parts and grammar is english and not _lacks_time(before.parts):
         words = rest.folded[: after.at].rstrip(" ")
@@ -234,11 +235,6 @@ def _lacks_time(parts: tuple[Part, ...]) -> bool:
     """Tell whether these name a day, and not when on it: "every day", "tomorrow"."""
     timing = combine(parts)
     return timing is not None and timing.problem == "order_time_missing"
-
-
-def _repeats(parts: tuple[Part, ...]) -> bool:
-    timing = combine(parts)
-    return timing is not None
 
 
 def _order(order: _FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:

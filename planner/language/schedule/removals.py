@@ -74,6 +74,7 @@ _ZH_TOLD = re.compile(
     r"(?:把)?我(?:都)?(?:让|叫|要|请|安排|交代)(?:给)?你(?:每天|天天|定时|平时|按时)?(?:做|干|办)?的(?:那些)?(?:事情?|活儿?|任务|东西)?"
     rf"{_ZH_GO}"
 )
+_ZH_THAT = re.compile(r"的?[那这]一?[个条项]$")
 _SEVERAL = re.compile(
     r"\b(?:or|unless|if|but|then)\b|\band (?:the|my|your|go|come|tell|drive)\b|还是|或者?|如果|要是|然后"
 )
@@ -127,7 +128,7 @@ def _read_chinese(folded: str, reads: ReadsTiming) -> ChangeOrders | None:
     for pattern in (_ZH_KIND, _ZH_DROP):
         found = pattern.fullmatch(folded)
         if found is not None:
-            which, every = found["of"].strip("的我你给"), found["all"] is not None
+            which, every = _ZH_THAT.sub("", found["of"].strip("的我你给")), found["all"] is not None
             return ChangeOrders(
                 "remove", which, reminders=found["kind"] == "提醒", is_every=every,
                 is_single=not which and not every and "全" not in folded and "都" not in folded,
