@@ -107,6 +107,8 @@ class PlannerCommands:
             return taken
         if isinstance(intent, OrderCommand):
             intent = None
+        if mission is not None and not (mission.replies or mission.steps):
+            intent = self._facts.read_correction(ask.text, mission, intent) or intent
         if isinstance(intent, Replace) and not intent.corrects:
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:
@@ -116,7 +118,7 @@ class PlannerCommands:
         if isinstance(intent, ForgetFacts) and self._place(intent.about) is not None:
             intent = None  # "forget about the kitchen": a drive may be meant
         if intent is None and mission is not None and not (mission.replies or mission.steps):
-            intent = read_statement(ask.text)
+            intent = None if self._facts.answers_question(mission) else read_statement(ask.text)
         if isinstance(intent, Replace | LeaningCommand):
             intent = None  # it leans on nothing that is known: a brain reads it
         if intent is None or mission is None or mission.steps:

@@ -9,7 +9,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from planner.language.catalogue import join, message, raw, say
-from planner.language.schedule import CorrectOrder, Delay, LeaveOutDays, RemindAgain, Retime
+from planner.language.schedule import (
+    CorrectOrder,
+    Delay,
+    KeepHalf,
+    LeaveOutDays,
+    RemindAgain,
+    Retime,
+)
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder
 from planner.orders.order import StandingOrder
@@ -99,6 +106,8 @@ class OrderCorrector:
             return AnswerPlan(text=none)
         [first, *others] = found
         is_meant = bool(command.which) or self._is_recent(first)
+        if isinstance(command.change, KeepHalf) and not is_meant:
+            return None  # "in the afternoon": of something else
         if others or not is_meant:
             return self._ask_which(command, found)
         if isinstance(command.change, LeaveOutDays) and command.change.is_one:
@@ -109,7 +118,8 @@ class OrderCorrector:
 
     def _find_named(self, command: CorrectOrder) -> tuple[StandingOrder, ...]:
         live = self._keeper.book.orders.values()
-        found = select(live, command.which, self._keeper.book.zone, reminders=False)
+        now_s, zone = self._keeper.clocks.unix(), self._keeper.book.zone
+        found = select(live, command.which, zone, reminders=False, now_unix_s=now_s)
         return self._that_can(command, found) or found
 
     def _spoken_of(self, command: CorrectOrder) -> tuple[StandingOrder, ...]:

@@ -29,6 +29,7 @@ from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder
 from planner.orders.rule import settle
 from planner.orders.selection import is_all, pick, select
 from planner.orders.teller import OrderTeller
+from planner.orders.unfinished_order import UnfinishedOrder
 from planner.plan import (
     AnswerPlan,
     Bilingual,
@@ -78,6 +79,7 @@ class OrderIntake:
         self._keeper, self._goals = keeper, goals
         self._judge = NewOrderJudge(keeper, lambda: goals.book, report)
         self._corrector = OrderCorrector(keeper, self)
+        self._unfinished = UnfinishedOrder()
         self._teller = OrderTeller(keeper, lambda: goals.book.facts)
 
     # The missions' desk -------------------------------------------------------------------------
@@ -99,8 +101,13 @@ class OrderIntake:
         if isinstance(command, ChangeOrders):
             plan = await self._change_or_ask(command, ask.language, ask.text if answered else None)
             return None if plan is None else Planned(ask.id, plan)
-        if answered:  # the question was about the order within: its words alone are put in
-            command = replace(command, order=ask.text, problem=None)
+        now_s = self._keeper.clocks.unix()
+        lacked = command.problem
+        command = self._unfinished.finish(command, ask.text if answered else None, now_s)
+        if answered and lacked is None:  # about the order within: its words alone are put in
+            command = replace(command, order=ask.text)
+        if (asked := self._unfinished.ask(command, now_s)) is not None:
+            return Planned(ask.id, asked)
         try:
             new = read_new_order(command, ask.language, given)
             order = await self.give(new, ask.id)
@@ -112,7 +119,10 @@ class OrderIntake:
                 question.asked if question.is_whole else put_time_before(question.asked, command)
             )
             return Planned(ask.id, asked)
-        return Planned(ask.id, AnswerPlan(text=self.tell_one(order)))
+        told = self.tell_one(order)
+        if command.who:
+            told = join((told, say("standing.anybody", who=command.who)))
+        return Planned(ask.id, AnswerPlan(text=told))
 
     async def _correct(
         self, command: CorrectOrder, ask: AskBrain, given: Mission, *, answered: bool
@@ -249,17 +259,20 @@ class OrderIntake:
         self, command: ChangeOrders, language: Language, answer: str | None
     ) -> AnswerPlan | Clarify | Refuse | None:
         orders, zone = self._keeper.book.orders.values(), self._keeper.book.zone
-        found = select(orders, command.which, zone, reminders=command.reminders)
+        now_s = self._keeper.clocks.unix()
+        found = select(orders, command.which, zone, reminders=command.reminders, now_unix_s=now_s)
         if answer is not None:
             asked, found = found, pick(found, answer)
-            found = found or select(asked, answer, zone, reminders=command.reminders)
+            found = found or select(
+                asked, answer, zone, reminders=command.reminders, now_unix_s=now_s
+            )
         if not found:
             if not command.is_sure:
                 return None
             which = command.which or ("reminder" if language is Language.EN else "提醒")
             none = say("standing.no_such", which=which[:80], known=self.tell())
             return AnswerPlan(text=none)
-        is_one = bool(command.which) or command.is_single
+        is_one = (bool(command.which) or command.is_single) and not command.is_every
         if len(found) > 1 and is_one and not is_all(answer):
             return self._ask_which(command, found)
         try:

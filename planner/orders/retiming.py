@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING
 
-from planner.language.schedule import Delay, LeaveOutDays, Retime
+from planner.language.schedule import Delay, KeepHalf, KeepToHours, LeaveOutDays, Retime
 from planner.language.schedule.parts import (
     USUAL_HOUR,
     After,
     DayPart,
     EventPart,
     Interval,
+    MinutePart,
     MonthDay,
     OnceDay,
     TimeOfDay,
@@ -24,6 +25,7 @@ from planner.language.schedule.parts import (
     combine,
     hour_in,
     list_days,
+    read_days,
 )
 from planner.orders.errors import OrderRefusal
 from planner.orders.rule import judge, settle
@@ -60,24 +62,12 @@ def read_weekly(rule: Rule) -> WeeklyTime | None:
     if not isinstance(rule, CronRule):
         return None
     minute, hour, day, month, week = rule.cron.split()
-    days = _read_days(week)
+    days = read_days(week)
     if not (minute.isdigit() and day == month == "*" and days):
         return None
     if hour != "*" and not hour.isdigit():
         return None
     return WeeklyTime(int(minute), None if hour == "*" else int(hour), days)
-
-
-def _read_days(week: str) -> frozenset[int]:
-    if week == "*":
-        return frozenset(range(7))
-    found: set[int] = set()
-    for each in week.split(","):
-        first, _, last = each.partition("-")
-        if not (first.isdigit() and (last or first).isdigit()):
-            return frozenset()
-        found.update(day % 7 for day in range(int(first), int(last or first) + 1))
-    return frozenset(found)
 
 
 def correct_rule(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) -> Rule:
@@ -94,6 +84,10 @@ def correct_rule(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinf
             new = _on_days(rule, change)
         case Delay(seconds=seconds):
             new = _delay_rule(rule, seconds)
+        case KeepToHours(hours=hours) if isinstance(rule, EventRule):
+            new = rule.model_copy(update={"hours": hours})
+        case KeepHalf(part=part):
+            new = _in_half(rule, part, zone)
         case _:
             raise _unfit(rule)
     if new == rule:
@@ -122,6 +116,8 @@ def _retime_rule(rule: Rule, parts: tuple[Part, ...], now_unix_s: float, zone: t
     if len(others) > 1:
         raise OrderRefusal("order_nested", "several times")
     match others[0] if others else None:
+        case MinutePart(minutes=minutes):
+            return _at_minute(rule, minutes, zone)
         case None:
             return _at_hour(rule, clock, part, zone)
         case WeekDays(days=days):
@@ -184,6 +180,24 @@ def _at_hour(rule: Rule, clock: TimeOfDay | None, part: DayPart | None, zone: tz
     said = DayTime(hour=at[0], minute=at[1], year=due.year, month=due.month, day=due.day)
     noon = due.replace(hour=0, minute=0).timestamp()
     return settle(said, noon - DAY_MINUTES * 60.0, zone)  # the past is judged by now, later
+
+
+def _at_minute(rule: Rule, minutes: int, zone: tzinfo) -> Rule:
+    """Return the rule at "half past" the hour that it has; "quarter to" is before that hour."""
+    before = _time_of(rule, zone)
+    if before is None:
+        raise _unfit(rule)
+    hour, minute = divmod((before[0] * 60 + minutes) % DAY_MINUTES, 60)
+    return _at_hour(rule, TimeOfDay(hour, minute, sure=True), None, zone)
+
+
+def _in_half(rule: Rule, part: DayPart, zone: tzinfo) -> Rule:
+    """Return the rule at the hour of the dial that it has, in a part of the day."""
+    before = _time_of(rule, zone)
+    if before is None:
+        raise _unfit(rule)
+    hour = hour_in(before[0] % 12 or 12, part) % 24
+    return _at_hour(rule, TimeOfDay(hour, before[1], sure=True), None, zone)
 
 
 def _at(rule: Rule) -> AtRule:
@@ -255,13 +269,25 @@ def _delay_rule(rule: Rule, seconds: float) -> Rule:
     return WeeklyTime(rest % 60, rest // 60, days).rule
 
 
-def fits_time(rule: Rule, parts: tuple[Part, ...], due_s: float | None, zone: tzinfo) -> bool:
-    """Tell whether all parts of a time are of this rule; a bare eight is of either half."""
-    return bool(parts) and all(_has(rule, part, due_s, zone) for part in parts)
+def fits_time(
+    rule: Rule,
+    parts: tuple[Part, ...],
+    due_s: float | None,
+    zone: tzinfo,
+    now_unix_s: float | None = None,
+) -> bool:
+    """Tell whether all parts of a time are of this rule; a bare eight is of either half.
+
+    "Tomorrow" is of a rule only where it is known what time it is now.
+    """
+    return bool(parts) and all(_has(rule, part, due_s, zone, now_unix_s) for part in parts)
 
 
-def _has(rule: Rule, part: Part, due_s: float | None, zone: tzinfo) -> bool:
+def _has(
+    rule: Rule, part: Part, due_s: float | None, zone: tzinfo, now_unix_s: float | None
+) -> bool:
     due = datetime.fromtimestamp(due_s, zone) if due_s is not None else None
+    now = datetime.fromtimestamp(now_unix_s, zone) if now_unix_s is not None else None
     weekly = read_weekly(rule)
     match part:
         case TimeOfDay(hour=hour, minute=minute, sure=sure):
@@ -278,6 +304,8 @@ def _has(rule: Rule, part: Part, due_s: float | None, zone: tzinfo) -> bool:
             return every == seconds or (seconds == 3600.0 and bool(weekly) and _is_hourly(rule))
         case EventPart(event=event):
             return isinstance(rule, EventRule) and rule.event is event
+        case OnceDay(ahead=int(ahead)) if due is not None and now is not None:
+            return (due.date() - now.date()).days == ahead
         case OnceDay(weekday=int(weekday), week=None):
             return due is not None and due.weekday() == weekday
         case _:

@@ -305,6 +305,9 @@ def _upon_event(
     effects: list[Effect],
 ) -> OrderBook:
     last_s = book.fired_s.get(order.id, float("-inf"))
+    hours = order.rule.hours if isinstance(order.rule, EventRule) else None
+    if hours is not None and not is_quiet(QuietHours.read(hours), now.unix_s, book.zone):
+        return book  # outside of the hours in which it counts
     if order.paused or now.monotonic_s - last_s < COOLDOWN_S:
         return book
     book = replace(book, fired_s={**book.fired_s, order.id: now.monotonic_s})

@@ -93,7 +93,12 @@ _DAYS = (
 
 
 def select(
-    orders: Iterable[StandingOrder], which: str, zone: tzinfo, *, reminders: bool
+    orders: Iterable[StandingOrder],
+    which: str,
+    zone: tzinfo,
+    *,
+    reminders: bool,
+    now_unix_s: float | None = None,
 ) -> tuple[StandingOrder, ...]:
     """Return the orders that these words may mean, oldest first; all where no words were said."""
     kept = [o for o in orders if not o.ended and (o.reminder is not None or not reminders)]
@@ -104,7 +109,9 @@ def select(
     if by_id:
         return tuple(by_id)
     parts, rest = split_time(words)
-    return tuple(o for o in kept if _fits(o, words, zone) or _is_then(o, parts, rest, zone))
+    return tuple(
+        o for o in kept if _fits(o, words, zone) or _is_then(o, parts, rest, zone, now_unix_s)
+    )
 
 
 _FIRSTS = (
@@ -133,10 +140,16 @@ def is_all(answer: str | None) -> bool:
     return answer is not None and _ALL.fullmatch(fold_words(answer)) is not None
 
 
-def _is_then(order: StandingOrder, parts: tuple[Part, ...], rest: str, zone: tzinfo) -> bool:
+def _is_then(
+    order: StandingOrder,
+    parts: tuple[Part, ...],
+    rest: str,
+    zone: tzinfo,
+    now_unix_s: float | None,
+) -> bool:
     """Return whether an order is due at the time that is said, and fits the words beside it."""
     due_s = next_due(order.rule, order.handled_unix_s, zone)
-    if not fits_time(order.rule, parts, due_s, zone):
+    if not fits_time(order.rule, parts, due_s, zone, now_unix_s):
         return False
     return not _weigh_words(rest) or _fits(order, rest, zone)
 

@@ -37,7 +37,11 @@ def tell_rule(rule: Rule, zone: tzinfo, now_unix_s: float) -> Bilingual:
         case AtRule():
             return tell_time(rule.unix_s, zone, now_unix_s)
         case EventRule():
-            return say(f"standing.upon_{rule.event.value}")
+            upon = say(f"standing.upon_{rule.event.value}")
+            if rule.hours is None:
+                return upon
+            first, last = rule.hours.split("-")
+            return say("standing.upon_within", upon=upon, first=first, last=last)
 
 
 def _tell_cron(cron: str) -> Bilingual:

@@ -18,6 +18,10 @@ MAX_AHEAD_S = 366 * 86_400.0
 """Nothing is put off by more than a year."""
 
 
+SPAN = r"^([01]\d|2[0-3]):[0-5]\d-([01]\d|2[0-3]):[0-5]\d$"
+"""A span of the day; it may go past midnight."""
+
+
 class WorldEvent(StrEnum):
     """Name what the planner can notice by itself."""
 
@@ -58,6 +62,8 @@ class EventRule(Frozen):
 
     kind: Literal["event"] = "event"
     event: WorldEvent
+    hours: Annotated[str, StringConstraints(pattern=SPAN)] | None = None
+    """The hours of the day in which it counts, like ``16:00-00:00``; None: always."""
 
 
 class InRule(Frozen):

@@ -7,7 +7,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.language.schedule import Delay, LeaveOutDays, RemindAgain
+from planner.language.schedule import (
+    Delay,
+    KeepHalf,
+    KeepToHours,
+    LeaveOutDays,
+    RemindAgain,
+)
 from planner.language.schedule.parts import (
     After,
     DayPart,
@@ -48,6 +54,10 @@ def describe_change(command: CorrectOrder) -> str:
         case LeaveOutDays(days=days, keeps=keeps, is_one=is_one):
             how = "only" if keeps else "perhaps without" if is_one else "without"
             return f"change {which} {how} {list_days(days)}"
+        case KeepToHours(hours=hours):
+            return f"change {which} within {hours}"
+        case KeepHalf(part=part):
+            return f"change {which} half {part.value}"
         case change:
             old = f" not {_describe(change.instead_of)}" if change.instead_of else ""
             return f"change {which} to {_describe(change.parts)}{old}"

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.brain.situation import RememberedItem
-from planner.language.commands import ForgetFacts, Intent, TeachFact
+from planner.language.commands import ForgetFacts, Intent, TeachFact, name_subject
 from planner.language.recall import read_recall
 from planner.language.schedule import ScheduleCommand, can_lean
 from planner.memory.index_terms import read_terms
@@ -41,6 +41,8 @@ class PersonCommands(PlannerCommands):
     async def carry_out(self, intent: Intent, mission: Mission) -> AnswerPlan | Refuse:
         """Do it and say how it went."""
         if isinstance(intent, TeachFact):
+            old = intent.instead_of
+            self.facts = [f for f in self.facts if not old or name_subject(f) != old]
             self.facts.append(intent.words)
             return AnswerPlan(text=_KEPT)
         if isinstance(intent, ForgetFacts):

@@ -26,6 +26,7 @@ from planner.language.commands.command import (
     TeachFact,
     WhereCommand,
 )
+from planner.language.commands.fact_corrections import name_subject, read_fact_correction
 from planner.language.commands.facts import read_statement
 from planner.language.commands.parser import intent_of
 
@@ -52,5 +53,7 @@ __all__ = [
     "TeachFact",
     "WhereCommand",
     "intent_of",
+    "name_subject",
+    "read_fact_correction",
     "read_statement",
 ]

@@ -28,6 +28,8 @@ class TeachFact:
     words: str
     here: bool = False
     """It speaks of the room that the robot is in: "this is Anna's room"."""
+    instead_of: str = ""
+    """The thing of which what was told before is no longer so; empty: nothing is."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.commands import chinese, english
 from planner.language.commands.command import ForgetFacts, TeachFact
+from planner.language.commands.statements import find_statement
 from planner.language.folding import fold_script, fold_width, has_chinese
 
 if TYPE_CHECKING:
@@ -76,7 +77,11 @@ def read_statement(text: str) -> TeachFact | None:
     """Return a flat statement of where something is, as a fact; None for anything else."""
     written = " ".join(fold_width(text).translate(_APOSTROPHES).split()).strip(_ENDS)
     if not 0 < len(written) <= MAX_STATEMENT:
-        return None
+        words = find_statement(text)
+        return TeachFact(words) if words is not None else None
     grammar = chinese if has_chinese(written) else english
     whole = grammar.STATEMENT.fullmatch(fold_script(written.lower()))
-    return TeachFact(written) if whole is not None else None
+    if whole is not None:
+        return TeachFact(written)
+    words = find_statement(text)
+    return TeachFact(words) if words is not None else None

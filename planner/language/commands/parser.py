@@ -33,8 +33,9 @@ from planner.language.commands.command import (
 from planner.language.commands.facts import read_fact_order, read_long_fact
 from planner.language.commands.folded_text import FoldedText
 from planner.language.commands.follow_up import read_follow_up
+from planner.language.commands.statements import find_statement
 from planner.language.folding import fold_script, fold_width, has_chinese
-from planner.language.schedule import read_order_command
+from planner.language.schedule import OrderCommand, ScheduleCommand, read_order_command
 from planner.language.stop import is_stop
 
 MAX_READ = 300
@@ -66,7 +67,8 @@ def intent_of(text: str) -> Intent | None:
     if own is not None and not isinstance(own, HereCommand):
         return own
     unread = not text.strip() or len(text) > MAX_READ or any(map(_unseen, text))
-    if not unread and (standing := read_order_command(text)) is not None:
+    standing = None if unread else read_order_command(text)
+    if standing is not None and not _tells_a_time(standing, text):
         return standing  # 在三月五号八点…: no place is called so
     if own is not None:
         return own
@@ -74,6 +76,14 @@ def intent_of(text: str) -> Intent | None:
     rest = after.rest if isinstance(after, Replace | AppendCommand) else None
     # "no, continue": whichever is meant, a person must say; an order to stop stands for itself
     return after if rest is None or is_stop(rest) or _intent_alone(rest) is None else None
+
+
+def _tells_a_time(standing: OrderCommand, text: str) -> bool:
+    """Tell whether the time is of a statement: "the plumber's coming on Friday at ten"."""
+    reminds = isinstance(standing, ScheduleCommand) and standing.reminder is not None
+    return (
+        isinstance(standing, ScheduleCommand) and not reminds and find_statement(text) is not None
+    )
 
 
 def _intent_alone(text: str) -> Intent | None:

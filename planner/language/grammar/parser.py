@@ -286,16 +286,16 @@ def _read_once(
     language, moved = context.language or parse(text).language, context.moved or context.departed
     offers = offers and not withholds_offers(marked.text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers, moved)
-    vetoed = _apply_vetoes(marked, setting)
-    if vetoed is not None:
-        return vetoed
     bare = _BORDERS.sub("", marked.text)
     things = context.things if "go_to_object" in context.runnable else frozenset()
     maps = "explore" in context.runnable
     reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now, things, maps=maps)
     topic = read_by((*TALK, *ZH_TALK), bare, reading)
-    if isinstance(topic, TopicQuestion):
+    if isinstance(topic, TopicQuestion):  # it moves nothing: "… or just that there's a person?"
         return compose([topic], bare, setting)
+    vetoed = _apply_vetoes(marked, setting)
+    if vetoed is not None:
+        return vetoed
     ordered = replace(marked, text=in_order(marked.text))
     meanings = [
         limit_to_means(meaning, context.runnable, context.blind)

@@ -33,6 +33,9 @@ class Topic(Enum):
     DAY = "day"
     MONTH_DAY = "month_day"
     WEATHER = "weather"
+    FACES = "faces"
+    LANGUAGES = "languages"
+    HANDS = "hands"
 
 
 _EN: tuple[tuple[Topic, str], ...] = (
@@ -97,6 +100,54 @@ _EN: tuple[tuple[Topic, str], ...] = (
     (Topic.AGE, r"how old (?:are you|you are)|your age"),
     (Topic.MOOD, (r"how (?:are you|you are|do you feel|is it going)(?: (?:doing|today|feeling))*")),
 )
+_THING = r"(?:you|it|this (?:thing|robot|one|machine|gadget|little (?:thing|robot|guy))|the robot)"
+_EN += (
+    (
+        Topic.HELP,
+        (
+            rf"what(?: all| else)? (?:can|could|does) {_THING}(?: (?:actually|really|even"
+            rf"|all))*(?: do)(?: (?:then|exactly|anyway"
+            r"|for (?:me|us)|around (?:here|the house)|at home|at all|with|besides))*"
+            r"|what are you (?:good|useful) (?:for|at)|what are you (?:capable of|able to do"
+            r"|here for)(?: then)?"
+            r"|what (?:sort|kind|kinds|sorts) of (?:things|stuff|jobs) (?:can|do) you do"
+            r"|what can (?:i|we) (?:ask|tell|say to)"
+            r" you(?: to do)?|how (?:do|can|should) (?:i|we) use you|how does (?:this(?: thing)?"
+            r"|it) work|what you can do"
+        ),
+    ),
+    (
+        Topic.FACES,
+        (
+            r"(?:can|do|would|will) you (?:(?:actually|really|even) )?(?:recogni[sz]e|identify"
+            r"|know|remember)"
+            r" (?:(?:people's|our|my|a|different|human|peoples) )?(?:faces?|who (?:i am|we are"
+            r"|people are|somebody is|someone is)"
+            r"|me|us|people by (?:their )?(?:face|name)s?|individual people)(?: or (?:just"
+            r"|only) .{3,60})?"
+            r"|can you tell (?:us|people|the (?:kids|twins|children)|who is who|who's who"
+            r"|who i am|who it is)(?: apart)?"
+            r"|do you have face recognition|do you do face recognition"
+        ),
+    ),
+    (
+        Topic.LANGUAGES,
+        (
+            r"(?:can|do|could) you (?:(?:also|even|actually) )?(?:speak|understand|talk|know"
+            r"|do) (?:any )?(?:other languages?"
+            r"|english|chinese|mandarin|cantonese|spanish|french|german|polish|hindi|arabic|welsh|irish|italian|japanese|korean"
+            r"|portuguese|russian|urdu|dutch|turkish)(?: (?:too|as well|at all|by any chance))?"
+            r"|(?:what|which|how many) languages? (?:can|do) you (?:speak|understand|know|do)"
+        ),
+    ),
+    (
+        Topic.HANDS,
+        (
+            r"(?:do you have|have you got|where are your|haven't you got"
+            r"|don't you have) (?:any )?(?:arms?|hands?)(?: or (?:arms?|hands?))?"
+        ),
+    ),
+)
 _ZH: tuple[tuple[Topic, str], ...] = (
     (Topic.TEAM, (r"你们?的?(?:队伍|团队|学校|单位)(?:的?(?:名字|名称))?(?:是什么|叫什么)?")),
     (
@@ -134,6 +185,31 @@ _ZH: tuple[tuple[Topic, str], ...] = (
     ),
 )
 
+_ZH += (
+    (
+        Topic.HELP,
+        (
+            r"(?:你|这(?:个)?(?:东西|机器人|玩意儿?))?(?:到底|究竟|都|平时)*(?:能|会|可以)(?:帮我们?|帮忙)?(?:干|做)(?:些|点儿?)?(?:什么|啥|嘛)(?:事情?|活)?[呀啊呢]*"
+            r"|你有(?:些)?(?:什么|啥|哪些)(?:用|功能|本事|本领)[呀啊呢]*|你(?:怎么|咋)用"
+        ),
+    ),
+    (
+        Topic.FACES,
+        (
+            r"(?:你|您)?(?:能|会|可以)?(?:不能)?(?:认得|认识|认出|认得出|分得清|分清|分得出|识别|记得)(?:出)?(?:我们?|人脸|脸|人的脸|谁是谁|家里(?:的)?人|不同的人|我的脸|我是谁)(?:吗|不|么)?"
+            r"|(?:你|您)知道我是谁(?:吗|不)?|你有人脸识别吗"
+        ),
+    ),
+    (
+        Topic.LANGUAGES,
+        (
+            r"(?:你|您)?(?:能|会|可以)?(?:不能)?(?:听得懂|听懂|听不听得懂|懂|会讲|会说|会|讲|说)(?:得)?(?:懂)?(?:广东话|粤语|白话|英语|英文|普通话|国语|中文|闽南语|四川话|上海话|客家话|方言|日语|法语|德语|西班牙语|韩语)(?:吗|不|么)?"
+            r"|(?:你|您)(?:会|能|懂)(?:说|讲|听)?(?:什么|哪些|几种|哪几种)(?:语言|话)"
+        ),
+    ),
+    (Topic.HANDS, r"(?:你|您)(?:有没有|有|没有)(?:手|手臂|胳膊)(?:吗|么|啊)?"),
+)
+
 _SAID = frozenset(
     {
         Topic.HELLO,
@@ -148,8 +224,13 @@ _SAID = frozenset(
         Topic.JOKE,
         Topic.WEATHER,
         Topic.HELP,
+        Topic.FACES,
+        Topic.LANGUAGES,
+        Topic.HANDS,
     }
 )
+_OF_ITSELF = frozenset({Topic.HELP, Topic.FACES, Topic.LANGUAGES, Topic.HANDS, Topic.NAME})
+"""What may be asked beside a word about the person who asks."""
 _NO_CLOCK = say("talk.no_clock")
 
 
@@ -168,8 +249,30 @@ _ASKED = re.compile(
 )
 
 
+_CUT = re.compile(r"\s*[?.!,;:。？！，；]+\s*")
+_OPENS = re.compile(r"^(?:(?:so|well|and|but|ok|okay|then|hey|oh|right|那么?|哎|诶|喂)[ ,]*)+")
+_ASIDE = re.compile(
+    r"(?:i(?:'m| am|'ve| have)?|we(?:'re| are|'ve| have)?|my|it's just|just) (?!.*\b(?:go|come"
+    r"|find|look|tell|want you|need you)\b)"
+    r"[a-z' ]{3,60}|我(?!要|想让|叫|让)[^去来找看]{1,12}"
+)
+"""What a person adds of themselves: "I'm just staying the weekend"."""
+
+
 def topic_of(words: str) -> Topic | None:
-    """Return the topic that a phrase names, in either language."""
+    """Return the topic that a phrase, or all clauses of a sentence that ask, name."""
+    whole = _topic_of_clause(words) or _topic_of_clause(_OPENS.sub("", words))
+    if whole is not None:
+        return whole
+    clauses = [each for each in _CUT.split(words) if each]
+    asked = [_topic_of_clause(_OPENS.sub("", each)) for each in clauses]
+    topics = {topic for topic in asked if topic is not None}
+    rest = [c for c, topic in zip(clauses, asked, strict=True) if topic is None]
+    plain = len(topics) == 1 and len(clauses) <= 3 and all(_ASIDE.fullmatch(c) for c in rest)
+    return topics.pop() if plain and topics <= _OF_ITSELF else None
+
+
+def _topic_of_clause(words: str) -> Topic | None:
     plain = _ASKED.sub("", words)
     found = _EN_TOPIC.fullmatch(words) or _EN_TOPIC.fullmatch(plain) or _ZH_TOPIC.fullmatch(words)
     return Topic(found.lastgroup) if found and found.lastgroup else None

@@ -17,22 +17,25 @@ LEAD = re.compile(
 )
 REMEMBERS = re.compile(r"(?:do|can|could) you (?:still )?(?:remember|recall) |remember (?=wh)")
 TAIL = re.compile(
-    r"(?:[ ,]+(?:(?:the )?last time you (?:looked|were (?:in )?there)|please|(?<!just )now|thanks"
+    r"(?:[ ,]+(?:while (?:i|we)(?: was| were|'ve been| have been|'m| am) (?:out|away|asleep|gone"
+    r"|sleeping|shopping|at (?:work"
+    r"|school|the shops)|in (?:bed|town|the shower|here))|in the meantime|or not(?: yet)?|yet"
+    r"|(?:the )?last time you (?:looked|were (?:in )?there)|please|(?<!just )now|thanks"
     r"|thank you|again|at all|before|previously|robot|pons))+$"
 )
 SPANS = (
     ("hour", r"(?:with)?in the (?:last|past) (?:half )?hour|just now|a moment ago|a minute ago"),
-    ("morning", r"(?:earlier )?this morning"),
-    ("afternoon", r"(?:earlier )?this afternoon"),
+    ("morning", r"(?:earlier )?this morning|all morning|the whole morning"),
+    ("afternoon", r"(?:earlier )?this afternoon|all afternoon"),
     ("evening", r"(?:earlier )?this evening|tonight"),
     ("night", r"last night|yesterday (?:evening|night)|during the night"),
     ("yesterday", r"(?:since )?yesterday(?: (?:morning|afternoon))?|the day before"),
-    ("today", r"(?:earlier )?today|so far today|earlier(?: on)?"),
+    ("today", r"(?:earlier )?today|so far today|earlier(?: on)?|all day(?: long)?|the whole day"),
     ("week", r"this week|(?:in )?the (?:last|past) (?:few days|week)|lately|recently"),
 )
 _THE = r"(?:the |a |an |my |our |your |any |some )?"
 PLACE = re.compile(
-    rf"(?: (?:right |over )?(?:in|inside|into|at|on|near|to|around|by)"
+    rf"(?: (?:right |over )?(?:(?:in )?through|in|inside|into|at|on|near|to|around|by)"
     rf" {_THE}(?P<at>{MARK})(?: room)?| (?:in )?(?P<here>here|this room))$"
 )
 _SEE = r"(?:see|notice|spot|find|meet|come across)"
@@ -50,6 +53,10 @@ THING = re.compile(
     rf"|(?:have|did) (?:i|we) (?:ever )?(?:tell|told|say|said)(?: you)? where"
     rf" {_WHAT.replace('what', 'k')} (?:is|are|was|were)"
     rf"|where did (?:i|we) say {_WHAT.replace('what', 'i')} (?:was|were|is|are)"
+    rf"|where (?:i|we) (?:said|told you)(?: that)? {_WHAT.replace('what', 'l')} (?:was|were|is|are)"
+    rf"|where (?:did (?:i|we) say|(?:i|we) (?:said|told you))(?: that)? (?:i|we)(?:'d|'ve| had"
+    rf"| have)? (?:put|left|kept|hid)"
+    rf" {_WHAT.replace('what', 'm')}"
     rf"|where {_WHAT.replace('what', 'f')} (?:was|were)"
     rf"|(?:have|had) you ever {_SEEN} {_WHAT.replace('what', 'g')}"
     rf"|when (?:was|were) {_WHAT.replace('what', 'h')} (?:last )?{_SEEN}"
@@ -73,6 +80,7 @@ NOW = re.compile(
 )
 """Asked of now: answered from memory where it knows something, else it is offered to look."""
 ANYTHING = re.compile(
+    r"(?:did|has) anything (?:happen|happened)(?: interesting| odd| strange)?|"
     rf"what (?:all )?(?:did you {_SEE}|have you {_SEEN}|(?:was|were)(?: there)?|you saw|you"
     rf" have {_SEEN}"
     r"|was going on|happened)"
@@ -89,6 +97,10 @@ PERSON = re.compile(
     rf"| by| past"
     r"| out| through)?)?"
     rf"|did (?:{_SOMEBODY}) (?:come|go|walk|enter|stop|pass|visit)(?: in| by| past| through)?"
+    rf"|(?:(?:has|have) )?(?:{_SOMEBODY}) (?:been|come|called|visited|stopped|popped)(?: in| by"
+    rf"| round| over| here| there| past"
+    r"| through)*|did (?:i|we) have (?:any )?(?:visitors|guests|callers)|(?:has"
+    r"|have) there been (?:any )?(?:visitors|guests)"
     r"|who (?:all )?(?:was|were|came|went|walked|has been|have been)(?: there| in| by)?"
     r"|who (?:did you|have you) (?:see|seen|meet|met|find|found)|who you (?:saw|have seen|met)"
 )
@@ -96,7 +108,10 @@ ENTERS = re.compile(
     rf"who entered(?: {_THE}(?P<at>{MARK}))?|did (?:{_SOMEBODY}) enter {_THE}(?P<at2>{MARK})"
 )
 DEEDS = re.compile(
-    r"what (?:all )?(?:did you do|have you (?:done|been doing|been up to)"
+    r"what(?:'ve| have) you been (?:doing|up to)|what did you get up to|did you do anything"
+    r"|what have you (?:actually|even) (?:done|been doing)|how many [a-z ]{2,30} you (?:counted"
+    r"|had counted)"
+    r"|what (?:all )?(?:did you do|have you (?:done|been doing|been up to)"
     r"|were you (?:just )?(?:doing|up to)"
     r"|did you just do)"
     r"|what you (?:did|have done|were doing|have been doing)"
@@ -106,7 +121,13 @@ DEEDS = re.compile(
 )
 VISITS = re.compile(
     r"(?:when did you last (?:go|drive)|have you (?:already )?(?:been|gone|driven)"
-    r"|did you (?:go|drive)|were you)"
+    r"|did you (?:go|drive)|were you|when were you last"
+    r"|when was the last time (?:that )?you (?:were|went|drove)"
+    r"|(?:did|have) you (?:already |even |ever )*(?:go(?:ne)? (?:and )?)?(?:been|look(?:ed)?"
+    r"|check(?:ed)?)(?: around)?)"
+    rf"|(?:(?:did|have) you (?:already |even |ever )*(?:go(?:ne)? (?:and )?)?|when did you last "
+    rf"|when was the last time (?:that )?you )"
+    rf"(?:check(?:ed)?|visit(?:ed)?|done?|did|patrol(?:led)?) {_THE}(?P<at>{MARK})(?: already)?"
 )
 """Asks whether it was at a place."""
 TOLD = re.compile(

@@ -80,6 +80,7 @@ def _take_apart(marked: MarkedText, words: ModuleType, room: str | None) -> _Que
     for _ in range(2):  # "in the kitchen this morning", and the other way round
         if when is None:
             said, when = _take_time(said, words)
+            said = words.TAIL.sub("", said)
         if words is english and place is None and (at := english.PLACE.search(said)) is not None:
             place = _place(at["at"], marked) if at["at"] else room
             if place is None:
@@ -111,15 +112,19 @@ def _read_english(asked: _Question, room: str | None) -> RecallReading | None:
     text = asked.text
     if english.DEEDS.fullmatch(text):
         return _reading(asked, deeds=True) if asked.place is None else None
-    if english.VISITS.fullmatch(text) and asked.place is not None:
-        return _reading(asked, deeds=True)
+    if (been := english.VISITS.fullmatch(text)) is not None:
+        place = _spot(been, asked, room)
+        if place is not None:
+            return _reading(asked, None, place, deeds=True)
     if (entered := english.ENTERS.fullmatch(text)) is not None:
         place = _place(entered["at"] or entered["at2"], asked.marked) or asked.place
         return _reading(asked, "person", place)
     if english.PERSON.fullmatch(text):
         return _reading(asked, "person")
     if english.ANYTHING.fullmatch(text):
-        return _reading(asked) if asked.place or asked.when or "you" in text else None
+        return (
+            _reading(asked) if asked.place or asked.when or re.search("you|happen", text) else None
+        )
     if (told := english.TOLD.fullmatch(text)) is not None:
         what = _first(told)
         return _name_thing(asked, what, english) if what else _reading(asked)

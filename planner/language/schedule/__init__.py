@@ -8,6 +8,8 @@ from planner.language.schedule.command import (
     ChangeOrders,
     CorrectOrder,
     Delay,
+    KeepHalf,
+    KeepToHours,
     LeaveOutDays,
     ListOrders,
     OrderChange,
@@ -17,12 +19,14 @@ from planner.language.schedule.command import (
     ScheduleCommand,
     can_lean,
 )
-from planner.language.schedule.reader import read_order_command, split_time
+from planner.language.schedule.reader import complete_order, read_order_command, split_time
 
 __all__ = [
     "ChangeOrders",
     "CorrectOrder",
     "Delay",
+    "KeepHalf",
+    "KeepToHours",
     "LeaveOutDays",
     "ListOrders",
     "OrderChange",
@@ -31,6 +35,7 @@ __all__ = [
     "Retime",
     "ScheduleCommand",
     "can_lean",
+    "complete_order",
     "read_order_command",
     "split_time",
 ]

@@ -9,30 +9,27 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal
 
 from planner.language.schedule.asked import KINDS, MY, ZH_ALL, ZH_KINDS, read_asked
 from planner.language.schedule.command import ChangeOrders
-from planner.language.schedule.parts import DayPart, MonthDay, OnceDay, TimeOfDay, combine
+from planner.language.schedule.parts import (
+    EVERY_DAY,
+    DayPart,
+    MonthDay,
+    OnceDay,
+    TimeOfDay,
+    WeekDays,
+    combine,
+)
+from planner.language.schedule.removals import read_removal
 from planner.plan.timing import DayTime, InRule
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import OrderCommand
-    from planner.language.schedule.parts import Part
+    from planner.language.schedule.parts import Part, ReadsTiming, ReadsWhole
 
     Act = Literal["remove", "pause", "resume"]
-
-
-class ReadsWhole(Protocol):
-    """Return the parts of a time that a whole text is; none where it is anything else."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
-
-
-class ReadsTiming(Protocol):
-    """Tell whether a text is, or ends with, a time that comes again."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> bool: ...
 
 
 _OFTEN = (
@@ -85,8 +82,11 @@ def read_about(
     asked = read_asked(folded, whole, chinese=chinese)
     if asked is not None:
         return asked
-    if chinese:
-        return _read_chinese(folded, reads, whole)
+    said = (_read_chinese if chinese else _read_english)(folded, reads, whole)
+    return said or read_removal(folded, reads, whole, chinese=chinese)
+
+
+def _read_english(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeOrders | None:
     reminding = _REMINDING.fullmatch(folded)
     if reminding is not None:
         return ChangeOrders("remove", reminding["of"] or "", reminders=True)
@@ -158,16 +158,18 @@ def _read_named(act: Act, rest: str, reads: ReadsTiming) -> ChangeOrders | None:
     kind = found["kind"] or found["kind2"] or ""
     names = ("of", "what", "often", "id", "one", "called")
     which = next((found[name] for name in names if found[name]), "")
+    if re.search(r"\bor\b", which) is not None:
+        return None  # a choice
     if found["one"] and not reads(found["one"], in_chinese=False):
         return None
     alone = bool(found["kind"]) and not which and _ONE.fullmatch(kind) is not None
     return ChangeOrders(
-        act, which.strip(), reminders="reminder" in kind, is_single=alone and not rest.startswith("all"),
+        act, which.strip(), reminders="reminder" in kind, is_single=alone and not rest.startswith(("all", "every", "each")),
         is_sure=not found["called"],
     )  # fmt: skip
 
 
-def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> OrderCommand | None:
+def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeOrders | None:
     reminding = _ZH_REMIND.fullmatch(folded)
     if reminding is not None:
         return ChangeOrders("remove", reminding["of"] or "", reminders=True)
@@ -184,11 +186,16 @@ def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> OrderCo
         folded,
     )
     if unwanted is not None:
-        return ChangeOrders("remove", unwanted["of"], is_sure=False)
+        return ChangeOrders(
+            "remove", unwanted["of"], is_sure=reads(unwanted["of"], in_chinese=True)
+        )
     denied = re.fullmatch(rf"{_ZH_NOT}(?P<what>.+?)了", folded)
     if denied is not None and reads(denied["what"], in_chinese=True):
         return ChangeOrders("remove", denied["what"])
     return _zh_denied(folded, whole)
+
+
+_ZH_GENERAL = re.compile(r"(?:提醒|叫|喊|做|去|来|说|弄)(?:我们?)?")
 
 
 def _zh_denied(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
@@ -198,6 +205,12 @@ def _zh_denied(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     if found is None or not re.search(r"再|以后|今后|了$", folded):
         return None
     parts = whole(found["t"], in_chinese=True)
+    clocked = any(isinstance(part, TimeOfDay) for part in parts)
+    if clocked and re.match(rf"{re.escape(found['t'])}(?:以后|今后)", folded):
+        return None  # 晚上十点以后别说了: an hour from which it is not done
+    days = [part for part in parts if isinstance(part, WeekDays) and part.days != EVERY_DAY]
+    if days and len(days) == len(parts) and _ZH_GENERAL.fullmatch(found["what"]):
+        return None  # 周末就别提醒了: days that the order of a moment ago leaves out
     one_day = any(isinstance(part, (OnceDay, MonthDay)) for part in parts)
     if not parts or one_day:
         return None

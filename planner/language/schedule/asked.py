@@ -25,7 +25,10 @@ KINDS = (
     r"(?:reminders?|standing orders?|routines?|schedules?|scheduled (?:tasks?|orders?|jobs?)"
     r"|timers?|alarms?|recurring (?:tasks?|orders?)|daily (?:tasks?|orders?))"
 )
-MY = r"(?:all (?:of )?)?(?:the|my|your|our|this|that|those|these)? ?"
+MY = (
+    r"(?:(?:all(?: of)?|every(?: single| last)?|each) )?"
+    r"(?:the|my|your|our|this|that|those|these)? ?"
+)
 _LIST = re.compile(
     r"what do you do (?:regularly|by yourself)"
     rf"|(?:what|which) (?:are )?{MY}{KINDS}(?: (?:do (?:i|you|we) have|are (?:there|set|active)"
@@ -34,6 +37,18 @@ _LIST = re.compile(
     rf"|(?:are there|is there) (?:any )?{KINDS}"
     rf"|(?:what|which) {KINDS} (?:have i got|do i have|did i set|have i made|are on)"
     r"|what (?:have i|did i) (?:ask(?:ed)?|told|tell|give|given) you to do(?: regularly| so far)?"
+    rf"|(?:(?:are there|do (?:i|we) have|have (?:i|we) got|did i set|is there) )?any (?:more |other )?{KINDS}"
+    rf"(?: (?:set|on|left|at all|for (?:me|us)|coming up|running|still on))*"
+    rf"|(?:what|which) (?:other )?(?:{KINDS}|jobs|tasks|chores|duties|things|orders) (?:have|did|do|are) (?:i|we|you|there)"
+    r"(?: (?:got|have|had|set|give|given|gave|ask(?:ed)?|told|tell|made|put|keep|kept|remember))*"
+    r"(?: (?:you|for (?:me|us|you)|on|down|to do|doing|coming up|still))*"
+    r"|(?:what|which things) (?:have|did|do|am|are) (?:i|we|you) (?:(?:still )?(?:got|get|have|having|put|set|kept|supposed"
+    r"|meant|asked|told|ask|tell|got down|had))(?: (?:you|down|on|for (?:me|us|you)|your list|on your list|to))*"
+    r"(?: (?:do|doing|remember|remind (?:me|us)(?: (?:of|about|to do))?))?"
+    r"|what(?:'s| is| are) (?:on )?(?:your|my|the) (?:list|to-?do list|daily (?:jobs|tasks|chores|duties)|duties|chores|standing orders)"
+    rf"|(?:go|run) (?:through|over) {MY}{KINDS}|read(?: me)?(?: out)? {MY}{KINDS}(?: out)?(?: to me)?"
+    r"|(?:tell me|list|read(?: me)?(?: out)?) (?:all|everything|what)(?: the things)?(?: that)? (?:i|we)(?:'ve| have)?"
+    r" (?:asked|told|given|got|set|want)(?: for)?(?: you)?(?: (?:to do|down|down to do))?"
 )
 _AT_TIME = re.compile(
     r"what (?:do you do|will you do|are you going to do|have you planned|do you have planned"
@@ -44,7 +59,7 @@ _AT_TIME = re.compile(
     r"|(?:what|which reminders) (?:do (?:i|we) have|have (?:i|we) got)(?: on| planned| coming up)?(?: for)?"
     r" (?P<c>.+)"
     r"|(?:what(?:'s| is) (?:the|my|your|our) (?:plan|schedule|agenda|programme|program)(?: for| on)? (?P<d>.+))"
-    r"|(?:do (?:i|we) have anything|have (?:i|we) got anything)(?: on| planned)?(?: for)? (?P<e>.+)"
+    r"|(?:do (?:i|we) have anything|have (?:i|we) got anything)(?: on| planned| set| down| coming up)?(?: for)? (?P<e>.+)"
 )
 _LEFT = re.compile(
     r"how (?:long|much (?:time|longer)|many minutes)(?: more)?"
@@ -71,7 +86,20 @@ _ZH_LIST = re.compile(
     rf"|把{ZH_ALL}{ZH_KINDS}(?:都)?(?:列出来|说一下|告诉我|念一下)"
     rf"|(?:现在|目前|我|都)*(?:设置?|定|安排)了(?:哪些|什么){ZH_KINDS}啊?"
     r"|我(?:都)?(?:让|叫|要|请)你(?:定时)?(?:做|干)(?:了)?(?:什么|啥|哪些事情?)"
+    r"|我?(?:都|一共|总共|到底)*(?:给|让|叫|要|请|跟|替)?你?(?:都|一共|定时|平时)*(?:安排|布置|交代|吩咐|设置?|定|记(?:着|住|下)?|说)(?:过|了|的)*"
+    r"(?:都)?(?:有|是)?(?:哪些|什么|啥|多少|几个)(?:事[情儿]?|任务|提醒|闹钟|活儿?|东西)?(?:了|来着)?"
+    r"|我(?:给|让|叫|要)?你?(?:安排|布置|交代|吩咐|定|设)的(?:事情?|任务|提醒|闹钟)(?:都)?(?:有|是)(?:哪些|什么|啥)"
+    rf"|{ZH_ALL}{ZH_KINDS}(?:都)?(?:有|是)(?:哪些|什么|啥|几个)"
+    r"|(?:你)?(?:都)?(?:有|记着|记了)(?:哪些|什么|啥|几个)(?:任务|提醒|闹钟|定时)(?:要做)?"
+    rf"|(?:念|读|说|报|数)(?:一下|一遍|一念|给我听)*{ZH_ALL}{ZH_KINDS}(?:给我听|一遍|出来)*"
+    rf"|把{ZH_ALL}{ZH_KINDS}(?:都|全部?)?(?:念|读|说|讲|报|列)(?:一遍|一下|出来|给我|我?听|来听听)*"
+    r"|我(?:让|叫|要|请)你提醒我(?:些|过)?(?:什么|啥|哪些事?)(?:来着)?"
 )
+_READ_OUT_ZH = re.compile(
+    r",?(?:你)?(?:给我|帮我)?(?:念|读|说|讲|报|数|列)(?:一遍|一下|出来|给我|我?听|来听听|看)+$"
+)
+"""How the answer is to be given: aloud, as any."""
+_WHICH_ZH = re.compile(r"什么|啥|哪|几")
 _ZH_WHAT = r"(?:什么|啥|些什么|哪些)(?:事情?|安排|计划|任务|提醒|活动)?"
 _ZH_AT_TIME = re.compile(
     rf"(?:我)?(?:让|叫|要|请)?(?:你)?(?P<a>.+?)(?:我)?(?:都|会|要|打算|准备|还)*(?:让|叫|请)?你?"
@@ -91,8 +119,12 @@ _ZH_NEXT = re.compile(
 
 def read_asked(folded: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | None:
     """Return what a sentence asks about standing orders; None where it asks nothing of them."""
-    if (_ZH_LIST if chinese else _LIST).fullmatch(folded) is not None:
+    folded = _READ_OUT_ZH.sub("", folded) if chinese and _WHICH_ZH.search(folded) else folded
+    listed = _ZH_LIST if chinese else _LIST
+    if listed.fullmatch(folded) is not None:
         return ListOrders()
+    if not chinese and (of_day := _read_listed_day(folded, whole)) is not None:
+        return of_day
     at_time = (_ZH_AT_TIME if chinese else _AT_TIME).fullmatch(folded)
     if at_time is not None:
         words = next(text for text in at_time.groupdict().values() if text)
@@ -106,6 +138,17 @@ def read_asked(folded: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | 
         return ListOrders(which, reminders=reminds, next_runs=True, is_sure=kind is not None)
     following = (_ZH_NEXT if chinese else _NEXT).fullmatch(folded)
     return None if following is None else _read_next(following, chinese=chinese)
+
+
+def _read_listed_day(folded: str, whole: ReadsDays) -> ListOrders | None:
+    """Read "any reminders set for tomorrow", "what have I got you down to do every day"."""
+    for cut in re.finditer(r" (?:set |due |planned |coming up )?(?:for |on )?(?=\S)", folded):
+        if _LIST.fullmatch(folded[: cut.start()]) is None:
+            continue
+        found = _read_days(folded[cut.end() :], whole, chinese=False)
+        if found is not None:
+            return found
+    return None
 
 
 def _read_next(found: re.Match[str], *, chinese: bool) -> ListOrders:

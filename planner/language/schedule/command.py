@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from planner.language.schedule.parts import OnceDay, Part, Problem
+from planner.language.schedule.parts import DayPart, OnceDay, Part, Problem
 from planner.plan.timing import DayTime, InRule, SpokenRule
 
 
@@ -22,6 +22,10 @@ class ScheduleCommand:
     reminder: str | None = None
     """The words that it reminds of; empty: of the time alone."""
     problem: Problem | None = None
+    who: str = ""
+    """Somebody is waited for by name, whom the robot can't tell from others."""
+    offer: str = ""
+    """A sentence that comes nearest to an event that can't be noticed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +53,8 @@ class ChangeOrders:
     """Only reminders are meant."""
     is_single: bool = False
     """One is meant ("the reminder"): of several a person says which."""
+    is_every: bool = False
+    """All that fit are meant: "all the things I told you to do every day"."""
     until: DayTime | InRule | None = None
     """A pause ends then."""
     until_words: str = ""
@@ -91,7 +97,21 @@ class RemindAgain:
     seconds: float | None = None
 
 
-OrderChange = Retime | LeaveOutDays | Delay | RemindAgain
+@dataclass(frozen=True, slots=True)
+class KeepToHours:
+    """Heed an event in these hours of the day alone, like ``16:00-00:00``."""
+
+    hours: str
+
+
+@dataclass(frozen=True, slots=True)
+class KeepHalf:
+    """Keep an order's hour, in this part of the day: "in the afternoon, of course"."""
+
+    part: DayPart
+
+
+OrderChange = Retime | LeaveOutDays | Delay | RemindAgain | KeepToHours | KeepHalf
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from planner.language.schedule.command import (
     Retime,
 )
 from planner.language.schedule.parts import After, OnceDay, WeekDays
+from planner.language.schedule.windows import read_half, read_window
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import OrderChange
@@ -64,7 +65,7 @@ _LEAVE_OUT = re.compile(
 )
 _KEEP_TO = re.compile(
     rf"{_NO}(?:(?:make|do) it )?(?:but )?(?:only|just)(?: (?:on|at|for))?(?: the)? (?P<d>[a-z, ]+?)"
-    rf"|{_NO}(?:(?:make|do) it )?(?:on|at) (?P<d2>[a-z, ]+?) only"
+    rf"|{_NO}(?:(?:make|do) it )?(?:on |at )?(?P<d2>[a-z, ]+?) only"
 )
 _DAYS_NAMED = re.compile(
     rf"(?:(?:do|run) )?{_W}(?:,|,? but)? (?:(?P<not>not|never|except)|only|just)(?: on| at)?(?: the)?"
@@ -103,7 +104,7 @@ _ZH_RETIME = (
     re.compile(r"(?:我说的是|我是说|应该是)(?P<t>.+)"),
 )
 _ZH_RENAMED = re.compile(rf"(?:把|将)?(?P<w>.+?)(?:的)?(?:时间)?{_ZH_CHANGE}(?P<t>.+)")
-_ZH_NONE = r"(?:就?(?:不用|不要|不必|不需要|别|免了?|除外)(?:了|做|去|叫|提醒|来)*)"
+_ZH_NONE = r"(?:就?(?:不用|不要|不必|不需要|别|免了?|除外|算了)(?:了|做|去|叫|提醒|来)*)"
 _ZH_LEAVE_OUT = re.compile(
     rf"{_ZH_NO}(?:但|但是)?(?:除了?)?(?P<d>.+?){_ZH_NONE}|{_ZH_NO}除了(?P<d2>.+?)(?:以外|之外|外)?"
 )
@@ -142,13 +143,14 @@ def read_correction(
         return read_correction(by_id["rest"], reads, chinese=chinese, named=by_id["id"])
     found = (_Chinese if chinese else _English)(reads).read(folded)
     if found is None:
-        return None
+        hours = read_window(folded, reads, chinese=chinese) or read_half(folded, chinese=chinese)
+        return CorrectOrder(hours, folded, named) if hours is not None else None
     change, which, words = found
     sure = bool(named or (which and _KIND.search(which)))
     return CorrectOrder(change, words or folded, named or which, is_sure=sure)
 
 
-_KIND = re.compile(r"\b(?:reminder|alarm|timer|standing order|routine)s?\b|提醒|闹钟|定时")
+_KIND = re.compile(r"\b(?:reminder|alarm|timer|standing order|routine)s?\b|提醒|闹钟|定时|[叫喊]我")
 _Found = tuple["OrderChange", str, str]
 """The change, the words that name an order, and the change in words where others stand with it."""
 

@@ -18,6 +18,7 @@ from planner.language.schedule.parts import (
     DayPart,
     EventPart,
     Interval,
+    MinutePart,
     OnceDay,
     Part,
     TimeOfDay,
@@ -65,6 +66,7 @@ _END = r"(?![\w'])"
 _CLOCK = re.compile(
     rf"(?:at |by )?(?:(?:round )?about |around |roughly |exactly )?(?:(?P<h>\d{{1,2}})[:.](?P<m>\d{{2}}){_half('ap')}?(?: ?h\b)?"
     rf"|(?P<past>{_M}) (?P<way>past|to|after|before) (?P<ph>{_H}){_half('ap4')}?"
+    rf"|half (?P<hh>{_H}){_half('ap5')}?(?! (?:hours?|minutes?|metres?|meters?|steps?|of|cups?))"
     rf"|(?P<oh>{_H})(?: (?P<om>{_M}))?(?: ?o'clock{_half('ap2')}?"
     rf"|{_half('ap3')})"
     rf"|(?P<noon>noon|midday|midnight))(?: sharp| or so)?{_END}"
@@ -75,9 +77,13 @@ _ORDERS = (
     r"|patrol|make|take|give|you)"
 )
 _AT = re.compile(
-    rf"(?:at (?:{_ABOUT} |exactly )?|{_ABOUT} (?=(?:{_H})(?: (?:{_M}))?(?: or so|[,.;!]|$| {_ORDERS}\b)))"
+    rf"(?:at (?:{_ABOUT} |exactly )?|{_ABOUT} (?=(?:{_H})(?: (?:{_M}))?(?: or so|[,.;!]|$| {_ORDERS}\b| (?:tomorrow|today|tonight|in the)\b)))"
     rf"(?P<h>{_H})(?: (?P<m>{_M}))?(?: sharp| or so|ish)?{_END}(?! (?:past|to) (?:{_H})\b)"
 )
+_PAST_HOUR = re.compile(
+    rf"(?:at )?(?P<m>half|(?:a )?quarter|five|ten|twenty) (?P<way>past|to){_END}(?! (?:{_H})\b)(?=[ ,.;!]*$)"
+)
+"""Without its hour, which an order that is changed has."""
 _IN_THE = re.compile(rf"(?:in the (?P<a>{_PART})|at (?P<b>night|noon)){_END}")
 _EVERY = re.compile(
     rf"(?:(?:every|each)(?: single)? (?P<what>day|weekday|workday|working day|weekend|{_PART})"
@@ -134,14 +140,16 @@ _UPON = tuple((re.compile(rf"(?:{pattern}){_END}"), event) for pattern, event in
 POLITE = re.compile(
     r"(?:(?:please|pls|hey|hi|ok|okay|so|well|robot|pons|kindly|now|and|then|(?:can|could|would|will)"
     r" you|i(?:'d| would) like you to|i want you to|i need you to|you (?:should|must|have to)"
-    r"|make sure (?:to|that you)|from now on)[ ,]+)+"
+    r"|make sure (?:to|that you)|from now on|add another(?: one)?|another one|one more(?: thing)?"
+    r"|also)[ ,:]+)+"
 )
 POLITE_END = re.compile(
-    r"(?:[ ,]+(?:please|thanks|thank you|robot|for me|from now on|from today))+$"
+    r"(?:[ ,]+(?:please|thanks|thank you|robot|for me|from now on|from today|though|mind you"
+    r"|will you|would you|can you|if you don't mind|love|mate|dear))+$"
 )
 ASKS = re.compile(
     r"(?:what|who|whom|whose|where|why|how|which|is|are|was|were|did|does|do (?:you|i|we|they)"
-    r"|have you|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
+    r"|have (?:you|i|we)|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
 )
 """A question, or a condition that is no event."""
 _GONE = (
@@ -164,6 +172,15 @@ REMIND = re.compile(
     r"(?:remind me(?: again)?|don't let me forget|do not let me forget|set a reminder(?: for me)?"
     r"|give me a reminder|(?P<wake>wake me(?: up)?))(?![\w'])"
 )
+TIMELESS = re.compile(
+    r"(?:remind me|set a reminder(?: for me)?|give me a reminder)[ ,:]+(?:to|about|of|for)\b"
+    r"|(?:don't|do not) let me forget\b"
+)
+OPEN = re.compile(
+    r"\b(?:if|when|whenever|once|until|till|unless|before|after|what|where|who|how|which|whether|why"
+    r"|while|as soon|next time|every|again|later)\b|[?,;\"]"
+)
+"""With these it is not the time alone that is missing."""
 OF = re.compile(r"[ ,:]*(?:(?:to|about|of|that|for|with|saying)(?![\w'])[ ,:]*)?")
 WAKE_UP = "time to get up"
 LEAD = re.compile(
@@ -174,23 +191,30 @@ LEAD = re.compile(
 def _clock(found: re.Match[str]) -> Part | None:
     if found["noon"]:
         return TimeOfDay(0 if found["noon"] == "midnight" else 12, 0, sure=True)
-    hour_word = found["h"] or found["ph"] or found["oh"]
+    hour_word = found["h"] or found["ph"] or found["oh"] or found["hh"]
     hour, minute = _number(hour_word), 0
     if found["m"]:
         minute = int(found["m"])
+    elif found["hh"]:  # "half seven" is 7:30 in English
+        minute = 30
     elif found["om"]:
         minute = _MINUTES[found["om"]]
     elif found["past"]:
         minute = _MINUTES[found["past"]]
         if found["way"] in ("to", "before"):
             hour, minute = (hour - 1) or 12, 60 - minute
-    half = found["ap"] or found["ap2"] or found["ap3"] or found["ap4"]
+    half = found["ap"] or found["ap2"] or found["ap3"] or found["ap4"] or found["ap5"]
     if half:
         if not 1 <= hour <= 12:  # "15 pm"
             return None
         hour = hour % 12 + (12 if half == "p" else 0)
     sure = bool(half) or hour > 12 or hour == 0 or (found["m"] and len(hour_word) > 1)
     return TimeOfDay(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None
+
+
+def _past_hour(found: re.Match[str]) -> Part:
+    minute = _MINUTES[found["m"]]
+    return MinutePart(minute if found["way"] == "past" else -minute)
 
 
 def _bare(found: re.Match[str]) -> Part | None:
@@ -285,6 +309,7 @@ PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]]
     (_IN, _in),
     (_CLOCK, _one(_clock)),
     (_AT, _one(_bare)),
+    (_PAST_HOUR, _one(_past_hour)),
     (_ONE_DAY, _one_day),
 )
 """What begins a part, and the parts that it makes; empty: it is none after all."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from calendar import monthrange
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Protocol
 
 from planner.plan.timing import (
     MAX_AHEAD_S,
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past",
-                  "order_no_such_date"]  # fmt: skip
+                  "order_no_such_date", "order_no_event", "order_event_place"]  # fmt: skip
 """Why a when that was said can't be kept."""
 
 
@@ -47,6 +47,14 @@ USUAL_HOUR = {
     DayPart.NIGHT: 22,
 }
 """What "every evening" means where no hour is said; the answer tells it."""
+HOURS_OF = {
+    DayPart.MORNING: "05:00-12:00",
+    DayPart.NOON: "11:00-14:00",
+    DayPart.AFTERNOON: "12:00-18:00",
+    DayPart.EVENING: "17:00-23:00",
+    DayPart.NIGHT: "22:00-06:00",
+}
+"""When an event counts that is waited for "at night"; the answer tells it."""
 MOST_DAYS = 366
 LEAP_YEAR = 2028
 EVERY_DAY = frozenset(range(7))
@@ -110,13 +118,34 @@ class TimeOfDay:
 
 
 @dataclass(frozen=True, slots=True)
+class MinutePart:
+    """Name so many minutes past an hour that is not said ("half past"); before zero: to it."""
+
+    minutes: int
+
+
+@dataclass(frozen=True, slots=True)
 class EventPart:
     """Name an event."""
 
     event: WorldEvent
 
 
-Part = WeekDays | Interval | OnceDay | MonthDay | After | TimeOfDay | EventPart | DayPart
+Part = (
+    WeekDays | Interval | OnceDay | MonthDay | After | TimeOfDay | MinutePart | EventPart | DayPart
+)
+
+
+class ReadsWhole(Protocol):
+    """Return the parts of a time that a whole text is; none where it is anything else."""
+
+    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
+
+
+class ReadsTiming(Protocol):
+    """Tell whether a text is, or ends with, a time that comes again."""
+
+    def __call__(self, folded: str, *, in_chinese: bool) -> bool: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,8 +189,8 @@ def combine(parts: Sequence[Part]) -> Timing | None:
         case After(seconds):
             return _lasting(seconds, InRule)
         case EventPart(event):
-            alone = clock is None and daypart is None
-            return Timing(EventRule(event=event)) if alone else None
+            hours = HOURS_OF[daypart] if daypart is not None else None
+            return Timing(EventRule(event=event, hours=hours)) if clock is None else None
         case _:
             return None
 
@@ -197,6 +226,19 @@ def list_days(days: frozenset[int]) -> str:
         if days == WORKDAYS
         else ",".join(map(str, sorted(days)))
     )
+
+
+def read_days(week: str) -> frozenset[int]:
+    """Return the days of the week of cron's field; none where it can't be read."""
+    if week == "*":
+        return EVERY_DAY
+    found: set[int] = set()
+    for each in week.split(","):
+        first, _, last = each.partition("-")
+        if not (first.isdigit() and (last or first).isdigit()):
+            return frozenset()
+        found.update(day % 7 for day in range(int(first), int(last or first) + 1))
+    return frozenset(found)
 
 
 def _by_clock(day: OnceDay | MonthDay, clock: TimeOfDay | None, daypart: DayPart | None) -> Timing:
@@ -250,3 +292,11 @@ def hour_in(hour: int, daypart: DayPart) -> int:
             return hour % 12 if hour <= 5 or hour == 12 else hour + 12
         case _:
             return hour % 12 + 12
+
+
+def leave_days_out(rule: CronRule, named: frozenset[int], *, keeps: bool) -> CronRule | None:
+    """Return a rule without these days of the week, or on them alone; None where none is left."""
+    *at, week = rule.cron.split()
+    days = read_days(week)
+    days = days & named if keeps else days - named
+    return CronRule(cron=" ".join((*at, list_days(days)))) if days else None

@@ -90,6 +90,30 @@ def test_an_order_just_given_is_corrected_step_by_step(tmp_path: Path) -> None:
     tell(tmp_path, story)
 
 
+def test_an_order_upon_an_event_is_kept_to_hours(tmp_path: Path) -> None:
+    async def story(kept: Kept) -> None:
+        told = await say(kept, "when Dad comes in, tell him dinner is in the oven")
+        assert "for anybody whom I see come, not for Dad alone" in told
+        assert "between 16:00 and 00:00" in await say(kept, "only after four o'clock though")
+        assert "06:00 到 22:00" in await say(kept, "晚上十点以后就别说了，会吵到宝宝")
+        assert len(orders(kept)) == 1
+
+    tell(tmp_path, story)
+
+
+def test_all_that_is_meant_is_dropped_and_no_other(tmp_path: Path) -> None:
+    async def story(kept: Kept) -> None:
+        await say(kept, "every day at eight in the evening say hello")
+        await say(kept, "every day at nine in the evening say good night")
+        await say(kept, "tomorrow at seven in the morning remind me to get up")
+        assert "o1" in await say(kept, "forget all the things I told you to do every day")
+        assert list(orders(kept)) == ["o3"]
+        await say(kept, "把明早的闹钟取消了")
+        assert orders(kept) == {}
+
+    tell(tmp_path, story)
+
+
 def test_a_corrected_order_is_on_disk_and_fires_at_its_new_time_alone(tmp_path: Path) -> None:
     async def story(kept: Kept) -> None:
         await say(kept, "every day at 12:10 say hello")

@@ -135,6 +135,21 @@ def test_events_fire_with_a_pause_between_and_not_while_held() -> None:
     assert len(life.told) == 1
 
 
+def test_an_event_counts_only_in_its_hours() -> None:
+    by_day, by_night = (
+        order(number, Upon(event=WorldEvent.PERSON_SEEN, hours=hours))
+        for number, hours in ((1, "11:00-18:00"), (2, "22:00-06:00"))
+    )
+    life = Player({"o1": by_day, "o2": by_night})
+    life.start()
+    seen = RobotView(happened=(WorldEvent.PERSON_SEEN,))
+    life.tick(seen)
+    assert [name for name, *_ in life.fired] == ["o1"], "at noon"
+    life.pass_s(11 * 3600.0)
+    life.tick(seen)
+    assert [name for name, *_ in life.fired] == ["o1", "o2"], "at eleven at night"
+
+
 def test_the_same_arguments_give_the_same_answer() -> None:
     book = put(OrderBook(BERLIN), order(1, CronRule(cron="0 13 * * *")))
     book, _ = tick(book, RobotView(), ClockReading(NOON_UNIX_S, 1.0))

@@ -40,6 +40,31 @@ def test_thanks_and_praise_are_taken(text: str, understood: Callable[[str], str]
     assert understood(text) == "answer: You are welcome."
 
 
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("what can you do then? I'm just staying the weekend", "I drive to rooms"),
+        ("So what can this thing actually do? What can you do?", "I drive to rooms"),
+        ("can you recognise people's faces or just that there's a person?", "know no faces"),
+        ("do you know who I am", "know no faces"), ("what languages do you speak", "Mandarin"),
+        ("have you got arms", "no arms"), ("你都会干点儿啥", "rooms"), ("你认得我吗", "no faces"),
+        ("你听得懂广东话吗", "Mandarin"),
+    ],
+)  # fmt: skip
+def test_a_question_about_itself_is_answered(
+    text: str, part: str, understood: Callable[[str], str]
+) -> None:
+    assert understood(text).startswith("answer: ")
+    assert part in understood(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["can you recognise the kitchen", "can you tell the cat to go", "do you speak to Anna"]
+)
+def test_what_asks_of_something_else_is_not(text: str, understood: Callable[[str], str]) -> None:
+    assert not understood(text).startswith("answer: I ")
+
+
 @pytest.mark.parametrize("text", BYE)
 def test_who_leaves_is_not_greeted(text: str, understood: Callable[[str], str]) -> None:
     assert understood(text) == "answer: Until later."

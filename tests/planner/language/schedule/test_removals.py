@@ -1,0 +1,58 @@
+"""Standing orders are dropped in everyday words; what names none of them drops nothing."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.language.schedule import ChangeOrders, ListOrders, read_order_command
+
+ALL_REMINDERS = ("", True, True)
+
+
+@pytest.mark.parametrize(
+    ("text", "which", "reminders", "every"),
+    [
+        ("you can forget about the tablets reminder now", "tablets", True, False),
+        ("you don't need to remind me about the pills anymore", "the pills", True, False),
+        ("no need to remind me about the plumber", "the plumber", True, False),
+        ("scrap the plumber one", "plumber", False, False),
+        ("scrap all the reminders, the lot", *ALL_REMINDERS),
+        ("forget all the things I told you to do every day", "every day", False, True),
+        ("the pill reminder can go", "pill", True, False),
+        ("晚上九点看门那个不要了", "晚上九点看门", False, False),
+        ("把明早的闹钟取消了", "明早", False, False),
+        ("所有提醒都给我取消掉", *ALL_REMINDERS), ("定的那些提醒全取消吧", *ALL_REMINDERS),
+        ("以后不用再提醒我吃药了", "吃药", True, False),
+    ],
+)  # fmt: skip
+def test_an_order_is_dropped(text: str, which: str, reminders: bool, every: bool) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, ChangeOrders)
+    assert command.act == "remove"
+    assert (command.which, command.reminders, command.is_every) == (which, reminders, every)
+
+
+@pytest.mark.parametrize(
+    ("plain", "reason"),
+    [
+        ("cancel the tablets reminder", ", I've finished the course"),
+        ("scrap the plumber one", ", he's been"), ("push it back an hour", ", I'm still at work"),
+        ("把吃药的提醒取消", "，我已经好了"), ("改成八点吧", "，起不来"),
+    ],
+)  # fmt: skip
+def test_a_reason_beside_it_changes_nothing(plain: str, reason: str) -> None:
+    command = read_order_command(plain)
+    assert command is not None
+    assert read_order_command(plain + reason) == command
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["forget the kitchen", "drop the cup", "scrap that", "I don't need the cup any more",
+     "you can forget about the kitchen now", "cancel the reminder or the alarm",
+     "did you cancel the reminder?", "if it rains cancel the reminder",
+     "cancel the reminder, then go to the kitchen", "厨房不要了", "这个不要了", "取消了吗",
+     "提醒取消了没有", "要是下雨就把提醒取消了"],
+)  # fmt: skip
+def test_what_names_no_order_drops_none(text: str) -> None:
+    assert not isinstance(read_order_command(text), ChangeOrders | ListOrders)
