@@ -26,7 +26,6 @@ COURTESY = table(
      rf"|you can|you like|that is ok(?:ay)?|possible|it is not too much trouble){_END}", ""),
     (r"(?:^|,)? ?when(?:ever)? you(?: have| get|'ve got| have got)? (?:a|one|the|some|any) (?:moment"
      rf"|minute|sec|second|chance|time){_END}", ""),
-    (r"\bif you see (?:it|him|her|them)\b", ""),
     (r"^if (?:it is|that is) not (?:too much|any|a) (?:trouble|bother),? ", ""),
     (rf"(?:^|,)? ?when(?:ever)? you are ready{_END}", ""),
     (r"^when(?:ever)? you are ready,? ", ""),

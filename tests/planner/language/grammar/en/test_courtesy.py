@@ -24,6 +24,8 @@ SAME = (
     ),
 )
 HOLDS_BACK = (
+    "go to the kitchen if you see it",
+    "look in the kitchen and then on the sofa if you see it",
     "turn around once you see the cup",
     "turn around once and the door will open",
     "spin once the kids are there",
