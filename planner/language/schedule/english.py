@@ -115,10 +115,13 @@ _IN = re.compile(
 
 _SOMEBODY = r"(?:somebody|someone|anybody|anyone|a person|people|a visitor|a guest|a human)"
 _COMES = (
-    r"(?:comes?(?: (?:in|home|inside|by|over|here|back|near|along|up|through the door|to the door))?"
+    r"(?:comes?(?: (?:in|home|inside|by|over|here|back|near|along|up))?"
+    r"(?: (?:through |to |at |by |in )?the (?:front |main )?door)?"
     r"|enters?(?: the (?:house|home|room|flat))?|arrives?(?: home)?|shows? up|appears?|walks? in"
     r"|walks? by|is (?:here|there|at the door)|(?:gets?|is) home)"
+    r"(?! (?:(?:in|into|to|from|through|near|by|at|out of|over to) )?(?:the|my|our|your|a|an) )"
 )
+"""With a place behind it, it is another event: "when somebody comes in the kitchen"."""
 _WHEN = r"(?:when(?:ever)?|every time|each time|as soon as|once)"
 _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
     (rf"{_WHEN} {_SOMEBODY} {_COMES}", WorldEvent.PERSON_SEEN),

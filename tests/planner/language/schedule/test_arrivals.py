@@ -84,3 +84,16 @@ def test_days_are_left_out_of_a_new_order(plain: str, excepting: str, cron: str)
     assert less.order == command.order
     assert less.when is not None
     assert less.when.model_dump() == {"kind": "cron", "cron": f"0 7 * * {cron}"}
+
+
+@pytest.mark.parametrize("way", ["in the front door", "through the door", "to the door", "home"])
+def test_the_way_in_is_part_of_the_event(way: str) -> None:
+    command = read_order_command(f"when someone comes {way}, say hi")
+    assert isinstance(command, ScheduleCommand)
+    assert (command.when, command.order) == (COMES, "say hi")
+
+
+@pytest.mark.parametrize("place", ["in the kitchen", "into the study", "near the sofa"])
+def test_somebody_who_comes_elsewhere_is_no_event_and_no_drive_there(place: str) -> None:
+    command = read_order_command(f"when somebody comes {place}, say hi")
+    assert not isinstance(command, ScheduleCommand) or command.when is None
