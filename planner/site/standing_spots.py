@@ -29,6 +29,8 @@ USUAL_M = 0.3
 """Between robot and thing, where nobody says how far."""
 _STEP_M = 0.05
 MOST_SPOTS = 2
+DOORWAY_M = 1.0
+"""Wide is what a place in a wall without ends is taken for: a door that is shut."""
 THING_M = 0.15
 """From a thing's middle to its side, where no map shows it."""
 
@@ -74,7 +76,9 @@ class StandingFloor:
             back = _ahead(face, along, deep_m) if deep_m is not None else None
             wanted = [(_ahead(back, along, off_m), back)] if back is not None else []
         else:
-            return self._free(self._spots_at_ends(face, along, off_m))
+            return self._free(self._spots_at_ends(face, along, off_m)) or self._free(
+                self._spots_at_wall(face, along, off_m)
+            )
         return self._free(wanted)
 
     def about(
@@ -102,6 +106,21 @@ class StandingFloor:
                 if wide_m is not None:
                     edge = _ahead(face, way, wide_m)
                     yield _ahead(_ahead(edge, way, off_m), along, depth_m), edge
+
+    def _spots_at_wall(
+        self, face: Point, along: Point, off_m: float
+    ) -> Iterator[tuple[Point, Point]]:
+        """Yield spots before a wall at both sides of a shut door in it; of a body with ends, none.
+
+        The map shows a shut door as wall, so its width is taken to be ``DOORWAY_M``.
+        """
+        ways = (_turn_left(along), _turn_right(along))
+        inside = _ahead(face, along, 2 * _STEP_M)
+        if any(self._walk(inside, way, BODY_M, free=False) is not None for way in ways):
+            return
+        for way in ways:
+            beside = _ahead(face, way, DOORWAY_M / 2.0 + off_m)
+            yield _ahead(beside, along, -off_m), _ahead(face, way, DOORWAY_M / 2.0)
 
     def _walk(self, start: Point, way: Point, most_m: float, *, free: bool) -> float | None:
         """Return how far one walks until floor is no more free, or free again; None: too far."""

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from maps.grid import FREE
 from planner.site import Site
 from planner.site.site_view import facts_of
-from planner.site.standing_spots import REACH_M, StandingFloor, StandingSpot
+from planner.site.standing_spots import DOORWAY_M, REACH_M, StandingFloor, StandingSpot
 from tests.conftest import ROOT
 from wire import Pose2, wrap
 
@@ -100,3 +100,13 @@ def test_beside_is_at_an_end_of_it() -> None:
     pose = FACTS.targets["sofa"].pose
     for spot in floor().spots(pose, "beside", None):
         assert not 0.8 <= spot.pose.x_m <= 3.0, "outside of the sofa's own width"
+
+
+def test_beside_a_shut_door_is_before_its_wall_and_out_of_the_doorway() -> None:
+    pose = FACTS.targets["front_door"].pose
+    left, right = floor().spots(pose, "beside", None)
+    assert left.pose.x_m > 10.1 + DOORWAY_M / 2.0 + floor().radius_m
+    assert right.pose.x_m < 10.1 - DOORWAY_M / 2.0 - floor().radius_m
+    for spot in (left, right):
+        assert_stands(spot)
+        assert spot.pose.y_m < 1.0, "at the door's wall, and not in the room's middle"
