@@ -34,6 +34,7 @@ from planner.language.commands.facts import read_fact_order, read_long_fact
 from planner.language.commands.folded_text import FoldedText
 from planner.language.commands.follow_up import read_follow_up
 from planner.language.commands.statements import find_statement
+from planner.language.dialect import in_standard_words
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.schedule import OrderCommand, ScheduleCommand, read_order_command
 from planner.language.stop import is_stop
@@ -63,6 +64,13 @@ _SEPARATOR = re.compile(r"[,;:.!。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and 
 
 def intent_of(text: str) -> Intent | None:
     """Return the command to the planner itself in a sentence, or None."""
+    intent = _read_intent(text)
+    standard = in_standard_words(text) if intent is None else text
+    return intent if standard == text else _read_intent(standard)
+
+
+def _read_intent(text: str) -> Intent | None:
+    """Return the command in a sentence by just these words."""
     own = _intent_alone(text)
     if own is not None and not isinstance(own, HereCommand):
         return own

@@ -10,6 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Callable
 
+from planner.language.dialect import in_standard_words
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.asides import without_asides
@@ -84,7 +85,27 @@ Read = Callable[[str], StepPlan | AnswerPlan | Clarify | Refuse]
 _LOST = frozenset({Code.NOT_UNDERSTOOD, Code.UNKNOWN_PLACE})
 
 
+_OTHER_WORDS = _LOST | {
+    Code.NO_CAPABILITY, Code.AMBIGUOUS, Code.INCOMPLETE, Code.CONDITIONAL, Code.OBJECT_UNKNOWN,
+}  # fmt: skip
+
+
 def read_in_order_words(
+    text: str, vocabulary: Vocabulary, read: Read
+) -> StepPlan | AnswerPlan | Clarify | Refuse:
+    """Return the plan of a text by the person's words, else by the standard words for them."""
+    made = _read_in_order_words(text, vocabulary, read)
+    if isinstance(made, StepPlan | AnswerPlan) or made.code not in _OTHER_WORDS:
+        return made
+    standard = in_standard_words(text)
+    if standard == text:
+        return made
+    other = _read_in_order_words(standard, vocabulary, read)
+    offers = isinstance(other, Clarify) and other.options and not getattr(made, "options", ())
+    return other if isinstance(other, StepPlan | AnswerPlan) or offers else made
+
+
+def _read_in_order_words(
     text: str, vocabulary: Vocabulary, read: Read
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a text by the grammar's own words of order, else by the person's.
