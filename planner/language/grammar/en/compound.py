@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar.compound import CompoundForms, ConditionParts, MemoryParts
+from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
 from planner.language.numbers import EN_DURATION, times
 
 _NOT = r"(?:can not|cannot|could not|do not|does not|are not able to|is not)"

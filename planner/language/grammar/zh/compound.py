@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar.compound import CompoundForms, ConditionParts, MemoryParts
+from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
 from planner.language.numbers import ZH_DURATION
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
