@@ -31,4 +31,30 @@ def _put_name(step: Step, person: str, forms: CompoundForms) -> Step:
 
 def name_there(order: str, name: str, forms: CompoundForms) -> str:
     """Return an order in which "there" is the place that its condition names."""
+    for pattern, plain in forms.there:
+        order = pattern.sub(plain, order)
     return forms.go_there.sub(lambda found: f"{found['verb']}{forms.to}{name}", order)
+
+
+def search_there(order: str, thing: str, forms: CompoundForms) -> str:
+    """Return "try the bedroom" as a search there for what is not where it was looked for."""
+    found = forms.tries.fullmatch(order.strip(" ,.")) if forms.tries is not None else None
+    if found is None:
+        return order
+    if thing:
+        return forms.search.format(thing=thing, place=found["place"])
+    return forms.look_there.format(place=found["place"]) if found["try"] else order
+
+
+def tell_news(order: str, statement: str, forms: CompoundForms) -> str:
+    """Return "tell Jonas" with what the condition says as the words to be told."""
+    found = forms.informs.fullmatch(order.strip(" ,.")) if forms.informs is not None else None
+    if found is None or not statement:
+        return order
+    return forms.news.format(who=found["who"] or found["let"], said=statement)
+
+
+def condition_there(condition: str, name: str, forms: CompoundForms) -> str | None:
+    """Return a condition about "there" with a place's name; None of any other."""
+    found = forms.inside.fullmatch(condition) if forms.inside is not None else None
+    return f"{found['rest']}{forms.within}{name}" if found is not None else None

@@ -16,6 +16,12 @@ _IDLE = re.compile(
     r"(?:留在?|待在?|呆在?|停在?|站在?)?(?:(?:这里|这儿|原地|原处)(?:不动|等着|别动)?|待着|不动"
     r"|什么(?:都|也)(?:不做|别做|不用做))$"
 )
+_NEVER_MIND = re.compile(
+    r"(?P<if>\b(?:if|otherwise|else)\b[^,;.]*?)(?:, | )"
+    r"(?:that is (?:fine|ok|okay|all right)|never mind|no (?:matter|worries|problem)|not to worry|do not worry)(?: about (?:it|that))?"
+    r"(?:,| and| then| but| just| please)* (?=(?:go|come|drive|return|stay|head|say|tell|ask)\b)"
+)
+"""Behind a condition it takes nothing back that was ordered."""
 _INSTEAD = re.compile(
     r"(?<=[a-z]) instead(?=$|[,;.]? (?:and |but )?(?:otherwise|or else|else|if not)\b)"
     r"|(?<=[,就便则])改(?=[去到])"
@@ -24,4 +30,5 @@ _INSTEAD = re.compile(
 
 def plain_branches(said: str) -> str:
     """Return a normalised sentence without an idle branch, and without "instead" at an order."""
-    return _INSTEAD.sub("", _IDLE.sub("", said.strip(" ,.!?;。")))
+    plain = _NEVER_MIND.sub(r"\g<if>, ", said.strip(" ,.!?;。"))
+    return _INSTEAD.sub("", _IDLE.sub("", plain))

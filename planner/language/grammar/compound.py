@@ -13,11 +13,18 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from planner.language.grammar.branch_orders import call_by_name, name_there, tell_them
+from planner.language.grammar.branch_orders import (
+    call_by_name,
+    condition_there,
+    name_there,
+    search_there,
+    tell_news,
+    tell_them,
+)
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, PartReaders
 from planner.language.grammar.lasting_orders import read_follow, read_rounds, read_wait
 from planner.language.object_names import resolve
-from planner.plan import Ask, Attempt, ClockTime, If, Look, Recall, Say, Step, StepPlan
+from planner.plan import Ask, Attempt, ClockTime, GoTo, If, Look, Recall, Say, Step, StepPlan
 
 MOST_CUTS = 40
 """Places at which a condition without a comma may end, tried one after the other."""
@@ -53,7 +60,8 @@ def _read_condition(said: str, forms: CompoundForms, read: PartReaders) -> tuple
             _cut(parts["body"], forms.cuts) if parts.get("body") else [(parts["if"], parts["then"])]
         )
         for condition, order in pairs:
-            made = _branch(condition, order, parts.get("else"), forms, read)
+            flips = parts.get("unless") is not None
+            made = _branch(condition, order, parts.get("else"), forms, read, flips=flips)
             if made is not None:
                 return made
     return None
@@ -73,8 +81,15 @@ def _cut(body: str, cuts: re.Pattern[str]) -> Iterator[tuple[str, str]]:
 
 
 def _branch(
-    condition: str, order: str, other: str | None, forms: CompoundForms, read: PartReaders
+    condition: str,
+    order: str,
+    other: str | None,
+    forms: CompoundForms,
+    read: PartReaders,
+    *,
+    flips: bool = False,
 ) -> tuple[Step, ...] | None:
+    condition = _in_full(condition, order, forms, read)
     eyes = None
     when: ClockTime | Recall | Look
     asked = _asked_of_clock(condition, forms) or _asked_of_memory(condition, forms, read)
@@ -84,12 +99,19 @@ def _branch(
         when, denied = eyes.look, eyes.denied
     else:
         return None
+    denied ^= flips
     if not isinstance(when, ClockTime) and when.place is not None:
         name = read.name(when.place)
         order = name_there(order, name, forms)
         other = name_there(other, name, forms) if other else None
     if eyes is not None and eyes.is_somebody:
         order, other = tell_them(order, forms), tell_them(other, forms) if other else None
+    if eyes is not None:
+        if denied:
+            order = search_there(order, eyes.thing, forms)
+        elif other:
+            other = search_there(other, eyes.thing, forms)
+        order = order if flips else tell_news(order, eyes.statement, forms)
     told = eyes is not None and forms.reports.fullmatch(order.strip(" ,.")) is not None
     yes, no = () if told else read.steps(order), read.steps(other) if other else ()
     if yes is None or no is None:
@@ -101,6 +123,15 @@ def _branch(
     if eyes is not None and eyes.person and all(isinstance(step, Say | Ask) for step in yes):
         when, yes = eyes.anybody or eyes.look, call_by_name(yes, eyes.person, forms)
     return (If(when=when, then=yes, otherwise=no),)
+
+
+def _in_full(condition: str, order: str, forms: CompoundForms, read: PartReaders) -> str:
+    """Return a condition about "there" with the place that the order itself drives to."""
+    if condition_there(condition, "", forms) is None:
+        return condition
+    steps = read.steps(order) or ()
+    place = steps[0].place if steps and isinstance(steps[0], GoTo) else None
+    return (condition_there(condition, read.name(place), forms) or "") if place else condition
 
 
 _WHERE_WITHIN = re.compile(r" (?:in|on|at|under|inside|near|by|behind|beside) |里|上|下|旁")
@@ -143,6 +174,10 @@ class SightCondition:
     """A person's name, as it is written."""
     anybody: Look | None = None
     """The look for anybody, where one is named: no eye tells who is who."""
+    thing: str = ""
+    """What may be searched for elsewhere: one person or thing, and not just anybody."""
+    statement: str = ""
+    """The condition, as words to be told."""
 
 
 def _asked_of_eyes(
@@ -159,7 +194,10 @@ def _asked_of_eyes(
         return None
     somebody = person is not None or (kind is not None and kind[0] == "person")
     anybody = _look(parts.anybody, parts, read) if person and parts.anybody else None
-    return SightCondition(look, parts.denied, somebody, person or "", anybody)
+    thing = person or ("" if somebody else f"{forms.the}{parts.thing}")
+    return SightCondition(
+        look, parts.denied, somebody, person or "", anybody, thing, parts.statement
+    )
 
 
 def _look(question: str, parts: ConditionParts, read: PartReaders) -> Look | None:

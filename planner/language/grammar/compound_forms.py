@@ -30,6 +30,8 @@ class ConditionParts:
     """It says where."""
     anybody: str = ""
     """The question whether anybody is there, for one who is named: no eye tells who is who."""
+    statement: str = ""
+    """The condition itself, as words to be told to somebody."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +62,10 @@ class CompoundForms:
     trigger: re.Pattern[str]
     """Without it nothing is tried."""
     conditions: tuple[re.Pattern[str], ...]
-    """Groups ``body`` (condition and order, in one) or ``if`` and ``then``; ``else`` or none."""
+    """Groups ``body`` (condition and order, in one) or ``if`` and ``then``; ``else`` or none.
+
+    A group ``unless``, where it is found, denies the condition.
+    """
     read_condition: Callable[[str], ConditionParts | None]
     read_memory: Callable[[str], MemoryParts | None]
     clock: re.Pattern[str]
@@ -89,3 +94,21 @@ class CompoundForms:
     """Words that ask for no more than half the speed."""
     follows: re.Pattern[str]
     """Groups ``main``, ``number`` and ``unit``."""
+    there: tuple[tuple[re.Pattern[str], str], ...] = ()
+    """Other words for "go there" and "wait there", and these."""
+    inside: re.Pattern[str] | None = None
+    """Ends a condition that is about the place which its order drives to; group ``rest``."""
+    within: str = ""
+    """Stands between what is asked about and that place's name."""
+    tries: re.Pattern[str] | None = None
+    """An order to look in another place, ``place``, and no more: for what the condition names."""
+    the: str = ""
+    """Stands before a thing's bare name."""
+    search: str = ""
+    """The order to search ``{thing}`` in ``{place}``."""
+    look_there: str = ""
+    """The order to look in ``{place}``, for a group ``try`` of `tries` that names no thing."""
+    informs: re.Pattern[str] | None = None
+    """An order to tell ``who`` that the condition holds, in no words of its own."""
+    news: str = ""
+    """The order to tell ``{who}`` what ``{said}``."""
