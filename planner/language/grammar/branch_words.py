@@ -18,7 +18,8 @@ _IDLE = re.compile(
 )
 _NEVER_MIND = re.compile(
     r"(?P<if>\b(?:if|otherwise|else)\b[^,;.]*?)(?:, | )"
-    r"(?:that is (?:fine|ok|okay|all right)|never mind|no (?:matter|worries|problem)|not to worry|do not worry)(?: about (?:it|that))?"
+    r"(?:that is (?:fine|ok|okay|all right)|never mind|no (?:matter|worries|problem)|not to worry"
+    r"|do not worry)(?: about (?:it|that))?"
     r"(?:,| and| then| but| just| please)* (?=(?:go|come|drive|return|stay|head|say|tell|ask)\b)"
 )
 """Behind a condition it takes nothing back that was ordered."""

@@ -22,7 +22,13 @@ from planner.language.grammar.branch_orders import (
     tell_them,
 )
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, PartReaders
-from planner.language.grammar.lasting_orders import read_follow, read_rounds, read_wait
+from planner.language.grammar.lasting_orders import (
+    read_follow,
+    read_follow_until,
+    read_hunt,
+    read_rounds,
+    read_wait,
+)
 from planner.language.object_names import resolve
 from planner.plan import Ask, Attempt, ClockTime, GoTo, If, Look, Recall, Say, Step, StepPlan
 
@@ -46,6 +52,8 @@ def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPla
         or read_wait(said, forms, read)
         or read_rounds(said, forms, read)
         or read_follow(said, forms, read)
+        or read_follow_until(said, forms, read)
+        or read_hunt(said, forms, read)
     )
     return StepPlan(steps=steps) if steps else None
 

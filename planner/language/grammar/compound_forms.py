@@ -88,7 +88,10 @@ class CompoundForms:
     """Groups ``main`` and ``times``."""
     count: Callable[[str], int | None]
     waits: tuple[re.Pattern[str], ...]
-    """Groups ``before``, ``rest``, and one of ``who``, ``word`` and ``time``."""
+    """Groups ``before``, ``rest``, and one of ``who``, ``named``, ``word`` and ``time``.
+
+    A group ``at`` is where to wait; ``named`` is one of whom there are many.
+    """
     time: Callable[[str], str | None]
     slowly: re.Pattern[str]
     """Words that ask for no more than half the speed."""
@@ -112,3 +115,21 @@ class CompoundForms:
     """An order to tell ``who`` that the condition holds, in no words of its own."""
     news: str = ""
     """The order to tell ``{who}`` what ``{said}``."""
+    wait_at: str = ""
+    """The order to drive to where is waited, ``{at}``."""
+    folk: re.Pattern[str] | None = None
+    """People who have no name: the kids, the postman."""
+    mine: re.Pattern[str] | None = None
+    """What nobody is called by: "my" sister."""
+    hunts: tuple[re.Pattern[str], ...] = ()
+    """Groups ``what`` (found, it ends), ``for`` or none, ``at`` or none, ``before``, ``rest``."""
+    any_hunted: re.Pattern[str] | None = None
+    """What names no thing or person to be found: "it", "something", "no more cups"."""
+    find: str = ""
+    """The order to find ``{what}``, with where, ``{at}``."""
+    find_and: str = ""
+    """That order, and what is to be done then, ``{rest}``."""
+    follows_until: re.Pattern[str] | None = None
+    """Groups ``main`` and ``word``: whom to follow, and what is said in the end."""
+    ends: re.Pattern[str] | None = None
+    """A word in the end that stands for a stop: "until I say so"."""

@@ -26,7 +26,9 @@ _VERBS = (
 )
 _NOT_BEGUN = r"(?<!\bgo)(?<!\bcome)(?<! and)(?<!\bplease)(?<!\bjust)"
 """An order that has begun before: "go and tell …"."""
-_NO_QUESTION = r"(?!.*\b(?:check|see|look|find out|tell|know|ask|report|wonder|say)(?: \w+)? if\b)"
+_NO_QUESTION = (
+    r"(?!.*\b(?:(?:check|see|look|find out|tell|know|ask|report|wonder)(?: \w+)?|say) if\b)"
+)
 """“See if somebody is there” asks, and hangs nothing on it."""
 
 
@@ -66,6 +68,34 @@ _GO_ON = r"(?:[,;.]? ?(?:and then|then|and|,) ?(?P<rest>.+))?"
 _BEFORE = r"(?:(?P<before>.+?)(?:,| and then|, then| and|;|\.) )?"
 _STAY = r"(?:please )?(?:wait|stay|stand|hold on)(?: here| there| still| right here)*"
 
+_AT = r"(?: (?:in|at|by|near|next to|beside|inside) (?P<at>(?:the|my|our) [a-z]+(?: [a-z]+)??))?"
+_COMES = (
+    r"(?:(?:comes?|gets?|arrives?|walks?|returns?|drops?|pops?)(?: (?:in|by|along|over|home|here"
+    r"|there|back|inside|round|to the door|through the door|from (?:work|school)))*"
+    r"|(?:is|are) (?:there|here|back|home|in)|appears?|(?:shows?|turns?) up|enters?)"
+)
+_TO_COME = rf"(?: to {_COMES})?"
+_ONE = (
+    r"(?!(?:i|you|he|she|it|they|we|that|this|there|something|anything|nothing|nobody|me|us|him|her"
+    r"|them|the (?:end|time|day|morning|evening))\b)(?:(?:my|our|the) )?[a-z]+(?: [a-z]+)??"
+)
+_FOLK = re.compile(
+    r"(?:kids?|children|boys?|girls?|twins|family|guests?|visitors?|parents|others|cleaner|postman"
+    r"|plumber|nurse|carer|babysitter|lodger|doctor|delivery(?: (?:man|driver|person))?|courier"
+    r"|flatmates?|roommates?|friends?|neighbou?rs?|partner|boyfriend|girlfriend)"
+)
+_LOOKING = r"(?:look|search|hunt|check)(?:ing)?"
+_MOVING = r"(?:go|going|drive|driving|move|moving|wander(?:ing)?|patrol(?:ling)?|walk(?:ing)?)"
+_ROUND = (
+    r"(?: (?:a?round|about|everywhere|(?:from )?room (?:to|by|after) room"
+    r"|(?:in |into |through |a?round |to )?(?:all (?:of )?the|the whole|the entire|the|every|each)"
+    r"(?: single)? (?:rooms?|house|home|flat|apartment|place)))"
+)
+_FOUND = (
+    r"(?:,? until| till) (?:you have|you've|you)(?: can| finally)?"
+    r" (?:find|found|see|seen|spot|spotted|locate|come across) (?P<what>[a-z' -]+?)"
+)
+_KEEP = r"(?:please |just )?(?:(?:keep(?: on)?|carry on|go on|continue) )?"
 _SO = r"(?:(?:please|just|also|then|go|come|and|instead|maybe|you can|could you) )*"
 _ANOTHER = r"(?!me\b|us\b|him\b|her\b|them\b)(?:my )?[a-z]+"
 _STOP = r"(?:wait|stay|stand|sit)"
@@ -74,7 +104,8 @@ _TOLD_END = r"(?=$|[,;]| and (?:then )?(?:go|come|drive|return|look|find|wait|fo
 
 ENGLISH_COMPOUND = CompoundForms(
     trigger=re.compile(
-        r"\b(?:if|unless|in case|until|till|twice|thrice|times|wait for|slowly|carefully|follow)\b",
+        r"\b(?:if|unless|in case|until|till|every|twice|thrice|times|slowly|carefully|follow"
+        r"|(?:wait|stay|stand) .*for)\b",
         re.ASCII,
     ),
     conditions=(
@@ -146,16 +177,18 @@ ENGLISH_COMPOUND = CompoundForms(
             rf"{_BEFORE}{_STAY}(?: until| till) (?:it is )?"
             rf"(?P<time>(?:half past )?[a-z0-9]+(?::\d\d)?(?: ?[ap]\.?m\.?)?){_GO_ON}"
         ),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT}(?: until| till) (?P<who>{PERSON}) {_COMES}{_GO_ON}"),
         re.compile(
-            rf"{_BEFORE}{_STAY}(?: until| till) (?P<who>{PERSON}) "
-            r"(?:comes(?: in| by| along| over| home| here)?|is (?:there|here|back)|appears|arrives"
-            rf"|shows up|turns up|walks in|drops by|gets here|enters){_GO_ON}"
+            rf"{_BEFORE}{_STAY}{_AT}(?: until| till) you (?:can )?see (?P<who>{PERSON}){_GO_ON}"
         ),
-        re.compile(rf"{_BEFORE}{_STAY}(?: until| till) you (?:can )?see (?P<who>{PERSON}){_GO_ON}"),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT} for (?P<who>{PERSON}){_TO_COME}{_GO_ON}"),
+        re.compile(rf"{_BEFORE}{_STAY} for (?P<who>{PERSON}){_TO_COME}{_AT}{_GO_ON}"),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT}(?: until| till) (?P<named>{_ONE}) {_COMES}{_GO_ON}"),
         re.compile(
-            rf"{_BEFORE}{_STAY} for (?P<who>{PERSON})"
-            rf"(?: to (?:come|appear|arrive|show up))?{_GO_ON}"
+            rf"{_BEFORE}{_STAY}{_AT}(?: until| till) you (?:can )?see (?P<named>{_ONE}){_GO_ON}"
         ),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT} for (?P<named>{_ONE}){_TO_COME}{_GO_ON}"),
+        re.compile(rf"{_BEFORE}{_STAY} for (?P<named>{_ONE}){_TO_COME}{_AT}{_GO_ON}"),
     ),
     time=_time,
     slowly=re.compile(r"\b(?<!not )(?<!too )(?:very |nice and )?(?:slowly|carefully)\b"),
@@ -191,5 +224,28 @@ ENGLISH_COMPOUND = CompoundForms(
         rf"|let (?P<let>{_ANOTHER}) know)"
     ),
     news="tell {who} that {said}",
+    wait_at="go to {at}",
+    folk=_FOLK,
+    mine=re.compile(r"^(?:the|my|our) "),
+    hunts=(
+        re.compile(
+            rf"{_BEFORE}{_KEEP}(?:{_LOOKING}{_ROUND}*|{_MOVING}{_ROUND}+)"
+            r"(?: for (?P<for>[a-z' -]+?))?"
+            r"(?P<at> (?:in|on|around|through) (?:the|my|our) [a-z]+(?: [a-z]+)??)?"
+            rf"{_ROUND}*{_FOUND}{_GO_ON}"
+        ),
+    ),
+    any_hunted=re.compile(
+        r"(?:him|her|it|them|one)|(?:.* )?(?:no|some|any|every|no ?one|nothing|something|anything"
+        r"|all|everything|more|another|enough|both|two|three|four|five|six|where|what|out|how)"
+        r"(?: .*)?"
+    ),
+    find="find {what}{at}",
+    find_and="find {what}{at}, then {rest}",
+    follows_until=re.compile(
+        r"(?P<main>.*\b(?:follow|follow(?:ing)|come (?:along )?with|stay with|stay behind)\b .+?),?"
+        r" (?:until|till) i (?:say|tell you(?: to)?|shout|ask you to)(?: that)? (?P<word>[^,;]+)"
+    ),
+    ends=re.compile(r"so|when|otherwise|to stop|stop it"),
 )
 """A bare "seven" is no time: whether in the morning or in the evening is not said."""
