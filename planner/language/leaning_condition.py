@@ -31,6 +31,12 @@ _ASKED = (
         rf" (?:(?P<where>{_WHERE})|there|in|home|around)",
         re.IGNORECASE,
     ),
+    re.compile(
+        r"(?:(?:please|can you|could you|will you|just|go|come|and|to) )*(?:check|search|scan|scour"
+        r"|(?:have a )?look(?: a?round)?(?: in| on| at| under)?) (?:the|my|our) [^,;?]+? for"
+        r" (?P<who>(?:the|my|our|an?|some|any) [^,;?]{1,40}?)",
+        re.IGNORECASE,
+    ),
     re.compile(rf"(?:is|are) {_SUBJECT}{_STILL} (?P<where>{_WHERE})", re.IGNORECASE),
     re.compile(rf"(?:is|are) {_SUBJECT}{_STILL} (?:there|in|around)", re.IGNORECASE),
 )
@@ -63,9 +69,14 @@ _LACKS = (
     rf"if (?:not|no|{_HE}(?: is| are| ?ain't|'s|'re)(?: not|n't){_ANY}{_PLACED}"
     rf"|there(?: is|'s) (?:nobody|no one|no-one|none){_PLACED}|(?:nobody|no one)(?: is|'s){_PLACED}"
     r"|you (?:do not|don't|cannot|can not|can't) (?:see|find|spot)"
-    r" (?:him|her|it|them|one|any(?:one|body)))"
+    r" (?:him|her|it|them|one|any(?:one|body))(?: there| in there)?"
+    r"|(?:you have|you've|with) no luck(?: there)?|no luck(?: there)?"
+    r"|there(?: is|'s) no (?:sign|trace) of (?:him|her|it|them)(?: there)?)"
 )
-_VERB = r"(?:go|come|drive|tell|say|ask|look|find|wait|follow|turn|check|head|return)"
+_VERB = (
+    r"(?:go|come|drive|tell|say|ask|look|find|wait|follow|turn|check|head|return|try|search|let|just"
+    r"|have a look|take a look|never mind|greet|charge|dock|stay|remind|visit|move|get)"
+)
 _END = rf"(?= ?[,;.]| then| (?:please )?{_VERB}\b)"
 _BEHIND = rf"{_END}(?:[,;.]| then)* (?P<then>.+?)"
 _ELSE = rf"[,;.]? (?:and |but )?(?:otherwise|or else|else|{_LACKS})(?:,| then)* (?P<else>.+)"
@@ -95,8 +106,10 @@ _LEANS = (
 _IF_ZH = r"(?:如果|要是|假如|若是|倘若|若)"
 _HE_ZH = r"(?:他们|她们|他|她|它|人)?(?:还|真的?|确实|就)?"
 _THERE_ZH = r"(?:那儿|那里|那边|那|家|里面?)?"
+_SOME_ZH = r"有(?:人(?:在)?(?![来进过出回到经路走])|(?!人))"
+"""Who comes is waited for: 有人来 is no question whether somebody is there."""
 _HOLDS_ZH = (
-    rf"(?:{_IF_ZH}{_HE_ZH}(?:在{_THERE_ZH}|有人?(?:在)?|是(?:的)?)(?:的话)?"
+    rf"(?:{_IF_ZH}{_HE_ZH}(?:在{_THERE_ZH}|{_SOME_ZH}|是(?:的)?)(?:的话)?"
     rf"|{_HE_ZH}在{_THERE_ZH}的话|有人?(?:在)?的话|有人?(?=[就便])|{_HE_ZH}在{_THERE_ZH}(?=[就便]))"
 )
 _LACKS_ZH = (

@@ -10,107 +10,30 @@ part still hold everything back.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from planner.language.numbers import seconds
-from planner.language.object_names import resolve
-from planner.language.stop import is_stop
-from planner.plan import (
-    MAX_FOLLOW_S,
-    Ask,
-    Attempt,
-    ClockTime,
-    Follow,
-    If,
-    Look,
-    Recall,
-    Repeat,
-    Say,
-    Step,
-    StepPlan,
-    WaitFor,
+from planner.language.grammar.branch_orders import (
+    call_by_name,
+    condition_there,
+    name_there,
+    search_there,
+    tell_news,
+    tell_them,
 )
+from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, PartReaders
+from planner.language.grammar.lasting_orders import (
+    read_follow,
+    read_follow_until,
+    read_hunt,
+    read_rounds,
+    read_wait,
+)
+from planner.language.object_names import resolve
+from planner.plan import Ask, Attempt, ClockTime, Find, GoTo, If, Look, Recall, Say, Step, StepPlan
 
-ReadSteps = Callable[[str], tuple[Step, ...] | None]
-"""Return the steps of one order, or None where it is no plan."""
-NamePlace = Callable[[str], str]
-"""Return a place's name in the sentence's language, by its id."""
 MOST_CUTS = 40
 """Places at which a condition without a comma may end, tried one after the other."""
-
-
-@dataclass(frozen=True, slots=True)
-class ConditionParts:
-    """Hold a condition cut out of a sentence: the question that tells it, and what hangs on it."""
-
-    question: str
-    thing: str
-    denied: bool
-    """It holds where the answer is no."""
-    is_placed: bool
-    """It says where."""
-    anybody: str = ""
-    """The question whether anybody is there, for one who is named: no eye tells who is who."""
-
-
-@dataclass(frozen=True, slots=True)
-class MemoryParts:
-    """Hold a condition about before: the question that memory answers."""
-
-    question: str
-    denied: bool
-    """It holds where nothing is remembered."""
-
-
-@dataclass(frozen=True, slots=True)
-class PartReaders:
-    """Hold what reads the parts of a sentence, each alone."""
-
-    steps: ReadSteps
-    memory: Callable[[str], Recall | None]
-    """Reads a question about before; None of any other."""
-    name: NamePlace
-    person: Callable[[str], str | None]
-    """Return a person's name as it is written, where words are one."""
-
-
-@dataclass(frozen=True, slots=True)
-class CompoundForms:
-    """Hold one language's words. Each pattern reads a normalised sentence whole."""
-
-    trigger: re.Pattern[str]
-    """Without it nothing is tried."""
-    conditions: tuple[re.Pattern[str], ...]
-    """Groups ``body`` (condition and order, in one) or ``if`` and ``then``; ``else`` or none."""
-    read_condition: Callable[[str], ConditionParts | None]
-    read_memory: Callable[[str], MemoryParts | None]
-    clock: re.Pattern[str]
-    """Groups ``after`` and ``before``: an hour that people's clock has, or has not yet, reached."""
-    go_there: re.Pattern[str]
-    """Group ``verb``: a drive to the place that the condition names."""
-    to: str
-    """Stands between that verb and the place's name."""
-    tells: tuple[tuple[re.Pattern[str], str], ...]
-    """What is to be told to "him", and the order to say it."""
-    reports: re.Pattern[str]
-    """An order to tell the person themselves: the look's own answer is that."""
-    calls: str
-    """Stands between a person's name and the words for them."""
-    cuts: re.Pattern[str]
-    """Where a condition may end in ``body``."""
-    failures: re.Pattern[str]
-    """Groups ``main`` and ``else``."""
-    rounds: re.Pattern[str]
-    """Groups ``main`` and ``times``."""
-    count: Callable[[str], int | None]
-    waits: tuple[re.Pattern[str], ...]
-    """Groups ``before``, ``rest``, and one of ``who``, ``word`` and ``time``."""
-    time: Callable[[str], str | None]
-    slowly: re.Pattern[str]
-    """Words that ask for no more than half the speed."""
-    follows: re.Pattern[str]
-    """Groups ``main``, ``number`` and ``unit``."""
 
 
 def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPlan | None:
@@ -126,9 +49,11 @@ def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPla
     steps = (
         _read_failure(said, forms, read)
         or _read_condition(said, forms, read)
-        or _read_wait(said, forms, read)
-        or _read_rounds(said, forms, read)
-        or _read_follow(said, forms, read)
+        or read_wait(said, forms, read)
+        or read_rounds(said, forms, read)
+        or read_follow(said, forms, read)
+        or read_follow_until(said, forms, read)
+        or read_hunt(said, forms, read)
     )
     return StepPlan(steps=steps) if steps else None
 
@@ -143,7 +68,8 @@ def _read_condition(said: str, forms: CompoundForms, read: PartReaders) -> tuple
             _cut(parts["body"], forms.cuts) if parts.get("body") else [(parts["if"], parts["then"])]
         )
         for condition, order in pairs:
-            made = _branch(condition, order, parts.get("else"), forms, read)
+            flips = parts.get("unless") is not None
+            made = _branch(condition, order, parts.get("else"), forms, read, flips=flips)
             if made is not None:
                 return made
     return None
@@ -163,8 +89,15 @@ def _cut(body: str, cuts: re.Pattern[str]) -> Iterator[tuple[str, str]]:
 
 
 def _branch(
-    condition: str, order: str, other: str | None, forms: CompoundForms, read: PartReaders
+    condition: str,
+    order: str,
+    other: str | None,
+    forms: CompoundForms,
+    read: PartReaders,
+    *,
+    flips: bool = False,
 ) -> tuple[Step, ...] | None:
+    condition = _in_full(condition, order, forms, read)
     eyes = None
     when: ClockTime | Recall | Look
     asked = _asked_of_clock(condition, forms) or _asked_of_memory(condition, forms, read)
@@ -174,12 +107,19 @@ def _branch(
         when, denied = eyes.look, eyes.denied
     else:
         return None
+    denied ^= flips
     if not isinstance(when, ClockTime) and when.place is not None:
         name = read.name(when.place)
-        order = _name_there(order, name, forms)
-        other = _name_there(other, name, forms) if other else None
+        order = name_there(order, name, forms)
+        other = name_there(other, name, forms) if other else None
     if eyes is not None and eyes.is_somebody:
-        order, other = _tell_them(order, forms), _tell_them(other, forms) if other else None
+        order, other = tell_them(order, forms), tell_them(other, forms) if other else None
+    if eyes is not None:
+        if denied:
+            order = search_there(order, eyes.thing, forms)
+        elif other:
+            other = search_there(other, eyes.thing, forms)
+        order = order if flips else tell_news(order, eyes.statement, forms)
     told = eyes is not None and forms.reports.fullmatch(order.strip(" ,.")) is not None
     yes, no = () if told else read.steps(order), read.steps(other) if other else ()
     if yes is None or no is None:
@@ -189,33 +129,17 @@ def _branch(
     if denied:
         yes, no = no, yes
     if eyes is not None and eyes.person and all(isinstance(step, Say | Ask) for step in yes):
-        when, yes = eyes.anybody or eyes.look, _call(yes, eyes.person, forms)
+        when, yes = eyes.anybody or eyes.look, call_by_name(yes, eyes.person, forms)
     return (If(when=when, then=yes, otherwise=no),)
 
 
-def _tell_them(order: str, forms: CompoundForms) -> str:
-    """Return an order with what is told to "him" as words to be said where he was seen."""
-    for pattern, plain in forms.tells:
-        order = pattern.sub(plain, order)
-    return order
-
-
-def _call(steps: tuple[Step, ...], person: str, forms: CompoundForms) -> tuple[Step, ...]:
-    """Put a person's name before the words for them: whoever else hears them knows it then."""
-    return tuple(_put_name(step, person, forms) for step in steps)
-
-
-def _put_name(step: Step, person: str, forms: CompoundForms) -> Step:
-    if isinstance(step, Say) and person.lower() not in step.text.lower():
-        return Say(text=f"{person}{forms.calls}{step.text}"[:500])
-    if isinstance(step, Ask) and person.lower() not in step.question.lower():
-        return Ask(question=f"{person}{forms.calls}{step.question}"[:500])
-    return step
-
-
-def _name_there(order: str, name: str, forms: CompoundForms) -> str:
-    """Return an order in which "there" is the place that its condition names."""
-    return forms.go_there.sub(lambda found: f"{found['verb']}{forms.to}{name}", order)
+def _in_full(condition: str, order: str, forms: CompoundForms, read: PartReaders) -> str:
+    """Return a condition about "there" with the place that the order itself drives to."""
+    if condition_there(condition, "", forms) is None:
+        return condition
+    steps = read.steps(order) or ()
+    place = steps[0].place if steps and isinstance(steps[0], GoTo) else None
+    return (condition_there(condition, read.name(place), forms) or "") if place else condition
 
 
 _WHERE_WITHIN = re.compile(r" (?:in|on|at|under|inside|near|by|behind|beside) |里|上|下|旁")
@@ -258,6 +182,10 @@ class SightCondition:
     """A person's name, as it is written."""
     anybody: Look | None = None
     """The look for anybody, where one is named: no eye tells who is who."""
+    thing: str = ""
+    """What may be searched for elsewhere: one person or thing, and not just anybody."""
+    statement: str = ""
+    """The condition, as words to be told."""
 
 
 def _asked_of_eyes(
@@ -274,7 +202,10 @@ def _asked_of_eyes(
         return None
     somebody = person is not None or (kind is not None and kind[0] == "person")
     anybody = _look(parts.anybody, parts, read) if person and parts.anybody else None
-    return SightCondition(look, parts.denied, somebody, person or "", anybody)
+    thing = person or ("" if somebody else f"{forms.the}{parts.thing}")
+    return SightCondition(
+        look, parts.denied, somebody, person or "", anybody, thing, parts.statement
+    )
 
 
 def _look(question: str, parts: ConditionParts, read: PartReaders) -> Look | None:
@@ -293,58 +224,14 @@ def _read_failure(said: str, forms: CompoundForms, read: PartReaders) -> tuple[S
     found = forms.failures.fullmatch(said)
     if found is None:
         return None
-    tried, instead = (
-        read.steps(found["main"].strip(" ,;.")),
-        read.steps(found["else"].strip(" ,;.")),
-    )
-    if not tried or not instead:
+    tried = read.steps(found["main"].strip(" ,;."))
+    if not tried:
+        return None
+    last, other = tried[-1], found["else"].strip(" ,;.")
+    if isinstance(last, Find):
+        thing = last.object if read.person(last.object) else f"{forms.the}{last.object}"
+        other = search_there(other, thing, forms)
+    instead = read.steps(other)
+    if not instead:
         return None
     return (Attempt(steps=tried, on_failure=instead),)
-
-
-def _read_rounds(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
-    found = forms.rounds.fullmatch(said)
-    if found is None:
-        return None
-    times, again = forms.count(found["times"]), read.steps(found["main"].strip(" ,"))
-    if times is None or not again:
-        return None
-    return (Repeat(times=times, steps=again),) if 1 <= times <= 20 else None
-
-
-def _read_follow(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
-    """Read a time for which somebody is followed; longer than a step may last it is not read."""
-    found = forms.follows.fullmatch(said)
-    steps = read.steps(found["main"].strip(" ,")) if found is not None else None
-    if found is None or not steps or not isinstance(steps[-1], Follow):
-        return None
-    far_s = seconds(found["number"], found["unit"])
-    if far_s is None or not 0.0 < far_s <= MAX_FOLLOW_S:
-        return None
-    return (*steps[:-1], steps[-1].model_copy(update={"seconds": far_s}))
-
-
-def _read_wait(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
-    for pattern in forms.waits:
-        found = pattern.fullmatch(said)
-        if found is None:
-            continue
-        parts = found.groupdict()
-        wait = _wait(parts, forms)
-        before, rest = (
-            read.steps(parts[name].strip(" ,")) if parts.get(name) else ()
-            for name in ("before", "rest")
-        )
-        if wait is not None and before is not None and rest is not None:
-            return (*before, wait, *rest)
-    return None
-
-
-def _wait(parts: dict[str, str | None], forms: CompoundForms) -> WaitFor | None:
-    who, word, time = parts.get("who"), parts.get("word"), parts.get("time")
-    if time:
-        hour = forms.time(time)
-        return WaitFor(time=hour) if hour is not None else None
-    if word:  # a stop word stops: nobody could say it for anything else
-        return None if is_stop(word) else WaitFor(word=word)
-    return WaitFor(object="person") if who else None

@@ -7,6 +7,7 @@ the way to one place and a look or a search there; else the text stays as it is.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
@@ -27,6 +28,20 @@ if TYPE_CHECKING:
     from planner.plan import Vocabulary
 
     PlanOf = Callable[[str], StepPlan | AnswerPlan | Clarify | Refuse]
+
+
+_WHERE = re.compile(
+    r"\b(?P<at>in|inside|on|at|under|near|by) (?:(?:the|my|our) )?[a-z]+(?: (?!for\b)[a-z]+)?"
+    r"(?= for\b|[ ,.!?]*$)",
+    re.IGNORECASE,
+)
+
+
+def _at(question: str, place: str | None, vocabulary: Vocabulary) -> str:
+    """Return how a question says that something is at a place: "on" the desk, "in" the study."""
+    found = _WHERE.search(question)
+    room = any(entry.id == place and entry.kind == "room" for entry in vocabulary.entries)
+    return found["at"].lower() if found is not None else "in" if room else "on"
 
 
 def in_one_condition(text: str, vocabulary: Vocabulary, plan_of: PlanOf) -> str:
@@ -52,6 +67,8 @@ def in_one_condition(text: str, vocabulary: Vocabulary, plan_of: PlanOf) -> str:
     name = vocabulary.name(last.place).of(language) if last.place is not None else ""
     asked = read_whether_there(last.question) if isinstance(last, Look) else None
     asked = WhetherThere(last.object, "") if isinstance(last, Find) else asked
+    if asked is not None and not asked.where and name and language is Language.EN:
+        asked = WhetherThere(asked.who, f"{_at(question, last.place, vocabulary)} the {name}")
     asked = asked or asks_for_anybody(rest)
     if asked is not None and (asked.where or name):
         return write_condition(asked, name, rest) or text

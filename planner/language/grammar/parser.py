@@ -24,7 +24,8 @@ from planner.language.grammar.clauses import (
     put_quotes_back,
     take_quotes,
 )
-from planner.language.grammar.compound import PartReaders, read_compound
+from planner.language.grammar.compound import read_compound
+from planner.language.grammar.compound_forms import PartReaders
 from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
@@ -49,12 +50,14 @@ from planner.language.grammar.parse_result import (
 )
 from planner.language.grammar.plain_words import (
     asks_whether,
+    end_anyhow,
     in_plain_words,
     leave_asides_out,
     read_in_order_words,
     without_sending,
 )
 from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
+from planner.language.grammar.rounds import has_patrol, has_rounds_alone, is_round
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
     mend,
@@ -75,10 +78,8 @@ from planner.plan import (
     Code,
     Language,
     Option,
-    Patrol,
     Recall,
     Refuse,
-    Repeat,
     Step,
     StepPlan,
     Vocabulary,
@@ -106,6 +107,7 @@ def plan(
 def _plan(
     text: str, vocabulary: Vocabulary, context: Context
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
+    text = end_anyhow(text)
     text = in_one_condition(text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context))
     made = _plan_as_said(without_sending(text), vocabulary, context)
     if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:
@@ -124,7 +126,7 @@ def _plan(
         offers = isinstance(guessed, Clarify) and guessed.options
         return (answer_praise(text) or asked or guessed) if lost and not offers else guessed
     missing = made.code is Code.INCOMPLETE  # what is asked for is not guessed, but "the rounds"
-    return made if missing and not _has_rounds_alone(second) else second
+    return made if missing and not has_rounds_alone(second) else second
 
 
 def _in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:
@@ -152,13 +154,6 @@ def _guess(
         lambda order: _plan_as_said(order, vocabulary, context),
         lambda steps: option(steps, vocabulary, lexicon, language),
     )
-
-
-def _has_rounds_alone(plan: StepPlan) -> bool:
-    inner = [
-        s for step in plan.steps for s in (step.steps if isinstance(step, Repeat) else (step,))
-    ]
-    return all(isinstance(step, Patrol) for step in inner)
 
 
 _READ_AGAIN = frozenset(
@@ -190,10 +185,10 @@ def _plan_as_said(
     said = normalise(apart)
     sentence = _Sentence(text, apart, quotes)
     whole = _read_compound(said, sentence, vocabulary, context)
-    if whole is not None and not _is_round(whole):
+    if whole is not None and not is_round(whole):
         return whole
     made = _offering(said, sentence, vocabulary, context)
-    if whole is not None and not (isinstance(made, StepPlan) and _has_patrol(made)):
+    if whole is not None and not (isinstance(made, StepPlan) and has_patrol(made)):
         return whole  # "twice" is a patrol's own word where the grammar reads it as such
     if isinstance(made, Clarify) and made.code is Code.NOT_UNDERSTOOD:
         mended = mend(said, _SPELT)  # only now: "the green cup" is no "greet"
@@ -211,14 +206,6 @@ class _Sentence:
     text: str
     apart: str
     quotes: tuple[str, ...]
-
-
-def _is_round(plan: StepPlan) -> bool:
-    return isinstance(plan.steps[0], Repeat)
-
-
-def _has_patrol(plan: StepPlan) -> bool:
-    return any(isinstance(step, Patrol) for step in plan.steps)
 
 
 def _read_compound(

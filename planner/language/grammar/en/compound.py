@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar.compound import CompoundForms, ConditionParts, MemoryParts
+from planner.language.grammar.compound_forms import CompoundForms
+from planner.language.grammar.en.conditions import PERSON, read_condition, read_memory
 from planner.language.numbers import EN_DURATION, times
 
 _NOT = r"(?:can not|cannot|could not|do not|does not|are not able to|is not)"
@@ -17,115 +18,18 @@ _FAILS = (
 )
 _OTHERWISE = r"(?:[,;.]? ?(?:and |but )?(?:otherwise|or else|else|if not|if no)(?:,| then)? )"
 _IF = r"(?:if|in case)"
-_PERSON = r"(?:somebody|someone|anybody|anyone|a person|people|a visitor|a guest)"
-_NOBODY = r"(?:nobody|no one|noone|no people|no person)"
-
+_IF_NOT = r"(?:if|in case|(?P<unless>unless))"
 _VERBS = (
     r"(?:please|go|come|drive|return|turn|look|say|tell|wait|find|follow|move|head|patrol|count|stay"
-    r"|search|check|visit|ask)"
+    r"|search|check|visit|ask|let|try|greet|welcome|charge|recharge|dock|remind|inform|notify|warn|report"
+    r"|just|announce|stand|meet|drop|wake|give|bring|play|do)"
 )
-_NO_QUESTION = r"(?!.*\b(?:check|see|look|find out|tell|know|ask|report|wonder|say)(?: \w+)? if\b)"
+_NOT_BEGUN = r"(?<!\bgo)(?<!\bcome)(?<! and)(?<!\bplease)(?<!\bjust)"
+"""An order that has begun before: "go and tell …"."""
+_NO_QUESTION = (
+    r"(?!.*\b(?:(?:check|see|look|find out|tell|know|ask|report|wonder)(?: \w+)?|say) if\b)"
+)
 """“See if somebody is there” asks, and hangs nothing on it."""
-_THERE = re.compile(
-    r"there(?: is| are|'s) (?P<thing>.+?)(?P<where> (?:in|on|at|under|near|by) .+)?"
-)
-_SEES = re.compile(
-    r"you (?:can )?(?P<see>see|find|spot|notice) (?P<thing>.+?)"
-    r"(?P<where> (?:in|on|at|under|near|by) .+)?"
-)
-_BODY = re.compile(
-    rf"(?P<thing>{_PERSON}|{_NOBODY})(?: is|'s) (?:there )?(?P<where>(?:in|on|at|near|by) .+)"
-)
-_PLACED = re.compile(
-    r"(?P<thing>(?!there\b|it\b|he\b|she\b|they\b|that\b|this\b|you\b|i\b|we\b|what\b|who\b).+?)"
-    r"(?: (?:is|are)|'s)(?P<not> not)?(?: still| already| now)?(?P<where> (?:in|on|at|near|by) .+)"
-)
-"""Somebody or something known: "if Dad is in the study", "if the dog is not at the door"."""
-_NO_THING = re.compile(r"(?:no|not any) (?P<thing>.+)")
-_ARTICLE = re.compile(r"^(?:a|an|any|some|the|my|our|your)\b ?")
-
-
-def _read_condition(said: str) -> ConditionParts | None:
-    found = _THERE.fullmatch(said) or _SEES.fullmatch(said) or _BODY.fullmatch(said)
-    if found is None:
-        return _read_placed(said)
-    thing, where = found["thing"].strip(), (found["where"] or "").strip()
-    denied = re.fullmatch(_NOBODY, thing) is not None
-    if denied:
-        thing = "anybody"
-    elif (without := _NO_THING.fullmatch(thing)) is not None:
-        thing, denied = without["thing"], True
-    are = "are" if re.fullmatch(r"people|.*[^s]s", thing) else "is"
-    return ConditionParts(
-        f"{are} there {thing} {where}".strip(),
-        _ARTICLE.sub("", thing).strip(),
-        denied,
-        is_placed=bool(where),
-    )
-
-
-def _read_placed(said: str) -> ConditionParts | None:
-    """Return the question whether one known person or thing is somewhere."""
-    found = _PLACED.fullmatch(said)
-    if found is None:
-        return None
-    thing, where = found["thing"].strip(), found["where"].strip()
-    are = "are" if re.fullmatch(r"people|.*(?:[^s]s|people|children)", thing) else "is"
-    return ConditionParts(
-        f"{are} {thing} {where}",
-        _ARTICLE.sub("", thing).strip(),
-        found["not"] is not None,
-        is_placed=True,
-        anybody=f"is there somebody {where}",
-    )
-
-
-_SEEN = r"(?:noticed|spotted|met|come across)"
-_EVER = r"(?:ever |already |also |just |recently )?"
-_YOU_SAW = re.compile(
-    rf"you (?P<never>never )?{_EVER}(?:saw|came across|{_SEEN}) (?P<what>.+)"
-    rf"|you (?:have|had)(?P<have_not>n't| not| never)? {_EVER}(?:seen|{_SEEN}) (?P<what_2>.+)"
-    rf"|you did(?P<did_not> not)? {_EVER}(?:see|notice|spot|meet|come across) (?P<what_3>.+)"
-)
-_PEOPLE_WERE = re.compile(
-    rf"(?:there (?P<there>was|were) )?(?P<who>{_PERSON}|{_NOBODY})"
-    r"(?(there)| (?P<verb>was|were|has been|have been|came|went|walked|entered))(?P<rest> .+)?"
-)
-_BASE = {"came": "come", "went": "go", "walked": "walk", "entered": "enter"}
-_THING_WAS = re.compile(
-    r"(?:there (?:was|were) (?P<some>.+?)|(?P<thing>.+?) (?:was|were)(?P<not> not)?)"
-    r"(?P<where> (?:in|on|at|near) .+)"
-)
-
-
-def _read_memory(said: str) -> MemoryParts | None:
-    """Return the question about before that a condition in the past tense is."""
-    saw = _YOU_SAW.fullmatch(said)
-    if saw is not None:
-        what = saw["what"] or saw["what_2"] or saw["what_3"]
-        denied = bool(saw["never"] or saw["have_not"] or saw["did_not"])
-        if (without := _NO_THING.fullmatch(what)) is not None:
-            what, denied = without["thing"], not denied
-        return MemoryParts(f"did you see {_somebody(what)}", denied)
-    were = _PEOPLE_WERE.fullmatch(said)
-    if were is not None:
-        denied, rest = re.fullmatch(_NOBODY, were["who"]) is not None, were["rest"] or ""
-        if were["there"] or were["verb"] in ("was", "were"):
-            return MemoryParts(f"was somebody{rest}", denied)
-        if were["verb"] in _BASE:
-            return MemoryParts(f"did somebody {_BASE[were['verb']]}{rest}", denied)
-        return MemoryParts(f"has somebody been{rest}", denied)
-    was = _THING_WAS.fullmatch(said)
-    if was is not None:
-        return MemoryParts(
-            f"did you see {was['some'] or was['thing']}{was['where']}", bool(was["not"])
-        )
-    return None
-
-
-def _somebody(what: str) -> str:
-    """Write "no one in the kitchen" and its like as the one that is asked about."""
-    return re.sub(rf"^{_NOBODY}\b", "anybody", what)
 
 
 def _count(words: str) -> int | None:
@@ -164,17 +68,49 @@ _GO_ON = r"(?:[,;.]? ?(?:and then|then|and|,) ?(?P<rest>.+))?"
 _BEFORE = r"(?:(?P<before>.+?)(?:,| and then|, then| and|;|\.) )?"
 _STAY = r"(?:please )?(?:wait|stay|stand|hold on)(?: here| there| still| right here)*"
 
+_AT = r"(?: (?:in|at|by|near|next to|beside|inside) (?P<at>(?:the|my|our) [a-z]+(?: [a-z]+)??))?"
+_COMES = (
+    r"(?:(?:comes?|gets?|arrives?|walks?|returns?|drops?|pops?)(?: (?:in|by|along|over|home|here"
+    r"|there|back|inside|round|to the door|through the door|from (?:work|school)))*"
+    r"|(?:is|are) (?:there|here|back|home|in)|appears?|(?:shows?|turns?) up|enters?)"
+)
+_TO_COME = rf"(?: to {_COMES})?"
+_ONE = (
+    r"(?!(?:i|you|he|she|it|they|we|that|this|there|something|anything|nothing|nobody|me|us|him|her"
+    r"|them|the (?:end|time|day|morning|evening))\b)(?:(?:my|our|the) )?[a-z]+(?: [a-z]+)??"
+)
+_FOLK = re.compile(
+    r"(?:kids?|children|boys?|girls?|twins|family|guests?|visitors?|parents|others|cleaner|postman"
+    r"|plumber|nurse|carer|babysitter|lodger|doctor|delivery(?: (?:man|driver|person))?|courier"
+    r"|flatmates?|roommates?|friends?|neighbou?rs?|partner|boyfriend|girlfriend)"
+)
+_LOOKING = r"(?:look|search|hunt|check)(?:ing)?"
+_MOVING = r"(?:go|going|drive|driving|move|moving|wander(?:ing)?|patrol(?:ling)?|walk(?:ing)?)"
+_ROUND = (
+    r"(?: (?:a?round|about|everywhere|(?:from )?room (?:to|by|after) room"
+    r"|(?:in |into |through |a?round |to )?(?:all (?:of )?the|the whole|the entire|the|every|each)"
+    r"(?: single)? (?:rooms?|house|home|flat|apartment|place)))"
+)
+_FOUND = (
+    r"(?:,? until| till) (?:you have|you've|you)(?: can| finally)?"
+    r" (?:find|found|see|seen|spot|spotted|locate|come across) (?P<what>[a-z' -]+?)"
+)
+_KEEP = r"(?:please |just )?(?:(?:keep(?: on)?|carry on|go on|continue) )?"
+_SO = r"(?:(?:please|just|also|then|go|come|and|instead|maybe|you can|could you) )*"
+_ANOTHER = r"(?!me\b|us\b|him\b|her\b|them\b)(?:my )?[a-z]+"
+_STOP = r"(?:wait|stay|stand|sit)"
 _THEM = r"(?:him|her|them)"
 _TOLD_END = r"(?=$|[,;]| and (?:then )?(?:go|come|drive|return|look|find|wait|follow|turn|head)\b)"
 
 ENGLISH_COMPOUND = CompoundForms(
     trigger=re.compile(
-        r"\b(?:if|in case|until|till|twice|thrice|times|wait for|slowly|carefully|follow)\b",
+        r"\b(?:if|unless|in case|until|till|every|twice|thrice|times|slowly|carefully|follow"
+        r"|(?:wait|stay|stand) .*for)\b",
         re.ASCII,
     ),
     conditions=(
-        re.compile(rf"(?:please )?{_IF} (?P<body>.+?){_OTHERWISE}(?P<else>.+)"),
-        re.compile(rf"(?:please )?{_IF} (?P<body>.+)"),
+        re.compile(rf"(?:please )?{_IF_NOT} (?P<body>.+?){_OTHERWISE}(?P<else>.+)"),
+        re.compile(rf"(?:please )?{_IF_NOT} (?P<body>.+)"),
         re.compile(
             rf"(?:please )?(?:check|see|look|find out) (?:if|whether) (?P<if>.+?)[;,.] ?(?:and )?"
             rf"if (?:so|yes|there is|they are)(?:,| then)? (?P<then>.+?){_OTHERWISE}(?P<else>.+)"
@@ -183,11 +119,15 @@ ENGLISH_COMPOUND = CompoundForms(
             r"(?:please )?(?:check|see|look|find out) (?:if|whether) (?P<if>.+?)[;,.] ?(?:and )?"
             r"if (?:so|yes|there is|they are)(?:,| then)? (?P<then>.+)"
         ),
+        re.compile(
+            r"(?P<then>.+?),? (?P<unless>unless) (?P<if>.+?)"
+            rf"(?:,? (?:and )?in (?:which|that) case,? |{_OTHERWISE})(?P<else>.+)"
+        ),
         re.compile(rf"{_NO_QUESTION}(?P<then>.+?),? {_IF} (?P<if>.+?){_OTHERWISE}(?P<else>.+)"),
-        re.compile(rf"{_NO_QUESTION}(?P<then>.+?),? {_IF} (?P<if>.+)"),
+        re.compile(rf"{_NO_QUESTION}(?P<then>.+?),? {_IF_NOT} (?P<if>.+)"),
     ),
-    read_condition=_read_condition,
-    read_memory=_read_memory,
+    read_condition=read_condition,
+    read_memory=read_memory,
     clock=re.compile(
         r"(?:it is|it's|the time is)(?: already)? (?:(?:after|past|later than) (?P<after>[^,]+)"
         r"|(?:before|earlier than|not yet|not (?:after|past)) (?P<before>[^,]+))"
@@ -222,7 +162,7 @@ ENGLISH_COMPOUND = CompoundForms(
         r"(?: about it| please)?"
     ),
     calls=", ",
-    cuts=re.compile(rf" then | (?={_VERBS}\b)"),
+    cuts=re.compile(rf" then |{_NOT_BEGUN} (?={_VERBS}\b)"),
     failures=re.compile(
         rf"(?:try to )?(?P<main>.+?)[,;.]? (?:and |but |or )?{_IF} {_FAILS}"
         r"(?:,| then|, then)? (?P<else>.+?)(?: instead)?"
@@ -237,21 +177,75 @@ ENGLISH_COMPOUND = CompoundForms(
             rf"{_BEFORE}{_STAY}(?: until| till) (?:it is )?"
             rf"(?P<time>(?:half past )?[a-z0-9]+(?::\d\d)?(?: ?[ap]\.?m\.?)?){_GO_ON}"
         ),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT}(?: until| till) (?P<who>{PERSON}) {_COMES}{_GO_ON}"),
         re.compile(
-            rf"{_BEFORE}{_STAY}(?: until| till) (?P<who>{_PERSON}) "
-            r"(?:comes(?: in| by| along| over| home| here)?|is (?:there|here|back)|appears|arrives"
-            rf"|shows up|turns up|walks in|drops by|gets here|enters){_GO_ON}"
+            rf"{_BEFORE}{_STAY}{_AT}(?: until| till) you (?:can )?see (?P<who>{PERSON}){_GO_ON}"
         ),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT} for (?P<who>{PERSON}){_TO_COME}{_GO_ON}"),
+        re.compile(rf"{_BEFORE}{_STAY} for (?P<who>{PERSON}){_TO_COME}{_AT}{_GO_ON}"),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT}(?: until| till) (?P<named>{_ONE}) {_COMES}{_GO_ON}"),
         re.compile(
-            rf"{_BEFORE}{_STAY}(?: until| till) you (?:can )?see (?P<who>{_PERSON}){_GO_ON}"
+            rf"{_BEFORE}{_STAY}{_AT}(?: until| till) you (?:can )?see (?P<named>{_ONE}){_GO_ON}"
         ),
-        re.compile(
-            rf"{_BEFORE}{_STAY} for (?P<who>{_PERSON})"
-            rf"(?: to (?:come|appear|arrive|show up))?{_GO_ON}"
-        ),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT} for (?P<named>{_ONE}){_TO_COME}{_GO_ON}"),
+        re.compile(rf"{_BEFORE}{_STAY} for (?P<named>{_ONE}){_TO_COME}{_AT}{_GO_ON}"),
     ),
     time=_time,
     slowly=re.compile(r"\b(?<!not )(?<!too )(?:very |nice and )?(?:slowly|carefully)\b"),
     follows=re.compile(rf"(?P<main>.*\bfollow\b.+?) for {EN_DURATION}"),
+    there=(
+        (re.compile(r"\bgo(?: on)? in(?: there|side)?(?=$|[,;]| and\b| then\b)"), "go there"),
+        (re.compile(r"\bgo inside(?=$|[,;]| and\b| then\b)"), "go there"),
+        (
+            re.compile(rf"\bgo and (?P<s>{_STOP})(?: (?:in|over|right))? there\b"),
+            r"go there and \g<s> there",
+        ),
+        (
+            re.compile(rf"(?<=\bthere and )(?P<s>{_STOP})(?: in there| over there|(?=$|[,;]))"),
+            r"\g<s> there",
+        ),
+        (
+            re.compile(rf"^(?:just )?(?P<s>{_STOP})(?: (?:in|over|right))? there\b"),
+            r"go there and \g<s> there",
+        ),
+    ),
+    inside=re.compile(r"(?P<rest>.*\b(?:is|are|see|[a-z]*one|[a-z]*body|people))(?: in)? there"),
+    within=" in the ",
+    tries=re.compile(
+        rf"{_SO}(?:(?P<try>try )|(?:check|search|look(?: a?round| for it)?(?: in| at| on)?"
+        r"|(?:have|take) a (?:quick )?(?:look|peek)(?: a?round)?(?: in| at| on)?) )?"
+        r"(?P<place>(?:the|my|our) [a-z]+(?: [a-z]+)?)(?: instead| too| as well| next| then)?"
+    ),
+    the="the ",
+    search="find {thing} in {place}",
+    look_there="look in {place}",
+    informs=re.compile(
+        rf"{_SO}(?:(?:tell|inform|notify|warn) (?P<who>{_ANOTHER})(?: (?:about it|so))?"
+        rf"|let (?P<let>{_ANOTHER}) know)"
+    ),
+    news="tell {who} that {said}",
+    wait_at="go to {at}",
+    folk=_FOLK,
+    mine=re.compile(r"^(?:the|my|our) "),
+    hunts=(
+        re.compile(
+            rf"{_BEFORE}{_KEEP}(?:{_LOOKING}{_ROUND}*|{_MOVING}{_ROUND}+)"
+            r"(?: for (?P<for>[a-z' -]+?))?"
+            r"(?P<at> (?:in|on|around|through) (?:the|my|our) [a-z]+(?: [a-z]+)??)?"
+            rf"{_ROUND}*{_FOUND}{_GO_ON}"
+        ),
+    ),
+    any_hunted=re.compile(
+        r"(?:him|her|it|them|one)|(?:.* )?(?:no|some|any|every|no ?one|nothing|something|anything"
+        r"|all|everything|more|another|enough|both|two|three|four|five|six|where|what|out|how)"
+        r"(?: .*)?"
+    ),
+    find="find {what}{at}",
+    find_and="find {what}{at}, then {rest}",
+    follows_until=re.compile(
+        r"(?P<main>.*\b(?:follow|follow(?:ing)|come (?:along )?with|stay with|stay behind)\b .+?),?"
+        r" (?:until|till) i (?:say|tell you(?: to)?|shout|ask you to)(?: that)? (?P<word>[^,;]+)"
+    ),
+    ends=re.compile(r"so|when|otherwise|to stop|stop it"),
 )
 """A bare "seven" is no time: whether in the morning or in the evening is not said."""

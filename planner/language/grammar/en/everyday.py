@@ -99,6 +99,7 @@ TOLD_TWICE = table(
     (r"^where do (?:we|you|i|they) (?:keep|put|store) (?P<t>(?:the|our|my) [a-z]+)\?*$", r"where is \g<t>?"),
     (rf"{_WHOEVER}(?:in|at) (?P<p>(?:the |my |our )?[a-z]+(?: [a-z]+)?) that (?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
     (r"\b(?P<o>otherwise|or else|if not),? (?:then )?try (?P<p>(?:the|my|our) [a-z]+(?: [a-z]+)?)$", r"\g<o> look in \g<p>"),
+    (r"(?<=[ ,])(?P<o>otherwise|or else|if not|else),? dock(?: yourself)?(?=[.!]*$)", r"\g<o> go to the dock"),
     (r"\bcome (?:back )?(?:(?:and|to) )?(?:tell (?:me|us)|let (?:me|us) know)(?=[!.]*$|[,;.])", "come back"),
     (r"\b(?:(?:have|take) a (?:good |quick |little |proper )*)?look (?:a?round|through|over|all over) "
      rf"(?:the|our|my) (?:(?:whole|entire) {_HOME}|house|flat|apartment)(?!(?: again| now)? for\b)", "patrol the house"),

@@ -252,7 +252,11 @@ RULES: tuple[Rule, ...] = (
         _look_everywhere,
     ),
     rule(rf"describe (?P<at>{THE}{MARK})|tell (?:me|us) about (?P<at2>{THE}{MARK})", _describe),
-    rule(rf"search {THE}?(?P<at>{MARK})(?P<at_there>)? for (?P<what>{_THING})", _find),
+    rule(
+        rf"(?:search|check|scan|scour) {THE}?(?P<at>{MARK})(?P<at_there>)?"
+        rf" for (?P<what>{_THING})",
+        _find,
+    ),
     rule(
         r"(?:look|search|"
         rf"check)(?: around)? {PREP} (?P<at>{THE}{MARK})(?P<at_there>)? for (?P<what>{_THING})",

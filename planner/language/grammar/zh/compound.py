@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar.compound import CompoundForms, ConditionParts, MemoryParts
+from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
 from planner.language.numbers import ZH_DURATION
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
 _THEN = r"[,，]?(?:那么|那)?(?:就|便|你就)?"
 _OTHERWISE = (
-    r"[,，;；。]?(?:否则的?话?|不然的?话?|要不然|要不|"
+    r"[,，;；。]?(?:否则的?话?|不然的?话?|要不然|要不(?![要是])|"
     rf"{_IF}?(?:没有?|不是|没人|没有人|有人|有)(?:的话)?[,，]?(?=就|便|去|回|到|等|说))(?:就|便|再)?"
 )
 _FAILS = (
@@ -114,11 +114,13 @@ _ORDER = (
 _PLACE_HAS = r"[^,，;；。]*?(?:没有|没|有)[^,，;；。]*?"
 _IS_AT = r"[^,，;；。有没不在]{1,10}?还?(?:不在|没在|在)[^,，;；。有没了在]{1,10}?"
 _THEM = r"(?:他们?|她们?|那个?人|大家)"
+_SEARCHES = r"(?:找找看?|找一找|找一下|找下|找|搜一下|搜搜)"
+_LOOKS = r"(?:看看|看一下|看一看|看一眼|看下|瞧瞧|瞧一下)"
 _TOLD = r"(?P<w>[^,，;；。\"“”]{1,60}?)(?=$|[,，;；。])"
 
 CHINESE_COMPOUND = CompoundForms(
     trigger=re.compile(
-        r"如果|要是|假如|假若|倘若|若是|万一|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟"
+        r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟"
     ),
     conditions=(
         re.compile(
@@ -202,7 +204,7 @@ CHINESE_COMPOUND = CompoundForms(
             rf"{_BEFORE}{_STAY}我说(?!完|好)(?P<word>[^,，;；。再就然]{{1,6}})(?:了|的时候)?{_GO_ON}"
         ),
         re.compile(
-            rf"{_STAY}(?P<time>(?:早上|上午|中午|下午|晚上|今晚)?[零一二三四五六七八九十两\d]+"
+            rf"{_BEFORE}{_STAY}(?P<time>(?:早上|上午|中午|下午|晚上|今晚)?[零一二三四五六七八九十两\d]+"
             rf"(?:[:：]\d\d|点(?:钟|半|[零一二三四五六七八九十]+分?)?)){_GO_ON}"
         ),
         re.compile(
@@ -214,4 +216,11 @@ CHINESE_COMPOUND = CompoundForms(
         r"(?<![不太])(?:慢慢|缓慢|慢一?点儿?)地?(?=[去到回来开走往跟前后退倒转移靠绕向])"
     ),
     follows=re.compile(rf"(?P<main>.*跟.+?){ZH_DURATION}"),
+    tries=re.compile(
+        r"(?:你|就|再|那|便)*(?:去|到|在|上)?(?P<place>[^,;。去到在再也看瞧找搜没有不别]{1,6}?)"
+        r"(?:那边|那里|那儿|里面|里)?(?:也|再|去|帮我)*"
+        rf"(?:(?P<try>{_SEARCHES})|{_LOOKS})"
+    ),
+    search="去{place}找{thing}",
+    look_there="看看{place}有没有人",
 )
