@@ -21,6 +21,7 @@ from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
+from planner.language.grammar.told_words import quote_told_words
 from planner.language.grammar.zh.drive_phrases import DRIVE_PHRASES
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
@@ -91,6 +92,7 @@ def read_in_order_words(
 
     It is asked about in the person's words, but where only the others tell what is missing.
     """
+    text = quote_told_words(text)
     plain = in_order_words(text, vocabulary)
     made = read(plain)
     if plain == text or isinstance(made, StepPlan | AnswerPlan):
