@@ -25,6 +25,7 @@ from planner.language.grammar.told_words import quote_told_words
 from planner.language.grammar.zh.drive_phrases import DRIVE_PHRASES
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
+from planner.language.grammar.zh.left_out_phrases import without_left_out_rooms
 from planner.language.grammar.zh.look_phrases import LOOK_PHRASES
 from planner.language.grammar.zh.orders import CHINESE
 from planner.plan import AnswerPlan, Clarify, Code, Refuse, StepPlan, Vocabulary
@@ -92,7 +93,7 @@ def read_in_order_words(
 
     It is asked about in the person's words, but where only the others tell what is missing.
     """
-    text = quote_told_words(text)
+    text = without_left_out_rooms(quote_told_words(text), vocabulary)
     plain = in_order_words(text, vocabulary)
     made = read(plain)
     if plain == text or isinstance(made, StepPlan | AnswerPlan):
