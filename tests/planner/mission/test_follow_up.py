@@ -214,7 +214,8 @@ def test_a_place_is_left_out_of_what_is_still_to_do(text: str, left: str) -> Non
 
 @pytest.mark.parametrize("text", ["厨房别进去", "别进厨房", "不要进去", "别去厨房"])
 def test_a_denial_that_leaves_no_place_out_stops(text: str) -> None:
-    heard = receive(rounds(), parse(text), Submitted("new", text, Language.ZH), NOW_S)
+    thinking, _ = advance(BARE, Submitted("g0", "把所有房间都转一圈", Language.ZH), NOW_S)
+    heard = receive(thinking, parse(text), Submitted("new", text, Language.ZH), NOW_S)
     assert (heard.stops, heard.takes_back) == (True, None)
 
 
