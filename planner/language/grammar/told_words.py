@@ -9,9 +9,15 @@ stays as it was said.
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
+from planner.language.grammar.lexicon import MARK, lexicon_of
+from planner.language.grammar.sentence_text import normalise
 from planner.language.person_names import is_given_name
+
+if TYPE_CHECKING:
+    from planner.plan import Vocabulary
 
 _LEAD = (
     r"(?P<lead>(?:.*[,，。;；])?(?:请|麻烦你?|帮我|替我|帮忙|你|快|先|再|也|去|过去|然后|顺便|记得"
@@ -54,3 +60,23 @@ def quote_told_words(text: str) -> str:
             return text
         return f"{found['lead']}对{who}说“{words['words']}”"
     return text
+
+
+_TO_ME = re.compile(
+    rf"(?:请|麻烦你?|帮我|你|快|先|再|就)*(?:[去到上来回](?:一趟)?)(?P<place>{MARK})(?:这儿|那儿|这边|那边|里)?[来去]?"
+    r"(?:(?:提醒|催|叫|喊)我(?![妈爸哥姐弟妹老爷奶儿女孙家们媳的一了说])(?:一下|一声)?"
+    r"|[跟和对]我[说讲](?:一声|一下|句)?)[,:]?"
+    r"(?P<words>(?!一[声下]$|[的了就是])[^,。;?\"“”]{2,30})[。.!]*"
+)
+_ASKED = re.compile(r"什么|啥|几|谁|哪|[吗么呢]$|有没有|是不是|在不在|如果|要是|的话|结果|情况")
+
+
+def quote_words_for_me(text: str, vocabulary: Vocabulary) -> str:
+    """Return 到客厅来提醒我吃药 as words to be said there: the speaker is where they send it."""
+    if not has_chinese(text) or "我" not in text:
+        return text
+    marked = lexicon_of(vocabulary).mark(normalise(text))
+    found = _TO_ME.fullmatch(marked.text)
+    if found is None or _ASKED.search(found["words"]):
+        return text
+    return marked.restore(f"去{found['place']}说“{found['words']}”")

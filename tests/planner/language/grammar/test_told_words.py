@@ -73,3 +73,34 @@ def test_whoever_is_in_a_room_is_asked_there(understood: Understood, who: str) -
 @pytest.mark.parametrize("said", ["再往前走一点点,好,就一点", "往前走一点,就一点点"])
 def test_only_a_bit_is_the_same_bit(understood: Understood, said: str) -> None:
     assert understood(said) == "move=0.2"
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        ("上客厅来提醒我关火", "关火"),
+        ("到客厅来叫我起床", "起床"),
+        ("来客厅跟我说,该休息眼睛了", "该休息眼睛了"),
+        ("去客厅提醒我不要忘了吃药", "不要忘了吃药"),
+    ],
+)
+def test_where_the_robot_is_sent_the_speaker_hears_the_words(
+    understood: Understood, said: str, words: str
+) -> None:
+    assert understood(said) == f"living_room say={words}"
+
+
+@pytest.mark.parametrize("said", ["去客厅叫我", "来客厅跟我说厨房有没有人", "来客厅跟我说一声"])
+def test_what_is_to_be_found_out_is_no_words(understood: Understood, said: str) -> None:
+    assert "say=" not in understood(said)
+
+
+@pytest.mark.parametrize("who", ["孩子他爸", "宝宝妈妈", "孩子奶奶"])
+def test_who_is_called_by_the_child_is_one_person(understood: Understood, who: str) -> None:
+    assert understood(f"去卧室喊{who}起来") == f"bedroom find={who}@bedroom say={who},起来"
+
+
+@pytest.mark.parametrize("said", ["在这里等,我说“走”再去厨房", "在这里等,我说走再去厨房"])
+def test_a_word_that_is_waited_for_is_heard_in_its_marks(understood: Understood, said: str) -> None:
+    assert understood(said) == understood("在这里等,我说走再去厨房")
+    assert understood(said).startswith("wait_for")
