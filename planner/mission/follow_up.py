@@ -51,6 +51,7 @@ Point = tuple[float, float, float]
 """x [m], y [m], yaw [rad] in ``map``."""
 _LOOKS = frozenset({"count", "find", "look"})
 _HERE = re.compile(r" ?\b(?:right )?(?:over )?(?:in )?here\b|(?:在)?(?:这里|这儿|这边)面?")
+_LOOKED = re.compile(r"看看(?:有没有|有什么|有谁)?[^,，。;；看]*$")
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
 _HEDGE = re.compile(
     r"^(?:it|he|she|they) (?:should|must|might|could|may|has to) be (?=(?:in|at|on) )"
@@ -240,11 +241,16 @@ def _leave_out(facts: SiteView, last: Mission | None, place: str | None) -> str 
     rounds = any(step.kind == "patrol" for step in ahead)
     stops = [stop for step in ahead for stop in (step.places if rounds else (step.place,))]
     left = [stop for stop in stops if stop is not None and stop != place]
-    drives = all(step.kind == "go_to" for step in ahead) or (rounds and len(ahead) == 1)
-    if not drives or place not in stops or not left:
-        return None
     order = last.order_text
     chinese = has_chinese(order)
+    drives = all(step.kind == "go_to" for step in ahead) or (rounds and len(ahead) == 1)
+    looked = _LOOKED.search(order)
+    looks = looked is not None and all(step.kind in ("go_to", "look") for step in ahead)
+    if not (drives or looks) or place not in stops or not left:
+        return None
+    if looked is not None and not drives:
+        names = [_name(facts, stop, chinese, order) for stop in dict.fromkeys(left)]
+        return f"去{'、'.join(names)}{looked[0]}"
     if not rounds:
         return (",再" if chinese else ", then ").join(
             _drive_to(facts, stop, order) for stop in left

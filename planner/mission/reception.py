@@ -120,7 +120,7 @@ def receive(
     intent, full = said.intent, not has_room(book)
     may_answer = answers and not (given.confirm or given.replace)
     asking = goals_answered_by(book, said) if may_answer else ()
-    if said.may_mean_stop and not asking and is_active(book, now_s):
+    if not asking and _may_stop(book, said, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)
     body = _body_of(given)
@@ -241,7 +241,18 @@ def receive_answer(
 
 def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
     """Return whether these words would stop the robot now, with any other meaning besides."""
-    return said.orders_stop or (said.may_mean_stop and is_active(book, now_s))
+    return said.orders_stop or _may_stop(book, said, now_s)
+
+
+def _may_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
+    """Return whether words that may mean a stop are to be taken for one now.
+
+    卧室别进去 leaves one room out of the rounds under way; said of all that is left, it stops.
+    """
+    if not said.may_mean_stop or not is_active(book, now_s):
+        return False
+    out = isinstance(said.intent, LeaveOutCommand)
+    return not (out and leans(book, said.intent, said.text, now_s + book.wall_offset_s))
 
 
 def awaits_answer(book: MissionState) -> bool:

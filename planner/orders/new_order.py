@@ -6,6 +6,7 @@ each firing gives its words as a goal, and they must mean the same then as now.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -63,12 +64,19 @@ def read_new_order(command: ScheduleCommand, language: Language, given: Mission)
     )
 
 
+_DENIES = re.compile(
+    r"(?:^|[,，。;；])\s*(?:你|就|都|也|先|那)*(?:别(?!忘|的|人)|不要|不准|不许|不能|甭|勿)"
+    r"|^(?:please )?(?:don't|do not|never)\b(?! forget)",
+    re.IGNORECASE,
+)
+
+
 def judge_words(new: NewOrder) -> None:
     """Refuse an order that is none, that stops, or that is about what runs now.
 
     Raises:
         OrderRefusal: ``order_empty``, ``order_too_long``, ``order_stops``, ``order_nested``,
-            ``order_is_command``.
+            ``order_is_command``, ``order_denies`` (what is not to be done is nothing to do).
     """
     order = new.order.strip()
     if not order:
@@ -77,6 +85,8 @@ def judge_words(new: NewOrder) -> None:
     _judge_length(new.reminder or "", MAX_REMINDER_CHARACTERS)
     if new.reminder is not None:
         return  # its words are said, and are nobody's order
+    if _DENIES.search(order):
+        raise OrderRefusal("order_denies", order[:120], order=order[:120])
     said = parse(order)
     if said.orders_stop or said.may_mean_stop:
         raise OrderRefusal("order_stops", order[:120], order=order[:120])

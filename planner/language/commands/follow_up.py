@@ -37,6 +37,8 @@ _OPEN_END = re.compile(
 )
 """With these a sentence is more than one word in a conversation."""
 
+_STATE_END = re.compile(r"(?<=[睡坐躺站忙开等歇]着)呢$")
+"""他睡着呢 tells, and asks nothing."""
 _ANY_VERB_ZH = r"(?:[来做去走跑试数找看说转念读退绕问查跟等]|执行|巡[逻视]|检查|转[身圈]|前进|后退)"
 _AGAIN = re.compile(
     r"(?:do |try |go |run )?(?:(?:it|that|this|the same(?: thing)?) )?"
@@ -72,9 +74,13 @@ _LEFT_OUT = re.compile(
     r"|(?:but )?(?:except(?: for)?|apart from|without) (?P<rest3>(?:the |my "
     r"|our )[a-z][a-z' -]{1,30}?)"
 )
+_SIDE_ZH = r"(?:那边|那里|那儿|里面|里头|里)?"
+_NOT_ZH = r"(?:别|不要|不用|不必|甭|不需要|不许)(?:再)?"
 _LEFT_OUT_ZH = re.compile(
     r"(?:(?:跳过|略过)(?P<rest>[^,。;]{1,8}?)(?:别去|不去)?了?|除了(?P<rest2>[^,。;]{1,8}?)(?:以外"
-    r"|之外)?)"
+    rf"|之外)?|(?P<rest3>(?![我你您他她它这那今明后昨每早晚])[^,。;别不甭去到]{{1,6}}?){_SIDE_ZH}(?:就|先|你|也|可以)*"
+    rf"{_NOT_ZH}(?:进去|进|去|看|查|转|管|到|走|逛|巡)(?:了|它|啦|去|里面|里|看)*"
+    rf"|(?:但是?|就|先|可)*{_NOT_ZH}进(?!去)到?(?P<rest4>[^,。;别不甭去到了再]{{1,6}}?){_SIDE_ZH}(?:了|啦)*)"
     r"(?:,(?:因为)?(?:有人|我|[他她]|宝宝|孩子|妈|爸|奶奶|爷爷|客人|里面|那里)[^,去到]{0,10})?"
 )
 
@@ -101,8 +107,9 @@ _DONE_ZH = re.compile(
     r"|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
 )
 _SAME_ZH = re.compile(
-    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次"
-    r"|下))"
+    r"(?:还?(?:不够|差一点|不算完),)?"
+    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:呢|(?:那边|里面?)?的?也(?:照样|同样)?(?:去|再|帮我|给我|要|得)*(?:来"
+    r"|做|弄|数|找|看|瞅|瞧|查|检查|清点)(?:一(?:遍|次|下|眼|找|看|数)|[瞅瞧数找看查]看?))"
 )
 _TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
 _ALSO_ZH = re.compile(
@@ -169,6 +176,7 @@ def read_follow_up(text: str) -> FollowUp | None:
     chinese = has_chinese(said)
     if not 0 < len(said) <= MAX_READ or consents(text) is not None:
         return None
+    said = _STATE_END.sub("", said) if chinese else said
     said = said.rstrip("?？ ") if _ASKS.search(said.rstrip("?？ ")) else said
     done = _DONE.fullmatch(said) or _DONE_ZH.fullmatch("".join(said.split()))
     if done is not None and not _OPEN_END.search(done["rest"]):

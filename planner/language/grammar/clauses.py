@@ -149,8 +149,8 @@ def _going(clause: str) -> str:
 
 
 _SAYING = re.compile(
-    r"(?P<verb>\b(?:say|announce|tell (?:me|us|them|everyone))(?: out loud)?"
-    r"|(?:说|說|喊|讲|播报)(?:一声|一句|一下|出)?)\s*[:：,，]?\s*"
+    r"(?P<verb>\b(?<!\bi )(?:say|announce|tell (?:me|us|them|everyone))(?: out loud)?"
+    r"|(?<!我)(?:说|說|喊|讲|播报)(?:一声|一句|一下|出)?)\s*[:：,，]?\s*"
     r"(?:[\"“”「](?P<double>[^\"“”「」]*)[\"“”」]|['‘](?P<single>.*?)['’](?!\w))",
     re.IGNORECASE,
 )

@@ -22,9 +22,11 @@ from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
+from planner.language.grammar.told_words import quote_told_words, quote_words_for_me
 from planner.language.grammar.zh.drive_phrases import DRIVE_PHRASES
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
+from planner.language.grammar.zh.left_out_phrases import without_left_out_rooms
 from planner.language.grammar.zh.look_phrases import LOOK_PHRASES
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.grammar.zh.seen_phrases import looks_first
@@ -122,6 +124,8 @@ def _read_in_order_words(
 
     It is asked about in the person's words, but where only the others tell what is missing.
     """
+    told = quote_words_for_me(quote_told_words(text), vocabulary)
+    text = without_left_out_rooms(told, vocabulary)
     plain = in_order_words(text, vocabulary)
     made = read(plain)
     if plain == text or isinstance(made, StepPlan | AnswerPlan):

@@ -37,9 +37,12 @@ WHO = say("grammar.who")
 WHERE_LOOK = say("grammar.where_look")
 SEARCH = say("grammar.search")
 WHERE_ARE_YOU = say("grammar.where_are_you")
+WHICH_WORDS = say("grammar.which_words")
 
 _SELF = frozenset({"me", "us", "我", "我们"})
-_THEY = frozenset({"him", "her", "them", "they", "他", "她", "他们", "她们", "ta", "人家"})
+_THEY = frozenset(
+    {"him", "her", "them", "they", "他", "她", "他们", "她们", "ta", "人家", "那位", "这位"}
+)
 _IT = frozenset({"it", "them", "one", "它", "它们"})
 _WHO_IS_THERE = re.compile(r"\b(?:any|some)(?:one|body)\b|\bwho\b|\bpeople\b|有(?:没有)?人|谁|有人")
 """A question about people: "tell them …" means whoever is found."""

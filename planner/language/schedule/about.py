@@ -195,12 +195,14 @@ def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeO
     return _zh_denied(folded, whole)
 
 
+_ZH_ANYTHING = re.compile(r"(?:说|做|弄|去|来|动|跑|走|吵|闹|出声|说话|乱跑|到处跑|乱动)")
+"""What no order is called by: 晚上就别说了 is about talk, not about an order of the evening."""
 _ZH_GENERAL = re.compile(r"(?:提醒|叫|喊|做|去|来|说|弄)(?:我们?)?")
 
 
 def _zh_denied(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     """Read 晚上别再检查门了: not "tonight", which is one day's."""
-    found = re.fullmatch(rf"(?:以后|今后)?(?P<t>.+?)(?:以后|今后)?(?:都|就)?{_ZH_NOT}(?P<what>[^别不了用要必需].+?)了?",
+    found = re.fullmatch(rf"(?:以后|今后)?(?P<t>.+?)(?:以后|今后)?(?:都|就)?{_ZH_NOT}(?P<what>[^别不了用要必需].*?)了?",
                          folded)  # fmt: skip
     if found is None or not re.search(r"再|以后|今后|了$", folded):
         return None
@@ -211,6 +213,8 @@ def _zh_denied(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     days = [part for part in parts if isinstance(part, WeekDays) and part.days != EVERY_DAY]
     if days and len(days) == len(parts) and _ZH_GENERAL.fullmatch(found["what"]):
         return None  # 周末就别提醒了: days that the order of a moment ago leaves out
+    if _ZH_ANYTHING.fullmatch(found["what"]) and all(isinstance(p, DayPart) for p in parts):
+        return None
     one_day = any(isinstance(part, (OnceDay, MonthDay)) for part in parts)
     if not parts or one_day:
         return None

@@ -32,7 +32,12 @@ _ORDERS_ZH = re.compile(
 )
 _STATES_ZH = re.compile(
     r"(?:因为)?(?:我们?|他们?|她们?|孩子|宝宝|小孩|会|怕|不然|太|已经|都|今天|那|起|睡|来|吃|已|人|有|没|赶|忙).{0,12}"
-    r"|全部|统统|一个不留|都不要了?|当然"
+    r"|全部|统统|一个不留|都不要了?|当然|(?:放|快|要|刚|正)?(?:暑假|寒假|假期|放假|假).{0,4}"
+    r"|(?:[零一二三四五六七八九十两\d]{1,3}点(?:半|钟|多)?)?[^,]{1,14}(?:了|呢|啦|着|完|得很)"
+)
+_STILL = re.compile(r"(?<=[完着了好])呢$")
+_SAID_BY = re.compile(
+    r"^(?:医生|大夫|老师|学校|爸爸|妈妈|爷爷|奶奶|老板|[他她]们?)(?:都|也|已经)?(?:说|讲)(?:了|过)?(?=.)"
 )
 
 
@@ -48,7 +53,8 @@ def leave_reasons_out(folded: str, *, chinese: bool) -> str | None:
 def is_reason(clause: str, *, chinese: bool) -> bool:
     """Tell whether a clause says why, or how things stand, and orders nothing."""
     if chinese:
-        return _ORDERS_ZH.search(clause) is None and _STATES_ZH.fullmatch(clause) is not None
+        told = _STILL.sub("", _SAID_BY.sub("", clause))
+        return _ORDERS_ZH.search(told) is None and _STATES_ZH.fullmatch(clause) is not None
     if _WHILE.fullmatch(clause) is not None:
         return True
     states = _STATES.fullmatch(clause) is not None

@@ -66,7 +66,12 @@ _ZH_KIND = re.compile(
 _ZH_DROP = re.compile(
     rf"(?:取消|删除|删掉|删了|去掉|清空|清掉|撤销|关掉|停掉|不要|不用)(?:掉|了)?(?P<all>{_ZH_ALL})?的?(?P<of>.*?)的?(?P<kind>{ZH_KINDS})(?:了|吧)?"
 )
-_ZH_ONE = re.compile(rf"(?:把|将)?(?P<of>.{{1,20}}?)的?(?:那|这)一?[个条项件]{_ZH_GO}")
+_ZH_ONE = re.compile(
+    rf"(?:把|将)?(?P<of>.{{1,20}}?)的?(?:那|这)一?[个条项件](?P<more>[^,]{{1,10}}?的)?,?{_ZH_GO}"
+)
+_ZH_NTH = re.compile(
+    rf"(?:把|将)?(?P<of>第[一二三四五])(?:个|条|项)(?:定时|提醒|任务|闹钟)*(?!问题|房间){_ZH_GO}"
+)
 _ZH_REMIND = re.compile(
     r"(?:以后|今后|从今天起)?(?:都|就)?(?:不要|不用|不必|不需要|别|甭|用不着|无需)(?:你)?(?:再)?(?:来)?(?:提醒|催)我?(?P<of>.*?)(?:的事情?)?了?"
 )
@@ -133,7 +138,11 @@ def _read_chinese(folded: str, reads: ReadsTiming) -> ChangeOrders | None:
                 "remove", which, reminders=found["kind"] == "提醒", is_every=every,
                 is_single=not which and not every and "全" not in folded and "都" not in folded,
             )  # fmt: skip
+    nth = _ZH_NTH.fullmatch(folded)
+    if nth is not None:
+        return ChangeOrders("remove", nth["of"], is_sure=False)
     one = _ZH_ONE.fullmatch(folded)
     if one is None or re.match(r"[我你他她它]$", one["of"]):
         return None
-    return ChangeOrders("remove", one["of"], is_sure=reads(one["of"], in_chinese=True))
+    which = f"{one['of']}{(one['more'] or '').removesuffix('的')}"
+    return ChangeOrders("remove", which, is_sure=reads(one["of"], in_chinese=True))

@@ -31,6 +31,21 @@ def test_so_it_is_in_chinese(said: str) -> None:
     assert meaning_of(DAD_ZH, said, NOW_S) == "去书房叫奶奶吃饭"
 
 
+@pytest.mark.parametrize(
+    "said",
+    [
+        "跟奶奶也说一声",
+        "也跟奶奶说一声",
+        "再去跟奶奶也说一声",
+        "奶奶那边也说一下",
+        "奶奶也告诉一声",
+    ],
+)
+def test_who_is_told_too_hears_the_words_before(said: str) -> None:
+    told = order_under_way("告诉爸爸饭好了", *STEPS)
+    assert meaning_of(told, said, NOW_S) == "告诉奶奶饭好了"
+
+
 @pytest.mark.parametrize("said", ["还要讲晚上不回来吃饭", "再跟她说一声晚上不回来吃饭"])
 def test_the_same_person_is_told_more(said: str) -> None:
     assert meaning_of(MUM_ZH, said, NOW_S) == "跟卧室的妈妈说“晚上不回来吃饭”"

@@ -21,11 +21,13 @@ from planner.language.grammar.parse_result import (
 )
 from planner.language.grammar.small_talk import Topic, answer_topic, topic_of
 from planner.language.grammar.step_builders import (
+    WHICH_WORDS,
     call,
     follow,
     guide,
     label_of,
     meet,
+    missing,
     one_at_a_time,
     place_of,
 )
@@ -103,6 +105,10 @@ def _tell_words(found: Match[str], reading: Reading) -> Meaning:
     )
 
 
+def _what_words(found: Match[str], reading: Reading) -> Meaning:
+    return missing(WHICH_WORDS, found[0], reading)
+
+
 def _quote_to(found: Match[str], reading: Reading) -> Meaning:
     words = reading.quotes[ord(found["quote"]) - ord(QUOTE[1])]
     return meet(found["who"], read_place(found, "at"), reading, words[:500])
@@ -156,8 +162,12 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"{_AT}(?:告诉|对|跟|和|向|通知){_WHO}(?:说|讲|喊)?[:]?(?P<quote>{QUOTE})", _quote_to),
     rule(
-        rf"{_AT}(?:(?:告诉|通知|提醒|叫|喊|让|请|对|跟)|给(?=[^,]{{1,8}}[说讲])){_AT2}{_WHO}(?:说|讲)?(?:一下|"
-        r"一声)?(?P<words>(?![说讲]$)[^,]+)",
+        rf"{_AT}(?:告诉|通知|提醒|跟|对|和|向|给){_AT2}{_WHO}(?:也|再|都)?(?:(?:说|讲|告诉|通知)(?:一?[声下句])?|一?[声句])",
+        _what_words,
+    ),
+    rule(
+        rf"{_AT}(?:(?:告诉|通知|提醒|叫|喊|让|请|催|对|跟)|给(?=[^,]{{1,8}}[说讲])){_AT2}{_WHO}(?:说|讲)?(?:一下|"
+        r"一声|一句|[声句](?![音子明]))?(?P<words>(?![说讲]$)[^,]+)",
         _tell_words,
     ),
     rule(

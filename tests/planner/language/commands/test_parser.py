@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.language.commands import (
+    AppendCommand,
     BatteryCommand,
     CancelCommand,
     Doing,
@@ -71,6 +72,10 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("skip the bathroom", LeaveOutCommand("the bathroom")),
     ("leave out the bedroom, the baby's asleep", LeaveOutCommand("the bedroom")),
     ("跳过卫生间", LeaveOutCommand("卫生间")),
+    ("卫生间别进去", LeaveOutCommand("卫生间")),
+    ("客厅也瞅瞅", AppendCommand("客厅", True)),
+    ("书房的也数一下", AppendCommand("书房", True)),
+    ("不够，书房也去看一眼", AppendCommand("书房", True)),
     ("never mind, I've got it", CancelCommand()),
     ("forget it, it's already here", CancelCommand()),
     ("不用找了，我找到了", CancelCommand()),

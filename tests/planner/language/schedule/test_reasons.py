@@ -31,5 +31,15 @@ def test_what_orders_or_hangs_on_something_is_none(clause: str) -> None:
 def test_chinese_reasons_are_told_from_orders() -> None:
     assert leave_reasons_out("改成八点吧,起不来", chinese=True) == "改成八点吧"
     assert leave_reasons_out("晚上十点以后就别说了,会吵到宝宝", chinese=True) is not None
+    for why in (
+        "八点他琴还没练完呢",
+        "九点他都睡了",
+        "医生讲可以停了",
+        "放暑假了",
+        "一个钟头太长了",
+    ):
+        assert leave_reasons_out(f"改成八点吧,{why}", chinese=True) == "改成八点吧"
+    for order in ("去客厅看看", "告诉妈妈一声", "别忘了", "说饭好了"):
+        assert leave_reasons_out(f"改成八点吧,{order}", chinese=True) is None
     assert leave_reasons_out("改成八点吧,然后去厨房", chinese=True) is None
     assert leave_reasons_out("改成八点吧,要是下雨", chinese=True) is None

@@ -20,6 +20,10 @@ ALL_REMINDERS = ("", True, True)
         ("forget all the things I told you to do every day", "every day", False, True),
         ("the pill reminder can go", "pill", True, False),
         ("晚上九点看门那个不要了", "晚上九点看门", False, False),
+        ("周六早上七点那个叫起床的，给我取消了", "周六早上七点叫起床", False, False),
+        ("早上叫我起床那个删了吧，放暑假了", "早上叫我起床", False, False),
+        ("吃药那个提醒不要了，医生讲可以停了", "吃药", True, False),
+        ("第一个删了", "第一", False, False), ("把第二条取消掉", "第二", False, False),
         ("把明早的闹钟取消了", "明早", False, False),
         ("所有提醒都给我取消掉", *ALL_REMINDERS), ("定的那些提醒全取消吧", *ALL_REMINDERS),
         ("以后不用再提醒我吃药了", "吃药", True, False),
@@ -56,3 +60,8 @@ def test_a_reason_beside_it_changes_nothing(plain: str, reason: str) -> None:
 )  # fmt: skip
 def test_what_names_no_order_drops_none(text: str) -> None:
     assert not isinstance(read_order_command(text), ChangeOrders | ListOrders)
+
+
+@pytest.mark.parametrize("text", ["晚上就别说了", "晚上别吵了", "晚上就不要到处跑了"])
+def test_what_no_order_is_called_by_drops_none(text: str) -> None:
+    assert not isinstance(read_order_command(text), ChangeOrders)
