@@ -28,14 +28,17 @@ from planner.language.commands import (
 )
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
+from planner.language.stop import StopReading, read_stop
 from planner.mission.antecedents import name_antecedents
+from planner.mission.left_out import leave_out
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
+from planner.mission.place_words import name_place, names_of, write_drive
 from planner.mission.pronouns import name_pronouns
 from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
 from planner.mission.state import ORDER_SOURCE
 from planner.mission.whereabouts import search_of_place
-from planner.plan import Code, Entry, GoalState, Vocabulary
+from planner.plan import Code, GoalState
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
@@ -80,14 +83,12 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         orders = last_orders(book, now_unix_s)
         named = name_antecedents(text, orders, book.facts, names_of(book.facts))
         return named or name_pronouns(text, last, book.facts)
-    if not isinstance(intent, LeaningCommand | Replace):
+    if isinstance(intent, LeaveOutCommand) or not isinstance(intent, LeaningCommand | Replace):
         return text
     if isinstance(intent, RepeatCommand):
         return _repeat_order(last.order_text, intent.times) if last is not None else text
     if isinstance(intent, OtherPlaceCommand):
         return _other_place(book.facts, last) or text
-    if isinstance(intent, LeaveOutCommand):
-        return _leave_out(book.facts, last, place_alone(intent.rest, names_of(book.facts))) or text
     rest = _innermost(intent.rest)
     names = names_of(book.facts)
     place = place_alone(rest, names) or place_alone(_ASIDE.sub("", rest), names)
@@ -98,13 +99,13 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         named = name_antecedents(rest, last_orders(book, now_unix_s), book.facts, names)
         return named or rest
     if last is None:
-        return _drive_to(book.facts, place, rest)
+        return write_drive(book.facts, place, rest)
     again = _with_place(book.facts, last.order_text, place, rest)
     if again is None and isinstance(intent, AppendCommand) and intent.asks:
         again = _look_there(book.facts, last, place, rest)
     if again is None and isinstance(intent, Replace) and intent.corrects:
         again = search_of_place(last, place, book.facts)
-    return again or _drive_to(book.facts, place, rest)
+    return again or write_drive(book.facts, place, rest)
 
 
 def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> ShortFollowUp | None:
@@ -115,11 +116,24 @@ def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> Sh
     chosen = find_choice(asked, text) if asked is not None and intent is None else None
     if chosen is not None:
         return ShortFollowUp(chosen)
+    without = leaves_out(book, text, now_unix_s)
+    if without is not None:
+        return ShortFollowUp(without, ends=True)
     open_to = (AppendCommand, RepeatCommand, Replace, *((HereCommand,) if asked is last else ()))
     if last is None or not (intent is None or isinstance(intent, open_to)):
         return None
     here = book.status.base_in_map if book.status is not None else None
     return read_short_follow_up(text, last, book.facts, names_of(book.facts), here)
+
+
+def leaves_out(book: MissionState, text: str, now_unix_s: float) -> str | None:
+    """Return what is left of the order that runs without the place that a sentence leaves out."""
+    last = last_order(book, now_unix_s)
+    if last is None or book.running not in (None, last.id):
+        return None
+    if last.state is GoalState.PAUSED and read_stop(text) is not StopReading.NONE:
+        return None  # "don't go in there" sets nothing in motion that stands
+    return leave_out(text, last, book.facts)
 
 
 def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:
@@ -154,21 +168,6 @@ def _was_read(mission: Mission) -> bool:
     return mission.state in _SPOKEN and not lost
 
 
-def names_of(facts: SiteView) -> Vocabulary:
-    """Return the names of a site's places, for finding them in words."""
-    return Vocabulary(
-        entries=tuple(
-            Entry(
-                id=target.id,
-                kind="room" if target.room else "place",
-                name=target.name,
-                aliases=target.aliases,
-            )
-            for target in facts.targets.values()
-        )
-    )
-
-
 def _repeat_order(order: str, times: int) -> str:
     """Return an order, or so many rounds of it."""
     if times == 1:
@@ -190,7 +189,7 @@ def _with_place(facts: SiteView, order: str, place: str, said: str) -> str | Non
     found = find_places(order, names_of(facts))
     if len({each.id for each in found}) != 1 or found[0].id == place:
         return None
-    words, name = plain(order), _name(facts, place, has_chinese(order), said)
+    words, name = plain(order), name_place(facts, place, has_chinese(order), said)
     for each in reversed(found):
         words = words[: each.start] + name + words[each.end :]
     return words
@@ -205,7 +204,7 @@ def _look_there(facts: SiteView, last: Mission, place: str, said: str) -> str | 
     if step is None:
         return None
     chinese, thing = has_chinese(last.order_text), step.object or ""
-    name = _name(facts, place, chinese, said)
+    name = name_place(facts, place, chinese, said)
     match step.kind:
         case "count":
             return f"数一下{name}的{thing}" if chinese else f"count the {thing} in the {name}"
@@ -227,45 +226,7 @@ def _other_place(facts: SiteView, last: Mission | None) -> str | None:
     left = named - gone
     if len(left) != 1 or len(named) != 2:
         return None
-    return _drive_to(facts, left.pop(), last.order_text)
-
-
-def _leave_out(facts: SiteView, last: Mission | None, place: str | None) -> str | None:
-    """Return what is left of an order without a place; None where it has none left, or does more
-    there than drive.
-    """
-    if last is None or last.has_ended or place is None:
-        return None
-    ahead = last.steps[last.step :]
-    rounds = any(step.kind == "patrol" for step in ahead)
-    stops = [stop for step in ahead for stop in (step.places if rounds else (step.place,))]
-    left = [stop for stop in stops if stop is not None and stop != place]
-    drives = all(step.kind == "go_to" for step in ahead) or (rounds and len(ahead) == 1)
-    if not drives or place not in stops or not left:
-        return None
-    order = last.order_text
-    chinese = has_chinese(order)
-    if not rounds:
-        return (",再" if chinese else ", then ").join(
-            _drive_to(facts, stop, order) for stop in left
-        )
-    names = [_name(facts, stop, chinese, order) for stop in left]
-    return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
-
-
-def _drive_to(facts: SiteView, place: str, said: str) -> str:
-    chinese = has_chinese(said)
-    name = _name(facts, place, chinese, said)
-    return f"去{name}" if chinese else f"go to the {name}"
-
-
-def _name(facts: SiteView, place: str, chinese: bool, said: str) -> str:
-    """Return a place's name as it was said, else the site's in that language."""
-    found = [e for e in find_places(said, names_of(facts)) if e.id == place]
-    spelt = plain(said)[found[0].start : found[0].end] if found else ""
-    if spelt and has_chinese(spelt) is chinese:
-        return spelt
-    return facts.targets[place].name.of("zh" if chinese else "en")
+    return write_drive(facts, left.pop(), last.order_text)
 
 
 def find_robot(book: MissionState) -> Point | None:
