@@ -18,7 +18,8 @@ COURTEOUS = re.compile(
 """A question mark behind these is courtesy; behind anything else it asks."""
 ASKING = re.compile(r"(?!)")
 """A word at the end that asks: there is none in English."""
-POLITE = re.compile(rf"(?:{_POLITE}|(?:can|could|would|will) you)(?![\w'])")
+_RIGHT = r"right(?=,| (?:then|carry on|go on|continue|keep going|hold on|hang on)\b)"
+POLITE = re.compile(rf"(?:{_POLITE}|{_RIGHT}|(?:can|could|would|will) you)(?![\w'])")
 THANKS = re.compile(
     rf"(?:^| )(?:{_POLITE}|for me|right now|again|would you|will you|could you|mate|buddy|pal|love"
     r"|dear|darling|my friend)$"

@@ -46,6 +46,8 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("can you continue?", ResumeCommand()),
     ("go on with the current job", ResumeCommand()),
     ("keep going", ResumeCommand()),
+    ("right, carry on", ResumeCommand()),
+    ("right then, go on please", ResumeCommand()),
     ("you can go on now", ResumeCommand()),
     ("hold on a second", PauseCommand()),
     ("just a moment, please", PauseCommand()),
