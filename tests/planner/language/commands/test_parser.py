@@ -77,6 +77,8 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("forget it, it's already here", CancelCommand()),
     ("不用找了，我找到了", CancelCommand()),
     ("算了，没关系", CancelCommand()),
+    ("don't trouble yourself", CancelCommand()),
+    ("wrong way, go to the study", Replace("go to the study", now=True)),
     ("never mind, I have to go to work", Replace("I have to go to work", now=True)),
     ("pause for a moment", PauseCommand()),
     ("pause for now", PauseCommand()),
