@@ -53,6 +53,8 @@ OLD_POSE_S = 1.0
 Point = tuple[float, float, float]
 """x [m], y [m], yaw [rad] in ``map``."""
 _LOOKS = frozenset({"count", "find", "look"})
+_LOOKS_ZH = re.compile(r"也.{0,4}[看瞅瞧查找数]")
+"""Asks to look at one more place, whatever else was done at the place before."""
 _HERE = re.compile(r" ?\b(?:right )?(?:over )?(?:in )?here\b|(?:在)?(?:这里|这儿|这边)面?")
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
 _HEDGE = re.compile(
@@ -62,7 +64,8 @@ _HEDGE = re.compile(
 )
 """A guess about where something is, said of a place that takes another's place."""
 _ASIDE = re.compile(
-    r"^(?:by|near|beside|next to|on) |(?:旁边|边上|附近|那边|那里|那儿|这边)$", re.IGNORECASE
+    r"^(?:by|near|beside|next to|on) |(?:旁边|边上|附近|那边|那里|那儿|这边|上面?|里面?)$",
+    re.IGNORECASE,
 )
 """Beside a place that takes another's place: the last order says at which side of it."""
 _ORDERS = re.compile(
@@ -98,6 +101,9 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
             return text
         named = name_antecedents(rest, last_orders(book, now_unix_s), book.facts, names)
         return named or rest
+    looked = last is not None and any(step.kind in _LOOKS for step in last.steps)
+    if _LOOKS_ZH.search(plain(text)) and not looked:
+        return f"{write_drive(book.facts, place, rest)}看看"
     if last is None:
         return write_drive(book.facts, place, rest)
     again = _with_place(book.facts, last.order_text, place, rest)
@@ -119,11 +125,29 @@ def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> Sh
     without = leaves_out(book, text, now_unix_s)
     if without is not None:
         return ShortFollowUp(without, ends=True)
+    wider = _widen_patrol(book, last, intent) if isinstance(intent, AppendCommand) else None
+    if wider is not None:
+        return ShortFollowUp(wider, ends=True)
     open_to = (AppendCommand, RepeatCommand, Replace, *((HereCommand,) if asked is last else ()))
     if last is None or not (intent is None or isinstance(intent, open_to)):
         return None
     here = book.status.base_in_map if book.status is not None else None
     return read_short_follow_up(text, last, book.facts, names_of(book.facts), here)
+
+
+def _widen_patrol(book: MissionState, last: Mission | None, added: AppendCommand) -> str | None:
+    """Return a patrol that runs with one more place; None where something else, or more, runs."""
+    place = place_alone(added.rest, names_of(book.facts))
+    ahead = last.steps[last.step :] if last is not None and not last.has_ended else ()
+    if place is None or last is None or [step.kind for step in ahead] != ["patrol"]:
+        return None
+    if ahead[0].depth or place in ahead[0].places or last.speed_share != 1.0:
+        return None
+    order = last.order_text
+    chinese = has_chinese(order)
+    stops = (*ahead[0].places, place)
+    names = [name_place(book.facts, stop, chinese, order) for stop in stops]
+    return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
 
 
 def leaves_out(book: MissionState, text: str, now_unix_s: float) -> str | None:

@@ -85,6 +85,8 @@ _SAME = re.compile(
     r"(?:now )?(?:do )?(?:the )?same(?: thing)?(?: again)? (?:in|at|for|with) (?P<rest>.+)"
     r"|(?:and )?(?:what|how) about (?P<rest2>(?:in )?(?:the|my|our) [a-z][a-z' -]{1,30})"
     r"|and (?P<rest3>(?:in |at )?(?:the|my|our) [a-z][a-z' -]{1,30})"
+    r"|(?:do|take in|include|throw in|add) (?P<rest4>(?:the|my|our) [a-z][a-z' -]{1,30}?)"
+    r"(?: to (?:it|that|the|your) ?(?:round|patrol|tour|list)?s?)?"
 )
 _ASKS = re.compile(
     r"^(?:(?:and )?(?:what|how) about )|^and (?:in |at )?(?:the|my|our) [a-z' -]+$|^.{1,8}呢$"
@@ -101,10 +103,14 @@ _DONE_ZH = re.compile(
     r"|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
 )
 _SAME_ZH = re.compile(
-    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:呢|也(?:照样|同样)?(?:再)?(?:来|做|弄|数|找|看)一(?:遍|次"
-    r"|下))"
+    r"(?:(?:还|这|那)?不够,?)?(?:顺便|顺带|再|还有|另外|,)*(?:把|帮我把)?"
+    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:里|的)?(?:呢|也(?:照样|同样|要|得|帮我|给我|再|去|一起)*"
+    r"(?:来|做|弄|数|找|看|瞅|瞧|查|检查|巡|转|走)(?:一(?:遍|次|下|圈)|一?[数看瞅瞧找查])(?:吧|呗"
+    r"|啊|哈)*|也(?:加上|算上|加进去|算进去|带上))"
 )
-_TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
+_TOO = re.compile(
+    r"(?P<rest>.+?)[ ,]+(?:too|as well|also|while you(?:'re| are) (?:there|at it|about it))"
+)
 _ALSO_ZH = re.compile(
     r"(?:然后|接着|之后|完了(?:以后|之后)?|还有|另外)[,]?(?:也|还|再)?(?P<rest>.+?)(?:也(?:去一下"
     r"|去|要))?"
@@ -112,6 +118,7 @@ _ALSO_ZH = re.compile(
 )
 
 _ONWARD = re.compile(r"^(?:on|over|off|back)(?: again)? (?=(?:in)?to )")
+_ALONGSIDE_ZH = re.compile(r"^(?:顺便|顺带|再|帮我|,)*把")
 _TAKEN = (
     r"(?:(?:oh|ah|(?:oh )?no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong"
     r"|not that(?: one| room)?"
@@ -219,7 +226,7 @@ def _also(bare: str, *, chinese: bool) -> AppendCommand | None:
         if match is not None:
             rest, found = next(t for t in match.groups() if t is not None), True
     rest = _strip(_POLITE_ZH if chinese else _POLITE, rest).strip(_ENDS)
-    rest = _ONWARD.sub("", rest)
+    rest = (_ALONGSIDE_ZH if chinese else _ONWARD).sub("", rest)
     return AppendCommand(rest, asks) if found and rest and consents(rest) is None else None
 
 
