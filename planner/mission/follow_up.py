@@ -33,7 +33,7 @@ from planner.mission.antecedents import name_antecedents
 from planner.mission.left_out import leave_out
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
-from planner.mission.place_words import name_place, names_of, write_drive
+from planner.mission.place_words import find_place, name_place, names_of, put_place, write_drive
 from planner.mission.pronouns import name_pronouns
 from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
 from planner.mission.state import ORDER_SOURCE
@@ -55,11 +55,12 @@ Point = tuple[float, float, float]
 _LOOKS = frozenset({"count", "find", "look"})
 _LOOKS_ZH = re.compile(r"也.{0,4}[看瞅瞧查找数]")
 """Asks to look at one more place, whatever else was done at the place before."""
+_DRIVES = frozenset({"go_to", "come_back", "return_home", "turn", "move", "wait"})
 _HERE = re.compile(r" ?\b(?:right )?(?:over )?(?:in )?here\b|(?:在)?(?:这里|这儿|这边)面?")
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
 _HEDGE = re.compile(
     r"^(?:it|he|she|they) (?:should|must|might|could|may|has to) be (?=(?:in|at|on) )"
-    r"|^(?:它|他|她)?(?:应该|可能|好像|大概|也许|多半)(?:是)?(?:在|放在)?",
+    r"|^(?:它|他|她)?(?:应该|可能|好像|大概|也许|多半)(?:是)?(?:在|放在)?|^是在?(?=.{1,6}$)",
     re.IGNORECASE,
 )
 """A guess about where something is, said of a place that takes another's place."""
@@ -94,24 +95,38 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         return _other_place(book.facts, last) or text
     rest = _innermost(intent.rest)
     names = names_of(book.facts)
-    place = place_alone(rest, names) or place_alone(_ASIDE.sub("", rest), names)
+    place = find_place(book.facts, rest) or place_alone(_ASIDE.sub("", rest), names)
     if place is None:
         takes_back = isinstance(intent, Replace) and not intent.corrects
         if not (takes_back or _ORDERS.match(plain(rest))):
             return text
         named = name_antecedents(rest, last_orders(book, now_unix_s), book.facts, names)
         return named or rest
+    return _order_at(book.facts, text, intent, place, last) or text
+
+
+def _order_at(
+    facts: SiteView,
+    text: str,
+    intent: LeaningCommand | Replace,
+    place: str,
+    last: Mission | None,
+) -> str | None:
+    """Return what a sentence that names one place wants there; None where that is in doubt."""
+    rest = _innermost(intent.rest) if isinstance(intent, AppendCommand | Replace) else ""
     looked = last is not None and any(step.kind in _LOOKS for step in last.steps)
     if _LOOKS_ZH.search(plain(text)) and not looked:
-        return f"{write_drive(book.facts, place, rest)}看看"
+        return f"{write_drive(facts, place, rest)}看看"
     if last is None:
-        return write_drive(book.facts, place, rest)
-    again = _with_place(book.facts, last.order_text, place, rest)
+        return write_drive(facts, place, rest)
+    again = put_place(facts, last.order_text, place, rest)
     if again is None and isinstance(intent, AppendCommand) and intent.asks:
-        again = _look_there(book.facts, last, place, rest)
+        again = _look_there(facts, last, place, rest)
     if again is None and isinstance(intent, Replace) and intent.corrects:
-        again = search_of_place(last, place, book.facts)
-    return again or write_drive(book.facts, place, rest)
+        again = search_of_place(last, place, facts)
+        if again is None and any(step.kind not in _DRIVES for step in last.steps):
+            return None  # a bare drive would leave out what was to be done there
+    return again or write_drive(facts, place, rest)
 
 
 def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> ShortFollowUp | None:
@@ -206,17 +221,6 @@ def _innermost(rest: str) -> str:
     if isinstance(inner, Replace | AppendCommand):
         return _innermost(inner.rest)
     return _HEDGE.sub("", rest)
-
-
-def _with_place(facts: SiteView, order: str, place: str, said: str) -> str | None:
-    """Return an order with another place in it; None where it names none, or several."""
-    found = find_places(order, names_of(facts))
-    if len({each.id for each in found}) != 1 or found[0].id == place:
-        return None
-    words, name = plain(order), name_place(facts, place, has_chinese(order), said)
-    for each in reversed(found):
-        words = words[: each.start] + name + words[each.end :]
-    return words
 
 
 def _look_there(facts: SiteView, last: Mission, place: str, said: str) -> str | None:
