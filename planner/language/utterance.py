@@ -16,7 +16,6 @@ from planner.language.commands import (
     HereCommand,
     Intent,
     LeaningCommand,
-    LeaveOutCommand,
     Replace,
     TeachFact,
     intent_of,
@@ -59,7 +58,7 @@ class Utterance:
         """Return whether a stop word stands in it that is not read as anything else."""
         if isinstance(self.intent, Replace | AppendCommand):
             return self.instead is not StopReading.NONE
-        stays = isinstance(self.intent, TeachFact | ForgetFacts | OrderCommand | LeaveOutCommand)
+        stays = isinstance(self.intent, TeachFact | ForgetFacts | OrderCommand)
         return (self.intent is None or stays) and self.reading is StopReading.POSSIBLE
 
     @property

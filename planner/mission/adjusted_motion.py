@@ -29,7 +29,7 @@ _OPEN = (
     r"(?:(?:ok|okay|well|um+|uh+|oh|and|just|yes|yeah|nearly|almost|please|robot|pons|still|good"
     r"|great|lovely|now|then)[ ,.!;]+)*"
 )
-_CLOSE = r"(?:[ ,]+(?:please|thanks|thank you|now|then|again|mate|love))*"
+_CLOSE = r"(?:[ ,]+(?:please|thanks|thank you|now|then|again|mate|love|dear|darling))*"
 _BIT = (
     r"(?:(?:just )?(?:a |one )?(?:(?:tiny |wee |little )?(?:bit|touch|tad|smidge)|little)|some"
     r"|slightly)"
@@ -49,7 +49,8 @@ _MORE = re.compile(
 _CLOSER = re.compile(rf"{_OPEN}(?:{_BIT} )?(?:closer|nearer){_CLOSE}")
 _BACK = re.compile(
     rf"{_OPEN}(?:(?:that(?:'s| is| was)? )?(?:too (?:far|much)|much too far|over)[ ,.!;]+)?"
-    rf"(?:(?:go|come|turn|move|drive) )?(?:back {_BIT}|{_BIT} (?:further )?back(?:wards)?){_CLOSE}"
+    rf"(?:(?:now |so |just )*(?:go|come|turn|move|drive) )?(?:back {_BIT}"
+    rf"|{_BIT} (?:further )?back(?:wards)?){_CLOSE}"
 )
 _NO = (
     r"(?:(?:no|nope|wait|oops|sorry|hey|not that way|wrong (?:way|side|direction|one)|the wrong way"
@@ -65,6 +66,7 @@ _OTHER = re.compile(
     rf"|{_NO}*i (?:meant|said) {_SIDE.format('c')}(?:[ ,]+not (?:left|right))?{_CLOSE}"
     rf"|{_NO}*{_SIDE.format('d')}[ ,]+(?:i (?:meant|mean|said)|not (?:left|right)){_CLOSE}"
     rf"|(?:no[ ,.!;]+)?(?:that's |that is )?(?:the )?wrong (?:way|direction|side){_CLOSE}"
+    rf"(?:[ ,.!;]+{_SIDE.format('e')}{_CLOSE})?"
 )
 _MORE_ZH = re.compile(
     r"(?:好|嗯|对|行|可以|还|就|快到了|差不多|,)*(?:(?:再|还要?|多)(?:多|稍微|往那边|(?:往"
@@ -81,7 +83,7 @@ _CLOSER_ZH = re.compile(r"(?:再)?(?:靠|走|开|离)?(?:得)?近(?:一点|点�
 _BACK_ZH = re.compile(
     r"(?:[哎诶啊]|,)*(?:(?:转|走|开)?(?:多|过头?|太多|太远)了?,?)*(?:你)?(?:再)?(?:往|向)?(?:转|走"
     r"|退|倒|开)?"
-    r"(?:回来?|回去|后退?|退)(?:一点点?|点儿?|一些)(?:吧|就好|啊|就行)*"
+    r"(?:回来?|回去|后退?|退)(?:转|走|开|动|来|去)?(?:一点点?|点儿?|一些)(?:吧|就好|啊|就行)*"
 )
 _OTHER_ZH = re.compile(
     r"(?:不对|不是|错了|反了|不|哎|诶|,)*(?:(?:我说的|我要的|我|应该|说的)?是?(?:往|向"

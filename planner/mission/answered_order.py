@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from planner.brain.interface import OFFLINE
 from planner.language.utterance import parse
-from planner.mission.follow_up import names_of
 from planner.mission.open_questions import find_choice, find_offer
+from planner.mission.place_words import names_of
 from planner.mission.whereabouts import answer_whereabouts
 
 if TYPE_CHECKING:

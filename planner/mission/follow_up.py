@@ -28,14 +28,17 @@ from planner.language.commands import (
 )
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
+from planner.language.stop import StopReading, read_stop
 from planner.mission.antecedents import name_antecedents
+from planner.mission.left_out import leave_out
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
+from planner.mission.place_words import find_place, name_place, names_of, put_place, write_drive
 from planner.mission.pronouns import name_pronouns
 from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
 from planner.mission.state import ORDER_SOURCE
 from planner.mission.whereabouts import search_of_place
-from planner.plan import Code, Entry, GoalState, Vocabulary
+from planner.plan import Code, GoalState
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
@@ -50,17 +53,20 @@ OLD_POSE_S = 1.0
 Point = tuple[float, float, float]
 """x [m], y [m], yaw [rad] in ``map``."""
 _LOOKS = frozenset({"count", "find", "look"})
+_LOOKS_ZH = re.compile(r"也.{0,4}[看瞅瞧查找数]")
+"""Asks to look at one more place, whatever else was done at the place before."""
+_DRIVES = frozenset({"go_to", "come_back", "return_home", "turn", "move", "wait"})
 _HERE = re.compile(r" ?\b(?:right )?(?:over )?(?:in )?here\b|(?:在)?(?:这里|这儿|这边)面?")
-_LOOKED = re.compile(r"看看(?:有没有|有什么|有谁)?[^,，。;；看]*$")
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
 _HEDGE = re.compile(
     r"^(?:it|he|she|they) (?:should|must|might|could|may|has to) be (?=(?:in|at|on) )"
-    r"|^(?:它|他|她)?(?:应该|可能|好像|大概|也许|多半)(?:是)?(?:在|放在)?",
+    r"|^(?:它|他|她)?(?:应该|可能|好像|大概|也许|多半)(?:是)?(?:在|放在)?|^是在?(?=.{1,6}$)",
     re.IGNORECASE,
 )
 """A guess about where something is, said of a place that takes another's place."""
 _ASIDE = re.compile(
-    r"^(?:by|near|beside|next to|on) |(?:旁边|边上|附近|那边|那里|那儿|这边)$", re.IGNORECASE
+    r"^(?:by|near|beside|next to|on) |(?:旁边|边上|附近|那边|那里|那儿|这边|上面?|里面?)$",
+    re.IGNORECASE,
 )
 """Beside a place that takes another's place: the last order says at which side of it."""
 _ORDERS = re.compile(
@@ -81,31 +87,46 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         orders = last_orders(book, now_unix_s)
         named = name_antecedents(text, orders, book.facts, names_of(book.facts))
         return named or name_pronouns(text, last, book.facts)
-    if not isinstance(intent, LeaningCommand | Replace):
+    if isinstance(intent, LeaveOutCommand) or not isinstance(intent, LeaningCommand | Replace):
         return text
     if isinstance(intent, RepeatCommand):
         return _repeat_order(last.order_text, intent.times) if last is not None else text
     if isinstance(intent, OtherPlaceCommand):
         return _other_place(book.facts, last) or text
-    if isinstance(intent, LeaveOutCommand):
-        return _leave_out(book.facts, last, place_alone(intent.rest, names_of(book.facts))) or text
     rest = _innermost(intent.rest)
     names = names_of(book.facts)
-    place = place_alone(rest, names) or place_alone(_ASIDE.sub("", rest), names)
+    place = find_place(book.facts, rest) or place_alone(_ASIDE.sub("", rest), names)
     if place is None:
         takes_back = isinstance(intent, Replace) and not intent.corrects
         if not (takes_back or _ORDERS.match(plain(rest))):
             return text
         named = name_antecedents(rest, last_orders(book, now_unix_s), book.facts, names)
         return named or rest
+    return _order_at(book.facts, text, intent, place, last) or text
+
+
+def _order_at(
+    facts: SiteView,
+    text: str,
+    intent: LeaningCommand | Replace,
+    place: str,
+    last: Mission | None,
+) -> str | None:
+    """Return what a sentence that names one place wants there; None where that is in doubt."""
+    rest = _innermost(intent.rest) if isinstance(intent, AppendCommand | Replace) else ""
+    looked = last is not None and any(step.kind in _LOOKS for step in last.steps)
+    if _LOOKS_ZH.search(plain(text)) and not looked:
+        return f"{write_drive(facts, place, rest)}看看"
     if last is None:
-        return _drive_to(book.facts, place, rest)
-    again = _with_place(book.facts, last.order_text, place, rest)
+        return write_drive(facts, place, rest)
+    again = put_place(facts, last.order_text, place, rest)
     if again is None and isinstance(intent, AppendCommand) and intent.asks:
-        again = _look_there(book.facts, last, place, rest)
+        again = _look_there(facts, last, place, rest)
     if again is None and isinstance(intent, Replace) and intent.corrects:
-        again = search_of_place(last, place, book.facts)
-    return again or _drive_to(book.facts, place, rest)
+        again = search_of_place(last, place, facts)
+        if again is None and any(step.kind not in _DRIVES for step in last.steps):
+            return None  # a bare drive would leave out what was to be done there
+    return again or write_drive(facts, place, rest)
 
 
 def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> ShortFollowUp | None:
@@ -116,11 +137,42 @@ def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> Sh
     chosen = find_choice(asked, text) if asked is not None and intent is None else None
     if chosen is not None:
         return ShortFollowUp(chosen)
+    without = leaves_out(book, text, now_unix_s)
+    if without is not None:
+        return ShortFollowUp(without, ends=True)
+    wider = _widen_patrol(book, last, intent) if isinstance(intent, AppendCommand) else None
+    if wider is not None:
+        return ShortFollowUp(wider, ends=True)
     open_to = (AppendCommand, RepeatCommand, Replace, *((HereCommand,) if asked is last else ()))
     if last is None or not (intent is None or isinstance(intent, open_to)):
         return None
     here = book.status.base_in_map if book.status is not None else None
     return read_short_follow_up(text, last, book.facts, names_of(book.facts), here)
+
+
+def _widen_patrol(book: MissionState, last: Mission | None, added: AppendCommand) -> str | None:
+    """Return a patrol that runs with one more place; None where something else, or more, runs."""
+    place = place_alone(added.rest, names_of(book.facts))
+    ahead = last.steps[last.step :] if last is not None and not last.has_ended else ()
+    if place is None or last is None or [step.kind for step in ahead] != ["patrol"]:
+        return None
+    if ahead[0].depth or place in ahead[0].places or last.speed_share != 1.0:
+        return None
+    order = last.order_text
+    chinese = has_chinese(order)
+    stops = (*ahead[0].places, place)
+    names = [name_place(book.facts, stop, chinese, order) for stop in stops]
+    return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
+
+
+def leaves_out(book: MissionState, text: str, now_unix_s: float) -> str | None:
+    """Return what is left of the order that runs without the place that a sentence leaves out."""
+    last = last_order(book, now_unix_s)
+    if last is None or book.running not in (None, last.id):
+        return None
+    if last.state is GoalState.PAUSED and read_stop(text) is not StopReading.NONE:
+        return None  # "don't go in there" sets nothing in motion that stands
+    return leave_out(text, last, book.facts)
 
 
 def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:
@@ -155,21 +207,6 @@ def _was_read(mission: Mission) -> bool:
     return mission.state in _SPOKEN and not lost
 
 
-def names_of(facts: SiteView) -> Vocabulary:
-    """Return the names of a site's places, for finding them in words."""
-    return Vocabulary(
-        entries=tuple(
-            Entry(
-                id=target.id,
-                kind="room" if target.room else "place",
-                name=target.name,
-                aliases=target.aliases,
-            )
-            for target in facts.targets.values()
-        )
-    )
-
-
 def _repeat_order(order: str, times: int) -> str:
     """Return an order, or so many rounds of it."""
     if times == 1:
@@ -186,17 +223,6 @@ def _innermost(rest: str) -> str:
     return _HEDGE.sub("", rest)
 
 
-def _with_place(facts: SiteView, order: str, place: str, said: str) -> str | None:
-    """Return an order with another place in it; None where it names none, or several."""
-    found = find_places(order, names_of(facts))
-    if len({each.id for each in found}) != 1 or found[0].id == place:
-        return None
-    words, name = plain(order), _name(facts, place, has_chinese(order), said)
-    for each in reversed(found):
-        words = words[: each.start] + name + words[each.end :]
-    return words
-
-
 def _look_there(facts: SiteView, last: Mission, place: str, said: str) -> str | None:
     """Return what the last order looked for, asked of one place; None where it looked for nothing.
 
@@ -206,7 +232,7 @@ def _look_there(facts: SiteView, last: Mission, place: str, said: str) -> str | 
     if step is None:
         return None
     chinese, thing = has_chinese(last.order_text), step.object or ""
-    name = _name(facts, place, chinese, said)
+    name = name_place(facts, place, chinese, said)
     match step.kind:
         case "count":
             return f"数一下{name}的{thing}" if chinese else f"count the {thing} in the {name}"
@@ -228,50 +254,7 @@ def _other_place(facts: SiteView, last: Mission | None) -> str | None:
     left = named - gone
     if len(left) != 1 or len(named) != 2:
         return None
-    return _drive_to(facts, left.pop(), last.order_text)
-
-
-def _leave_out(facts: SiteView, last: Mission | None, place: str | None) -> str | None:
-    """Return what is left of an order without a place; None where it has none left, or does more
-    there than drive.
-    """
-    if last is None or last.has_ended or place is None:
-        return None
-    ahead = last.steps[last.step :]
-    rounds = any(step.kind == "patrol" for step in ahead)
-    stops = [stop for step in ahead for stop in (step.places if rounds else (step.place,))]
-    left = [stop for stop in stops if stop is not None and stop != place]
-    order = last.order_text
-    chinese = has_chinese(order)
-    drives = all(step.kind == "go_to" for step in ahead) or (rounds and len(ahead) == 1)
-    looked = _LOOKED.search(order)
-    looks = looked is not None and all(step.kind in ("go_to", "look") for step in ahead)
-    if not (drives or looks) or place not in stops or not left:
-        return None
-    if looked is not None and not drives:
-        names = [_name(facts, stop, chinese, order) for stop in dict.fromkeys(left)]
-        return f"去{'、'.join(names)}{looked[0]}"
-    if not rounds:
-        return (",再" if chinese else ", then ").join(
-            _drive_to(facts, stop, order) for stop in left
-        )
-    names = [_name(facts, stop, chinese, order) for stop in left]
-    return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
-
-
-def _drive_to(facts: SiteView, place: str, said: str) -> str:
-    chinese = has_chinese(said)
-    name = _name(facts, place, chinese, said)
-    return f"去{name}" if chinese else f"go to the {name}"
-
-
-def _name(facts: SiteView, place: str, chinese: bool, said: str) -> str:
-    """Return a place's name as it was said, else the site's in that language."""
-    found = [e for e in find_places(said, names_of(facts)) if e.id == place]
-    spelt = plain(said)[found[0].start : found[0].end] if found else ""
-    if spelt and has_chinese(spelt) is chinese:
-        return spelt
-    return facts.targets[place].name.of("zh" if chinese else "en")
+    return write_drive(facts, left.pop(), last.order_text)
 
 
 def find_robot(book: MissionState) -> Point | None:

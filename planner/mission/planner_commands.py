@@ -108,7 +108,7 @@ class PlannerCommands:
         if isinstance(intent, OrderCommand):
             intent = None
         if mission is not None and not (mission.replies or mission.steps):
-            intent = self._facts.read_correction(ask.text, mission, intent) or intent
+            intent = self._facts.read_correction(mission.text, mission, intent) or intent
         if isinstance(intent, Replace) and not intent.corrects:
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:

@@ -31,7 +31,13 @@ from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
-from planner.mission.follow_up import find_short_follow_up, last_order, leans, meaning_of
+from planner.mission.follow_up import (
+    find_short_follow_up,
+    last_order,
+    leans,
+    leaves_out,
+    meaning_of,
+)
 from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
 from planner.mission.state import GoalKey, MissionState
@@ -120,6 +126,7 @@ def receive(
     intent, full = said.intent, not has_room(book)
     may_answer = answers and not (given.confirm or given.replace)
     asking = goals_answered_by(book, said) if may_answer else ()
+    now_unix_s = now_s + book.wall_offset_s
     if not asking and _may_stop(book, said, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)
@@ -129,7 +136,7 @@ def receive(
         return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
     if before is not None:
         return Reception(given, repeats=before.goal)
-    lean = _lean_of(book, said, now_s + book.wall_offset_s, asked=bool(asking))
+    lean = _lean_of(book, said, now_unix_s, asked=bool(asking))
     intent, ends, first = lean.intent, lean.ends, lean.first
     replaces = isinstance(intent, LeaningCommand | Replace)
     local = bool(asking) or (intent is not None and not replaces)
@@ -247,12 +254,11 @@ def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
 def _may_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
     """Return whether words that may mean a stop are to be taken for one now.
 
-    卧室别进去 leaves one room out of the rounds under way; said of all that is left, it stops.
+    卧室别进去 leaves one room out of the round that runs, and the rest of it goes on.
     """
     if not said.may_mean_stop or not is_active(book, now_s):
         return False
-    out = isinstance(said.intent, LeaveOutCommand)
-    return not (out and leans(book, said.intent, said.text, now_s + book.wall_offset_s))
+    return leaves_out(book, said.text, now_s + book.wall_offset_s) is None
 
 
 def awaits_answer(book: MissionState) -> bool:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, plain
 from planner.language.object_names import resolve
+from planner.mission.reason_clauses import REASON, REASON_ZH
 from planner.mission.whereabouts import sought_thing
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ _AGAIN = re.compile(
     rf"{_THEM}(?: properly| carefully)? {_ONCE_MORE}|(?P<recount>recount){_THEM}"
     rf"|double[- ]check{_THEM}"
     rf"|(?:have|take) another (?:look|go|count)(?: (?:there|in there|over there))?)"
-    rf"(?:[ ,.!;]+there (?:must|should) be more)?{_CLOSE}"
+    rf"(?:[ ,.!;]+there (?:must|should) be more)?{_CLOSE}(?:[,.;!]+ {REASON})?"
 )
 _DOUBT_ZH = (
     r"(?:(?:你?(?:真的?)?确定吗?|真的吗?|是吗|不会吧|不对吧?|不可能吧?|不止吧|你?没(?:搞|看|数"
@@ -56,13 +57,15 @@ _DOUBT_ZH = (
     r"|好像不对)[,?!。]*)*"
 )
 _AGAIN_ZH = re.compile(
-    rf"(?:[嗯哦啊哎诶]|那|麻烦|请|,)*{_DOUBT_ZH}(?:你)?(?:刚才|刚刚)?(?:的)?(?:那边|那里|那儿"
+    rf"(?:{REASON_ZH},)?(?:[嗯哦啊哎诶]|那|麻烦|请|,)*{_DOUBT_ZH}(?:你)?(?:刚才|刚刚)?(?:的)?(?:那边|那里|那儿"
     rf"|那个房间|那间|同样的地方)?(?:你)?"
     r"(?:(?:再|重新|重)(?:去|好好|仔细)?(?P<verb>数|看|找|检查|清点)(?:一|上)?(?:遍|次|下|回"
     r"|[数看找](?:看)?)"
     r"|(?:再|重新|重)(?:好好|仔细)?(?P<verb2>数数|看看|找找))"
-    r"(?:看|吧|啊|呀)*(?:,(?:应该|好像|肯定|可能)?(?:不止|还有|不对|没那么[多少]|漏了)(?:这么?些"
-    r"|这些|的)?(?:吧|啊|呀|了)*)?"
+    r"(?:看|吧|啊|呀|呗|嘛)*"
+    r"(?:,(?:应该|好像|肯定|可能)?(?:不止|还有|不对|没那么[多少]|漏了)(?:这么?些"
+    r"|这些|的)?(?:吧|啊|呀|了)*"
+    rf"|,{REASON_ZH})?"
 )
 _DET = r"(?:(?:the|any|some|a|an|my|our) )?"
 _THING = rf"{_DET}[a-z][a-z -]{{1,24}}?"
@@ -118,18 +121,21 @@ _LOUDER = (
     r"(?:(?:a )?(?:bit |little |lot |much )?(?:louder|more loudly|slower|more slowly|clearer))"
 )
 _SAY_AGAIN = re.compile(
-    rf"{_OPEN}(?:(?:say|tell (?:her|him|them)|repeat|shout|announce) (?:it|that|this)(?: to (?:her"
+    rf"{_OPEN}(?:(?:she|he|they|nobody|no one) (?:didn't|did not|couldn't|could not)"
+    rf" (?:hear|understand|catch)(?: (?:you|it|that))*[ ,.;!]+)?(?:so |please )*"
+    rf"(?:(?:say|tell (?:her|him|them)|repeat|shout|announce) (?:it|that|this)(?: to (?:her"
     rf"|him|them))?"
-    rf"(?: {_ONCE_MORE})?(?:[ ,]*(?:but )?{_LOUDER})?|(?:{_ONCE_MORE}[ ,]*(?:but )?)?{_LOUDER})"
+    rf"(?: (?:{_ONCE_MORE}|(?P<twice>twice|two times)(?: more)?))?"
+    rf"(?:[ ,]*(?:but )?{_LOUDER})?|(?:{_ONCE_MORE}[ ,]*(?:but )?)?{_LOUDER})"
     rf"(?:[ ,.!;]+(?:(?:she|he|they|nobody|no one)\b[a-z' ]{{3,40}}|please))*"
 )
 _LOUD_ZH = r"(?:大声|声音大|慢)(?:一?点|些)?"
 _SAY_AGAIN_ZH = re.compile(
     r"(?:[嗯哦啊哎诶]|请|麻烦|那|你|,)*(?:(?:[我他她]们?)?(?:没|听不)(?:听)?(?:到|见|清楚?),)?"
-    rf"(?:{_LOUD_ZH}地?)?(?:再|重新?)(?:{_LOUD_ZH}地?)?(?:跟[他她]们?)?(?:说|讲|喊|播)(?:一)?(?:遍"
-    rf"|次|下)"
+    rf"(?:{_LOUD_ZH}地?)?(?:再|重新?)(?:{_LOUD_ZH}地?)?(?:跟[他她]们?)?(?:说|讲|喊|播)(?:一"
+    rf"|(?P<twice>[两二2]))?(?:遍|次|下)"
     rf"(?:吧|啊|呀)*(?:,?{_LOUD_ZH})?"
-    r"(?:,?[他她]们?(?:没听(?:到|见|清)|耳朵不好|听不(?:到|见|清)))?(?:吧|啊|呀|了)*"
+    r"(?:,?[他她]们?(?:没听(?:到|见|清)|耳朵不好|听不(?:到|见|清)))?(?:吧|啊|呀|了|呗)*"
 )
 
 
@@ -143,7 +149,10 @@ def say_again(text: str, last: Mission) -> str | None:
     found = (_SAY_AGAIN_ZH if chinese else _SAY_AGAIN).fullmatch(bare[:MAX_READ])
     if words is None or found is None or any(quote in words for quote in _QUOTES):
         return None
-    return f"说“{words}”" if chinese else f'say "{words}"'
+    once = f"说“{words}”" if chinese else f'say "{words}"'
+    if not found["twice"]:
+        return once
+    return f"{once}，再{once}" if chinese else f"{once} and then {once}"
 
 
 _QUOTES = '"“”'

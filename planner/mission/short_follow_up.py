@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from planner.mission.added_words import add_to_words
 from planner.mission.adjusted_motion import adjust_motion, turn_other_way
+from planner.mission.corrected_whereabouts import correct_whereabouts
 from planner.mission.renewed_look import renew_look, say_again
 from planner.mission.whereabouts import answer_whereabouts
 
@@ -44,7 +45,8 @@ def read_short_follow_up(
         names: of its places.
         here: where the robot stands in ``map``, where that is known.
     """
-    placed = answer_whereabouts(text, last, facts, names)
+    placed = correct_whereabouts(text, last, facts)
+    placed = placed or answer_whereabouts(text, last, facts, names)
     if placed is not None:
         return ShortFollowUp(placed, ends=True)
     turned = turn_other_way(text, last, here)

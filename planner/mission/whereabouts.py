@@ -159,7 +159,7 @@ _DENIES = re.compile(
 _UNSURE = re.compile(r"(?:i )?(?:dunno|don't know|do not know)|not sure|i(?:'m| am) not sure")
 _THEN = re.compile(r"^(?:(?:ok|okay|right|well)[ ,]+)?then (?=(?:in )?(?:the|my|our) )")
 _OWNED = re.compile(r"^(?:his|her|their) ")
-_THEM = {"he": "him", "she": "her", "他": "他", "她": "她"}
+THEM = {"he": "him", "she": "her", "他": "他", "她": "她"}
 _SOUGHT = frozenset({"find", "go_to", "patrol"})
 
 
@@ -193,9 +193,9 @@ def answer_whereabouts(text: str, last: Mission, facts: SiteView, names: Vocabul
     asked = _asked_person(last, names)
     if asked is not None:
         name = facts.targets[place].name.of("zh" if has_chinese(last.order_text) else "en")
-        return _put_place(last.order_text, asked, name, who)
+        return put_person_at(last.order_text, asked, name, who)
     thing = sought_thing(last)
-    if thing is None or (who in _THEM and not _is_somebody(thing)):
+    if thing is None or (who in THEM and not _is_somebody(thing)):
         return None
     return _narrow(found, last, place, facts, names, chinese=chinese)
 
@@ -275,9 +275,9 @@ def _asked_person(last: Mission, names: Vocabulary) -> str | None:
     return people[0] if len(people) == 1 and (asks or (seeks and not last.has_ended)) else None
 
 
-def _put_place(order: str, person: str, place: str, who: str) -> str | None:
+def put_person_at(order: str, person: str, place: str, who: str) -> str | None:
     """Return "tell Dad in the study …" of "tell Dad …"."""
-    if who in ("it", "that", "它") or (who in _THEM and not fits(_THEM[who], person)):
+    if who in ("it", "that", "它") or (who in THEM and not fits(THEM[who], person)):
         return None
     words = plain(order)
     if has_chinese(order):

@@ -18,7 +18,8 @@ COURTEOUS = re.compile(
 """A question mark behind these is courtesy; behind anything else it asks."""
 ASKING = re.compile(r"(?!)")
 """A word at the end that asks: there is none in English."""
-POLITE = re.compile(rf"(?:{_POLITE}|(?:can|could|would|will) you)(?![\w'])")
+_RIGHT = r"right(?=,| (?:then|carry on|go on|continue|keep going|hold on|hang on)\b)"
+POLITE = re.compile(rf"(?:{_POLITE}|{_RIGHT}|(?:can|could|would|will) you)(?![\w'])")
 THANKS = re.compile(
     rf"(?:^| )(?:{_POLITE}|for me|right now|again|would you|will you|could you|mate|buddy|pal|love"
     r"|dear|darling|my friend)$"
@@ -65,7 +66,8 @@ CANCEL = re.compile(
     r"|forget (?:it|that|this|about (?:it|that|this)|what i (?:said|told you))"
     rf"|forget (?:about )?{_THE_TASK}"
     r"|never ?mind(?: (?:it|that|about (?:it|that)))?"
-    r"|scratch that|scrap (?:that|the|this)(?: whole)?(?: thing| lot)?|don't bother"
+    r"|scratch that|scrap (?:that|the|this)(?: whole)?(?: thing| lot)?"
+    r"|(?:don't|do not) (?:bother|trouble)(?: yourself)?"
     r"|leave it(?: be| then)?|forget it then"
     r"|no need(?: (?:any ?more|for (?:it|that)))?|i changed my mind"
     rf"|(?:don't|do not) go(?: there)?(?: {_MORE})?"
@@ -73,7 +75,11 @@ CANCEL = re.compile(
     r"|(?:(?:there(?:'s| is) )?no need|(?:you )?(?:(?:don't|do not) (?:need|have)|need not"
     rf"|needn't))(?: to)? {_WORK}{_IT}(?: {_MORE})?"
 )
-TAKEN_BACK = re.compile(rf"{CANCEL.pattern}|change of plans?|new plan")
+TAKEN_BACK = re.compile(
+    rf"{CANCEL.pattern}|change of plans?|new plan"
+    r"|(?:(?:no|nope|wait|hey)[ ,.!]+)*(?:that(?:'s| is| was) )?(?:the )?wrong (?:way|direction"
+    r"|side)"
+)
 """What may stand before the order that comes in place of the current one."""
 ORDERS = re.compile(
     r"(?:not|don't|do not|never (?!mind))\b"

@@ -83,8 +83,11 @@ def read_fact_correction(text: str, told: str | None) -> TeachFact | None:
         start = re.match(rf"{_NO}*", folded)
         begins = start.end() if start is not None else 0
         return TeachFact(written[begins:], instead_of=_bare(moved[group]))
-    meant = _ANAPHOR.fullmatch(folded)
     thing = name_subject(told) if told is not None else ""
+    again = _tell_anew(folded, written, thing, re.compile(rf"{_NO}+(?:i meant? |rather )?"))
+    if again is not None:
+        return again
+    meant = _ANAPHOR.fullmatch(folded)
     if meant is None or not thing or told is None:
         return None
     at = next(name for name in ("at", "at2", "at3") if meant[name])
@@ -106,8 +109,11 @@ def _correct_chinese(folded: str, written: str, told: str | None) -> TeachFact |
     moved = _MOVED_ZH.fullmatch(folded)
     if moved is not None:
         return TeachFact(written, instead_of=next(words for words in moved.groups() if words))
-    meant = _ANAPHOR_ZH.fullmatch(folded)
     thing = name_subject(told) if told is not None else ""
+    again = _tell_anew(folded, written, thing, re.compile(rf"{_NO_ZH}+(?:我是说|其实|应该是)?"))
+    if again is not None:
+        return again
+    meant = _ANAPHOR_ZH.fullmatch(folded)
     if (
         meant is None
         or not thing
@@ -115,6 +121,14 @@ def _correct_chinese(folded: str, written: str, told: str | None) -> TeachFact |
     ):
         return None
     return TeachFact(f"{thing}在{written[slice(*meant.span('at'))]}", instead_of=thing)
+
+
+def _tell_anew(folded: str, written: str, thing: str, no: re.Pattern[str]) -> TeachFact | None:
+    """Return what is told of the same thing behind a "no": 不对不对，钥匙在餐桌上."""
+    lead = no.match(folded)
+    if lead is None or not thing or name_subject(written[lead.end() :]) != thing:
+        return None
+    return TeachFact(written[lead.end() :], instead_of=thing)
 
 
 def name_subject(fact: str) -> str:

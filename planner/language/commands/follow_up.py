@@ -74,13 +74,9 @@ _LEFT_OUT = re.compile(
     r"|(?:but )?(?:except(?: for)?|apart from|without) (?P<rest3>(?:the |my "
     r"|our )[a-z][a-z' -]{1,30}?)"
 )
-_SIDE_ZH = r"(?:那边|那里|那儿|里面|里头|里)?"
-_NOT_ZH = r"(?:别|不要|不用|不必|甭|不需要|不许)(?:再)?"
 _LEFT_OUT_ZH = re.compile(
     r"(?:(?:跳过|略过)(?P<rest>[^,。;]{1,8}?)(?:别去|不去)?了?|除了(?P<rest2>[^,。;]{1,8}?)(?:以外"
-    rf"|之外)?|(?P<rest3>(?![我你您他她它这那今明后昨每早晚])[^,。;别不甭去到]{{1,6}}?){_SIDE_ZH}(?:就|先|你|也|可以)*"
-    rf"{_NOT_ZH}(?:进去|进|去|看|查|转|管|到|走|逛|巡)(?:了|它|啦|去|里面|里|看)*"
-    rf"|(?:但是?|就|先|可)*{_NOT_ZH}进(?!去)到?(?P<rest4>[^,。;别不甭去到了再]{{1,6}}?){_SIDE_ZH}(?:了|啦)*)"
+    r"|之外)?)"
     r"(?:,(?:因为)?(?:有人|我|[他她]|宝宝|孩子|妈|爸|奶奶|爷爷|客人|里面|那里)[^,去到]{0,10})?"
 )
 
@@ -91,6 +87,8 @@ _SAME = re.compile(
     r"(?:now )?(?:do )?(?:the )?same(?: thing)?(?: again)? (?:in|at|for|with) (?P<rest>.+)"
     r"|(?:and )?(?:what|how) about (?P<rest2>(?:in )?(?:the|my|our) [a-z][a-z' -]{1,30})"
     r"|and (?P<rest3>(?:in |at )?(?:the|my|our) [a-z][a-z' -]{1,30})"
+    r"|(?:do|take in|include|throw in|add) (?P<rest4>(?:the|my|our) [a-z][a-z' -]{1,30}?)"
+    r"(?: to (?:it|that|the|your) ?(?:round|patrol|tour|list)?s?)?"
 )
 _ASKS = re.compile(
     r"^(?:(?:and )?(?:what|how) about )|^and (?:in |at )?(?:the|my|our) [a-z' -]+$|^.{1,8}呢$"
@@ -107,11 +105,14 @@ _DONE_ZH = re.compile(
     r"|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
 )
 _SAME_ZH = re.compile(
-    r"(?:还?(?:不够|差一点|不算完),)?"
-    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:呢|(?:那边|里面?)?的?也(?:照样|同样)?(?:去|再|帮我|给我|要|得)*(?:来"
-    r"|做|弄|数|找|看|瞅|瞧|查|检查|清点)(?:一(?:遍|次|下|眼|找|看|数)|[瞅瞧数找看查]看?))"
+    r"(?:(?:还|这|那)?(?:不够|差一点|不算完),?)?(?:顺便|顺带|再|还有|另外|,)*(?:把|帮我把)?"
+    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:那边|里面?)?的?(?:呢|也(?:照样|同样|要|得|帮我|给我|再|去|一起)*"
+    r"(?:来|做|弄|数|找|看|瞅|瞧|查|检查|清点|巡|转|走)(?:一(?:遍|次|下|圈|眼)|一?[数看瞅瞧找查])(?:吧|呗"
+    r"|啊|哈)*|也(?:加上|算上|加进去|算进去|带上))"
 )
-_TOO = re.compile(r"(?P<rest>.+?)[ ,]+(?:too|as well|also)")
+_TOO = re.compile(
+    r"(?P<rest>.+?)[ ,]+(?:too|as well|also|while you(?:'re| are) (?:there|at it|about it))"
+)
 _ALSO_ZH = re.compile(
     r"(?:然后|接着|之后|完了(?:以后|之后)?|还有|另外)[,]?(?:也|还|再)?(?P<rest>.+?)(?:也(?:去一下"
     r"|去|要))?"
@@ -119,6 +120,7 @@ _ALSO_ZH = re.compile(
 )
 
 _ONWARD = re.compile(r"^(?:on|over|off|back)(?: again)? (?=(?:in)?to )")
+_ALONGSIDE_ZH = re.compile(r"^(?:顺便|顺带|再|帮我|,)*把")
 _TAKEN = (
     r"(?:(?:oh|ah|(?:oh )?no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong"
     r"|not that(?: one| room)?"
@@ -138,7 +140,9 @@ _CORRECTION = re.compile(
     r"|(?:(?:no|nope|nah|wrong room|wrong place|not that one|not (?:t?here)|oops)[ ,.!;]+"
     r"(?:(?:wait|sorry|actually|hang on|i mean)[ ,.!;]+)*)+"
     r"(?:rather |try |better |instead )?"
-    rf"(?P<c>(?:to |in |into |at |by |near |beside |next to )?(?:the|my|our) [a-z][a-z' -]{{1,30}}?"
+    rf"(?P<c>(?:to |in |into |at |by |near |beside |next to |on )?(?:the|my|our)"
+    rf" [a-z][a-z' -]{{1,30}}?"
+    rf"(?:, (?:on|in|at|by|near|beside|next to) (?:the|my|our) [a-z][a-z' -]{{1,30}})?"
     rf"|{_DRIVE_EN})"
     r"(?: first| instead| rather| i meant?)?"
     rf"|(?:(?:no|wait|hold on|hang on)[ ,]+)*not (?:to )?(?:the|my|our) [a-z' -]{{2,24}}[,;.]?"
@@ -227,7 +231,7 @@ def _also(bare: str, *, chinese: bool) -> AppendCommand | None:
         if match is not None:
             rest, found = next(t for t in match.groups() if t is not None), True
     rest = _strip(_POLITE_ZH if chinese else _POLITE, rest).strip(_ENDS)
-    rest = _ONWARD.sub("", rest)
+    rest = (_ALONGSIDE_ZH if chinese else _ONWARD).sub("", rest)
     return AppendCommand(rest, asks) if found and rest and consents(rest) is None else None
 
 

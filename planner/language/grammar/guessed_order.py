@@ -100,6 +100,12 @@ COMMANDS: dict[str, tuple[str, str]] = {
 """What the planner itself does upon a yes; ``{s}`` is the sentence."""
 OTHERS = (NONE, REFUSED, "other", "order", "orders", "forget", "stop", "cancel")
 """What else a sentence may be: no drive is offered then."""
+_AMOUNT = re.compile(
+    r"(?:(?:just|an?|one|another|tiny|wee|bit|little|tad|touch|inch|more|further|farther|closer"
+    r"|nearer|some|again|yet|still|and|then|go|keep|going|please|,)(?: |$)?)+"
+    r"|[再来多一点儿些还要近靠过去往前吧, ]+"
+)
+"""How much more, and nothing of what: "a bit more" is no wish to go faster, or to turn."""
 _TURNS = ("turn", "left", "right")
 _SIDES = {"left": r"\bleft\b|左", "right": r"\bright\b(?! ?,| now| away| here| there)|右"}
 _SLIGHT = re.compile(r"\b(?:bit|little|touch|tad|slightly)\b|一[点些丢]|稍|略|偏")
@@ -167,6 +173,8 @@ def guess_meaning(marked: MarkedText, language: Language) -> GuessedMeaning | No
         return None
     if guess.intent in (NONE, REFUSED) and guess.share >= SURE_OF_TALK and not places:
         return GuessedMeaning(GuessKind.TALK if guess.intent == NONE else GuessKind.REFUSED)
+    if _AMOUNT.fullmatch(marked.text.strip(" ,.;!。")):
+        return GuessedMeaning(GuessKind.OTHER)
     if guess.intent in COMMANDS:
         words = COMMANDS[guess.intent][language is Language.ZH]
         said = marked.restore(marked.text).strip(" ,.;!?。")

@@ -25,6 +25,7 @@ OTHERS = (
     "I meant right",
     "no, turn to the right, not left",
     "right, I meant",
+    "that's the wrong way, dear, turn right",
 )
 OTHERS_ZH = ("反了，右边！", "不对，是右边", "不对，往右", "另一边", "我说的是右边", "转反了")
 
@@ -61,6 +62,8 @@ def test_the_turn_to_the_other_side_comes_in_place_of_the_first() -> None:
     [
         (LEFT, "a bit more", "turn left by 30 degrees"),
         (LEFT, "too far, back a bit", "turn right by 30 degrees"),
+        (LEFT, "that was too far, now turn back a little", "turn right by 30 degrees"),
+        (LEFT, "转多了，往回转一点", "向右转30度"),
         (LEFT, "再转一点", "向左转30度"),
         (LEFT, "多了多了，转回来一点", "向右转30度"),
         (MoveStraight(distance_m=0.2), "bit more", "move forward a bit"),

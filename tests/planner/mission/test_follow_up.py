@@ -199,9 +199,6 @@ BARE = MissionState(FACTS)
      ("except the bathroom", "go to the bedroom, then go to the hallway"),
      ("except my dog", "except my dog"),
      ("跳过卫生间，有人在洗澡", "go to the bedroom, then go to the hallway"),
-     ("卫生间别进去", "go to the bedroom, then go to the hallway"),
-     ("不要进卫生间，奶奶在里面", "go to the bedroom, then go to the hallway"),
-     ("卫生间就不用去了，他睡着呢", "go to the bedroom, then go to the hallway"),
      ("厨房别进去", "厨房别进去"),
      ("除了卫生间", "go to the bedroom, then go to the hallway"),
      ("跳过卫生间", "go to the bedroom, then go to the hallway")],
@@ -217,11 +214,6 @@ def test_a_denial_that_leaves_no_place_out_stops(text: str) -> None:
     thinking, _ = advance(BARE, Submitted("g0", "把所有房间都转一圈", Language.ZH), NOW_S)
     heard = receive(thinking, parse(text), Submitted("new", text, Language.ZH), NOW_S)
     assert (heard.stops, heard.takes_back) == (True, None)
-
-
-def test_a_place_left_out_of_the_rounds_stops_nothing() -> None:
-    heard = receive(rounds(), parse("卫生间别进去"), Submitted("new", "x", Language.ZH), NOW_S)
-    assert (heard.stops, heard.takes_back) == (False, "g0")
 
 
 def test_who_has_one_place_to_go_to_leaves_none_out() -> None:

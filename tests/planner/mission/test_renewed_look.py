@@ -38,6 +38,8 @@ TOLD = order_done("tell Nan good night", Say(text="Nan, good night"))
         "go back and check again",
         "really? count them again",
         "double-check that",
+        "have another look, I think you missed one",
+        "count again, there should be five of them",
     ],
 )
 def test_a_look_is_taken_once_more(said: str) -> None:
@@ -46,7 +48,15 @@ def test_a_look_is_taken_once_more(said: str) -> None:
 
 @pytest.mark.parametrize(
     "said",
-    ["你确定吗？再数一遍", "再数一次", "刚才那边再看一遍，应该不止吧", "重新数一下", "再看看"],
+    [
+        "你确定吗？再数一遍",
+        "再数一次",
+        "刚才那边再看一遍，应该不止吧",
+        "重新数一下",
+        "再看看",
+        "再数一遍呗，都过十分钟了",
+        "我觉得不对，再数一遍",
+    ],
 )
 def test_so_it_is_in_chinese(said: str) -> None:
     assert meaning_of(COUNTED_ZH, said, NOW_S) == COUNT_ZH
@@ -90,6 +100,9 @@ def test_a_thing_besides_waits_for_what_runs() -> None:
         (CHAIR_ZH, "什么颜色的", "看看椅子是什么颜色的"),
         (TOLD, "say it again, louder, she's a bit deaf", 'say "Nan, good night"'),
         (TOLD, "and again, louder", 'say "Nan, good night"'),
+        (TOLD, "she didn't hear you, say it again", 'say "Nan, good night"'),
+        (TOLD, "say it twice more", 'say "Nan, good night" and then say "Nan, good night"'),
+        (TOLD, "她没听见，再讲两遍", "说“Nan, good night”，再说“Nan, good night”"),
         (TOLD, "再说一遍，大声点", "说“Nan, good night”"),
     ],
 )
@@ -101,6 +114,8 @@ def test_what_was_found_or_said_is_spoken_of(book: MissionState, said: str, mean
     "said",
     [
         *("and thanks", "and you?", "and the weather?", "and the time?", "cups are nice"),
+        *("count again if the light is on", "count again, but go to the study"),
+        *("再数一遍，如果灯开着", "再数一遍，先去书房"),
         *("are you sure?", "don't count again", "look for a cup", "and then?", "and why?"),
         *("and the dinner is ready", "go to the one", "what colour do you like?", "louder"),
         *("天气呢", "你呢", "确定吗", "别再数了", "什么颜色好看"),

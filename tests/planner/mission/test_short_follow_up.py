@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.mission.follow_up import names_of
+from planner.mission.place_words import names_of
 from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
 from planner.mission.state import MissionState
 from planner.plan import Find, GoTo, Turn

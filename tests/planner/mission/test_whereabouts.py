@@ -95,7 +95,7 @@ def test_so_it_is_completed_in_chinese(said: str) -> None:
 @pytest.mark.parametrize(
     "said",
     [
-        *("the kitchen is dirty", "not the kitchen", "the kitchen or the study"),
+        *("the kitchen is dirty", "the kitchen or the study"),
         *("is it in the kitchen?", "it isn't in the kitchen", "I was in the kitchen"),
         *("go to the kitchen", "she's in the kitchen", "all of them are broken"),
         *(
@@ -113,7 +113,7 @@ def test_another_sentence_narrows_nothing(said: str) -> None:
 
 @pytest.mark.parametrize(
     "said",
-    ["厨房很脏", "别去厨房", "厨房还是书房", "去厨房", "在厨房吗", "都行", "都好了", "都在吧"],
+    ["厨房很脏", "厨房还是书房", "去厨房", "在厨房吗", "都行", "都好了", "都在吧"],
 )
 def test_nor_does_it_in_chinese(said: str) -> None:
     assert meaning_of(CUP_ZH, said, NOW_S) == said

@@ -19,6 +19,8 @@ KEYS, KEYS_ZH = "the keys are on the sofa", "车钥匙在餐桌上"
          "the spare cable is in the study", "spare cable"),
         (KEYS_ZH, "哎讲错了，在沙发上", "车钥匙在沙发上", "车钥匙"),
         (KEYS_ZH, "不对，在沙发上", "车钥匙在沙发上", "车钥匙"),
+        (KEYS_ZH, "不对不对，车钥匙在沙发上", "车钥匙在沙发上", "车钥匙"),
+        (KEYS, "no, wait, the keys are in the study", "the keys are in the study", "keys"),
     ],
 )  # fmt: skip
 def test_a_pronoun_means_the_thing_told_of_just_before(
@@ -52,6 +54,7 @@ def test_a_thing_that_was_moved_is_named(said: str, thing: str) -> None:
         (KEYS, "it's hot in here, go home"),
         (KEYS, "no, look on the dining table"), (KEYS, "are they on the dining table?"),
         ("Dad's working in the study today", "no wait, he's in the kitchen"),
+        (KEYS_ZH, "不对，雨伞在沙发上"), (KEYS, "no, the umbrella is on the sofa"),
         (KEYS_ZH, "在沙发上"), (KEYS_ZH, "不对，去沙发"), (KEYS_ZH, "在沙发上吗"),
     ],
 )  # fmt: skip

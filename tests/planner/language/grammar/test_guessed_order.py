@@ -95,6 +95,12 @@ def test_what_asks_for_nothing_is_offered_nothing(text: str) -> None:
     assert isinstance(made, AnswerPlan) or (isinstance(made, Clarify) and made.options == ())
 
 
+@pytest.mark.parametrize("text", ["a bit more", "just a bit closer", "再来一点", "再近点"])
+def test_how_much_more_is_no_wish_to_go_faster(text: str) -> None:
+    made = plan(text, WORLD.vocabulary, CONTEXT)
+    assert not isinstance(made, Clarify) or made.options == ()
+
+
 @pytest.mark.parametrize(
     "text", ["go upon thy way to the kitchen but never mind", "不太想让你瞅厨房"]
 )

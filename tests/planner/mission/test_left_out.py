@@ -1,0 +1,105 @@
+"""What runs goes on without a place that is left out; else a denial stops as it did before."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from planner.language.utterance import parse
+from planner.mission.events import Submitted
+from planner.mission.follow_up import meaning_of
+from planner.mission.reception import receive
+from planner.mission.state import MissionState
+from planner.plan import ComeBack, Find, GoalState, GoTo, Language, Look, Patrol, Say
+from tests.planner.mission.leaning import NOW_S, order_done, order_under_way
+
+
+def run(text: str, *steps: Any) -> MissionState:
+    """Return the book while the robot is at this order."""
+    book = order_under_way(text, *steps)
+    runs = book.missions["g0"].model_copy(update={"state": GoalState.RUNNING})
+    return replace(book, missions={"g0": runs}, running="g0")
+
+
+ROUND = (
+    GoTo(place="kitchen"), Look(question="see if anyone is there", place="kitchen"),
+    GoTo(place="bedroom"), Look(question="see if anyone is there", place="bedroom"),
+    GoTo(place="study"), Look(question="see if anyone is there", place="study"),
+)  # fmt: skip
+LOOKING = run("go round and see if anyone is there", *ROUND)
+LOOKING_ZH = run(
+    "转一圈看看有没有人",
+    *(
+        GoTo(place=s.place) if isinstance(s, GoTo) else Look(question="看看有没有人", place=s.place)
+        for s in ROUND
+    ),
+    ComeBack(),
+)
+PATROL = run("patrol", Patrol(places=("kitchen", "bedroom", "study"), look=True))
+SEEKING = run("go find my cup", Find(object="cup"))
+ONE = run("go to the bedroom", GoTo(place="bedroom"))
+TELLING = order_under_way(
+    "greet all", GoTo(place="kitchen"), GoTo(place="bedroom"), Say(text="Hello")
+)
+WORDS = ("not the bedroom", "skip the bedroom", "don't go into the bedroom, Anna's asleep",
+         "you can leave out the bedroom", "never mind the bedroom")  # fmt: skip
+WORDS_ZH = ("卧室就别进了，孩子睡着呢", "卧室别进去", "别去卧室了", "卧室不用看了")
+
+
+def takes(book: MissionState, text: str) -> bool:
+    """Tell whether a sentence ends what runs, for an order without a stop."""
+    heard = receive(book, parse(text), Submitted("new", text, Language.EN), NOW_S)
+    return heard.takes_back == "g0" and not heard.stops
+
+
+@pytest.mark.parametrize("said", WORDS)
+def test_the_rest_of_a_round_goes_on(said: str) -> None:
+    left = "go to the kitchen and see if anyone is there, then go to the study and see if anyone is"
+    assert meaning_of(LOOKING, said, NOW_S) == f"{left} there"
+    assert meaning_of(PATROL, said, NOW_S) == "patrol the kitchen and the study"
+    meant = meaning_of(SEEKING, said, NOW_S)
+    assert "bedroom" not in meant
+    assert meant.count("see if there is a cup") == 6
+    assert all(takes(book, said) for book in (LOOKING, PATROL, SEEKING))
+
+
+@pytest.mark.parametrize("said", WORDS_ZH)
+def test_so_it_does_in_chinese(said: str) -> None:
+    meant = meaning_of(LOOKING_ZH, said, NOW_S)
+    assert meant == "去厨房看看有没有人，再去书房看看有没有人，再回来"
+    assert takes(LOOKING_ZH, said)
+
+
+@pytest.mark.parametrize("book", [ONE, TELLING, order_done("round", *ROUND)])
+@pytest.mark.parametrize("said", [*WORDS, *WORDS_ZH])
+def test_who_goes_to_that_place_alone_or_does_more_is_not_sent_elsewhere(
+    book: MissionState, said: str
+) -> None:
+    assert meaning_of(book, said, NOW_S) == said
+
+
+@pytest.mark.parametrize("said", ["don't go into the bedroom", "卧室别进去"])
+def test_a_denial_that_leaves_nothing_out_stops_first(said: str) -> None:
+    assert receive(ONE, parse(said), Submitted("new", said, Language.EN), NOW_S).stops
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["not the bedroom or the study", "don't go into the bedroom or the study",
+     "not the bedroom if she sleeps", "not the garden"],
+)  # fmt: skip
+def test_two_places_a_condition_and_an_unknown_place_leave_none_out(said: str) -> None:
+    assert meaning_of(LOOKING, said, NOW_S) == said
+
+
+def test_a_slow_round_is_not_made_a_fast_one() -> None:
+    slow = LOOKING.missions["g0"].model_copy(update={"speed_share": 0.5})
+    book = replace(LOOKING, missions={"g0": slow})
+    assert meaning_of(book, "skip the bedroom", NOW_S) == "skip the bedroom"
+
+
+@pytest.mark.parametrize("said", ["don't go into the bedroom", "卧室别进去"])
+def test_a_denial_sets_nothing_in_motion_that_stands(said: str) -> None:
+    paused = order_under_way("go round and see if anyone is there", *ROUND)
+    assert paused.missions["g0"].state is GoalState.PAUSED
+    assert meaning_of(paused, said, NOW_S) == said
