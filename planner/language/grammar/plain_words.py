@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
@@ -17,6 +17,7 @@ from planner.language.grammar.checks import without_compounds
 from planner.language.grammar.en.courtesy import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.orders import ENGLISH
+from planner.language.grammar.en.told_words import quote_told_words
 from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
@@ -127,6 +128,20 @@ def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
         return None
     plain = marked.restore(rewritten)
     return plain if plain and plain != said else None
+
+
+def in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:
+    """Yield a sentence in other words: its told words quoted, its asides left out, plainer."""
+    quoted = quote_told_words(text)
+    if quoted is not None:
+        yield quoted
+    ordered = leave_asides_out(text, vocabulary)
+    if ordered is not None:
+        yield without_sending(ordered)
+    for said in (text, ordered) if plainer else (ordered,):
+        plain = in_plain_words(said, vocabulary) if said is not None else None
+        if plain is not None:
+            yield plain
 
 
 def held_back(text: str) -> Counter[str]:

@@ -310,6 +310,7 @@ RULES: tuple[Rule, ...] = (
         r"by|from) )[^,]+)",
         _tell_words,
     ),
+    rule(rf"let {_WHO}{_AT} know,? (?:that )?(?P<words>[^,]+)", _tell_words),
     rule(
         rf"(?:chat|talk|converse|have a (?:chat|talk|conversation))(?: (?:with|to) {_WHO}{_AT})?",
         _no_dialogue,
