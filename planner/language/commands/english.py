@@ -18,7 +18,12 @@ COURTEOUS = re.compile(
 """A question mark behind these is courtesy; behind anything else it asks."""
 ASKING = re.compile(r"(?!)")
 """A word at the end that asks: there is none in English."""
-POLITE = re.compile(rf"(?:{_POLITE}|(?:can|could|would|will) you)(?![\w'])")
+POLITE = re.compile(
+    rf"(?:{_POLITE}|(?:can|could|would|will) you"
+    r"|right(?=,| (?:carry|go|keep|continue|resume|you)\b)"
+    r"|(?:right|okay|ok|all right|alright) then"
+    r"|that's (?:that|it|me|better|done)(?=,))(?![\w'])"
+)
 THANKS = re.compile(
     rf"(?:^| )(?:{_POLITE}|for me|right now|again|would you|will you|could you|mate|buddy|pal|love"
     r"|dear|darling|my friend)$"
@@ -44,7 +49,9 @@ RESUME = re.compile(
     r"|(?:continue|resume|proceed with|carry on with|go on with|unpause)"
     rf" (?:it|that|this|{_THE_TASK})"
     r"|(?:continue|carry on|go on|resume|keep) (?:driving|going|moving)"
-    r"|(?:continue|carry on|go on) with what you were doing"
+    r"|(?:continue|carry on|go on|get on|go back to|back to)(?: with)? what you were doing"
+    r"|as you were|pick up where you left off|off you go again|you can get going again|back to it"
+    r"|keep (?:looking|searching|patrolling|counting|following|at it)|get (?:going|moving) again"
     r"|you (?:can|may) (?:continue|resume|proceed|carry on|go on|keep going|go)(?: again| now)?"
     r"(?:[ ,]+(?:continue|resume|carry on|go on|keep going))?"
 )
