@@ -19,6 +19,7 @@ from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.en.told_words import quote_told_words
 from planner.language.grammar.everyday import rewrite
+from planner.language.grammar.excepted_rooms import without_excepted_rooms
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
@@ -135,6 +136,10 @@ def in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Itera
     quoted = quote_told_words(text)
     if quoted is not None:
         yield quoted
+    lexicon = lexicon_of(vocabulary)
+    others = without_excepted_rooms(lexicon.mark(normalise(text)), lexicon, vocabulary)
+    if others is not None:
+        yield others
     ordered = leave_asides_out(text, vocabulary)
     if ordered is not None:
         yield without_sending(ordered)
