@@ -26,7 +26,8 @@ POLITE = re.compile(
 )
 THANKS = re.compile(
     rf"(?:^| )(?:{_POLITE}|for me|right now|again|would you|will you|could you|mate|buddy|pal|love"
-    r"|dear|darling|my friend)$"
+    r"|dear|darling|my friend"
+    r"|in case (?:i|we|you|someone|somebody|anybody) (?:asks?|needs?|wants?|forgets?)[a-z' ]*)$"
 )
 
 _TASK = (
@@ -203,6 +204,7 @@ OUTCOME = re.compile(
     rf"|(?:and )?how many(?: (?:was (?:it|that)|is it|(?:were|are) (?:there|they|those|in there)"
     rf"|did you (?:find|see|count|get)))?{_THEN}"
     r"|(?:and )?what did (?:he|she|they) (?:say|answer|reply|want)"
+    r"|(?:and )?(?:tell (?:me|us) )?what (?:he|she|they) (?:said|answered|replied|told you)"
     r"|what(?:'s| is| was) (?:his|her|their|the) (?:answer|reply|result|outcome|verdict)"
     r"|did (?:he|she|they) (?:answer|reply|say (?:yes|no|anything|something)|hear (?:you|it|that))"
     r"|did you manage(?: (?:it|that|to (?:find|get|see|spot|do|count|reach) [a-z' ]{2,30}))?"

@@ -115,8 +115,8 @@ def _plan(
         second = _plan_as_said(said, vocabulary, context)
         if isinstance(second, StepPlan):
             break
-        if isinstance(second, Clarify) and second.code is Code.INCOMPLETE and second.options:
-            asked = asked or second
+        if isinstance(second, Clarify) and second.code is Code.INCOMPLETE:
+            asked = asked or second  # of what is asked for, all else is read
     if not isinstance(second, StepPlan):
         guessed = _guess(made, text, vocabulary, context)
         lost = isinstance(guessed, Clarify) and guessed.code is Code.NOT_UNDERSTOOD

@@ -16,6 +16,7 @@ from planner.language.grammar.asides import without_asides
 from planner.language.grammar.checks import without_compounds
 from planner.language.grammar.en.courtesy import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
+from planner.language.grammar.en.looser_phrases import LOOSER, LOST_THINGS
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.en.told_words import quote_told_words
 from planner.language.grammar.everyday import rewrite
@@ -118,7 +119,7 @@ def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
     said = normalise(text)
     chinese = has_chinese(said)
     courtesy, phrases = (
-        (ZH_COURTESY, CHINESE_EVERYDAY) if chinese else (EN_COURTESY, ENGLISH_EVERYDAY)
+        (ZH_COURTESY, CHINESE_EVERYDAY) if chinese else (EN_COURTESY, (*LOOSER, *ENGLISH_EVERYDAY))
     )
     marked = lexicon_of(vocabulary).mark(said)
     willing = rewrite(marked.text, courtesy)
@@ -137,9 +138,13 @@ def in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Itera
     if quoted is not None:
         yield quoted
     lexicon = lexicon_of(vocabulary)
-    others = without_excepted_rooms(lexicon.mark(normalise(text)), lexicon, vocabulary)
+    marked = lexicon.mark(normalise(text))
+    others = without_excepted_rooms(marked, lexicon, vocabulary)
     if others is not None:
         yield others
+    sought = rewrite(marked.text, () if has_chinese(text) else LOST_THINGS)
+    if sought != rewrite(marked.text, ()):
+        yield marked.restore(sought)
     ordered = leave_asides_out(text, vocabulary)
     if ordered is not None:
         yield without_sending(ordered)

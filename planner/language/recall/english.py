@@ -20,6 +20,7 @@ TAIL = re.compile(
     r"(?:[ ,]+(?:while (?:i|we)(?: was| were|'ve been| have been|'m| am) (?:out|away|asleep|gone"
     r"|sleeping|shopping|at (?:work"
     r"|school|the shops)|in (?:bed|town|the shower|here))|in the meantime|or not(?: yet)?|yet"
+    r"|anywhere|somewhere|on your (?:rounds?|patrol|way|last round|tour)"
     r"|(?:the )?last time you (?:looked|were (?:in )?there)|please|(?<!just )now|thanks"
     r"|thank you|again|at all|before|previously|robot|pons))+$"
 )

@@ -257,7 +257,7 @@ ENGLISH_EVERYDAY = table(
      r"|come along with|walk along with|keep pace with) ", "follow "),
     (r"\btell (?:whoever|anyone|anybody|everyone|everybody|the people)(?:'s| is| who is|s)? in"
      rf" (?P<p>{_PLACE}) (?:that )?(?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
-    (rf"\b{_SAYS}(?: that)? (?P<w>[^\",;]+)$", r'say "\g<w>"'),
+    (rf"\b{_SAYS}(?: that)? (?P<w>(?!(?:if|when\w*|unless|until|once|as soon|for|to|what\w*|who|whether)\b)[^\",;]+)$", r'say "\g<w>"'),
     (rf"\bsay (?:that )?(?P<w>(?:i|we|he|she|they)(?:'ll| will|'re| are|'m| am|'s| is) {_SAYABLE})"
      r"(?=[.!]*$|[,;]| and (?:then )?(?:come|go|drive|head|return)\b)", r'say "\g<w>"'),
     (rf"\bsay (?!{_TO_SOMEBODY})(?P<w>[^\",;]*{MARK}[^\",;]*?),? (?:and )?then (?={_ORDERS}\b)",

@@ -223,7 +223,7 @@ RULES: tuple[Rule, ...] = (
     rule(
         r"(?:(?:tell|show) (?:me|us) )?"
         r"(?:where (?:is|are|can i find|did (?:i|you|we) (?:leave|put|see))|have you seen)"
-        rf" (?P<what>{_THING}?)(?: now)?",
+        rf" (?P<what>{_THING}?)(?: now| anywhere| around| lately)?",
         _offer_search,
     ),
     rule(

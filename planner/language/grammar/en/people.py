@@ -163,7 +163,7 @@ _PAST = {
 _HAS_DONE = re.compile(
     r"(?:is|has) (?P<what>(?:already |just |ever )?(?:taken|eaten|seen|had|been|found|fed|drunk"
     r"|brushed|washed|called|rung|heard|got|read|packed|done (?:his|her|their|the|it)"
-    r"|finished (?:his|her|their|the))\b.*)"
+    r"|finished (?:his|her|their|your|the))\b.*)"
 )
 """What "he's taken" and "she has had" mean; "he's done" is "he is done"."""
 _ASKED_OF_THEM = re.compile(
