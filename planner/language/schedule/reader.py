@@ -38,6 +38,7 @@ from planner.language.schedule.statements import (
     begins_with_statement,
     ends_in_statement,
     ends_in_told_words,
+    is_filler,
 )
 from planner.plan.timing import CronRule, DayTime, EventRule, InRule, WorldEvent
 
@@ -220,8 +221,7 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     if after.parts and grammar is english and not lacks_time(before.parts):
         words = rest.folded[: after.at].rstrip(" ")
         told = remind is None and is_once(after.parts) and ends_in_told_words(words)
-        stated = told or ends_in_statement(words, reminds=remind is not None)
-        if stated or _UNTIL.search(words):
+        if told or ends_in_statement(words, reminds=remind is not None) or _UNTIL.search(words):
             after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"; "wait until 18:30"
     order = rest.part(0, after.at) if after.parts else rest
     timing = combine((*before.parts, *after.parts))
@@ -240,7 +240,7 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
 
 
 def _order(order: _FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
-    if timing.problem is not None and not order.folded:
+    if (timing.problem is not None and not order.folded) or is_filler(order.folded):
         return None  # "every day": nothing that is understood
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 

@@ -79,6 +79,16 @@ def ends_in_statement(words: str, *, reminds: bool = False) -> bool:
     return any(_STATEMENT.match(words, at) is not None for at in weak if at > strong)
 
 
+_FILLER = re.compile(
+    r"(?:as well|too|also|instead|again|please|on second thoughts?|and|then|[ ,])+"
+)
+
+
+def is_filler(words: str) -> bool:
+    """Return whether words beside a time order nothing: "and at nine as well" leans on another."""
+    return _FILLER.fullmatch(words) is not None
+
+
 def ends_in_told_words(words: str) -> bool:
     """Return whether English words before a time are words for somebody, whose time it then is."""
     return _TOLD.fullmatch(words) is not None
