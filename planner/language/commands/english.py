@@ -26,7 +26,7 @@ POLITE = re.compile(
 )
 THANKS = re.compile(
     rf"(?:^| )(?:{_POLITE}|for me|right now|again|would you|will you|could you|mate|buddy|pal|love"
-    r"|dear|darling|my friend"
+    r"|dear|darling|my friend|if you (?:please|would|don't mind|do not mind)"
     r"|in case (?:i|we|you|someone|somebody|anybody) (?:asks?|needs?|wants?|forgets?)[a-z' ]*)$"
 )
 
@@ -146,6 +146,7 @@ _SOME = r"(?:you (?:can|may) )?(?:(?:(?:a )?(?:little|bit|lot|little bit)|much|e
 SLOWER = re.compile(
     rf"{_SOME}(?:(?:slow down|ease off|ease up|easy does it)(?: a (?:little|bit)| there| now)*"
     rf"|(?:(?:go|drive|move|roll)(?: a (?:little|bit)| much)? )?(?:slower|more slowly){_SPEED})"
+    r"|(?:go|drive|move|roll)(?: along| on)? (?:slowly|gently|carefully)"
     r"|(?:not|do(?: not|n't) (?:go|drive|move)) (?:so|that|too) fast|reduce (?:your |the )?speed"
     r"|(?:that is |that's |you are |you're |it is )?(?:way |much |going |driving )?too fast"
 )
@@ -167,7 +168,8 @@ DOING = re.compile(
     r"|status(?: report)?|report(?: your)? status|tell me what you are doing"
     r"|(?:are you|have you) (?:done|finished|ready|there)(?: yet| now| already)?"
     r"|are you (?:stuck|lost|blocked|okay|ok|alright|all right)(?: or (?:something|what))?"
-    r"|why (?:did|have) you (?:stop|stopped|pause|paused|halt|halted)|why are you (?:not moving"
+    r"|why (?:did|have) you (?:just |suddenly |even )?(?:stop|stopped|pause|paused|halt|halted)"
+    r"|why are you (?:not moving"
     r"|standing(?: still| there)?|waiting|stopped)|how is it going|how far (?:along )?are you"
     r"|what(?:'s| is) next"
     r"|where (?:are you )?(?:going|off to) (?:next|after (?:this|that)(?: one)?)"
@@ -272,6 +274,8 @@ KEPT = re.compile(rf"{_KEPT}$")
 """Asks behind a statement to remember it."""
 TEACH = re.compile(
     rf"{_KEEP}(?: that|:| this:| the following:|,)+ (?P<a>(?!to\b).{{4,}})"
+    rf"|{_KEEP} (?P<f>(?:i|we|he|she|they)\b(?! (?:want|need) you\b)(?!.*\b(?:if|when|until"
+    rf"|unless)\b)[^?]{{4,}})"
     rf"|{_KEEP} (?P<b>(?!{_ORDERS}){_NOUN} {_SAYS}\b.*)|(?P<c>{_THIS_IS})|{_KEEP} (?P<d>{_THIS_IS})"
     rf"|(?P<e>(?:(?!{_DOES}){_NOUN} {_SAYS}|{_PUT})\b[^,;:.!?]{{2,80}}){_KEPT}"
 )
