@@ -285,6 +285,11 @@ RULES: tuple[Rule, ...] = (
         _follow,
     ),
     rule(
+        rf"{_FOLLOW} (?:the|our|my|that|this|a) (?:cat|dog|ball|puppy|kitten|car|hoover"
+        rf"|vacuum)(?: .*)?",
+        lacks(Code.NO_CAPABILITY),
+    ),
+    rule(
         rf"{_GUIDE} {_WHO}{_AT}(?: from (?P<start>{THE}{MARK}))?{_TO}{_FOUND}",
         _guide,
     ),
