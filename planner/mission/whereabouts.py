@@ -79,7 +79,7 @@ _TAIL = (
 )
 _EN = re.compile(
     rf"(?:{_OPEN}[ ,.!;]+)*(?:{_HEDGE}(?: that)?[ ,]+)*"
-    rf"(?:(?P<who>he|she|they|it|that){_IS} (?:{_HEDGE}[ ,]+)*(?:{_BUSY} )?"
+    rf"(?:(?P<who>he|she|they|it|that){_IS} (?:(?:{_HEDGE}|both|all)[ ,]+)*(?:{_BUSY} )?"
     rf"|(?P<left>{_LEFT_IT}) |(?:then )?(?:you (?:could|can|should"
     rf"|might) )?(?P<tries>{_LOOKS})(?: again)? (?:{_HEDGE}[ ,]+)*)?"
     rf"(?P<place>(?:{_AT})?{_PLACE})"

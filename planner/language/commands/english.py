@@ -18,11 +18,18 @@ COURTEOUS = re.compile(
 """A question mark behind these is courtesy; behind anything else it asks."""
 ASKING = re.compile(r"(?!)")
 """A word at the end that asks: there is none in English."""
-_RIGHT = r"right(?=,| (?:then|carry on|go on|continue|keep going|hold on|hang on)\b)"
-POLITE = re.compile(rf"(?:{_POLITE}|{_RIGHT}|(?:can|could|would|will) you)(?![\w'])")
+_RIGHT = (
+    r"right(?=,| (?:then|carry|go|keep|continue|resume|you|hold on|hang on)\b)"
+    r"|(?:okay|ok|all right|alright) then"
+)
+POLITE = re.compile(
+    rf"(?:{_POLITE}|{_RIGHT}|(?:can|could|would|will) you"
+    r"|that's (?:that|it|me|better|done)(?=,))(?![\w'])"
+)
 THANKS = re.compile(
     rf"(?:^| )(?:{_POLITE}|for me|right now|again|would you|will you|could you|mate|buddy|pal|love"
-    r"|dear|darling|my friend)$"
+    r"|dear|darling|my friend|if you (?:please|would|don't mind|do not mind)"
+    r"|in case (?:i|we|you|someone|somebody|anybody) (?:asks?|needs?|wants?|forgets?)[a-z' ]*)$"
 )
 
 _TASK = (
@@ -45,7 +52,9 @@ RESUME = re.compile(
     r"|(?:continue|resume|proceed with|carry on with|go on with|unpause)"
     rf" (?:it|that|this|{_THE_TASK})"
     r"|(?:continue|carry on|go on|resume|keep) (?:driving|going|moving)"
-    r"|(?:continue|carry on|go on) with what you were doing"
+    r"|(?:continue|carry on|go on|get on|go back to|back to)(?: with)? what you were doing"
+    r"|as you were|pick up where you left off|off you go again|you can get going again|back to it"
+    r"|keep (?:looking|searching|patrolling|counting|following|at it)|get (?:going|moving) again"
     r"|you (?:can|may) (?:continue|resume|proceed|carry on|go on|keep going|go)(?: again| now)?"
     r"(?:[ ,]+(?:continue|resume|carry on|go on|keep going))?"
 )
@@ -144,6 +153,7 @@ _SOME = r"(?:you (?:can|may) )?(?:(?:(?:a )?(?:little|bit|lot|little bit)|much|e
 SLOWER = re.compile(
     rf"{_SOME}(?:(?:slow down|ease off|ease up|easy does it)(?: a (?:little|bit)| there| now)*"
     rf"|(?:(?:go|drive|move|roll)(?: a (?:little|bit)| much)? )?(?:slower|more slowly){_SPEED})"
+    r"|(?:go|drive|move|roll)(?: along| on)? (?:slowly|gently|carefully)"
     r"|(?:not|do(?: not|n't) (?:go|drive|move)) (?:so|that|too) fast|reduce (?:your |the )?speed"
     r"|(?:that is |that's |you are |you're |it is )?(?:way |much |going |driving )?too fast"
 )
@@ -165,7 +175,8 @@ DOING = re.compile(
     r"|status(?: report)?|report(?: your)? status|tell me what you are doing"
     r"|(?:are you|have you) (?:done|finished|ready|there)(?: yet| now| already)?"
     r"|are you (?:stuck|lost|blocked|okay|ok|alright|all right)(?: or (?:something|what))?"
-    r"|why (?:did|have) you (?:stop|stopped|pause|paused|halt|halted)|why are you (?:not moving"
+    r"|why (?:did|have) you (?:just |suddenly |even )?(?:stop|stopped|pause|paused|halt|halted)"
+    r"|why are you (?:not moving"
     r"|standing(?: still| there)?|waiting|stopped)|how is it going|how far (?:along )?are you"
     r"|what(?:'s| is) next"
     r"|where (?:are you )?(?:going|off to) (?:next|after (?:this|that)(?: one)?)"
@@ -202,6 +213,7 @@ OUTCOME = re.compile(
     rf"|(?:and )?how many(?: (?:was (?:it|that)|is it|(?:were|are) (?:there|they|those|in there)"
     rf"|did you (?:find|see|count|get)))?{_THEN}"
     r"|(?:and )?what did (?:he|she|they) (?:say|answer|reply|want)"
+    r"|(?:and )?(?:tell (?:me|us) )?what (?:he|she|they) (?:said|answered|replied|told you)"
     r"|what(?:'s| is| was) (?:his|her|their|the) (?:answer|reply|result|outcome|verdict)"
     r"|did (?:he|she|they) (?:answer|reply|say (?:yes|no|anything|something)|hear (?:you|it|that))"
     r"|did you manage(?: (?:it|that|to (?:find|get|see|spot|do|count|reach) [a-z' ]{2,30}))?"
@@ -269,6 +281,8 @@ KEPT = re.compile(rf"{_KEPT}$")
 """Asks behind a statement to remember it."""
 TEACH = re.compile(
     rf"{_KEEP}(?: that|:| this:| the following:|,)+ (?P<a>(?!to\b).{{4,}})"
+    rf"|{_KEEP} (?P<f>(?:i|we|he|she|they)\b(?! (?:want|need) you\b)(?!.*\b(?:if|when|until"
+    rf"|unless)\b)[^?]{{4,}})"
     rf"|{_KEEP} (?P<b>(?!{_ORDERS}){_NOUN} {_SAYS}\b.*)|(?P<c>{_THIS_IS})|{_KEEP} (?P<d>{_THIS_IS})"
     rf"|(?P<e>(?:(?!{_DOES}){_NOUN} {_SAYS}|{_PUT})\b[^,;:.!?]{{2,80}}){_KEPT}"
 )

@@ -59,6 +59,7 @@ _SIMPLE: tuple[tuple[str, Intent], ...] = (
 _END = " .!,;:。~…"
 _QUOTES = "\"'「」『』“”‘’《》"
 _APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
+_BEFORE_REASON = re.compile(r"[,;:.!?。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and then) ")
 _SEPARATOR = re.compile(r"[,;:.!。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and then) ")
 
 
@@ -131,9 +132,14 @@ def _read(said: FoldedText, grammar: ModuleType) -> Intent | None:
 
 def _slowing(said: FoldedText, grammar: ModuleType) -> Intent | None:
     """Read "slow down, there is a child": a reason behind it changes nothing."""
-    cut = _SEPARATOR.search(said.folded)
-    first = _plain(said.part(0, cut.start()), grammar).folded if cut is not None else ""
-    return Slower() if grammar.SLOWER.fullmatch(first) else None
+    cut = _BEFORE_REASON.search(said.folded)
+    if cut is None:
+        return None
+    first = _plain(said.part(0, cut.start()), grammar).folded
+    if grammar.SLOWER.fullmatch(first):
+        return Slower()
+    orders = grammar.ORDERS.match(said.part(cut.end(), len(said.folded)).folded) is not None
+    return Faster() if grammar.FASTER.fullmatch(first) and not orders else None
 
 
 def _pausing(said: FoldedText, grammar: ModuleType) -> PauseCommand | None:

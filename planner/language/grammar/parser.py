@@ -7,7 +7,7 @@ place that a plan drives to is named by the sentence.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from planner.language.catalogue import message
@@ -51,8 +51,7 @@ from planner.language.grammar.parse_result import (
 from planner.language.grammar.plain_words import (
     asks_whether,
     end_anyhow,
-    in_plain_words,
-    leave_asides_out,
+    in_other_words,
     read_in_order_words,
     without_sending,
 )
@@ -114,12 +113,12 @@ def _plan(
         return made
     second: StepPlan | AnswerPlan | Clarify | Refuse | None = None
     asked: Clarify | None = None
-    for said in _in_other_words(text, vocabulary, plainer=made.code in _READ_AGAIN):
+    for said in in_other_words(text, vocabulary, plainer=made.code in _READ_AGAIN):
         second = _plan_as_said(said, vocabulary, context)
         if isinstance(second, StepPlan):
             break
-        if isinstance(second, Clarify) and second.code is Code.INCOMPLETE and second.options:
-            asked = asked or second
+        if isinstance(second, Clarify) and second.code is Code.INCOMPLETE:
+            asked = asked or second  # of what is asked for, all else is read
     if not isinstance(second, StepPlan):
         guessed = _guess(made, text, vocabulary, context)
         lost = isinstance(guessed, Clarify) and guessed.code is Code.NOT_UNDERSTOOD
@@ -127,17 +126,6 @@ def _plan(
         return (answer_praise(text) or asked or guessed) if lost and not offers else guessed
     missing = made.code is Code.INCOMPLETE  # what is asked for is not guessed, but "the rounds"
     return made if missing and not has_rounds_alone(second) else second
-
-
-def _in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:
-    """Yield a sentence without what is said around its order, and in plainer words."""
-    ordered = leave_asides_out(text, vocabulary)
-    if ordered is not None:
-        yield without_sending(ordered)
-    for said in (text, ordered) if plainer else (ordered,):
-        plain = in_plain_words(said, vocabulary) if said is not None else None
-        if plain is not None:
-            yield plain
 
 
 def _guess(

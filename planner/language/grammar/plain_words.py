@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from planner.language.dialect import in_standard_words
 from planner.language.folding import CHINESE as HAN
@@ -17,8 +17,11 @@ from planner.language.grammar.asides import without_asides
 from planner.language.grammar.checks import without_compounds
 from planner.language.grammar.en.courtesy import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
+from planner.language.grammar.en.looser_phrases import LOOSER, LOST_THINGS
 from planner.language.grammar.en.orders import ENGLISH
+from planner.language.grammar.en.told_words import quote_told_words
 from planner.language.grammar.everyday import rewrite
+from planner.language.grammar.excepted_rooms import without_excepted_rooms
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
@@ -151,7 +154,7 @@ def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
     said = normalise(text)
     chinese = has_chinese(said)
     courtesy, phrases = (
-        (ZH_COURTESY, CHINESE_EVERYDAY) if chinese else (EN_COURTESY, ENGLISH_EVERYDAY)
+        (ZH_COURTESY, CHINESE_EVERYDAY) if chinese else (EN_COURTESY, (*LOOSER, *ENGLISH_EVERYDAY))
     )
     marked = lexicon_of(vocabulary).mark(said)
     willing = rewrite(marked.text, courtesy)
@@ -162,6 +165,28 @@ def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
         return None
     plain = marked.restore(rewritten)
     return plain if plain and plain != said else None
+
+
+def in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:
+    """Yield a sentence in other words: its told words quoted, its asides left out, plainer."""
+    quoted = quote_told_words(text)
+    if quoted is not None:
+        yield quoted
+    lexicon = lexicon_of(vocabulary)
+    marked = lexicon.mark(normalise(text))
+    others = without_excepted_rooms(marked, lexicon, vocabulary)
+    if others is not None:
+        yield others
+    sought = rewrite(marked.text, () if has_chinese(text) else LOST_THINGS)
+    if sought != rewrite(marked.text, ()):
+        yield marked.restore(sought)
+    ordered = leave_asides_out(text, vocabulary)
+    if ordered is not None:
+        yield without_sending(ordered)
+    for said in (text, ordered) if plainer else (ordered,):
+        plain = in_plain_words(said, vocabulary) if said is not None else None
+        if plain is not None:
+            yield plain
 
 
 def held_back(text: str) -> Counter[str]:

@@ -110,8 +110,8 @@ def _place(mark: str | None, marked: MarkedText) -> str | None:
 
 def _read_english(asked: _Question, room: str | None) -> RecallReading | None:
     text = asked.text
-    if english.DEEDS.fullmatch(text):
-        return _reading(asked, deeds=True) if asked.place is None else None
+    if asked.place is None and english.DEEDS.fullmatch(text):
+        return _reading(asked, deeds=True)
     if (been := english.VISITS.fullmatch(text)) is not None:
         place = _spot(been, asked, room)
         if place is not None:

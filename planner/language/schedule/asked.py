@@ -30,7 +30,8 @@ MY = (
     r"(?:the|my|your|our|this|that|those|these)? ?"
 )
 _LIST = re.compile(
-    r"what do you do (?:regularly|by yourself)"
+    r"what do you do (?:for (?:me|us) )?(?:regularly|by yourself|(?:every|each) day)"
+    r"|what are you doing (?:every|each) day"
     rf"|(?:what|which) (?:are )?{MY}{KINDS}(?: (?:do (?:i|you|we) have|are (?:there|set|active)"
     rf"|have i (?:set|given)|are you keeping))?|what(?: is|'s) (?:on )?(?:the|my|your) schedule"
     rf"|(?:list|show|read|tell)(?: me)?(?: out)? {MY}{KINDS}|do i have (?:any )?{KINDS}"
@@ -42,16 +43,18 @@ _LIST = re.compile(
     rf"|(?:what|which) (?:other )?(?:{KINDS}|jobs|tasks|chores|duties|things|orders) (?:have|did|do|are) (?:i|we|you|there)"
     r"(?: (?:got|have|had|set|give|given|gave|ask(?:ed)?|told|tell|made|put|keep|kept|remember))*"
     r"(?: (?:you|for (?:me|us|you)|on|down|to do|doing|coming up|still))*"
+    r"(?: (?:that )?you(?:'re| are|'ve)? (?:still |now )?(?:keep|keeping|have|got|know|remember|running))?"
     r"|(?:what|which things) (?:have|did|do|am|are) (?:i|we|you) (?:(?:still )?(?:got|get|have|having|put|set|kept|supposed"
     r"|meant|asked|told|ask|tell|got down|had))(?: (?:you|down|on|for (?:me|us|you)|your list|on your list|to))*"
     r"(?: (?:do|doing|remember|remind (?:me|us)(?: (?:of|about|to do))?))?"
+    r"(?: (?:every|each) day(?: at the moment| these days)| regularly| at the moment| these days)?"
     r"|what(?:'s| is| are) (?:on )?(?:your|my|the) (?:list|to-?do list|daily (?:jobs|tasks|chores|duties)|duties|chores|standing orders)"
     rf"|(?:go|run) (?:through|over) {MY}{KINDS}|read(?: me)?(?: out)? {MY}{KINDS}(?: out)?(?: to me)?"
     r"|(?:tell me|list|read(?: me)?(?: out)?) (?:all|everything|what)(?: the things)?(?: that)? (?:i|we)(?:'ve| have)?"
     r" (?:asked|told|given|got|set|want)(?: for)?(?: you)?(?: (?:to do|down|down to do))?"
 )
 _AT_TIME = re.compile(
-    r"what (?:do you do|will you do|are you going to do|have you planned|do you have planned"
+    r"what (?:do you do(?: for (?:me|us))?|will you do|are you going to do|have you planned|do you have planned"
     r"|(?:have i|did i|have we|did we) (?:ask(?:ed)?|told|tell|want(?:ed)?) you to do"
     r"|(?:am i|are we) making you do)(?: for| on)? (?P<a>.+)"
     r"|(?:what(?:'s| is)|is there anything|anything|is anything) (?:on|planned|due|scheduled|coming up|up"

@@ -52,6 +52,10 @@ _RETIME = (
         rf"(?: {_TO})? (?P<t>.+?)(?:,? (?:and )?not (?P<o>.+?))?"
     ),
     re.compile(
+        r"(?:on (?:second thoughts?|reflection)|come to think of it|thinking about it)[ ,.!]+"
+        rf"(?:let's (?:say|do|have) |rather |better |make {_IT} )?(?P<t>.+?){_INSTEAD}"
+    ),
+    re.compile(
         r"(?:(?:no|nope|sorry|oops|wait|actually|rather)[ ,.!]+)+(?P<sure>(?:at|every|on|in) .+?)"
     ),
 )

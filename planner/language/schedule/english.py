@@ -141,7 +141,7 @@ _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
 _UPON = tuple((re.compile(rf"(?:{pattern}){_END}"), event) for pattern, event in _EVENTS)
 
 POLITE = re.compile(
-    r"(?:(?:please|pls|hey|hi|ok|okay|so|well|robot|pons|kindly|now|and|then|(?:can|could|would|will)"
+    r"(?:(?:please|pls|hey|hi|ok|okay|so|well|robot|pons|kindly|now|and|then|you know what|(?:can|could|would|will)"
     r" you|i(?:'d| would) like you to|i want you to|i need you to|you (?:should|must|have to)"
     r"|make sure (?:to|that you)|from now on|add another(?: one)?|another one|one more(?: thing)?"
     r"|also)[ ,:]+)+"
@@ -160,7 +160,7 @@ _GONE = (
     r"(?: (?:morning|afternoon|evening|night))?(?: at [a-z0-9: ]{1,20})?"
 )
 PAST = re.compile(
-    rf"{_GONE}[ ,]+(?:please )?(?:go|drive|come|look|check|find|remind me|patrol|turn|wait|follow|visit)"
+    rf"(?:(?:at|around|about) [a-z0-9: ]{{1,16}}? )?{_GONE}[ ,]+(?:please )?(?:go|drive|come|look|check|find|remind me|patrol|turn|wait|follow|visit)"
     rf"\b.*|(?:remind me|go|drive|come back|patrol)\b(?:(?!\b(?:you|i|we)\b)[^,])*? {_GONE}"
     rf"|remind me {_GONE}\b.*"
 )
@@ -173,7 +173,7 @@ REMARK = re.compile(
 """How what is no order begins, beside a time: "it's cold tonight", "tomorrow is my birthday"."""
 REMIND = re.compile(
     r"(?:remind me(?: again)?|don't let me forget|do not let me forget|set a reminder(?: for me)?"
-    r"|give me a reminder|(?P<wake>wake me(?: up)?))(?![\w'])"
+    r"|give me a reminder|tell (?:me|us)(?= to [a-z])|(?P<wake>wake me(?: up)?))(?![\w'])"
 )
 TIMELESS = re.compile(
     r"(?:remind me|set a reminder(?: for me)?|give me a reminder)[ ,:]+(?:to|about|of|for)\b"

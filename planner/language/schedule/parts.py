@@ -195,6 +195,17 @@ def combine(parts: Sequence[Part]) -> Timing | None:
             return None
 
 
+def is_once(parts: Sequence[Part]) -> bool:
+    """Tell whether a time comes once: what comes again is no time of words."""
+    return not any(isinstance(part, WeekDays | Interval | EventPart) for part in parts)
+
+
+def lacks_time(parts: Sequence[Part]) -> bool:
+    """Tell whether these name a day, and not when on it: "every day", "tomorrow"."""
+    timing = combine(parts)
+    return timing is not None and timing.problem == "order_time_missing"
+
+
 def _lasting(seconds: float, make: type[EveryRule] | type[InRule]) -> Timing:
     if not 0.0 < seconds <= MAX_AHEAD_S:
         return Timing(problem="order_malformed")

@@ -29,10 +29,17 @@ from planner.language.schedule.parts import (
     Problem,
     Timing,
     combine,
+    is_once,
+    lacks_time,
     leave_days_out,
 )
 from planner.language.schedule.reasons import leave_reasons_out
-from planner.language.schedule.statements import begins_with_statement, ends_in_statement
+from planner.language.schedule.statements import (
+    begins_with_statement,
+    ends_in_statement,
+    ends_in_told_words,
+    is_filler,
+)
 from planner.plan.timing import CronRule, DayTime, EventRule, InRule, WorldEvent
 
 if TYPE_CHECKING:
@@ -211,9 +218,10 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
         joined = combine((*before.parts, *after.parts))
         if joined is None or (joined.problem == "order_nested" and combine(after.parts) is None):
             after = _Found((), len(rest.folded))  # "every day at eight say good night at ten"
-    if after.parts and grammar is english and not _lacks_time(before.parts):
+    if after.parts and grammar is english and not lacks_time(before.parts):
         words = rest.folded[: after.at].rstrip(" ")
-        if ends_in_statement(words, reminds=remind is not None) or _UNTIL.search(words):
+        told = remind is None and is_once(after.parts) and ends_in_told_words(words)
+        if told or ends_in_statement(words, reminds=remind is not None) or _UNTIL.search(words):
             after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"; "wait until 18:30"
     order = rest.part(0, after.at) if after.parts else rest
     timing = combine((*before.parts, *after.parts))
@@ -231,14 +239,8 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     return _order(order.bare(), timing, words)
 
 
-def _lacks_time(parts: tuple[Part, ...]) -> bool:
-    """Tell whether these name a day, and not when on it: "every day", "tomorrow"."""
-    timing = combine(parts)
-    return timing is not None and timing.problem == "order_time_missing"
-
-
 def _order(order: _FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
-    if timing.problem is not None and not order.folded:
+    if (timing.problem is not None and not order.folded) or is_filler(order.folded):
         return None  # "every day": nothing that is understood
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 

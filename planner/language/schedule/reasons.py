@@ -12,7 +12,7 @@ _CUT = re.compile(r"\s*(?:[,;!.。，；！]+(?!\d)|\s[-–—]+\s|—+)\s*")
 _MOST = 3
 _ORDERS = re.compile(
     r"\b(?:if|when|whenever|unless|until|till|except|but|or|instead|then|don't|do not|never|not to|please"
-    r"|go|come|drive|tell|say|ask|remind|wake|check|find|look|make|move|change|cancel|scrap|forget"
+    r"|go|come|drive(?! (?:me|us|him|her|them) (?:mad|crazy|nuts|up the wall))|tell|say|ask|remind|wake|check|find|look|make|move|change|cancel|scrap|forget"
     r"|keep|remember|stop|only|just|wait|follow|let|leave|at (?:\d|noon))\b"
 )
 _STATES = re.compile(

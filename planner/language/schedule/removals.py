@@ -29,7 +29,10 @@ _ALL = r"(?:all (?:of )?|every (?:single |last )?|each )"
 _THE = r"(?:the|my|your|our|that|this|those|these)"
 _LOT = r"(?:[ ,]+(?:the (?:whole )?lot|all of them|every (?:single |last )?one))?"
 _KIND = rf"(?P<kind>{KINDS}|tasks?|jobs?|errands?)"
-_OF = r"(?: (?:for|about|to|of|at|with|on|that says?) (?P<of>.+?))?"
+_OF = (
+    r"(?: (?:for|about|to|of|at|with|on|that says?) (?P<of>.+?))??"
+    r"(?: in the (?P<part>morning|afternoon|evening))?"
+)
 _NAMED = re.compile(
     rf"{_YOU}(?:{_DROPS}|{_NEEDS}) (?P<all>{_ALL})?(?:{_THE} )?(?:(?P<what>(?!of\b)[a-z0-9' -]+?) )??{_KIND}{_OF}{_MORE}{_LOT}"
 )
@@ -39,7 +42,8 @@ _GONE = re.compile(
     rf"|(?:isn't|is not|aren't|are not|is no longer|are no longer) (?:needed|necessary|wanted)){_MORE}"
 )
 _ONE = re.compile(
-    rf"{_YOU}(?:{_DROPS}|{_NEEDS}) (?:the|that) (?P<called>[a-z0-9' -]+?) ones?{_MORE}"
+    rf"{_YOU}(?:{_DROPS}|{_NEEDS}) (?:the|that) (?P<called>[a-z0-9' -]+?)"
+    rf" (?:ones?|thing|business|order){_MORE}"
 )
 _REMINDING = re.compile(
     r"(?:(?:you|we) )?(?:(?:can|may|could) (?:just )?(?:stop|quit|cease) reminding me"
@@ -108,7 +112,7 @@ def _read_english(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     for pattern in (_NAMED, _GONE):
         found = pattern.fullmatch(folded)
         if found is not None:
-            which = (found["of"] or found["what"] or "").strip()
+            which = f"{found['of'] or found['what'] or ''} {found['part'] or ''}".strip()
             every, kind = found["all"] is not None, found["kind"]
             if not which and kind.rstrip("s") in ("task", "job", "errand"):
                 return None  # "cancel the task": what is under way

@@ -35,6 +35,17 @@ _OF_OURS = re.compile(rf"{_OPENS}{_OURS}'s{_BESIDE}$")
 """Without a mark before it, "the doctor's" is as well a place."""
 _MARKS = re.compile(r"[,;:!.]+ *(?:(?:and|but|so|because|since|as|for) )?|\s[-–—]+\s|—+")
 _WORDS = re.compile(r"(?<= )(?:and|but|because|'?cause|cos|since|as|please) ")
+_TOLD = re.compile(
+    r".*\b(?:(?:tell|inform|warn) (?:(?:my|our|the|your) )?(?!(?:me|us|what|if|whether|about|to)\b)[a-z]+"
+    r"(?: (?:in|at|on|by) (?:the |my |our )?[a-z]+(?: room)?)?"
+    r"|let (?:(?:my|our|the|your) )?(?!(?:me|us)\b)[a-z]+(?: [a-z]+)? know|say|announce|shout)"
+    r",? (?:that )?(?!(?:hello|hi|bye|good|what|if|whether|to|how|where|when|why|who|it's time)\b)"
+    r"(?:(?:i|we|you|he|she|it|they|there|that|this)(?:'(?:m|s|re|ll|ve|d)| [a-z]+)"
+    r"|(?:(?:the|my|our|his|her|their|a|an) )?[a-z]+(?: [a-z]+)?"
+    rf"(?:'(?:s|ll)| (?:{_HAPPENS[3:-1]}|can|must|should|needs?|goes|won't|isn't|aren't)))"
+    r"(?: [a-z' ]+)?",
+)
+"""Ends in words for somebody that say how things stand: "tell them dinner's ready"."""
 _SPEAKS = re.compile(r"\b(?:tell|say|ask|announce|shout|call out|inform|repeat|warn)\b")
 _ZH_WHO = r"(?:我们?|咱们?|客人们?|医生|大夫)"
 _ZH_STATEMENT = re.compile(
@@ -66,6 +77,21 @@ def ends_in_statement(words: str, *, reminds: bool = False) -> bool:
         return False
     weak = [found.end() for found in _WORDS.finditer(words)]
     return any(_STATEMENT.match(words, at) is not None for at in weak if at > strong)
+
+
+_FILLER = re.compile(
+    r"(?:as well|too|also|instead|again|please|on second thoughts?|and|then|[ ,])+"
+)
+
+
+def is_filler(words: str) -> bool:
+    """Return whether words beside a time order nothing: "and at nine as well" leans on another."""
+    return _FILLER.fullmatch(words) is not None
+
+
+def ends_in_told_words(words: str) -> bool:
+    """Return whether English words before a time are words for somebody, whose time it then is."""
+    return _TOLD.fullmatch(words) is not None
 
 
 def begins_with_statement(words: str, *, chinese: bool) -> bool:

@@ -15,6 +15,10 @@ _AND_ON = r"(?=$|[,.!;]|,? (?:and|then)(?: then)? (?!(?:you|i|we|he|she|it|they|
 """Behind "once" it says how often: no clause begins that the order would hang on."""
 
 COURTESY = table(
+    (r"[, ]+(?:and |but )?(?:nice and slow|(?:go |take it )(?:nice and )?slow(?:ly)?|at a slow pace"
+     r"|nice and (?:gently|easy))(?=[.!]*$)", " slowly"),
+    (r"(?P<l>\b(?:met(?:re|er)s?|m|cm|centimet(?:re|er)s?|feet|foot|degrees?|minutes?|mins?|seconds?|secs?))"
+     r" or (?:so|thereabouts)\b", r"\g<l>"),
     (r"\b(?P<a>a|another|one) (?:quick|swift|speedy) (?=(?:little )?(?:lap|round|rounds|tour|sweep|circuit"
      r"|patrol|look|peek|peep|glance|check|search|scan|count|nosy|gander)\b)", r"\g<a> "),
     (rf"\b(?:spin|turn|twirl|rotate|whirl)(?: yourself)?(?: a?round)? once{_AND_ON}", "turn a full circle"),

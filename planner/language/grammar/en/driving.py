@@ -171,8 +171,9 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(rf"(?:say|announce|tell (?:me|us|them|everyone))(?: out loud)? ?(?P<quote>{QUOTE})", say),
     rule(
-        r"say (?P<words>(?!something\b|anything\b|nothing\b)[^\ue000-\ue8ff]+?)(?: to (?:me|us|"
-        r"everyone|everybody))?",
+        r"say (?P<words>(?!something\b|anything\b|nothing\b|(?:it|that|this|so|them)$"
+        r"|(?:if|whether|how (?:many|much)|where|who|whose|which|what(?! an?\b))\b)"
+        r"[^\ue000-\ue8ff]+?)(?: to (?:me|us|everyone|everybody))?",
         say,
     ),
     rule(rf"{GO} from (?P<start>.+?) (?:to|into|towards?) (?P<place>.+)", route),

@@ -58,7 +58,10 @@ _TO_SOMEBODY = r"(?:good ?night|night night|happy [a-z]+|thank you) to\b"
 """What is said to somebody, or ends in another order, is no place that is only spoken of."""
 _SAYS = r"(?:shout|yell|call out|announce|holler|proclaim)(?: out)?"
 _HOME = r"(?:house|home|flat|apartment|place|building|rooms|premises)"
-_AROUND = rf"(?: (?:of|round|around|through|about) (?:the |our |my )?(?:whole |entire )?{_HOME})?"
+_AROUND = (
+    r"(?: (?:of|round|around|through|about) (?:all (?:of )?|every |each )?(?:the |our |my )?"
+    rf"(?:whole |entire )?(?:{_HOME}|room))?"
+)
 _NUMBER = (
     r"(?:five|ten|fifteen|twenty|thirty|forty|fifty|sixty|seventy|eighty|ninety|forty five"
     r"|\d{1,3})"
@@ -255,7 +258,7 @@ ENGLISH_EVERYDAY = table(
      r"|come along with|walk along with|keep pace with) ", "follow "),
     (r"\btell (?:whoever|anyone|anybody|everyone|everybody|the people)(?:'s| is| who is|s)? in"
      rf" (?P<p>{_PLACE}) (?:that )?(?P<w>[^\"]+)$", r'go to \g<p> and say "\g<w>"'),
-    (rf"\b{_SAYS}(?: that)? (?P<w>[^\",;]+)$", r'say "\g<w>"'),
+    (rf"\b{_SAYS}(?: that)? (?P<w>(?!(?:if|when\w*|unless|until|once|as soon|for|to|what\w*|who|whether)\b)[^\",;]+)$", r'say "\g<w>"'),
     (rf"\bsay (?:that )?(?P<w>(?:i|we|he|she|they)(?:'ll| will|'re| are|'m| am|'s| is) {_SAYABLE})"
      r"(?=[.!]*$|[,;]| and (?:then )?(?:come|go|drive|head|return)\b)", r'say "\g<w>"'),
     (rf"\bsay (?!{_TO_SOMEBODY})(?P<w>[^\",;]*{MARK}[^\",;]*?),? (?:and )?then (?={_ORDERS}\b)",
@@ -338,6 +341,8 @@ ENGLISH_EVERYDAY = table(
     (rf"^(?:be |right )?(?:you )?(?:to be )?(?:next to|beside|by|at|in|near) (?P<p>{_PLACE})$", r"go to \g<p>"),
     (rf"\bcome (?:and )?(?:play|sit|hang out|join us|help)(?: with (?:me|us))? (?:in|at|by) (?P<p>{_PLACE})$",
      r"go to \g<p>"),
+    (rf"\b(?P<v>(?:count|look|check|search|find|see|how many|is there|are there)\b[^,.;!?]*? (?:in|at|on|by))"
+     rf" (?P<l>{_PLACE}(?:, {_PLACE})*),? and (?={_PLACE}(?:[,.!?]|$))", r"\g<v> \g<l> and in "),
     (rf"^(?:first,? )?(?:to )?(?P<p>{_PLACE})(?=(?: then| and then|,| and)+ )", r"go to \g<p>"),
     (rf"(?:(?<= then )|(?<=, )|(?<= and ))(?:to )?(?P<p>{_PLACE})(?=(?: then| and then|,| and)+ |$)", r"go to \g<p>"),
     (rf"(?P<a>^|, )(?P<p>{_PLACE}) (?={_PLACE}(?: {_PLACE})*$)", r"\g<a>\g<p>, "),

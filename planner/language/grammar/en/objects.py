@@ -132,6 +132,10 @@ def _count(found: Match[str], reading: Reading) -> Meaning:
     return count(label, read_place(found, "at"), reading)
 
 
+def _count_everywhere(found: Match[str], reading: Reading) -> Meaning:
+    return count(found["what"], None, reading)
+
+
 def _look(found: Match[str], reading: Reading) -> Meaning:
     return look(found[0], read_place(found, "at"), reading)
 
@@ -188,6 +192,11 @@ _MUST = sure_loc("at")
 
 RULES: tuple[Rule, ...] = (
     rule(
+        rf"(?:{_LOOK_VERB} )?(?:count )?how many (?P<what>people|persons) (?:are|is|there are)"
+        rf"(?: there)? (?:in|{_HOME})(?: (?:right )?now)?",
+        _count_everywhere,
+    ),
+    rule(
         r"(?:(?:tell|inform|show|let) (?:me|us)(?: know)?|report(?: back)?(?: to (?:me|us))?|"
         r"say it|say so|"
         r"tell me about it)(?: (?:the (?:result|results|number|answer|count)|what you (?:see|find|"
@@ -215,7 +224,8 @@ RULES: tuple[Rule, ...] = (
         _count,
     ),
     rule(
-        rf"count(?: up)?(?: the number of| how many)? (?P<what>{_COUNTED})(?: (?:you (?:see|find)|"
+        rf"count(?: up)?(?: the number of"
+        rf"| how many)? (?P<what>{_COUNTED})(?: (?:you (?:can )?(?:see|find)|"
         r"there are|are|that are))?"
         rf"{_AT}",
         _count,
@@ -223,7 +233,7 @@ RULES: tuple[Rule, ...] = (
     rule(
         r"(?:(?:tell|show) (?:me|us) )?"
         r"(?:where (?:is|are|can i find|did (?:i|you|we) (?:leave|put|see))|have you seen)"
-        rf" (?P<what>{_THING}?)(?: now)?",
+        rf" (?P<what>{_THING}?)(?: now| anywhere| around| lately)?",
         _offer_search,
     ),
     rule(

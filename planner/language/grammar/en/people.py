@@ -163,7 +163,7 @@ _PAST = {
 _HAS_DONE = re.compile(
     r"(?:is|has) (?P<what>(?:already |just |ever )?(?:taken|eaten|seen|had|been|found|fed|drunk"
     r"|brushed|washed|called|rung|heard|got|read|packed|done (?:his|her|their|the|it)"
-    r"|finished (?:his|her|their|the))\b.*)"
+    r"|finished (?:his|her|their|your|the))\b.*)"
 )
 """What "he's taken" and "she has had" mean; "he's done" is "he is done"."""
 _ASKED_OF_THEM = re.compile(
@@ -285,6 +285,11 @@ RULES: tuple[Rule, ...] = (
         _follow,
     ),
     rule(
+        rf"{_FOLLOW} (?:the|our|my|that|this|a) (?:cat|dog|ball|puppy|kitten|car|hoover"
+        rf"|vacuum)(?: .*)?",
+        lacks(Code.NO_CAPABILITY),
+    ),
+    rule(
         rf"{_GUIDE} {_WHO}{_AT}(?: from (?P<start>{THE}{MARK}))?{_TO}{_FOUND}",
         _guide,
     ),
@@ -310,6 +315,7 @@ RULES: tuple[Rule, ...] = (
         r"by|from) )[^,]+)",
         _tell_words,
     ),
+    rule(rf"let {_WHO}{_AT} know,? (?:that )?(?P<words>[^,]+)", _tell_words),
     rule(
         rf"(?:chat|talk|converse|have a (?:chat|talk|conversation))(?: (?:with|to) {_WHO}{_AT})?",
         _no_dialogue,

@@ -16,6 +16,8 @@ ALL_REMINDERS = ("", True, True)
         ("you don't need to remind me about the pills anymore", "the pills", True, False),
         ("no need to remind me about the plumber", "the plumber", True, False),
         ("scrap the plumber one", "plumber", False, False),
+        ("you know what, forget the welcome home thing", "welcome home", False, False),
+        ("forget about the pill reminder in the morning", "pill morning", True, False),
         ("scrap all the reminders, the lot", *ALL_REMINDERS),
         ("forget all the things I told you to do every day", "every day", False, True),
         ("the pill reminder can go", "pill", True, False),

@@ -1,0 +1,53 @@
+"""Own more English phrases of everyday speech: lost things, ways to and fro, the end of a move.
+
+Tables as in ``everyday``: over marked sentences, in their order.
+"""
+
+from __future__ import annotations
+
+from planner.language.grammar.everyday import table
+from planner.language.grammar.lexicon import MARK
+from planner.language.numbers import EN_LENGTH
+
+_PLACE = rf"(?:(?:the|a|my|our|your|this|that) )?{MARK}"
+_AT = r"(?:in|at|on|by|under|behind|near|beside|next to|inside)"
+_T = r"(?P<t>(?:my|our|the) [a-z]+(?: [a-z]+)?)"
+_LOST = (
+    r"(?:(?:(?:i|we) (?:can ?not|can't|could not|couldn't) (?:find|see)"
+    r"|(?:i|we)(?:'ve| have)? (?:just )?(?:lost|mislaid|misplaced)) {t}(?: anywhere| any more| again)?"
+    r"|{t}(?:'s| is| has)? (?:just )?(?:gone|rolled|fallen|disappeared|vanished|got lost|lost|missing"
+    r"|run|bounced|hidden|hiding|slipped|went)(?: (?:off|away|missing|down|somewhere|again))*)"
+).format(t="{t}")
+_ASKS = r"(?:please |so |can you |could you |would you |will you |just |go (?:and )?|and )*"
+_LOOKS = rf"(?:check|look|search|try|have a look|see)(?: {_AT})?"
+_NEXT = rf"(?:,? and (?:then )?|,? then |, )(?:{_LOOKS} |{_AT} )?"
+_HOME = r"(?:house|home|flat|apartment|place)"
+
+LOST_THINGS = table(
+    (rf"^{_LOST.replace('{t}', _T, 1).replace('{t}', _T.replace('<t>', '<t2>'))}[,.;!]+ {_ASKS}{_LOOKS} "
+     rf"(?P<a>{_PLACE})(?: first)?{_NEXT}(?P<b>{_PLACE})(?: please| for me| next| after that)*[.!?]*$",
+     r"go to \g<a> and see if \g<t>\g<t2> is there, then go to \g<b> and see if \g<t>\g<t2> is there"),
+    (rf"^{_LOST.replace('{t}', _T, 1).replace('{t}', _T.replace('<t>', '<t2>'))}[,.;!]+ {_ASKS}{_LOOKS} "
+     rf"(?P<a>{_PLACE})(?: first| please| for me| will you| would you)*[.!?]*$",
+     r"look for \g<t>\g<t2> at \g<a>"),
+)  # fmt: skip
+"""A thing that is missed, and where to look: what is looked at is that thing, and not the place."""
+
+LOOSER = table(
+    (r"\bcome (?:here )?(?:and )?(?=tell (?:me|us) (?:what|how) (?:he|she|they)\b)", "come back and "),
+    (rf"\b(?:go|drive|run|walk|shuttle|roll|move|travel)(?: (?:back and forth|to and fro|up and down))?"
+     rf" between (?P<a>{_PLACE}) and (?P<b>{_PLACE}) (?P<n>twice|\w+ times)",
+     r"go to \g<a> then go to \g<b>, \g<n>"),
+    (rf"\b(?:do|make|drive|run) (?P<n>two|three|four|five|six|seven|eight|nine|ten|\d{{1,2}})"
+     rf" (?:laps|trips|rounds|runs|times) between (?P<a>{_PLACE}) and (?P<b>{_PLACE})",
+     r"go to \g<a> then go to \g<b>, \g<n> times"),
+    (r"\bgo (?:back )?home (?:and|to|for a) (?:re)?charge\b", "go charge"),
+    (rf"(?P<m>\b(?:go|move|drive|roll|come|back up|reverse)\b[^,.;]*?{EN_LENGTH.replace('?P<length>', '?:').replace('?P<unit>', '?:')}"
+     r"(?: (?:forwards?|backwards?|back|ahead))?),? (?:and |then )+(?:stop|halt|stay)(?: there)?(?=[.!]*$)", r"\g<m>"),
+    (r"^(?:just |take )*(?:a|one) (?:small |little |tiny )?step (?P<d>back|backwards?|forwards?)(?=$|[,.])",
+     r"move \g<d> 20 cm"),
+    (rf"\b(?:go|move|come|drive|get) (?:a (?:bit|little|touch) )?(?:closer|nearer) to (?P<p>{_PLACE})"
+     r"(?:,? and (?:stop|stay|wait)(?: there)?)?(?=$|[,.])", r"go to \g<p>"),
+    (rf"\b(?:do|make|take) (?:a|one|another) (?:quick |little )*(?:lap|round|tour) (?:of|through|round) (?:the |our )?{_HOME}"
+     r" (?=and (?:then )?(?:tell|let|see|look|check)\b)", "patrol the house "),
+)  # fmt: skip
