@@ -12,17 +12,19 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from planner.language.folding import fold_script, fold_width, has_chinese
+from planner.language.folding import has_chinese
 from planner.language.schedule import chinese, english
 from planner.language.schedule.about import read_about
 from planner.language.schedule.arrivals import offer_event, read_arrival
 from planner.language.schedule.command import (
+    ChangeOrders,
     LeaveOutDays,
     OrderCommand,
     RemindAgain,
     ScheduleCommand,
 )
 from planner.language.schedule.corrections import read_correction
+from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
 from planner.language.schedule.parts import (
     EventPart,
     Part,
@@ -40,45 +42,14 @@ if TYPE_CHECKING:
 
 MAX_READ = 300
 """Characters; a longer sentence is no standing order."""
-_ENDS = " .!,;:。~…，；！、"
-_MARKS = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "！": "!", "？": "?"})
-_SPACES = re.compile(r"\s+")
 _MOST_PARTS = 6
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
 _UNTIL = re.compile(r"\b(?:until|till)$")
 _CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
-_DAYS_ER = re.compile(
-    r"(?<!说)([今明后])儿个?(?=[早上中下晚夜]|[一二三四五六七八九十两\d]{1,2}[点:])"
-)
-"""明儿早上 is 明天早上."""
 _DENIAL = re.compile(
     r"(?:[就都也])*(?:别|不要|不用|不准|不许)|(?:don't|do not|never|not) ", re.IGNORECASE
 )
 _QUOTE = re.compile('["“”「」『』]')
-
-
-@dataclass(frozen=True, slots=True)
-class _FoldedSentence:
-    """Hold a sentence twice, character for character alike: to match, and as it was written."""
-
-    folded: str
-    written: str
-
-    def part(self, start: int, end: int | None = None) -> _FoldedSentence:
-        return _FoldedSentence(self.folded[start:end], self.written[start:end])
-
-    def strip(self, pattern: re.Pattern[str]) -> _FoldedSentence:
-        """Take off what a pattern matches at the beginning."""
-        found = pattern.match(self.folded)
-        return self.part(found.end()) if found is not None else self
-
-    def strip_end(self, pattern: re.Pattern[str]) -> _FoldedSentence:
-        found = pattern.search(self.folded)
-        return self.part(0, found.start()) if found is not None and found.start() > 0 else self
-
-    def bare(self) -> _FoldedSentence:
-        start = len(self.folded) - len(self.folded.lstrip(_ENDS))
-        return self.part(start, max(start, len(self.folded.rstrip(_ENDS))))
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,20 +65,20 @@ def read_order_command(text: str) -> OrderCommand | None:
     """Return what a sentence says about standing orders; None where it is none of these."""
     if not 0 < len(text.strip()) <= MAX_READ:
         return None
-    said = _fold(text)
-    asks = said.folded.rstrip(_ENDS).endswith("?")
+    said = fold_sentence(text)
+    asks = said.folded.rstrip(ENDS).endswith("?")
     grammar = chinese if has_chinese(said.folded) else english
-    said = _FoldedSentence(said.folded.replace("?", " "), said.written)
+    said = FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
     command = _read_command(said, grammar, text, asks=asks)
-    if asks or not (command is None or _denies(command)):
+    if asks or not (command is None or _denies(command) or _swallows(command)):
         return command
     bare = leave_reasons_out(said.folded, chinese=grammar is chinese)
     if bare is None:
         return command
-    bare = _FoldedSentence(bare, bare).strip(grammar.POLITE).strip_end(grammar.POLITE_END).folded
-    about = _read_about_kept(bare.strip(_ENDS), grammar)
-    alone = _FoldedSentence(bare.strip(_ENDS), bare.strip(_ENDS))
+    bare = FoldedSentence(bare, bare).strip(grammar.POLITE).strip_end(grammar.POLITE_END).folded
+    about = _read_about_kept(bare.strip(ENDS), grammar)
+    alone = FoldedSentence(bare.strip(ENDS), bare.strip(ENDS))
     timed = about is None and _whole_parts(alone.folded, in_chinese=grammar is chinese)
     return (_read(alone, grammar) if timed else about) or command
 
@@ -119,6 +90,11 @@ def _denies(command: OrderCommand) -> bool:
     return _DENIAL.match(command.order) is not None
 
 
+def _swallows(command: OrderCommand) -> bool:
+    """Tell whether the words that name an order go on with another clause: a reason, perhaps."""
+    return isinstance(command, ChangeOrders) and "," in command.which
+
+
 def _read_about_kept(folded: str, grammar: ModuleType) -> OrderCommand | None:
     """Return what a sentence says about orders that are kept: a question, a change, a removal."""
     is_chinese = grammar is chinese
@@ -128,7 +104,7 @@ def _read_about_kept(folded: str, grammar: ModuleType) -> OrderCommand | None:
 
 
 def _read_command(
-    said: _FoldedSentence, grammar: ModuleType, text: str, *, asks: bool
+    said: FoldedSentence, grammar: ModuleType, text: str, *, asks: bool
 ) -> OrderCommand | None:
     is_chinese = grammar is chinese
     excepted = None if asks else _read_excepting(said, grammar)
@@ -139,7 +115,9 @@ def _read_command(
         return about
     if not asks and (unseen := _read_event(said, grammar)) is not None:
         return unseen
-    courteous = asks and grammar is english and _fold(text).folded.startswith(("can", "could", "w"))
+    courteous = (
+        asks and grammar is english and fold_sentence(text).folded.startswith(("can", "could", "w"))
+    )
     if (asks and not courteous) or grammar.ASKS.match(said.folded) is not None:
         return None
     if grammar.PAST.fullmatch(said.folded) is not None:
@@ -152,7 +130,7 @@ def _read_command(
     return corrects
 
 
-def _read_excepting(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
+def _read_excepting(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read "every day at seven wake us up, but not at weekends", 每天七点…，周末就不要了."""
     for cut in reversed(list(_CLAUSE.finditer(said.folded))):
         days = read_correction(said.folded[cut.end() :], _whole_parts, chinese=grammar is chinese)
@@ -167,7 +145,7 @@ def _read_excepting(said: _FoldedSentence, grammar: ModuleType) -> ScheduleComma
     return None
 
 
-def _read_event(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
+def _read_event(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read an order upon somebody's coming who is named, or upon what can't be noticed."""
     is_chinese = grammar is chinese
     arrival = read_arrival(said.folded, said.written, chinese=is_chinese)
@@ -181,18 +159,7 @@ def _read_event(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand |
     return ScheduleCommand(None, said.written, "", problem=problem, offer=offer)
 
 
-def _fold(text: str) -> _FoldedSentence:
-    spaced = _SPACES.sub(" ", fold_width(text).translate(_MARKS)).strip()
-    spaced = _DAYS_ER.sub(r"\1天", spaced)
-    if has_chinese(spaced):  # spaces between characters mean nothing; between Latin words they do
-        spaced = re.sub(r"(?<![A-Za-z0-9]) | (?![A-Za-z0-9])", "", spaced)
-    folded = spaced.lower()
-    if len(folded) != len(spaced):  # a few letters grow in lower case
-        spaced = folded
-    return _FoldedSentence(fold_script(folded), spaced)
-
-
-def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
+def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a time, an order, and whether it is to be reminded of."""
     before = _first_parts(said.folded, grammar)
     rest = said.part(before.at).strip(grammar.LEAD)
@@ -237,15 +204,13 @@ def _lacks_time(parts: tuple[Part, ...]) -> bool:
     return timing is not None and timing.problem == "order_time_missing"
 
 
-def _order(order: _FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
+def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
     if timing.problem is not None and not order.folded:
         return None  # "every day": nothing that is understood
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 
 
-def _read_timeless(
-    order: _FoldedSentence, verb: str, grammar: ModuleType
-) -> ScheduleCommand | None:
+def _read_timeless(order: FoldedSentence, verb: str, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a reminder without its time, which is then asked for: "remind me to ring the doctor"."""
     if grammar.OPEN.search(order.folded) or not grammar.TIMELESS.match(f"{verb}{order.folded}"):
         return None
@@ -256,11 +221,11 @@ def _read_timeless(
 
 def complete_order(command: ScheduleCommand, time: str) -> ScheduleCommand | None:
     """Return an order that lacked its time with the time that was said for it; None: it is none."""
-    said = _fold(time)
+    said = fold_sentence(time)
     grammar = chinese if has_chinese(said.folded) else english
     bare = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
     for words in (f"{command.words} {bare.written}".strip(), bare.written):
-        folded = _fold(words).folded
+        folded = fold_sentence(words).folded
         for lead in ("", "at ") if grammar is english else ("",):
             parts = _whole_parts(lead + folded, in_chinese=grammar is chinese)
             timing = combine(parts) if parts else None
@@ -270,7 +235,7 @@ def complete_order(command: ScheduleCommand, time: str) -> ScheduleCommand | Non
 
 
 def _reminder(
-    order: _FoldedSentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
+    order: FoldedSentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
 ) -> ScheduleCommand:
     what = order.bare().strip(grammar.OF).bare().written.strip()
     if woken and not what:
@@ -278,10 +243,10 @@ def _reminder(
     return ScheduleCommand(timing.when, what, words, reminder=what, problem=timing.problem)
 
 
-def _words(said: _FoldedSentence, rest: _FoldedSentence, before: _Found, after: _Found) -> str:
+def _words(said: FoldedSentence, rest: FoldedSentence, before: _Found, after: _Found) -> str:
     """Return what was said of the time: the beginning and the end together."""
     ends = rest.written[after.at :] if after.parts else ""
-    return " ".join(each.strip(_ENDS) for each in (said.written[: before.at], ends) if each.strip())
+    return " ".join(each.strip(ENDS) for each in (said.written[: before.at], ends) if each.strip())
 
 
 def _first_parts(folded: str, grammar: ModuleType) -> _Found:
@@ -311,7 +276,7 @@ def _last_parts(folded: str, grammar: ModuleType) -> _Found:
     starts = re.finditer(r"(?<=[ ,])" if grammar is english else r"(?<=,)", folded)
     for each in starts:
         found = _first_parts(folded[each.start() :], grammar)
-        whole = found.parts and not folded[each.start() + found.at :].strip(_ENDS)
+        whole = found.parts and not folded[each.start() + found.at :].strip(ENDS)
         if whole and combine(found.parts) is not None:
             quoted = len(_QUOTE.findall(folded[: each.start()])) % 2
             return _Found() if quoted else _Found(found.parts, each.start())
@@ -340,9 +305,9 @@ def split_time(words: str) -> tuple[tuple[Part, ...], str]:
     grammar = chinese if has_chinese(words) else english
     first = _first_parts(words, grammar)
     if first.parts:
-        return first.parts, words[first.at :].strip(_ENDS)
+        return first.parts, words[first.at :].strip(ENDS)
     for each in re.finditer(r"(?<=[ ,])", words):
         found = _first_parts(words[each.start() :], grammar)
-        if found.parts and not words[each.start() + found.at :].strip(_ENDS):
-            return found.parts, words[: each.start()].strip(_ENDS)
+        if found.parts and not words[each.start() + found.at :].strip(ENDS):
+            return found.parts, words[: each.start()].strip(ENDS)
     return (), words
