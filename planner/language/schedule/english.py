@@ -116,24 +116,24 @@ _IN = re.compile(
 _SOMEBODY = r"(?:somebody|someone|anybody|anyone|a person|people|a visitor|a guest|a human)"
 _COMES = (
     r"(?:comes?(?: (?:in|home|inside|by|over|here|back|near|along|up))?"
-    r"(?: (?:through |to |at |by |in )?the (?:front |main )?door)?"
+    r"(?: (?:through |to |at |by |in )?the (?:front |main )?door| (?:in|into|to|inside) the (?:house|flat|apartment|home|building))?"
     r"|enters?(?: the (?:house|home|room|flat))?|arrives?(?: home)?|shows? up|appears?|walks? in"
-    r"|walks? by|is (?:here|there|at the door)|(?:gets?|is) home)"
+    r"|walks? by|(?:is|'s) (?:here|there|(?:at|outside|in front of) the (?:front )?door)|(?:gets?|is) home)"
     r"(?! (?:(?:in|into|to|from|through|near|by|at|out of|over to) )?(?:the|my|our|your|a|an) )"
 )
 """With a place behind it, it is another event: "when somebody comes in the kitchen"."""
 _WHEN = r"(?:when(?:ever)?|every time|each time|as soon as|once)"
 _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
-    (rf"{_WHEN} {_SOMEBODY} {_COMES}", WorldEvent.PERSON_SEEN),
+    (rf"{_WHEN} {_SOMEBODY}(?: |(?=')){_COMES}", WorldEvent.PERSON_SEEN),
     (rf"{_WHEN} you (?:see|spot|notice|meet|detect) {_SOMEBODY}", WorldEvent.PERSON_SEEN),
     (rf"{_WHEN} (?:something|anything) moves|{_WHEN} (?:there is|you (?:see|notice)) (?:any )?"
      r"(?:movement|motion)", WorldEvent.MOVEMENT),
     (rf"{_WHEN} (?:the|your) battery (?:is|gets|runs|becomes) (?:low|(?:almost |nearly )?empty)"
      rf"|{_WHEN} you(?:'re| are)? (?:run(?:ning)? )?(?:low on|out of) (?:battery|power)",
      WorldEvent.BATTERY_LOW),
-    (rf"{_WHEN} (?:a|any|the|your) (?:goal|task|drive|order|mission) fails|{_WHEN} something goes "
+    (rf"{_WHEN} (?:an?|any|the|your|my) (?:goal|task|drive|order|mission) fails|{_WHEN} something goes "
      r"wrong", WorldEvent.GOAL_FAILED),
-    (rf"{_WHEN} (?:a|any|the|your) (?:goal|task|drive|order|mission) (?:is (?:done|finished|over)"
+    (rf"{_WHEN} (?:an?|any|the|your|my) (?:goal|task|drive|order|mission) (?:is (?:done|finished|over)"
      r"|ends|finishes)", WorldEvent.GOAL_DONE),
     (rf"{_WHEN} you(?:'re| are| get| come| arrive| return)(?: back)? (?:at )?home(?: again)?",
      WorldEvent.ARRIVED_HOME),

@@ -24,6 +24,7 @@ from planner.language.schedule.command import (
     ScheduleCommand,
 )
 from planner.language.schedule.corrections import read_correction
+from planner.language.schedule.event_orders import NEWS, is_news, read_event_order
 from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
 from planner.language.schedule.parts import (
     EventPart,
@@ -49,6 +50,8 @@ _CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
 _DENIAL = re.compile(
     r"(?:[就都也])*(?:别|不要|不用|不准|不许)|(?:don't|do not|never|not) ", re.IGNORECASE
 )
+_TELLS = re.compile(r"(?: and|,|;) (?:then )?(?:tell|let|call|warn|say|ask|shout|remind|alert)\b")
+"""Of two orders the one that waits for the event behind them."""
 _QUOTE = re.compile('["“”「」『』]')
 
 
@@ -79,8 +82,19 @@ def read_order_command(text: str) -> OrderCommand | None:
     bare = FoldedSentence(bare, bare).strip(grammar.POLITE).strip_end(grammar.POLITE_END).folded
     about = _read_about_kept(bare.strip(ENDS), grammar)
     alone = FoldedSentence(bare.strip(ENDS), bare.strip(ENDS))
-    timed = about is None and _whole_parts(alone.folded, in_chinese=grammar is chinese)
-    return (_read(alone, grammar) if timed else about) or command
+    if about is None and _waits(alone, grammar):
+        return _read_event(alone, grammar) or _read(alone, grammar) or command
+    return about or command
+
+
+def _waits(said: FoldedSentence, grammar: ModuleType) -> bool:
+    """Tell whether a sentence is a time alone, or an order upon the event that it ends with."""
+    if _whole_parts(said.folded, in_chinese=grammar is chinese):
+        return True
+    if grammar is chinese:
+        return False
+    last = _last_parts(said.folded, grammar).parts
+    return any(isinstance(part, EventPart) for part in last) or bool(_read_event(said, grammar))
 
 
 def _denies(command: OrderCommand) -> bool:
@@ -151,12 +165,30 @@ def _read_event(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | 
     arrival = read_arrival(said.folded, said.written, chinese=is_chinese)
     if arrival is not None:
         when = EventRule(event=WorldEvent.PERSON_SEEN)
-        return ScheduleCommand(when, arrival.order, "", who=arrival.who)
+        return _upon(when, arrival.order, "", who=arrival.who)
     offer = offer_event(said.folded, chinese=is_chinese)
-    if offer is None or (not offer and _first_parts(said.folded, grammar).parts):
+    if is_chinese or offer:
+        return None if offer is None else _unseen(said, offer, grammar)
+    found = read_event_order(said.folded, said.written, _whole_parts)
+    if found is None:
+        return None if offer is None else _unseen(said, offer, grammar)
+    if found.event is None:
+        return _unseen(said, found.offer, grammar)
+    return _upon(EventRule(event=found.event), found.order, "", who=found.who)
+
+
+def _unseen(said: FoldedSentence, offer: str, grammar: ModuleType) -> ScheduleCommand | None:
+    """Return that no event tells what is waited for, with the order that comes nearest."""
+    if not offer and _first_parts(said.folded, grammar).parts:
         return None
     problem: Problem = "order_event_place" if offer else "order_no_event"
     return ScheduleCommand(None, said.written, "", problem=problem, offer=offer)
+
+
+def _upon(when: EventRule, order: str, words: str, who: str = "") -> ScheduleCommand:
+    """Return an order upon an event; where its news alone is wanted, a reminder that tells it."""
+    news = NEWS[when.event] if is_news(order) else None
+    return ScheduleCommand(when, order, words, reminder=news, who=who)
 
 
 def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
@@ -184,6 +216,13 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
             after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"; "wait until 18:30"
     order = rest.part(0, after.at) if after.parts else rest
     timing = combine((*before.parts, *after.parts))
+    if (
+        after.parts
+        and timing
+        and isinstance(timing.when, EventRule)
+        and _TELLS.search(order.folded)
+    ):
+        return None  # "go to the kitchen and tell me when somebody comes": the telling waits
     if timing is None:
         lacks = remind is not None and not (before.parts or after.parts or remind["wake"])
         return _read_timeless(order, remind[0], grammar) if lacks and remind is not None else None
@@ -207,6 +246,8 @@ def _lacks_time(parts: tuple[Part, ...]) -> bool:
 def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
     if timing.problem is not None and not order.folded:
         return None  # "every day": nothing that is understood
+    if isinstance(timing.when, EventRule) and timing.problem is None:
+        return _upon(timing.when, order.written.strip(), words)
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 
 
