@@ -8,7 +8,7 @@ Pure: no clock, no state.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -36,6 +36,13 @@ from planner.language.schedule.parts import (
 )
 from planner.language.schedule.reasons import leave_reasons_out
 from planner.language.schedule.statements import begins_with_statement, ends_in_statement
+from planner.language.schedule.time_finder import (
+    FoundTime,
+    first_parts,
+    last_parts,
+    reads_timing,
+    whole_parts,
+)
 from planner.plan.timing import CronRule, DayTime, EventRule, InRule, WorldEvent
 
 if TYPE_CHECKING:
@@ -43,7 +50,6 @@ if TYPE_CHECKING:
 
 MAX_READ = 300
 """Characters; a longer sentence is no standing order."""
-_MOST_PARTS = 6
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
 _UNTIL = re.compile(r"\b(?:until|till)$")
 _CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
@@ -52,15 +58,6 @@ _DENIAL = re.compile(
 )
 _TELLS = re.compile(r"(?: and|,|;) (?:then )?(?:tell|let|call|warn|say|ask|shout|remind|alert)\b")
 """Of two orders the one that waits for the event behind them."""
-_QUOTE = re.compile('["“”「」『』]')
-
-
-@dataclass(frozen=True, slots=True)
-class _Found:
-    """Hold the parts of a time, and where they end (or, at the end of a sentence, begin)."""
-
-    parts: tuple[Part, ...] = ()
-    at: int = 0
 
 
 @lru_cache(maxsize=64)
@@ -89,11 +86,11 @@ def read_order_command(text: str) -> OrderCommand | None:
 
 def _waits(said: FoldedSentence, grammar: ModuleType) -> bool:
     """Tell whether a sentence is a time alone, or an order upon the event that it ends with."""
-    if _whole_parts(said.folded, in_chinese=grammar is chinese):
+    if whole_parts(said.folded, in_chinese=grammar is chinese):
         return True
     if grammar is chinese:
         return False
-    last = _last_parts(said.folded, grammar).parts
+    last = last_parts(said.folded, grammar).parts
     return any(isinstance(part, EventPart) for part in last) or bool(_read_event(said, grammar))
 
 
@@ -112,8 +109,8 @@ def _swallows(command: OrderCommand) -> bool:
 def _read_about_kept(folded: str, grammar: ModuleType) -> OrderCommand | None:
     """Return what a sentence says about orders that are kept: a question, a change, a removal."""
     is_chinese = grammar is chinese
-    return read_about(folded, _reads_timing, _whole_parts, chinese=is_chinese) or read_correction(
-        folded, _whole_parts, chinese=is_chinese
+    return read_about(folded, reads_timing, whole_parts, chinese=is_chinese) or read_correction(
+        folded, whole_parts, chinese=is_chinese
     )
 
 
@@ -124,7 +121,7 @@ def _read_command(
     excepted = None if asks else _read_excepting(said, grammar)
     if excepted is not None:
         return excepted
-    about = read_about(said.folded, _reads_timing, _whole_parts, chinese=is_chinese)
+    about = read_about(said.folded, reads_timing, whole_parts, chinese=is_chinese)
     if about is not None:
         return about
     if not asks and (unseen := _read_event(said, grammar)) is not None:
@@ -136,7 +133,7 @@ def _read_command(
         return None
     if grammar.PAST.fullmatch(said.folded) is not None:
         return ScheduleCommand(None, said.written, "", problem="order_in_past")
-    corrects = read_correction(said.folded, _whole_parts, chinese=is_chinese)
+    corrects = read_correction(said.folded, whole_parts, chinese=is_chinese)
     if corrects is None:
         return _read(said, grammar)
     if isinstance(corrects.change, RemindAgain):  # "remind me again in five minutes"
@@ -147,7 +144,7 @@ def _read_command(
 def _read_excepting(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read "every day at seven wake us up, but not at weekends", 每天七点…，周末就不要了."""
     for cut in reversed(list(_CLAUSE.finditer(said.folded))):
-        days = read_correction(said.folded[cut.end() :], _whole_parts, chinese=grammar is chinese)
+        days = read_correction(said.folded[cut.end() :], whole_parts, chinese=grammar is chinese)
         if days is None or days.which or not isinstance(days.change, LeaveOutDays):
             return None
         order = _read(said.part(0, cut.start()).bare(), grammar)
@@ -169,7 +166,7 @@ def _read_event(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | 
     offer = offer_event(said.folded, chinese=is_chinese)
     if is_chinese or offer:
         return None if offer is None else _unseen(said, offer, grammar)
-    found = read_event_order(said.folded, said.written, _whole_parts)
+    found = read_event_order(said.folded, said.written, whole_parts)
     if found is None:
         return None if offer is None else _unseen(said, offer, grammar)
     if found.event is None:
@@ -179,7 +176,7 @@ def _read_event(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | 
 
 def _unseen(said: FoldedSentence, offer: str, grammar: ModuleType) -> ScheduleCommand | None:
     """Return that no event tells what is waited for, with the order that comes nearest."""
-    if not offer and _first_parts(said.folded, grammar).parts:
+    if not offer and first_parts(said.folded, grammar).parts:
         return None
     problem: Problem = "order_event_place" if offer else "order_no_event"
     return ScheduleCommand(None, said.written, "", problem=problem, offer=offer)
@@ -193,27 +190,29 @@ def _upon(when: EventRule, order: str, words: str, who: str = "") -> ScheduleCom
 
 def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a time, an order, and whether it is to be reminded of."""
-    before = _first_parts(said.folded, grammar)
+    before = first_parts(said.folded, grammar)
     rest = said.part(before.at).strip(grammar.LEAD)
     remind = grammar.REMIND.match(rest.folded)
     if remind is not None:
         inner = rest.part(remind.end())
-        middle = _first_parts(inner.folded.lstrip(" ,"), grammar)
+        middle = first_parts(inner.folded.lstrip(" ,"), grammar)
         if middle.parts:
             shift = len(inner.folded) - len(inner.folded.lstrip(" ,"))
             inner = inner.part(shift + middle.at)
-        rest, before = inner, _Found((*before.parts, *middle.parts), before.at)
+        rest, before = inner, FoundTime((*before.parts, *middle.parts), before.at)
     elif before.parts:
         rest = rest.strip(grammar.POLITE)
-    after = _last_parts(rest.folded, grammar)
+    after = last_parts(rest.folded, grammar)
     if before.parts and after.parts and remind is None and combine(before.parts) is not None:
         joined = combine((*before.parts, *after.parts))
         if joined is None or (joined.problem == "order_nested" and combine(after.parts) is None):
-            after = _Found((), len(rest.folded))  # "every day at eight say good night at ten"
+            after = FoundTime((), len(rest.folded))  # "every day at eight say good night at ten"
     if after.parts and grammar is english and not _lacks_time(before.parts):
         words = rest.folded[: after.at].rstrip(" ")
         if ends_in_statement(words, reminds=remind is not None) or _UNTIL.search(words):
-            after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"; "wait until 18:30"
+            after = FoundTime(
+                (), len(rest.folded)
+            )  # "…, I'm on in two minutes"; "wait until 18:30"
     order = rest.part(0, after.at) if after.parts else rest
     timing = combine((*before.parts, *after.parts))
     if (
@@ -268,7 +267,7 @@ def complete_order(command: ScheduleCommand, time: str) -> ScheduleCommand | Non
     for words in (f"{command.words} {bare.written}".strip(), bare.written):
         folded = fold_sentence(words).folded
         for lead in ("", "at ") if grammar is english else ("",):
-            parts = _whole_parts(lead + folded, in_chinese=grammar is chinese)
+            parts = whole_parts(lead + folded, in_chinese=grammar is chinese)
             timing = combine(parts) if parts else None
             if timing is not None and timing.when is not None:
                 return replace(command, when=timing.when, words=words, problem=None)
@@ -284,71 +283,7 @@ def _reminder(
     return ScheduleCommand(timing.when, what, words, reminder=what, problem=timing.problem)
 
 
-def _words(said: FoldedSentence, rest: FoldedSentence, before: _Found, after: _Found) -> str:
+def _words(said: FoldedSentence, rest: FoldedSentence, before: FoundTime, after: FoundTime) -> str:
     """Return what was said of the time: the beginning and the end together."""
     ends = rest.written[after.at :] if after.parts else ""
     return " ".join(each.strip(ENDS) for each in (said.written[: before.at], ends) if each.strip())
-
-
-def _first_parts(folded: str, grammar: ModuleType) -> _Found:
-    """Return the parts of a time that a text begins with."""
-    parts: tuple[Part, ...] = ()
-    at = 0
-    for _ in range(_MOST_PARTS):
-        gap = grammar.GAP.match(folded, at)
-        start = gap.end() if gap is not None and parts else at
-        found = _part_at(folded, start, grammar)
-        if found is None:
-            break
-        parts, at = (*parts, *found.parts), found.at
-    return _Found(parts, at)
-
-
-def _part_at(folded: str, start: int, grammar: ModuleType) -> _Found | None:
-    for pattern, make in grammar.PARTS:
-        match = pattern.match(folded, start)
-        if match is not None and match.end() > start and (parts := make(match)):
-            return _Found(parts, match.end())
-    return None
-
-
-def _last_parts(folded: str, grammar: ModuleType) -> _Found:
-    """Return the longest parts of a time that a text ends with; not within quotes."""
-    starts = re.finditer(r"(?<=[ ,])" if grammar is english else r"(?<=,)", folded)
-    for each in starts:
-        found = _first_parts(folded[each.start() :], grammar)
-        whole = found.parts and not folded[each.start() + found.at :].strip(ENDS)
-        if whole and combine(found.parts) is not None:
-            quoted = len(_QUOTE.findall(folded[: each.start()])) % 2
-            return _Found() if quoted else _Found(found.parts, each.start())
-    return _Found((), len(folded))
-
-
-def _reads_timing(folded: str, *, in_chinese: bool) -> bool:
-    """Tell whether a text is, or ends with, a time that comes again."""
-    grammar = chinese if in_chinese else english
-    found = _first_parts(folded, grammar)
-    event = any(isinstance(part, EventPart) for part in found.parts)
-    if found.parts and not event and combine(found.parts) is not None:
-        return True
-    return bool(_last_parts(folded, grammar).parts)
-
-
-def _whole_parts(folded: str, *, in_chinese: bool) -> tuple[Part, ...]:
-    """Return the parts of a time that a whole text is; none where it is anything else."""
-    found = _first_parts(folded, chinese if in_chinese else english)
-    whole = found.parts and found.at == len(folded)
-    return found.parts if whole else ()
-
-
-def split_time(words: str) -> tuple[tuple[Part, ...], str]:
-    """Return the time that stands at the beginning or the end of folded words, and what is left."""
-    grammar = chinese if has_chinese(words) else english
-    first = _first_parts(words, grammar)
-    if first.parts:
-        return first.parts, words[first.at :].strip(ENDS)
-    for each in re.finditer(r"(?<=[ ,])", words):
-        found = _first_parts(words[each.start() :], grammar)
-        if found.parts and not words[each.start() + found.at :].strip(ENDS):
-            return found.parts, words[: each.start()].strip(ENDS)
-    return (), words
