@@ -19,6 +19,8 @@ from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Language, Option,
 from planner.plan.timing import AtRule
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from planner.language.schedule import ChangeOrders
     from planner.language.schedule.parts import OnceDay
     from planner.orders.keeper import OrderKeeper
@@ -44,9 +46,14 @@ class Desk(Protocol):
 class OrderChanger:
     """Carry out what a person said about orders that are kept."""
 
-    def __init__(self, keeper: OrderKeeper, desk: Desk) -> None:
-        """Take the keeper, and who changes orders on disk and tells them."""
-        self._keeper, self._desk = keeper, desk
+    def __init__(
+        self,
+        keeper: OrderKeeper,
+        desk: Desk,
+        listed: Callable[[], tuple[StandingOrder, ...]] = lambda: (),
+    ) -> None:
+        """Take the keeper, who changes orders on disk and tells them, and what was listed last."""
+        self._keeper, self._desk, self._listed = keeper, desk, listed
 
     async def take(
         self, command: ChangeOrders, language: Language, answer: str | None
@@ -86,6 +93,11 @@ class OrderChanger:
     def _find(self, command: ChangeOrders, answer: str | None) -> tuple[StandingOrder, ...]:
         orders, zone = self._keeper.book.orders.values(), self._keeper.book.zone
         now_s = self._keeper.clocks.unix()
+        placed = pick(self._listed(), f"the {command.which} one") or pick(
+            self._listed(), command.which
+        )
+        if placed and answer is None and command.which:
+            return placed
         found = select(orders, command.which, zone, reminders=command.reminders, now_unix_s=now_s)
         if command.day is not None and len(found) > 1:  # those that have a run on that day
             skips = {o.id: skip_day(o, command.day, now_s, zone) for o in found}

@@ -75,9 +75,9 @@ class OrderIntake:
         self._keeper, self._goals = keeper, goals
         self._judge = NewOrderJudge(keeper, lambda: goals.book, report)
         self._corrector = OrderCorrector(keeper, self)
-        self._changer = OrderChanger(keeper, self)
         self._unfinished = UnfinishedOrder()
         self._teller = OrderTeller(keeper, lambda: goals.book.facts)
+        self._changer = OrderChanger(keeper, self, lambda: self._teller.listed)
 
     # The missions' desk -------------------------------------------------------------------------
 

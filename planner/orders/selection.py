@@ -60,8 +60,19 @@ _LITTLE = frozenset(
         "orders",
         "reminder",
         "reminders",
+        "checking",
+        "do",
+        "doing",
+        "run",
+        "runs",
+        "trip",
+        "trips",
+        "visit",
+        "visits",
         "patrol",
+        "patrols",
         "round",
+        "rounds",
         "task",
         "tasks",
         "job",
@@ -71,7 +82,7 @@ _LITTLE = frozenset(
     ]
 )
 """Words that name none by themselves; what they name besides is weighed."""
-_KIND = frozenset(["check", "checks", "patrol", "round"])
+_KIND = frozenset(["check", "checks", "checking", "patrol", "patrols", "round", "rounds"])
 _CALLED = re.compile(r"\bwake[- ]?up (?:calls?|alarms?|service)\b")
 """What people call the order to wake them."""
 _LITTLE_ZH = re.compile(r"[的了我你把去来在每天一下个次提醒任务定时,、。]")

@@ -52,6 +52,10 @@ _RETIME = (
         rf"(?: {_TO})? (?P<t>.+?)(?:,? (?:and )?not (?P<o>.+?))?"
     ),
     re.compile(
+        r"(?:on second thoughts?|come to think of it|i've changed my mind|thinking about it)[ ,.!]+"
+        r"(?:(?:make|let's make) (?:it|that) |rather )?(?P<t>.+?)(?: (?:would be|is|sounds) (?:better|nicer))?"
+    ),
+    re.compile(
         r"(?:(?:no|nope|sorry|oops|wait|actually|rather)[ ,.!]+)+(?P<sure>(?:at|every|on|in) .+?)"
     ),
 )

@@ -141,7 +141,7 @@ _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
 _UPON = tuple((re.compile(rf"(?:{pattern}){_END}"), event) for pattern, event in _EVENTS)
 
 POLITE = re.compile(
-    r"(?:(?:please|pls|hey|hi|ok|okay|so|well|robot|pons|kindly|now|and|then|(?:can|could|would|will)"
+    r"(?:(?:please|pls|hey|hi|ok|okay|so|well|you know what|listen|robot|pons|kindly|now|and|then|(?:can|could|would|will)"
     r" you|i(?:'d| would) like you to|i want you to|i need you to|you (?:should|must|have to)"
     r"|make sure (?:to|that you)|from now on|add another(?: one)?|another one|one more(?: thing)?"
     r"|also)[ ,:]+)+"

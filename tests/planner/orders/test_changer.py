@@ -109,3 +109,44 @@ def test_the_question_is_told_in_both_languages(tmp_path: Path) -> None:
         assert all(asked.question.of(language) for language in Language)
 
     tell(tmp_path, story)
+
+
+@pytest.mark.parametrize(
+    ("text", "gone"),
+    [("drop the first one", "o1"), ("delete the second one", "o2"), ("cancel the last one", "o3"),
+     ("forget the second reminder", "o2")],
+)  # fmt: skip
+def test_the_place_in_a_list_that_was_told_names_an_order(
+    tmp_path: Path, text: str, gone: str
+) -> None:
+    async def story(kept: Kept) -> None:
+        for hour, name in ((18, "Sam"), (19, "Mia"), (20, "Tom")):
+            await say(kept, f"remind me at {hour}:00 to call {name}")
+        await say(kept, "what are all my reminders?")
+        assert f"Removed: {gone}" in await say(kept, text)
+        assert await take(kept, "delete the second one") is None  # the list is another one now
+
+    tell(tmp_path, story)
+
+
+def test_without_a_list_a_place_names_nothing(tmp_path: Path) -> None:
+    async def story(kept: Kept) -> None:
+        await say(kept, "remind me at 18:00 to call Sam")
+        assert await take(kept, "delete the first one") is None
+        await say(kept, "what are all my reminders?")
+        kept.clock.pass_s(3600.0)
+        assert await take(kept, "delete the first one") is None
+
+    tell(tmp_path, story)
+
+
+def test_all_of_them_are_dropped_where_all_are_meant(tmp_path: Path) -> None:
+    async def story(kept: Kept) -> None:
+        for text in ("cancel both reminders", "remove all the orders",
+                     "delete everything I've set up"):  # fmt: skip
+            await say(kept, "remind me at 18:00 to call Sam")
+            await say(kept, "remind me at 19:00 to call Mia")
+            await say(kept, text)
+            assert not kept.orders.keeper.book.orders, text
+
+    tell(tmp_path, story)
