@@ -172,9 +172,23 @@ REMARK = re.compile(
 )
 """How what is no order begins, beside a time: "it's cold tonight", "tomorrow is my birthday"."""
 REMIND = re.compile(
-    r"(?:remind me(?: again)?|don't let me forget|do not let me forget|set a reminder(?: for me)?"
-    r"|give me a reminder|(?P<wake>wake me(?: up)?))(?![\w'])"
+    r"(?:(?:remember to )?remind (?:me|us)(?: again)?|don't let me forget|do not let me forget|(?:set|make)(?: me)? an? (?:reminder|alarm|timer)(?: for me)?"
+    r"|give (?:me|us) a (?:reminder|nudge|shout|call)|(?:nudge|ping|alert) (?:me|us)|(?P<wake>wake (?:me|us)(?: up)?))(?![\w'])"
 )
+TELLS = re.compile(r"(?:and )?(?:(?:tell|say to) (?:me|us)|(?P<asks>ask (?:me|us)))(?![\w'])[ ,]*")
+"""Asks to be told or asked something; with a time it is a reminder."""
+TOLD = re.compile(
+    r"(?:(?P<asks>(?:whether|if) )|(?:to|that) )(?!.*(?:[,;:]|\b(?:and|then|if|unless|until|when|or)\b(?= (?:if|then|go|come|drive|say|tell|ask|remind|look))|\b(?:and if|unless|otherwise)\b))"
+)
+"""What is to be told or asked: one clause, and nothing that is to be done besides."""
+TIMER = re.compile(
+    rf"\b(?P<a>(?:set|start|make)(?: me)? an? (?:timer|alarm)) for (?={EN_DURATION}|(?:an? |half an )hour\b)"
+    rf"|\b(?P<c>(?:set|make)(?: me)? an? alarm) for (?=(?:{_H})\b)"
+    rf"|\b(?P<b>(?:set|start|make)(?: me)? an? )(?P<lasts>(?:{_H}|[a-z]+)[ -](?:minute|hour|second)s?) (?:timer|alarm)(?: for)?\b",
+    re.IGNORECASE,
+)
+"""A timer is "for ten minutes", which come after them."""
+TWO_HOURS = re.compile(rf"\b(?:and|or)[ ,]*$|\bat (?:{_H}) (?:and|or) (?:{_H})$")
 TIMELESS = re.compile(
     r"(?:remind me|set a reminder(?: for me)?|give me a reminder)[ ,:]+(?:to|about|of|for)\b"
     r"|(?:don't|do not) let me forget\b"
@@ -244,7 +258,8 @@ def _every(found: re.Match[str]) -> tuple[Part, ...]:
 def _weekdays(found: re.Match[str]) -> tuple[Part, ...]:
     named = [day for day in _DAYS if day in found["days"]]
     part = (DayPart(found["part"]),) if found["part"] else ()
-    if not found["every"] and not found["days"].endswith("s"):
+    nightly = found["part"] and found[0].endswith("s")  # "on Thursday nights"
+    if not (found["every"] or nightly or found["days"].endswith("s")):
         if len(named) > 1:
             return ()
         return (OnceDay(weekday=(_DAYS.index(named[0]) - 1) % 7), *part)

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from planner.language.folding import fold_script, fold_width, has_chinese
+from planner.language.schedule.english import TIMER
 
 ENDS = " .!,;:。~…，；！、"
 """What may stand about a sentence or its order."""
@@ -47,7 +48,17 @@ def fold_sentence(text: str) -> FoldedSentence:
     spaced = _DAYS_ER.sub(r"\1天", spaced)
     if has_chinese(spaced):  # spaces between characters mean nothing; between Latin words they do
         spaced = re.sub(r"(?<![A-Za-z0-9]) | (?![A-Za-z0-9])", "", spaced)
+    spaced = TIMER.sub(_turn_timer, spaced)
     folded = spaced.lower()
     if len(folded) != len(spaced):  # a few letters grow in lower case
         spaced = folded
     return FoldedSentence(fold_script(folded), spaced)
+
+
+def _turn_timer(found: re.Match[str]) -> str:
+    """Return "set a timer in ten minutes" for "set a timer for ten minutes"."""
+    if found["a"]:
+        return f"{found['a']} in "
+    if found["c"]:
+        return f"{found['c']} at "
+    return f"{found['b']}timer in {found['lasts'].replace('-', ' ')} for"

@@ -27,15 +27,18 @@ from planner.language.schedule.corrections import read_correction
 from planner.language.schedule.event_orders import NEWS, is_news, read_event_order
 from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
 from planner.language.schedule.parts import (
+    DayPart,
     EventPart,
     Part,
     Problem,
+    TimeOfDay,
     Timing,
     combine,
     leave_days_out,
 )
-from planner.language.schedule.reasons import leave_reasons_out
+from planner.language.schedule.reasons import is_reason, leave_reasons_out
 from planner.language.schedule.statements import begins_with_statement, ends_in_statement
+from planner.language.schedule.tellings import TELLS, read_told
 from planner.language.schedule.time_finder import (
     FoundTime,
     first_parts,
@@ -51,6 +54,8 @@ if TYPE_CHECKING:
 MAX_READ = 300
 """Characters; a longer sentence is no standing order."""
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
+_WAKES = range(4, 12)
+_THEN = re.compile(r"(?:and|then)\b")
 _UNTIL = re.compile(r"\b(?:until|till)$")
 _CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
 _DENIAL = re.compile(
@@ -199,22 +204,21 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
         if middle.parts:
             shift = len(inner.folded) - len(inner.folded.lstrip(" ,"))
             inner = inner.part(shift + middle.at)
-        rest, before = inner, FoundTime((*before.parts, *middle.parts), before.at)
+        parts = (*before.parts, *middle.parts)
+        rest, before = inner, FoundTime(_by_morning(parts) if remind["wake"] else parts, before.at)
     elif before.parts:
         rest = rest.strip(grammar.POLITE)
-    after = last_parts(rest.folded, grammar)
-    if before.parts and after.parts and remind is None and combine(before.parts) is not None:
-        joined = combine((*before.parts, *after.parts))
-        if joined is None or (joined.problem == "order_nested" and combine(after.parts) is None):
-            after = FoundTime((), len(rest.folded))  # "every day at eight say good night at ten"
-    if after.parts and grammar is english and not _lacks_time(before.parts):
-        words = rest.folded[: after.at].rstrip(" ")
-        if ends_in_statement(words, reminds=remind is not None) or _UNTIL.search(words):
-            after = FoundTime(
-                (), len(rest.folded)
-            )  # "…, I'm on in two minutes"; "wait until 18:30"
+    if remind is None and grammar is english and (told := _read_told(rest, before)) is not None:
+        return told
+    after = _time_behind(rest, before, grammar, reminds=remind is not None)
     order = rest.part(0, after.at) if after.parts else rest
-    timing = combine((*before.parts, *after.parts))
+    if (
+        after.parts and english.TWO_HOURS.search(order.folded.rstrip()) is not None
+    ):  # "at eight and at six"
+        return ScheduleCommand(None, said.written, "", problem="order_nested")
+    woken = remind is not None and bool(remind["wake"])
+    parts = (*before.parts, *after.parts)
+    timing = combine(_by_morning(parts) if woken else parts)
     if (
         after.parts
         and timing
@@ -227,13 +231,60 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
         return _read_timeless(order, remind[0], grammar) if lacks and remind is not None else None
     words = _words(said, rest, before, after)
     if remind is not None:
-        return _reminder(order, timing, words, grammar, woken=bool(remind["wake"]))
+        return _reminder(order, timing, words, grammar, woken=woken)
     said_first = order.bare().folded
     remark = grammar.REMARK.match(said_first) is not None
     once = isinstance(timing.when, DayTime | InRule) and before.parts
     if remark or (once and begins_with_statement(said_first, chinese=grammar is chinese)):
         return None  # "it's cold tonight", "at nine the doctor comes, …": a time, and no order
     return _order(order.bare(), timing, words)
+
+
+def _time_behind(
+    rest: FoldedSentence, before: FoundTime, grammar: ModuleType, *, reminds: bool
+) -> FoundTime:
+    """Return the time that an order ends with, where it is the order's."""
+    after = last_parts(rest.folded, grammar)
+    if before.parts and after.parts and not reminds and combine(before.parts) is not None:
+        joined = combine((*before.parts, *after.parts))
+        if joined is None or (joined.problem == "order_nested" and combine(after.parts) is None):
+            after = FoundTime((), len(rest.folded))  # "every day at eight say good night at ten"
+    if after.parts and grammar is english and not _lacks_time(before.parts):
+        words = rest.folded[: after.at].rstrip(" ")
+        if ends_in_statement(words, reminds=reminds) or _UNTIL.search(words):
+            after = FoundTime(
+                (), len(rest.folded)
+            )  # "…, I'm on in two minutes"; "wait until 18:30"
+    return after
+
+
+def _read_told(rest: FoldedSentence, before: FoundTime) -> ScheduleCommand | None:
+    """Read what a person wants to be told or asked at a time: it is a reminder."""
+    tells = TELLS.match(rest.folded)
+    if tells is None:
+        return None
+    inner = rest.part(tells.end())
+    middle = first_parts(inner.folded, english)
+    inner = inner.part(middle.at).bare()
+    parts = (*before.parts, *middle.parts)
+    after = last_parts(inner.folded, english) if not parts else FoundTime((), len(inner.folded))
+    timing = combine(parts or after.parts)
+    what = read_told(
+        inner.part(0, after.at).bare().written, asks=bool(tells["asks"]), timed=bool(parts)
+    )
+    if timing is None or what is None or isinstance(timing.when, EventRule):
+        return None
+    return ScheduleCommand(timing.when, what, "", reminder=what, problem=timing.problem)
+
+
+def _by_morning(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+    """Return the parts of a time at which somebody is to be woken: a bare seven is of the morning."""
+    if any(isinstance(part, DayPart) for part in parts):
+        return parts
+    return tuple(
+        replace(part, sure=True) if isinstance(part, TimeOfDay) and part.hour in _WAKES else part
+        for part in parts
+    )
 
 
 def _lacks_time(parts: tuple[Part, ...]) -> bool:
@@ -276,10 +327,21 @@ def complete_order(command: ScheduleCommand, time: str) -> ScheduleCommand | Non
 
 def _reminder(
     order: FoldedSentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
-) -> ScheduleCommand:
-    what = order.bare().strip(grammar.OF).bare().written.strip()
+) -> ScheduleCommand | None:
+    bare = order.bare()
+    if _THEN.match(bare.folded) is not None:
+        return None  # "remind me at six, and then go to the kitchen"
+    what = bare.strip(grammar.OF).bare().written.strip()
+    if woken and grammar is english and what:
+        if is_reason(english.POLITE.sub("", bare.folded), chinese=False):
+            what = ""  # "wake me at six, I've got a train"
+        elif what == bare.written or _TELLS.search(f" {what.lower()}"):
+            whole = f"wake me up {bare.written}"  # "wake me at nine, like actually come in"
+            return ScheduleCommand(timing.when, whole, words, problem=timing.problem)
     if woken and not what:
         what = grammar.WAKE_UP
+    if isinstance(timing.when, EventRule) and not what:
+        what = NEWS[timing.when.event]
     return ScheduleCommand(timing.when, what, words, reminder=what, problem=timing.problem)
 
 

@@ -56,7 +56,8 @@ def last_parts(folded: str, grammar: ModuleType) -> FoundTime:
         whole = found.parts and not folded[each.start() + found.at :].strip(ENDS)
         if whole and combine(found.parts) is not None:
             quoted = len(_QUOTE.findall(folded[: each.start()])) % 2
-            return FoundTime() if quoted else FoundTime(found.parts, each.start())
+            start = each.start() - (3 if folded[: each.start()].endswith(" at ") else 0)
+            return FoundTime() if quoted else FoundTime(found.parts, start)
     return FoundTime((), len(folded))
 
 
