@@ -11,10 +11,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
 from planner.language.catalogue import join, message, say
-from planner.language.folding import has_chinese
 from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, OrderCommand
 from planner.language.utterance import parse
 from planner.mission.events import Planned
+from planner.orders.changer import OrderChanger
 from planner.orders.corrector import OrderCorrector
 from planner.orders.day_question import ask_which_day
 from planner.orders.errors import OrderRefusal
@@ -26,8 +26,6 @@ from planner.orders.new_order import (
 )
 from planner.orders.new_order_judge import NewOrderJudge
 from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder
-from planner.orders.rule import settle
-from planner.orders.selection import is_all, pick, select
 from planner.orders.teller import OrderTeller
 from planner.orders.unfinished_order import UnfinishedOrder
 from planner.plan import (
@@ -36,14 +34,12 @@ from planner.plan import (
     Clarify,
     Code,
     Language,
-    Option,
     Refuse,
     StepPlan,
     StepRecord,
     plan_record,
     words_of,
 )
-from planner.plan.timing import AtRule
 from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
@@ -81,6 +77,7 @@ class OrderIntake:
         self._corrector = OrderCorrector(keeper, self)
         self._unfinished = UnfinishedOrder()
         self._teller = OrderTeller(keeper, lambda: goals.book.facts)
+        self._changer = OrderChanger(keeper, self, lambda: self._teller.listed)
 
     # The missions' desk -------------------------------------------------------------------------
 
@@ -99,7 +96,7 @@ class OrderIntake:
             told = self._teller.tell(command)
             return None if told is None else Planned(ask.id, AnswerPlan(text=told))
         if isinstance(command, ChangeOrders):
-            plan = await self._change_or_ask(command, ask.language, ask.text if answered else None)
+            plan = await self._changer.take(command, ask.language, ask.text if answered else None)
             return None if plan is None else Planned(ask.id, plan)
         now_s = self._keeper.clocks.unix()
         lacked = command.problem
@@ -136,7 +133,7 @@ class OrderIntake:
 
     async def change(self, command: ChangeOrders, language: Language) -> Bilingual | None:
         """Remove, pause or resume the orders that are meant, and say which; None: none is meant."""
-        changed = await self._change_or_ask(command, language, None)
+        changed = await self._changer.take(command, language, None)
         return None if changed is None else words_of(changed) or say("standing.none")
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
@@ -254,62 +251,6 @@ class OrderIntake:
             raise OrderRefusal("unknown_order", f"{order_id[:60]!r}; known: {known}",
                                id=order_id[:60])  # fmt: skip
         return order
-
-    async def _change_or_ask(
-        self, command: ChangeOrders, language: Language, answer: str | None
-    ) -> AnswerPlan | Clarify | Refuse | None:
-        orders, zone = self._keeper.book.orders.values(), self._keeper.book.zone
-        now_s = self._keeper.clocks.unix()
-        found = select(orders, command.which, zone, reminders=command.reminders, now_unix_s=now_s)
-        if answer is not None:
-            asked, found = found, pick(found, answer)
-            found = found or select(
-                asked, answer, zone, reminders=command.reminders, now_unix_s=now_s
-            )
-        if not found:
-            if not command.is_sure:
-                return None
-            which = command.which or ("reminder" if language is Language.EN else "提醒")
-            none = say("standing.no_such", which=which[:80], known=self.tell())
-            return AnswerPlan(text=none)
-        is_one = (bool(command.which) or command.is_single) and not command.is_every
-        if len(found) > 1 and is_one and not is_all(answer):
-            return self._ask_which(command, found)
-        try:
-            until_s = self._read_until(command)
-            for order in found:
-                if command.act == "remove":
-                    await self.remove(order.id)
-                else:
-                    await self.pause(order.id, paused=command.act == "pause", until_s=until_s)
-        except OrderRefusal as refused:
-            why = message(Code.ORDER_NOT_KEPT, why=refused.message)
-            return Refuse(code=Code.ORDER_NOT_KEPT, reason=why)
-        done = {"remove": "removed", "pause": "paused", "resume": "resumed"}[command.act]
-        now = self._keeper.book.orders
-        lines = join((self.line(now.get(order.id, order)) for order in found), "joint.name")
-        return AnswerPlan(text=say(f"standing.{done}", lines=lines))
-
-    def _read_until(self, command: ChangeOrders) -> float | None:
-        """Return when a pause ends. Raises OrderRefusal: it is over, or there is no such time."""
-        if command.until is None:
-            return None
-        rule = settle(command.until, self._keeper.clocks.unix(), self._keeper.book.zone)
-        return rule.unix_s if isinstance(rule, AtRule) else None
-
-    def _ask_which(self, command: ChangeOrders, found: tuple[StandingOrder, ...]) -> Clarify:
-        until = command.until_words
-        form = f"{command.act} order {{id}} {until}"
-        if has_chinese(until):
-            form = f"把任务{{id}}暂停{until}"
-        options = tuple(
-            Option(label=self.line(order), text=form.format(id=order.id).strip())
-            for order in found[:8]
-        )
-        lines = join((option.label for option in options), "joint.name")
-        return Clarify(
-            code=Code.AMBIGUOUS, question=say("standing.which", lines=lines), options=options
-        )
 
     # Telling ------------------------------------------------------------------------------------
 

@@ -60,8 +60,19 @@ _LITTLE = frozenset(
         "orders",
         "reminder",
         "reminders",
+        "checking",
+        "do",
+        "doing",
+        "run",
+        "runs",
+        "trip",
+        "trips",
+        "visit",
+        "visits",
         "patrol",
+        "patrols",
         "round",
+        "rounds",
         "task",
         "tasks",
         "job",
@@ -71,7 +82,9 @@ _LITTLE = frozenset(
     ]
 )
 """Words that name none by themselves; what they name besides is weighed."""
-_KIND = frozenset(["check", "checks", "patrol", "round"])
+_KIND = frozenset(["check", "checks", "checking", "patrol", "patrols", "round", "rounds"])
+_CALLED = re.compile(r"\bwake[- ]?up (?:calls?|alarms?|service)\b")
+"""What people call the order to wake them."""
 _LITTLE_ZH = re.compile(r"[的了我你把去来在每天一下个次提醒任务定时,、。]")
 _PARTS = (
     (5, 11, "morning 早上 早晨 上午 每早"),
@@ -102,7 +115,7 @@ def select(
 ) -> tuple[StandingOrder, ...]:
     """Return the orders that these words may mean, oldest first; all where no words were said."""
     kept = [o for o in orders if not o.ended and (o.reminder is not None or not reminders)]
-    words = fold_words(which)
+    words = _CALLED.sub("wake up", fold_words(which))
     if not words:
         return tuple(kept)
     by_id = [order for order in kept if order.id == words]

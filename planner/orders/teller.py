@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from planner.plan import Bilingual
     from planner.site.site_view import SiteView
 
+LISTED_S = 600.0
+"""For so long after a list "the second one" is of it."""
 MOST_A_DAY = 3
 """Runs of one order that are told one by one; of more the rule is told."""
 
@@ -42,6 +44,21 @@ class OrderTeller:
     def __init__(self, keeper: OrderKeeper, facts: Callable[[], SiteView]) -> None:
         """Take the keeper, and how the site is read as it is now."""
         self._keeper, self._facts = keeper, facts
+        self._listed: tuple[str, ...] = ()
+        self._listed_s = float("-inf")
+
+    @property
+    def listed(self) -> tuple[StandingOrder, ...]:
+        """Return the orders that were told in a list lately, in its order: "the second one"."""
+        if not 0.0 <= self._now_s - self._listed_s <= LISTED_S:
+            return ()
+        live = self._keeper.book.orders
+        gone = any(name not in live for name in self._listed)
+        return () if gone else tuple(live[name] for name in self._listed)
+
+    def _list(self, orders: tuple[StandingOrder, ...]) -> Bilingual:
+        self._listed, self._listed_s = tuple(order.id for order in orders), self._now_s
+        return tell_list(tuple(self.line(order) for order in orders))
 
     def tell(self, asked: ListOrders) -> Bilingual | None:
         """Answer a question; None where it may be about something else and no order fits."""
@@ -57,7 +74,7 @@ class OrderTeller:
             return self._tell_next(found, asked)
         if not found and asked.which and live:
             return say("standing.no_such", which=asked.which[:80], known=self.tell_all())
-        return tell_list(tuple(self.line(order) for order in found))
+        return self._list(found)
 
     def tell_all(self) -> Bilingual:
         """Return all orders in words."""
@@ -82,7 +99,7 @@ class OrderTeller:
         """Return when these are due next, the soonest first."""
         due = self._keeper.book.due
         waiting = sorted((o for o in found if o.id in due), key=lambda o: (due[o.id], o.number))
-        if not asked.is_sure:  # "how long is left?": of what was asked for once
+        if not (asked.is_sure or asked.which):  # "how long is left?": of what was asked for once
             waiting = [o for o in waiting if isinstance(o.rule, AtRule)]
         if waiting:
             lines = [self._line_left(order, due[order.id]) for order in waiting[:MOST_TOLD]]

@@ -19,7 +19,7 @@ from planner.language.grammar.en.courtesy import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.looser_phrases import LOOSER, LOST_THINGS
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.en.told_words import quote_told_words
+from planner.language.grammar.en.told_words import quote_told_words as quote_told_english
 from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.excepted_rooms import without_excepted_rooms
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
@@ -169,7 +169,7 @@ def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
 
 def in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:
     """Yield a sentence in other words: its told words quoted, its asides left out, plainer."""
-    quoted = quote_told_words(text)
+    quoted = quote_told_english(text)
     if quoted is not None:
         yield quoted
     lexicon = lexicon_of(vocabulary)

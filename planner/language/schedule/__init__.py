@@ -19,7 +19,8 @@ from planner.language.schedule.command import (
     ScheduleCommand,
     can_lean,
 )
-from planner.language.schedule.reader import complete_order, read_order_command, split_time
+from planner.language.schedule.reader import complete_order, read_order_command
+from planner.language.schedule.time_finder import split_time
 
 __all__ = [
     "ChangeOrders",

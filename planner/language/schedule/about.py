@@ -23,6 +23,7 @@ from planner.language.schedule.parts import (
     combine,
 )
 from planner.language.schedule.removals import read_removal
+from planner.language.schedule.skips import read_skip
 from planner.plan.timing import DayTime, InRule
 
 if TYPE_CHECKING:
@@ -83,6 +84,8 @@ def read_about(
     if asked is not None:
         return asked
     said = (_read_chinese if chinese else _read_english)(folded, reads, whole)
+    if not chinese and (said is None or said.act == "remove"):  # one day drops nothing for good
+        said = read_skip(folded, whole) or said
     return said or read_removal(folded, reads, whole, chinese=chinese)
 
 

@@ -12,20 +12,20 @@ from dataclasses import dataclass
 
 from planner.language.person_names import is_given_name
 
-_KIN_EN = (
+KIN = (
     r"(?:(?:my|our|the|your) )?(?:kids?|children|child|boys?|girls?|family|guests?|visitors?|wife|husband"
     r"|partner|boyfriend|girlfriend|son|daughter|brother|sister|mother|father|parents?|mum|mom|mummy|mommy|dad|daddy"
     r"|nan|nana|gran|granny|grandma|grandpa|grandad|granddad|grandmother|grandfather|uncle|aunt|auntie|neighbou?rs?"
     r"|cleaner|postman|plumber|nurse|carer|babysitter|flatmate|roommate|friends?|lads?|twins|others|lodger)"
 )
-_WHO_EN = rf"(?P<who>{_KIN_EN}(?: (?:and|or) {_KIN_EN})?(?: [a-z]+)?|[a-z]+)"
-_COMES_EN = (
+_WHO_EN = rf"(?P<who>{KIN}(?: (?:and|or) {KIN})?(?: [a-z]+)?|[a-z]+)"
+COMES = (
     r"(?:(?:comes?|gets?|arrives?|walks?|returns?)(?: (?:back|home|in|inside|here|through the door|in the door"
-    r"|to the door|over|round|around|from (?:work|school)|by))*|is (?:back|home|here|at the door)|are (?:back|home|here)"
+    r"|to the door|over|round|around|from (?:work|school)|by))*|(?:is|are) (?:back|home|here|at the door)(?: from [a-z]+)?"
     r"|shows? up|turns? up)"
 )
 _EN = re.compile(
-    rf"(?:when(?:ever)?|as soon as|every time|each time|once|the moment|next time) {_WHO_EN} {_COMES_EN}"
+    rf"(?:when(?:ever)?|as soon as|every time|each time|once|the moment|next time) {_WHO_EN} {COMES}"
     r"(?: (?:today|tonight|later|again|this (?:morning|afternoon|evening)))?[, ]+(?:then |please |can you |could you )*"
     r"(?P<order>.+)"
 )
@@ -38,6 +38,10 @@ _SPEAKS_EN = re.compile(
     r"(?P<how> (?:that|to|not to|about)(?= )| (?=(?:there|i|we|you|he|she|it|the|my|our|his|her|their|dinner|lunch|tea|food|[a-z]+'s|[a-z]+ (?:is|are)))) ?"
     r"(?P<what>.+)"
 )
+_WISHES_EN = re.compile(
+    r"(?:please |just )*wish (?:them|him|her|[a-z' ]{2,20}?) (?:a |an )?(?:very )?(?P<what>(?:happy|merry|good|nice|pleasant|lovely)\b.+)"
+)
+_OWN = {"them": "their", "him": "his", "her": "her"}
 _SAYS_EN = re.compile(r"(?:please |just )*say (?P<what>.+)")
 _KIN_ZH = (
     r"(?:我|我们|咱)?(?:家)?(?:的)?(?:孩子|小孩|小朋友|宝宝|客人|家人|爸爸?|妈妈?|老爸|老妈|爷爷|奶奶|阿公|阿婆|阿爷|阿嬷|外公|外婆|姥姥|姥爷"
@@ -109,28 +113,41 @@ def read_arrival(folded: str, written: str, *, chinese: bool) -> Arrival | None:
         return None
     if chinese:
         return Arrival(who, _speak_chinese(who, order)) if _LEADS_ZH.match(folded) else None
-    named = re.fullmatch(_KIN_EN + r"(?: (?:and|or) .+)?|.* .*", found["who"]) is not None
+    named = re.fullmatch(KIN + r"(?: (?:and|or) .+)?|.* .*", found["who"]) is not None
     if not named and (
         _NOBODY_EN.fullmatch(found["who"]) or not (who[:1].isupper() or is_given_name(who))
     ):
         return None
-    return Arrival(who, _speak_english(who, order))
+    return Arrival(who, speak_to(who, order))
 
 
-def _speak_english(who: str, order: str) -> str:
-    """Return the words to say to somebody who comes, under their name."""
+def speak_to(who: str, order: str) -> str:
+    """Return the words to say to somebody who comes, under their name where it is known."""
+    wish = _WISHES_EN.fullmatch(order.lower())
     found = _SPEAKS_EN.fullmatch(order.lower())
     name = re.sub(r"^(?:the|my|our|your) ", "", who)
     name = name[:1].upper() + name[1:]
+    if wish is not None:
+        return _say(name, order[slice(*wish.span("what"))].strip(" .!"))
     if found is None or found["to"] in ("me", "us") or '"' in order:
         return order
     words = order[slice(*found.span("what"))].strip(" .!")
     how = (found["how"] or "").strip()
     if how in ("to", "not to"):
+        words = (
+            re.sub(rf"\b{_OWN[found['to']]} (?=[a-z])", "your ", words)
+            if found["to"] in _OWN
+            else words
+        )
         words = f"please {'do not ' if how == 'not to' else ''}{words}"
     elif how == "about":
         words = f"remember {words}"
-    return f'say "{name}, {words}"'
+    return _say(name, words)
+
+
+def _say(name: str, words: str) -> str:
+    said = f"{name}, {words}" if name else f"{words[:1].upper()}{words[1:]}"
+    return f'say "{said}"'
 
 
 def _speak_chinese(who: str, order: str) -> str:

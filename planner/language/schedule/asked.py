@@ -26,7 +26,7 @@ KINDS = (
     r"|timers?|alarms?|recurring (?:tasks?|orders?)|daily (?:tasks?|orders?))"
 )
 MY = (
-    r"(?:(?:all(?: of)?|every(?: single| last)?|each) )?"
+    r"(?:(?:all(?: of)?|both(?: of)?|every(?: single| last)?|each) )?"
     r"(?:the|my|your|our|this|that|those|these)? ?"
 )
 _LIST = re.compile(
@@ -53,6 +53,17 @@ _LIST = re.compile(
     r"|(?:tell me|list|read(?: me)?(?: out)?) (?:all|everything|what)(?: the things)?(?: that)? (?:i|we)(?:'ve| have)?"
     r" (?:asked|told|given|got|set|want)(?: for)?(?: you)?(?: (?:to do|down|down to do))?"
 )
+_LIST_ALSO = re.compile(
+    r"(?:what|which) (?:orders|jobs|tasks|chores|things|duties|reminders) (?:(?:are|do|have) you (?:still )?(?:keep(?:ing)?|have|got|remember(?:ing)?|doing|know(?:ing)?)"
+    r"|(?:(?:have|did) (?:i|we) (?:give|given|gave|ask|asked|tell|told|set|left)(?: (?:you|for you|with you))?)(?: to do)?)"
+    r"(?: (?:that|which) (?:you(?:'re|'ve| are| have)?|are)(?: still)?(?: (?:keep(?:ing)?|have|got|remember(?:ing)?|doing|on|kept|to do|active))?)?"
+    r"|(?:tell me|show me|list|read (?:me )?out) what (?:you|i|we)(?:'ve| have)(?: got)? (?:planned|scheduled|lined up|on|down|to do|set up)"
+    r"|what (?:have|are) you(?: got)? (?:planned|scheduled|lined up)"
+    r"|what are you (?:meant|supposed|expected|told) to (?:do|be doing)"
+)
+_NOWADAYS = re.compile(
+    r"(?: (?:at the moment|at present|right now|currently|these days|nowadays|so far|again|for me|for us|as it stands|all in all))+$"
+)
 _AT_TIME = re.compile(
     r"what (?:do you do(?: for (?:me|us))?|will you do|are you going to do|have you planned|do you have planned"
     r"|(?:have i|did i|have we|did we) (?:ask(?:ed)?|told|tell|want(?:ed)?) you to do"
@@ -76,8 +87,9 @@ _NEXT = re.compile(
     rf"(?P<what>[a-z0-9' -]*? )?(?P<kind>{KINDS})"
     r"(?: (?:for|about|to|of|at|that says?) (?P<of>.+?))?"
     r"(?: (?:due|next|set for|set|go off|ring|come|fire|be))*"
-    r"|(?:when|what time|at what time) (?:will|do|are) you (?:next )?(?:going to )?(?:remind|wake) me(?: up)?"
+    r"|(?:when|what time|at what time) (?:will|do|are) you (?:next )?(?:going to )?(?:remind(?:ing)?|(?P<wake>wak(?:e|ing))) me(?: up)?"
     r"(?: (?:of|about|to|that) (?P<of2>.+?))?(?: next)?"
+    r"|(?:when|what time|at what time) (?:do|am|must|should) i (?:have to |need to |meant to |supposed to |to )?(?P<lean>[a-z' -]{3,40}?)(?: (?:again|next))?"
 )
 
 ZH_KINDS = r"(?:提醒|定时任务|定时命令|定时|常规任务|日程|日程安排|闹钟)"
@@ -123,8 +135,9 @@ _ZH_NEXT = re.compile(
 def read_asked(folded: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | None:
     """Return what a sentence asks about standing orders; None where it asks nothing of them."""
     folded = _READ_OUT_ZH.sub("", folded) if chinese and _WHICH_ZH.search(folded) else folded
-    listed = _ZH_LIST if chinese else _LIST
-    if listed.fullmatch(folded) is not None:
+    if not chinese:
+        folded = _NOWADAYS.sub("", folded)
+    if _lists(folded, chinese=chinese):
         return ListOrders()
     if not chinese and (of_day := _read_listed_day(folded, whole)) is not None:
         return of_day
@@ -143,10 +156,16 @@ def read_asked(folded: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | 
     return None if following is None else _read_next(following, chinese=chinese)
 
 
+def _lists(folded: str, *, chinese: bool) -> bool:
+    if chinese:
+        return _ZH_LIST.fullmatch(folded) is not None
+    return _LIST.fullmatch(folded) is not None or _LIST_ALSO.fullmatch(folded) is not None
+
+
 def _read_listed_day(folded: str, whole: ReadsDays) -> ListOrders | None:
     """Read "any reminders set for tomorrow", "what have I got you down to do every day"."""
     for cut in re.finditer(r" (?:set |due |planned |coming up )?(?:for |on )?(?=\S)", folded):
-        if _LIST.fullmatch(folded[: cut.start()]) is None:
+        if not _lists(folded[: cut.start()], chinese=False):
             continue
         found = _read_days(folded[cut.end() :], whole, chinese=False)
         if found is not None:
@@ -156,7 +175,11 @@ def _read_listed_day(folded: str, whole: ReadsDays) -> ListOrders | None:
 
 def _read_next(found: re.Match[str], *, chinese: bool) -> ListOrders:
     group = found.groupdict()
+    lean = group.get("lean")
+    if lean is not None:  # "when do I have to feed the cat?" may be about anything
+        return ListOrders(lean, next_runs=True, is_sure=False)
     which = group.get("of2") or group.get("of") or group.get("what") or ""
+    which = "wake" if group.get("wake") and not which else which
     kind = group.get("kind") or ("提醒" if chinese else "reminder")
     reminds = kind.startswith(("reminder", "提醒"))
     return ListOrders(which.strip(" 的了"), reminders=reminds, next_runs=True)

@@ -58,7 +58,9 @@ class ChangeOrders:
     until: DayTime | InRule | None = None
     """A pause ends then."""
     until_words: str = ""
-    """The same as said: "until Monday"."""
+    """The same as said: "until Monday"; of a day that is left out, its words."""
+    day: OnceDay | None = None
+    """The runs of this one day are left out, and no others."""
     is_sure: bool = True
     """False: "the red one" may be something else, where no order is called so."""
 

@@ -52,8 +52,8 @@ _RETIME = (
         rf"(?: {_TO})? (?P<t>.+?)(?:,? (?:and )?not (?P<o>.+?))?"
     ),
     re.compile(
-        r"(?:on (?:second thoughts?|reflection)|come to think of it|thinking about it)[ ,.!]+"
-        rf"(?:let's (?:say|do|have) |rather |better |make {_IT} )?(?P<t>.+?){_INSTEAD}"
+        r"(?:on (?:second thoughts?|reflection)|come to think of it|i've changed my mind|thinking about it)[ ,.!]+"
+        rf"(?:let's (?:say|do|have) |(?:let's )?make {_IT} |rather |better )?(?P<t>.+?)(?: (?:would be|is|sounds) (?:better|nicer))?{_INSTEAD}"
     ),
     re.compile(
         r"(?:(?:no|nope|sorry|oops|wait|actually|rather)[ ,.!]+)+(?P<sure>(?:at|every|on|in) .+?)"

@@ -116,24 +116,24 @@ _IN = re.compile(
 _SOMEBODY = r"(?:somebody|someone|anybody|anyone|a person|people|a visitor|a guest|a human)"
 _COMES = (
     r"(?:comes?(?: (?:in|home|inside|by|over|here|back|near|along|up))?"
-    r"(?: (?:through |to |at |by |in )?the (?:front |main )?door)?"
+    r"(?: (?:through |to |at |by |in )?the (?:front |main )?door| (?:in|into|to|inside) the (?:house|flat|apartment|home|building))?"
     r"|enters?(?: the (?:house|home|room|flat))?|arrives?(?: home)?|shows? up|appears?|walks? in"
-    r"|walks? by|is (?:here|there|at the door)|(?:gets?|is) home)"
+    r"|walks? by|(?:is|'s) (?:here|there|(?:at|outside|in front of) the (?:front )?door)|(?:gets?|is) home)"
     r"(?! (?:(?:in|into|to|from|through|near|by|at|out of|over to) )?(?:the|my|our|your|a|an) )"
 )
 """With a place behind it, it is another event: "when somebody comes in the kitchen"."""
 _WHEN = r"(?:when(?:ever)?|every time|each time|as soon as|once)"
 _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
-    (rf"{_WHEN} {_SOMEBODY} {_COMES}", WorldEvent.PERSON_SEEN),
+    (rf"{_WHEN} {_SOMEBODY}(?: |(?=')){_COMES}", WorldEvent.PERSON_SEEN),
     (rf"{_WHEN} you (?:see|spot|notice|meet|detect) {_SOMEBODY}", WorldEvent.PERSON_SEEN),
     (rf"{_WHEN} (?:something|anything) moves|{_WHEN} (?:there is|you (?:see|notice)) (?:any )?"
      r"(?:movement|motion)", WorldEvent.MOVEMENT),
     (rf"{_WHEN} (?:the|your) battery (?:is|gets|runs|becomes) (?:low|(?:almost |nearly )?empty)"
      rf"|{_WHEN} you(?:'re| are)? (?:run(?:ning)? )?(?:low on|out of) (?:battery|power)",
      WorldEvent.BATTERY_LOW),
-    (rf"{_WHEN} (?:a|any|the|your) (?:goal|task|drive|order|mission) fails|{_WHEN} something goes "
+    (rf"{_WHEN} (?:an?|any|the|your|my) (?:goal|task|drive|order|mission) fails|{_WHEN} something goes "
      r"wrong", WorldEvent.GOAL_FAILED),
-    (rf"{_WHEN} (?:a|any|the|your) (?:goal|task|drive|order|mission) (?:is (?:done|finished|over)"
+    (rf"{_WHEN} (?:an?|any|the|your|my) (?:goal|task|drive|order|mission) (?:is (?:done|finished|over)"
      r"|ends|finishes)", WorldEvent.GOAL_DONE),
     (rf"{_WHEN} you(?:'re| are| get| come| arrive| return)(?: back)? (?:at )?home(?: again)?",
      WorldEvent.ARRIVED_HOME),
@@ -141,7 +141,7 @@ _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
 _UPON = tuple((re.compile(rf"(?:{pattern}){_END}"), event) for pattern, event in _EVENTS)
 
 POLITE = re.compile(
-    r"(?:(?:please|pls|hey|hi|ok|okay|so|well|robot|pons|kindly|now|and|then|you know what|(?:can|could|would|will)"
+    r"(?:(?:please|pls|hey|hi|ok|okay|so|well|you know what|listen|robot|pons|kindly|now|and|then|(?:can|could|would|will)"
     r" you|i(?:'d| would) like you to|i want you to|i need you to|you (?:should|must|have to)"
     r"|make sure (?:to|that you)|from now on|add another(?: one)?|another one|one more(?: thing)?"
     r"|also)[ ,:]+)+"
@@ -172,9 +172,23 @@ REMARK = re.compile(
 )
 """How what is no order begins, beside a time: "it's cold tonight", "tomorrow is my birthday"."""
 REMIND = re.compile(
-    r"(?:remind me(?: again)?|don't let me forget|do not let me forget|set a reminder(?: for me)?"
-    r"|give me a reminder|tell (?:me|us)(?= to [a-z])|(?P<wake>wake me(?: up)?))(?![\w'])"
+    r"(?:(?:remember to )?remind (?:me|us)(?: again)?|don't let me forget|do not let me forget|(?:set|make)(?: me)? an? (?:reminder|alarm|timer)(?: for me)?"
+    r"|give (?:me|us) a (?:reminder|nudge|shout|call)|(?:nudge|ping|alert) (?:me|us)|(?P<wake>wake (?:me|us)(?: up)?))(?![\w'])"
 )
+TELLS = re.compile(r"(?:and )?(?:(?:tell|say to) (?:me|us)|(?P<asks>ask (?:me|us)))(?![\w'])[ ,]*")
+"""Asks to be told or asked something; with a time it is a reminder."""
+TOLD = re.compile(
+    r"(?:(?P<asks>(?:whether|if) )|(?:to|that) )(?!.*(?:[,;:]|\b(?:and|then|if|unless|until|when|or)\b(?= (?:if|then|go|come|drive|say|tell|ask|remind|look))|\b(?:and if|unless|otherwise)\b))"
+)
+"""What is to be told or asked: one clause, and nothing that is to be done besides."""
+TIMER = re.compile(
+    rf"\b(?P<a>(?:set|start|make)(?: me)? an? (?:timer|alarm)) for (?={EN_DURATION}|(?:an? |half an )hour\b)"
+    rf"|\b(?P<c>(?:set|make)(?: me)? an? alarm) for (?=(?:{_H})\b)"
+    rf"|\b(?P<b>(?:set|start|make)(?: me)? an? )(?P<lasts>(?:{_H}|[a-z]+)[ -](?:minute|hour|second)s?) (?:timer|alarm)(?: for)?\b",
+    re.IGNORECASE,
+)
+"""A timer is "for ten minutes", which come after them."""
+TWO_HOURS = re.compile(rf"\b(?:and|or)[ ,]*$|\bat (?:{_H}) (?:and|or) (?:{_H})$")
 TIMELESS = re.compile(
     r"(?:remind me|set a reminder(?: for me)?|give me a reminder)[ ,:]+(?:to|about|of|for)\b"
     r"|(?:don't|do not) let me forget\b"
@@ -244,7 +258,8 @@ def _every(found: re.Match[str]) -> tuple[Part, ...]:
 def _weekdays(found: re.Match[str]) -> tuple[Part, ...]:
     named = [day for day in _DAYS if day in found["days"]]
     part = (DayPart(found["part"]),) if found["part"] else ()
-    if not found["every"] and not found["days"].endswith("s"):
+    nightly = found["part"] and found[0].endswith("s")  # "on Thursday nights"
+    if not (found["every"] or nightly or found["days"].endswith("s")):
         if len(named) > 1:
             return ()
         return (OnceDay(weekday=(_DAYS.index(named[0]) - 1) % 7), *part)

@@ -219,13 +219,18 @@ def _weekly(again: WeekDays, clock: TimeOfDay | None, daypart: DayPart | None) -
     if at is None:
         return Timing(problem="order_time_missing")
     hour, minute = at
-    if clock is not None and not clock.sure and daypart is None and hour in _BY_DAY:
-        hour += 12  # nobody who says "every day at three" means the night
+    hour = _by_day(hour, clock, daypart)
     return Timing(CronRule(cron=f"{minute} {hour} * * {list_days(again.days)}"))
 
 
 _BY_DAY = range(1, 5)
 """Hours of a dial that mean the afternoon where nothing else is said."""
+
+
+def _by_day(hour: int, clock: TimeOfDay | None, daypart: DayPart | None) -> int:
+    """Return a bare hour on a day that is named: nobody who says "Tuesday at three" means the night."""
+    bare = clock is not None and not clock.sure and daypart is None
+    return hour + 12 if bare and hour in _BY_DAY else hour
 
 
 def list_days(days: frozenset[int]) -> str:
@@ -256,6 +261,8 @@ def _by_clock(day: OnceDay | MonthDay, clock: TimeOfDay | None, daypart: DayPart
     at = _hour_minute(clock, daypart)
     if at is None:
         return Timing(problem="order_time_missing")
+    named = isinstance(day, OnceDay) and day not in (OnceDay(), OnceDay(ahead=0))
+    at = (_by_day(at[0], clock, daypart) if named else at[0], at[1])
     if isinstance(day, MonthDay):
         return _by_date(day, *at)
     bare = clock is not None and not clock.sure and daypart is None

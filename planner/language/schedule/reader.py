@@ -8,37 +8,50 @@ Pure: no clock, no state.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from planner.language.folding import fold_script, fold_width, has_chinese
+from planner.language.folding import has_chinese
 from planner.language.schedule import chinese, english
 from planner.language.schedule.about import read_about
 from planner.language.schedule.arrivals import offer_event, read_arrival
 from planner.language.schedule.command import (
+    ChangeOrders,
     LeaveOutDays,
     OrderCommand,
     RemindAgain,
     ScheduleCommand,
 )
 from planner.language.schedule.corrections import read_correction
+from planner.language.schedule.event_orders import NEWS, is_news, read_event_order
+from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
 from planner.language.schedule.parts import (
+    DayPart,
     EventPart,
     Part,
     Problem,
+    TimeOfDay,
     Timing,
     combine,
     is_once,
     lacks_time,
     leave_days_out,
 )
-from planner.language.schedule.reasons import leave_reasons_out
+from planner.language.schedule.reasons import is_reason, leave_reasons_out
 from planner.language.schedule.statements import (
     begins_with_statement,
     ends_in_statement,
     ends_in_told_words,
     is_filler,
+)
+from planner.language.schedule.tellings import TELLS, read_told
+from planner.language.schedule.time_finder import (
+    FoundTime,
+    first_parts,
+    last_parts,
+    reads_timing,
+    whole_parts,
 )
 from planner.plan.timing import CronRule, DayTime, EventRule, InRule, WorldEvent
 
@@ -47,53 +60,16 @@ if TYPE_CHECKING:
 
 MAX_READ = 300
 """Characters; a longer sentence is no standing order."""
-_ENDS = " .!,;:。~…，；！、"
-_MARKS = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "！": "!", "？": "?"})
-_SPACES = re.compile(r"\s+")
-_MOST_PARTS = 6
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
+_WAKES = range(4, 12)
+_THEN = re.compile(r"(?:and|then)\b")
 _UNTIL = re.compile(r"\b(?:until|till)$")
 _CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
-_DAYS_ER = re.compile(
-    r"(?<!说)([今明后])儿个?(?=[早上中下晚夜]|[一二三四五六七八九十两\d]{1,2}[点:])"
-)
-"""明儿早上 is 明天早上."""
 _DENIAL = re.compile(
     r"(?:[就都也])*(?:别|不要|不用|不准|不许)|(?:don't|do not|never|not) ", re.IGNORECASE
 )
-_QUOTE = re.compile('["“”「」『』]')
-
-
-@dataclass(frozen=True, slots=True)
-class _FoldedSentence:
-    """Hold a sentence twice, character for character alike: to match, and as it was written."""
-
-    folded: str
-    written: str
-
-    def part(self, start: int, end: int | None = None) -> _FoldedSentence:
-        return _FoldedSentence(self.folded[start:end], self.written[start:end])
-
-    def strip(self, pattern: re.Pattern[str]) -> _FoldedSentence:
-        """Take off what a pattern matches at the beginning."""
-        found = pattern.match(self.folded)
-        return self.part(found.end()) if found is not None else self
-
-    def strip_end(self, pattern: re.Pattern[str]) -> _FoldedSentence:
-        found = pattern.search(self.folded)
-        return self.part(0, found.start()) if found is not None and found.start() > 0 else self
-
-    def bare(self) -> _FoldedSentence:
-        start = len(self.folded) - len(self.folded.lstrip(_ENDS))
-        return self.part(start, max(start, len(self.folded.rstrip(_ENDS))))
-
-
-@dataclass(frozen=True, slots=True)
-class _Found:
-    """Hold the parts of a time, and where they end (or, at the end of a sentence, begin)."""
-
-    parts: tuple[Part, ...] = ()
-    at: int = 0
+_TELLS = re.compile(r"(?: and|,|;) (?:then )?(?:tell|let|call|warn|say|ask|shout|remind|alert)\b")
+"""Of two orders the one that waits for the event behind them."""
 
 
 @lru_cache(maxsize=64)
@@ -101,22 +77,33 @@ def read_order_command(text: str) -> OrderCommand | None:
     """Return what a sentence says about standing orders; None where it is none of these."""
     if not 0 < len(text.strip()) <= MAX_READ:
         return None
-    said = _fold(text)
-    asks = said.folded.rstrip(_ENDS).endswith("?")
+    said = fold_sentence(text)
+    asks = said.folded.rstrip(ENDS).endswith("?")
     grammar = chinese if has_chinese(said.folded) else english
-    said = _FoldedSentence(said.folded.replace("?", " "), said.written)
+    said = FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
     command = _read_command(said, grammar, text, asks=asks)
-    if asks or not (command is None or _denies(command)):
+    if asks or not (command is None or _denies(command) or _swallows(command)):
         return command
     bare = leave_reasons_out(said.folded, chinese=grammar is chinese)
     if bare is None:
         return command
-    bare = _FoldedSentence(bare, bare).strip(grammar.POLITE).strip_end(grammar.POLITE_END).folded
-    about = _read_about_kept(bare.strip(_ENDS), grammar)
-    alone = _FoldedSentence(bare.strip(_ENDS), bare.strip(_ENDS))
-    timed = about is None and _whole_parts(alone.folded, in_chinese=grammar is chinese)
-    return (_read(alone, grammar) if timed else about) or command
+    bare = FoldedSentence(bare, bare).strip(grammar.POLITE).strip_end(grammar.POLITE_END).folded
+    about = _read_about_kept(bare.strip(ENDS), grammar)
+    alone = FoldedSentence(bare.strip(ENDS), bare.strip(ENDS))
+    if about is None and _waits(alone, grammar):
+        return _read_event(alone, grammar) or _read(alone, grammar) or command
+    return about or command
+
+
+def _waits(said: FoldedSentence, grammar: ModuleType) -> bool:
+    """Tell whether a sentence is a time alone, or an order upon the event that it ends with."""
+    if whole_parts(said.folded, in_chinese=grammar is chinese):
+        return True
+    if grammar is chinese:
+        return False
+    last = last_parts(said.folded, grammar).parts
+    return any(isinstance(part, EventPart) for part in last) or bool(_read_event(said, grammar))
 
 
 def _denies(command: OrderCommand) -> bool:
@@ -126,32 +113,39 @@ def _denies(command: OrderCommand) -> bool:
     return _DENIAL.match(command.order) is not None
 
 
+def _swallows(command: OrderCommand) -> bool:
+    """Tell whether the words that name an order go on with another clause: a reason, perhaps."""
+    return isinstance(command, ChangeOrders) and "," in command.which
+
+
 def _read_about_kept(folded: str, grammar: ModuleType) -> OrderCommand | None:
     """Return what a sentence says about orders that are kept: a question, a change, a removal."""
     is_chinese = grammar is chinese
-    return read_about(folded, _reads_timing, _whole_parts, chinese=is_chinese) or read_correction(
-        folded, _whole_parts, chinese=is_chinese
+    return read_about(folded, reads_timing, whole_parts, chinese=is_chinese) or read_correction(
+        folded, whole_parts, chinese=is_chinese
     )
 
 
 def _read_command(
-    said: _FoldedSentence, grammar: ModuleType, text: str, *, asks: bool
+    said: FoldedSentence, grammar: ModuleType, text: str, *, asks: bool
 ) -> OrderCommand | None:
     is_chinese = grammar is chinese
     excepted = None if asks else _read_excepting(said, grammar)
     if excepted is not None:
         return excepted
-    about = read_about(said.folded, _reads_timing, _whole_parts, chinese=is_chinese)
+    about = read_about(said.folded, reads_timing, whole_parts, chinese=is_chinese)
     if about is not None:
         return about
     if not asks and (unseen := _read_event(said, grammar)) is not None:
         return unseen
-    courteous = asks and grammar is english and _fold(text).folded.startswith(("can", "could", "w"))
+    courteous = (
+        asks and grammar is english and fold_sentence(text).folded.startswith(("can", "could", "w"))
+    )
     if (asks and not courteous) or grammar.ASKS.match(said.folded) is not None:
         return None
     if grammar.PAST.fullmatch(said.folded) is not None:
         return ScheduleCommand(None, said.written, "", problem="order_in_past")
-    corrects = read_correction(said.folded, _whole_parts, chinese=is_chinese)
+    corrects = read_correction(said.folded, whole_parts, chinese=is_chinese)
     if corrects is None:
         return _read(said, grammar)
     if isinstance(corrects.change, RemindAgain):  # "remind me again in five minutes"
@@ -159,10 +153,10 @@ def _read_command(
     return corrects
 
 
-def _read_excepting(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
+def _read_excepting(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read "every day at seven wake us up, but not at weekends", 每天七点…，周末就不要了."""
     for cut in reversed(list(_CLAUSE.finditer(said.folded))):
-        days = read_correction(said.folded[cut.end() :], _whole_parts, chinese=grammar is chinese)
+        days = read_correction(said.folded[cut.end() :], whole_parts, chinese=grammar is chinese)
         if days is None or days.which or not isinstance(days.change, LeaveOutDays):
             return None
         order = _read(said.part(0, cut.start()).bare(), grammar)
@@ -174,63 +168,77 @@ def _read_excepting(said: _FoldedSentence, grammar: ModuleType) -> ScheduleComma
     return None
 
 
-def _read_event(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
+def _read_event(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read an order upon somebody's coming who is named, or upon what can't be noticed."""
     is_chinese = grammar is chinese
     arrival = read_arrival(said.folded, said.written, chinese=is_chinese)
     if arrival is not None:
         when = EventRule(event=WorldEvent.PERSON_SEEN)
-        return ScheduleCommand(when, arrival.order, "", who=arrival.who)
+        return _upon(when, arrival.order, "", who=arrival.who)
     offer = offer_event(said.folded, chinese=is_chinese)
-    if offer is None or (not offer and _first_parts(said.folded, grammar).parts):
+    if is_chinese or offer:
+        return None if offer is None else _unseen(said, offer, grammar)
+    found = read_event_order(said.folded, said.written, whole_parts)
+    if found is None:
+        return None if offer is None else _unseen(said, offer, grammar)
+    if found.event is None:
+        return _unseen(said, found.offer, grammar)
+    return _upon(EventRule(event=found.event), found.order, "", who=found.who)
+
+
+def _unseen(said: FoldedSentence, offer: str, grammar: ModuleType) -> ScheduleCommand | None:
+    """Return that no event tells what is waited for, with the order that comes nearest."""
+    if not offer and first_parts(said.folded, grammar).parts:
         return None
     problem: Problem = "order_event_place" if offer else "order_no_event"
     return ScheduleCommand(None, said.written, "", problem=problem, offer=offer)
 
 
-def _fold(text: str) -> _FoldedSentence:
-    spaced = _SPACES.sub(" ", fold_width(text).translate(_MARKS)).strip()
-    spaced = _DAYS_ER.sub(r"\1天", spaced)
-    if has_chinese(spaced):  # spaces between characters mean nothing; between Latin words they do
-        spaced = re.sub(r"(?<![A-Za-z0-9]) | (?![A-Za-z0-9])", "", spaced)
-    folded = spaced.lower()
-    if len(folded) != len(spaced):  # a few letters grow in lower case
-        spaced = folded
-    return _FoldedSentence(fold_script(folded), spaced)
+def _upon(when: EventRule, order: str, words: str, who: str = "") -> ScheduleCommand:
+    """Return an order upon an event; where its news alone is wanted, a reminder that tells it."""
+    news = NEWS[when.event] if is_news(order) else None
+    return ScheduleCommand(when, order, words, reminder=news, who=who)
 
 
-def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
+def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a time, an order, and whether it is to be reminded of."""
-    before = _first_parts(said.folded, grammar)
+    before = first_parts(said.folded, grammar)
     rest = said.part(before.at).strip(grammar.LEAD)
     remind = grammar.REMIND.match(rest.folded)
     if remind is not None:
         inner = rest.part(remind.end())
-        middle = _first_parts(inner.folded.lstrip(" ,"), grammar)
+        middle = first_parts(inner.folded.lstrip(" ,"), grammar)
         if middle.parts:
             shift = len(inner.folded) - len(inner.folded.lstrip(" ,"))
             inner = inner.part(shift + middle.at)
-        rest, before = inner, _Found((*before.parts, *middle.parts), before.at)
+        parts = (*before.parts, *middle.parts)
+        rest, before = inner, FoundTime(_by_morning(parts) if remind["wake"] else parts, before.at)
     elif before.parts:
         rest = rest.strip(grammar.POLITE)
-    after = _last_parts(rest.folded, grammar)
-    if before.parts and after.parts and remind is None and combine(before.parts) is not None:
-        joined = combine((*before.parts, *after.parts))
-        if joined is None or (joined.problem == "order_nested" and combine(after.parts) is None):
-            after = _Found((), len(rest.folded))  # "every day at eight say good night at ten"
-    if after.parts and grammar is english and not lacks_time(before.parts):
-        words = rest.folded[: after.at].rstrip(" ")
-        told = remind is None and is_once(after.parts) and ends_in_told_words(words)
-        if told or ends_in_statement(words, reminds=remind is not None) or _UNTIL.search(words):
-            after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"; "wait until 18:30"
+    if remind is None and grammar is english and (told := _read_told(rest, before)) is not None:
+        return told
+    after = _time_behind(rest, before, grammar, reminds=remind is not None)
     order = rest.part(0, after.at) if after.parts else rest
-    timing = combine((*before.parts, *after.parts))
+    if (
+        after.parts and english.TWO_HOURS.search(order.folded.rstrip()) is not None
+    ):  # "at eight and at six"
+        return ScheduleCommand(None, said.written, "", problem="order_nested")
+    woken = remind is not None and bool(remind["wake"])
+    parts = (*before.parts, *after.parts)
+    timing = combine(_by_morning(parts) if woken else parts)
+    if (
+        after.parts
+        and timing
+        and isinstance(timing.when, EventRule)
+        and _TELLS.search(order.folded)
+    ):
+        return None  # "go to the kitchen and tell me when somebody comes": the telling waits
     if timing is None:
         lacks = remind is not None and not (before.parts or after.parts or remind["wake"])
         return _read_timeless(order, remind[0], grammar) if lacks and remind is not None else None
     words = _words(said, rest, before, after)
     if remind is not None:
-        return _reminder(order, timing, words, grammar, woken=bool(remind["wake"]))
+        return _reminder(order, timing, words, grammar, woken=woken)
     said_first = order.bare().folded
     remark = grammar.REMARK.match(said_first) is not None
     once = isinstance(timing.when, DayTime | InRule) and before.parts
@@ -239,15 +247,63 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     return _order(order.bare(), timing, words)
 
 
-def _order(order: _FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
+def _time_behind(
+    rest: FoldedSentence, before: FoundTime, grammar: ModuleType, *, reminds: bool
+) -> FoundTime:
+    """Return the time that an order ends with, where it is the order's."""
+    after = last_parts(rest.folded, grammar)
+    if before.parts and after.parts and not reminds and combine(before.parts) is not None:
+        joined = combine((*before.parts, *after.parts))
+        if joined is None or (joined.problem == "order_nested" and combine(after.parts) is None):
+            after = FoundTime((), len(rest.folded))  # "every day at eight say good night at ten"
+    if after.parts and grammar is english and not lacks_time(before.parts):
+        words = rest.folded[: after.at].rstrip(" ")
+        told = not reminds and is_once(after.parts) and ends_in_told_words(words)
+        if told or ends_in_statement(words, reminds=reminds) or _UNTIL.search(words):
+            after = FoundTime(
+                (), len(rest.folded)
+            )  # "…, I'm on in two minutes"; "wait until 18:30"
+    return after
+
+
+def _read_told(rest: FoldedSentence, before: FoundTime) -> ScheduleCommand | None:
+    """Read what a person wants to be told or asked at a time: it is a reminder."""
+    tells = TELLS.match(rest.folded)
+    if tells is None:
+        return None
+    inner = rest.part(tells.end())
+    middle = first_parts(inner.folded, english)
+    inner = inner.part(middle.at).bare()
+    parts = (*before.parts, *middle.parts)
+    after = last_parts(inner.folded, english) if not parts else FoundTime((), len(inner.folded))
+    timing = combine(parts or after.parts)
+    what = read_told(
+        inner.part(0, after.at).bare().written, asks=bool(tells["asks"]), timed=bool(parts)
+    )
+    if timing is None or what is None or isinstance(timing.when, EventRule):
+        return None
+    return ScheduleCommand(timing.when, what, "", reminder=what, problem=timing.problem)
+
+
+def _by_morning(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+    """Return the parts of a time at which somebody is to be woken: a bare seven is of the morning."""
+    if any(isinstance(part, DayPart) for part in parts):
+        return parts
+    return tuple(
+        replace(part, sure=True) if isinstance(part, TimeOfDay) and part.hour in _WAKES else part
+        for part in parts
+    )
+
+
+def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
     if (timing.problem is not None and not order.folded) or is_filler(order.folded):
         return None  # "every day": nothing that is understood
+    if isinstance(timing.when, EventRule) and timing.problem is None:
+        return _upon(timing.when, order.written.strip(), words)
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 
 
-def _read_timeless(
-    order: _FoldedSentence, verb: str, grammar: ModuleType
-) -> ScheduleCommand | None:
+def _read_timeless(order: FoldedSentence, verb: str, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a reminder without its time, which is then asked for: "remind me to ring the doctor"."""
     if grammar.OPEN.search(order.folded) or not grammar.TIMELESS.match(f"{verb}{order.folded}"):
         return None
@@ -258,13 +314,13 @@ def _read_timeless(
 
 def complete_order(command: ScheduleCommand, time: str) -> ScheduleCommand | None:
     """Return an order that lacked its time with the time that was said for it; None: it is none."""
-    said = _fold(time)
+    said = fold_sentence(time)
     grammar = chinese if has_chinese(said.folded) else english
     bare = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
     for words in (f"{command.words} {bare.written}".strip(), bare.written):
-        folded = _fold(words).folded
+        folded = fold_sentence(words).folded
         for lead in ("", "at ") if grammar is english else ("",):
-            parts = _whole_parts(lead + folded, in_chinese=grammar is chinese)
+            parts = whole_parts(lead + folded, in_chinese=grammar is chinese)
             timing = combine(parts) if parts else None
             if timing is not None and timing.when is not None:
                 return replace(command, when=timing.when, words=words, problem=None)
@@ -272,79 +328,26 @@ def complete_order(command: ScheduleCommand, time: str) -> ScheduleCommand | Non
 
 
 def _reminder(
-    order: _FoldedSentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
-) -> ScheduleCommand:
-    what = order.bare().strip(grammar.OF).bare().written.strip()
+    order: FoldedSentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
+) -> ScheduleCommand | None:
+    bare = order.bare()
+    if _THEN.match(bare.folded) is not None:
+        return None  # "remind me at six, and then go to the kitchen"
+    what = bare.strip(grammar.OF).bare().written.strip()
+    if woken and grammar is english and what:
+        if is_reason(english.POLITE.sub("", bare.folded), chinese=False):
+            what = ""  # "wake me at six, I've got a train"
+        elif what == bare.written or _TELLS.search(f" {what.lower()}"):
+            whole = f"wake me up {bare.written}"  # "wake me at nine, like actually come in"
+            return ScheduleCommand(timing.when, whole, words, problem=timing.problem)
     if woken and not what:
         what = grammar.WAKE_UP
+    if isinstance(timing.when, EventRule) and not what:
+        what = NEWS[timing.when.event]
     return ScheduleCommand(timing.when, what, words, reminder=what, problem=timing.problem)
 
 
-def _words(said: _FoldedSentence, rest: _FoldedSentence, before: _Found, after: _Found) -> str:
+def _words(said: FoldedSentence, rest: FoldedSentence, before: FoundTime, after: FoundTime) -> str:
     """Return what was said of the time: the beginning and the end together."""
     ends = rest.written[after.at :] if after.parts else ""
-    return " ".join(each.strip(_ENDS) for each in (said.written[: before.at], ends) if each.strip())
-
-
-def _first_parts(folded: str, grammar: ModuleType) -> _Found:
-    """Return the parts of a time that a text begins with."""
-    parts: tuple[Part, ...] = ()
-    at = 0
-    for _ in range(_MOST_PARTS):
-        gap = grammar.GAP.match(folded, at)
-        start = gap.end() if gap is not None and parts else at
-        found = _part_at(folded, start, grammar)
-        if found is None:
-            break
-        parts, at = (*parts, *found.parts), found.at
-    return _Found(parts, at)
-
-
-def _part_at(folded: str, start: int, grammar: ModuleType) -> _Found | None:
-    for pattern, make in grammar.PARTS:
-        match = pattern.match(folded, start)
-        if match is not None and match.end() > start and (parts := make(match)):
-            return _Found(parts, match.end())
-    return None
-
-
-def _last_parts(folded: str, grammar: ModuleType) -> _Found:
-    """Return the longest parts of a time that a text ends with; not within quotes."""
-    starts = re.finditer(r"(?<=[ ,])" if grammar is english else r"(?<=,)", folded)
-    for each in starts:
-        found = _first_parts(folded[each.start() :], grammar)
-        whole = found.parts and not folded[each.start() + found.at :].strip(_ENDS)
-        if whole and combine(found.parts) is not None:
-            quoted = len(_QUOTE.findall(folded[: each.start()])) % 2
-            return _Found() if quoted else _Found(found.parts, each.start())
-    return _Found((), len(folded))
-
-
-def _reads_timing(folded: str, *, in_chinese: bool) -> bool:
-    """Tell whether a text is, or ends with, a time that comes again."""
-    grammar = chinese if in_chinese else english
-    found = _first_parts(folded, grammar)
-    event = any(isinstance(part, EventPart) for part in found.parts)
-    if found.parts and not event and combine(found.parts) is not None:
-        return True
-    return bool(_last_parts(folded, grammar).parts)
-
-
-def _whole_parts(folded: str, *, in_chinese: bool) -> tuple[Part, ...]:
-    """Return the parts of a time that a whole text is; none where it is anything else."""
-    found = _first_parts(folded, chinese if in_chinese else english)
-    whole = found.parts and found.at == len(folded)
-    return found.parts if whole else ()
-
-
-def split_time(words: str) -> tuple[tuple[Part, ...], str]:
-    """Return the time that stands at the beginning or the end of folded words, and what is left."""
-    grammar = chinese if has_chinese(words) else english
-    first = _first_parts(words, grammar)
-    if first.parts:
-        return first.parts, words[first.at :].strip(_ENDS)
-    for each in re.finditer(r"(?<=[ ,])", words):
-        found = _first_parts(words[each.start() :], grammar)
-        if found.parts and not words[each.start() + found.at :].strip(_ENDS):
-            return found.parts, words[: each.start()].strip(_ENDS)
-    return (), words
+    return " ".join(each.strip(ENDS) for each in (said.written[: before.at], ends) if each.strip())

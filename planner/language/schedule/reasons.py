@@ -21,6 +21,10 @@ _STATES = re.compile(
     r"|(?:the|my|our) [a-z]+(?: [a-z]+)?(?: (?:is|are|was|has|have|will|can|comes?|came|sleeps?)|'s))\b.*"
     r"|(?:the (?:whole )?lot|all of (?:them|it)|every (?:single|last) one|thanks?(?: you)?|of course|obviously)"
 )
+_ITS_VERB = re.compile(
+    r"^(?:because |since |as |cos |'cause |and )?(?:i|we|they|he|she|it|that)(?:'ll|'d| will| would) (?!be\b)[a-z]+"
+)
+"""What somebody or something will do: "it'll drive us mad" orders no drive."""
 _WHILE = re.compile(
     r"(?:when|once|because|since|as) (?:the |my |our )?(?:[a-z]+|everybody|everyone)(?: (?:is|are|was)|'s|'re|'m)?"
     r" (?:back|home|asleep|in bed|up|awake|out|there|in|away|working|sleeping|at (?:work|school|home))"
@@ -58,4 +62,4 @@ def is_reason(clause: str, *, chinese: bool) -> bool:
     if _WHILE.fullmatch(clause) is not None:
         return True
     states = _STATES.fullmatch(clause) is not None
-    return states and _ORDERS.search(clause) is None
+    return states and _ORDERS.search(_ITS_VERB.sub("", clause)) is None

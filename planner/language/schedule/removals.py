@@ -19,20 +19,17 @@ if TYPE_CHECKING:
 _MORE = (
     r"(?: (?:any ?more|any longer|now|from now on|for good|please|after all|then|again|either))*"
 )
-_YOU = r"(?:(?:you|we) (?:can|may|could|might as well|should) (?:just |now |also |actually )*|let's |just |please )*"
+_YOU = r"(?:(?:actually|you know what|oh|ah|well|no)[ ,]+)*(?:(?:you|we) (?:can|may|could|might as well|should) (?:just |now |also |actually )*|let's |just |please )*"
 _DROPS = (
     r"(?:forget(?: about)?|scrap|bin|ditch|lose|axe|kill|cancel|delete|remove|drop|stop|end|clear"
     r"|get rid of|take off|call off|switch off|turn off|undo|wipe)"
 )
 _NEEDS = r"(?:(?:i|we) (?:don't|do not|no longer|won't) (?:need|want)|no more need for|(?:i am|i'm|we're|we are) done with)"
-_ALL = r"(?:all (?:of )?|every (?:single |last )?|each )"
+_ALL = r"(?:all (?:of )?|both (?:of )?|every (?:single |last )?|each )"
 _THE = r"(?:the|my|your|our|that|this|those|these)"
 _LOT = r"(?:[ ,]+(?:the (?:whole )?lot|all of them|every (?:single |last )?one))?"
 _KIND = rf"(?P<kind>{KINDS}|tasks?|jobs?|errands?)"
-_OF = (
-    r"(?: (?:for|about|to|of|at|with|on|that says?) (?P<of>.+?))??"
-    r"(?: in the (?P<part>morning|afternoon|evening))?"
-)
+_OF = r"(?: (?P<at>(?:in the (?:morning|afternoon|evening)|at (?:night|noon)|on (?:weekdays|weekends))s?))?(?: (?:for|about|to|of|at|with|on|that says?) (?P<of>.+?))?"
 _NAMED = re.compile(
     rf"{_YOU}(?:{_DROPS}|{_NEEDS}) (?P<all>{_ALL})?(?:{_THE} )?(?:(?P<what>(?!of\b)[a-z0-9' -]+?) )??{_KIND}{_OF}{_MORE}{_LOT}"
 )
@@ -41,10 +38,21 @@ _GONE = re.compile(
     r" (?:(?:can|should|may) (?:all )?(?:go|be (?:scrapped|dropped|deleted|removed|cancelled|canceled))"
     rf"|(?:isn't|is not|aren't|are not|is no longer|are no longer) (?:needed|necessary|wanted)){_MORE}"
 )
+_THING = r"(?:ones?|orders?|things?|business|stuff|idea|lark|routine|bit)"
 _ONE = re.compile(
-    rf"{_YOU}(?:{_DROPS}|{_NEEDS}) (?:the|that) (?P<called>[a-z0-9' -]+?)"
-    rf" (?:ones?|thing|business|order){_MORE}"
+    rf"{_YOU}(?:{_DROPS}|{_NEEDS}|never ?mind(?: about)?|no more of) (?:the|that|this|your|my|all (?:the|that)) (?P<called>[a-z0-9' -]+?)"
+    rf" {_THING}{_MORE}"
+    rf"|(?:the|that|this|your|all that) (?P<gone>[a-z0-9' -]+?) {_THING} (?:can|should|may) (?:go|stop|be (?:dropped|scrapped|cancelled)){_MORE}"
+    rf"|{_YOU}(?:{_DROPS}|{_NEEDS}|enough (?:of|with)) (?:the|that|my|your|our|these|those) (?P<called2>[a-z0-9' -]+?) (?:(?:calls?|watch|greetings?|rounds?|patrols?|checks?"
+    rf"|visits?|runs?|trips?|laps?|service|announcements?|questions?|messages?|nudges?|alerts?|warnings?)){_MORE}"
 )
+_DEED = re.compile(
+    r"(?:don't|do not|(?:you |we )?(?:needn't|need not|(?:don't|do not) (?:have|need) to)|(?:you |we )?(?:can|may|could) stop|stop|quit|never"
+    r"|(?:i|we) (?:don't|do not) want you to) "
+    r"(?!let me forget\b|forget\b)(?:bother (?:with |to )?|keep |go on )?(?P<deed>[a-z0-9' -]{3,60}?)"
+    r" (?:any ?more|any longer|from now on|ever again)(?: please)?"
+)
+"""What was done again and again, and shall not be."""
 _REMINDING = re.compile(
     r"(?:(?:you|we) )?(?:(?:can|may|could) (?:just )?(?:stop|quit|cease) reminding me"
     r"|(?:(?:don't|do not|needn't|need not|no longer)(?: (?:need|have)(?: to)?)?"
@@ -56,6 +64,10 @@ _TOLD = re.compile(
     rf"{_YOU}{_DROPS} (?:(?:all|everything)(?: of)?(?: the)?(?: things| jobs| tasks| stuff| orders)?|the things|what)(?: that)?"
     r" (?:i|we)(?:'ve| have)? (?:told|asked|got|made|given|set|want|wanted)(?: you)? (?:to do|doing|do)(?: (?P<when>.+?))?"
     rf"{_MORE}"
+)
+_ALL_ORDERS = re.compile(
+    rf"{_YOU}{_DROPS} (?:{_ALL}(?:{_THE} )?(?:standing )?orders(?: (?:that )?i(?:'ve| have)? (?:given|gave)(?: you)?)?"
+    rf"|(?:everything|all)(?: that)? (?:i|we)(?:'ve| have)? (?:set up|scheduled|planned)(?: (?:with|for) you)?){_MORE}"
 )
 _ZH_ALL = (
     r"(?:我?(?:给你)?(?:定|设|安排)的(?:那些|所有|全部)?|所有|全部|一切|每[一个条]+|这些|那些)"
@@ -109,10 +121,13 @@ def _read_english(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
         when = told["when"] or ""
         timed = not when or whole(when, in_chinese=False) or whole(f"on {when}", in_chinese=False)
         return ChangeOrders("remove", when, is_every=True) if timed else None
+    if _ALL_ORDERS.fullmatch(folded) is not None:
+        return ChangeOrders("remove", "", is_every=True)
     for pattern in (_NAMED, _GONE):
         found = pattern.fullmatch(folded)
         if found is not None:
-            which = f"{found['of'] or found['what'] or ''} {found['part'] or ''}".strip()
+            named = (found["what"] or "", found["of"] or "", found["at"] or "")
+            which = " ".join(each.strip() for each in named if each)
             every, kind = found["all"] is not None, found["kind"]
             if not which and kind.rstrip("s") in ("task", "job", "errand"):
                 return None  # "cancel the task": what is under way
@@ -123,7 +138,11 @@ def _read_english(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
                 is_sure=kind.rstrip("s") not in ("task", "job", "errand"),
             )  # fmt: skip
     one = _ONE.fullmatch(folded)
-    return ChangeOrders("remove", one["called"], is_sure=False) if one is not None else None
+    if one is not None:
+        called = one["called"] or one["gone"] or one["called2"]
+        return ChangeOrders("remove", called, is_sure=False)
+    deed = _DEED.fullmatch(folded)
+    return ChangeOrders("remove", deed["deed"], is_sure=False) if deed is not None else None
 
 
 def _read_chinese(folded: str, reads: ReadsTiming) -> ChangeOrders | None:

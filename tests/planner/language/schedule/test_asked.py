@@ -59,3 +59,22 @@ def test_a_question_about_orders_is_read(text: str, asked: ListOrders) -> None:
 )  # fmt: skip
 def test_a_question_about_something_else_is_not(text: str) -> None:
     assert not isinstance(read_order_command(text), ListOrders)
+
+
+@pytest.mark.parametrize("tail", ["", " at the moment", " for me", " right now"])
+@pytest.mark.parametrize(
+    "text",
+    ["what have I got you doing every day", "which orders have I given you that you still keep",
+     "which jobs are you still keeping", "can you tell me what you've got planned",
+     "what are you supposed to be doing every day", "which reminders are you keeping"],
+)  # fmt: skip
+def test_what_is_kept_is_told_however_it_is_asked(text: str, tail: str) -> None:
+    assert read_order_command(f"{text}{tail}?") == ListOrders()
+
+
+@pytest.mark.parametrize("text", ["when do I have to take my pills?", "what time must I eat?"])
+def test_when_something_is_to_be_done_is_asked_of_what_is_kept(text: str) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, ListOrders)
+    assert command.next_runs
+    assert not command.is_sure

@@ -67,3 +67,33 @@ def test_what_names_no_order_drops_none(text: str) -> None:
 @pytest.mark.parametrize("text", ["晚上就别说了", "晚上别吵了", "晚上就不要到处跑了"])
 def test_what_no_order_is_called_by_drops_none(text: str) -> None:
     assert not isinstance(read_order_command(text), ChangeOrders)
+
+
+@pytest.mark.parametrize(
+    ("text", "which"),
+    [("forget the welcome home thing", "welcome home"), ("scrap that hello business", "hello"),
+     ("that good morning business can go", "good morning"), ("cancel my wake-up call", "wake-up"),
+     ("enough with the cat checks", "cat"), ("never mind the hello thing", "hello"),
+     ("don't bother checking the door any more", "checking the door"),
+     ("you can stop saying hello any more", "saying hello"),
+     ("I don't want you to greet people any longer", "greet people"),
+     ("you know what, forget the hello thing, it'll drive us mad", "hello")],
+)  # fmt: skip
+def test_what_people_call_an_order_drops_it_where_one_is_called_so(text: str, which: str) -> None:
+    command = read_order_command(text)
+    assert command == ChangeOrders("remove", which, is_sure=False)
+
+
+def test_of_two_reminders_the_part_of_the_day_says_which() -> None:
+    text = "forget about the pill reminder in the morning, the doctor's changed it"
+    command = read_order_command(text)
+    assert isinstance(command, ChangeOrders)
+    assert (command.which, command.reminders) == ("pill in the morning", True)
+
+
+@pytest.mark.parametrize("text", ["forget the kitchen", "drop the cup", "cancel the drive",
+                                  "don't go to the kitchen", "don't bother", "stop saying hello",
+                                  "forget the hello thing and go to the sofa",
+                                  "don't check the door any more unless I ask"])  # fmt: skip
+def test_what_may_be_about_now_drops_nothing(text: str) -> None:
+    assert not isinstance(read_order_command(text), ChangeOrders)

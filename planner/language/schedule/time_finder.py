@@ -1,0 +1,91 @@
+"""Find the parts of a time in a sentence: at its beginning, at its end, or all of it. Pure."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from planner.language.folding import has_chinese
+from planner.language.schedule import chinese, english
+from planner.language.schedule.folded_sentence import ENDS
+from planner.language.schedule.parts import EventPart, Part, combine
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+_MOST_PARTS = 6
+_QUOTE = re.compile('["“”「」『』]')
+
+
+@dataclass(frozen=True, slots=True)
+class FoundTime:
+    """Hold the parts of a time, and where they end (or, at the end of a sentence, begin)."""
+
+    parts: tuple[Part, ...] = ()
+    at: int = 0
+
+
+def first_parts(folded: str, grammar: ModuleType) -> FoundTime:
+    """Return the parts of a time that a text begins with."""
+    parts: tuple[Part, ...] = ()
+    at = 0
+    for _ in range(_MOST_PARTS):
+        gap = grammar.GAP.match(folded, at)
+        start = gap.end() if gap is not None and parts else at
+        found = _part_at(folded, start, grammar)
+        if found is None:
+            break
+        parts, at = (*parts, *found.parts), found.at
+    return FoundTime(parts, at)
+
+
+def _part_at(folded: str, start: int, grammar: ModuleType) -> FoundTime | None:
+    for pattern, make in grammar.PARTS:
+        match = pattern.match(folded, start)
+        if match is not None and match.end() > start and (parts := make(match)):
+            return FoundTime(parts, match.end())
+    return None
+
+
+def last_parts(folded: str, grammar: ModuleType) -> FoundTime:
+    """Return the longest parts of a time that a text ends with; not within quotes."""
+    starts = re.finditer(r"(?<=[ ,])" if grammar is english else r"(?<=,)", folded)
+    for each in starts:
+        found = first_parts(folded[each.start() :], grammar)
+        whole = found.parts and not folded[each.start() + found.at :].strip(ENDS)
+        if whole and combine(found.parts) is not None:
+            quoted = len(_QUOTE.findall(folded[: each.start()])) % 2
+            start = each.start() - (3 if folded[: each.start()].endswith(" at ") else 0)
+            return FoundTime() if quoted else FoundTime(found.parts, start)
+    return FoundTime((), len(folded))
+
+
+def reads_timing(folded: str, *, in_chinese: bool) -> bool:
+    """Tell whether a text is, or ends with, a time that comes again."""
+    grammar = chinese if in_chinese else english
+    found = first_parts(folded, grammar)
+    event = any(isinstance(part, EventPart) for part in found.parts)
+    if found.parts and not event and combine(found.parts) is not None:
+        return True
+    return bool(last_parts(folded, grammar).parts)
+
+
+def whole_parts(folded: str, *, in_chinese: bool) -> tuple[Part, ...]:
+    """Return the parts of a time that a whole text is; none where it is anything else."""
+    found = first_parts(folded, chinese if in_chinese else english)
+    whole = found.parts and found.at == len(folded)
+    return found.parts if whole else ()
+
+
+def split_time(words: str) -> tuple[tuple[Part, ...], str]:
+    """Return the time that stands at the beginning or the end of folded words, and what is left."""
+    grammar = chinese if has_chinese(words) else english
+    first = first_parts(words, grammar)
+    if first.parts:
+        return first.parts, words[first.at :].strip(ENDS)
+    for each in re.finditer(r"(?<=[ ,])", words):
+        found = first_parts(words[each.start() :], grammar)
+        if found.parts and not words[each.start() + found.at :].strip(ENDS):
+            return found.parts, words[: each.start()].strip(ENDS)
+    return (), words
