@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from planner.language.grammar.answered_orders import read_answered
 from planner.language.grammar.branch_orders import (
     call_by_name,
     condition_there,
@@ -48,6 +49,7 @@ def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPla
         return StepPlan(steps=steps, pace="slow") if steps else None
     steps = (
         _read_failure(said, forms, read)
+        or read_answered(said, forms, read)
         or _read_condition(said, forms, read)
         or read_wait(said, forms, read)
         or read_rounds(said, forms, read)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms
+from planner.language.grammar.en.answers import ANSWERS, OPEN_QUESTION
 from planner.language.grammar.en.conditions import PERSON, read_condition, read_memory
 from planner.language.numbers import EN_DURATION, times
 
@@ -247,5 +248,7 @@ ENGLISH_COMPOUND = CompoundForms(
         r" (?:until|till) i (?:say|tell you(?: to)?|shout|ask you to)(?: that)? (?P<word>[^,;]+)"
     ),
     ends=re.compile(r"so|when|otherwise|to stop|stop it"),
+    answers=ANSWERS,
+    open_question=OPEN_QUESTION,
 )
 """A bare "seven" is no time: whether in the morning or in the evening is not said."""
