@@ -29,11 +29,12 @@ from planner.language.schedule.parts import (
     Problem,
     Timing,
     combine,
+    has_end,
     leave_days_out,
 )
 from planner.language.schedule.reasons import leave_reasons_out
 from planner.language.schedule.statements import begins_with_statement, ends_in_statement
-from planner.plan.timing import CronRule, DayTime, EventRule, InRule, WorldEvent
+from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule, WorldEvent
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -238,8 +239,9 @@ def _lacks_time(parts: tuple[Part, ...]) -> bool:
 
 
 def _order(order: _FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
-    if timing.problem is not None and not order.folded:
-        return None  # "every day": nothing that is understood
+    empty = timing.problem is not None and not order.folded  # "every day": nothing is understood
+    if empty or (isinstance(timing.when, EveryRule) and has_end(order.folded)):
+        return None
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 
 

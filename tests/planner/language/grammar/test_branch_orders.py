@@ -142,3 +142,20 @@ def test_the_speaker_is_told_by_the_look_itself(home: Vocabulary) -> None:
     made = plan("if you see any bottles in the kitchen let me know", home, WHOLE)
     assert isinstance(made, StepPlan)
     assert [step.kind for step in made.steps] == ["look"]
+
+
+@pytest.mark.parametrize(
+    "things",
+    ["there are {} cups on the desk", "you see {} cups on the desk", "{} cups are on the desk"],
+)
+@pytest.mark.parametrize(
+    "count", ["two", "both", "all the", "more", "only two", "fewer than six", "at least 3", "many"]
+)
+def test_how_many_there_must_be_no_look_answers(home: Vocabulary, things: str, count: str) -> None:
+    """Its yes says that there is one."""
+    for text in (
+        f"if {things.format(count)}, come back",
+        f"come back unless {things.format(count)}",
+    ):
+        made = plan(text, home, WHOLE)
+        assert isinstance(made, Refuse), text
