@@ -66,7 +66,8 @@ def _time(words: str) -> str | None:
 
 
 _GO_ON = r"(?:[,;.]? ?(?:and then|then|and|,) ?(?P<rest>.+))?"
-_BEFORE = r"(?:(?P<before>.+?)(?:,| and then|, then| and|;|\.) )?"
+_FIRST = r"(?:(?P<before>.+?)(?:,| and then|, then| and|;|\.) )"
+_BEFORE = rf"{_FIRST}?"
 _STAY = r"(?:please )?(?:wait|stay|stand|hold on)(?: here| there| still| right here)*"
 
 _AT = r"(?: (?:in|at|by|near|next to|beside|inside) (?P<at>(?:the|my|our) [a-z]+(?: [a-z]+)??))?"
@@ -183,6 +184,7 @@ ENGLISH_COMPOUND = CompoundForms(
             rf"{_BEFORE}{_STAY}{_AT}(?: until| till) you (?:can )?see (?P<who>{PERSON}){_GO_ON}"
         ),
         re.compile(rf"{_BEFORE}{_STAY}{_AT} for (?P<who>{PERSON}){_TO_COME}{_GO_ON}"),
+        re.compile(rf"{_FIRST}{_STAY} for (?P<who>me|us){_TO_COME}{_GO_ON}"),
         re.compile(rf"{_BEFORE}{_STAY} for (?P<who>{PERSON}){_TO_COME}{_AT}{_GO_ON}"),
         re.compile(rf"{_BEFORE}{_STAY}{_AT}(?: until| till) (?P<named>{_ONE}) {_COMES}{_GO_ON}"),
         re.compile(
