@@ -118,9 +118,9 @@ def _branch(
         order, other = tell_them(order, forms), tell_them(other, forms) if other else None
     if eyes is not None:
         if denied:
-            order = search_there(order, eyes.thing, forms)
+            order = search_there(order, eyes.thing, forms, somebody=eyes.is_somebody)
         elif other:
-            other = search_there(other, eyes.thing, forms)
+            other = search_there(other, eyes.thing, forms, somebody=eyes.is_somebody)
         order = order if flips else tell_news(order, eyes.statement, forms)
     told = eyes is not None and forms.reports.fullmatch(order.strip(" ,.")) is not None
     yes, no = () if told else read.steps(order), read.steps(other) if other else ()

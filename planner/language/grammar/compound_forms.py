@@ -104,7 +104,10 @@ class CompoundForms:
     within: str = ""
     """Stands between what is asked about and that place's name."""
     tries: re.Pattern[str] | None = None
-    """An order to look in another place, ``place``, and no more: for what the condition names."""
+    """An order to look in another place, ``place``, and no more: for what the condition names.
+
+    Groups ``try`` and ``look`` hold its verb, where it has one.
+    """
     the: str = ""
     """Stands before a thing's bare name."""
     search: str = ""

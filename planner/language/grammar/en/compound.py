@@ -215,7 +215,7 @@ ENGLISH_COMPOUND = CompoundForms(
     inside=re.compile(r"(?P<rest>.*\b(?:is|are|see|[a-z]*one|[a-z]*body|people))(?: in)? there"),
     within=" in the ",
     tries=re.compile(
-        rf"{_SO}(?:(?P<try>try )|(?:check|search|look(?: a?round| for it)?(?: in| at| on)?"
+        rf"{_SO}(?:(?P<try>try )|(?P<look>check|search|look(?: a?round| for it)?(?: in| at| on)?"
         r"|(?:have|take) a (?:quick )?(?:look|peek)(?: a?round)?(?: in| at| on)?) )?"
         r"(?P<place>(?:the|my|our) [a-z]+(?: [a-z]+)?)(?: instead| too| as well| next| then)?"
     ),

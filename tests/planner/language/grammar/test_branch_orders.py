@@ -48,6 +48,15 @@ def test_what_is_not_there_is_searched_in_the_other_place(
     assert made.otherwise == (GoTo(place="bedroom"), Find(object="book", place="bedroom"))
 
 
+def test_a_look_tells_of_somebody_as_well_as_a_search(home: Vocabulary) -> None:
+    asked = "look for Anna in the study, if she isn't there"
+    for other in ("try the bedroom", "the bedroom"):
+        searched = branch(f"{asked}, {other}", home).otherwise
+        assert searched == (GoTo(place="bedroom"), Find(object="Anna", place="bedroom"))
+    looked = branch(f"{asked} look in the bedroom", home).otherwise
+    assert looked == (GoTo(place="bedroom"), Look(question="look in the bedroom", place="bedroom"))
+
+
 def test_where_it_is_the_other_place_is_only_looked_at(home: Vocabulary) -> None:
     made = branch("if the book is in the study check the bedroom", home)
     assert made.then[0] == GoTo(place="bedroom")
