@@ -36,10 +36,13 @@ def name_there(order: str, name: str, forms: CompoundForms) -> str:
     return forms.go_there.sub(lambda found: f"{found['verb']}{forms.to}{name}", order)
 
 
-def search_there(order: str, thing: str, forms: CompoundForms) -> str:
-    """Return "try the bedroom" as a search there for what is not where it was looked for."""
+def search_there(order: str, thing: str, forms: CompoundForms, *, somebody: bool) -> str:
+    """Return "try the bedroom" as a search there for what is not where it was looked for.
+
+    A look tells whether somebody is there as well as a search, and more: "look in" stays one.
+    """
     found = forms.tries.fullmatch(order.strip(" ,.")) if forms.tries is not None else None
-    if found is None:
+    if found is None or (somebody and found["look"]):
         return order
     if thing:
         return forms.search.format(thing=thing, place=found["place"])

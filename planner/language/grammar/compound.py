@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from planner.language.grammar.answered_orders import read_answered
 from planner.language.grammar.branch_orders import (
     call_by_name,
     condition_there,
@@ -48,6 +49,7 @@ def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPla
         return StepPlan(steps=steps, pace="slow") if steps else None
     steps = (
         _read_failure(said, forms, read)
+        or read_answered(said, forms, read)
         or _read_condition(said, forms, read)
         or read_wait(said, forms, read)
         or read_rounds(said, forms, read)
@@ -116,9 +118,9 @@ def _branch(
         order, other = tell_them(order, forms), tell_them(other, forms) if other else None
     if eyes is not None:
         if denied:
-            order = search_there(order, eyes.thing, forms)
+            order = search_there(order, eyes.thing, forms, somebody=eyes.is_somebody)
         elif other:
-            other = search_there(other, eyes.thing, forms)
+            other = search_there(other, eyes.thing, forms, somebody=eyes.is_somebody)
         order = order if flips else tell_news(order, eyes.statement, forms)
     told = eyes is not None and forms.reports.fullmatch(order.strip(" ,.")) is not None
     yes, no = () if told else read.steps(order), read.steps(other) if other else ()

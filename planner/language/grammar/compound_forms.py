@@ -104,7 +104,10 @@ class CompoundForms:
     within: str = ""
     """Stands between what is asked about and that place's name."""
     tries: re.Pattern[str] | None = None
-    """An order to look in another place, ``place``, and no more: for what the condition names."""
+    """An order to look in another place, ``place``, and no more: for what the condition names.
+
+    Groups ``try`` and ``look`` hold its verb, where it has one.
+    """
     the: str = ""
     """Stands before a thing's bare name."""
     search: str = ""
@@ -133,3 +136,10 @@ class CompoundForms:
     """Groups ``main`` and ``word``: whom to follow, and what is said in the end."""
     ends: re.Pattern[str] | None = None
     """A word in the end that stands for a stop: "until I say so"."""
+    answers: tuple[tuple[bool, re.Pattern[str]], ...] = ()
+    """Groups ``ask``, ``then``, ``else`` or none, ``echo`` (the question's own verb) or none.
+
+    With each stands whether ``then`` hangs on a yes.
+    """
+    open_question: re.Pattern[str] | None = None
+    """Stands in a question that no yes or no answers."""

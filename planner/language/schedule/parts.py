@@ -5,6 +5,7 @@ A language finds the parts (``english``, ``chinese``); what they mean together i
 
 from __future__ import annotations
 
+import re
 from calendar import monthrange
 from dataclasses import dataclass
 from enum import StrEnum
@@ -318,3 +319,11 @@ def leave_days_out(rule: CronRule, named: frozenset[int], *, keeps: bool) -> Cro
     days = read_days(week)
     days = days & named if keeps else days - named
     return CronRule(cron=" ".join((*at, list_days(days)))) if days else None
+
+
+_HAS_END = re.compile(r"\b(?:until|till)\b|直到|等到|为止")
+
+
+def has_end(order: str) -> bool:
+    """Tell whether an order says itself when it ends: kept "every five minutes" it never would."""
+    return _HAS_END.search(order) is not None

@@ -34,6 +34,7 @@ from planner.language.schedule.parts import (
     TimeOfDay,
     Timing,
     combine,
+    has_end,
     is_once,
     lacks_time,
     leave_days_out,
@@ -53,7 +54,7 @@ from planner.language.schedule.time_finder import (
     reads_timing,
     whole_parts,
 )
-from planner.plan.timing import CronRule, DayTime, EventRule, InRule, WorldEvent
+from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule, WorldEvent
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -296,8 +297,10 @@ def _by_morning(parts: tuple[Part, ...]) -> tuple[Part, ...]:
 
 
 def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
-    if (timing.problem is not None and not order.folded) or is_filler(order.folded):
-        return None  # "every day": nothing that is understood
+    empty = timing.problem is not None and not order.folded  # "every day": nothing is understood
+    ends = isinstance(timing.when, EveryRule) and has_end(order.folded)
+    if empty or ends or is_filler(order.folded):
+        return None
     if isinstance(timing.when, EventRule) and timing.problem is None:
         return _upon(timing.when, order.written.strip(), words)
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)

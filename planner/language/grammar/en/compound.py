@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms
+from planner.language.grammar.en.answers import ANSWERS, OPEN_QUESTION
 from planner.language.grammar.en.conditions import PERSON, read_condition, read_memory
 from planner.language.numbers import EN_DURATION, times
 
@@ -65,7 +66,8 @@ def _time(words: str) -> str | None:
 
 
 _GO_ON = r"(?:[,;.]? ?(?:and then|then|and|,) ?(?P<rest>.+))?"
-_BEFORE = r"(?:(?P<before>.+?)(?:,| and then|, then| and|;|\.) )?"
+_FIRST = r"(?:(?P<before>.+?)(?:,| and then|, then| and|;|\.) )"
+_BEFORE = rf"{_FIRST}?"
 _STAY = r"(?:please )?(?:wait|stay|stand|hold on)(?: here| there| still| right here)*"
 
 _AT = r"(?: (?:in|at|by|near|next to|beside|inside) (?P<at>(?:the|my|our) [a-z]+(?: [a-z]+)??))?"
@@ -183,6 +185,7 @@ ENGLISH_COMPOUND = CompoundForms(
             rf"{_BEFORE}{_STAY}{_AT}(?: until| till) you (?:can )?see (?P<who>{PERSON}){_GO_ON}"
         ),
         re.compile(rf"{_BEFORE}{_STAY}{_AT} for (?P<who>{PERSON}){_TO_COME}{_GO_ON}"),
+        re.compile(rf"{_FIRST}{_STAY} for (?P<who>me|us){_TO_COME}{_GO_ON}"),
         re.compile(rf"{_BEFORE}{_STAY} for (?P<who>{PERSON}){_TO_COME}{_AT}{_GO_ON}"),
         re.compile(rf"{_BEFORE}{_STAY}{_AT}(?: until| till) (?P<named>{_ONE}) {_COMES}{_GO_ON}"),
         re.compile(
@@ -213,7 +216,7 @@ ENGLISH_COMPOUND = CompoundForms(
     inside=re.compile(r"(?P<rest>.*\b(?:is|are|see|[a-z]*one|[a-z]*body|people))(?: in)? there"),
     within=" in the ",
     tries=re.compile(
-        rf"{_SO}(?:(?P<try>try )|(?:check|search|look(?: a?round| for it)?(?: in| at| on)?"
+        rf"{_SO}(?:(?P<try>try )|(?P<look>check|search|look(?: a?round| for it)?(?: in| at| on)?"
         r"|(?:have|take) a (?:quick )?(?:look|peek)(?: a?round)?(?: in| at| on)?) )?"
         r"(?P<place>(?:the|my|our) [a-z]+(?: [a-z]+)?)(?: instead| too| as well| next| then)?"
     ),
@@ -248,5 +251,7 @@ ENGLISH_COMPOUND = CompoundForms(
         r" (?:until|till) i (?:say|tell you(?: to)?|shout|ask you to)(?: that)? (?P<word>[^,;]+)"
     ),
     ends=re.compile(r"so|when|otherwise|to stop|stop it"),
+    answers=ANSWERS,
+    open_question=OPEN_QUESTION,
 )
 """A bare "seven" is no time: whether in the morning or in the evening is not said."""

@@ -33,7 +33,12 @@ _PLACED = re.compile(
     r"(?P<where> (?:in|on|at|near|by) .+)"
 )
 """Somebody or something known: "if Dad is in the study", "if the dog is not at the door"."""
-_NO_THING = re.compile(r"(?:no|not any) (?P<thing>.+)")
+_NO_THING = re.compile(r"(?:no|not any)(?: more)? (?P<thing>.+)")
+_COUNTED = re.compile(
+    r"(?:(?:the|my|our|all) )*(?:\d+|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve"
+    r"|both|all|every|each|more|another|other|only|exactly|just|several|many|a few|a couple of)\b.*"
+)
+"""A look answers whether there is any: how many there must be, its yes does not say."""
 _ANY = re.compile(r"(?<=are )(?:still )?any ")
 _ARTICLE = re.compile(r"^(?:a|an|any|some|the|my|our|your)\b ?")
 
@@ -49,6 +54,8 @@ def read_condition(said: str) -> ConditionParts | None:
         thing = "anybody"
     elif (without := _NO_THING.fullmatch(thing)) is not None:
         thing, denied = without["thing"], True
+    if _COUNTED.fullmatch(thing):
+        return None
     are = "are" if re.fullmatch(r"people|.*[^s]s", thing) else "is"
     return ConditionParts(
         f"{are} there {thing} {where}".strip(),
@@ -65,6 +72,8 @@ def _read_placed(said: str) -> ConditionParts | None:
     if found is None:
         return None
     thing, where = found["thing"].strip(), found["where"].strip()
+    if _COUNTED.fullmatch(thing):
+        return None
     are = "are" if re.fullmatch(r"people|.*(?:[^s]s|people|children)", thing) else "is"
     return ConditionParts(
         f"{are} {thing} {where}",

@@ -48,6 +48,15 @@ def test_what_is_not_there_is_searched_in_the_other_place(
     assert made.otherwise == (GoTo(place="bedroom"), Find(object="book", place="bedroom"))
 
 
+def test_a_look_tells_of_somebody_as_well_as_a_search(home: Vocabulary) -> None:
+    asked = "look for Anna in the study, if she isn't there"
+    for other in ("try the bedroom", "the bedroom"):
+        searched = branch(f"{asked}, {other}", home).otherwise
+        assert searched == (GoTo(place="bedroom"), Find(object="Anna", place="bedroom"))
+    looked = branch(f"{asked} look in the bedroom", home).otherwise
+    assert looked == (GoTo(place="bedroom"), Look(question="look in the bedroom", place="bedroom"))
+
+
 def test_where_it_is_the_other_place_is_only_looked_at(home: Vocabulary) -> None:
     made = branch("if the book is in the study check the bedroom", home)
     assert made.then[0] == GoTo(place="bedroom")
@@ -142,3 +151,20 @@ def test_the_speaker_is_told_by_the_look_itself(home: Vocabulary) -> None:
     made = plan("if you see any bottles in the kitchen let me know", home, WHOLE)
     assert isinstance(made, StepPlan)
     assert [step.kind for step in made.steps] == ["look"]
+
+
+@pytest.mark.parametrize(
+    "things",
+    ["there are {} cups on the desk", "you see {} cups on the desk", "{} cups are on the desk"],
+)
+@pytest.mark.parametrize(
+    "count", ["two", "both", "all the", "more", "only two", "fewer than six", "at least 3", "many"]
+)
+def test_how_many_there_must_be_no_look_answers(home: Vocabulary, things: str, count: str) -> None:
+    """Its yes says that there is one."""
+    for text in (
+        f"if {things.format(count)}, come back",
+        f"come back unless {things.format(count)}",
+    ):
+        made = plan(text, home, WHOLE)
+        assert isinstance(made, Refuse), text

@@ -134,3 +134,11 @@ def test_what_no_eye_tells_is_waited_for_in_vain(home: Vocabulary, until: str) -
     made = plan(f"wait in the hallway until {until}", home, WHOLE)
     assert isinstance(made, Refuse)
     assert until in made.reason.en
+
+
+@pytest.mark.parametrize("wait", ["wait for me", "wait there for us", "wait for me to come"])
+def test_who_speaks_is_waited_for_where_the_robot_was_sent(home: Vocabulary, wait: str) -> None:
+    """Without a place before it, it is asked how long: who speaks is there already."""
+    sent = steps(f"go to the kitchen and {wait}", home)
+    assert sent == (GoTo(place="kitchen"), WaitFor(object="person"))
+    assert steps(wait, home) is None

@@ -107,3 +107,10 @@ def test_an_hour_of_yesterday_is_over(text: str) -> None:
     command = read_order_command(text)
     assert isinstance(command, ScheduleCommand)
     assert (command.when, command.problem) == (None, "order_in_past")
+
+
+@pytest.mark.parametrize("end", ["until somebody comes", "till nine in the evening"])
+def test_what_ends_by_itself_is_not_kept_for_ever(end: str) -> None:
+    assert isinstance(read_order_command("every five minutes check the kitchen"), ScheduleCommand)
+    assert read_order_command(f"every five minutes check the kitchen {end}") is None
+    assert read_order_command("每五分钟去厨房看看，直到有人来") is None
