@@ -100,6 +100,13 @@ def read_fact_correction(text: str, told: str | None) -> TeachFact | None:
     return TeachFact(f"{owner}{named} {'are' if several else 'is'} {where}", instead_of=thing)
 
 
+_SAME_ZH = re.compile(
+    rf"{_NO_ZH}+(?:我(?:是)?说)?(?P<a>[^,;。!?在你]{{1,10}}?)(?:应该|其实|是|都|就|现在)*(?:放|搁|收)?在"
+    r"(?P<at>[^,;。!?吗呢]{1,14}?)(?:才对|才是|啦|了|哦)?"
+)
+"""The same thing is named again: 不对，钥匙在餐桌上."""
+
+
 def _correct_chinese(folded: str, written: str, told: str | None) -> TeachFact | None:
     if _DOES_ZH.search(folded):
         return None
@@ -108,6 +115,9 @@ def _correct_chinese(folded: str, written: str, told: str | None) -> TeachFact |
         return TeachFact(written, instead_of=next(words for words in moved.groups() if words))
     meant = _ANAPHOR_ZH.fullmatch(folded)
     thing = name_subject(told) if told is not None else ""
+    again = _SAME_ZH.fullmatch(folded)
+    if again is not None and thing and _same_thing(again["a"], thing):
+        return TeachFact(f"{thing}在{written[slice(*again.span('at'))]}", instead_of=thing)
     if (
         meant is None
         or not thing
@@ -115,6 +125,13 @@ def _correct_chinese(folded: str, written: str, told: str | None) -> TeachFact |
     ):
         return None
     return TeachFact(f"{thing}在{written[slice(*meant.span('at'))]}", instead_of=thing)
+
+
+def _same_thing(said: str, thing: str) -> bool:
+    """Tell whether words name the thing of a fact: 钥匙, for 我的钥匙."""
+    own = re.compile(r"^(?:我们?|咱们?|家里)的?")
+    bare, known = own.sub("", said), own.sub("", thing)
+    return bool(bare) and (bare == known or known.endswith(bare))
 
 
 def name_subject(fact: str) -> str:

@@ -21,7 +21,7 @@ from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
-from planner.language.grammar.told_words import quote_told_words, quote_words_for_me
+from planner.language.grammar.told_words import quote_told_words, quote_words_for_me, say_why_called
 from planner.language.grammar.zh.drive_phrases import DRIVE_PHRASES
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
@@ -93,7 +93,7 @@ def read_in_order_words(
 
     It is asked about in the person's words, but where only the others tell what is missing.
     """
-    told = quote_words_for_me(quote_told_words(text), vocabulary)
+    told = quote_words_for_me(quote_told_words(say_why_called(text)), vocabulary)
     text = without_left_out_rooms(told, vocabulary)
     plain = in_order_words(text, vocabulary)
     made = read(plain)

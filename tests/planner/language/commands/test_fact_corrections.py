@@ -19,6 +19,8 @@ KEYS, KEYS_ZH = "the keys are on the sofa", "车钥匙在餐桌上"
          "the spare cable is in the study", "spare cable"),
         (KEYS_ZH, "哎讲错了，在沙发上", "车钥匙在沙发上", "车钥匙"),
         (KEYS_ZH, "不对，在沙发上", "车钥匙在沙发上", "车钥匙"),
+        (KEYS_ZH, "不对不对，钥匙在沙发上", "车钥匙在沙发上", "车钥匙"),
+        (KEYS_ZH, "说错了，我的车钥匙是在沙发上", "车钥匙在沙发上", "车钥匙"),
     ],
 )  # fmt: skip
 def test_a_pronoun_means_the_thing_told_of_just_before(
