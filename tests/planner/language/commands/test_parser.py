@@ -19,6 +19,7 @@ from planner.language.commands import (
     OutcomeCommand,
     PauseCommand,
     Remember,
+    RepeatCommand,
     Replace,
     ResumeCommand,
     Slower,
@@ -422,6 +423,8 @@ def test_enough_before_going_on_goes_on() -> None:
         ("客厅也瞅瞅", AppendCommand("客厅", True)),
         ("书房的也数一下", AppendCommand("书房", True)),
         ("不够，书房也去看一眼", AppendCommand("书房", True)),
+        ("再去看一遍呗，都过十分钟了", RepeatCommand()),
+        ("再看一遍吧", RepeatCommand()),
     ],
 )
 def test_one_place_more_or_less_is_read(text: str, wanted: Intent) -> None:

@@ -65,3 +65,10 @@ def test_what_names_no_order_drops_none(text: str) -> None:
 @pytest.mark.parametrize("text", ["晚上就别说了", "晚上别吵了", "晚上就不要到处跑了"])
 def test_what_no_order_is_called_by_drops_none(text: str) -> None:
     assert not isinstance(read_order_command(text), ChangeOrders)
+
+
+@pytest.mark.parametrize(
+    "text", ["你现在手里都有哪些定时的活儿？给我念念", "有哪些事情是你每天要做的？讲给我听听"]
+)
+def test_they_are_listed_and_read_out(text: str) -> None:
+    assert isinstance(read_order_command(text), ListOrders)
