@@ -162,8 +162,8 @@ def _read_chinese(asked: _Question, room: str | None) -> RecallReading | None:
             return _name_thing(asked, _first(seen), chinese, place=_spot(seen, asked, room))
     if (now := chinese.NOW.fullmatch(text)) is not None:
         place = _spot(now, asked, room)
-        past = asked.when is not None or asked.remembers
-        return _name_thing(asked, _first(now), chinese, place=place, present=not past)
+        is_now = asked.when is None and not asked.remembers
+        return _name_thing(asked, _first(now), chinese, place=place, present=is_now)
     return None
 
 
