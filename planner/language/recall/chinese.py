@@ -56,7 +56,8 @@ THING = re.compile(
 SEEN = re.compile(
     rf"(?:我们?的|那个?)?{_WHAT.replace('what', 'b')},?(?:你|您)(?:有没有|{_ASK})?{_SEE}(?:过"
     rf"|到)了?(?:没有?)?"
-    rf"|(?:你|您|(?![去到往进])){_WHERE.replace('at', 'at2').replace('here', 'here2')}{_SEE}"
+    rf"|(?:(?:你|您){_WHERE.replace('at', 'at2').replace('here', 'here2')}"
+    rf"|在(?P<at4>{MARK}){_IN}){_SEE}"
     rf"(?!什么|啥|些|谁|了|过|我(?:了|没)){_WHAT.replace('what', 'c')}(?:了)?(?:没有|没)"
     rf"|{_YOU}{_WHERE}(?:有没有)?{_SEE}(?:过|了)(?!什么|啥|些|谁){_WHAT}(?:没有|没)?"
 )
@@ -87,7 +88,7 @@ PERSON = re.compile(
     rf"(?:(?P<past>{_COME}(?:过|了|到过)?|在过|在|待过)(?:了)?)?{_WHERE}(?P<past2>过|了|来着)?"
     rf"|{_AT.replace('at', 'at2')}(?P<who2>{_SOMEBODY})(?P<past3>{_COME}?过|{_COME}了|在)"
     rf"|{_YOU}{_WHERE.replace('at', 'at3').replace('here', 'here3')}{_SEE}(?:(?:过|了)(?P<who3>谁"
-    rf"|哪些人|什么人)|(?P<who4>谁|哪些人|什么人|人)(?:了没有?|过没有?|了|过|没有?))"
+    rf"|哪些人|什么人)|(?P<who4>谁|哪些人|什么人)(?:了没有?|过没有?|了|过|没有?))"
 )
 PAST = re.compile(r"过|了|什么时候|何时|几点|来着")
 """What makes a question about people one about before; else it is about now."""
