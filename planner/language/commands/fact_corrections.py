@@ -103,6 +103,13 @@ def read_fact_correction(text: str, told: str | None) -> TeachFact | None:
     return TeachFact(f"{owner}{named} {'are' if several else 'is'} {where}", instead_of=thing)
 
 
+_SAME_ZH = re.compile(
+    rf"{_NO_ZH}+(?:我(?:是)?说)?(?P<a>[^,;。!?在你]{{1,10}}?)(?:应该|其实|是|都|就|现在)*(?:放|搁|收)?在"
+    r"(?P<at>[^,;。!?吗呢]{1,14}?)(?:才对|才是|啦|了|哦)?"
+)
+"""The same thing is named again: 不对，钥匙在餐桌上."""
+
+
 def _correct_chinese(folded: str, written: str, told: str | None) -> TeachFact | None:
     if _DOES_ZH.search(folded):
         return None
@@ -113,6 +120,9 @@ def _correct_chinese(folded: str, written: str, told: str | None) -> TeachFact |
     again = _tell_anew(folded, written, thing, re.compile(rf"{_NO_ZH}+(?:我是说|其实|应该是)?"))
     if again is not None:
         return again
+    same = _SAME_ZH.fullmatch(folded)
+    if same is not None and thing and _same_thing(same["a"], thing):
+        return TeachFact(f"{thing}在{written[slice(*same.span('at'))]}", instead_of=thing)
     meant = _ANAPHOR_ZH.fullmatch(folded)
     if (
         meant is None
@@ -129,6 +139,13 @@ def _tell_anew(folded: str, written: str, thing: str, no: re.Pattern[str]) -> Te
     if lead is None or not thing or name_subject(written[lead.end() :]) != thing:
         return None
     return TeachFact(written[lead.end() :], instead_of=thing)
+
+
+def _same_thing(said: str, thing: str) -> bool:
+    """Tell whether words name the thing of a fact: 钥匙, for 我的钥匙."""
+    own = re.compile(r"^(?:我们?|咱们?|家里)的?")
+    bare, known = own.sub("", said), own.sub("", thing)
+    return bool(bare) and (bare == known or known.endswith(bare))
 
 
 def name_subject(fact: str) -> str:

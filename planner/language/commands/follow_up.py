@@ -29,7 +29,7 @@ _NOISE = re.compile(r"^(?:(?:um+|uh+|er+|h+m+|well|ok|okay|hey|robot|pons|please
 _POLITE = re.compile(rf"(?:(?:{_PLEASE}|(?:can|could|would|will) you)[ ,]+)+|(?:[ ,]+{_PLEASE})+$")
 _POLITE_END = re.compile(rf"(?:(?<! as)[ ,]+{_PLEASE})+$")
 _POLITE_ZH = re.compile(
-    r"^(?:请|麻烦你?|那个?|[嗯呃哎诶欸唉哦噢喔啊]|哎呀|好|机器人|,)+|(?:吧|呀|啊|哦|谢谢|,)+$"
+    r"^(?:请|麻烦你?|那个?|[嗯呃哎诶欸唉哦噢喔啊]|哎呀|好|机器人|,)+|(?:吧|呀|啊|哦|呗|嘛|哈|谢谢|,)+$"
 )
 _OPEN_END = re.compile(
     r"\b(?:if|unless|when|whenever|until|otherwise|or|because|whether)\b|\?|[;:]"
@@ -53,9 +53,11 @@ _MORE = re.compile(
 )
 _MORE_ZH = re.compile(rf"再{_ANY_VERB_ZH}?(?P<times>[二两三四五六七八九]|[2-9])(?:次|遍|趟|回)")
 _AGAIN_ZH = re.compile(
-    rf"(?:再|重新?){_ANY_VERB_ZH}?(?:一)?(?:次|遍|趟|回)|(?:重新?|再)(?:来|做|试|执行)(?:过)?"
+    rf"(?:再|重新?)(?:去|过去|来)?{_ANY_VERB_ZH}?(?:一)?(?:次|遍|趟|回)|(?:重新?|再)(?:来|做|试|执行)(?:过)?"
     r"|重复(?:一)?(?:次|遍)|同样(?:的)?再来(?:一)?(?:次|遍)?|老样子再来(?:一)?(?:次|遍)?"
 )
+_SINCE_ZH = re.compile(r"[,。](?:都|已经|现在|可能|说不定)[^,。去到回来找看跟再别不]{1,10}[了呢]$")
+"""Why it is done again: 再看一遍，都过十分钟了."""
 _OTHER = re.compile(
     r"(?:(?:no|nope|not (?:this|that)(?: one)?|sorry)[ ,]+)*(?:i meant? |i said |go to |to )?"
     r"(?:the|that) other(?: one| room| place)"
@@ -189,7 +191,8 @@ def read_follow_up(text: str) -> FollowUp | None:
         return None
     bare = "".join(said.split()) if chinese else said
     plain = _strip(_POLITE_ZH if chinese else _POLITE, bare)
-    if (_AGAIN_ZH if chinese else _AGAIN).fullmatch(plain):
+    again = _strip(_POLITE_ZH, _SINCE_ZH.sub("", plain)) if chinese else plain
+    if (_AGAIN_ZH if chinese else _AGAIN).fullmatch(again):
         return RepeatCommand()
     more = (_MORE_ZH if chinese else _MORE).fullmatch(plain)
     if more is not None and (count := _times_of(more.groupdict(), chinese=chinese)) is not None:

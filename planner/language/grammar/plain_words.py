@@ -25,7 +25,7 @@ from planner.language.grammar.excepted_rooms import without_excepted_rooms
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
-from planner.language.grammar.told_words import quote_told_words, quote_words_for_me
+from planner.language.grammar.told_words import quote_told_words, quote_words_for_me, say_why_called
 from planner.language.grammar.zh.drive_phrases import DRIVE_PHRASES
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
@@ -127,7 +127,7 @@ def _read_in_order_words(
 
     It is asked about in the person's words, but where only the others tell what is missing.
     """
-    told = quote_words_for_me(quote_told_words(text), vocabulary)
+    told = quote_words_for_me(quote_told_words(say_why_called(text)), vocabulary)
     text = without_left_out_rooms(told, vocabulary)
     plain = in_order_words(text, vocabulary)
     made = read(plain)
@@ -223,7 +223,9 @@ _WHOEVER = re.compile(r"(?:(?<=\btell )|(?<=\bask ))whoever(?: is|'s)(?= (?:in|a
 _A_NOT_A = re.compile(r"((?:看|查|确认|问)[^,。;!?]*?)([^,。;!?])不\2")
 """看看她在不在: to be looked at, no negation."""
 
-_DONE_OR_NOT = re.compile(r"((?:看|查|确认|问)[^,。;!?]*?[着了完好过])没有?(?=[,。;!?]|$)")
+_DONE_OR_NOT = re.compile(
+    r"((?:看|查|确认|问)[^,。;!?]*?(?:[着了完好过]|回来|回家|到家|起床|起来))没有?(?=[,。;!?]|$)"
+)
 """看看电视开着没有, 看看门关了没: likewise."""
 
 _ASKS_THEM = re.compile(r"(问[^,。;!?]{0,12}?)(?:要不要|想不想|是不是|是否|能不能|有没有|需不需要)")

@@ -80,3 +80,16 @@ def quote_words_for_me(text: str, vocabulary: Vocabulary) -> str:
     if found is None or _ASKED.search(found["words"]):
         return text
     return marked.restore(f"去{found['place']}说“{found['words']}”")
+
+
+_CALLED = re.compile(
+    r"(?P<why>(?:该|要|可以|准备|马上|快)[^,，。;；]{1,6}了|(?:饭|菜|汤|晚饭|午饭|早饭|饺子|面|水果|茶)(?:都)?(?:做|煮|烧|蒸)?好了|开饭了)[,，。!！]?"
+    r"(?:你|快|赶紧|帮我|麻烦你?)*(?:去)?(?:叫|喊|通知)(?:一下|一声)?(?P<who>大家|所有人|他们|孩子们?|全家人?|家里人)"
+    r"(?:来|过来|出来|都来|一下|一声|们)*(?:吧|啊|呀|哈)*[。.!！]*"
+)
+
+
+def say_why_called(text: str) -> str:
+    """Return 该吃饭了去叫大家 as the words that call them: why they are to come."""
+    found = _CALLED.fullmatch(text.strip()) if has_chinese(text) else None
+    return text if found is None else f"对大家说“{found['why']}”"

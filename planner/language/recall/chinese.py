@@ -11,12 +11,13 @@ import re
 from planner.language.grammar.lexicon import MARK
 
 LEAD = re.compile(
-    r"(?:请问|请|麻烦|喂|嘿|机器人|小车|,|那|那么|(?:刚才|今天)?我们?(?:不在家?|出门|出去|上班|外出|睡觉)(?:了)?的?(?:时候|期间|时|这会儿?|那会儿?),?)*(?:(?:你)?(?:能不能|能|可以)?(?:告诉|跟|和"
+    r"(?:请问|请|麻烦|喂|嘿|机器人|小车|,|那|那么|(?:刚才|今天)?我们?(?:不在家?|出门|出去|上班|外出|睡觉)(?:了)?的?(?:时候|期间|时|这会儿?|那会儿?|[这那](?:一?整?天|段时间|半天|几个小时)|以后|之后),?)*(?:(?:你)?(?:能不能|能|可以)?(?:告诉|跟|和"
     r"|给)我(?:说说|讲讲|说|讲)?(?:一下)?[,:]?)?"
 )
 REMEMBERS = re.compile(r"(?:你|您)?(?:还)?(?:记不记得|记得)")
+REMEMBERED = re.compile(r",(?:你|您)?还?(?:记不记得|记得)(?:吗|么|不|没)?[呢啊呀吧]*$")
 TAIL = re.compile(
-    r"(?:(?:,(?:你|您)?还?(?:知道|记得|晓得)(?:吗|么|不|没)?)|[吗呢啊呀吧,]|来着|(?<!什)么|谢谢)+$"
+    r"(?:(?:,(?:你|您)?还?(?:记不记得|知不知道|知道|记得|晓得)(?:吗|么|不|没)?)|[吗呢啊呀吧,]|来着|(?<!什)么|谢谢)+$"
 )
 SPANS = (
     (
@@ -55,8 +56,9 @@ THING = re.compile(
 SEEN = re.compile(
     rf"(?:我们?的|那个?)?{_WHAT.replace('what', 'b')},?(?:你|您)(?:有没有|{_ASK})?{_SEE}(?:过"
     rf"|到)了?(?:没有?)?"
-    rf"|(?:你|您){_SEE}(?!什么|啥|些|谁|了|过|我(?:了|没)){_WHAT.replace('what', 'c')}(?:了)?"
-    r"(?:没有|没)"
+    rf"|(?:(?:你|您){_WHERE.replace('at', 'at2').replace('here', 'here2')}"
+    rf"|在(?P<at4>{MARK}){_IN}){_SEE}"
+    rf"(?!什么|啥|些|谁|了|过|我(?:了|没)){_WHAT.replace('what', 'c')}(?:了)?(?:没有|没)"
     rf"|{_YOU}{_WHERE}(?:有没有)?{_SEE}(?:过|了)(?!什么|啥|些|谁){_WHAT}(?:没有|没)?"
 )
 """Whether it was seen at all: answered from memory."""
@@ -85,8 +87,8 @@ PERSON = re.compile(
     rf"(?:(?:是)?(?:什么时候|何时|几点)(?:还)?)?(?:都)?(?P<who>{_SOMEBODY})(?:曾经?|都)?"
     rf"(?:(?P<past>{_COME}(?:过|了|到过)?|在过|在|待过)(?:了)?)?{_WHERE}(?P<past2>过|了|来着)?"
     rf"|{_AT.replace('at', 'at2')}(?P<who2>{_SOMEBODY})(?P<past3>{_COME}?过|{_COME}了|在)"
-    rf"|{_YOU}{_WHERE.replace('at', 'at3').replace('here', 'here3')}{_SEE}(?:过|了)(?P<who3>谁"
-    rf"|哪些人|什么人)"
+    rf"|{_YOU}{_WHERE.replace('at', 'at3').replace('here', 'here3')}{_SEE}(?:(?:过|了)(?P<who3>谁"
+    rf"|哪些人|什么人)|(?P<who4>谁|哪些人|什么人)(?:了没有?|过没有?|了|过|没有?))"
 )
 PAST = re.compile(r"过|了|什么时候|何时|几点|来着")
 """What makes a question about people one about before; else it is about now."""
@@ -125,8 +127,8 @@ KEPT = re.compile(
     rf"|{_WHAT.replace('what', 'c')}我们?(?:不是|有|之前|以前|跟你|和你|早就)*(?:说|讲|提"
     rf"|告诉)过?(?:你|您)?(?:过)?(?:是)?(?:放|搁|收|摆)?(?:在)?"
     r"(?:哪里|哪儿|哪|什么地方)(?:了|来着)?"
-    rf"|我(?:跟|和|对|给)?(?:你|您)?(?:说|讲|提)过{_WHAT.replace('what', 'b')}(?:放|是)?在"
-    r"(?:哪里|哪儿|哪|什么地方)(?:了)?(?:没有|没)?"
+    rf"|我(?:跟|和|对|给)?(?:你|您)?(?:说|讲|提)过{_WHAT.replace('what', 'b')}"
+    r"(?:(?:放|是|搁|收|摆)?在|[放搁收摆]到?)(?:哪里|哪儿|哪|什么地方)(?:了)?(?:没有|没)?"
 )
 """Asks what it remembers of where a thing is."""
 ARTICLE = re.compile(

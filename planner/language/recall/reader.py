@@ -70,6 +70,7 @@ def read_recall(text: str, vocabulary: Vocabulary, room: str | None = None) -> R
 def _take_apart(marked: MarkedText, words: ModuleType, room: str | None) -> _Question | None:
     """Take courtesy, time and, in English, the place off a sentence."""
     said = marked.text.strip(_ENDS)
+    asks_memory = words is chinese and chinese.REMEMBERED.search(said) is not None
     said = words.TAIL.sub("", said)
     found = words.LEAD.match(said)
     said = said[found.end() :] if found else said
@@ -86,7 +87,7 @@ def _take_apart(marked: MarkedText, words: ModuleType, room: str | None) -> _Que
             if place is None:
                 return None
             said = said[: at.start()]
-    return _Question(said.strip(_ENDS), marked, when, place, remembers is not None)
+    return _Question(said.strip(_ENDS), marked, when, place, asks_memory or remembers is not None)
 
 
 def _take_time(said: str, words: ModuleType) -> tuple[str, Span | None]:
@@ -161,7 +162,8 @@ def _read_chinese(asked: _Question, room: str | None) -> RecallReading | None:
             return _name_thing(asked, _first(seen), chinese, place=_spot(seen, asked, room))
     if (now := chinese.NOW.fullmatch(text)) is not None:
         place = _spot(now, asked, room)
-        return _name_thing(asked, _first(now), chinese, place=place, present=asked.when is None)
+        is_now = asked.when is None and not asked.remembers
+        return _name_thing(asked, _first(now), chinese, place=place, present=is_now)
     return None
 
 

@@ -1,8 +1,8 @@
-"""Write a round without some rooms as the rooms left: 除了卧室都看一遍, …，卧室不用去.
+"""Write a round without some rooms as the rooms left: 每个房间转一圈，卧室不用去.
 
 Pure, over a whole Chinese sentence. Laws: the sentence is one round through all rooms and names
-what it leaves out, and nothing else; no room that it leaves out stands in the result. Any other
-exception stays in the sentence, which the vetoes then hold back.
+what it leaves out, and nothing else; after 除了 "the other rooms" are named, too; no room that it
+leaves out stands in the result. Any other exception stays in the sentence, for the vetoes.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _NAMES = rf"(?P<out>{MARK}(?:[、,和跟与]{MARK})*)"
 _POLITE = r"(?:请|麻烦你?|帮我|你|给我|替我)*"
-_ROOMS = r"(?:其他|其它|别的|剩下的?|其余的?|所有|全部|每一?个|各个|每间)*的?(?:房间|屋子?|地方)?(?:里面?)?"
+_ROOMS = r"(?:其他|其它|别的|剩下的?|其余的?)(?:所有|全部|每一?个|各个)?的?(?:房间|屋子?|地方)?(?:里面?)?"
 _HOUSE = (
     r"(?:(?:所有|全部|每一?个|各个|每间|挨个)的?(?:房间|屋子?|地方)?|全屋|全家|屋里|家里)(?:里面?)?"
 )

@@ -49,7 +49,20 @@ _LOOKED = r"(?:看|瞧|找|数|查|检查|巡逻|点)"
 _DONE = r"(?:看|瞧|数|找|查|检查|转|逛|走|弄|搞|做|拍|巡逻)完"
 _MANY = r"(?:几|多少)"
 
+_SPOT = rf"(?P<p>(?:{MARK}的?)?{MARK}(?:口|旁边|前面|后面|底下|下面|对面|上面?|里面?|那里|那边|那儿|地上|地下)*)"
+_RESTS = r"(?:[站坐躺放搁停趴睡摆挂蹲][着了]?|有)"
+_SOME = r"(?:一?[个只把张本位瓶条件双])?"
+_A_THING = rf"(?P<t>(?![什谁哪几点些])[^,。;!?有没是不{MARK[1:-1]}]{{1,8}}?)"
+
 LOOK_PHRASES = table(
+    (r"(?P<q>几个人|多少人)[哪呐](?=$|[?。])", r"\g<q>"),
+    # whether somebody or something is there, as a statement that is asked
+    (rf"{BEGIN}{LEAD}(?:(?:去|过去)?{LOOKS}[,]?)?{_SPOT}(?:这会儿?|现在|此刻)*{_RESTS}{_SOME}{_A_THING}没有?{END}", r"看看\g<p>有没有\g<t>"),
+    (rf"{BEGIN}{LEAD}(?:(?:去|过去)?{LOOKS}[,])?{_SPOT}[,]?(?:这会儿?|现在|此刻)*(?:是不是|是否){_RESTS}{_SOME}{_A_THING}{END}", r"看看\g<p>有没有\g<t>"),
+    (rf"{BEGIN}{LEAD}(?P<r>{MARK})(?P<s>{MARK})(?P<h>[上里]面?)?{_RESTS}(?=几个人|多少人)", r"\g<r>的\g<s>\g<h>有"),
+    (rf"{BEGIN}{LEAD}(?P<a>{_AT_HOME})?(?:现在|这会儿?|此刻)+(?P<q>有几个人)(?:在家?)?(?=$|[啊呀呢,。?!])", r"\g<a>\g<q>"),
+    (rf"{BEGIN}{LEAD}(?P<a>{_AT_HOME})(?P<q>有几个人)(?:在家?)?[啊呀呢]*[?,。!]+(?:你|帮我|快)*(?:去)?(?:数一数|数一下|数数|看看){END}", r"数一下\g<a>\g<q>"),
+    (rf"{BEGIN}{LEAD}(?:面前|眼前|正前方|前面|前方)(?:那个|这个)?是(?P<q>什么|啥|谁)(?:东西)?{END}", r"看看前面有什么"),
     # what is done before the next clause, and what is told at the end
     (rf"(?:^|(?<=[,。]))(?:你|等你)?{_DONE}(?:了|以后|之后|后)?[,]?(?:就|再|然后|你)*(?=[去到回来过告跟向充])", "然后"),
     (

@@ -10,8 +10,8 @@ from re import Match
 
 from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_ZH
-from planner.language.grammar.clauses import Grammar
-from planner.language.grammar.driving_steps import next_place, say
+from planner.language.grammar.clauses import QUOTE, Grammar
+from planner.language.grammar.driving_steps import next_place, say, say_often
 from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.parse_result import Meaning, Reading, Steps, lacks, rule, unread
 from planner.language.grammar.unsupported import lacks_arm
@@ -42,6 +42,10 @@ _SAID = (
     r"(?P<words>[^,.;!?。、\"“”\ue000-\ue8ff]{1,20})"
 )
 """Words to be said, without marks around them; what asks the robot something is none."""
+_SAID_OFTEN = (
+    rf"(?:大声|高声|小声)?地?[说喊讲叫](?P<often>[两二三四五2-5])[遍声次句][:,]? ?"
+    rf"(?:(?P<quote>{QUOTE})|(?P<words>[^,.;!?。、\"“”\ue000-\ue8ff]{{1,20}}))"
+)
 _TALK = r"(?:说|讲|告诉|回答|提醒|叫|读|念|介绍|聊天|查询|发[现出生动]).*"
 _LACKS = r"(?:唱|跳舞|播放|放.*音乐|订|搜索网|翻译|计算|写|发).*"
 
@@ -129,12 +133,17 @@ CHINESE = Grammar(
         *unsupported.ASIDE_CHINESE,
         rule(r"(?:看|瞧|找|查|检查|转|去)(?:过|完)?了", unread),
         rule(
+            rf".*(?:{SEE}|守|陪|跟)(?:着|住)?到(?:[^,]{{0,3}}[\d一二两三四五六七八九十半]+点|天[亮黑]|半夜).*",
+            unread,
+        ),
+        rule(
             r"(?:告诉我|[跟和向给对]我(?:说|讲|报告|汇报))(?:一声|一下|一遍|下|声)?",
             _tell_nothing,
         ),
         *people.RULES,
         *objects.RULES,
         *driving.RULES[-2:],
+        rule(_SAID_OFTEN, say_often),
         rule(_SAID, say),
         rule(_TALK, unread),
         rule(_LACKS, lacks(Code.NO_CAPABILITY)),

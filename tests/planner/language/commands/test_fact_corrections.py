@@ -21,6 +21,8 @@ KEYS, KEYS_ZH = "the keys are on the sofa", "车钥匙在餐桌上"
         (KEYS_ZH, "不对，在沙发上", "车钥匙在沙发上", "车钥匙"),
         (KEYS_ZH, "不对不对，车钥匙在沙发上", "车钥匙在沙发上", "车钥匙"),
         (KEYS, "no, wait, the keys are in the study", "the keys are in the study", "keys"),
+        (KEYS_ZH, "不对不对，钥匙在沙发上", "车钥匙在沙发上", "车钥匙"),
+        (KEYS_ZH, "说错了，我的车钥匙是在沙发上", "车钥匙在沙发上", "车钥匙"),
     ],
 )  # fmt: skip
 def test_a_pronoun_means_the_thing_told_of_just_before(

@@ -19,6 +19,7 @@ from planner.language.commands import (
     OutcomeCommand,
     PauseCommand,
     Remember,
+    RepeatCommand,
     Replace,
     ResumeCommand,
     Slower,
@@ -433,3 +434,18 @@ def test_an_order_or_a_place_behind_it_pauses_nothing(said: str) -> None:
 def test_enough_before_going_on_goes_on() -> None:
     assert intent_of("行了，接着走吧") == ResumeCommand()
     assert intent_of("行了，不用找了") == CancelCommand()
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("卫生间别进去", LeaveOutCommand("卫生间")),
+        ("客厅也瞅瞅", AppendCommand("客厅", True)),
+        ("书房的也数一下", AppendCommand("书房", True)),
+        ("不够，书房也去看一眼", AppendCommand("书房", True)),
+        ("再去看一遍呗，都过十分钟了", RepeatCommand()),
+        ("再看一遍吧", RepeatCommand()),
+    ],
+)
+def test_one_place_more_or_less_is_read(text: str, wanted: Intent) -> None:
+    assert intent_of(text) == wanted

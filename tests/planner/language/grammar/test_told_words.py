@@ -104,3 +104,18 @@ def test_who_is_called_by_the_child_is_one_person(understood: Understood, who: s
 def test_a_word_that_is_waited_for_is_heard_in_its_marks(understood: Understood, said: str) -> None:
     assert understood(said) == understood("在这里等,我说走再去厨房")
     assert understood(said).startswith("wait_for")
+
+
+@pytest.mark.parametrize(("often", "times"), [("两遍", 2), ("三声", 3), ("五次", 5)])
+@pytest.mark.parametrize("words", ["开饭了", "“开饭了”"])
+def test_words_are_said_as_often_as_is_told(
+    understood: Understood, often: str, times: int, words: str
+) -> None:
+    said = " ".join(["say=开饭了"] * times)
+    assert understood(f"喊{often}{words}") == said
+    assert understood(f"去书房喊{often}{words}") == f"study {said}"
+
+
+@pytest.mark.parametrize("said", ["出来一下", "快出来", "来这边一下", "过来"])
+def test_where_the_speaker_is_is_asked(understood: Understood, said: str) -> None:
+    assert understood(said) == "clarify incomplete"

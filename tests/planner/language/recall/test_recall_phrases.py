@@ -37,6 +37,11 @@ from tests.planner.language.grammar.conftest import HOME
         ("我出去这会儿有人来过吗", Recall(object="person")),
         ("早上那个红色书包是几点看到的", Recall(object="红色书包", span="morning")),
         ("你上次去厨房是什么时候", Recall(place="kitchen", deeds=True)),
+        ("刚才你在厨房看见谁了没有", Recall(object="person", place="kitchen", span="hour")),
+        ("你刚才在走廊瞧见狗了没有？", Recall(object="狗", place="hallway", span="hour")),
+        ("我跟你说过车钥匙放哪儿来着？", Recall(object="车钥匙")),
+        ("我的老花镜放在哪里了，你还记不记得？", Recall(object="老花镜")),
+        ("我上班这一天你都干什么了", Recall(deeds=True)),
         ("厨房你检查过没有", Recall(place="kitchen", deeds=True)),
     ],
 )  # fmt: skip

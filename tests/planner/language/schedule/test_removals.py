@@ -97,3 +97,10 @@ def test_of_two_reminders_the_part_of_the_day_says_which() -> None:
                                   "don't check the door any more unless I ask"])  # fmt: skip
 def test_what_may_be_about_now_drops_nothing(text: str) -> None:
     assert not isinstance(read_order_command(text), ChangeOrders)
+
+
+@pytest.mark.parametrize(
+    "text", ["你现在手里都有哪些定时的活儿？给我念念", "有哪些事情是你每天要做的？讲给我听听"]
+)
+def test_they_are_listed_and_read_out(text: str) -> None:
+    assert isinstance(read_order_command(text), ListOrders)

@@ -9,9 +9,9 @@ import pytest
 Understood = Callable[[str], str]
 ROOMS = {"厨房": "kitchen", "卧室": "bedroom", "书房": "study", "卫生间": "bathroom"}
 FORMS = (
-    "除了{}都转一圈",
+    "除了{},别的房间都转一圈",
     "除了{}以外,其他房间都看一遍",
-    "帮我除了{},每个房间都看看有没有人",
+    "帮我除了{},其余的房间都看看有没有人",
     "每个房间转一圈,{}不用去",
     "把所有房间都转一圈,但{}就别进去了",
     "每个房间都看看有没有猫,别进{}",
@@ -32,6 +32,7 @@ def test_all_other_rooms_are_gone_to(understood: Understood, form: str, room: st
     "said",
     [
         "除了卧室都别去",
+        "除了卧室都去看看",
         "除了卧室,别去",
         "除了卧室和阳台都看一遍",
         "除了爷爷都叫来吃饭",
