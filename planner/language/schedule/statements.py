@@ -25,7 +25,8 @@ _ORDERS = (
 )
 _STATES = (
     r"(?:i'm|we're|they're|i've|we've|they've|i'll be|we'll be"
-    r"|(?:i|we) (?:am|are|was|were|have|had|will be|need to|must (?:be|go|leave)|feel|felt|leave|start"
+    r"|(?:i|we) (?:am|are|was|were|have|had|will be|need to|must (?:be|go|leave)|feel|felt|leave"
+    r"|start"
     r"|begin|finish|eat|expect|got)"
     rf"|{_WHO}(?:'s|'ll| {_HAPPENS})|{_OURS} {_HAPPENS}|there (?:is|are))\b"
 )
@@ -36,14 +37,18 @@ _OF_OURS = re.compile(rf"{_OPENS}{_OURS}'s{_BESIDE}$")
 _MARKS = re.compile(r"[,;:!.]+ *(?:(?:and|but|so|because|since|as|for) )?|\s[-–—]+\s|—+")
 _WORDS = re.compile(r"(?<= )(?:and|but|because|'?cause|cos|since|as|please) ")
 _TOLD = re.compile(
-    r".*\b(?:(?:tell|inform|warn) (?:(?:my|our|the|your) )?(?!(?:me|us|what|if|whether|about|to)\b)[a-z]+"
+    r".*\b(?:(?:tell|inform|warn) (?:(?:my|our|the|your) )?(?!(?:me|us|what|if|whether|about"
+    r"|to)\b)[a-z]+"
     r"(?: (?:in|at|on|by) (?:the |my |our )?[a-z]+(?: room)?)?"
     r"|let (?:(?:my|our|the|your) )?(?!(?:me|us)\b)[a-z]+(?: [a-z]+)? know|say|announce|shout)"
     r",? (?:that )?(?!(?:hello|hi|bye|good|what|if|whether|to|how|where|when|why|who|it's time)\b)"
     r"(?:(?:i|we|you|he|she|it|they|there|that|this)(?:'(?:m|s|re|ll|ve|d)| [a-z]+)"
     r"|(?:(?:the|my|our|his|her|their|a|an) )?[a-z]+(?: [a-z]+)?"
     rf"(?:'(?:s|ll)| (?:{_HAPPENS[3:-1]}|can|must|should|needs?|goes|won't|isn't|aren't)))"
-    r"(?: [a-z' ]+)?",
+    r"(?: [a-z' ]+)?"
+    r"|.*\bask (?:(?:my|our|the|your) )?(?!(?:me|us)\b)[a-z]+(?: (?:in|at|on"
+    r"|by) (?:the )?[a-z]+(?: room)?)?"
+    r",? (?:if|whether|what|when|where|which|how|who) [^,;]+",
 )
 """Ends in words for somebody that say how things stand: "tell them dinner's ready"."""
 _SPEAKS = re.compile(r"\b(?:tell|say|ask|announce|shout|call out|inform|repeat|warn)\b")

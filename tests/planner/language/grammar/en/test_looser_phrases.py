@@ -25,6 +25,9 @@ def _steps(text: str, home: Vocabulary) -> tuple[object, ...] | None:
         ("go forward two metres and then stop", "go forward two metres"),
         ("wait five minutes or so", "wait five minutes"),
         ("a step back, please", "move back 20 cm"),
+        ("wake Emma up", "tell Emma to wake up"),
+        ("check on the dog", "find the dog"),
+        ("follow me and keep close", "follow me"),
         ("go a bit closer to the sofa and stop there", "go to the sofa"),
         ("first the kitchen, then go home to charge", "go to the kitchen, then go charge"),
         (
