@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from planner.language.folding import fold_script, fold_width, has_chinese
-from planner.language.schedule import chinese, english
+from planner.language.schedule import chinese, english, statements
 from planner.language.schedule.about import read_about
 from planner.language.schedule.arrivals import offer_event, read_arrival
 from planner.language.schedule.command import (
@@ -34,12 +34,6 @@ from planner.language.schedule.parts import (
     leave_days_out,
 )
 from planner.language.schedule.reasons import leave_reasons_out
-from planner.language.schedule.statements import (
-    begins_with_statement,
-    ends_in_statement,
-    ends_in_told_words,
-    is_filler,
-)
 from planner.plan.timing import CronRule, DayTime, EventRule, InRule, WorldEvent
 
 if TYPE_CHECKING:
@@ -190,7 +184,7 @@ def _read_event(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand |
 
 def _fold(text: str) -> _FoldedSentence:
     spaced = _SPACES.sub(" ", fold_width(text).translate(_MARKS)).strip()
-    spaced = _DAYS_ER.sub(r"\1天", spaced)
+    spaced = statements.put_time_first(_DAYS_ER.sub(r"\1天", spaced))
     if has_chinese(spaced):  # spaces between characters mean nothing; between Latin words they do
         spaced = re.sub(r"(?<![A-Za-z0-9]) | (?![A-Za-z0-9])", "", spaced)
     folded = spaced.lower()
@@ -220,8 +214,12 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
             after = _Found((), len(rest.folded))  # "every day at eight say good night at ten"
     if after.parts and grammar is english and not lacks_time(before.parts):
         words = rest.folded[: after.at].rstrip(" ")
-        told = remind is None and is_once(after.parts) and ends_in_told_words(words)
-        if told or ends_in_statement(words, reminds=remind is not None) or _UNTIL.search(words):
+        told = remind is None and is_once(after.parts) and statements.ends_in_told_words(words)
+        if (
+            told
+            or statements.ends_in_statement(words, reminds=remind is not None)
+            or _UNTIL.search(words)
+        ):
             after = _Found((), len(rest.folded))  # "…, I'm on in two minutes"; "wait until 18:30"
     order = rest.part(0, after.at) if after.parts else rest
     timing = combine((*before.parts, *after.parts))
@@ -234,13 +232,15 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     said_first = order.bare().folded
     remark = grammar.REMARK.match(said_first) is not None
     once = isinstance(timing.when, DayTime | InRule) and before.parts
-    if remark or (once and begins_with_statement(said_first, chinese=grammar is chinese)):
+    if remark or (
+        once and statements.begins_with_statement(said_first, chinese=grammar is chinese)
+    ):
         return None  # "it's cold tonight", "at nine the doctor comes, …": a time, and no order
     return _order(order.bare(), timing, words)
 
 
 def _order(order: _FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
-    if (timing.problem is not None and not order.folded) or is_filler(order.folded):
+    if (timing.problem is not None and not order.folded) or statements.is_filler(order.folded):
         return None  # "every day": nothing that is understood
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 

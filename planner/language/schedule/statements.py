@@ -84,6 +84,25 @@ def ends_in_statement(words: str, *, reminds: bool = False) -> bool:
     return any(_STATEMENT.match(words, at) is not None for at in weak if at > strong)
 
 
+_N = r"(?:an?|one|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|fifteen|twenty|thirty|\d+)"
+_TIME_WITHIN = re.compile(
+    r"(?P<verb>(?:(?:please|can you|could you|would you|will you) )*(?:(?:tell|inform|remind|warn)"
+    r" (?:(?:my|our|the) )?(?!(?:me|us)\b)[a-z]+|let (?:(?:my|our|the) )?(?!(?:me|us)\b)[a-z]+ know"
+    r"|say|announce)) "
+    rf"(?P<t>in (?:about )?(?:{_N}|half an) (?:seconds?|minutes?|mins?|hours?)"
+    rf"|at (?:(?:half|quarter|a quarter|five|ten|twenty) (?:past"
+    rf"|to) )?{_N}(?:[:.]\d\d)?(?: ?[ap]m| o'clock)?"
+    r"(?: (?:today|tomorrow|tonight))?) (?P<w>that .+)",
+    re.IGNORECASE,
+)
+
+
+def put_time_first(text: str) -> str:
+    """Return "tell Emma at six that …" with its time in front, where it is the order's."""
+    found = _TIME_WITHIN.fullmatch(text)
+    return f"{found['t']} {found['verb']} {found['w']}" if found is not None else text
+
+
 _FILLER = re.compile(
     r"(?:as well|too|also|instead|again|please|on second thoughts?|and|then|[ ,])+"
 )

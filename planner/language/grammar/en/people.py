@@ -91,9 +91,15 @@ def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
     return Steps((GoToObject(object=person, place=place),), person=person)
 
 
+_WISHED = re.compile(r"say (good (?:morning|evening|afternoon)|goodbye|bye|welcome)\b")
+
+
 def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading) if found["who"] not in ("them", "him", "her") else ""
     called = say("spoken.hello_name", name=name).en if name[:1].isupper() else None
+    wish = _WISHED.match(found[0])
+    if wish is not None:  # nobody is greeted with "hello" for a goodbye
+        called = f"{wish[1].capitalize()}{f', {name}' if name[:1].isupper() else ''}!"
     said = called or told_in("spoken.hello", reading)
     return meet(found["who"], read_place(found, "at"), reading, said)
 
