@@ -49,7 +49,10 @@ _AGAIN = re.compile(
     rf"{_THEM}(?: properly| carefully)? {_ONCE_MORE}|(?P<recount>recount){_THEM}"
     rf"|double[- ]check{_THEM}"
     rf"|(?:have|take) another (?:look|go|count)(?: (?:there|in there|over there))?)"
-    rf"(?:[ ,.!;]+there (?:must|should) be more)?{_CLOSE}(?:[,.;!]+ {REASON})?"
+    r"(?:[ ,.!;]+(?:there (?:must|should) be more"
+    r"|(?:i (?:think|believe|bet|reckon|guess) )?you(?:'ve| have)? missed"
+    rf" (?:one|some|something|somebody|(?:a|an|the|my) [a-z]+(?: [a-z]+)?)))?{_CLOSE}"
+    rf"(?:[,.;!]+ {REASON})?"
 )
 _DOUBT_ZH = (
     r"(?:(?:你?(?:真的?)?确定吗?|真的吗?|是吗|不会吧|不对吧?|不可能吧?|不止吧|你?没(?:搞|看|数"

@@ -27,7 +27,9 @@ _ENDS = " .!,;:。~…，；！"
 _PLEASE = r"(?:please|pls|ok|okay|robot|pons|hey|um|uh|well|oh|now|and|just|thanks)"
 _NOISE = re.compile(r"^(?:(?:um+|uh+|er+|h+m+|well|ok|okay|hey|robot|pons|please|嗯|呃|请)[ ,]+)+")
 _POLITE = re.compile(rf"(?:(?:{_PLEASE}|(?:can|could|would|will) you)[ ,]+)+|(?:[ ,]+{_PLEASE})+$")
-_POLITE_END = re.compile(rf"(?:(?<! as)[ ,]+{_PLEASE})+$")
+_POLITE_END = re.compile(
+    rf"(?:(?<! as)[ ,]+(?:{_PLEASE}|while you(?:'re| are) (?:at it|there|about it)))+$"
+)
 _POLITE_ZH = re.compile(
     r"^(?:请|麻烦你?|那个?|[嗯呃哎诶欸唉哦噢喔啊]|哎呀|好|机器人|,)+|(?:吧|呀|啊|哦|呗|嘛|哈|谢谢|,)+$"
 )
@@ -68,11 +70,22 @@ _OTHER_ZH = re.compile(
     r"另(?:外)?(?:那)?一?(?:个|间)(?:房间|地方)?"
 )
 
+_WHY_LEFT = (
+    r"[,;.] (?:because |since |as |for )?(?:there|she|he|it|they|i|we|(?:the|my"
+    r"|our) [a-z]+(?: [a-z]+)?"
+    r"|somebody|someone|everybody|everyone|mum|mom|dad|grandma|grandpa|granny|[a-z]+(?='s\b| is\b))"
+    r"(?:'[a-z]+| (?:is|are|am|was|were|has|have|had|will|needs?|wants?|sleeps?|works?|just|already"
+    r"|always|still|only)\b)"
+    r"(?!.*\b(?:go|come|drive|find|look|then|instead|first|if|you|try|meant?|said)\b)[^,;.]*"
+)
+"""Why a place is left out; it orders nothing."""
 _LEFT_OUT = re.compile(
     r"(?:you (?:can|could|may) )?(?:skip|leave out|omit|miss out|pass over) (?P<rest>(?:the |my "
     r"|our )?[a-z][a-z' -]{1,30}?)"
-    r"(?:[,;.] (?:because |since |for )?(?:the|my|our|she|he|it|they|i|we|somebody|someone)\b.*)?"
+    rf"(?:{_WHY_LEFT})?"
     r"|(?:you (?:can|could|may) )?leave (?P<rest2>(?:the |my |our )?[a-z][a-z' -]{1,30}?) out"
+    rf"|(?:(?:no|oh|wait)[ ,]+)*(?:but )?not (?P<rest4>(?:the |my "
+    rf"|our )[a-z][a-z' -]{{1,30}}?){_WHY_LEFT}"
     r"|(?:but )?(?:except(?: for)?|apart from|without) (?P<rest3>(?:the |my "
     r"|our )[a-z][a-z' -]{1,30}?)"
 )

@@ -150,7 +150,7 @@ def _going(clause: str) -> str:
 
 _SAYING = re.compile(
     r"(?P<verb>\b(?<!\bi )(?:say|announce|tell (?:me|us|them|everyone)"
-    r"|tell (?:[\w']+ ){0,6}?[\w']+(?=[:,]? [\"“]))(?: out loud)?"
+    r"|(?:tell|ask) (?:[\w']+ ){0,6}?[\w']+(?=[:,]? [\"“]))(?: out loud)?"
     r"|(?<!我)(?:说|說|喊|讲|播报)(?:一声|一句|一下|出|[两二三四五2-5][遍声次句])?)\s*[:：,，]?\s*"
     r"(?:[\"“”「](?P<double>[^\"“”「」]*)[\"“”」]|['‘](?P<single>.*?)['’](?!\w))",
     re.IGNORECASE,

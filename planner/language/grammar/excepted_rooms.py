@@ -66,6 +66,8 @@ _LEADS = re.compile(
     r"^(?:except(?: for)?|apart from|other than|aside from|besides|excluding)"
     rf" {_ROOMS},? (?P<rest>.+)$"
 )
+_DRIVES = re.compile(r"(?:go|drive) (?:to|into|through)|visit")
+"""A round to drive, and not to look."""
 _OPEN = re.compile(r"\b(?:if|unless|until|till|when|while|before|after|once|or)\b")
 
 
@@ -93,7 +95,9 @@ def without_excepted_rooms(
             return None
         names = [f"the {lexicon.own_name(room).en.lower()}" for room in left]
         joined = ", ".join(names[:-1]) + " and " + names[-1] if len(names) > 1 else names[0]
-        verb = "patrol " if found["verb"] else ("in " if found["all"] == "everywhere" else "")
+        drives = found["verb"] and _DRIVES.match(found["verb"])
+        round_of = "visit " if drives else "patrol "
+        verb = round_of if found["verb"] else ("in " if found["all"] == "everywhere" else "")
         made = f"{verb}{joined}{found['mid']}"
         return marked.restore(said[: found.start()] + made + said[found.end() :])
     return None

@@ -27,6 +27,7 @@ from planner.language.grammar.clauses import (
 from planner.language.grammar.compound import read_compound
 from planner.language.grammar.compound_forms import PartReaders
 from planner.language.grammar.context import NOWHERE, Context
+from planner.language.grammar.each_room import say_in_each_room
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
@@ -106,7 +107,7 @@ def plan(
 def _plan(
     text: str, vocabulary: Vocabulary, context: Context
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
-    text = end_anyhow(text)
+    text = say_in_each_room(end_anyhow(text), vocabulary)
     text = in_one_condition(text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context))
     made = _plan_as_said(without_sending(text), vocabulary, context)
     if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:

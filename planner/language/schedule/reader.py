@@ -41,7 +41,6 @@ from planner.language.schedule.parts import (
 )
 from planner.language.schedule.reasons import is_reason, leave_reasons_out
 from planner.language.schedule.statements import (
-    begins_with_statement,
     ends_in_statement,
     ends_in_told_words,
     is_filler,
@@ -243,7 +242,9 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     said_first = order.bare().folded
     remark = grammar.REMARK.match(said_first) is not None
     once = isinstance(timing.when, DayTime | InRule) and before.parts
-    if remark or (once and begins_with_statement(said_first, chinese=grammar is chinese)):
+    if remark or (
+        once and statements.begins_with_statement(said_first, chinese=grammar is chinese)
+    ):
         return None  # "it's cold tonight", "at nine the doctor comes, …": a time, and no order
     return _order(order.bare(), timing, words)
 

@@ -25,7 +25,8 @@ _ORDERS = (
 )
 _STATES = (
     r"(?:i'm|we're|they're|i've|we've|they've|i'll be|we'll be"
-    r"|(?:i|we) (?:am|are|was|were|have|had|will be|need to|must (?:be|go|leave)|feel|felt|leave|start"
+    r"|(?:i|we) (?:am|are|was|were|have|had|will be|need to|must (?:be|go|leave)|feel|felt|leave"
+    r"|start"
     r"|begin|finish|eat|expect|got)"
     rf"|{_WHO}(?:'s|'ll| {_HAPPENS})|{_OURS} {_HAPPENS}|there (?:is|are))\b"
 )
@@ -36,14 +37,18 @@ _OF_OURS = re.compile(rf"{_OPENS}{_OURS}'s{_BESIDE}$")
 _MARKS = re.compile(r"[,;:!.]+ *(?:(?:and|but|so|because|since|as|for) )?|\s[-–—]+\s|—+")
 _WORDS = re.compile(r"(?<= )(?:and|but|because|'?cause|cos|since|as|please) ")
 _TOLD = re.compile(
-    r".*\b(?:(?:tell|inform|warn) (?:(?:my|our|the|your) )?(?!(?:me|us|what|if|whether|about|to)\b)[a-z]+"
+    r".*\b(?:(?:tell|inform|warn) (?:(?:my|our|the|your) )?(?!(?:me|us|what|if|whether|about"
+    r"|to)\b)[a-z]+"
     r"(?: (?:in|at|on|by) (?:the |my |our )?[a-z]+(?: room)?)?"
     r"|let (?:(?:my|our|the|your) )?(?!(?:me|us)\b)[a-z]+(?: [a-z]+)? know|say|announce|shout)"
     r",? (?:that )?(?!(?:hello|hi|bye|good|what|if|whether|to|how|where|when|why|who|it's time)\b)"
     r"(?:(?:i|we|you|he|she|it|they|there|that|this)(?:'(?:m|s|re|ll|ve|d)| [a-z]+)"
     r"|(?:(?:the|my|our|his|her|their|a|an) )?[a-z]+(?: [a-z]+)?"
     rf"(?:'(?:s|ll)| (?:{_HAPPENS[3:-1]}|can|must|should|needs?|goes|won't|isn't|aren't)))"
-    r"(?: [a-z' ]+)?",
+    r"(?: [a-z' ]+)?"
+    r"|.*\bask (?:(?:my|our|the|your) )?(?!(?:me|us)\b)[a-z]+(?: (?:in|at|on"
+    r"|by) (?:the )?[a-z]+(?: room)?)?"
+    r",? (?:if|whether|what|when|where|which|how|who) [^,;]+",
 )
 """Ends in words for somebody that say how things stand: "tell them dinner's ready"."""
 _SPEAKS = re.compile(r"\b(?:tell|say|ask|announce|shout|call out|inform|repeat|warn)\b")
@@ -77,6 +82,25 @@ def ends_in_statement(words: str, *, reminds: bool = False) -> bool:
         return False
     weak = [found.end() for found in _WORDS.finditer(words)]
     return any(_STATEMENT.match(words, at) is not None for at in weak if at > strong)
+
+
+_N = r"(?:an?|one|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|fifteen|twenty|thirty|\d+)"
+_TIME_WITHIN = re.compile(
+    r"(?P<verb>(?:(?:please|can you|could you|would you|will you) )*(?:(?:tell|inform|remind|warn)"
+    r" (?:(?:my|our|the) )?(?!(?:me|us)\b)[a-z]+|let (?:(?:my|our|the) )?(?!(?:me|us)\b)[a-z]+ know"
+    r"|say|announce)) "
+    rf"(?P<t>in (?:about )?(?:{_N}|half an) (?:seconds?|minutes?|mins?|hours?)"
+    rf"|at (?:(?:half|quarter|a quarter|five|ten|twenty) (?:past"
+    rf"|to) )?{_N}(?:[:.]\d\d)?(?: ?[ap]m| o'clock)?"
+    r"(?: (?:today|tomorrow|tonight))?) (?P<w>that .+)",
+    re.IGNORECASE,
+)
+
+
+def put_time_first(text: str) -> str:
+    """Return "tell Emma at six that …" with its time in front, where it is the order's."""
+    found = _TIME_WITHIN.fullmatch(text)
+    return f"{found['t']} {found['verb']} {found['w']}" if found is not None else text
 
 
 _FILLER = re.compile(

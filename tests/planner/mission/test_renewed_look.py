@@ -35,6 +35,7 @@ TOLD = order_done("tell Nan good night", Say(text="Nan, good night"))
         "count them once more",
         "look again, there must be more",
         "have another look",
+        "have another look, I think you missed a bottle",
         "go back and check again",
         "really? count them again",
         "double-check that",

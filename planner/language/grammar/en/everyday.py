@@ -53,7 +53,8 @@ _SAYABLE = (
 """Words to be said: when they are true is theirs, not the order's."""
 _SOUGHT = r"(?P<t>(?:the|my|our|a|an|any) [a-z]+(?: [a-z]+){0,2}?)(?=$|[,.]| and\b)"
 _ORDERS = r"(?:go|drive|come|return|head|pop|nip|wait|charge|find|look|turn|follow)"
-_ENDS_IN_ORDER = rf"[^\",;]*? (?:and )?then {_ORDERS}\b"
+_AND_GO = r"(?:go (?:home|to|back|and|charge)|come back|drive to|return|head (?:to|home|back))"
+_ENDS_IN_ORDER = rf"[^\",;]*? (?:(?:and )?then {_ORDERS}|and {_AND_GO})\b"
 _TO_SOMEBODY = r"(?:good ?night|night night|happy [a-z]+|thank you) to\b"
 """What is said to somebody, or ends in another order, is no place that is only spoken of."""
 _SAYS = r"(?:shout|yell|call out|announce|holler|proclaim)(?: out)?"
@@ -261,7 +262,7 @@ ENGLISH_EVERYDAY = table(
     (rf"\b{_SAYS}(?: that)? (?P<w>(?!(?:if|when\w*|unless|until|once|as soon|for|to|what\w*|who|whether)\b)[^\",;]+)$", r'say "\g<w>"'),
     (rf"\bsay (?:that )?(?P<w>(?:i|we|he|she|they)(?:'ll| will|'re| are|'m| am|'s| is) {_SAYABLE})"
      r"(?=[.!]*$|[,;]| and (?:then )?(?:come|go|drive|head|return)\b)", r'say "\g<w>"'),
-    (rf"\bsay (?!{_TO_SOMEBODY})(?P<w>[^\",;]*{MARK}[^\",;]*?),? (?:and )?then (?={_ORDERS}\b)",
+    (rf"\bsay (?!{_TO_SOMEBODY})(?P<w>[^\",;]*{MARK}[^\",;]*?),? (?:(?:and )?then (?={_ORDERS}\b)|and (?={_AND_GO}\b))",
      r'say "\g<w>", then '),
     (r"\bgo off (?:and|to) (?=(?:re)?charge\b)", ""),
     (rf"\bsay (?!{_TO_SOMEBODY}|{_ENDS_IN_ORDER})(?P<w>[^\",;]*{MARK}[^\",;]*)$", r'say "\g<w>"'),

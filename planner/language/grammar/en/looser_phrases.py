@@ -14,8 +14,10 @@ _AT = r"(?:in|at|on|by|under|behind|near|beside|next to|inside)"
 _T = r"(?P<t>(?:my|our|the) [a-z]+(?: [a-z]+)?)"
 _LOST = (
     r"(?:(?:(?:i|we) (?:can ?not|can't|could not|couldn't) (?:find|see)"
-    r"|(?:i|we)(?:'ve| have)? (?:just )?(?:lost|mislaid|misplaced)) {t}(?: anywhere| any more| again)?"
-    r"|{t}(?:'s| is| has)? (?:just )?(?:gone|rolled|fallen|disappeared|vanished|got lost|lost|missing"
+    r"|(?:i|we)(?:'ve| have)? (?:just )?(?:lost|mislaid|misplaced)) {t}(?: anywhere| any more"
+    r"| again)?"
+    r"|{t}(?:'s| is| has)? (?:just )?(?:gone|rolled|fallen|disappeared|vanished|got lost|lost"
+    r"|missing"
     r"|run|bounced|hidden|hiding|slipped|went)(?: (?:off|away|missing|down|somewhere|again))*)"
 ).format(t="{t}")
 _ASKS = r"(?:please |so |can you |could you |would you |will you |just |go (?:and )?|and )*"
@@ -25,7 +27,8 @@ _HOME = r"(?:house|home|flat|apartment|place)"
 
 LOST_THINGS = table(
     (rf"^{_LOST.replace('{t}', _T, 1).replace('{t}', _T.replace('<t>', '<t2>'))}[,.;!]+ {_ASKS}{_LOOKS} "
-     rf"(?P<a>{_PLACE})(?: first)?{_NEXT}(?P<b>{_PLACE})(?: please| for me| next| after that)*[.!?]*$",
+     rf"(?P<a>{_PLACE})(?: first)?{_NEXT}(?P<b>{_PLACE})(?: please| for me| next"
+     rf"| after that)*[.!?]*$",
      r"go to \g<a> and see if \g<t>\g<t2> is there, then go to \g<b> and see if \g<t>\g<t2> is there"),
     (rf"^{_LOST.replace('{t}', _T, 1).replace('{t}', _T.replace('<t>', '<t2>'))}[,.;!]+ {_ASKS}{_LOOKS} "
      rf"(?P<a>{_PLACE})(?: first| please| for me| will you| would you)*[.!?]*$",
@@ -34,6 +37,11 @@ LOST_THINGS = table(
 """A thing that is missed, and where to look: what is looked at is that thing, and not the place."""
 
 LOOSER = table(
+    (r"\bwake (?:up (?P<w>(?!me\b|us\b)(?:(?:the|my|our) )?[a-z]+)|(?P<v>(?!me\b|us\b|up\b)(?:(?:the|my|our) )?[a-z]+)(?: up)?)"
+     r"(?=[.!]*$|,| and\b)", r"tell \g<w>\g<v> to wake up"),
+    (r"(?P<f>\b(?:follow|come along with|come with) (?:me|us|him|her|them)\b[^,.;]*?),? (?:and |but )?(?:keep|stay)"
+     r" (?:close|near|nearby|right behind|up|with me)(?: (?:to|behind)(?: me"
+     r"| us)?)?(?=[.!]*$)", r"\g<f>"),
     (r"\bcome (?:here )?(?:and )?(?=tell (?:me|us) (?:what|how) (?:he|she|they)\b)", "come back and "),
     (rf"\b(?:go|drive|run|walk|shuttle|roll|move|travel)(?: (?:back and forth|to and fro|up and down))?"
      rf" between (?P<a>{_PLACE}) and (?P<b>{_PLACE}) (?P<n>twice|\w+ times)",
@@ -43,7 +51,8 @@ LOOSER = table(
      r"go to \g<a> then go to \g<b>, \g<n> times"),
     (r"\bgo (?:back )?home (?:and|to|for a) (?:re)?charge\b", "go charge"),
     (rf"(?P<m>\b(?:go|move|drive|roll|come|back up|reverse)\b[^,.;]*?{EN_LENGTH.replace('?P<length>', '?:').replace('?P<unit>', '?:')}"
-     r"(?: (?:forwards?|backwards?|back|ahead))?),? (?:and |then )+(?:stop|halt|stay)(?: there)?(?=[.!]*$)", r"\g<m>"),
+     r"(?: (?:forwards?|backwards?|back|ahead))?),? (?:and |then )+(?:stop|halt"
+     r"|stay)(?: there)?(?=[.!]*$)", r"\g<m>"),
     (r"^(?:just |take )*(?:a|one) (?:small |little |tiny )?step (?P<d>back|backwards?|forwards?)(?=$|[,.])",
      r"move \g<d> 20 cm"),
     (rf"\b(?:go|move|come|drive|get) (?:a (?:bit|little|touch) )?(?:closer|nearer) to (?P<p>{_PLACE})"

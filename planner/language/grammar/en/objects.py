@@ -251,6 +251,7 @@ RULES: tuple[Rule, ...] = (
         r"(?: (?:around|about|here|there|in here|out there|in sight))?",
         _question(_look_here),
     ),
+    rule(rf"check (?:up )?on (?P<what>(?:the|my|our) (?:cat|dog|puppy|kitten)){_AT}", _find),
     rule(
         rf"(?:look|search|hunt|check) {_SEARCHED} for (?P<what>{_THING})"
         rf"|(?:find|look for|search for|locate) (?P<what2>{_THING}) (?:somewhere )?"

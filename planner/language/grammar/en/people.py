@@ -8,6 +8,7 @@ from re import Match
 from planner.language.catalogue import say
 from planner.language.grammar.clauses import QUOTE
 from planner.language.grammar.en import DESCRIPTION, PERSON, THE, loc
+from planner.language.grammar.en.direct_questions import ask_directly
 from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.noun_phrases import is_known, several
 from planner.language.grammar.parse_result import (
@@ -90,9 +91,15 @@ def _go_up_to(found: Match[str], reading: Reading) -> Meaning:
     return Steps((GoToObject(object=person, place=place),), person=person)
 
 
+_WISHED = re.compile(r"say (good (?:morning|evening|afternoon)|goodbye|bye|welcome)\b")
+
+
 def _greet(found: Match[str], reading: Reading) -> Meaning:
     name = label_of(found["who"], reading) if found["who"] not in ("them", "him", "her") else ""
     called = say("spoken.hello_name", name=name).en if name[:1].isupper() else None
+    wish = _WISHED.match(found[0])
+    if wish is not None:  # nobody is greeted with "hello" for a goodbye
+        called = f"{wish[1].capitalize()}{f', {name}' if name[:1].isupper() else ''}!"
     said = called or told_in("spoken.hello", reading)
     return meet(found["who"], read_place(found, "at"), reading, said)
 
@@ -155,68 +162,19 @@ def _request(found: Match[str], reading: Reading) -> Meaning:
     return meet(found["who"], read_place(found, "at"), reading, words[:500])
 
 
-_VERB_OF = {"has": "have", "does": "do", "goes": "go", "is": "be"}
-_PAST = {
-    "slept": "sleep", "went": "go", "ate": "eat", "took": "take", "saw": "see", "got": "get",
-    "found": "find", "said": "say", "wanted": "want", "liked": "like", "left": "leave",
-}  # fmt: skip
-_HAS_DONE = re.compile(
-    r"(?:is|has) (?P<what>(?:already |just |ever )?(?:taken|eaten|seen|had|been|found|fed|drunk"
-    r"|brushed|washed|called|rung|heard|got|read|packed|done (?:his|her|their|the|it)"
-    r"|finished (?:his|her|their|your|the))\b.*)"
-)
-"""What "he's taken" and "she has had" mean; "he's done" is "he is done"."""
-_ASKED_OF_THEM = re.compile(
-    r"(?:(?P<word>what|where|when|how|why|which [a-z]+|what [a-z]+|how [a-z]+) |(?:if|whether) )"
-    r"(?P<who>he|she|they|any(?:one|body)|some(?:one|body)|every(?:one|body))"
-    r"(?P<rest>(?: |'s |'d |'re ).+)"
-)
-_THEIRS = {"he": "his", "she": "her", "they": "their"}
-_WHERE_IT_IS = re.compile(
-    r"(?P<word>where|what|who|how|when) (?P<what>(?:the|my|our|your|his|her) [a-z]+(?: [a-z]+)?)"
-    r" (?P<be>is|are|was|were)"
-)
-_MODAL = re.compile(
-    r"(?P<modal>can|could|will|would|should|must|may|might|did|had|have got|has got) (?P<rest>.+)"
-)
-
-
-def ask_directly(question: str) -> str:
-    """Return "if she wants tea" as it is asked: "do you want tea?"."""
-    found = _ASKED_OF_THEM.fullmatch(question)
-    if found is None:
-        turned = _WHERE_IT_IS.fullmatch(question)
-        return f"{turned['word']} {turned['be']} {turned['what']}?" if turned else question
-    word = f"{found['word']} " if found["word"] else ""
-    they = "you" if found["who"] in _THEIRS else found["who"].replace("some", "any")
-    rest = found["rest"].replace("'d ", " would ", 1).replace("'s ", " is ", 1)
-    rest = rest.replace("'re ", " are ", 1).strip()
-    if found["who"] in _THEIRS:
-        rest = re.sub(rf"\b{_THEIRS[found['who']]} (?=[a-z])", "your ", rest)
-    modal = _MODAL.fullmatch(rest)
-    if modal is not None:
-        may, what = modal["modal"], modal["rest"]
-        if may in ("have got", "has got"):
-            may, what = "do", f"have {what}"
-        return f"{word}{may} {they} {what}?"
-    done = _HAS_DONE.fullmatch(rest)
-    if done is not None:
-        return f"{word}{'have' if they == 'you' else 'has'} {they} {done['what']}?"
-    verb, _, more = rest.partition(" ")
-    if verb in _PAST:
-        return f"{word}did {they} {_PAST[verb]}{' ' if more else ''}{more}?"
-    if verb in ("is", "are", "was", "were"):
-        be = {"is": "are", "was": "were"}.get(verb, verb) if they == "you" else verb
-        return f"{word}{be} {they}{' ' if more else ''}{more}?"
-    base = _VERB_OF.get(verb, re.sub(r"(?<=[a-z]{2})(?<!s)s$", "", verb))
-    do = "do" if they == "you" else "does"
-    return f"{word}{do} {they} {base}{' ' if more else ''}{more}?"
-
-
 def _ask(found: Match[str], reading: Reading) -> Meaning:
     words = ask_directly(reading.marked.restore(found["question"]))
     if found["who"] is None:
         return Steps((Ask(question=words[:500]),))
+    met = meet(found["who"], read_place(found, "at"), reading, words)
+    if not isinstance(met, Steps):
+        return met
+    asked = Ask(question=call(found["who"], words, reading)[:500])
+    return Steps((*met.steps[:-1], asked), person=met.person)
+
+
+def _ask_quoted(found: Match[str], reading: Reading) -> Meaning:
+    words = reading.quotes[ord(found["quote"]) - ord(QUOTE[1])]
     met = meet(found["who"], read_place(found, "at"), reading, words)
     if not isinstance(met, Steps):
         return met
@@ -310,6 +268,7 @@ RULES: tuple[Rule, ...] = (
         r"about|their|his|her|if|whether) .+)",
         _ask,
     ),
+    rule(rf"ask {_WHO}{_AT} ?(?P<quote>{QUOTE})", _ask_quoted),
     rule(
         rf"(?:tell|inform|remind) (?P<who>{PERSON}){_AT} (?:that )?(?P<words>(?!(?:in|at|on|near|"
         r"by|from) )[^,]+)",

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import re
 
+from planner.language.grammar.en.direct_questions import ask_directly
 from planner.language.numbers import EN_DURATION
 
 _LASTS = EN_DURATION.replace("?P<number>", "?:").replace("?P<unit>", "?:")
 _LEAD = (
-    r"(?:(?:please|pls|robot|pons|hey|hi|ok|okay|well|and|just|so|now|go|come|(?:can|could|would|will)"
+    r"(?:(?:please|pls|robot|pons|hey|hi|ok|okay|well|and|just|so|now|go|come|(?:can|could|would"
+    r"|will)"
     r" you)[ ,]+(?:and |to )?)*"
 )
 _BEFORE = (
@@ -71,6 +73,19 @@ _TOLD = re.compile(
 _SAID = re.compile(
     rf"{_BEFORE}{_LEAD}say(?: out loud)? {_WORDS}{_THANKS}[.!? ]*{_REST}", re.IGNORECASE | re.DOTALL
 )
+_ASKS = re.compile(
+    rf"{_BEFORE}{_LEAD}ask (?P<who>{_HEARER}{_IN}),? "
+    r"(?P<words>(?:if|whether|what|when|where|which|how|who|why) [^.;\"“”]+?)"
+    rf"{_THANKS}[.!? ]*{_REST}",
+    re.IGNORECASE | re.DOTALL,
+)
+_ASKED_OPEN = re.compile(
+    r"\b(?:unless|until|till|while|before|after|once|otherwise|else|except|instead|then|but)\b"
+    rf"|\b(?:or|and) (?:please |just |else )?{_ORDER}\b"
+    r"|(?<=.)\b(?:if|whether|when(?:ever)?)\b|^when(?:ever)? (?:he|she|they|it|i|we|you|there)\b"
+    r"|[;:.!?\"“”,]",
+    re.IGNORECASE,
+)
 _NOT_TO = re.compile(
     rf"{_BEFORE}{_LEAD}(?:tell|ask|remind|warn) (?P<who>{_HEARER}{_IN}),? (?:please )?"
     rf"(?:not to|never to) (?P<words>[a-z][^.;,]+?){_THANKS}[.!? ]*{_REST}",
@@ -78,12 +93,21 @@ _NOT_TO = re.compile(
 )
 
 
+_WITH_ANSWER = re.compile(
+    r"(?:come|report) (?:straight |right )?back (?:to me )?with (?:the|his|her|their"
+    r"|an) (?:answer|reply)"
+)
+
+
 def quote_told_words(text: str) -> str | None:
     """Return a sentence with the words that somebody is told in quotes; None where it has none."""
     said = " ".join(text.split())
-    for pattern in (_TOLD, _SAID, _NOT_TO):
+    for pattern in (_TOLD, _SAID, _NOT_TO, _ASKS):
         found = pattern.fullmatch(said)
-        if found is None or _is_open(found["words"]):
+        asks = pattern is _ASKS
+        if found is None or (asks and _ASKED_OPEN.search(found["words"]) is not None):
+            continue
+        if not asks and _is_open(found["words"]):
             continue
         groups = found.groupdict()
         words = found["words"].strip(" ,")
@@ -91,7 +115,10 @@ def quote_told_words(text: str) -> str | None:
             words = f"please don't {words}"
         who = groups.get("who") or groups.get("let")
         told = f'tell {who} "{words}"' if who else f'say "{words}"'
-        return f"{found['before'] or ''}{told}{found['rest'] or ''}"
+        if asks:
+            told = f'ask {who} "{ask_directly(words)}"'
+        rest = _WITH_ANSWER.sub("come back", found["rest"] or "")
+        return f"{found['before'] or ''}{told}{rest}"
     return None
 
 

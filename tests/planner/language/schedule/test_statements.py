@@ -124,3 +124,13 @@ def test_an_order_that_sounds_like_a_statement_keeps_its_time(text: str, order: 
 def test_the_time_until_which_somebody_waits_is_no_time_of_the_order(order: str, time: str) -> None:
     for text in (f"wait until {time}", f"{order} and wait till {time}", f"stay here until {time}"):
         assert not isinstance(read_order_command(text), ScheduleCommand), text
+
+
+@given(
+    sampled_from(("tell Emma", "let Mum know", "announce")),
+    TIMES.filter(lambda t: t[:2] in ("at", "in")),
+)
+def test_a_time_before_that_is_the_orders(verb: str, time: str) -> None:
+    command = read_order_command(f"{verb} {time} that dinner's ready")
+    assert isinstance(command, ScheduleCommand)
+    assert command.order == f"{verb} that dinner's ready"

@@ -25,6 +25,9 @@ def _steps(text: str, home: Vocabulary) -> tuple[object, ...] | None:
         ("go forward two metres and then stop", "go forward two metres"),
         ("wait five minutes or so", "wait five minutes"),
         ("a step back, please", "move back 20 cm"),
+        ("wake Emma up", "tell Emma to wake up"),
+        ("check on the dog", "find the dog"),
+        ("follow me and keep close", "follow me"),
         ("go a bit closer to the sofa and stop there", "go to the sofa"),
         ("first the kitchen, then go home to charge", "go to the kitchen, then go charge"),
         (
@@ -86,3 +89,18 @@ def test_a_way_between_two_places_is_both(
     assert steps is not None
     assert isinstance(steps[0], Repeat)
     assert [step.place for step in steps[0].steps if isinstance(step, GoTo)] == [first, second]
+
+
+@pytest.mark.parametrize(
+    ("order", "said"),
+    [
+        ("say goodbye to Emma in the kitchen", "Goodbye, Emma!"),
+        ("say good morning to everyone in the kitchen", "Good morning!"),
+        ("say the kitchen is closed and go home", "the kitchen is closed"),
+        ("say the cup is on the desk and then go home", "the cup is on the desk"),
+    ],
+)
+def test_the_words_are_those_that_were_ordered(home: Vocabulary, order: str, said: str) -> None:
+    steps = _steps(order, home)
+    assert steps is not None
+    assert [step.text for step in steps if isinstance(step, Say)] == [said]

@@ -8,7 +8,7 @@ from hypothesis.strategies import sampled_from
 
 from planner.language.grammar import Context, plan
 from planner.language.grammar.en.told_words import quote_told_words
-from planner.plan import EVERY_KIND, Say, StepPlan, Vocabulary
+from planner.plan import EVERY_KIND, Ask, Say, StepPlan, Vocabulary
 
 WHOLE = Context(runnable=EVERY_KIND)
 HEARERS = sampled_from(
@@ -72,3 +72,35 @@ def test_what_somebody_is_not_to_do_is_asked_of_them(home: Vocabulary, verb: str
 def test_the_speaker_and_nobody_are_no_hearers() -> None:
     for who in ("me", "us", "nobody", "no one"):
         assert quote_told_words(f"tell {who} it isn't there") is None
+
+
+@pytest.mark.parametrize(
+    ("order", "asked"),
+    [
+        ("ask Emma if she wants tea or coffee", "Emma, do you want tea or coffee?"),
+        ("ask Emma whether she'd like pizza tonight", "Emma, would you like pizza tonight?"),
+        ("ask Emma if I can borrow the car tomorrow", "Emma, can I borrow the car tomorrow?"),
+        ("ask Emma when dinner is", "Emma, when is dinner?"),
+        ("ask Emma what time she's leaving tomorrow", "Emma, what time are you leaving tomorrow?"),
+    ],
+)
+def test_what_somebody_is_asked_holds_its_own_choice_and_time(
+    home: Vocabulary, order: str, asked: str
+) -> None:
+    made = plan(order, home, WHOLE)
+    assert isinstance(made, StepPlan)
+    assert [step.question for step in made.steps if isinstance(step, Ask)] == [asked]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "ask Emma or Dad if they want tea", "ask Emma if she wants tea or go home",
+        "ask Emma if she wants tea unless she is asleep", "ask Emma if she is up when Dad comes",
+        "don't ask Emma if she wants tea or coffee",
+    ],
+)  # fmt: skip
+def test_a_choice_or_a_condition_of_the_order_is_no_part_of_the_question(
+    home: Vocabulary, text: str
+) -> None:
+    assert not isinstance(plan(text, home, WHOLE), StepPlan), text
