@@ -150,3 +150,14 @@ def test_all_of_them_are_dropped_where_all_are_meant(tmp_path: Path) -> None:
             assert not kept.orders.keeper.book.orders, text
 
     tell(tmp_path, story)
+
+
+def test_an_order_that_begins_later_is_paused_until_that_day(tmp_path: Path) -> None:
+    async def story(kept: Kept) -> None:
+        told = await say(kept, "from Monday on, every night at eleven say good night")
+        assert "paused, on again on 2027-01-18 at 00:00" in told
+        monday = kept.orders.keeper.book.orders["o1"].resume_unix_s
+        assert monday is not None
+        assert monday - NOON_UNIX_S == 2.5 * DAY_S
+
+    tell(tmp_path, story)
