@@ -20,7 +20,7 @@ from planner.language.schedule import (
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder
 from planner.orders.order import StandingOrder
-from planner.orders.retiming import can_take, correct_rule, fits_time
+from planner.orders.retiming import can_take, correct_rule, fits_time, split_days
 from planner.orders.rule import next_due
 from planner.orders.selection import pick, select
 from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Language, Option, Refuse
@@ -29,7 +29,7 @@ from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
     from planner.orders.keeper import OrderKeeper
-    from planner.plan.timing import Rule
+    from planner.plan.timing import CronRule, Rule
 
 SPOKEN_S = 600.0
 """An order that was given, changed or told so long ago is still "it"."""
@@ -82,7 +82,7 @@ class OrderCorrector:
         try:
             if isinstance(command.change, RemindAgain) and not command.which:
                 return await self._remind_again(command.change, language, goal_id, is_busy=is_busy)
-            return await self._change(command, language)
+            return await self._change(command, language, goal_id)
         except OrderRefusal as refused:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
             return Refuse(code=Code.ORDER_NOT_KEPT, reason=why)
@@ -96,7 +96,7 @@ class OrderCorrector:
     # Which one ----------------------------------------------------------------------------------
 
     async def _change(
-        self, command: CorrectOrder, language: Language
+        self, command: CorrectOrder, language: Language, goal_id: str
     ) -> AnswerPlan | Clarify | Refuse | None:
         found = self._find_named(command) if command.which else self._spoken_of(command)
         if not found:
@@ -112,6 +112,8 @@ class OrderCorrector:
             return self._ask_which(command, found)
         if isinstance(command.change, LeaveOutDays) and command.change.is_one:
             return self._ask_each(command.change, first, language)
+        if (parted := split_days(first.rule, command.change, self._keeper.book.zone)) is not None:
+            return await self._part(first, *parted, goal_id)
         changed = await self._apply(command, first)
         said = self._desk.line(changed) if changed.paused else self._desk.tell_one(changed)
         return AnswerPlan(text=say("standing.changed", line=said))
@@ -168,6 +170,26 @@ class OrderCorrector:
         return Clarify(code=Code.AMBIGUOUS, question=asked, options=(option,))
 
     # Changing -----------------------------------------------------------------------------------
+
+    async def _part(
+        self, order: StandingOrder, others: CronRule, named: CronRule, goal_id: str
+    ) -> AnswerPlan:
+        """Give these days an order of their own. Raises OrderRefusal; nothing has changed then."""
+        words = order.reminder or order.order
+        new = NewOrder(named, order.order, order.language, words, reminder=order.reminder,
+                       source=order.source)  # fmt: skip
+        given = await self._desk.give(new, goal_id)
+        async with self._keeper.lock:
+            now_s = self._keeper.clocks.unix()
+            try:
+                left = await self._keeper.revise(
+                    order.id, rule=others, text=words,
+                    handled_unix_s=max(order.handled_unix_s, now_s),
+                )  # fmt: skip
+            except StateUnavailable as error:
+                raise OrderRefusal("orders_unwritable", str(error)) from None
+        both = join((self._desk.tell_one(left), self._desk.tell_one(given)))
+        return AnswerPlan(text=say("standing.changed", line=both))
 
     async def _apply(self, command: CorrectOrder, order: StandingOrder) -> StandingOrder:
         """Change an order on disk. Raises OrderRefusal; nothing has changed then."""

@@ -26,6 +26,7 @@ from planner.orders.new_order import (
 )
 from planner.orders.new_order_judge import NewOrderJudge
 from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder
+from planner.orders.rule import settle
 from planner.orders.teller import OrderTeller
 from planner.orders.unfinished_order import UnfinishedOrder
 from planner.plan import (
@@ -40,11 +41,13 @@ from planner.plan import (
     plan_record,
     words_of,
 )
+from planner.plan.timing import AtRule, DayTime
 from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from planner.language.schedule.parts import OnceDay
     from planner.mission.effects import AskBrain
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport
@@ -107,6 +110,7 @@ class OrderIntake:
             return Planned(ask.id, asked)
         try:
             new = read_new_order(command, ask.language, given)
+            new = replace(new, begins_unix_s=self._begin_of(command.begins))
             order = await self.give(new, ask.id)
         except OrderRefusal as refused:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
@@ -116,10 +120,18 @@ class OrderIntake:
                 question.asked if question.is_whole else put_time_before(question.asked, command)
             )
             return Planned(ask.id, asked)
-        told = self.tell_one(order)
+        told = self.line(order) if order.paused else self.tell_one(order)
         if command.who:
             told = join((told, say("standing.anybody", who=command.who)))
         return Planned(ask.id, AnswerPlan(text=told))
+
+    def _begin_of(self, day: OnceDay | None) -> float | None:
+        """Return when the day begins from which an order is kept. Raises OrderRefusal."""
+        if day is None:
+            return None
+        said = DayTime(hour=0, days_ahead=day.ahead, weekday=day.weekday, week=day.week)
+        rule = settle(said, self._keeper.clocks.unix(), self._keeper.book.zone)
+        return rule.unix_s if isinstance(rule, AtRule) else None
 
     async def _correct(
         self, command: CorrectOrder, ask: AskBrain, given: Mission, *, answered: bool
@@ -169,6 +181,7 @@ class OrderIntake:
                 id=f"o{number}", number=number, text=new.text[:MAX_ORDER_CHARACTERS],
                 order=new.order, language=new.language, rule=rule, reminder=new.reminder,
                 source=new.source, allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
+                paused=new.begins_unix_s is not None, resume_unix_s=new.begins_unix_s,
             )  # fmt: skip
             try:
                 await self._keeper.keep(order)

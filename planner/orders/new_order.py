@@ -35,6 +35,8 @@ class NewOrder:
     words: str = ""
     reminder: str | None = None
     source: str = "api"
+    begins_unix_s: float | None = None
+    """Paused until then; None: it is kept from now on."""
 
 
 class OrderQuestion(Exception):

@@ -96,6 +96,28 @@ def correct_rule(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinf
     return new
 
 
+def split_days(rule: Rule, change: OrderChange, zone: tzinfo) -> tuple[CronRule, CronRule] | None:
+    """Return the rule of the other days, and that of the days whose hour alone was changed.
+
+    "To seven on Fridays" leaves the other days as they were; "make it Fridays at seven" does not.
+    Raises OrderRefusal: ``order_change_none``.
+    """
+    weekly = read_weekly(rule)
+    if weekly is None or weekly.hour is None or not isinstance(change, Retime):
+        return None
+    match change.parts:
+        case (TimeOfDay() as clock, WeekDays(days=days)) if days < weekly.days:
+            at = _hour_minute(_time_of(rule, zone), clock, None)
+        case _:
+            return None
+    if at is None:
+        return None
+    if at == (weekly.hour, weekly.minute):
+        raise OrderRefusal("order_change_none", "it is so on these days already")
+    others = WeeklyTime(weekly.minute, weekly.hour, weekly.days - days)
+    return others.rule, WeeklyTime(at[1], at[0], days).rule
+
+
 def can_take(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) -> bool:
     """Tell whether a rule can be corrected so, whatever comes of it."""
     try:

@@ -85,6 +85,7 @@ _LITTLE = frozenset(
 _KIND = frozenset(["check", "checks", "checking", "patrol", "patrols", "round", "rounds"])
 _CALLED = re.compile(r"\bwake[- ]?up (?:calls?|alarms?|service)\b")
 """What people call the order to wake them."""
+_WAKES = frozenset(("time to get up", "该起床了"))
 _LITTLE_ZH = re.compile(r"[的了我你把去来在每天一下个次提醒任务定时,、。]")
 _PARTS = (
     (5, 11, "morning 早上 早晨 上午 每早"),
@@ -175,6 +176,8 @@ def _weigh_words(words: str) -> list[str]:
 
 def _fits(order: StandingOrder, words: str, zone: tzinfo) -> bool:
     hay = f"{fold(order.text)} {fold(order.order)} {_time_words(order, zone)}"
+    if order.reminder in _WAKES:  # a changed order has lost the sentence that it was given in
+        hay = f"{hay} wake me up alarm 叫醒起床闹钟"
     if has_chinese(words):
         return _fits_chinese(words, hay)
     stems = {_stem(word) for word in _WORD.findall(hay)}

@@ -43,6 +43,7 @@ _ACTS: tuple[tuple[Act, str], ...] = (
     ("pause", r"pause|suspend|put on hold|mute|skip"),
     ("resume", r"resume|continue|restart|unpause|re-?enable|turn on|switch on|start|carry on with"),
 )  # fmt: skip
+_ON_HOLD = re.compile(r"^put (.+?) on hold\b")
 _TAIL = r"(?: (?:any ?more|any longer|again|for now|for good|from now on|now|please))*"
 _NAMED = re.compile(
     rf"(?:{MY}(?P<kind>{KINDS})(?: (?:for(?! now)|about|to|of|at|with|that says?) (?P<of>.+?))?"
@@ -90,6 +91,7 @@ def read_about(
 
 
 def _read_english(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeOrders | None:
+    folded = _ON_HOLD.sub(r"pause \1", folded)
     reminding = _REMINDING.fullmatch(folded)
     if reminding is not None:
         return ChangeOrders("remove", reminding["of"] or "", reminders=True)

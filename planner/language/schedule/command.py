@@ -26,6 +26,8 @@ class ScheduleCommand:
     """Somebody is waited for by name, whom the robot can't tell from others."""
     offer: str = ""
     """A sentence that comes nearest to an event that can't be noticed."""
+    begins: OnceDay | None = None
+    """It is kept from this day on, and paused until then."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,7 @@ from planner.language.schedule.command import (
 )
 from planner.language.schedule.parts import After, OnceDay, WeekDays
 from planner.language.schedule.windows import read_half, read_window
+from planner.language.schedule.wished_changes import may_change, read_wish
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import OrderChange
@@ -50,10 +51,6 @@ _RETIME = (
     re.compile(
         rf"{_NO}(?:i (?:meant?|said)|it (?:should|has to|must) be|that (?:should|has to) be)"
         rf"(?: {_TO})? (?P<t>.+?)(?:,? (?:and )?not (?P<o>.+?))?"
-    ),
-    re.compile(
-        r"(?:on (?:second thoughts?|reflection)|come to think of it|i've changed my mind|thinking about it)[ ,.!]+"
-        rf"(?:let's (?:say|do|have) |(?:let's )?make {_IT} |rather |better )?(?P<t>.+?)(?: (?:would be|is|sounds) (?:better|nicer))?{_INSTEAD}"
     ),
     re.compile(
         r"(?:(?:no|nope|sorry|oops|wait|actually|rather)[ ,.!]+)+(?P<sure>(?:at|every|on|in) .+?)"
@@ -145,7 +142,10 @@ def read_correction(
     by_id = BY_ID.fullmatch(folded)
     if by_id is not None and not named:
         return read_correction(by_id["rest"], reads, chinese=chinese, named=by_id["id"])
+    folded = folded if chinese else may_change(folded)
     found = (_Chinese if chinese else _English)(reads).read(folded)
+    if found is None and not chinese:
+        found = read_wish(folded, reads)
     if found is None:
         hours = read_window(folded, reads, chinese=chinese) or read_half(folded, chinese=chinese)
         return CorrectOrder(hours, folded, named) if hours is not None else None

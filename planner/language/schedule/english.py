@@ -85,6 +85,7 @@ _PAST_HOUR = re.compile(
 )
 """Without its hour, which an order that is changed has."""
 _IN_THE = re.compile(rf"(?:in the (?P<a>{_PART})|at (?P<b>night|noon)){_END}")
+_AT_NOON = re.compile(rf"at noon{_END}")
 _EVERY = re.compile(
     rf"(?:(?:every|each)(?: single)? (?P<what>day|weekday|workday|working day|weekend|{_PART})"
     rf"|(?P<daily>daily|nightly)|on (?P<plural>weekdays|workdays|weekends)|at (?:the )?weekends?)"
@@ -323,6 +324,7 @@ PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]]
     (_EVERY_ONE, lambda found: (Interval(60.0 if found["minute"] else 1.0),)),
     (_EVERY, _every),
     (_WEEKDAYS, _weekdays),
+    (_AT_NOON, lambda _: (TimeOfDay(12, 0, sure=True),)),
     (_IN_THE, lambda found: (DayPart(found["a"] or found["b"]),)),
     (_IN, _in),
     (_CLOCK, _one(_clock)),

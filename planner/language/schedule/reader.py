@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 from planner.language.folding import has_chinese
 from planner.language.schedule import chinese, english
 from planner.language.schedule.about import read_about
-from planner.language.schedule.arrivals import offer_event, read_arrival
 from planner.language.schedule.command import (
     ChangeOrders,
     LeaveOutDays,
@@ -24,8 +23,15 @@ from planner.language.schedule.command import (
     ScheduleCommand,
 )
 from planner.language.schedule.corrections import read_correction
-from planner.language.schedule.event_orders import NEWS, is_news, read_event_order
+from planner.language.schedule.event_commands import read_event, upon
+from planner.language.schedule.event_orders import NEWS
 from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
+from planner.language.schedule.framed_orders import (
+    is_limited,
+    read_beginning,
+    read_middle,
+    take_lead,
+)
 from planner.language.schedule.parts import (
     DayPart,
     EventPart,
@@ -41,11 +47,12 @@ from planner.language.schedule.parts import (
 )
 from planner.language.schedule.reasons import is_reason, leave_reasons_out
 from planner.language.schedule.statements import (
+    begins_with_statement,
     ends_in_statement,
     ends_in_told_words,
     is_filler,
 )
-from planner.language.schedule.tellings import TELLS, read_told
+from planner.language.schedule.tellings import read_told_order
 from planner.language.schedule.time_finder import (
     FoundTime,
     first_parts,
@@ -53,7 +60,7 @@ from planner.language.schedule.time_finder import (
     reads_timing,
     whole_parts,
 )
-from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule, WorldEvent
+from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -92,7 +99,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     about = _read_about_kept(bare.strip(ENDS), grammar)
     alone = FoldedSentence(bare.strip(ENDS), bare.strip(ENDS))
     if about is None and _waits(alone, grammar):
-        return _read_event(alone, grammar) or _read(alone, grammar) or command
+        return read_event(alone, grammar) or _read(alone, grammar) or command
     return about or command
 
 
@@ -103,7 +110,7 @@ def _waits(said: FoldedSentence, grammar: ModuleType) -> bool:
     if grammar is chinese:
         return False
     last = last_parts(said.folded, grammar).parts
-    return any(isinstance(part, EventPart) for part in last) or bool(_read_event(said, grammar))
+    return any(isinstance(part, EventPart) for part in last) or bool(read_event(said, grammar))
 
 
 def _denies(command: OrderCommand) -> bool:
@@ -136,7 +143,7 @@ def _read_command(
     about = read_about(said.folded, reads_timing, whole_parts, chinese=is_chinese)
     if about is not None:
         return about
-    if not asks and (unseen := _read_event(said, grammar)) is not None:
+    if not asks and (unseen := read_event(said, grammar)) is not None:
         return unseen
     courteous = (
         asks and grammar is english and fold_sentence(text).folded.startswith(("can", "could", "w"))
@@ -147,10 +154,30 @@ def _read_command(
         return ScheduleCommand(None, said.written, "", problem="order_in_past")
     corrects = read_correction(said.folded, whole_parts, chinese=is_chinese)
     if corrects is None:
-        return _read(said, grammar)
+        return _read(said, grammar) if is_chinese else _read_framed(said)
     if isinstance(corrects.change, RemindAgain):  # "remind me again in five minutes"
         return replace(corrects, otherwise=_read(said.strip(_NOT_NOW), grammar))
     return corrects
+
+
+def _read_framed(said: FoldedSentence) -> ScheduleCommand | None:
+    """Read an order with its time in the middle, or one that begins on a later day."""
+    said = take_lead(said)
+    begins = read_beginning(said)
+    if begins is not None:
+        day, words, rest = begins
+        order = _read_framed(rest)
+        if order is None or not isinstance(order.when, CronRule | EventRule) or order.problem:
+            return None
+        return replace(order, begins=day, words=f"{words} {order.words}".strip())
+    order = _read(said, english)
+    if order is not None and order.when is not None:
+        return order
+    middle = read_middle(said)
+    timing = combine(middle.parts) if middle is not None else None
+    if middle is None or timing is None:
+        return order
+    return _order(middle.order.bare(), timing, middle.words)
 
 
 def _read_excepting(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
@@ -168,38 +195,6 @@ def _read_excepting(said: FoldedSentence, grammar: ModuleType) -> ScheduleComman
     return None
 
 
-def _read_event(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
-    """Read an order upon somebody's coming who is named, or upon what can't be noticed."""
-    is_chinese = grammar is chinese
-    arrival = read_arrival(said.folded, said.written, chinese=is_chinese)
-    if arrival is not None:
-        when = EventRule(event=WorldEvent.PERSON_SEEN)
-        return _upon(when, arrival.order, "", who=arrival.who)
-    offer = offer_event(said.folded, chinese=is_chinese)
-    if is_chinese or offer:
-        return None if offer is None else _unseen(said, offer, grammar)
-    found = read_event_order(said.folded, said.written, whole_parts)
-    if found is None:
-        return None if offer is None else _unseen(said, offer, grammar)
-    if found.event is None:
-        return _unseen(said, found.offer, grammar)
-    return _upon(EventRule(event=found.event), found.order, "", who=found.who)
-
-
-def _unseen(said: FoldedSentence, offer: str, grammar: ModuleType) -> ScheduleCommand | None:
-    """Return that no event tells what is waited for, with the order that comes nearest."""
-    if not offer and first_parts(said.folded, grammar).parts:
-        return None
-    problem: Problem = "order_event_place" if offer else "order_no_event"
-    return ScheduleCommand(None, said.written, "", problem=problem, offer=offer)
-
-
-def _upon(when: EventRule, order: str, words: str, who: str = "") -> ScheduleCommand:
-    """Return an order upon an event; where its news alone is wanted, a reminder that tells it."""
-    news = NEWS[when.event] if is_news(order) else None
-    return ScheduleCommand(when, order, words, reminder=news, who=who)
-
-
 def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a time, an order, and whether it is to be reminded of."""
     before = first_parts(said.folded, grammar)
@@ -215,7 +210,11 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
         rest, before = inner, FoundTime(_by_morning(parts) if remind["wake"] else parts, before.at)
     elif before.parts:
         rest = rest.strip(grammar.POLITE)
-    if remind is None and grammar is english and (told := _read_told(rest, before)) is not None:
+    if (
+        remind is None
+        and grammar is english
+        and (told := read_told_order(rest, before)) is not None
+    ):
         return told
     after = _time_behind(rest, before, grammar, reminds=remind is not None)
     order = rest.part(0, after.at) if after.parts else rest
@@ -242,9 +241,7 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     said_first = order.bare().folded
     remark = grammar.REMARK.match(said_first) is not None
     once = isinstance(timing.when, DayTime | InRule) and before.parts
-    if remark or (
-        once and statements.begins_with_statement(said_first, chinese=grammar is chinese)
-    ):
+    if remark or (once and begins_with_statement(said_first, chinese=grammar is chinese)):
         return None  # "it's cold tonight", "at nine the doctor comes, …": a time, and no order
     return _order(order.bare(), timing, words)
 
@@ -268,25 +265,6 @@ def _time_behind(
     return after
 
 
-def _read_told(rest: FoldedSentence, before: FoundTime) -> ScheduleCommand | None:
-    """Read what a person wants to be told or asked at a time: it is a reminder."""
-    tells = TELLS.match(rest.folded)
-    if tells is None:
-        return None
-    inner = rest.part(tells.end())
-    middle = first_parts(inner.folded, english)
-    inner = inner.part(middle.at).bare()
-    parts = (*before.parts, *middle.parts)
-    after = last_parts(inner.folded, english) if not parts else FoundTime((), len(inner.folded))
-    timing = combine(parts or after.parts)
-    what = read_told(
-        inner.part(0, after.at).bare().written, asks=bool(tells["asks"]), timed=bool(parts)
-    )
-    if timing is None or what is None or isinstance(timing.when, EventRule):
-        return None
-    return ScheduleCommand(timing.when, what, "", reminder=what, problem=timing.problem)
-
-
 def _by_morning(parts: tuple[Part, ...]) -> tuple[Part, ...]:
     """Return the parts of a time at which somebody is to be woken: a bare seven is of the morning."""
     if any(isinstance(part, DayPart) for part in parts):
@@ -302,8 +280,11 @@ def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand
     ends = isinstance(timing.when, EveryRule) and has_end(order.folded)
     if empty or ends or is_filler(order.folded):
         return None
+    recurs = isinstance(timing.when, CronRule | EveryRule | EventRule)
+    if (recurs or timing.problem == "order_time_missing") and is_limited(order.folded):
+        return ScheduleCommand(None, order.written, "", problem="order_no_end")
     if isinstance(timing.when, EventRule) and timing.problem is None:
-        return _upon(timing.when, order.written.strip(), words)
+        return upon(timing.when, order.written.strip(), words)
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 
 

@@ -9,6 +9,13 @@ from __future__ import annotations
 
 import re
 
+from planner.language.schedule import english
+from planner.language.schedule.command import ScheduleCommand
+from planner.language.schedule.folded_sentence import FoldedSentence
+from planner.language.schedule.parts import combine
+from planner.language.schedule.time_finder import FoundTime, first_parts, last_parts
+from planner.plan.timing import EventRule
+
 TELLS = re.compile(r"(?:tell|(?P<asks>ask)) (?:me|us)(?![\w'])[ ,]*")
 _ONE = (
     r"(?!.*(?:;|:|\b(?:if|unless|until|otherwise)\b"
@@ -75,3 +82,22 @@ def _turn(words: str) -> str:
 
 def _capital(words: str) -> str:
     return words[:1].upper() + words[1:]
+
+
+def read_told_order(rest: FoldedSentence, before: FoundTime) -> ScheduleCommand | None:
+    """Read what a person wants to be told or asked at a time: it is a reminder."""
+    tells = TELLS.match(rest.folded)
+    if tells is None:
+        return None
+    inner = rest.part(tells.end())
+    middle = first_parts(inner.folded, english)
+    inner = inner.part(middle.at).bare()
+    parts = (*before.parts, *middle.parts)
+    after = last_parts(inner.folded, english) if not parts else FoundTime((), len(inner.folded))
+    timing = combine(parts or after.parts)
+    what = read_told(
+        inner.part(0, after.at).bare().written, asks=bool(tells["asks"]), timed=bool(parts)
+    )
+    if timing is None or what is None or isinstance(timing.when, EventRule):
+        return None
+    return ScheduleCommand(timing.when, what, "", reminder=what, problem=timing.problem)
