@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import re
 
+from planner.language.folding import has_chinese
+from planner.language.grammar.zh.condition_phrases import plain_conditions
+
 _IDLE = re.compile(
     r"[,;.]? ?(?:and |but )?(?:otherwise|or else|else|if not)(?:,| then)? (?:just |please )*"
     r"(?:(?:stay|wait|remain|stand)(?: (?:here|there|put|still|where you are))+|do nothing"
@@ -32,4 +35,5 @@ _INSTEAD = re.compile(
 def plain_branches(said: str) -> str:
     """Return a normalised sentence without an idle branch, and without "instead" at an order."""
     plain = _NEVER_MIND.sub(r"\g<if>, ", said.strip(" ,.!?;。"))
-    return _INSTEAD.sub("", _IDLE.sub("", plain))
+    plain = _INSTEAD.sub("", _IDLE.sub("", plain))
+    return plain_conditions(plain) if has_chinese(plain) else plain

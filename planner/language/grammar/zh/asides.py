@@ -117,7 +117,10 @@ CHINESE_ASIDES = AsideForms(
     seam=re.compile(rf"(?P<aside>(?:{_PLEA}){_END})(?=[去到回来找看跟等转问数]{MARK})"),
     praise=re.compile(_PRAISE),
     formula=re.compile("|".join(f"(?:{each})" for each in _FORMULAS)),
-    speaks=re.compile(r"[说讲问喊叫]|告诉|提醒|通知|转告|带(?:个|句)话"),
+    speaks=re.compile(
+        r"(?!(?:告诉|通知|叫|喊)我们?(?:一声|一下|声)?$)"
+        r"(?:[说讲问喊叫]|告诉|提醒|通知|转告|带(?:个|句)话)"
+    ),
     states=(
         re.compile(rf"{_JOIN}{_STATE}"),
         re.compile(rf"{_JOIN}{_UNABLE}"),

@@ -26,6 +26,7 @@ from planner.language.grammar.driving_steps import (
     wander,
 )
 from planner.language.grammar.lexicon import MARK
+from planner.language.grammar.noun_phrases import go_to
 from planner.language.grammar.parse_result import (
     Meaning,
     Reading,
@@ -39,10 +40,11 @@ from planner.language.grammar.parse_result import (
 )
 from planner.language.grammar.small_talk import Topic
 from planner.language.grammar.step_builders import HOW_LONG, WHERE_ARE_YOU, WHERE_TO, missing
-from planner.language.grammar.zh import ALL_ROOMS, GO
+from planner.language.grammar.zh import ALL_ROOMS, GO, IN, SPOT
 from planner.language.numbers import ZH_ANGLE, ZH_DURATION, ZH_LENGTH, ZH_TURNS
 from planner.plan import Code, Say
 
+_STAY = r"(?:等着|待着|呆着|守着|候着|站着)"
 _AFTER = r"(?:去一下|去一趟|去|来|过去|待命|停下来?|等我|一下|一趟|走一趟|转转|转一圈)?"
 _LEAD = r"(?:(?:带|领|引导|陪|护送|送)(?:着)?(?:我们|我))?"
 _ORIGIN = (
@@ -93,6 +95,11 @@ def _come_here(found: Match[str], reading: Reading) -> Meaning:
     return missing(WHERE_ARE_YOU, found[0], reading)
 
 
+def _stay_at(found: Match[str], reading: Reading) -> Meaning:
+    """Go where it is to wait, without a time: arriving does that."""
+    return go_to(found["place"] or found["at"], reading)
+
+
 def _how_long(found: Match[str], reading: Reading) -> Meaning:
     return missing(HOW_LONG, found[0], reading)
 
@@ -138,6 +145,7 @@ RULES: tuple[Rule, ...] = (
         rf"上)?{ZH_DURATION}",
         wait,
     ),
+    rule(rf"(?:在那[里儿边])?{_STAY}|(?:就)?(?:待|呆|守|等|留|站)在那[里儿边]", stand),
     rule(
         r"(?:在?(?:这里|这儿|那里|那儿))?(?:等一下|等一等|等等|等一会儿?|稍等|等我|等着|等待|等)",
         _how_long,
@@ -162,6 +170,7 @@ RULES: tuple[Rule, ...] = (
         rf"(?:转身|转过去|转)?(?P<side>面[向朝]|面对着?|朝向|正对着?|对着|转向|转过去对着)(?P<place>{_WHAT})",
         stand_at,
     ),
+    rule(rf"在(?P<place>{SPOT}{IN}){_STAY}|(?:待|呆|守|等|留|站)在(?P<at>{SPOT}{IN})", _stay_at),
     rule(rf"离开{MARK}(?:里)?", _leave),
     rule(rf"{GO}完(?P<place>{MARK})(?:以后|之后|后)?", drive_to),
     rule(r"(?:在那里|在那儿)(?:停下来?|停住|停|待命|等着|等待)|待命", stand),

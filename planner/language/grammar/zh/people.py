@@ -55,6 +55,9 @@ def _meet_somewhere(found: Match[str], reading: Reading) -> Meaning:
             if isinstance(place, ClauseProblem)
             else one_at_a_time(found["who"], place, reading)
         )
+    if "叫" in found[0]:  # who is called is looked for, and called by name
+        name = call(found["who"], "", reading).rstrip(",")
+        return meet(found["who"], at, reading, name, sought=True)
     return meet(found["who"], at, reading, sought="找" in found[0])
 
 
