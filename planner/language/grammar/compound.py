@@ -31,7 +31,7 @@ from planner.language.grammar.lasting_orders import (
     read_wait,
 )
 from planner.language.object_names import resolve
-from planner.plan import Ask, Attempt, ClockTime, GoTo, If, Look, Recall, Say, Step, StepPlan
+from planner.plan import Ask, Attempt, ClockTime, Find, GoTo, If, Look, Recall, Say, Step, StepPlan
 
 MOST_CUTS = 40
 """Places at which a condition without a comma may end, tried one after the other."""
@@ -226,10 +226,14 @@ def _read_failure(said: str, forms: CompoundForms, read: PartReaders) -> tuple[S
     found = forms.failures.fullmatch(said)
     if found is None:
         return None
-    tried, instead = (
-        read.steps(found["main"].strip(" ,;.")),
-        read.steps(found["else"].strip(" ,;.")),
-    )
-    if not tried or not instead:
+    tried = read.steps(found["main"].strip(" ,;."))
+    if not tried:
+        return None
+    last, other = tried[-1], found["else"].strip(" ,;.")
+    if isinstance(last, Find):
+        thing = last.object if read.person(last.object) else f"{forms.the}{last.object}"
+        other = search_there(other, thing, forms)
+    instead = read.steps(other)
+    if not instead:
         return None
     return (Attempt(steps=tried, on_failure=instead),)

@@ -50,6 +50,7 @@ from planner.language.grammar.parse_result import (
 )
 from planner.language.grammar.plain_words import (
     asks_whether,
+    end_anyhow,
     in_plain_words,
     leave_asides_out,
     read_in_order_words,
@@ -106,6 +107,7 @@ def plan(
 def _plan(
     text: str, vocabulary: Vocabulary, context: Context
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
+    text = end_anyhow(text)
     text = in_one_condition(text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context))
     made = _plan_as_said(without_sending(text), vocabulary, context)
     if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:

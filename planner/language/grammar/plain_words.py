@@ -26,18 +26,27 @@ from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDA
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
 from planner.language.grammar.zh.look_phrases import LOOK_PHRASES
 from planner.language.grammar.zh.orders import CHINESE
+from planner.language.grammar.zh.until_phrases import without_known_ends
 from planner.plan import AnswerPlan, Clarify, Code, Refuse, StepPlan, Vocabulary
 
 _NAMED = re.compile(rf"[^{HAN}]{{0,8}}{MARK}[呢吗么]?[?]+")
 
 
+def end_anyhow(text: str) -> str:
+    """Return a Chinese text without an end that its order has anyhow: 找到为止, 找不到就算了."""
+    said = normalise(text)
+    plain = without_known_ends(said) if has_chinese(text) else said
+    return text if plain == said else plain
+
+
 def without_sending(text: str) -> str:
     """Return "how many chairs are there, go and count" without its end, which Chinese says so.
 
-    Likewise one turn that is told twice: "turn round and face the other way".
+    Likewise one turn that is told twice: "turn round and face the other way"; and in Chinese an end
+    that an order has anyhow, "until it is found".
     """
-    said = normalise(text)
-    plain = rewrite(said, ASKED_AND_SENT if has_chinese(text) else TOLD_TWICE)
+    said, ended = normalise(text), normalise(end_anyhow(text))
+    plain = rewrite(ended, ASKED_AND_SENT if has_chinese(text) else TOLD_TWICE)
     return text if plain == rewrite(said, ()) else plain
 
 
