@@ -106,8 +106,10 @@ _LEANS = (
 _IF_ZH = r"(?:如果|要是|假如|若是|倘若|若)"
 _HE_ZH = r"(?:他们|她们|他|她|它|人)?(?:还|真的?|确实|就)?"
 _THERE_ZH = r"(?:那儿|那里|那边|那|家|里面?)?"
+_SOME_ZH = r"有(?:人(?:在)?(?![来进过出回到经路走])|(?!人))"
+"""Who comes is waited for: 有人来 is no question whether somebody is there."""
 _HOLDS_ZH = (
-    rf"(?:{_IF_ZH}{_HE_ZH}(?:在{_THERE_ZH}|有人?(?:在)?|是(?:的)?)(?:的话)?"
+    rf"(?:{_IF_ZH}{_HE_ZH}(?:在{_THERE_ZH}|{_SOME_ZH}|是(?:的)?)(?:的话)?"
     rf"|{_HE_ZH}在{_THERE_ZH}的话|有人?(?:在)?的话|有人?(?=[就便])|{_HE_ZH}在{_THERE_ZH}(?=[就便]))"
 )
 _LACKS_ZH = (

@@ -10,6 +10,7 @@ import re
 
 from planner.language.folding import has_chinese
 from planner.language.grammar.zh.condition_phrases import plain_conditions
+from planner.language.grammar.zh.wait_phrases import plain_waits
 
 _IDLE = re.compile(
     r"[,;.]? ?(?:and |but )?(?:otherwise|or else|else|if not)(?:,| then)? (?:just |please )*"
@@ -36,4 +37,4 @@ def plain_branches(said: str) -> str:
     """Return a normalised sentence without an idle branch, and without "instead" at an order."""
     plain = _NEVER_MIND.sub(r"\g<if>, ", said.strip(" ,.!?;。"))
     plain = _INSTEAD.sub("", _IDLE.sub("", plain))
-    return plain_conditions(plain) if has_chinese(plain) else plain
+    return plain_waits(plain_conditions(plain)) if has_chinese(plain) else plain

@@ -204,7 +204,7 @@ CHINESE_COMPOUND = CompoundForms(
             rf"{_BEFORE}{_STAY}我说(?!完|好)(?P<word>[^,，;；。再就然]{{1,6}})(?:了|的时候)?{_GO_ON}"
         ),
         re.compile(
-            rf"{_STAY}(?P<time>(?:早上|上午|中午|下午|晚上|今晚)?[零一二三四五六七八九十两\d]+"
+            rf"{_BEFORE}{_STAY}(?P<time>(?:早上|上午|中午|下午|晚上|今晚)?[零一二三四五六七八九十两\d]+"
             rf"(?:[:：]\d\d|点(?:钟|半|[零一二三四五六七八九十]+分?)?)){_GO_ON}"
         ),
         re.compile(
