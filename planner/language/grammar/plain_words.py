@@ -26,6 +26,7 @@ from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDA
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
 from planner.language.grammar.zh.look_phrases import LOOK_PHRASES
 from planner.language.grammar.zh.orders import CHINESE
+from planner.language.grammar.zh.seen_phrases import looks_first
 from planner.language.grammar.zh.until_phrases import without_known_ends
 from planner.plan import AnswerPlan, Clarify, Code, Refuse, StepPlan, Vocabulary
 
@@ -33,9 +34,9 @@ _NAMED = re.compile(rf"[^{HAN}]{{0,8}}{MARK}[呢吗么]?[?]+")
 
 
 def end_anyhow(text: str) -> str:
-    """Return a Chinese text without an end that its order has anyhow: 找到为止, 找不到就算了."""
+    """Return a Chinese text without what its order does anyhow: 找到为止, 开着就告诉我."""
     said = normalise(text)
-    plain = without_known_ends(said) if has_chinese(text) else said
+    plain = looks_first(without_known_ends(said)) if has_chinese(text) else said
     return text if plain == said else plain
 
 
