@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
+from planner.language.grammar.zh.answers import ANSWERS, OPEN_QUESTION
 from planner.language.numbers import ZH_DURATION
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
@@ -120,7 +121,7 @@ _TOLD = r"(?P<w>[^,，;；。\"“”]{1,60}?)(?=$|[,，;；。])"
 
 CHINESE_COMPOUND = CompoundForms(
     trigger=re.compile(
-        r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟"
+        r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟|问"
     ),
     conditions=(
         re.compile(
@@ -221,6 +222,8 @@ CHINESE_COMPOUND = CompoundForms(
         r"(?:那边|那里|那儿|里面|里)?(?:也|再|去|帮我)*"
         rf"(?:(?P<try>{_SEARCHES})|{_LOOKS})"
     ),
+    answers=ANSWERS,
+    open_question=OPEN_QUESTION,
     search="去{place}找{thing}",
     look_there="看看{place}有没有人",
 )
