@@ -30,6 +30,7 @@ from planner.language.grammar.lasting_orders import (
     read_rounds,
     read_wait,
 )
+from planner.language.grammar.polled_orders import read_poll, read_spin
 from planner.language.object_names import resolve
 from planner.plan import Ask, Attempt, ClockTime, Find, GoTo, If, Look, Recall, Say, Step, StepPlan
 
@@ -56,6 +57,8 @@ def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPla
         or read_follow(said, forms, read)
         or read_follow_until(said, forms, read)
         or read_hunt(said, forms, read)
+        or read_poll(said, forms, read, lambda each: _plain_look(each, forms, read))
+        or read_spin(said, forms, lambda each: _plain_look(each, forms, read))
     )
     return StepPlan(steps=steps) if steps else None
 
@@ -208,6 +211,12 @@ def _asked_of_eyes(
     return SightCondition(
         look, parts.denied, somebody, person or "", anybody, thing, parts.statement
     )
+
+
+def _plain_look(condition: str, forms: CompoundForms, read: PartReaders) -> Look | None:
+    """Return the look whose yes tells a condition; None where a no does, or who somebody is."""
+    eyes = _asked_of_eyes(condition, forms, read)
+    return None if eyes is None or eyes.denied or eyes.person else eyes.look
 
 
 def _look(question: str, parts: ConditionParts, read: PartReaders) -> Look | None:
