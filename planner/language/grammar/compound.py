@@ -240,8 +240,9 @@ def _read_failure(said: str, forms: CompoundForms, read: PartReaders) -> tuple[S
         return None
     last, other = tried[-1], found["else"].strip(" ,;.")
     if isinstance(last, Find):
-        thing = last.object if read.person(last.object) else f"{forms.the}{last.object}"
-        other = search_there(other, thing, forms)
+        somebody = read.person(last.object) is not None
+        thing = last.object if somebody else f"{forms.the}{last.object}"
+        other = search_there(other, thing, forms, somebody=somebody)
     instead = read.steps(other)
     if not instead:
         return None

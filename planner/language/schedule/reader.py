@@ -227,8 +227,6 @@ def _read(said: _FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     said_first = order.bare().folded
     remark = grammar.REMARK.match(said_first) is not None
     once = isinstance(timing.when, DayTime | InRule) and before.parts
-    if isinstance(timing.when, EveryRule) and ("直到" in said_first or "为止" in said_first):
-        return None  # 每五分钟…，直到有人为止: rounds, and no order for good
     if remark or (once and begins_with_statement(said_first, chinese=grammar is chinese)):
         return None  # "it's cold tonight", "at nine the doctor comes, …": a time, and no order
     return _order(order.bare(), timing, words)

@@ -221,7 +221,7 @@ CHINESE_COMPOUND = CompoundForms(
     tries=re.compile(
         r"(?:你|就|再|那|便)*(?:去|到|在|上)?(?P<place>[^,;。去到在再也看瞧找搜没有不别]{1,6}?)"
         r"(?:那边|那里|那儿|里面|里)?(?:也|再|去|帮我)*"
-        rf"(?:(?P<try>{_SEARCHES})|{_LOOKS})"
+        rf"(?:(?P<try>{_SEARCHES})|(?P<look>{_LOOKS}))"
     ),
     polls=(
         re.compile(
