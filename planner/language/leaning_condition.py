@@ -110,6 +110,7 @@ _SOME_ZH = r"有(?:人(?:在)?(?![来进过出回到经路走])|(?!人))"
 """Who comes is waited for: 有人来 is no question whether somebody is there."""
 _HOLDS_ZH = (
     rf"(?:{_IF_ZH}{_HE_ZH}(?:在{_THERE_ZH}|{_SOME_ZH}|是(?:的)?)(?:的话)?"
+    rf"|(?:{_IF_ZH})?(?:你)?(?:看到|看见|发现|瞧见){_SOME_ZH}(?:的话)?(?=[就便,，])"
     rf"|{_HE_ZH}在{_THERE_ZH}的话|有人?(?:在)?的话|有人?(?=[就便])|{_HE_ZH}在{_THERE_ZH}(?=[就便]))"
 )
 _LACKS_ZH = (

@@ -30,6 +30,7 @@ from planner.language.grammar.lasting_orders import (
     read_rounds,
     read_wait,
 )
+from planner.language.grammar.polled_orders import read_poll, read_spin
 from planner.language.object_names import resolve
 from planner.plan import Ask, Attempt, ClockTime, Find, GoTo, If, Look, Recall, Say, Step, StepPlan
 
@@ -56,6 +57,8 @@ def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPla
         or read_follow(said, forms, read)
         or read_follow_until(said, forms, read)
         or read_hunt(said, forms, read)
+        or read_poll(said, forms, read, lambda each: _plain_look(each, forms, read))
+        or read_spin(said, forms, lambda each: _plain_look(each, forms, read))
     )
     return StepPlan(steps=steps) if steps else None
 
@@ -210,6 +213,12 @@ def _asked_of_eyes(
     )
 
 
+def _plain_look(condition: str, forms: CompoundForms, read: PartReaders) -> Look | None:
+    """Return the look whose yes tells a condition; None where a no does, or who somebody is."""
+    eyes = _asked_of_eyes(condition, forms, read)
+    return None if eyes is None or eyes.denied or eyes.person else eyes.look
+
+
 def _look(question: str, parts: ConditionParts, read: PartReaders) -> Look | None:
     """Return the look that answers a question, where one does; the way there is its own.
 
@@ -231,8 +240,9 @@ def _read_failure(said: str, forms: CompoundForms, read: PartReaders) -> tuple[S
         return None
     last, other = tried[-1], found["else"].strip(" ,;.")
     if isinstance(last, Find):
-        thing = last.object if read.person(last.object) else f"{forms.the}{last.object}"
-        other = search_there(other, thing, forms)
+        somebody = read.person(last.object) is not None
+        thing = last.object if somebody else f"{forms.the}{last.object}"
+        other = search_there(other, thing, forms, somebody=somebody)
     instead = read.steps(other)
     if not instead:
         return None

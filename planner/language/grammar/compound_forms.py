@@ -143,3 +143,11 @@ class CompoundForms:
     """
     open_question: re.Pattern[str] | None = None
     """Stands in a question that no yes or no answers."""
+    polls: tuple[re.Pattern[str], ...] = ()
+    """Groups ``number``, ``unit``, ``main``, and one of ``until`` (a condition) and ``time``."""
+    poll_there: str = ""
+    """The condition ``{until}`` at ``{place}``."""
+    spins: re.Pattern[str] | None = None
+    """Groups ``until`` (what is to be seen), and ``right`` where the turn is to the right."""
+    spun_to: str = ""
+    """The condition that ``{until}`` is there."""

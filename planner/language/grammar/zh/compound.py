@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
+from planner.language.grammar.zh.answers import ANSWERS, OPEN_QUESTION
 from planner.language.numbers import ZH_DURATION
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
@@ -101,6 +102,10 @@ def _time(words: str) -> str | None:
     return f"{hour:02d}:{minute:02d}"
 
 
+_HOUR = (
+    r"(?:早上|上午|中午|下午|晚上|今晚)?[零一二三四五六七八九十两\d]+"
+    r"(?:[:：]\d\d|点(?:钟|半|[零一二三四五六七八九十]+分?)?)"
+)
 _GO_ON = r"(?:(?:之后|以后|后)?[,，;；。]?(?:然后|再|就|接着)?(?P<rest>.+))?"
 _STAY = (
     r"(?:请|先)?(?:你)?(?:就)?(?:在这里|在这儿|在原地|留在这里)?(?:请)?等(?:着|到|待|候)?[,，]?"
@@ -120,7 +125,7 @@ _TOLD = r"(?P<w>[^,，;；。\"“”]{1,60}?)(?=$|[,，;；。])"
 
 CHINESE_COMPOUND = CompoundForms(
     trigger=re.compile(
-        r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟"
+        r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟|问|直到|为止|转到"
     ),
     conditions=(
         re.compile(
@@ -203,10 +208,7 @@ CHINESE_COMPOUND = CompoundForms(
         re.compile(
             rf"{_BEFORE}{_STAY}我说(?!完|好)(?P<word>[^,，;；。再就然]{{1,6}})(?:了|的时候)?{_GO_ON}"
         ),
-        re.compile(
-            rf"{_BEFORE}{_STAY}(?P<time>(?:早上|上午|中午|下午|晚上|今晚)?[零一二三四五六七八九十两\d]+"
-            rf"(?:[:：]\d\d|点(?:钟|半|[零一二三四五六七八九十]+分?)?)){_GO_ON}"
-        ),
+        re.compile(rf"{_BEFORE}{_STAY}(?P<time>{_HOUR}){_GO_ON}"),
         re.compile(
             rf"{_BEFORE}{_STAY}(?:看到|看见|见到)?(?P<who>有人|客人|有客人|人)(?:来|出现|过来|进来)?了?{_GO_ON}"
         ),
@@ -219,8 +221,22 @@ CHINESE_COMPOUND = CompoundForms(
     tries=re.compile(
         r"(?:你|就|再|那|便)*(?:去|到|在|上)?(?P<place>[^,;。去到在再也看瞧找搜没有不别]{1,6}?)"
         r"(?:那边|那里|那儿|里面|里)?(?:也|再|去|帮我)*"
-        rf"(?:(?P<try>{_SEARCHES})|{_LOOKS})"
+        rf"(?:(?P<try>{_SEARCHES})|(?P<look>{_LOOKS}))"
     ),
+    polls=(
+        re.compile(
+            rf"(?:请|你)*每(?:隔|过)?{ZH_DURATION}(?:就|都|再|，|,)*(?P<main>[^,;。]+?)(?:一次|一遍|一下|一趟)?,?(?:一直)?(?:直到|到)"
+            rf"(?:(?P<time>{_HOUR})|(?:{_SEE})?(?:那里|里面)?有?(?P<until>(?![没不])[^,;。]+?))(?:来|出现|进来)?(?:了)?(?:为止)?"
+        ),
+    ),
+    poll_there="{place}有{until}",
+    spun_to="有{until}",
+    spins=re.compile(
+        rf"(?:请|你|一直|就|慢慢)*(?:在?原地)?(?:一直|慢慢)*(?:(?:往|向|朝)?(?:左|(?P<right>右))边?)?(?:转着?|旋转|转身)(?:圈|个圈|下去)?"
+        rf",?(?:一直)?(?:直到|到){_SEE}有?(?P<until>(?![没不])[^,;。]+?)了?(?:为止|再停|就停(?:下来?)?|停)?"
+    ),
+    answers=ANSWERS,
+    open_question=OPEN_QUESTION,
     search="去{place}找{thing}",
     look_there="看看{place}有没有人",
 )
