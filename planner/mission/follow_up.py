@@ -33,7 +33,14 @@ from planner.mission.antecedents import name_antecedents
 from planner.mission.left_out import leave_out
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
-from planner.mission.place_words import find_place, name_place, names_of, put_place, write_drive
+from planner.mission.place_words import (
+    find_place,
+    name_place,
+    names_of,
+    put_place,
+    room_of,
+    write_drive,
+)
 from planner.mission.pronouns import name_pronouns
 from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
 from planner.mission.state import ORDER_SOURCE
@@ -95,6 +102,8 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         return _other_place(book.facts, last) or text
     rest = _innermost(intent.rest)
     names = names_of(book.facts)
+    if isinstance(intent, AppendCommand) and not _is_over_there(book.facts, text, rest, last):
+        return text
     place = find_place(book.facts, rest) or place_alone(_ASIDE.sub("", rest), names)
     if place is None:
         takes_back = isinstance(intent, Replace) and not intent.corrects
@@ -103,6 +112,19 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         named = name_antecedents(rest, last_orders(book, now_unix_s), book.facts, names)
         return named or rest
     return _order_at(book.facts, text, intent, place, last) or text
+
+
+def _is_over_there(facts: SiteView, text: str, rest: str, last: Mission | None) -> bool:
+    """Tell whether the places named before an addition are of the order before it.
+
+    "When you're done in the kitchen, …" waits for what is done there, and for nothing else.
+    """
+    names = names_of(facts)
+    at = plain(text).find(plain(rest))
+    before = {each.id for each in find_places(plain(text)[:at], names)} if at > 0 else set()
+    steps = last.steps if last is not None else ()
+    gone = {place for step in steps for place in (step.place, *step.places) if place}
+    return before <= gone | {room for place in gone if (room := room_of(facts, place))}
 
 
 def _order_at(

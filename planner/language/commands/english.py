@@ -93,8 +93,8 @@ _SOMEBODY = (
     r"|mum|mom|dad|daddy|mummy|mommy|grandma|grandpa|granny|nan|gran"
 )
 REASON = re.compile(
-    r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|remember(?:ed)?|know|did|done"
-    r"|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
+    r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|(?:can )?hear|heard|know|did"
+    r"|done|remember(?:ed)?|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
     r"|you (?:do not|don't) (?:have|need) to(?: [a-z ]{1,20})?|no need(?: to [a-z ]{1,20})?"
     r"|(?:it|that|they|she|he)(?:'s| is| are|'re| was| were) (?:already |right |all |not )*"
     r"(?:fine|ok|okay|here|right|found|done|sorted|important|needed|gone|too late)\b[a-z' ]*"

@@ -94,13 +94,15 @@ _ASKS = re.compile(
 """What asks for one more by a question: its mark is no doubt."""
 _DONE = re.compile(
     r"(?:and )?(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done|finished)"
-    r"(?: with (?:that|it|this)| there| here)?"
-    r"|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this))?"
+    r"(?: with (?:that|it|this)| there| here| (?:in |with )?(?:the|my|our) [a-z]+(?: [a-z]+)?)?"
+    r"|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this|(?:in )?(?:the|my|our) [a-z]+"
+    r"(?: [a-z]+)?))?"
     r"|that(?:'s| is) (?:done|finished))[ ,]+(?:then )?(?P<rest>.+)"
 )
 _DONE_ZH = re.compile(
     r"(?:等你?|你)?(?:[弄做干忙办找数看说转走跑去查绕]|巡[逻视查]|检查|探索)?完(?:了|这个|那个"
-    r"|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
+    r"|之后|以后)*(?:[^,去到回来]{1,6}?(?:之后|以后|了)?(?=[,去到]))?(?:就|再|然后|顺便|顺带|,)*"
+    r"(?P<rest>[去到回来找看数巡].+)"
 )
 _SAME_ZH = re.compile(
     r"(?:(?:还|这|那)?不够,?)?(?:顺便|顺带|再|还有|另外|,)*(?:把|帮我把)?"

@@ -79,6 +79,13 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("算了，没关系", CancelCommand()),
     ("don't trouble yourself", CancelCommand()),
     ("wrong way, go to the study", Replace("go to the study", now=True)),
+    ("don't trouble, I've found it. Just come back", Replace("come back", now=True)),
+    (
+        "never mind, I can hear her in the kitchen, go to the study",
+        Replace("go to the study", now=True),
+    ),
+    ("forget it, if she is in go to the study", Replace("if she is in go to the study", now=True)),
+    ("不用去了，我听到她在客厅讲话了，去书房", Replace("去书房", now=True)),
     ("never mind, I have to go to work", Replace("I have to go to work", now=True)),
     ("pause for a moment", PauseCommand()),
     ("pause for now", PauseCommand()),
