@@ -30,7 +30,7 @@ from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
 from planner.language.stop import StopReading, read_stop
 from planner.mission.antecedents import name_antecedents
-from planner.mission.left_out import leave_out
+from planner.mission.left_out import leave_out, put_first
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
 from planner.mission.place_words import (
@@ -159,7 +159,7 @@ def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> Sh
     chosen = find_choice(asked, text) if asked is not None and intent is None else None
     if chosen is not None:
         return ShortFollowUp(chosen)
-    without = leaves_out(book, text, now_unix_s)
+    without = change_round(book, text, now_unix_s)
     if without is not None:
         return ShortFollowUp(without, ends=True)
     wider = _widen_patrol(book, last, intent) if isinstance(intent, AppendCommand) else None
@@ -187,14 +187,14 @@ def _widen_patrol(book: MissionState, last: Mission | None, added: AppendCommand
     return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
 
 
-def leaves_out(book: MissionState, text: str, now_unix_s: float) -> str | None:
-    """Return what is left of the order that runs without the place that a sentence leaves out."""
+def change_round(book: MissionState, text: str, now_unix_s: float) -> str | None:
+    """Return the order that runs without the place that a sentence leaves out, or puts first."""
     last = last_order(book, now_unix_s)
     if last is None or book.running not in (None, last.id):
         return None
     if last.state is GoalState.PAUSED and read_stop(text) is not StopReading.NONE:
         return None  # "don't go in there" sets nothing in motion that stands
-    return leave_out(text, last, book.facts)
+    return leave_out(text, last, book.facts) or put_first(text, last, book.facts)
 
 
 def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:

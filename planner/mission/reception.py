@@ -32,10 +32,10 @@ from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import (
+    change_round,
     find_short_follow_up,
     last_order,
     leans,
-    leaves_out,
     meaning_of,
 )
 from planner.mission.journal import MAX_KEYS
@@ -127,7 +127,7 @@ def receive(
     may_answer = answers and not (given.confirm or given.replace)
     asking = goals_answered_by(book, said) if may_answer else ()
     now_unix_s = now_s + book.wall_offset_s
-    without = leaves_out(book, said.text, now_unix_s) is not None  # the rest goes on
+    without = change_round(book, said.text, now_unix_s) is not None  # the rest goes on
     if said.may_mean_stop and not (asking or without) and is_active(book, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)

@@ -49,7 +49,8 @@ _LOOKS = (
 )
 _AT = (
     r"(?:(?:over |out |down |up |back |round |through )?"
-    r"(?:to|into|in|inside|at|on|by|near|around|round|next to|beside)) "
+    r"(?:to|into|in|inside|at|on|by|near|around|round|next to|beside|under|underneath|beneath"
+    r"|behind)) "
 )
 _BUSY = (
     r"(?:sitting|lying|resting|sleeping|working|reading|cooking|playing|busy|having [a-z ]{3,16}?"
@@ -114,7 +115,7 @@ _ZH = re.compile(
     rf"(?:你?(?P<goes>再去|再到|去|到|再?试试看?|再看看|看看)"
     rf"|我(?:{_HEDGE_ZH}|记得)*(?:把它)?(?P<left>放|丢|落|忘|搁)在"
     rf"|(?P<who>[他她它])们?(?:{_HEDGE_ZH})*在|(?:{_HEDGE_ZH})*在?)"
-    rf"(?P<place>[^,，。;！？!?他她它我你不没别还]{{1,8}}?)"
+    rf"(?P<place>[^,，。;！？!?他她它我你不没别还]{{1,8}}?)(?:底下|下面|下边|后面|后边|背后)?"
     rf"(?P<seeks>{_SEEKS_ZH})?{_TAIL_ZH}*(?P<reason>{_REASON_ZH})?{_TAIL_ZH}*"
 )
 _ALL = (

@@ -18,7 +18,10 @@ COURTEOUS = re.compile(
 """A question mark behind these is courtesy; behind anything else it asks."""
 ASKING = re.compile(r"(?!)")
 """A word at the end that asks: there is none in English."""
-_RIGHT = r"right(?=,| (?:then|carry on|go on|continue|keep going|hold on|hang on)\b)"
+_RIGHT = (
+    r"(?:right|fine|sure|perfect|lovely|brilliant|thanks)"
+    r"(?=,| (?:then|carry on|go on|continue|keep going|hold on|hang on)\b)"
+)
 POLITE = re.compile(rf"(?:{_POLITE}|{_RIGHT}|(?:can|could|would|will) you)(?![\w'])")
 THANKS = re.compile(
     rf"(?:^| )(?:{_POLITE}|for me|right now|again|would you|will you|could you|mate|buddy|pal|love"
@@ -46,6 +49,7 @@ RESUME = re.compile(
     rf" (?:it|that|this|{_THE_TASK})"
     r"|(?:continue|carry on|go on|resume|keep) (?:driving|going|moving)"
     r"|(?:continue|carry on|go on) with what you were doing"
+    r"|(?:off|away|on) you go(?: again| now)?"
     r"|you (?:can|may) (?:continue|resume|proceed|carry on|go on|keep going|go)(?: again| now)?"
     r"(?:[ ,]+(?:continue|resume|carry on|go on|keep going))?"
 )

@@ -103,3 +103,24 @@ def test_a_denial_sets_nothing_in_motion_that_stands(said: str) -> None:
     paused = order_under_way("go round and see if anyone is there", *ROUND)
     assert paused.missions["g0"].state is GoalState.PAUSED
     assert meaning_of(paused, said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    "said", ["do the bedroom first", "start with the bedroom, please", "the bedroom first"]
+)
+def test_a_place_of_the_round_comes_first(said: str) -> None:
+    deed = "and see if anyone is there"
+    assert meaning_of(LOOKING, said, NOW_S) == (
+        f"go to the bedroom {deed}, then go to the kitchen {deed}, then go to the study {deed}"
+    )
+    assert meaning_of(PATROL, said, NOW_S) == ("patrol the bedroom and the kitchen and the study")
+    assert takes(LOOKING, said)
+    assert meaning_of(TELLING, said, NOW_S) != meaning_of(LOOKING, said, NOW_S)
+
+
+@pytest.mark.parametrize("said", ["先去卧室", "先看卧室吧", "从卧室开始"])
+def test_so_it_comes_first_in_chinese(said: str) -> None:
+    assert meaning_of(LOOKING_ZH, said, NOW_S) == (
+        "去卧室看看有没有人，再去厨房看看有没有人，再去书房看看有没有人，再回来"
+    )
+    assert meaning_of(ONE, said, NOW_S) == said
