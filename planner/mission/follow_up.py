@@ -28,9 +28,8 @@ from planner.language.commands import (
 )
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
-from planner.language.stop import StopReading, read_stop
 from planner.mission.antecedents import name_antecedents
-from planner.mission.left_out import leave_out, put_first
+from planner.mission.left_out import is_destination_denied, leave_out, put_first
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
 from planner.mission.place_words import (
@@ -192,9 +191,15 @@ def change_round(book: MissionState, text: str, now_unix_s: float) -> str | None
     last = last_order(book, now_unix_s)
     if last is None or book.running not in (None, last.id):
         return None
-    if last.state is GoalState.PAUSED and read_stop(text) is not StopReading.NONE:
-        return None  # "don't go in there" sets nothing in motion that stands
+    if last.state is GoalState.PAUSED and not isinstance(intent_of(text), LeaveOutCommand):
+        return None  # "it isn't in there" sets nothing in motion that stands
     return leave_out(text, last, book.facts) or put_first(text, last, book.facts)
+
+
+def denies_way(book: MissionState, text: str, now_unix_s: float) -> bool:
+    """Tell whether a sentence says of a place that the robot is on its way to that it is wrong."""
+    last = last_order(book, now_unix_s)
+    return last is not None and is_destination_denied(text, last, book.facts)
 
 
 def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:

@@ -11,7 +11,12 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from planner.language.commands import read_first_place, read_left_out
+from planner.language.commands import (
+    read_absent_place,
+    read_denied_place,
+    read_first_place,
+    read_left_out,
+)
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone
 from planner.language.object_names import resolve
@@ -55,9 +60,10 @@ def leave_out(text: str, last: Mission, facts: SiteView) -> str | None:
         last: the newest order.
         facts: the site.
     """
-    place = _only_place(text, read_left_out(text), facts)
+    absent = read_absent_place(text)
+    place = _only_place(text, read_left_out(text) or absent, facts)
     whole = _read_round(last, facts) if place is not None else None
-    if place is None or whole is None:
+    if place is None or whole is None or (absent is not None and whole.asked is None):
         return None
     left = [stop for stop in whole.stops if place not in (stop, room_of(facts, stop))]
     return _write_round(whole, left, last, facts) if len(left) < len(whole.stops) else None
@@ -77,6 +83,13 @@ def put_first(text: str, last: Mission, facts: SiteView) -> str | None:
         return None
     stops = [place, *(stop for stop in whole.stops if stop != place)]
     return _write_round(whole, stops, last, facts)
+
+
+def is_destination_denied(text: str, last: Mission, facts: SiteView) -> bool:
+    """Tell whether a place that an order still goes to is said not to be meant."""
+    place = _only_place(text, read_denied_place(text), facts)
+    ahead = last.steps[last.step :] if not last.has_ended else ()
+    return place is not None and any(place in (step.place, *step.places) for step in ahead)
 
 
 def _only_place(text: str, words: str | None, facts: SiteView) -> str | None:

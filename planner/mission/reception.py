@@ -33,6 +33,7 @@ from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import (
     change_round,
+    denies_way,
     find_short_follow_up,
     last_order,
     leans,
@@ -128,7 +129,8 @@ def receive(
     asking = goals_answered_by(book, said) if may_answer else ()
     now_unix_s = now_s + book.wall_offset_s
     without = change_round(book, said.text, now_unix_s) is not None  # the rest goes on
-    if said.may_mean_stop and not (asking or without) and is_active(book, now_s):
+    stops = said.may_mean_stop or denies_way(book, said.text, now_unix_s)
+    if stops and not (asking or without) and is_active(book, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)
     body = _body_of(given)

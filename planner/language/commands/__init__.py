@@ -29,7 +29,11 @@ from planner.language.commands.command import (
 from planner.language.commands.fact_corrections import name_subject, read_fact_correction
 from planner.language.commands.facts import read_statement
 from planner.language.commands.first_place import read_first_place
-from planner.language.commands.left_out import read_left_out
+from planner.language.commands.left_out import (
+    read_absent_place,
+    read_denied_place,
+    read_left_out,
+)
 from planner.language.commands.parser import intent_of
 
 __all__ = [
@@ -56,6 +60,8 @@ __all__ = [
     "WhereCommand",
     "intent_of",
     "name_subject",
+    "read_absent_place",
+    "read_denied_place",
     "read_fact_correction",
     "read_first_place",
     "read_left_out",

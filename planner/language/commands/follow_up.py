@@ -83,7 +83,8 @@ _ALSO_BEFORE = re.compile(
 )
 _SAME = re.compile(
     r"(?:now )?(?:do )?(?:the )?same(?: thing)?(?: again)? (?:in|at|for|with) (?P<rest>.+)"
-    r"|(?:and )?(?:what|how) about (?P<rest2>(?:in )?(?:the|my|our) [a-z][a-z' -]{1,30})"
+    r"|(?:and )?(?:what|how) about (?P<rest2>(?:in |on |at |by |under )?(?:the|my|our)"
+    r" [a-z][a-z' -]{1,30})"
     r"|and (?P<rest3>(?:in |at )?(?:the|my|our) [a-z][a-z' -]{1,30})"
     r"|(?:do|take in|include|throw in|add) (?P<rest4>(?:the|my|our) [a-z][a-z' -]{1,30}?)"
     r"(?: to (?:it|that|the|your) ?(?:round|patrol|tour|list)?s?)?"

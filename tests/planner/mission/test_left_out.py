@@ -124,3 +124,25 @@ def test_so_it_comes_first_in_chinese(said: str) -> None:
         "去卧室看看有没有人，再去厨房看看有没有人，再去书房看看有没有人，再回来"
     )
     assert meaning_of(ONE, said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    "said", ["it's not in the bedroom, I've just looked", "it isn't in the bedroom either"]
+)
+def test_where_it_is_not_nobody_looks_for_it(said: str) -> None:
+    meant = meaning_of(SEEKING, said, NOW_S)
+    assert "bedroom" not in meant
+    assert meant.count("see if there is a cup") == 6
+    drives = run("go", GoTo(place="kitchen"), GoTo(place="bedroom"))
+    assert meaning_of(drives, said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    "said", ["not the bedroom", "no, not the bedroom", "I didn't say the bedroom", "不是卧室",
+             "我说的不是卧室"],
+)  # fmt: skip
+def test_who_is_on_the_way_to_a_wrong_place_stops(said: str) -> None:
+    assert receive(ONE, parse(said), Submitted("new", said, Language.EN), NOW_S).stops
+    other = run("go to the study", GoTo(place="study"))
+    heard = receive(other, parse(said), Submitted("new", said, Language.EN), NOW_S)
+    assert heard.stops is parse(said).may_mean_stop
