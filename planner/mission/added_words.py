@@ -45,6 +45,70 @@ _WORDS_ZH = re.compile(
 _TELLS_ZH = re.compile(r"(?P<head>.*?(?:说一声|说一下|说|讲))(?P<words>[^“”\"]{1,60})")
 
 
+_NO = r"(?:(?:no|nope|sorry|wait|actually|oops|hang on)[ ,.!;]+)"
+_INSTEAD = re.compile(
+    rf"(?:{_NO}+(?:i meant? |i said )?(?:(?:tell|ask|call|get) )?{_SOMEBODY.format('a')}"
+    rf"|i meant? {_SOMEBODY.format('b')}|(?:tell|ask|call) {_SOMEBODY.format('c')} instead)"
+    r"(?: instead)?(?:[ ,]+(?:please|not (?:my )?[a-z]+))?"
+)
+_INSTEAD_ZH = re.compile(
+    r"(?:(?:不对|不是|错了|说错了|等等|不|,)+(?:我说的)?(?:应该)?是?|我说的是|改成|换成)"
+    r"(?:告诉|问|叫|通知|跟|和)?(?P<a>[^,，。]{1,5}?)(?:才对|吧|啊)*"
+)
+_SAYS_INSTEAD = re.compile(
+    rf"(?:{_NO}+say (?P<a>[^,;]{{2,60}})|{_NO}*say (?P<b>[^,;]{{2,60}}?),? instead)"
+)
+_SAYS_INSTEAD_ZH = re.compile(
+    r"(?:(?:不对|不|等等|算了|,)+(?:还是|改)?|还是|改|换)(?:成)?(?:说|讲)[“\"]?(?P<a>[^“”\",吗呢]{1,40}?)[”\"]?(?:吧)?"
+)
+_HANGS = re.compile(r"\b(?:if|unless|until|when|or|and then|then)\b|如果|要是|的话|还是|再去|然后")
+
+
+def correct_words(text: str, last: Mission) -> str | None:
+    """Return the order for another person, or with other words; None where nothing is corrected.
+
+    Args:
+        text: as it was said.
+        last: the newest order.
+    """
+    said = plain(text).strip(_ENDS)
+    chinese = has_chinese(said)
+    if not 0 < len(said) <= MAX_READ or text.rstrip().endswith(("?", "？")):
+        return None
+    if has_chinese(last.order_text) is not chinese:
+        return None
+    bare = re.sub(r"[，。；!！]", ",", "".join(said.split())) if chinese else said
+    found = (_SAYS_INSTEAD_ZH if chinese else _SAYS_INSTEAD).fullmatch(bare)
+    if found is not None:
+        return _put_words(next(words for words in found.groups() if words), last)
+    found = (_INSTEAD_ZH if chinese else _INSTEAD).fullmatch(bare)
+    other = next((who for who in found.groups() if who), "") if found is not None else ""
+    people = people_named(last.order_text)
+    speaks = (_SPEAKS_ZH if chinese else _SPEAKS).search(last.order_text)
+    if not is_given_name(other) or len(people) != 1 or speaks is None:
+        return None
+    return _put_person(other, people[0], last)
+
+
+def _put_words(words: str, last: Mission) -> str | None:
+    """Return an order to say other words; None where it says none, or not once in these words."""
+    said = [step.text for step in last.steps if step.kind == "say" and step.text]
+    order = plain(last.order_text)
+    old = plain(said[0]).strip(_ENDS) if len(said) == 1 else ""
+    if not old or order.count(old) != 1 or _HANGS.search(words):
+        return None
+    return order.replace(old, words)
+
+
+def _put_person(other: str, person: str, last: Mission) -> str | None:
+    """Return an order with another person in the place of its only one."""
+    order, who = plain(last.order_text), plain(person)
+    if not last.steps or plain(other) == who:
+        return None
+    put = re.sub(rf"(?<![a-z]){re.escape(who)}(?![a-z])", lambda _: other, order, count=1)
+    return put if put != order else None
+
+
 def add_to_words(text: str, last: Mission) -> str | None:
     """Return the order for one more person, or with more words; None where none is added.
 
@@ -65,12 +129,7 @@ def add_to_words(text: str, last: Mission) -> str | None:
         return _say_besides(words["words"], last)
     found = (_TOO_ZH if chinese else _TOO).fullmatch(bare)
     other = next((who for who in found.groups() if who), "") if found is not None else ""
-    if not last.steps or not is_given_name(other) or plain(other) == plain(people[0]):
-        return None
-    order = plain(last.order_text)
-    who = plain(people[0])
-    put = re.sub(rf"(?<![a-z]){re.escape(who)}(?![a-z])", lambda _: other, order, count=1)
-    return put if put != order else None
+    return _put_person(other, people[0], last) if is_given_name(other) else None
 
 
 def _say_besides(words: str, last: Mission) -> str | None:

@@ -39,18 +39,22 @@ _WAY = (
     r"|(?P<back>backwards?|back)))?"
 )
 _MUCH = (
-    r"(?P<much>(?:(?:\d{1,3}(?:\.\d)?|a|one|two|half a|ten|twenty|thirty"
+    r"(?P<much>(?:(?:\d{1,3}(?:\.\d)?|a|one|two|half an?|half|ten|twenty|thirty"
     r"|fifty) ?)?(?P<unit>metres?|meters?|m|cm|centimet(?:er|re)s?|degrees?))"
 )
 _MORE = re.compile(
     rf"{_OPEN}(?:(?:go|move|drive|turn) )?(?:(?:{_BIT} (?:more|further|farther)|more|further){_WAY}"
-    rf"|another {_MUCH}|keep going {_BIT}(?: more)?){_CLOSE}"
+    rf"|another {_MUCH}|keep going {_BIT}(?: more)?)(?:[ ,]+(?:{_BIT} )?more)*{_CLOSE}"
 )
 _CLOSER = re.compile(rf"{_OPEN}(?:{_BIT} )?(?:closer|nearer){_CLOSE}")
 _BACK = re.compile(
     rf"{_OPEN}(?:(?:that(?:'s| is| was)? )?(?:too (?:far|much)|much too far|over)[ ,.!;]+)?"
     rf"(?:(?:now |so |just )*(?:go|come|turn|move|drive) )?(?:back {_BIT}"
     rf"|{_BIT} (?:further )?back(?:wards)?){_CLOSE}"
+)
+_FORTH = re.compile(
+    rf"{_OPEN}(?:(?:that(?:'s| is| was)? )?(?:too (?:far|much)|much too far)[ ,.!;]+)"
+    rf"(?:(?:now |so |just )*(?:go|come|move|drive) )?(?:forwards? {_BIT}|{_BIT} forwards?){_CLOSE}"
 )
 _NO = (
     r"(?:(?:no|nope|wait|oops|sorry|hey|not that way|wrong (?:way|side|direction|one)|the wrong way"
@@ -125,6 +129,8 @@ def adjust_motion(text: str, last: Mission) -> str | None:
         return _move_on(step, 1.0, chinese=chinese) if nears else None
     if (_BACK_ZH if chinese else _BACK).fullmatch(bare):
         return _move_on(step, -1.0, chinese=chinese)
+    if not chinese and step.kind == "move" and _FORTH.fullmatch(bare):
+        return "move forward a bit"
     return None
 
 
@@ -189,7 +195,7 @@ def _move_as_far(step: StepRecord, much: str, unit: str, *, chinese: bool) -> st
     ahead = (step.distance_m or 0.0) > 0.0
     if chinese:
         return f"{'前进' if ahead else '后退'}{much}"
-    much = f"a {much}" if much == unit else much
+    much = f"a {much}" if much == unit else re.sub(r"^half (?=m)", "half a ", much)
     return f"move {'forward' if ahead else 'back'} {much}"
 
 

@@ -46,6 +46,17 @@ _SPEAKS_ZH = re.compile(
     r"|讲))|和(?=[他她]们?(?:说|讲))"
     r"|叫(?=[他她])|喊(?=[他她]))(?:一下)?(?P<who>他们|她们|他|她)(?P<says>说一声|说一下|说|讲)?"
 )
+_SPEAKS_AGAIN = re.compile(
+    r"(?:(?:please|ok|okay|well|now|and|just|then|go|back|no|can you|could you)[ ,]+)*"
+    r"(?:tell|ask|remind|warn|greet|call) (?P<who>him|her|them)"
+    r" (?:again|once more|one more time|a second time)(?:[ ,]+(?:please|then|louder))*[.!]*",
+    re.IGNORECASE,
+)
+_SPEAKS_AGAIN_ZH = re.compile(
+    r"(?:那|你|请|麻烦|再|去|回去|,|，)*再(?:去)?(?:问|告诉|提醒|通知|叫|喊|[跟和对](?=.{1,2}[说讲]))"
+    r"(?P<who>他|她)们?(?:说|讲)?(?:一?(?:遍|次|声|下))(?:吧|呗|啊)*[。！]*"
+)
+_SPEAKING = frozenset({"say", "ask"})
 _GO_THERE = re.compile(
     r"(?P<head>(?:^|(?<=[ ,]))"
     r"(?:(?:go|drive|come|head|walk|move|pop)(?: (?:over|back|on|straight))?"
@@ -77,6 +88,9 @@ def name_antecedents(
     """
     if not orders:
         return None
+    again = (_SPEAKS_AGAIN_ZH if has_chinese(text) else _SPEAKS_AGAIN).fullmatch(text.strip())
+    if again is not None:
+        return _speak_again(again["who"], orders[0])
     condition = _write_condition(text, orders[0], facts)
     if condition is not None:
         return condition
@@ -85,6 +99,13 @@ def name_antecedents(
     return _name_place(said, orders[0], facts, names, chinese=chinese) or (
         said if said != text else None
     )
+
+
+def _speak_again(who: str, last: Mission) -> str | None:
+    """Return the order to say or ask the same once more; None where another person is meant."""
+    people = people_named(last.order_text)
+    spoke = any(step.kind in _SPEAKING for step in last.steps)
+    return last.order_text if spoke and len(people) == 1 and fits(who, people[0]) else None
 
 
 def _write_condition(text: str, last: Mission, facts: SiteView) -> str | None:

@@ -28,12 +28,18 @@ from planner.language.commands import (
 )
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
-from planner.language.stop import StopReading, read_stop
 from planner.mission.antecedents import name_antecedents
-from planner.mission.left_out import leave_out
+from planner.mission.left_out import is_destination_denied, leave_out, put_first
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
-from planner.mission.place_words import find_place, name_place, names_of, put_place, write_drive
+from planner.mission.place_words import (
+    find_place,
+    name_place,
+    names_of,
+    put_place,
+    room_of,
+    write_drive,
+)
 from planner.mission.pronouns import name_pronouns
 from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
 from planner.mission.state import ORDER_SOURCE
@@ -95,6 +101,8 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         return _other_place(book.facts, last) or text
     rest = _innermost(intent.rest)
     names = names_of(book.facts)
+    if isinstance(intent, AppendCommand) and not _is_over_there(book.facts, text, rest, last):
+        return text
     place = find_place(book.facts, rest) or place_alone(_ASIDE.sub("", rest), names)
     if place is None:
         takes_back = isinstance(intent, Replace) and not intent.corrects
@@ -103,6 +111,19 @@ def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
         named = name_antecedents(rest, last_orders(book, now_unix_s), book.facts, names)
         return named or rest
     return _order_at(book.facts, text, intent, place, last) or text
+
+
+def _is_over_there(facts: SiteView, text: str, rest: str, last: Mission | None) -> bool:
+    """Tell whether the places named before an addition are of the order before it.
+
+    "When you're done in the kitchen, …" waits for what is done there, and for nothing else.
+    """
+    names = names_of(facts)
+    at = plain(text).find(plain(rest))
+    before = {each.id for each in find_places(plain(text)[:at], names)} if at > 0 else set()
+    steps = last.steps if last is not None else ()
+    gone = {place for step in steps for place in (step.place, *step.places) if place}
+    return before <= gone | {room for place in gone if (room := room_of(facts, place))}
 
 
 def _order_at(
@@ -137,7 +158,7 @@ def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> Sh
     chosen = find_choice(asked, text) if asked is not None and intent is None else None
     if chosen is not None:
         return ShortFollowUp(chosen)
-    without = leaves_out(book, text, now_unix_s)
+    without = change_round(book, text, now_unix_s)
     if without is not None:
         return ShortFollowUp(without, ends=True)
     wider = _widen_patrol(book, last, intent) if isinstance(intent, AppendCommand) else None
@@ -165,14 +186,20 @@ def _widen_patrol(book: MissionState, last: Mission | None, added: AppendCommand
     return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
 
 
-def leaves_out(book: MissionState, text: str, now_unix_s: float) -> str | None:
-    """Return what is left of the order that runs without the place that a sentence leaves out."""
+def change_round(book: MissionState, text: str, now_unix_s: float) -> str | None:
+    """Return the order that runs without the place that a sentence leaves out, or puts first."""
     last = last_order(book, now_unix_s)
     if last is None or book.running not in (None, last.id):
         return None
-    if last.state is GoalState.PAUSED and read_stop(text) is not StopReading.NONE:
-        return None  # "don't go in there" sets nothing in motion that stands
-    return leave_out(text, last, book.facts)
+    if last.state is GoalState.PAUSED and not isinstance(intent_of(text), LeaveOutCommand):
+        return None  # "it isn't in there" sets nothing in motion that stands
+    return leave_out(text, last, book.facts) or put_first(text, last, book.facts)
+
+
+def denies_way(book: MissionState, text: str, now_unix_s: float) -> bool:
+    """Tell whether a sentence says of a place that the robot is on its way to that it is wrong."""
+    last = last_order(book, now_unix_s)
+    return last is not None and is_destination_denied(text, last, book.facts)
 
 
 def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:

@@ -1,22 +1,27 @@
-"""Say what is left of an order without one of its places: "not the bathroom", 卧室就别进了.
+"""Say what becomes of a round without one of its places, or with one first: "not the bathroom".
 
 Pure. Laws: the order goes through several places and does the same at each: it drives there, or
-looks there with one question; the place that is left out is one of them, and at least one other is
-left. What it did already is not begun anew. What is in doubt stays as it was said.
+looks there with one question; the place is one of them, and at least one other is left. What it did
+already is not begun anew. What is in doubt stays as it was said.
 """
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from planner.language.commands import read_left_out
+from planner.language.commands import (
+    read_absent_place,
+    read_denied_place,
+    read_first_place,
+    read_left_out,
+)
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone
 from planner.language.object_names import resolve
 from planner.language.person_names import is_given_name
-from planner.mission.outcomes import spot_at
-from planner.mission.place_words import name_place, names_of, write_drive
+from planner.mission.place_words import name_place, names_of, room_of, write_drive
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,6 +38,20 @@ _WAY_HOME = {
 _ARTICLE = re.compile(r"^(?:the|my|our|your|an?|some|any) ", re.IGNORECASE)
 
 
+@dataclass(frozen=True, slots=True)
+class _Round:
+    """Hold what an order still does, at each of several places the same."""
+
+    stops: tuple[str, ...]
+    looked: frozenset[str] = frozenset()
+    """At which of them it looks."""
+    asked: str | None = None
+    """With which question; None: it looks nowhere."""
+    patrols: bool = False
+    home: str | None = None
+    """The step that leads back at its end."""
+
+
 def leave_out(text: str, last: Mission, facts: SiteView) -> str | None:
     """Return what is left of an order without the place that a person leaves out; None in doubt.
 
@@ -41,77 +60,99 @@ def leave_out(text: str, last: Mission, facts: SiteView) -> str | None:
         last: the newest order.
         facts: the site.
     """
-    words = read_left_out(text)
-    place = place_alone(words, names_of(facts)) if words is not None else None
-    if place is None or last.has_ended:
+    absent = read_absent_place(text)
+    place = _only_place(text, read_left_out(text) or absent, facts)
+    whole = _read_round(last, facts) if place is not None else None
+    if place is None or whole is None or (absent is not None and whole.asked is None):
         return None
-    if {each.id for each in find_places(text, names_of(facts))} != {place}:
+    left = [stop for stop in whole.stops if place not in (stop, room_of(facts, stop))]
+    return _write_round(whole, left, last, facts) if len(left) < len(whole.stops) else None
+
+
+def put_first(text: str, last: Mission, facts: SiteView) -> str | None:
+    """Return an order that goes to one of its places before all others; None in doubt.
+
+    Args:
+        text: as it was said.
+        last: the newest order.
+        facts: the site.
+    """
+    place = _only_place(text, read_first_place(text), facts)
+    whole = _read_round(last, facts) if place is not None else None
+    if place is None or whole is None or place not in whole.stops[1:]:
         return None
+    stops = [place, *(stop for stop in whole.stops if stop != place)]
+    return _write_round(whole, stops, last, facts)
+
+
+def is_destination_denied(text: str, last: Mission, facts: SiteView) -> bool:
+    """Tell whether a place that an order still goes to is said not to be meant."""
+    place = _only_place(text, read_denied_place(text), facts)
+    ahead = last.steps[last.step :] if not last.has_ended else ()
+    return place is not None and any(place in (step.place, *step.places) for step in ahead)
+
+
+def _only_place(text: str, words: str | None, facts: SiteView) -> str | None:
+    """Return the place that words name, where the sentence names no other."""
+    names = names_of(facts)
+    place = place_alone(words, names) if words is not None else None
+    return place if {each.id for each in find_places(text, names)} == {place} else None
+
+
+def _read_round(last: Mission, facts: SiteView) -> _Round | None:
+    """Return the round that an order still makes; None where it does more, or something else."""
     ahead = last.steps[last.step :]
-    if any(step.depth for step in ahead) or last.speed_share != 1.0:
+    if last.has_ended or any(step.depth for step in ahead) or last.speed_share != 1.0:
         return None  # a slow round would go on fast
-    home = _WAY_HOME.get(ahead[-1].kind) if len(ahead) > 1 else None
+    home = ahead[-1].kind if len(ahead) > 1 and ahead[-1].kind in _WAY_HOME else None
     ahead = ahead[:-1] if home is not None else ahead
-    parts = _parts_without(ahead, place, last, facts)
-    if not parts:
-        return None
-    chinese = has_chinese(last.order_text)
-    ending = home[1 if chinese else 0] if home is not None else None
-    return ("，再" if chinese else ", then ").join(parts) + (
-        ("，" if chinese else ", ") + ending if ending is not None else ""
-    )
-
-
-def _parts_without(
-    ahead: Sequence[StepRecord], place: str, last: Mission, facts: SiteView
-) -> list[str]:
-    """Return the orders that are left, one a place; none where that is in doubt."""
-    chinese = has_chinese(last.order_text)
     if len(ahead) == 1 and ahead[0].kind == "patrol":
-        stops = [stop for stop in ahead[0].places if not _is_at(facts, stop, place)]
-        names = [name_place(facts, stop, chinese, last.order_text) for stop in stops]
-        if not names or len(stops) == len(ahead[0].places):
-            return []
-        return [f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"]
+        return _Round(ahead[0].places, patrols=True, home=home)
     if len(ahead) == 1 and ahead[0].kind == "find" and ahead[0].place is None:
-        rooms = [each.id for each in facts.targets.values() if each.room]
-        left = [room for room in rooms if room != place and room not in ahead[0].rooms]
-        asked = _look_for(ahead[0].object or "", chinese=chinese)
-        fits = place in rooms and place not in ahead[0].rooms and asked is not None
-        return [_look_at(facts, room, asked or "", last) for room in left] if fits else []
-    return _round_without(ahead, place, last, facts)
+        asked = _look_for(ahead[0].object or "", chinese=has_chinese(last.order_text))
+        rooms = (each.id for each in facts.targets.values() if each.room)
+        left = tuple(room for room in rooms if room not in ahead[0].rooms)
+        return _Round(left, frozenset(left), asked, home=home) if asked is not None else None
+    return _read_stops(ahead, home, facts)
 
 
-def _round_without(
-    ahead: Sequence[StepRecord], place: str, last: Mission, facts: SiteView
-) -> list[str]:
-    """Return what is left of drives, or of looks with one question, through several places."""
-    stops = [step.place for step in ahead if step.place is not None]
-    left = [stop for stop in dict.fromkeys(stops) if not _is_at(facts, stop, place)]
+def _read_stops(ahead: Sequence[StepRecord], home: str | None, facts: SiteView) -> _Round | None:
+    """Return drives, or looks with one question, through several places."""
+    stops = tuple(dict.fromkeys(step.place for step in ahead if step.place is not None))
     questions = {step.text for step in ahead if step.kind == "look"}
-    looked = {step.place for step in ahead if step.kind == "look"}
-    one_deed = len(questions) <= 1 and (not questions or looked >= set(left))
-    if any(step.kind not in _ROUND for step in ahead) or len(stops) < 2 or not one_deed:
-        return []
-    if not left or len(left) == len(set(stops)):
-        return []
+    looked = frozenset(step.place for step in ahead if step.kind == "look" and step.place)
     asked = next(iter(questions), None)
-    if asked is None:
-        return [write_drive(facts, stop, last.order_text) for stop in left]
-    if find_places(asked, names_of(facts)):
-        return []
-    return [_look_at(facts, stop, asked, last) for stop in left]
+    several = len(questions) > 1 or (asked is not None and find_places(asked, names_of(facts)))
+    if any(step.kind not in _ROUND for step in ahead) or len(stops) < 2 or several:
+        return None
+    return _Round(stops, looked, asked, home=home)
 
 
-def _is_at(facts: SiteView, stop: str, place: str) -> bool:
-    """Tell whether a stop is a place, or stands in it."""
-    target = facts.targets.get(stop)
-    return stop == place or (target is not None and spot_at(facts, target.pose).room == place)
+def _write_round(whole: _Round, stops: Sequence[str], last: Mission, facts: SiteView) -> str | None:
+    """Return the order to make a round of these places; None of none, and where deeds differ."""
+    chinese = has_chinese(last.order_text)
+    if not stops or (whole.asked is not None and not whole.looked >= set(stops)):
+        return None
+    if whole.patrols:
+        names = [name_place(facts, stop, chinese, last.order_text) for stop in stops]
+        parts = [f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"]
+    else:
+        parts = [_write_stop(facts, stop, whole.asked, last) for stop in stops]
+    if whole.home is not None:
+        ending = _WAY_HOME[whole.home][1 if chinese else 0]
+        return f"{_join(parts, chinese=chinese)}{'，' if chinese else ', '}{ending}"
+    return _join(parts, chinese=chinese)
 
 
-def _look_at(facts: SiteView, stop: str, asked: str, last: Mission) -> str:
-    asked = asked.strip(" ?？.。!！")
+def _join(parts: Sequence[str], *, chinese: bool) -> str:
+    return ("，再" if chinese else ", then ").join(parts)
+
+
+def _write_stop(facts: SiteView, stop: str, asked: str | None, last: Mission) -> str:
     drive = write_drive(facts, stop, last.order_text)
+    if asked is None:
+        return drive
+    asked = asked.strip(" ?？.。!！")
     return f"{drive}{asked}" if has_chinese(last.order_text) else f"{drive} and {asked}"
 
 

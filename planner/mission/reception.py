@@ -32,10 +32,11 @@ from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import (
+    change_round,
+    denies_way,
     find_short_follow_up,
     last_order,
     leans,
-    leaves_out,
     meaning_of,
 )
 from planner.mission.journal import MAX_KEYS
@@ -256,9 +257,12 @@ def _may_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
 
     卧室别进去 leaves one room out of the round that runs, and the rest of it goes on.
     """
-    if not said.may_mean_stop or not is_active(book, now_s):
+    now_unix_s = now_s + book.wall_offset_s
+    if not is_active(book, now_s) or not (
+        said.may_mean_stop or denies_way(book, said.text, now_unix_s)
+    ):
         return False
-    return leaves_out(book, said.text, now_s + book.wall_offset_s) is None
+    return change_round(book, said.text, now_unix_s) is None
 
 
 def awaits_answer(book: MissionState) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from planner.mission.added_words import add_to_words
+from planner.mission.added_words import add_to_words, correct_words
 from planner.mission.adjusted_motion import adjust_motion, turn_other_way
 from planner.mission.corrected_whereabouts import correct_whereabouts
 from planner.mission.renewed_look import renew_look, say_again
@@ -55,6 +55,9 @@ def read_short_follow_up(
     moved = adjust_motion(text, last)
     if moved is not None:
         return ShortFollowUp(moved)
+    meant = correct_words(text, last)
+    if meant is not None:
+        return ShortFollowUp(meant, ends=True)
     added = add_to_words(text, last)
     if added is not None:
         return ShortFollowUp(added, joins=True)

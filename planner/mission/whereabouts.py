@@ -36,6 +36,7 @@ _HEDGE = (
 _OPEN = (
     r"(?:ok|okay|well|um+|uh+|er+|oh|ah|hm+|right|alright|all right|yes|yeah|yep|sure"
     r"|please|robot|pons|actually|in that case|no worries|no problem|thanks|fine"
+    r"|(?:it's|it is|he's|she's|they're) not there|nothing there\??|no luck\??|not there"
     r"|not sure|i(?:'m| am) not sure|(?:i )?(?:dunno|don't know|do not know)|no idea)"
 )
 _IS = (
@@ -49,7 +50,8 @@ _LOOKS = (
 )
 _AT = (
     r"(?:(?:over |out |down |up |back |round |through )?"
-    r"(?:to|into|in|inside|at|on|by|near|around|round|next to|beside)) "
+    r"(?:to|into|in|inside|at|on|by|near|around|round|next to|beside|under|underneath|beneath"
+    r"|behind)) "
 )
 _BUSY = (
     r"(?:sitting|lying|resting|sleeping|working|reading|cooking|playing|busy|having [a-z ]{3,16}?"
@@ -78,7 +80,7 @@ _TAIL = (
     rf"|{_BUSY}|(?<=,) ?{_REASON})"
 )
 _EN = re.compile(
-    rf"(?:{_OPEN}[ ,.!;]+)*(?:{_HEDGE}(?: that)?[ ,]+)*"
+    rf"(?:{_OPEN}[ ,.!;?]+)*(?:{_HEDGE}(?: that)?[ ,]+)*"
     rf"(?:(?P<who>he|she|they|it|that){_IS} (?:(?:{_HEDGE}|both|all)[ ,]+)*(?:{_BUSY} )?"
     rf"|(?P<left>{_LEFT_IT}) |(?:then )?(?:you (?:could|can|should"
     rf"|might) )?(?P<tries>{_LOOKS})(?: again)? (?:{_HEDGE}[ ,]+)*)?"
@@ -93,7 +95,7 @@ _HEDGE_ZH = (
 _OPEN_ZH = (
     r"(?:嗯|呃|哦|噢|啊|那么?|好的?|好吧|行|没事|没关系|不知道|不清楚|不太清楚|我不知道"
     r"|我也不知道|机器人"
-    r"|谢谢|,)"
+    r"|[它他她]?不在(?:那儿|那里|那边)|没有吗?|没(?:找|看)到吗?|谢谢|[,?])"
 )
 _TAIL_ZH = (
     r"(?:(?:做饭|看电视|睡觉|休息|洗澡|看书|写作业|玩|干活)呢?|吧|咯|啰|喽|呗|啦|呀|啊|哦|哈|了|的"
@@ -114,7 +116,7 @@ _ZH = re.compile(
     rf"(?:你?(?P<goes>再去|再到|去|到|再?试试看?|再看看|看看)"
     rf"|我(?:{_HEDGE_ZH}|记得)*(?:把它)?(?P<left>放|丢|落|忘|搁)在"
     rf"|(?P<who>[他她它])们?(?:{_HEDGE_ZH})*在|(?:{_HEDGE_ZH})*在?)"
-    rf"(?P<place>[^,，。;！？!?他她它我你不没别还]{{1,8}}?)"
+    rf"(?P<place>[^,，。;！？!?他她它我你不没别还]{{1,8}}?)(?:底下|下面|下边|后面|后边|背后)?"
     rf"(?P<seeks>{_SEEKS_ZH})?{_TAIL_ZH}*(?P<reason>{_REASON_ZH})?{_TAIL_ZH}*"
 )
 _ALL = (
@@ -156,7 +158,15 @@ _NAMED_ZH = re.compile(
 _DENIES = re.compile(
     r"\b(?:not|never|or|if|unless|but|except|don't)\b|n't\b|不是|别去|不去|或|还是|如果|要是|除"
 )
-_UNSURE = re.compile(r"(?:i )?(?:dunno|don't know|do not know)|not sure|i(?:'m| am) not sure")
+_UNSURE = re.compile(
+    r"(?:(?:it|he|she|they)(?:'s|'re| is| are) )?not there[ ,.!;]|"
+    r"(?:i )?(?:dunno|don't know|do not know)|not sure|i(?:'m| am) not sure"
+)
+_MISSED = re.compile(
+    r"(?:(?:ok|okay|oh|well|right)[ ,]+)*(?:(?:it|he|she|they)(?:'s|'re| is| are) not there"
+    r"|not there|nothing there|no luck)[ ,.!;?]|[它他她]?不在那|没(?:有|找到|看到)吗?[,?]"
+)
+"""Says that the search before found nothing, and what follows is where to go on."""
 _THEN = re.compile(r"^(?:(?:ok|okay|right|well)[ ,]+)?then (?=(?:in )?(?:the|my|our) )")
 _OWNED = re.compile(r"^(?:his|her|their) ")
 THEM = {"he": "him", "she": "her", "他": "他", "她": "她"}
@@ -311,7 +321,8 @@ def _narrow(
         tells = tells or bool(found["left"]) or (orders is not None and anew is None)
     placed = {each.id for each in find_places(last.order_text, names)}
     bare = not (found["tries"] if not chinese else found["goes"])
-    if alone or (tells and not is_search_open(last)) or (bare and not tells and placed):
+    open_ = is_search_open(last) or _MISSED.match(found[0]) is not None
+    if alone or (tells and not open_) or (bare and not tells and placed):
         return None
     return search_of_place(last, place, facts)
 

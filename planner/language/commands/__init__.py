@@ -28,7 +28,12 @@ from planner.language.commands.command import (
 )
 from planner.language.commands.fact_corrections import name_subject, read_fact_correction
 from planner.language.commands.facts import read_statement
-from planner.language.commands.left_out import read_left_out
+from planner.language.commands.first_place import read_first_place
+from planner.language.commands.left_out import (
+    read_absent_place,
+    read_denied_place,
+    read_left_out,
+)
 from planner.language.commands.parser import intent_of
 
 __all__ = [
@@ -55,7 +60,10 @@ __all__ = [
     "WhereCommand",
     "intent_of",
     "name_subject",
+    "read_absent_place",
+    "read_denied_place",
     "read_fact_correction",
+    "read_first_place",
     "read_left_out",
     "read_statement",
 ]

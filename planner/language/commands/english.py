@@ -19,7 +19,8 @@ COURTEOUS = re.compile(
 ASKING = re.compile(r"(?!)")
 """A word at the end that asks: there is none in English."""
 _RIGHT = (
-    r"right(?=,| (?:then|carry|go|keep|continue|resume|you|hold on|hang on)\b)"
+    r"(?:right|fine|sure|perfect|lovely|brilliant|thanks)"
+    r"(?=,| (?:then|carry|go|keep|continue|resume|you|hold on|hang on)\b)"
     r"|(?:okay|ok|all right|alright) then"
 )
 POLITE = re.compile(
@@ -53,7 +54,8 @@ RESUME = re.compile(
     rf" (?:it|that|this|{_THE_TASK})"
     r"|(?:continue|carry on|go on|resume|keep) (?:driving|going|moving)"
     r"|(?:continue|carry on|go on|get on|go back to|back to)(?: with)? what you were doing"
-    r"|as you were|pick up where you left off|off you go again|you can get going again|back to it"
+    r"|as you were|pick up where you left off|(?:off|away|on) you go(?: again| now)?"
+    r"|you can get going again|back to it"
     r"|keep (?:looking|searching|patrolling|counting|following|at it)|get (?:going|moving) again"
     r"|you (?:can|may) (?:continue|resume|proceed|carry on|go on|keep going|go)(?: again| now)?"
     r"(?:[ ,]+(?:continue|resume|carry on|go on|keep going))?"
@@ -102,8 +104,8 @@ _SOMEBODY = (
     r"|mum|mom|dad|daddy|mummy|mommy|grandma|grandpa|granny|nan|gran"
 )
 REASON = re.compile(
-    r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|remember(?:ed)?|know|did|done"
-    r"|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
+    r"(?:i|we)(?:'ve| have| already)* (?:got|found|have|see|saw|(?:can )?hear|heard|know|did"
+    r"|done|remember(?:ed)?|was wrong|changed my mind|can do|will do)\b(?! (?:to|you)\b)[a-z' ]*"
     r"|you (?:do not|don't) (?:have|need) to(?: [a-z ]{1,20})?|no need(?: to [a-z ]{1,20})?"
     r"|(?:it|that|they|she|he)(?:'s| is| are|'re| was| were) (?:already |right |all |not )*"
     r"(?:fine|ok|okay|here|right|found|done|sorted|important|needed|gone|too late)\b[a-z' ]*"

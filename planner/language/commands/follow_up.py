@@ -100,7 +100,8 @@ _ALSO_BEFORE = re.compile(
 )
 _SAME = re.compile(
     r"(?:now )?(?:do )?(?:the )?same(?: thing)?(?: again)? (?:in|at|for|with) (?P<rest>.+)"
-    r"|(?:and )?(?:what|how) about (?P<rest2>(?:in )?(?:the|my|our) [a-z][a-z' -]{1,30})"
+    r"|(?:and )?(?:what|how) about (?P<rest2>(?:in |on |at |by |under )?(?:the|my|our)"
+    r" [a-z][a-z' -]{1,30})"
     r"|and (?P<rest3>(?:in |at )?(?:the|my|our) [a-z][a-z' -]{1,30})"
     r"|(?:do|take in|include|throw in|add) (?P<rest4>(?:the|my|our) [a-z][a-z' -]{1,30}?)"
     r"(?: to (?:it|that|the|your) ?(?:round|patrol|tour|list)?s?)?"
@@ -111,18 +112,20 @@ _ASKS = re.compile(
 """What asks for one more by a question: its mark is no doubt."""
 _DONE = re.compile(
     r"(?:and )?(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done|finished)"
-    r"(?: with (?:that|it|this)| there| here)?"
-    r"|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this))?"
+    r"(?: with (?:that|it|this)| there| here| (?:in |with )?(?:the|my|our) [a-z]+(?: [a-z]+)?)?"
+    r"|you(?: have|'ve)? finish(?:ed)?(?: (?:that|it|this|(?:in )?(?:the|my|our) [a-z]+"
+    r"(?: [a-z]+)?))?"
     r"|that(?:'s| is) (?:done|finished))[ ,]+(?:then )?(?P<rest>.+)"
 )
 _DONE_ZH = re.compile(
     r"(?:等你?|你)?(?:[弄做干忙办找数看说转走跑去查绕]|巡[逻视查]|检查|探索)?完(?:了|这个|那个"
-    r"|之后|以后)*[,]?(?:就|再|然后)*(?P<rest>[去到回来找看数巡].+)"
+    r"|之后|以后)*(?:[^,去到回来]{1,6}?(?:之后|以后|了)?(?=[,去到]))?(?:就|再|然后|顺便|顺带|,)*"
+    r"(?P<rest>[去到回来找看数巡].+)"
 )
 _SAME_ZH = re.compile(
     r"(?:(?:还|这|那)?(?:不够|差一点|不算完),?)?(?:顺便|顺带|再|还有|另外|,)*(?:把|帮我把)?"
-    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:那边|里面?)?的?(?:呢|也(?:照样|同样|要|得|帮我|给我|再|去|一起)*"
-    r"(?:来|做|弄|数|找|看|瞅|瞧|查|检查|清点|巡|转|走)(?:一(?:遍|次|下|圈|眼)|一?[数看瞅瞧找查])(?:吧|呗"
+    r"(?P<rest>(?![别不没勿]).{1,8}?)(?:那边|里面?)?的?(?:呢|也(?:照样|同样|一样|要|得|帮我|给我|再|去|一起)*"
+    r"(?:来|做|弄|数|找|看|瞅|瞧|查|检查|清点|巡|转|走)(?:一(?:遍|次|下|圈|眼)|一?[数看瞅瞧找查转走])(?:吧|呗"
     r"|啊|哈)*|也(?:加上|算上|加进去|算进去|带上))"
 )
 _TOO = re.compile(
@@ -138,7 +141,7 @@ _ONWARD = re.compile(r"^(?:on|over|off|back)(?: again)? (?=(?:in)?to )")
 _ALONGSIDE_ZH = re.compile(r"^(?:顺便|顺带|再|帮我|,)*把")
 _TAKEN = (
     r"(?:(?:oh|ah|(?:oh )?no|nope|nah|wait|sorry|oops|wrong (?:room|place|one)|wrong"
-    r"|not that(?: one| room)?"
+    r"|not that(?: one| room)?|on (?:second thoughts?|reflection)|come to think of it"
     r"|actually)[ ,.!;]+)"
 )
 _MEANT = (
@@ -152,7 +155,8 @@ _GO_THERE = (
 _CORRECTION = re.compile(
     rf"{_TAKEN}++{_MEANT} (?P<a>.+?){_GO_THERE}"
     rf"|{_MEANT.replace('|want', '')} (?P<b>{_BARE_EN}?){_GO_THERE}"
-    r"|(?:(?:no|nope|nah|wrong room|wrong place|not that one|not (?:t?here)|oops)[ ,.!;]+"
+    r"|(?:(?:no|nope|nah|wrong room|wrong place|not that one|not (?:t?here)|oops"
+    r"|on (?:second thoughts?|reflection)|come to think of it)[ ,.!;]+"
     r"(?:(?:wait|sorry|actually|hang on|i mean)[ ,.!;]+)*)+"
     r"(?:rather |try |better |instead )?"
     rf"(?P<c>(?:to |in |into |at |by |near |beside |next to |on )?(?:the|my|our)"
@@ -177,7 +181,7 @@ _CORRECTION_ZH = re.compile(
     r"|(?:(?:等一?下|等等|不对)[,。!！]+)?不是[^,是]{1,10}?[,。]我(?:是)?(?:要|想要?|让)你(?:去"
     r"|到)(?P<i>.{1,12})"
     r"|(?:不对|不是?|错了)[,。!！]+(?:应该|可能|好像|大概|也许|多半)?(?:是)?在(?P<h>.{1,8})"
-    r"|我(?:说|指|要)的(?:是|可是)(?P<c>.{1,12}?)(?:[,]?不是.{1,12})?"
+    r"|(?:(?:等等|等一?下|哎|不)[,。!！]+)?我(?:说|指|要)的(?:是|可是)(?P<c>.{1,12}?)(?:[,]?不是.{1,12})?"
 )
 _SORRY_ZH = re.compile(
     r"^(?:[哦噢喔啊哎呀诶欸唉嗯呃]+[,。!！]*)?(?:(?:真的?|很|实在)?(?:不好意思|抱歉|对不起)(?:了"

@@ -59,7 +59,7 @@ _LEFT_OUT = re.compile(
     rf" {_IN}?{_PLACE.format('g')}){_TAIL}{_REASON}{_TAIL}"
 )
 _LEAD_ZH = r"(?:[哎哦噢啊诶嗯欸]|那个?|不过|但是?|对了|等等|等一下|,)*"
-_PLACE_ZH = r"(?P<{}>[^,。;别不甭无免你我]{{1,8}}?)(?:那边|那儿|那里|里面?|那间)?"
+_PLACE_ZH = r"(?:我们?的)?(?P<{}>[^,。;别不甭无免你我]{{1,8}}?)(?:那边|那儿|那里|里面?|那间)?"
 _NO_ZH = r"(?:别|不用|不要|不必|甭|无需|不需要|用不着|没必要)"
 _VISITS_ZH = r"(?:进|去|看看?|找找?|查看?|数|巡[逻视查]?|管|走|转|检查|搜)"
 _END_ZH = r"(?:了|吧|哈|啊|呀|哦)*"
@@ -69,7 +69,7 @@ _NO_REASON_ZH = (
 _REASON_ZH = rf"(?:,(?:因为)?(?!.*{_NO_REASON_ZH})[^,。;]{{2,16}})?"
 _LEFT_OUT_ZH = re.compile(
     rf"{_LEAD_ZH}(?:{_PLACE_ZH.format('a')}(?:就|先|可以|也)*(?:{_NO_ZH}(?:再)?{_VISITS_ZH}"
-    rf"(?:去|它|一遍|一下)*|不用(?=了)|免(?=了)|算(?=了)|跳过)"
+    rf"(?:去|它|一遍|一下)*|不用(?=了)|免(?=了)|算(?=了)|跳过|除外)"
     rf"|你?(?:就|先|可以)*{_NO_ZH}(?:再)?(?:进|去|到|看|找|查|数|巡|检查|管){_PLACE_ZH.format('b')}"
     rf"(?:里|去|看|找)*"
     rf"|你?(?:就|先|可以)*(?:跳过|略过|避开|不包括){_PLACE_ZH.format('c')}(?:别去|不去)?"
@@ -77,12 +77,45 @@ _LEFT_OUT_ZH = re.compile(
 )
 
 
+_ABSENT = re.compile(
+    rf"{_LEAD}(?:(?:i (?:know|think|am sure|'m sure) )?(?:it|he|she|they"
+    rf"|there(?='s nobody|'s no one))(?:'s not|'re not| is not| are not| isn't| aren't"
+    rf"|'s nobody|'s no one)"
+    rf" {_IN}{_PLACE.format('a')}(?: either)?){_TAIL}{_REASON}{_TAIL}"
+)
+_ABSENT_ZH = re.compile(
+    rf"{_LEAD_ZH}(?:[它他她]们?)?(?:肯定|应该|也)*不(?:会)?在{_PLACE_ZH.format('a')}{_END_ZH}{_REASON_ZH}"
+)
+_DENIED = re.compile(
+    rf"{_LEAD}(?:not {_IN}?{_PLACE.format('a')}|i (?:didn't|did not|never)"
+    rf" (?:say|mean|want|ask for) {_IN}?{_PLACE.format('b')}){_TAIL}{_REASON}"
+)
+_DENIED_ZH = re.compile(
+    rf"(?:{_LEAD_ZH}|不|不对|错了|等等|,)*(?:我(?:说|要|指|想要?去)的?)?(?:不是|没说|没让你)"
+    rf"(?:去|到)?{_PLACE_ZH.format('a')}(?:呀|啊|吧|哦)*{_REASON_ZH}"
+)
+
+
+def read_absent_place(text: str) -> str | None:
+    """Return the words for the place where what is sought is said not to be."""
+    return _read(_ABSENT, _ABSENT_ZH, text)
+
+
+def read_denied_place(text: str) -> str | None:
+    """Return the words for the place that a person says was not meant."""
+    return _read(_DENIED, _DENIED_ZH, text)
+
+
 def read_left_out(text: str) -> str | None:
     """Return the words for the place that a sentence leaves out; None where it leaves none out."""
+    return _read(_LEFT_OUT, _LEFT_OUT_ZH, text)
+
+
+def _read(english: re.Pattern[str], chinese: re.Pattern[str], text: str) -> str | None:
     said = fold_words(text).replace("’", "'").strip(_ENDS)
     if not 0 < len(said) <= MAX_READ or text.rstrip().endswith(("?", "？")):
         return None
     if has_chinese(said):
         said = re.sub(r"[，。；]", ",", "".join(said.split()))
-    found = (_LEFT_OUT_ZH if has_chinese(said) else _LEFT_OUT).fullmatch(said)
+    found = (chinese if has_chinese(said) else english).fullmatch(said)
     return next((words for words in found.groups() if words), None) if found is not None else None

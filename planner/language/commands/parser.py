@@ -249,8 +249,17 @@ def _replacing(said: FoldedText, grammar: ModuleType) -> Intent | None:
                 return CancelCommand()
             if grammar.DENIES.fullmatch(first.folded) and _goes_on(said, cut, grammar):
                 return None
-            return _replace(said.part(cut.end(), len(said.folded)), now=True)
+            return _replace(_without_reason(rest, grammar), now=True)
     return None
+
+
+def _without_reason(rest: FoldedText, grammar: ModuleType) -> FoldedText:
+    """Return an order without the clause before it that says why another is taken back."""
+    cut = _SEPARATOR.search(rest.folded)
+    reason = _plain(rest.part(0, cut.start()), grammar) if cut is not None else None
+    if cut is None or reason is None or grammar.REASON.fullmatch(reason.folded) is None:
+        return rest
+    return _plain(rest.part(cut.end(), len(rest.folded)).strip(_END), grammar)
 
 
 def _goes_on(said: FoldedText, cut: re.Match[str], grammar: ModuleType) -> bool:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import say
 from planner.language.folding import has_chinese
 from planner.language.grammar.en.asides import ENGLISH_ASIDES
+from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.sentence_text import normalise
 from planner.language.grammar.zh.asides import CHINESE_ASIDES
 from planner.plan import AnswerPlan
@@ -25,6 +26,11 @@ if TYPE_CHECKING:
 
 _MOST_CLAUSES = 12
 _CUT = re.compile(r"\s*(?:[,;:!?。]+|\.+(?!\d)|\s[-–—]+\s|—+)\s*")
+
+_TELLS_WHERE = re.compile(
+    rf"(?:(?:oh|no|well|ah),? )*(?:he|she|they|it)(?: is|'s| are|'re) [^,.;!]*[,.;!]+"
+    rf" (?:(?:sorry|no|well|i mean)[, ]+)*(?:in|on|at|by|under|near) (?:the |my |our )?{MARK}"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +43,8 @@ class _Clause:
 
 def without_asides(text: str) -> str:
     """Return a marked sentence without its asides; the same where it has none, or nothing else."""
+    if tells_where(text):
+        return text
     asides = CHINESE_ASIDES if has_chinese(text) else ENGLISH_ASIDES
     said = asides.closing.sub("", asides.opening.sub("", text.strip().rstrip(".!。")))
     clauses = [each for clause in _cut(said) for each in _part(clause, asides.seam)]
@@ -55,6 +63,11 @@ def without_asides(text: str) -> str:
     last = clauses[-1].mark if clauses[-1].text.endswith(kept[-1].text) else ""
     kept[-1] = _Clause(kept[-1].text, last)
     return "".join(f"{each.text}{each.mark}" for each in kept).strip(" ,;")
+
+
+def tells_where(text: str) -> bool:
+    """Tell whether somebody is said to be at a place: "she's upstairs, in the bedroom"."""
+    return _TELLS_WHERE.fullmatch(text.strip(" .!")) is not None
 
 
 def answer_praise(text: str) -> AnswerPlan | None:

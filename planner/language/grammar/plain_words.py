@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from planner.language.dialect import in_standard_words
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.asides import without_asides
+from planner.language.grammar.asides import tells_where, without_asides
 from planner.language.grammar.checks import without_compounds
 from planner.language.grammar.en.courtesy import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
@@ -160,6 +160,8 @@ def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
     willing = rewrite(marked.text, courtesy)
     if willing.rstrip().endswith("?") and _NAMED.fullmatch(willing):
         return None  # "the kitchen?" asks
+    if tells_where(willing):
+        return None
     rewritten = rewrite(willing, phrases)
     if not held_back(willing) <= held_back(rewritten):
         return None

@@ -167,7 +167,8 @@ DENIAL = _compile_any(
     r"(?! (?:so |too |that )*slow)",
     rf"(?:^|, ){_POLITE}(?:i (?:do|said do) not want you to|do not|never"
     rf"|you (?:must|should|can|do) not) {_FILLERS}{_ANY_VERB}(?! (?:so |too |that )*slow)",
-    r"(?:^|, )(?:please |no )*do not(?: ,|$)|\bno you do not\b",
+    r"(?:^|, )(?:please |no |actually |oh |wait |hey |robot |just )*do not(?: ,|$)"
+    r"|\bno you do not\b",
     r"\bnot (?:one|another|an|a) (?:more |single )?(?:\w+ )?(?:inch|step|move|met(?:re|er)|foot"
     r"|centimet(?:re|er)|millimet(?:re|er)|word|bit)\b",
     r"(?:^|, )(?:no |oh )*not (?:now|here|there|yet|that|the|my|on|so|again|this|near|any|over)\b",

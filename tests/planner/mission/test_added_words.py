@@ -71,3 +71,37 @@ def test_nor_is_anybody_in_chinese(said: str) -> None:
 def test_who_else_is_meant_waits_until_it_is_known_where_the_first_is() -> None:
     asked = order_asked_about("去叫爸爸吃饭")
     assert meaning_of(asked, "顺便叫上奶奶", NOW_S) == "顺便叫上奶奶"
+
+
+@pytest.mark.parametrize(
+    "said", ["no, tell Grandma", "sorry, I meant Grandma", "tell Grandma instead"]
+)
+def test_another_person_is_told_in_place_of_the_first(said: str) -> None:
+    assert meaning_of(DAD, said, NOW_S) == "tell grandma in the study that tea is ready"
+
+
+@pytest.mark.parametrize("said", ["不对，是告诉奶奶", "我说的是奶奶", "错了，叫奶奶"])
+def test_so_another_is_told_in_chinese(said: str) -> None:
+    assert meaning_of(DAD_ZH, said, NOW_S) == "去书房叫奶奶吃饭"
+
+
+SAYS = order_under_way("go to the study and say tea is ready", Say(text="tea is ready"))
+SAYS_ZH = order_under_way("去书房说吃饭了", Say(text="吃饭了"))
+
+
+@pytest.mark.parametrize(
+    ("said", "means"),
+    [
+        ("say lunch is ready instead", "go to the study and say lunch is ready"),
+        ("no, say lunch is ready", "go to the study and say lunch is ready"),
+        ("no, say lunch is ready if Dad is there", "no, say lunch is ready if Dad is there"),
+        ("say lunch is ready", "say lunch is ready"),
+    ],
+)
+def test_other_words_are_said_in_place_of_the_first(said: str, means: str) -> None:
+    assert meaning_of(SAYS, said, NOW_S) == means
+
+
+@pytest.mark.parametrize("said", ["不，说“开会了”", "换成说开会了吧"])
+def test_so_other_words_are_said_in_chinese(said: str) -> None:
+    assert meaning_of(SAYS_ZH, said, NOW_S) == "去书房说开会了"

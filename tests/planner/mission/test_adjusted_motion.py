@@ -63,6 +63,8 @@ def test_the_turn_to_the_other_side_comes_in_place_of_the_first() -> None:
         (LEFT, "a bit more", "turn left by 30 degrees"),
         (LEFT, "too far, back a bit", "turn right by 30 degrees"),
         (LEFT, "that was too far, now turn back a little", "turn right by 30 degrees"),
+        (MoveStraight(distance_m=-0.5), "too far, come forward a little", "move forward a bit"),
+        (MoveStraight(distance_m=0.5), "another half metre", "move forward half a metre"),
         (LEFT, "转多了，往回转一点", "向右转30度"),
         (LEFT, "再转一点", "向左转30度"),
         (LEFT, "多了多了，转回来一点", "向右转30度"),

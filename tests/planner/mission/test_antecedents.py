@@ -10,7 +10,8 @@ from planner.language.utterance import parse
 from planner.mission.events import Planned, Submitted
 from planner.mission.follow_up import LEANS_S, meaning_of
 from planner.mission.reducer import advance
-from planner.plan import Find, GoTo, Look, StepPlan
+from planner.plan import Ask, Find, GoTo, Look, Say, StepPlan
+from tests.planner.mission.leaning import order_done
 from tests.planner.mission.test_pronouns import NOW_S, book_after
 
 if TYPE_CHECKING:
@@ -102,3 +103,20 @@ def test_long_ago_is_forgotten() -> None:
     book = asked("Dad", PLACES[1])
     said = "if he is, come back"
     assert meaning_of(book, said, NOW_S + LEANS_S + 1.0) == said
+
+
+TOLD = order_done("tell Mum tea is ready", Say(text="Mum, tea is ready"))
+TOLD_ZH = order_done("去书房问小明要不要喝茶", Ask(question="要不要喝茶"))
+
+
+@pytest.mark.parametrize(
+    "said", ["tell her again", "ok, ask her once more", "go back and tell her again, please"]
+)
+def test_who_is_told_again_hears_the_same(said: str) -> None:
+    assert meaning_of(TOLD, said, NOW_S) == "tell Mum tea is ready"
+    assert meaning_of(TOLD, said.replace("her", "him"), NOW_S) == said.replace("her", "him")
+
+
+@pytest.mark.parametrize("said", ["再问他一遍", "再跟他说一遍吧", "你再去问他一次"])
+def test_so_it_is_in_chinese(said: str) -> None:
+    assert meaning_of(TOLD_ZH, said, NOW_S) == "去书房问小明要不要喝茶"

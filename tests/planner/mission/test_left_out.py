@@ -103,3 +103,46 @@ def test_a_denial_sets_nothing_in_motion_that_stands(said: str) -> None:
     paused = order_under_way("go round and see if anyone is there", *ROUND)
     assert paused.missions["g0"].state is GoalState.PAUSED
     assert meaning_of(paused, said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    "said", ["do the bedroom first", "start with the bedroom, please", "the bedroom first"]
+)
+def test_a_place_of_the_round_comes_first(said: str) -> None:
+    deed = "and see if anyone is there"
+    assert meaning_of(LOOKING, said, NOW_S) == (
+        f"go to the bedroom {deed}, then go to the kitchen {deed}, then go to the study {deed}"
+    )
+    assert meaning_of(PATROL, said, NOW_S) == ("patrol the bedroom and the kitchen and the study")
+    assert takes(LOOKING, said)
+    assert meaning_of(TELLING, said, NOW_S) != meaning_of(LOOKING, said, NOW_S)
+
+
+@pytest.mark.parametrize("said", ["先去卧室", "先看卧室吧", "从卧室开始"])
+def test_so_it_comes_first_in_chinese(said: str) -> None:
+    assert meaning_of(LOOKING_ZH, said, NOW_S) == (
+        "去卧室看看有没有人，再去厨房看看有没有人，再去书房看看有没有人，再回来"
+    )
+    assert meaning_of(ONE, said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    "said", ["it's not in the bedroom, I've just looked", "it isn't in the bedroom either"]
+)
+def test_where_it_is_not_nobody_looks_for_it(said: str) -> None:
+    meant = meaning_of(SEEKING, said, NOW_S)
+    assert "bedroom" not in meant
+    assert meant.count("see if there is a cup") == 6
+    drives = run("go", GoTo(place="kitchen"), GoTo(place="bedroom"))
+    assert meaning_of(drives, said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    "said", ["not the bedroom", "no, not the bedroom", "I didn't say the bedroom", "不是卧室",
+             "我说的不是卧室"],
+)  # fmt: skip
+def test_who_is_on_the_way_to_a_wrong_place_stops(said: str) -> None:
+    assert receive(ONE, parse(said), Submitted("new", said, Language.EN), NOW_S).stops
+    other = run("go to the study", GoTo(place="study"))
+    heard = receive(other, parse(said), Submitted("new", said, Language.EN), NOW_S)
+    assert heard.stops is parse(said).may_mean_stop

@@ -181,3 +181,15 @@ def test_so_does_who_and_where_in_chinese() -> None:
 @pytest.mark.parametrize("said", ["Dad, he's in the study", "the cat, she's in the study", "Mum"])
 def test_whom_the_word_does_not_fit_is_not_meant(said: str) -> None:
     assert meaning_of(order_asked_about("tell her dinner is ready"), said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "it's not there, try the study",
+        "nothing there? Try the study then.",
+        "no luck, try the study",
+    ],
+)
+def test_where_it_was_not_is_said_before_the_next_place(said: str) -> None:
+    assert meaning_of(NO_CUP, said, NOW_S) == "look for the cup in the study"

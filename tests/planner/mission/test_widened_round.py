@@ -62,3 +62,30 @@ def test_a_look_that_is_asked_for_says_nothing_there() -> None:
 def test_what_names_no_place_or_denies_one_adds_none(said: str) -> None:
     for book in (COUNTED, COUNTED_ZH, PATROL):
         assert meaning_of(book, said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    ("said", "then"),
+    [
+        ("when you're done in the kitchen, go to the study", "go to the study"),
+        ("once you've finished the kitchen, come back", "come back"),
+        ("when you're done, go to the study", "go to the study"),
+        ("when you're done in the bedroom, go to the study", ""),
+    ],
+)
+def test_what_follows_a_place_waits_for_what_is_done_there(said: str, then: str) -> None:
+    runs = run("count the cups in the kitchen", Count(object="cup", place="kitchen"))
+    assert meaning_of(runs, said, NOW_S) == (then or said)
+
+
+@pytest.mark.parametrize(
+    ("said", "then"),
+    [
+        ("数完厨房，顺便去书房看看", "去书房看看"),
+        ("数完了去书房", "去书房"),
+        ("数完卧室去书房", ""),
+    ],
+)
+def test_so_it_waits_in_chinese(said: str, then: str) -> None:
+    runs = run("数一下厨房的杯子", Count(object="杯子", place="kitchen"))
+    assert meaning_of(runs, said, NOW_S) == (then or said)

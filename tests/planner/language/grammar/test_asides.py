@@ -218,3 +218,10 @@ def test_no_place_number_or_word_that_holds_back_is_lost(text: str) -> None:
     left = without_asides(text)
     for kept in (MARK, r"\d+", r"\bnot\b", r"\bif\b", "别"):
         assert len(re.findall(kept, left)) == len(re.findall(kept, text))
+
+
+@pytest.mark.parametrize(
+    "said", ["she's upstairs, in the bedroom", "no, he's out there, sorry, in the kitchen"]
+)
+def test_where_somebody_is_said_to_be_sends_nobody_there(home: Vocabulary, said: str) -> None:
+    assert motion(said, home) is None

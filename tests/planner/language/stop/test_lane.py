@@ -335,3 +335,8 @@ def test_a_courtesy_said_without_end_is_read_at_all(again: str, end: str) -> Non
     """Each comma doubled the ways to read it: 23 of "and, " took a minute, 40 hours."""
     assert read_stop(again * 150 + end) in StopReading
     assert read_stop(again * 60 + end) in StopReading
+
+
+@pytest.mark.parametrize("lead", ["", "actually ", "oh ", "no wait, ", "hey robot "])
+def test_a_bare_denial_may_mean_a_stop_whatever_stands_before_it(lead: str) -> None:
+    assert read_stop(f"{lead}don't") is not StopReading.NONE
