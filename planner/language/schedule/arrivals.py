@@ -25,7 +25,7 @@ COMES = (
     r"|shows? up|turns? up)"
 )
 _EN = re.compile(
-    rf"(?:when(?:ever)?|as soon as|every time|each time|once|the moment|next time) {_WHO_EN} {COMES}"
+    rf"(?:when(?:ever)?|as soon as|every time|each time|once|the moment|(?:the )?next time) {_WHO_EN} {COMES}"
     r"(?: (?:today|tonight|later|again|this (?:morning|afternoon|evening)))?[, ]+(?:then |please |can you |could you )*"
     r"(?P<order>.+)"
 )

@@ -64,7 +64,7 @@ _DAY = "|".join(_DAYS)
 _END = r"(?![\w'])"
 
 _CLOCK = re.compile(
-    rf"(?:at |by )?(?:(?:round )?about |around |roughly |exactly )?(?:(?P<h>\d{{1,2}})[:.](?P<m>\d{{2}}){_half('ap')}?(?: ?h\b)?"
+    rf"(?:at |by |(?:when|as soon as|once) it(?:'s| is) )?(?:(?:round )?about |around |roughly |exactly )?(?:(?P<h>\d{{1,2}})[:.](?P<m>\d{{2}}){_half('ap')}?(?: ?h\b)?"
     rf"|(?P<past>{_M}) (?P<way>past|to|after|before) (?P<ph>{_H}){_half('ap4')}?"
     rf"|half (?P<hh>{_H}){_half('ap5')}?(?! (?:hours?|minutes?|metres?|meters?|steps?|of|cups?))"
     rf"|(?P<oh>{_H})(?: (?P<om>{_M}))?(?: ?o'clock{_half('ap2')}?"
@@ -87,7 +87,7 @@ _PAST_HOUR = re.compile(
 _IN_THE = re.compile(rf"(?:in the (?P<a>{_PART})|at (?P<b>night|noon)){_END}")
 _AT_NOON = re.compile(rf"at noon{_END}")
 _EVERY = re.compile(
-    rf"(?:(?:every|each)(?: single)? (?P<what>day|weekday|workday|working day|weekend|{_PART})"
+    rf"(?:(?:every|each)(?: single)? (?P<what>(?:day|weekday|workday|working day|weekend)(?= (?P<part>{_PART})\b)?|{_PART})(?(part) (?:{_PART}))"
     rf"|(?P<daily>daily|nightly)|on (?P<plural>weekdays|workdays|weekends)|at (?:the )?weekends?)"
     rf"{_END}"
 )
@@ -111,7 +111,7 @@ _LASTS = (
     rf"|(?:a )?quarter of an hour(?P<quarter>)|(?P<n>{_H}) and a half hours|{EN_DURATION})"
 )
 _IN = re.compile(
-    rf"(?:in|after) (?:about |around |roughly |just )?{_LASTS}{_END}|{_LASTS.replace('?P<', '?P<x')} from now{_END}"
+    rf"(?:in|after) (?:about |around |roughly |just )?{_LASTS}(?:'s? time\b| time\b)?{_END}|{_LASTS.replace('?P<', '?P<x')} from now{_END}"
 )
 
 _SOMEBODY = r"(?:somebody|someone|anybody|anyone|a person|people|a visitor|a guest|a human)"
@@ -183,7 +183,7 @@ TOLD = re.compile(
 )
 """What is to be told or asked: one clause, and nothing that is to be done besides."""
 TIMER = re.compile(
-    rf"\b(?P<a>(?:set|start|make)(?: me)? an? (?:timer|alarm)) for (?={EN_DURATION}|(?:an? |half an )hour\b)"
+    rf"\b(?P<a>(?:set|start|make)(?: me)? an? (?:timer|alarm)) for (?={EN_DURATION}\b|(?:an? |half an )hour\b)"
     rf"|\b(?P<c>(?:set|make)(?: me)? an? alarm) for (?=(?:{_H})\b)"
     rf"|\b(?P<b>(?:set|start|make)(?: me)? an? )(?P<lasts>(?:{_H}|[a-z]+)[ -](?:minute|hour|second)s?) (?:timer|alarm)(?: for)?\b",
     re.IGNORECASE,
@@ -246,11 +246,14 @@ def _number(word: str) -> int:
 
 def _every(found: re.Match[str]) -> tuple[Part, ...]:
     what = found["what"] or found["daily"] or found["plural"] or "weekend"
+    part = (DayPart(found["part"]),) if found["part"] else ()
     if what.startswith(("weekday", "work")):
-        return (WeekDays(WORKDAYS),)
+        return (WeekDays(WORKDAYS), *part)
     if what.startswith("weekend"):
-        return (WeekDays(WEEKEND),)
+        return (WeekDays(WEEKEND), *part)
     days = WeekDays(EVERY_DAY)
+    if part:
+        return (days, *part)
     if what in ("day", "daily"):
         return (days,)
     return (days, DayPart("night" if what == "nightly" else what))

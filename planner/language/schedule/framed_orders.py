@@ -48,6 +48,13 @@ _ENDS_SO = re.compile(
     r",? (?:from|starting(?: from)?|beginning(?: on)?|as of|as from) (?P<day>[a-z ]+?)(?: on(?:wards?)?)?$"
 )
 _NOW = re.compile(r"(?:now|today|tonight|this (?:morning|evening|afternoon))")
+_NO_HOUR = (
+    r"(?:(?:every day |each day |daily )?at (?:sunset|sunrise|sundown|dusk|dawn|bed ?time|(?:dinner|lunch|tea|supper|breakfast|meal) ?time"
+    r"|(?:dinner|lunch|tea|supper|breakfast))|when it gets (?:dark|light)|after dark)"
+)
+_HOURLESS = re.compile(
+    rf"(?P<a>{_NO_HOUR}),? (?P<b>(?:please )?[a-z].+)|(?P<c>[a-z].+?),? (?P<d>{_NO_HOUR})"
+)
 _LIMIT = re.compile(
     r"for (?:the (?:next|rest)|this|an?|one|two|three|four|five|six|seven|ten|\d+)\b[a-z ]{0,20}?(?:minutes?|hours?|days?|weeks?|months?|morning|afternoon|evening|night|day|week)\b"
     r"|(?:until|till|up to)\b|this (?:week|month)\b"
@@ -127,3 +134,14 @@ def read_beginning(said: FoldedSentence) -> tuple[OnceDay | None, str, FoldedSen
 def is_limited(order: str) -> bool:
     """Tell whether an order says how long it is to be kept: no standing order ends by itself."""
     return _LIMIT.match(order) is not None or _LIMIT_BEHIND.fullmatch(order) is not None
+
+
+def read_hourless(said: FoldedSentence) -> FoldedSentence | None:
+    """Return an order at a time that no clock tells: "at sunset go to the dock"."""
+    found = _HOURLESS.fullmatch(said.folded)
+    if found is None:
+        return None
+    span = found.span("b" if found["b"] else "c")
+    order = said.part(*span)
+    plain = _DOES.match(order.folded) and not _SAYS.search(order.folded)
+    return order if plain and " " in order.folded.strip() else None  # "look at dinner"

@@ -29,6 +29,7 @@ from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold
 from planner.language.schedule.framed_orders import (
     is_limited,
     read_beginning,
+    read_hourless,
     read_middle,
     take_lead,
 )
@@ -173,6 +174,9 @@ def _read_framed(said: FoldedSentence) -> ScheduleCommand | None:
     order = _read(said, english)
     if order is not None and order.when is not None:
         return order
+    if order is None and (deed := read_hourless(said)) is not None:
+        missing: Problem = "order_time_missing"
+        return ScheduleCommand(None, deed.written.strip(), "", problem=missing)
     middle = read_middle(said)
     timing = combine(middle.parts) if middle is not None else None
     if middle is None or timing is None:

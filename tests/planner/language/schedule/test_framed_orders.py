@@ -83,3 +83,22 @@ def test_an_order_with_an_end_is_refused_and_no_end_dropped(text: str) -> None:
     command = read(text)
     assert command.when is None
     assert command.problem == "order_no_end"
+
+
+@pytest.mark.parametrize("time", ["at sunset", "at dinner time", "at bedtime", "when it gets dark"])
+def test_a_time_that_no_clock_tells_is_asked_for(time: str) -> None:
+    for text in (f"{time} go to the dock", f"go to the dock {time}"):
+        command = read(text)
+        assert (command.problem, command.order) == ("order_time_missing", "go to the dock"), text
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [("each weekday evening at quarter past six say hello", "on weekdays at 18:15 say hello"),
+     ("every weekend morning at nine say hello", "at weekends at 9:00 say hello"),
+     ("in two hours' time say hello", "in two hours say hello"),
+     ("when it's eight o'clock, say hello", "at eight o'clock say hello"),
+     ("at noon say hello", "at 12:00 say hello")],
+)  # fmt: skip
+def test_the_same_time_in_other_words(text: str, same: str) -> None:
+    assert (read(text).when, read(text).order) == (read(same).when, read(same).order)
