@@ -13,7 +13,7 @@ from planner.language.folding import has_chinese
 from planner.orders.errors import OrderRefusal
 from planner.orders.rule import settle
 from planner.orders.selection import is_all, pick, select
-from planner.orders.skipping import Skip, SkipAct, skip_day
+from planner.orders.skipping import DaySkip, SkipAct, skip_day
 from planner.orders.telling import tell_time
 from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Language, Option, Refuse
 from planner.plan.timing import AtRule
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 MOST_OFFERED = 8
 
 
-class Desk(Protocol):
+class ChangeDesk(Protocol):
     """Change and tell orders, as ``OrderIntake`` does."""
 
     async def pause(
@@ -49,7 +49,7 @@ class OrderChanger:
     def __init__(
         self,
         keeper: OrderKeeper,
-        desk: Desk,
+        desk: ChangeDesk,
         listed: Callable[[], tuple[StandingOrder, ...]] = lambda: (),
     ) -> None:
         """Take the keeper, who changes orders on disk and tells them, and what was listed last."""
@@ -137,7 +137,7 @@ class OrderChanger:
                 for done, orders in (("removed", gone), ("paused", paused)) if orders]  # fmt: skip
         return AnswerPlan(text=join(told))
 
-    def _ask_pause(self, order: StandingOrder, skip: Skip, language: Language) -> Clarify:
+    def _ask_pause(self, order: StandingOrder, skip: DaySkip, language: Language) -> Clarify:
         """Ask about "not tomorrow" where a run of today would be left out as well."""
         now_s, zone = self._keeper.clocks.unix(), self._keeper.book.zone
         day = (skip.weekday + 1) % 7

@@ -80,7 +80,7 @@ class OrderIntake:
         self._corrector = OrderCorrector(keeper, self)
         self._unfinished = UnfinishedOrder()
         self._teller = OrderTeller(keeper, lambda: goals.book.facts)
-        self._changer = OrderChanger(keeper, self, lambda: self._teller.listed)
+        self._changer = OrderChanger(keeper, self, lambda: self._teller.last_list)
 
     # The missions' desk -------------------------------------------------------------------------
 

@@ -35,7 +35,7 @@ class SkipAct(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Skip:
+class DaySkip:
     """Hold what leaves a day's runs out, when that day ends, and the run that lies before it."""
 
     act: SkipAct
@@ -45,7 +45,7 @@ class Skip:
     due_s: float = 0.0
 
 
-def skip_day(order: StandingOrder, day: OnceDay, now_unix_s: float, zone: tzinfo) -> Skip:
+def skip_day(order: StandingOrder, day: OnceDay, now_unix_s: float, zone: tzinfo) -> DaySkip:
     """Return what leaves out the runs that an order has on a day that is named now."""
     now = datetime.fromtimestamp(now_unix_s, zone)
     said = DayTime(hour=23, minute=59, days_ahead=day.ahead, weekday=day.weekday, week=day.week)
@@ -58,14 +58,14 @@ def skip_day(order: StandingOrder, day: OnceDay, now_unix_s: float, zone: tzinfo
     due_s = next_due(order.rule, max(now_unix_s, order.handled_unix_s), zone)
     if isinstance(order.rule, EventRule):  # at any time: paused now it is deaf until then
         act = SkipAct.PAUSE if is_today else SkipAct.NOTHING
-        return Skip(act, end_s, meant.weekday())
+        return DaySkip(act, end_s, meant.weekday())
     if due_s is None or due_s >= end_s:
-        return Skip(SkipAct.NOTHING, end_s, meant.weekday())
+        return DaySkip(SkipAct.NOTHING, end_s, meant.weekday())
     if isinstance(order.rule, AtRule):
         act = SkipAct.REMOVE if due_s >= begin_s else SkipAct.NOTHING
-        return Skip(act, end_s, meant.weekday(), due_s)
+        return DaySkip(act, end_s, meant.weekday(), due_s)
     if due_s >= begin_s:
-        return Skip(SkipAct.PAUSE, end_s, meant.weekday(), due_s)
+        return DaySkip(SkipAct.PAUSE, end_s, meant.weekday(), due_s)
     on_day_s = next_due(order.rule, begin_s - 1.0, zone)
     has_run = on_day_s is not None and on_day_s < end_s
-    return Skip(SkipAct.BETWEEN if has_run else SkipAct.NOTHING, end_s, meant.weekday(), due_s)
+    return DaySkip(SkipAct.BETWEEN if has_run else SkipAct.NOTHING, end_s, meant.weekday(), due_s)

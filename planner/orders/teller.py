@@ -48,7 +48,7 @@ class OrderTeller:
         self._listed_s = float("-inf")
 
     @property
-    def listed(self) -> tuple[StandingOrder, ...]:
+    def last_list(self) -> tuple[StandingOrder, ...]:
         """Return the orders that were told in a list lately, in its order: "the second one"."""
         if not 0.0 <= self._now_s - self._listed_s <= LISTED_S:
             return ()

@@ -24,7 +24,7 @@ def read_event(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | N
     arrival = read_arrival(said.folded, said.written, chinese=is_chinese)
     if arrival is not None:
         when = EventRule(event=WorldEvent.PERSON_SEEN)
-        return upon(when, arrival.order, "", who=arrival.who)
+        return order_upon(when, arrival.order, "", who=arrival.who)
     offer = offer_event(said.folded, chinese=is_chinese)
     if is_chinese or offer:
         return None if offer is None else _unseen(said, offer, grammar)
@@ -33,7 +33,7 @@ def read_event(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | N
         return None if offer is None else _unseen(said, offer, grammar)
     if found.event is None:
         return _unseen(said, found.offer, grammar)
-    return upon(EventRule(event=found.event), found.order, "", who=found.who)
+    return order_upon(EventRule(event=found.event), found.order, "", who=found.who)
 
 
 def _unseen(said: FoldedSentence, offer: str, grammar: ModuleType) -> ScheduleCommand | None:
@@ -44,7 +44,7 @@ def _unseen(said: FoldedSentence, offer: str, grammar: ModuleType) -> ScheduleCo
     return ScheduleCommand(None, said.written, "", problem=problem, offer=offer)
 
 
-def upon(when: EventRule, order: str, words: str, who: str = "") -> ScheduleCommand:
+def order_upon(when: EventRule, order: str, words: str, who: str = "") -> ScheduleCommand:
     """Return an order upon an event; where its news alone is wanted, a reminder that tells it."""
     news = NEWS[when.event] if is_news(order) else None
     return ScheduleCommand(when, order, words, reminder=news, who=who)

@@ -63,7 +63,7 @@ _LIMIT_BEHIND = re.compile(r".+ for the (?:next|rest of the|rest of this) [a-z0-
 
 
 @dataclass(frozen=True, slots=True)
-class Framed:
+class MiddleTime:
     """Hold a time, the words that said it, and the order without them."""
 
     parts: tuple[Part, ...]
@@ -76,7 +76,7 @@ def take_lead(said: FoldedSentence) -> FoldedSentence:
     return said.strip(_LEAD)
 
 
-def read_middle(said: FoldedSentence) -> Framed | None:
+def read_middle(said: FoldedSentence) -> MiddleTime | None:
     """Return a time that stands in the middle of a sentence, and the order about it."""
     folded = said.folded
     if _DOES.match(folded) is None:
@@ -97,7 +97,7 @@ def read_middle(said: FoldedSentence) -> Framed | None:
             return None  # two times
         head = head.removesuffix(" at")  # "at noon"
         order = FoldedSentence(head + behind, said.written[: len(head)] + said.written[at:])
-        return Framed(parts, said.written[cut.start() : at], order)
+        return MiddleTime(parts, said.written[cut.start() : at], order)
     return None
 
 

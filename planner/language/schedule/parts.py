@@ -263,6 +263,7 @@ def _by_clock(day: OnceDay | MonthDay, clock: TimeOfDay | None, daypart: DayPart
     if at is None:
         return Timing(problem="order_time_missing")
     named = isinstance(day, OnceDay) and day not in (OnceDay(), OnceDay(ahead=0))
+    named = named and at[1] == 0  # "tomorrow at 2:30" is written as a clock shows it
     at = (_by_day(at[0], clock, daypart) if named else at[0], at[1])
     if isinstance(day, MonthDay):
         return _by_date(day, *at)

@@ -23,7 +23,7 @@ from planner.language.schedule.command import (
     ScheduleCommand,
 )
 from planner.language.schedule.corrections import read_correction
-from planner.language.schedule.event_commands import read_event, upon
+from planner.language.schedule.event_commands import order_upon, read_event
 from planner.language.schedule.event_orders import NEWS
 from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
 from planner.language.schedule.framed_orders import (
@@ -288,7 +288,7 @@ def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand
     if (recurs or timing.problem == "order_time_missing") and is_limited(order.folded):
         return ScheduleCommand(None, order.written, "", problem="order_no_end")
     if isinstance(timing.when, EventRule) and timing.problem is None:
-        return upon(timing.when, order.written.strip(), words)
+        return order_upon(timing.when, order.written.strip(), words)
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 
 
