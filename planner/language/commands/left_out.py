@@ -87,8 +87,9 @@ _ABSENT_ZH = re.compile(
     rf"{_LEAD_ZH}(?:[它他她]们?)?(?:肯定|应该|也)*不(?:会)?在{_PLACE_ZH.format('a')}{_END_ZH}{_REASON_ZH}"
 )
 _DENIED = re.compile(
-    rf"{_LEAD}(?:not {_IN}?{_PLACE.format('a')}|i (?:didn't|did not|never)"
-    rf" (?:say|mean|want|ask for) {_IN}?{_PLACE.format('b')}){_TAIL}{_REASON}"
+    rf"{_LEAD}(?:not {_IN}?{_PLACE.format('a')}|i (?:(?:didn't|did not) (?:say"
+    rf"|mean|want|ask for)|never (?:said|meant|wanted|asked for))"
+    rf" {_IN}?{_PLACE.format('b')}){_TAIL}{_REASON}"
 )
 _DENIED_ZH = re.compile(
     rf"(?:{_LEAD_ZH}|不|不对|错了|等等|,)*(?:我(?:说|要|指|想要?去)的?)?(?:不是|没说|没让你)"

@@ -139,6 +139,7 @@ def test_where_it_is_not_nobody_looks_for_it(said: str) -> None:
 
 @pytest.mark.parametrize(
     "said", ["not the bedroom", "no, not the bedroom", "I didn't say the bedroom", "不是卧室",
+             "I never said the bedroom",
              "我说的不是卧室"],
 )  # fmt: skip
 def test_who_is_on_the_way_to_a_wrong_place_stops(said: str) -> None:
