@@ -17,7 +17,7 @@ ALL_REMINDERS = ("", True, True)
         ("no need to remind me about the plumber", "the plumber", True, False),
         ("scrap the plumber one", "plumber", False, False),
         ("you know what, forget the welcome home thing", "welcome home", False, False),
-        ("forget about the pill reminder in the morning", "pill morning", True, False),
+        ("forget about the pill reminder in the morning", "pill in the morning", True, False),
         ("scrap all the reminders, the lot", *ALL_REMINDERS),
         ("forget all the things I told you to do every day", "every day", False, True),
         ("the pill reminder can go", "pill", True, False),
