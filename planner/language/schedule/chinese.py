@@ -24,6 +24,7 @@ from planner.language.schedule.parts import (
     WeekDays,
     hour_in,
 )
+from planner.language.schedule.placed_reminders import KIN
 from planner.plan.timing import WorldEvent
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ _WEEKDAYS = "日一二三四五六"
 _ABOUT = r"(?:大概|大约|约莫|约|差不多)?(?:是|在|到)?"
 _CLOCK = re.compile(
     rf"(?:在|到)?(?P<part>{_P})?{_ABOUT}(?:(?P<h>\d{{1,2}})[:](?P<m>\d{{2}})"
-    rf"|(?P<oh>{_N})(?:点(?:来)?钟?|时)(?:整|(?P<half>半)|(?P<q>一刻|三刻)|(?P<om>{_N})分?)?)(?:左右|前后|的样子)?"
+    rf"|(?P<oh>{_N})(?:点(?:来?钟)?|时)(?:整|(?P<half>半)|(?P<q>一刻|三刻)|(?P<om>{_N})分?)?)(?:左右|前后|的样子)?"
     rf"|(?P<noon>(?:中午|正午)(?:十二点)?)|(?P<midnight>午夜|半夜十二点)"
 )
 _DAYPART = re.compile(rf"(?:在)?(?P<part>{_P})")
@@ -107,7 +108,7 @@ REMARK = re.compile(
 )
 """How what is no order begins, beside a time: 今天天气真好, 今晚有点冷."""
 REMIND = re.compile(
-    r"(?:再)?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我们?)|(?:叫|喊)我们?(?!的|们))"
+    rf"(?:再)?来?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我们?)|(?:叫|喊)我们?(?!{KIN}|们))"
 )
 TIMELESS = re.compile(r"(?:再)?提醒(?:一下)?我(?:一下|一声)?(?!.?$)(?!了|过|的|说)")
 OPEN = re.compile(

@@ -31,6 +31,7 @@ from planner.language.schedule.parts import (
     combine,
     leave_days_out,
 )
+from planner.language.schedule.placed_reminders import settle_deed
 from planner.language.schedule.reasons import leave_reasons_out
 from planner.language.schedule.statements import begins_with_statement, ends_in_statement
 from planner.plan.timing import CronRule, DayTime, EventRule, InRule, WorldEvent
@@ -99,7 +100,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     grammar = chinese if has_chinese(said.folded) else english
     said = _FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
-    command = _read_command(said, grammar, text, asks=asks)
+    command = settle_deed(_read_command(said, grammar, text, asks=asks))
     if asks or not (command is None or _denies(command)):
         return command
     bare = leave_reasons_out(said.folded, chinese=grammar is chinese)
@@ -109,7 +110,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     about = _read_about_kept(bare.strip(_ENDS), grammar)
     alone = _FoldedSentence(bare.strip(_ENDS), bare.strip(_ENDS))
     timed = about is None and _whole_parts(alone.folded, in_chinese=grammar is chinese)
-    return (_read(alone, grammar) if timed else about) or command
+    return (settle_deed(_read(alone, grammar)) if timed else about) or command
 
 
 def _denies(command: OrderCommand) -> bool:
