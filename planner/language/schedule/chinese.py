@@ -73,7 +73,11 @@ _IN = re.compile(
 _OPENS = r"(?:当|只要|一旦|每当|每次|一|要是一)?(?:你)?"
 _CLOSES = r"(?:了)?(?P<end>的时候|之后|以后|时|后)?,?(?:你?就|都|请)?"
 _SOMEBODY = r"(?:有人|有客人|客人|来人|谁|人)"
+_DOOR = r"(?:大门口?|门口|正门|前门|家门|门外|外面|外边|外头)"
 _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
+    (rf"{_SOMEBODY}(?:一)?从{_DOOR}(?:走)?(?:进来|进门|进屋|回来|过来)", WorldEvent.PERSON_SEEN),
+    (rf"(?:家里|家中|{_DOOR})(?:一)?(?:有(?:人|客人)(?:来|进来|进门|上门|敲门进来)|来(?:了)?(?:人|客人))", WorldEvent.PERSON_SEEN),
+    (r"(?:有人|有客人|客人)(?:一)?上门|来(?:了)?客人", WorldEvent.PERSON_SEEN),
     (rf"{_SOMEBODY}(?:一)?(?:走)?(?:进来|进门|进屋|回家|回来|到家|来访|来|过来|出现|到|在门口)", WorldEvent.PERSON_SEEN),
     (r"(?:看到|看见|发现|遇到|见到)(?:有)?人", WorldEvent.PERSON_SEEN),
     (r"(?:有|发现|看到)(?:任何|什么)?(?:动静|东西在?动|移动)", WorldEvent.MOVEMENT),
