@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Protocol
 
+from planner.language.schedule.chinese_lists import read_list
 from planner.language.schedule.command import ListOrders
 from planner.language.schedule.parts import EVERY_DAY, DayPart, OnceDay, WeekDays
 
@@ -96,7 +97,7 @@ _ZH_LIST = re.compile(
     r"|我(?:让|叫|要|请)你提醒我(?:些|过)?(?:什么|啥|哪些事?)(?:来着)?"
 )
 _READ_OUT_ZH = re.compile(
-    r",?(?:你)?(?:给我|帮我)?(?:念|读|说|讲|报|数|列)(?:一遍|一下|出来|给我|我?听|来听听|看)+$"
+    r"[, ]*(?:你)?(?:给我|帮我)?(?:念|读|说|讲|报|数|列)(?:念|说|讲|一遍|一下|出来|给我|我?听听?|来听听|看)+$"
 )
 """How the answer is to be given: aloud, as any."""
 _WHICH_ZH = re.compile(r"什么|啥|哪|几")
@@ -123,6 +124,8 @@ def read_asked(folded: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | 
     listed = _ZH_LIST if chinese else _LIST
     if listed.fullmatch(folded) is not None:
         return ListOrders()
+    if chinese and (list_asked := read_list(folded, whole)) is not None:
+        return list_asked
     if not chinese and (of_day := _read_listed_day(folded, whole)) is not None:
         return of_day
     at_time = (_ZH_AT_TIME if chinese else _AT_TIME).fullmatch(folded)
