@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 from planner.language.schedule.asked import KINDS, MY, ZH_ALL, ZH_KINDS, read_asked
+from planner.language.schedule.chinese_skips import read_skip
 from planner.language.schedule.command import ChangeOrders
 from planner.language.schedule.parts import (
     EVERY_DAY,
@@ -82,6 +83,8 @@ def read_about(
     asked = read_asked(folded, whole, chinese=chinese)
     if asked is not None:
         return asked
+    if chinese and (skipped := read_skip(folded, whole)) is not None:
+        return skipped
     said = (_read_chinese if chinese else _read_english)(folded, reads, whole)
     return said or read_removal(folded, reads, whole, chinese=chinese)
 

@@ -58,6 +58,9 @@ _EVERY = re.compile(
 _WEEKLY = re.compile(
     rf"(?:每个?{_WEEK}|逢{_WEEK})(?P<days>{_DAY}(?:(?:、|,|和|及|跟|与)?(?:每个?)?(?:{_WEEK})?{_DAY})*)"
 )
+_WEEK_SPAN = re.compile(
+    rf"(?:每个?)?{_WEEK}(?P<first>{_DAY})(?:到|至){_WEEK}?(?P<last>{_DAY})(?:的?每天)?"
+)
 _HOURLY = re.compile(r"每(?:隔)?(?:一)?(?P<half>半)?个?(?:小时|钟头)(?:一次)?")
 _EVERY_SO = re.compile(rf"每(?:隔|过)?{ZH_DURATION}(?:一次)?")
 _EVERY_ONE = re.compile(r"每(?:(?P<minute>分)钟?|秒钟?)")
@@ -94,7 +97,7 @@ POLITE = re.compile(
     r"(?:请问?|麻烦你?|劳驾|拜托|机器人|小车|喂|嗨|你好|帮我|我要你|我想让你|我想要你|我希望你|你要|你得|你"
     r"|记得|记住|以后|从今天起|从现在起|那|(?:再|另外|还)要?(?:加|来|设|定|添)(?:上)?一?个(?:提醒|闹钟)?|,)+"
 )
-POLITE_END = re.compile(r"(?:吧|啊|呀|哦|好吗|行吗|可以吗|谢谢你?|,|一下)+$")
+POLITE_END = re.compile(r"(?:吧|啊|呀|哦|哈|好吗|行吗|可以吗|谢谢你?|,|一下)+$")
 ASKS = re.compile(
     r".*(?:吗|呢)$|(?![^说]*说).*(?:什么|[干做忙]啥|干嘛了|看[到见]谁|几次|多少次|哪里|哪儿|怎么|为何|是不是|哪些|哪个)"
     r"|.*(?:有没有.*过|(?:去|来|到|看|见|做|干|找|数)到?过.*没有?$|来着$)|(?:如果|要是|假如|除非)"
@@ -167,6 +170,12 @@ def _weekly(found: re.Match[str]) -> tuple[Part, ...]:
     return (WeekDays(frozenset(_WEEKDAYS.index(day.replace("天", "日")) for day in named)),)
 
 
+def _week_span(found: re.Match[str]) -> tuple[Part, ...]:
+    first, last = (_WEEKDAYS.index(found[n].replace("天", "日")) for n in ("first", "last"))
+    days = [(first + i) % 7 for i in range((last - first) % 7 + 1)]
+    return (WeekDays(frozenset(days)),) if first != last else ()
+
+
 def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
     if found["week"]:
         sunday_first = _WEEKDAYS.index(found["week"].replace("天", "日"))
@@ -218,6 +227,7 @@ PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]]
     (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
     (_EVERY_SO, _interval),
     (_EVERY_ONE, lambda found: (Interval(60.0 if found["minute"] else 1.0),)),
+    (_WEEK_SPAN, _week_span),
     (_WEEKLY, _weekly),
     (_EVERY, _every),
     (_ONE_DAY, _one_day),

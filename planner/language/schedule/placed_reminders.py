@@ -48,6 +48,9 @@ _ASKS = re.compile(
     r"[吗呢?]|什么|谁|几|哪|怎么|多少|有没有|是不是|(?P<verb>[^不]{1,2})不(?P=verb)|没有$"
 )
 """With these it is found out, and no words to say: 告诉我谁在."""
+_LEFT_OUT = re.compile(
+    r"(?:就|都|也|先|那)*(?:不用|不要|不必|不需要|别(?!忘)|甭|免了?$|跳过|算了|休息一[天次]|停一?[天次])"
+)
 _WHY = re.compile(
     r"(?:因为)?(?:我们?|[他她]们?|今天|已经|太)(?!.*(?:就|再|你|如果|要是|的话|别|不要|去(?:看|找|说|问))).{1,12}"
     r"|(?:免得|省得|不然|否则|怕)(?:我|又|会|老|都)*(?:忘|迟到|睡过|误|来不及|不记得).{0,5}"
@@ -61,6 +64,8 @@ def settle_deed(command: OrderCommand | None) -> OrderCommand | None:
     """Return an order whose deed says in plain words where and how often something is said."""
     if not isinstance(command, ScheduleCommand) or not has_chinese(command.order):
         return command
+    if command.problem == "order_time_missing" and _LEFT_OUT.match(command.order):
+        return None  # 明天不用叫了 is no order that lacks its hour
     if command.reminder is not None:
         often = repeat_reminder(command.reminder)
         return command if often is None else replace(command, order=often, reminder=None)
