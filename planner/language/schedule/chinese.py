@@ -50,6 +50,10 @@ _CLOCK = re.compile(
     rf"|(?P<oh>{_N})(?:点(?:来?钟)?|时)(?:整|(?P<half>半)|(?P<q>一刻|三刻)|(?P<om>{_N})分?)?)(?:左右|前后|的样子)?"
     rf"|(?P<noon>(?:中午|正午)(?:十二点)?)|(?P<midnight>午夜|半夜十二点)"
 )
+_BEDTIME = re.compile(
+    r"(?:在)?(?:(?P<once>今晚|今天晚上)|(?P<again>每天(?:晚上)?|每晚|天天(?:晚上)?)|晚上|夜里)?(?:我们?|大家|全家)?(?:上床)?睡(?:觉)?(?:之|以)?前(?!的|故事)"
+)
+"""Told as the usual hour of the night."""
 _DAYPART = re.compile(rf"(?:在)?(?P<part>{_P})")
 _EVERY = re.compile(
     rf"(?:每一?天|每日|天天|日日)(?P<part>{_P})?(?![一二两三四五六七八九十\d]?个)|每个?(?P<eve>{_P})"
@@ -61,7 +65,9 @@ _WEEKLY = re.compile(
 _WEEK_SPAN = re.compile(
     rf"(?:每个?)?{_WEEK}(?P<first>{_DAY})(?:到|至){_WEEK}?(?P<last>{_DAY})(?:的?每天)?"
 )
-_HOURLY = re.compile(r"每(?:隔)?(?:一)?(?P<half>半)?个?(?:小时|钟头)(?:一次)?")
+_HOURLY = re.compile(
+    r"每(?:隔)?(?:一)?(?P<half>半)?个?(?:小时|钟头)(?:一次)?|每个?(?:到)?整点(?:的时候)?|(?:一)?到整点"
+)
 _EVERY_SO = re.compile(rf"每(?:隔|过)?{ZH_DURATION}(?:一次)?")
 _EVERY_ONE = re.compile(r"每(?:(?P<minute>分)钟?|秒钟?)")
 _ONE_DAY = re.compile(
@@ -122,9 +128,13 @@ OPEN = re.compile(
     r"如果|要是|的话|的时候|时候|之后|以后|之前|以前|再|完|先|等|什么|哪|谁|几|[吗呢?“\"]|会儿|每|然后|,"
 )
 """With these it is not the time alone that is missing."""
-OF = re.compile(r"[,:]*(?:要|该|去|说)?[,:]*")
+OF = re.compile(r"[,:]*(?:要|该|说)?[,:]*")
 WAKE_UP = "该起床了"
-LEAD = re.compile(r"[,:、]*(?:就|都|要|再|请|帮我|你|给我)*")
+LEAD = re.compile(r"[,:、]*(?:就|都|要(?!是)|再|请|帮我|你|给我)*")
+
+
+_EVENING_FROM = 5
+"""An evening's hour before it lies on the next day, which the part of the day tells."""
 
 
 def _clock(found: re.Match[str]) -> tuple[Part, ...]:
@@ -137,7 +147,9 @@ def _clock(found: re.Match[str]) -> tuple[Part, ...]:
     if hour is None or minute is None or not (hour < 24 and minute < 60):
         return ()
     if found["part"]:
-        return (TimeOfDay(hour_in(hour, _PARTS[found["part"]]) % 24, minute, sure=True),)
+        part = _PARTS[found["part"]]
+        at = TimeOfDay(hour_in(hour, part) % 24, minute, sure=True)
+        return (at, part) if part is DayPart.EVENING and at.hour < _EVENING_FROM else (at,)
     return (TimeOfDay(hour, minute, hour > 12 or hour == 0),)
 
 
@@ -168,6 +180,15 @@ def _every(found: re.Match[str]) -> tuple[Part, ...]:
 def _weekly(found: re.Match[str]) -> tuple[Part, ...]:
     named = re.findall(_DAY, found["days"])
     return (WeekDays(frozenset(_WEEKDAYS.index(day.replace("天", "日")) for day in named)),)
+
+
+def _bedtime(found: re.Match[str]) -> tuple[Part, ...]:
+    """Take it for tonight's where no day stands before it."""
+    if found["again"]:
+        return (WeekDays(EVERY_DAY), DayPart.NIGHT)
+    before = found.string[: found.start()]
+    bare = not before or before.endswith((",", ":"))
+    return (OnceDay(ahead=0), DayPart.NIGHT) if found["once"] or bare else (DayPart.NIGHT,)
 
 
 def _week_span(found: re.Match[str]) -> tuple[Part, ...]:
@@ -222,6 +243,7 @@ def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
 
 PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
     *((pattern, _event(event)) for pattern, event in _UPON),
+    (_BEDTIME, _bedtime),
     *DATES,
     (_IN, _in),
     (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),

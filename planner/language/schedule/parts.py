@@ -6,7 +6,7 @@ A language finds the parts (``english``, ``chinese``); what they mean together i
 from __future__ import annotations
 
 from calendar import monthrange
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -210,9 +210,15 @@ def _weekly(again: WeekDays, clock: TimeOfDay | None, daypart: DayPart | None) -
     hour, minute = at
     if clock is not None and not clock.sure and daypart is None and hour in _BY_DAY:
         hour += 12  # nobody who says "every day at three" means the night
-    return Timing(CronRule(cron=f"{minute} {hour} * * {list_days(again.days)}"))
+    days = again.days
+    if _is_past_midnight(hour, daypart):
+        days = frozenset((each + 1) % 7 for each in days)
+    return Timing(CronRule(cron=f"{minute} {hour} * * {list_days(days)}"))
 
 
+_SMALL = range(1, 4)
+"""Hours of a dial that are of the night, also where people say evening."""
+SUNDAY = 6
 _BY_DAY = range(1, 5)
 """Hours of a dial that mean the afternoon where nothing else is said."""
 
@@ -247,6 +253,8 @@ def _by_clock(day: OnceDay | MonthDay, clock: TimeOfDay | None, daypart: DayPart
         return Timing(problem="order_time_missing")
     if isinstance(day, MonthDay):
         return _by_date(day, *at)
+    if _is_past_midnight(at[0], daypart):
+        day = _next_day(day)
     bare = clock is not None and not clock.sure and daypart is None
     either = bare and day == OnceDay() and 1 <= at[0] <= 12  # on a dial
     return Timing(
@@ -279,6 +287,18 @@ def _hour_minute(clock: TimeOfDay | None, daypart: DayPart | None) -> tuple[int,
     return hour % 24, clock.minute
 
 
+def _is_past_midnight(hour: int, daypart: DayPart | None) -> bool:
+    """Tell whether an hour of an evening lies on the day behind it: 今晚十二点, "tonight at one"."""
+    return daypart is DayPart.EVENING and (hour == 0 or hour in _SMALL)
+
+
+def _next_day(day: OnceDay) -> OnceDay:
+    if day.weekday is None:
+        return day if day.ahead is None else replace(day, ahead=day.ahead + 1)
+    week = day.week if day.week is None or day.weekday < SUNDAY else day.week + 1
+    return replace(day, weekday=(day.weekday + 1) % 7, week=week)
+
+
 def hour_in(hour: int, daypart: DayPart) -> int:
     """Return the hour of 24 that a dial's hour is in a part of the day."""
     if not 1 <= hour <= 12:  # already of 24
@@ -290,6 +310,8 @@ def hour_in(hour: int, daypart: DayPart) -> int:
             return hour + 12 if hour <= 3 else hour  # 中午一点 is 13:00
         case DayPart.NIGHT:
             return hour % 12 if hour <= 5 or hour == 12 else hour + 12
+        case DayPart.EVENING if hour == 12 or hour in _SMALL:
+            return hour % 12  # 晚上十二点 is midnight, and no noon
         case _:
             return hour % 12 + 12
 

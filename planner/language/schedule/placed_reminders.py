@@ -51,6 +51,15 @@ _ASKS = re.compile(
 _LEFT_OUT = re.compile(
     r"(?:就|都|也|先|那)*(?:不用|不要|不必|不需要|别(?!忘)|甭|免了?$|跳过|算了|休息一[天次]|停一?[天次])"
 )
+_TO_AN_HOUR = re.compile(
+    r"(?:(?<=[看瞧守待陪跟巡逻转走站盯玩坐着])|一直|直)到(?:了)?(?:今天|今晚|明天|明早)?(?:早上|上午|中午|下午|傍晚|晚上|夜里|半夜|凌晨)?"
+    r"(?:[零一二三四五六七八九十两\d]{1,3}(?:点|:\d)|中午|半夜|天亮|天黑)"
+)
+"""No plan goes on until an hour; 等到九点 waits for it, and is none of these."""
+_SAID_OFTEN = re.compile(
+    r"(?P<say>[说喊](?:一[句声])?[“\"「][^“”\"「」]+[”\"」])[,，]?(?:一共|连着?)?[说喊叫讲念]?(?P<n>[两二三四五六七八九十]|\d{1,2})[遍次声](?=[,，。;]|$)"
+)
+_MOST_SAID = 5
 _WHY = re.compile(
     r"(?:因为)?(?:我们?|[他她]们?|今天|已经|太)(?!.*(?:就|再|你|如果|要是|的话|别|不要|去(?:看|找|说|问))).{1,12}"
     r"|(?:免得|省得|不然|否则|怕)(?:我|又|会|老|都)*(?:忘|迟到|睡过|误|来不及|不记得).{0,5}"
@@ -69,8 +78,21 @@ def settle_deed(command: OrderCommand | None) -> OrderCommand | None:
     if command.reminder is not None:
         often = repeat_reminder(command.reminder)
         return command if often is None else replace(command, order=often, reminder=None)
-    deed = place_reminder(command.order)
-    return command if deed is None else replace(command, order=deed)
+    if command.problem is None and _TO_AN_HOUR.search(_QUOTED.sub("", command.order)):
+        return replace(command, when=None, problem="order_nested")
+    deed = place_reminder(command.order) or say_so_often(command.order)
+    return replace(command, order=deed)
+
+
+def say_so_often(deed: str) -> str:
+    """Return a deed in which what is said several times stands so often, or once with how often."""
+    found = _SAID_OFTEN.search(deed)
+    if found is None:
+        return deed
+    times, before, behind = _number(found["n"]), deed[: found.start()], deed[found.end() :]
+    if not behind.strip(" ,.。!"):
+        return f"{before}{found['say']}{times}遍"
+    return f"{before}{','.join([found['say']] * times)}{behind}" if times <= _MOST_SAID else deed
 
 
 def place_reminder(deed: str) -> str | None:
