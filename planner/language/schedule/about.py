@@ -180,7 +180,9 @@ def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeO
     if timed is not None:
         return timed
     for act, before, behind in _ZH_ACTS:
-        found = re.fullmatch(rf"(?:{before})(?P<a>.+)|把(?P<b>.+?)(?:都)?(?:{behind})", folded)
+        found = re.fullmatch(
+            rf"(?:{before})(?P<a>.+)|把(?P<b>.+?)(?:都)?(?:{behind})(?:了|吧)?", folded
+        )
         named = _zh_named(act, found["a"] or found["b"], reads) if found is not None else None
         if named is not None:
             return named

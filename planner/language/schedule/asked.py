@@ -159,6 +159,7 @@ def _read_next(found: re.Match[str], *, chinese: bool) -> ListOrders:
     which = group.get("of2") or group.get("of") or group.get("what") or ""
     kind = group.get("kind") or ("提醒" if chinese else "reminder")
     reminds = kind.startswith(("reminder", "提醒"))
+    which = re.sub(r"^(?:下一?|最近的?一?|接下来的?一?)个?(?:的)?", "", which)
     return ListOrders(which.strip(" 的了"), reminders=reminds, next_runs=True)
 
 

@@ -121,7 +121,7 @@ REMARK = re.compile(
 )
 """How what is no order begins, beside a time: 今天天气真好, 今晚有点冷."""
 REMIND = re.compile(
-    rf"(?:再)?来?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我们?)|(?:叫|喊)我们?(?!{KIN}|们))"
+    rf"(?:再)?来?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我们?)|(?:叫|喊)我们?(?!{KIN}|们)(?:一声|一下|一次)?)"
 )
 TIMELESS = re.compile(r"(?:再)?提醒(?:一下)?我(?:一下|一声)?(?!.?$)(?!了|过|的|说)")
 OPEN = re.compile(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _ZH_NO = r"(?:(?:不对|不是|不|错了|说错了|等等|等一下|抱歉|哦|噢)[,。!]+)*"
 _ZH_CHANGE = r"(?:改成|改到|改为|改在|换成|换到|调到|调成|挪到|移到|推迟到|提前到|推到)"
-_ZH_BETTER = r"(?:就够了|够了|就行|就好|就可以|更好|比较好|好一点|好些|正好|差不多)?"
+_ZH_BETTER = r"(?:就够了|够了|就行|就好|就可以|更好|比较好|好一点|好些|正好|差不多|(?:再|来|就)*(?:叫|提醒|喊)我?(?:起床|一声|一下)?(?:就行|就好)?)?"
 _ZH_RETIME = (
     re.compile(rf"{_ZH_NO}(?:还是)?(?:把?它|时间)?{_ZH_CHANGE}(?P<t>.+)"),
     re.compile(rf"{_ZH_NO}不是(?P<o>.+?),?(?:而)?是(?P<t>.+)"),
@@ -49,7 +49,7 @@ _ZH_DAYS_NAMED = re.compile(
     r"|(?P<w2>.+?)只(?:要|在)?(?P<d2>.+?)(?:就行|就好|做|去)?"
 )
 _ZH_LATER = re.compile(
-    rf"{_ZH_NO}(?:(?:把|将)?(?P<w>.+?))??(?:(?:给我|再)*(?:往后)?(?P<way>推迟|延后|延迟|晚|推|提前|早|往后[挪推移调延]|往前[挪提移调])|再?(?P<way2>[挪推移调](?:后|前)))(?:上|个)?(?P<n>.+?)"
+    rf"{_ZH_NO}(?:(?:把|将)?(?P<w>.+?))??(?:(?:给我|再)*(?:往后)?(?P<way>推迟|延后|延迟|晚|推|提前|早|往后[挪推移调延]|往前[挪提移调])|再?(?P<way2>[挪推移调](?:后|前)))(?:上|个)?(?P<n>[^提推延挪]+?)(?:再?(?:叫|提醒|喊)我(?:起床|一声|一下)?)?"
 )
 _ZH_AGAIN = re.compile(
     r"(?:再|等|过|再过|再等)(?P<a>.+?)(?:之后|以后|后)?(?:再|就)?(?:叫|提醒|喊)我(?:一下|一次|一声)?"
@@ -63,6 +63,13 @@ _Found = tuple["OrderChange", str, str]
 
 def _day_words(found: re.Match[str]) -> str:
     return next((text for name, text in found.groupdict().items() if name[0] == "d" and text), "")
+
+
+def _name(words: str) -> str:
+    """Return what names an order, without 那个; 明天那个 may be meant for that day alone."""
+    if re.match(r"[今明]|后天|这次|下次|这个?(?:周|星期|礼拜)", words):
+        return words
+    return re.sub(r"的?[那这]一?[个条项]$", "", words) or words
 
 
 class ChineseCorrections:
@@ -92,7 +99,7 @@ class ChineseCorrections:
             return None
         earlier = re.search("提前|早|前", found["way"] or found["way2"]) is not None
         words = f"{'提前' if earlier else '推迟'}{found['n']}"
-        return Delay(-seconds if earlier else seconds), found["w"] or "", words
+        return Delay(-seconds if earlier else seconds), _name(found["w"] or ""), words
 
     def _days(self, said: str) -> _Found | None:
         for pattern, keeps in ((_ZH_LEAVE_OUT, False), (_ZH_KEEP_TO, True)):
@@ -107,7 +114,7 @@ class ChineseCorrections:
         words = found["d"] or found["d2"]
         days = self._weekdays(words, keeps=keeps)
         change = f"只在{words}" if keeps else f"{words}不用"
-        return None if days is None else (days, found["w"] or found["w2"], change)
+        return None if days is None else (days, _name(found["w"] or found["w2"]), change)
 
     def _weekdays(self, words: str, *, keeps: bool) -> LeaveOutDays | None:
         parts = self._reads(words, in_chinese=True)
@@ -140,7 +147,7 @@ class ChineseCorrections:
                 return Retime((After(lasts),)), "", ""
         found = _ZH_RENAMED.fullmatch(said)
         parts = self._time(found["t"]) if found is not None else ()
-        return (Retime(parts), found["w"], f"改成{found['t']}") if found and parts else None
+        return (Retime(parts), _name(found["w"]), f"改成{found['t']}") if found and parts else None
 
     def _time(self, words: str) -> tuple[Part, ...]:
         return self._reads(words, in_chinese=True)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from planner.language.schedule.asked import ZH_KINDS
 from planner.language.schedule.chinese_corrections import ChineseCorrections
 from planner.language.schedule.command import ChangeOrders, CorrectOrder, LeaveOutDays
 from planner.language.schedule.parts import After
@@ -58,10 +59,19 @@ def _read_stopped(folded: str, whole: ReadsWhole) -> ChangeOrders | None:
     if found is None or _ANYTHING.fullmatch(found["w"]):
         return None
     lasts = found["lasts"] or found["lasts2"]
+    kind = re.fullmatch(rf"(?:我的|所有的?|全部)?(?P<of>.*?)的?(?P<kind>{ZH_KINDS})", found["w"])
+    if kind is not None:
+        which, reminds = kind["of"], kind["kind"] == "提醒"
+        if lasts is None:
+            return ChangeOrders("pause", which, reminders=reminds)
+    else:
+        which, reminds = found["w"], False
     if lasts is None:
-        return ChangeOrders("pause", found["w"], is_sure=False)
+        return ChangeOrders("pause", which, is_sure=False)
     parts = whole(f"{lasts}后", in_chinese=True)
     if len(parts) != 1 or not isinstance(parts[0], After):
         return None
     until = InRule(seconds=parts[0].seconds)
-    return ChangeOrders("pause", found["w"], until=until, until_words=lasts, is_sure=False)
+    return ChangeOrders(
+        "pause", which, reminders=reminds, until=until, until_words=lasts, is_sure=kind is not None
+    )

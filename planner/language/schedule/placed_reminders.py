@@ -59,6 +59,7 @@ _TO_AN_HOUR = re.compile(
 _SAID_OFTEN = re.compile(
     r"(?P<say>[说喊](?:一[句声])?[“\"「][^“”\"「」]+[”\"」])[,，]?(?:一共|连着?)?[说喊叫讲念]?(?P<n>[两二三四五六七八九十]|\d{1,2})[遍次声](?=[,，。;]|$)"
 )
+_ENOUGH = re.compile(r"(?:就行|就好|就可以|就够)了?$")
 _MOST_SAID = 5
 _WHY = re.compile(
     r"(?:因为)?(?:我们?|[他她]们?|今天|已经|太)(?!.*(?:就|再|你|如果|要是|的话|别|不要|去(?:看|找|说|问))).{1,12}"
@@ -77,7 +78,10 @@ def settle_deed(command: OrderCommand | None) -> OrderCommand | None:
         return None  # 明天不用叫了 is no order that lacks its hour
     if command.reminder is not None:
         often = repeat_reminder(command.reminder)
-        return command if often is None else replace(command, order=often, reminder=None)
+        if often is not None:
+            return replace(command, order=often, reminder=None)
+        bare = _ENOUGH.sub("", command.reminder)
+        return replace(command, order=bare, reminder=bare)
     if command.problem is None and _TO_AN_HOUR.search(_QUOTED.sub("", command.order)):
         return replace(command, when=None, problem="order_nested")
     deed = place_reminder(command.order) or say_so_often(command.order)

@@ -77,3 +77,11 @@ def test_another_day_is_no_order_and_drops_nothing(text: str) -> None:
 @pytest.mark.parametrize("text", ["你先停一下", "车先停了", "灯先关了", "把它先停了", "停三天"])
 def test_the_robot_and_the_house_are_no_orders(text: str) -> None:
     assert read_order_command(text) is None
+
+
+def test_reminders_and_alarms_are_stopped_for_now_and_resumed() -> None:
+    assert read_order_command("把闹钟先关了") == ChangeOrders("pause", "")
+    assert read_order_command("把闹钟恢复了") == ChangeOrders("resume", "")
+    week = read_order_command("提醒先停一周")
+    assert isinstance(week, ChangeOrders)
+    assert (week.act, week.reminders) == ("pause", True)

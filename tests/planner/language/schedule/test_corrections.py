@@ -227,3 +227,22 @@ def test_a_span_of_days_is_each_of_them() -> None:
     order = read_order_command("每周五到周日早上九点说早安")
     assert isinstance(order, ScheduleCommand)
     assert order.when == CronRule(cron="0 9 * * 0,5,6")
+
+
+@pytest.mark.parametrize(
+    ("text", "which", "change"),
+    [
+        ("起床那个往后推一小时", "起床", Delay(3600.0)),
+        ("早上的那个提前十分钟", "早上", Delay(-600.0)),
+        ("早上那个改成六点半", "早上", Retime((TimeOfDay(6, 30),))),
+        ("明天早上那个改成六点半", "明天早上那个", Retime((TimeOfDay(6, 30),))),
+        ("提前半小时叫我", "", Delay(-1800.0)),
+        ("七点太晚了，六点半叫我", "", Retime((TimeOfDay(6, 30),), (TimeOfDay(7, 0),))),
+    ],
+)
+def test_what_names_an_order_in_chinese_is_said_without_that_one(
+    text: str, which: str, change: OrderChange
+) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, CorrectOrder)
+    assert (command.which, command.change) == (which, change)

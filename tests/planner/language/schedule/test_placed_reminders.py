@@ -81,3 +81,8 @@ def test_who_is_woken_may_be_another(who: str) -> None:
 @pytest.mark.parametrize("text", ["九点来提醒我吃药", "九点提醒我吃药", "九点来钟提醒我吃药"])
 def test_to_come_is_no_part_of_the_hour(text: str) -> None:
     assert read(text).reminder == "吃药"
+
+
+@pytest.mark.parametrize("tail", ["", "一声", "一下", "就行", "一下就好"])
+def test_nothing_to_say_is_the_time_itself(tail: str) -> None:
+    assert read(f"下午三点叫我{tail}").reminder == ""
