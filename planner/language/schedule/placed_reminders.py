@@ -60,6 +60,8 @@ _SAID_OFTEN = re.compile(
     r"(?P<say>[说喊](?:一[句声])?[“\"「][^“”\"「」]+[”\"」])[,，]?(?:一共|连着?)?[说喊叫讲念]?(?P<n>[两二三四五六七八九十]|\d{1,2})[遍次声](?=[,，。;]|$)"
 )
 _ENOUGH = re.compile(r"(?:就行|就好|就可以|就够)了?$")
+_URGES = re.compile(r"(?:(?<=^)|(?<=[,，;]))催(?=[^我,，“”]{1,4}(?:快点)?[^,，]+)")
+"""Who is urged is told."""
 _MOST_SAID = 5
 _WHY = re.compile(
     r"(?:因为)?(?:我们?|[他她]们?|今天|已经|太)(?!.*(?:就|再|你|如果|要是|的话|别|不要|去(?:看|找|说|问))).{1,12}"
@@ -84,7 +86,7 @@ def settle_deed(command: OrderCommand | None) -> OrderCommand | None:
         return replace(command, order=bare, reminder=bare)
     if command.problem is None and _TO_AN_HOUR.search(_QUOTED.sub("", command.order)):
         return replace(command, when=None, problem="order_nested")
-    deed = place_reminder(command.order) or say_so_often(command.order)
+    deed = place_reminder(command.order) or say_so_often(_URGES.sub("提醒", command.order))
     return replace(command, order=deed)
 
 

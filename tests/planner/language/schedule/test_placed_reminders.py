@@ -86,3 +86,8 @@ def test_to_come_is_no_part_of_the_hour(text: str) -> None:
 @pytest.mark.parametrize("tail", ["", "一声", "一下", "就行", "一下就好"])
 def test_nothing_to_say_is_the_time_itself(tail: str) -> None:
     assert read(f"下午三点叫我{tail}").reminder == ""
+
+
+def test_who_is_urged_is_reminded() -> None:
+    assert read("每天晚上八点去书房，催孩子写作业").order == "去书房,提醒孩子写作业"
+    assert read("每天晚上八点去书房，说“别催孩子了”").order == "去书房,说“别催孩子了”"
