@@ -133,6 +133,8 @@ def tell_deed(facts: SiteView, order: StandingOrder) -> Bilingual:
         )  # fmt: skip
     if not order.allowed:
         return say("standing.answers", order=order.order)
+    if not all(CATALOGUE.has(f"order_deed.{step.kind}") for step in order.allowed):
+        return say("standing.as_said", order=order.order)  # steps that hold others: if, repeat
     return tell_steps(facts, order.allowed)
 
 

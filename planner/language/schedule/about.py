@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 from planner.language.schedule.asked import KINDS, MY, ZH_ALL, ZH_KINDS, read_asked
+from planner.language.schedule.chinese_skips import read_chinese_skip
 from planner.language.schedule.command import ChangeOrders
 from planner.language.schedule.parts import (
     EVERY_DAY,
@@ -84,6 +85,8 @@ def read_about(
     asked = read_asked(folded, whole, chinese=chinese)
     if asked is not None:
         return asked
+    if chinese and (skipped := read_chinese_skip(folded, whole)) is not None:
+        return skipped
     said = (_read_chinese if chinese else _read_english)(folded, reads, whole)
     if not chinese and (said is None or said.act == "remove"):  # one day drops nothing for good
         said = read_skip(folded, whole) or said
@@ -182,7 +185,9 @@ def _read_chinese(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeO
     if timed is not None:
         return timed
     for act, before, behind in _ZH_ACTS:
-        found = re.fullmatch(rf"(?:{before})(?P<a>.+)|把(?P<b>.+?)(?:都)?(?:{behind})", folded)
+        found = re.fullmatch(
+            rf"(?:{before})(?P<a>.+)|把(?P<b>.+?)(?:都)?(?:{behind})(?:了|吧)?", folded
+        )
         named = _zh_named(act, found["a"] or found["b"], reads) if found is not None else None
         if named is not None:
             return named

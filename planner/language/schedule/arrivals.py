@@ -51,6 +51,13 @@ _ZH = re.compile(
     rf"(?:当|等|等到|只要|一旦|每次|每当|要是|下次)?(?P<who>{_KIN_ZH})(?P<at>一|们)?(?:放学|下班)?"
     r"(?:回来|回家|进门|进屋|进来|到家|来家里|来)(?P<end>了的时候|的时候|之后|以后|了|时|后)?,?(?:你?就|请|麻烦|帮我|你|都)*(?P<order>.+)"
 )
+_I_COME_ZH = re.compile(
+    r"(?:(?P<lead>当|只要|一旦|每次|每当|每回))?我们?(?P<at>一)?(?:放学|下班)?(?:回来|回家|进家?门|进屋|进来|到家)"
+    r"(?:了)?(?P<end>的时候|之后|以后|时)?,?(?:你?就|请|你|都|要|得)*(?P<order>(?:说|喊|[跟对和]我(?:说|讲)).+)"
+)
+"""Not with 等 before it: that is once, and the order of now."""
+_TO_ME_ZH = re.compile(r"[跟对和]我(?:说|讲)(?:一声|一句|句|声)?[,:]?(?P<what>.+)")
+_FINDS_OUT_ZH = re.compile(r"[吗呢?]|什么|谁|几|哪|怎么|多少|有没有|是不是|没有$")
 _LEADS_ZH = re.compile(
     r"(?:当|等|等到|只要|一旦|每次|每当|要是|下次)|.*?(?:的时候|之后|以后|时,|后,|一回|一进|一到|就)"
 )
@@ -106,7 +113,7 @@ def read_arrival(folded: str, written: str, *, chinese: bool) -> Arrival | None:
     """Return whom a sentence waits for by name, and what is then to be done; None of any other."""
     found = (_ZH if chinese else _EN).fullmatch(folded)
     if found is None:
-        return None
+        return _read_my_coming(folded, written) if chinese else None
     who = written[slice(*found.span("who"))].strip()
     order = written[slice(*found.span("order"))].strip()
     if _SPEAKS.match(order.lower()) is None:
@@ -119,6 +126,25 @@ def read_arrival(folded: str, written: str, *, chinese: bool) -> Arrival | None:
     ):
         return None
     return Arrival(who, speak_to(who, order))
+
+
+def _read_my_coming(folded: str, written: str) -> Arrival | None:
+    """Read 我一进门就说…: whoever comes is meant, as nobody is told from others."""
+    found = _I_COME_ZH.fullmatch(folded)
+    if found is None or not (found["lead"] or found["at"] or found["end"]):
+        return None
+    order = written[slice(*found.span("order"))].strip()
+    to_me = _TO_ME_ZH.fullmatch(order)
+    words = to_me["what"] if to_me is not None else order
+    quoted = re.search('[“"「]', words) is not None
+    if not quoted and (_FINDS_OUT_ZH.search(words) or "," in words):
+        return None
+    return Arrival("您", order if to_me is None else _say_words(words, quoted=quoted))
+
+
+def _say_words(words: str, *, quoted: bool) -> str:
+    """Return the order to say words, which may stand in quotes already."""
+    return f"说{words}" if quoted else f"说“{words}”"
 
 
 def speak_to(who: str, order: str) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Protocol
 
+from planner.language.schedule.chinese_lists import read_list
 from planner.language.schedule.command import ListOrders
 from planner.language.schedule.parts import EVERY_DAY, DayPart, OnceDay, WeekDays
 
@@ -114,7 +115,7 @@ _ZH_LIST = re.compile(
     r"|我(?:让|叫|要|请)你提醒我(?:些|过)?(?:什么|啥|哪些事?)(?:来着)?"
 )
 _READ_OUT_ZH = re.compile(
-    r",?(?:你)?(?:给我|帮我)?(?:念|读|说|讲|报|数|列)(?:一遍|一下|出来|给我|我?听|来听听|看)+$"
+    r"[, ]*(?:你)?(?:给我|帮我)?(?:念|读|说|讲|报|数|列)(?:念|说|讲|一遍|一下|出来|给我|我?听听?|来听听|看)+$"
 )
 """How the answer is to be given: aloud, as any."""
 _WHICH_ZH = re.compile(r"什么|啥|哪|几")
@@ -142,6 +143,8 @@ def read_asked(folded: str, whole: ReadsDays, *, chinese: bool) -> ListOrders | 
         folded = _NOWADAYS.sub("", folded)
     if _lists(folded, chinese=chinese):
         return ListOrders()
+    if chinese and (list_asked := read_list(folded, whole)) is not None:
+        return list_asked
     if not chinese and (of_day := _read_listed_day(folded, whole)) is not None:
         return of_day
     at_time = (_ZH_AT_TIME if chinese else _AT_TIME).fullmatch(folded)
@@ -185,6 +188,7 @@ def _read_next(found: re.Match[str], *, chinese: bool) -> ListOrders:
     which = "wake" if group.get("wake") and not which else which
     kind = group.get("kind") or ("提醒" if chinese else "reminder")
     reminds = kind.startswith(("reminder", "提醒"))
+    which = re.sub(r"^(?:下一?|最近的?一?|接下来的?一?)个?(?:的)?", "", which)
     return ListOrders(which.strip(" 的了"), reminders=reminds, next_runs=True)
 
 

@@ -24,6 +24,7 @@ from planner.language.schedule.parts import (
     WeekDays,
     hour_in,
 )
+from planner.language.schedule.placed_reminders import KIN
 from planner.plan.timing import WorldEvent
 
 if TYPE_CHECKING:
@@ -46,9 +47,13 @@ _WEEKDAYS = "日一二三四五六"
 _ABOUT = r"(?:大概|大约|约莫|约|差不多)?(?:是|在|到)?"
 _CLOCK = re.compile(
     rf"(?:在|到)?(?P<part>{_P})?{_ABOUT}(?:(?P<h>\d{{1,2}})[:](?P<m>\d{{2}})"
-    rf"|(?P<oh>{_N})(?:点(?:来)?钟?|时)(?:整|(?P<half>半)|(?P<q>一刻|三刻)|(?P<om>{_N})分?)?)(?:左右|前后|的样子)?"
+    rf"|(?P<oh>{_N})(?:点(?:来?钟)?|时)(?:整|(?P<half>半)|(?P<q>一刻|三刻)|(?P<om>{_N})分?)?)(?:左右|前后|的样子)?"
     rf"|(?P<noon>(?:中午|正午)(?:十二点)?)|(?P<midnight>午夜|半夜十二点)"
 )
+_BEDTIME = re.compile(
+    r"(?:在)?(?:(?P<once>今晚|今天晚上)|(?P<again>每天(?:晚上)?|每晚|天天(?:晚上)?)|晚上|夜里)?(?:我们?|大家|全家)?(?:上床)?睡(?:觉)?(?:之|以)?前(?!的|故事)"
+)
+"""Told as the usual hour of the night."""
 _DAYPART = re.compile(rf"(?:在)?(?P<part>{_P})")
 _EVERY = re.compile(
     rf"(?:每一?天|每日|天天|日日)(?P<part>{_P})?(?![一二两三四五六七八九十\d]?个)|每个?(?P<eve>{_P})"
@@ -57,7 +62,12 @@ _EVERY = re.compile(
 _WEEKLY = re.compile(
     rf"(?:每个?{_WEEK}|逢{_WEEK})(?P<days>{_DAY}(?:(?:、|,|和|及|跟|与)?(?:每个?)?(?:{_WEEK})?{_DAY})*)"
 )
-_HOURLY = re.compile(r"每(?:隔)?(?:一)?(?P<half>半)?个?(?:小时|钟头)(?:一次)?")
+_WEEK_SPAN = re.compile(
+    rf"(?:每个?)?{_WEEK}(?P<first>{_DAY})(?:到|至){_WEEK}?(?P<last>{_DAY})(?:的?每天)?"
+)
+_HOURLY = re.compile(
+    r"每(?:隔)?(?:一)?(?P<half>半)?个?(?:小时|钟头)(?:一次)?|每个?(?:到)?整点(?:的时候)?|(?:一)?到整点"
+)
 _EVERY_SO = re.compile(rf"每(?:隔|过)?{ZH_DURATION}(?:一次)?")
 _EVERY_ONE = re.compile(r"每(?:(?P<minute>分)钟?|秒钟?)")
 _ONE_DAY = re.compile(
@@ -72,7 +82,11 @@ _IN = re.compile(
 _OPENS = r"(?:当|只要|一旦|每当|每次|一|要是一)?(?:你)?"
 _CLOSES = r"(?:了)?(?P<end>的时候|之后|以后|时|后)?,?(?:你?就|都|请)?"
 _SOMEBODY = r"(?:有人|有客人|客人|来人|谁|人)"
+_DOOR = r"(?:大门口?|门口|正门|前门|家门|门外|外面|外边|外头)"
 _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
+    (rf"{_SOMEBODY}(?:一)?从{_DOOR}(?:走)?(?:进来|进门|进屋|回来|过来)", WorldEvent.PERSON_SEEN),
+    (rf"(?:家里|家中|{_DOOR})(?:一)?(?:有(?:人|客人)(?:来|进来|进门|上门|敲门进来)|来(?:了)?(?:人|客人))", WorldEvent.PERSON_SEEN),
+    (r"(?:有人|有客人|客人)(?:一)?上门|来(?:了)?客人", WorldEvent.PERSON_SEEN),
     (rf"{_SOMEBODY}(?:一)?(?:走)?(?:进来|进门|进屋|回家|回来|到家|来访|来|过来|出现|到|在门口)", WorldEvent.PERSON_SEEN),
     (r"(?:看到|看见|发现|遇到|见到)(?:有)?人", WorldEvent.PERSON_SEEN),
     (r"(?:有|发现|看到)(?:任何|什么)?(?:动静|东西在?动|移动)", WorldEvent.MOVEMENT),
@@ -107,16 +121,20 @@ REMARK = re.compile(
 )
 """How what is no order begins, beside a time: 今天天气真好, 今晚有点冷."""
 REMIND = re.compile(
-    r"(?:再)?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我们?)|(?:叫|喊)我们?(?!的|们))"
+    rf"(?:再)?来?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我们?)|(?:叫|喊)我们?(?!{KIN}|们)(?:一声|一下|一次)?)"
 )
 TIMELESS = re.compile(r"(?:再)?提醒(?:一下)?我(?:一下|一声)?(?!.?$)(?!了|过|的|说)")
 OPEN = re.compile(
     r"如果|要是|的话|的时候|时候|之后|以后|之前|以前|再|完|先|等|什么|哪|谁|几|[吗呢?“\"]|会儿|每|然后|,"
 )
 """With these it is not the time alone that is missing."""
-OF = re.compile(r"[,:]*(?:要|该|去|说)?[,:]*")
+OF = re.compile(r"[,:]*(?:要|该|说)?[,:]*")
 WAKE_UP = "该起床了"
-LEAD = re.compile(r"[,:、]*(?:就|都|要|再|请|帮我|你|给我)*")
+LEAD = re.compile(r"[,:、]*(?:就|都|要(?!是)|再|请|帮我|你|给我)*")
+
+
+_EVENING_FROM = 5
+"""An evening's hour before it lies on the next day, which the part of the day tells."""
 
 
 def _clock(found: re.Match[str]) -> tuple[Part, ...]:
@@ -129,7 +147,9 @@ def _clock(found: re.Match[str]) -> tuple[Part, ...]:
     if hour is None or minute is None or not (hour < 24 and minute < 60):
         return ()
     if found["part"]:
-        return (TimeOfDay(hour_in(hour, _PARTS[found["part"]]) % 24, minute, sure=True),)
+        part = _PARTS[found["part"]]
+        at = TimeOfDay(hour_in(hour, part) % 24, minute, sure=True)
+        return (at, part) if part is DayPart.EVENING and at.hour < _EVENING_FROM else (at,)
     return (TimeOfDay(hour, minute, hour > 12 or hour == 0),)
 
 
@@ -160,6 +180,21 @@ def _every(found: re.Match[str]) -> tuple[Part, ...]:
 def _weekly(found: re.Match[str]) -> tuple[Part, ...]:
     named = re.findall(_DAY, found["days"])
     return (WeekDays(frozenset(_WEEKDAYS.index(day.replace("天", "日")) for day in named)),)
+
+
+def _bedtime(found: re.Match[str]) -> tuple[Part, ...]:
+    """Take it for tonight's where no day stands before it."""
+    if found["again"]:
+        return (WeekDays(EVERY_DAY), DayPart.NIGHT)
+    before = found.string[: found.start()]
+    bare = not before or before.endswith((",", ":"))
+    return (OnceDay(ahead=0), DayPart.NIGHT) if found["once"] or bare else (DayPart.NIGHT,)
+
+
+def _week_span(found: re.Match[str]) -> tuple[Part, ...]:
+    first, last = (_WEEKDAYS.index(found[n].replace("天", "日")) for n in ("first", "last"))
+    days = [(first + i) % 7 for i in range((last - first) % 7 + 1)]
+    return (WeekDays(frozenset(days)),) if first != last else ()
 
 
 def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
@@ -208,11 +243,13 @@ def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
 
 PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
     *((pattern, _event(event)) for pattern, event in _UPON),
+    (_BEDTIME, _bedtime),
     *DATES,
     (_IN, _in),
     (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
     (_EVERY_SO, _interval),
     (_EVERY_ONE, lambda found: (Interval(60.0 if found["minute"] else 1.0),)),
+    (_WEEK_SPAN, _week_span),
     (_WEEKLY, _weekly),
     (_EVERY, _every),
     (_ONE_DAY, _one_day),

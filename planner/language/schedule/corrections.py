@@ -7,8 +7,9 @@ law: words that are no time, no day and no length are no correction ("make it qu
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
+from planner.language.schedule.chinese_corrections import ChineseCorrections
 from planner.language.schedule.command import (
     CorrectOrder,
     Delay,
@@ -22,13 +23,7 @@ from planner.language.schedule.wished_changes import may_change, read_wish
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import OrderChange
-    from planner.language.schedule.parts import Part
-
-
-class ReadsParts(Protocol):
-    """Return the parts of a time that a whole text is; none where it is anything else."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
+    from planner.language.schedule.parts import Part, ReadsWhole
 
 
 BY_ID = re.compile(r"(?:change order|更改任务) ?(?P<id>o\d{1,6}) ?: ?(?P<rest>.+)")
@@ -95,41 +90,9 @@ _GIVE_ALONE = re.compile(
     r"(?:give me|i need|can i have|let me have|just) (?!another)(?!.*\b(?:more|longer)\b).+"
 )
 
-_ZH_NO = r"(?:(?:不对|不是|不|错了|说错了|等等|等一下|抱歉|哦|噢)[,。!]+)*"
-_ZH_CHANGE = r"(?:改成|改到|改为|改在|换成|换到|调到|调成|挪到|移到|推迟到|提前到|推到)"
-_ZH_RETIME = (
-    re.compile(rf"{_ZH_NO}(?:还是)?(?:把?它|时间)?{_ZH_CHANGE}(?P<t>.+)"),
-    re.compile(rf"{_ZH_NO}不是(?P<o>.+?),?(?:而)?是(?P<t>.+)"),
-    re.compile(rf"{_ZH_NO}(?:我说的是|我是说|应该是|是)?(?P<t>.+?),(?:而)?不是(?P<o>.+)"),
-    re.compile(r"(?:(?:不对|错了|说错了|不)[,。!]+)+(?:我说的是|我是说|应该是|是)(?P<t>.+)"),
-    re.compile(r"(?:我说的是|我是说|应该是)(?P<t>.+)"),
-)
-_ZH_RENAMED = re.compile(rf"(?:把|将)?(?P<w>.+?)(?:的)?(?:时间)?{_ZH_CHANGE}(?P<t>.+)")
-_ZH_NONE = r"(?:就?(?:不用|不要|不必|不需要|别|免了?|除外|算了)(?:了|做|去|叫|提醒|来)*)"
-_ZH_LEAVE_OUT = re.compile(
-    rf"{_ZH_NO}(?:但|但是)?(?:除了?)?(?P<d>.+?){_ZH_NONE}|{_ZH_NO}除了(?P<d2>.+?)(?:以外|之外|外)?"
-)
-_ZH_KEEP_TO = re.compile(
-    rf"{_ZH_NO}(?:但|但是)?(?:只要?|仅|就)(?:在|限)?(?P<d>.+?)(?:就行|就好|就可以|才要|做|去|叫|提醒)?"
-    r"|(?P<d2>.+?)才(?:要|做|去|叫|提醒)?"
-)
-_ZH_DAYS_NAMED = re.compile(
-    rf"(?P<w>.+?)(?P<d>(?:每个?)?(?:周|星期|礼拜).{{1,6}}?){_ZH_NONE}"
-    r"|(?P<w2>.+?)只(?:要|在)?(?P<d2>.+?)(?:就行|就好|做|去)?"
-)
-_ZH_LATER = re.compile(
-    rf"{_ZH_NO}(?:(?:把|将)?(?P<w>.+?))??(?:往后)?(?P<way>推迟|延后|延迟|晚|推|提前|早)(?P<n>.+)"
-)
-_ZH_AGAIN = re.compile(
-    r"(?:再|等|过|再过|再等)(?P<a>.+?)(?:之后|以后|后)?(?:再|就)?(?:叫|提醒|喊)我(?:一下|一次|一声)?"
-    r"|(?P<b>.+?)(?:之后|以后|后)再(?:叫|提醒|喊)我(?:一下|一次|一声)?"
-    r"|再(?:给我|睡|来|多)(?P<c>.+)|(?:等会儿?|待会儿?|一会儿?|过会儿?|稍后|晚点儿?|晚一点儿?)(?:再)?(?:叫|提醒|喊)我"
-    r"|贪睡|再睡(?:一会儿?|会儿?)"
-)
-
 
 def read_correction(
-    folded: str, reads: ReadsParts, *, chinese: bool, named: str = ""
+    folded: str, reads: ReadsWhole, *, chinese: bool, named: str = ""
 ) -> CorrectOrder | None:
     """Return the correction that a sentence is; None where it is none.
 
@@ -143,7 +106,7 @@ def read_correction(
     if by_id is not None and not named:
         return read_correction(by_id["rest"], reads, chinese=chinese, named=by_id["id"])
     folded = folded if chinese else may_change(folded)
-    found = (_Chinese if chinese else _English)(reads).read(folded)
+    found = (ChineseCorrections if chinese else _English)(reads).read(folded)
     if found is None and not chinese:
         found = read_wish(folded, reads)
     if found is None:
@@ -162,7 +125,7 @@ _Found = tuple["OrderChange", str, str]
 class _English:
     """Read English corrections."""
 
-    def __init__(self, reads: ReadsParts) -> None:
+    def __init__(self, reads: ReadsWhole) -> None:
         self._reads = reads
 
     def read(self, said: str) -> _Found | None:
@@ -268,81 +231,3 @@ _RENAMED_LEAD = re.compile(
 def _cuts(said: str) -> list[tuple[int, int]]:
     """Return where "to", "at" or the like parts an order's name from its new time."""
     return [found.span() for found in re.finditer(rf" (?:{_TO} |(?=every |daily|hourly))", said)]
-
-
-class _Chinese:
-    """Read Chinese corrections."""
-
-    def __init__(self, reads: ReadsParts) -> None:
-        self._reads = reads
-
-    def read(self, said: str) -> _Found | None:
-        """Return the change and the order's name."""
-        return self._read_again(said) or self._later(said) or self._days(said) or self._retime(said)
-
-    def _read_again(self, said: str) -> _Found | None:
-        found = _ZH_AGAIN.fullmatch(said)
-        if found is None:
-            return None
-        lasts = found["a"] or found["b"] or found["c"]
-        if lasts is None or lasts in ("一会儿", "一会", "会儿", "会"):
-            return RemindAgain(), "", ""
-        seconds = self._lasts(lasts)
-        return None if seconds is None else (RemindAgain(seconds), "", "")
-
-    def _later(self, said: str) -> _Found | None:
-        found = _ZH_LATER.fullmatch(said)
-        seconds = self._lasts(found["n"]) if found is not None else None
-        if found is None or seconds is None:
-            return None
-        earlier = found["way"] in ("提前", "早")
-        words = f"{'提前' if earlier else '推迟'}{found['n']}"
-        return Delay(-seconds if earlier else seconds), found["w"] or "", words
-
-    def _days(self, said: str) -> _Found | None:
-        for pattern, keeps in ((_ZH_LEAVE_OUT, False), (_ZH_KEEP_TO, True)):
-            found = pattern.fullmatch(said)
-            days = None if found is None else self._weekdays(found["d"] or found["d2"], keeps=keeps)
-            if days is not None:
-                return days, "", ""
-        found = _ZH_DAYS_NAMED.fullmatch(said)
-        if found is None:
-            return None
-        keeps = found["d"] is None
-        words = found["d"] or found["d2"]
-        days = self._weekdays(words, keeps=keeps)
-        change = f"只在{words}" if keeps else f"{words}不用"
-        return None if days is None else (days, found["w"] or found["w2"], change)
-
-    def _weekdays(self, words: str, *, keeps: bool) -> LeaveOutDays | None:
-        parts = self._reads(words, in_chinese=True)
-        if len(parts) != 1 and re.match(r"周|星期|礼拜", words):
-            parts = self._reads(f"每{words}", in_chinese=True)
-        part = parts[0] if len(parts) == 1 else None
-        if isinstance(part, WeekDays):
-            return LeaveOutDays(part.days, keeps)
-        if isinstance(part, OnceDay) and part.weekday is not None:
-            day = frozenset({(part.weekday + 1) % 7})
-            return LeaveOutDays(day, keeps, is_one=part.week is not None and not keeps)
-        return None
-
-    def _retime(self, said: str) -> _Found | None:
-        for pattern in _ZH_RETIME:
-            found = pattern.fullmatch(said)
-            if found is None:
-                continue
-            old = found.groupdict().get("o")
-            parts, before = self._time(found["t"]), self._time(old) if old else ()
-            if parts and (before or not old):
-                return Retime(parts, before), "", ""
-        found = _ZH_RENAMED.fullmatch(said)
-        parts = self._time(found["t"]) if found is not None else ()
-        return (Retime(parts), found["w"], f"改成{found['t']}") if found and parts else None
-
-    def _time(self, words: str) -> tuple[Part, ...]:
-        return self._reads(words, in_chinese=True)
-
-    def _lasts(self, words: str) -> float | None:
-        parts = self._reads(f"{words}后", in_chinese=True)
-        after = parts[0] if len(parts) == 1 else None
-        return after.seconds if isinstance(after, After) else None

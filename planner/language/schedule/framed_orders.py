@@ -136,6 +136,14 @@ def is_limited(order: str) -> bool:
     return _LIMIT.match(order) is not None or _LIMIT_BEHIND.fullmatch(order) is not None
 
 
+_HAS_END = re.compile(r"\b(?:until|till)\b|直到|等到|为止")
+
+
+def has_end(order: str) -> bool:
+    """Tell whether an order says itself when it ends: kept "every five minutes" it never would."""
+    return _HAS_END.search(order) is not None
+
+
 def read_hourless(said: FoldedSentence) -> FoldedSentence | None:
     """Return an order at a time that no clock tells: "at sunset go to the dock"."""
     found = _HOURLESS.fullmatch(said.folded)

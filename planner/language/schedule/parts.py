@@ -5,9 +5,8 @@ A language finds the parts (``english``, ``chinese``); what they mean together i
 
 from __future__ import annotations
 
-import re
 from calendar import monthrange
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -221,9 +220,15 @@ def _weekly(again: WeekDays, clock: TimeOfDay | None, daypart: DayPart | None) -
         return Timing(problem="order_time_missing")
     hour, minute = at
     hour = _by_day(hour, clock, daypart)
-    return Timing(CronRule(cron=f"{minute} {hour} * * {list_days(again.days)}"))
+    days = again.days
+    if _is_past_midnight(hour, daypart):
+        days = frozenset((each + 1) % 7 for each in days)
+    return Timing(CronRule(cron=f"{minute} {hour} * * {list_days(days)}"))
 
 
+_SMALL = range(1, 4)
+"""Hours of a dial that are of the night, also where people say evening."""
+SUNDAY = 6
 _BY_DAY = range(1, 5)
 """Hours of a dial that mean the afternoon where nothing else is said."""
 
@@ -267,6 +272,8 @@ def _by_clock(day: OnceDay | MonthDay, clock: TimeOfDay | None, daypart: DayPart
     at = (_by_day(at[0], clock, daypart) if named else at[0], at[1])
     if isinstance(day, MonthDay):
         return _by_date(day, *at)
+    if _is_past_midnight(at[0], daypart):
+        day = _next_day(day)
     bare = clock is not None and not clock.sure and daypart is None
     either = bare and day == OnceDay() and 1 <= at[0] <= 12  # on a dial
     return Timing(
@@ -299,6 +306,18 @@ def _hour_minute(clock: TimeOfDay | None, daypart: DayPart | None) -> tuple[int,
     return hour % 24, clock.minute
 
 
+def _is_past_midnight(hour: int, daypart: DayPart | None) -> bool:
+    """Tell whether an hour of an evening lies on the day behind it: 今晚十二点, "tonight at one"."""
+    return daypart is DayPart.EVENING and (hour == 0 or hour in _SMALL)
+
+
+def _next_day(day: OnceDay) -> OnceDay:
+    if day.weekday is None:
+        return day if day.ahead is None else replace(day, ahead=day.ahead + 1)
+    week = day.week if day.week is None or day.weekday < SUNDAY else day.week + 1
+    return replace(day, weekday=(day.weekday + 1) % 7, week=week)
+
+
 def hour_in(hour: int, daypart: DayPart) -> int:
     """Return the hour of 24 that a dial's hour is in a part of the day."""
     if not 1 <= hour <= 12:  # already of 24
@@ -310,6 +329,8 @@ def hour_in(hour: int, daypart: DayPart) -> int:
             return hour + 12 if hour <= 3 else hour  # 中午一点 is 13:00
         case DayPart.NIGHT:
             return hour % 12 if hour <= 5 or hour == 12 else hour + 12
+        case DayPart.EVENING if hour == 12 or hour in _SMALL:
+            return hour % 12  # 晚上十二点 is midnight, and no noon
         case _:
             return hour % 12 + 12
 
@@ -320,11 +341,3 @@ def leave_days_out(rule: CronRule, named: frozenset[int], *, keeps: bool) -> Cro
     days = read_days(week)
     days = days & named if keeps else days - named
     return CronRule(cron=" ".join((*at, list_days(days)))) if days else None
-
-
-_HAS_END = re.compile(r"\b(?:until|till)\b|直到|等到|为止")
-
-
-def has_end(order: str) -> bool:
-    """Tell whether an order says itself when it ends: kept "every five minutes" it never would."""
-    return _HAS_END.search(order) is not None

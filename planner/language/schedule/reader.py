@@ -27,6 +27,7 @@ from planner.language.schedule.event_commands import order_upon, read_event
 from planner.language.schedule.event_orders import NEWS
 from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
 from planner.language.schedule.framed_orders import (
+    has_end,
     is_limited,
     read_beginning,
     read_hourless,
@@ -41,11 +42,11 @@ from planner.language.schedule.parts import (
     TimeOfDay,
     Timing,
     combine,
-    has_end,
     is_once,
     lacks_time,
     leave_days_out,
 )
+from planner.language.schedule.placed_reminders import settle_deed
 from planner.language.schedule.reasons import is_reason, leave_reasons_out
 from planner.language.schedule.statements import (
     begins_with_statement,
@@ -90,7 +91,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     grammar = chinese if has_chinese(said.folded) else english
     said = FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
-    command = _read_command(said, grammar, text, asks=asks)
+    command = settle_deed(_read_command(said, grammar, text, asks=asks))
     if asks or not (command is None or _denies(command) or _swallows(command)):
         return command
     bare = leave_reasons_out(said.folded, chinese=grammar is chinese)
@@ -100,7 +101,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     about = _read_about_kept(bare.strip(ENDS), grammar)
     alone = FoldedSentence(bare.strip(ENDS), bare.strip(ENDS))
     if about is None and _waits(alone, grammar):
-        return read_event(alone, grammar) or _read(alone, grammar) or command
+        return settle_deed(read_event(alone, grammar) or _read(alone, grammar)) or command
     return about or command
 
 

@@ -407,3 +407,13 @@ def test_questions_are_answered_by_what_is_kept(tmp_path: Path) -> None:
         )
 
     tell(tmp_path, story)
+
+
+@pytest.mark.parametrize("deed", ["去厨房说“吃饭”2遍", "如果客厅有人就说该睡觉了"])
+def test_steps_that_hold_others_are_told_in_the_words_of_the_order(
+    tmp_path: Path, deed: str
+) -> None:
+    async def story(kept: Kept) -> None:
+        assert f"今天 22:00我会按您说的做：“{deed}”" in await say(kept, f"今晚十点{deed}")
+
+    tell(tmp_path, story)

@@ -97,3 +97,36 @@ def test_the_way_in_is_part_of_the_event(way: str) -> None:
 def test_somebody_who_comes_elsewhere_is_no_event_and_no_drive_there(place: str) -> None:
     command = read_order_command(f"when somebody comes {place}, say hi")
     assert not isinstance(command, ScheduleCommand) or command.when is None
+
+
+@pytest.mark.parametrize("way", ["从大门", "从门口", "从外面", ""])
+@pytest.mark.parametrize("opens", ["只要", "每次", "以后只要", "当"])
+def test_the_way_in_is_part_of_the_event_in_chinese(opens: str, way: str) -> None:
+    command = read_order_command(f"{opens}有人{way}进来，你就说“记得换鞋”")
+    assert isinstance(command, ScheduleCommand)
+    assert command.when == EventRule(event=WorldEvent.PERSON_SEEN)
+    assert command.order == "说“记得换鞋”"
+
+
+@pytest.mark.parametrize("text", ["有人从卧室出来就说早上好", "门口有人就说你好"])
+def test_another_place_and_a_state_are_no_such_event(text: str) -> None:
+    assert not isinstance(read_order_command(text), ScheduleCommand)
+
+
+@pytest.mark.parametrize("comes", ["我一进门就", "每次我回家，你就", "我下班回家的时候"])
+@pytest.mark.parametrize("says", ["说“辛苦啦”", "跟我说辛苦啦", "对我说一声“辛苦啦”"])
+def test_whoever_comes_is_greeted_for_me(comes: str, says: str) -> None:
+    command = read_order_command(comes + says)
+    assert isinstance(command, ScheduleCommand)
+    assert (command.who, command.order) == ("您", "说“辛苦啦”")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "我回来了，说一下今天的情况", "等我回来告诉我今天有没有人来过", "我一进门就说今天有谁来过",
+        "我进门之后去充电", "我一回来就跟我说奶奶在哪",
+    ],
+)  # fmt: skip
+def test_my_coming_once_and_a_question_are_no_standing_order(text: str) -> None:
+    assert not isinstance(read_order_command(text), ScheduleCommand)

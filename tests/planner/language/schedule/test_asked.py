@@ -78,3 +78,45 @@ def test_when_something_is_to_be_done_is_asked_of_what_is_kept(text: str) -> Non
     assert isinstance(command, ListOrders)
     assert command.next_runs
     assert not command.is_sure
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "你现在手里都有哪些定时的活儿？给我念念。",
+        "有哪些事情是你每天要做的？讲给我听听。",
+        "我之前让你定时做的事都有啥",
+        "现在还有几个提醒没响？",
+        "帮我看看设了什么闹钟",
+        "你都记着哪些事要提醒我的？",
+        "把定好的任务都报一遍",
+        "现在有啥定时任务在跑？",
+        "看看还有什么提醒",
+        "给我列一下都有哪些定时",
+        "我给你定的规矩都有哪些",
+    ],
+)
+def test_a_list_is_asked_for_in_many_words_in_chinese(text: str) -> None:
+    assert read_order_command(text) == ListOrders()
+
+
+def test_a_list_of_one_day_is_of_that_day() -> None:
+    assert read_order_command("明天你要提醒我啥？") == ListOrders(day=OnceDay(ahead=1))
+    assert read_order_command("周六都有什么提醒") == ListOrders(day=OnceDay(weekday=5))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "今天你提醒了我什么？",
+        "你提醒过我什么",
+        "去看看任务",
+        "告诉我有什么事",
+        "你看看桌上有什么",
+        "提醒我看看闹钟",
+        "看看闹钟在不在桌上",
+        "你每天做了什么",
+    ],
+)
+def test_what_is_over_and_what_is_looked_at_is_no_list(text: str) -> None:
+    assert not isinstance(read_order_command(text), ListOrders)

@@ -19,9 +19,9 @@ from planner.language.schedule import (
     can_lean,
     read_order_command,
 )
-from planner.language.schedule.parts import Interval, OnceDay, TimeOfDay
+from planner.language.schedule.parts import After, Interval, OnceDay, TimeOfDay
 from planner.language.utterance import parse
-from planner.plan.timing import DayTime, InRule
+from planner.plan.timing import CronRule, DayTime, InRule
 
 NINE, EIGHT = TimeOfDay(9), TimeOfDay(8)
 SUNDAY, WORKDAYS = frozenset({0}), frozenset({1, 2, 3, 4, 5})
@@ -186,3 +186,63 @@ def test_words_that_remove_or_pause_are_read(text: str, command: ChangeOrders) -
                                   "don't go to the kitchen", "pause until Monday"])  # fmt: skip
 def test_what_names_no_order_removes_none(text: str) -> None:
     assert not isinstance(read_order_command(text), ChangeOrders)
+
+
+@pytest.mark.parametrize(
+    "text", ["八点太早了，九点吧", "还是九点吧", "时间改一下，九点", "八点有点早，还是改成九点更好"]
+)
+def test_another_time_is_said_in_many_words_in_chinese(text: str) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, CorrectOrder)
+    assert isinstance(command.change, Retime)
+    assert command.change.parts == (TimeOfDay(9, 0),)
+
+
+@pytest.mark.parametrize("text", ["一个小时太长了，四十分钟就够了", "一小时有点久，还是四十分钟吧"])
+def test_another_length_is_counted_from_now(text: str) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, CorrectOrder)
+    assert command.change == Retime((After(2400.0),))
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [("往前提十分钟", -600.0), ("再往后推一小时", 3600.0)],
+)
+def test_an_order_is_moved_in_chinese(text: str, seconds: float) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, CorrectOrder)
+    assert command.change == Delay(seconds)
+
+
+@pytest.mark.parametrize("text", ["桌子太长了，换个地方", "还是去客厅吧", "还是算了吧"])
+def test_what_is_no_time_corrects_nothing_in_chinese(text: str) -> None:
+    assert not isinstance(read_order_command(text), CorrectOrder)
+
+
+def test_a_span_of_days_is_each_of_them() -> None:
+    command = read_order_command("不用每天，周一到周五就行")
+    assert isinstance(command, CorrectOrder)
+    assert command.change == LeaveOutDays(frozenset({1, 2, 3, 4, 5}), keeps=True)
+    order = read_order_command("每周五到周日早上九点说早安")
+    assert isinstance(order, ScheduleCommand)
+    assert order.when == CronRule(cron="0 9 * * 0,5,6")
+
+
+@pytest.mark.parametrize(
+    ("text", "which", "change"),
+    [
+        ("起床那个往后推一小时", "起床", Delay(3600.0)),
+        ("早上的那个提前十分钟", "早上", Delay(-600.0)),
+        ("早上那个改成六点半", "早上", Retime((TimeOfDay(6, 30),))),
+        ("明天早上那个改成六点半", "明天早上那个", Retime((TimeOfDay(6, 30),))),
+        ("提前半小时叫我", "", Delay(-1800.0)),
+        ("七点太晚了，六点半叫我", "", Retime((TimeOfDay(6, 30),), (TimeOfDay(7, 0),))),
+    ],
+)
+def test_what_names_an_order_in_chinese_is_said_without_that_one(
+    text: str, which: str, change: OrderChange
+) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, CorrectOrder)
+    assert (command.which, command.change) == (which, change)
