@@ -63,7 +63,7 @@ def read_hunt(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step,
         found = pattern.fullmatch(said)
         if found is None:
             continue
-        what = _hunted(found["what"].strip(), (found["for"] or "").strip(), forms)
+        what = _find_hunted(found["what"].strip(), (found["for"] or "").strip(), forms)
         at = f" {found['at'].strip()}" if found["at"] else ""
         search = read.steps(forms.find.format(what=what, at=at)) if what is not None else None
         if not search or not _is_search(search, placed=bool(at)):
@@ -76,7 +76,7 @@ def read_hunt(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step,
     return None
 
 
-def _hunted(what: str, sought: str, forms: CompoundForms) -> str | None:
+def _find_hunted(what: str, sought: str, forms: CompoundForms) -> str | None:
     """Return what is searched, which both ends of the sentence may name; None where none does."""
     names = [
         name

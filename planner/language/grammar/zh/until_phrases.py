@@ -74,11 +74,11 @@ def _search_through(said: str) -> str:
     found = _FOUND.fullmatch(said)
     if found is None or not (found["u"] or found["end"]):
         return said
-    thing = _same(found["t"], found["t2"])
+    thing = _name_fully(found["t"], found["t2"])
     return f"{_place_of(found['a'])}找{thing}{found['tail']}" if thing else said
 
 
-def _same(one: str, other: str) -> str | None:
+def _name_fully(one: str, other: str) -> str | None:
     """Return the fuller of two names of one thing; None where they may be two things."""
     if other in ("", "它", "他", "她", "东西", "人家"):
         return one

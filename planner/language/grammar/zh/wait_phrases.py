@@ -60,11 +60,11 @@ def plain_waits(said: str) -> str:
         return said
     if found["rest"] is None:
         return f"去{place},等到有人来"
-    then = _then(found["rest"], who if named else "")
+    then = _write_deed(found["rest"], who if named else "")
     return said if then is None else f"去{place},等到有人来,{then}"
 
 
-def _then(rest: str, name: str) -> str | None:
+def _write_deed(rest: str, name: str) -> str | None:
     """Return what is done when somebody came; None where it is more than words for one by name."""
     report = _REPORTS.fullmatch(rest)
     if report is not None:
