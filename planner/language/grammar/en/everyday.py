@@ -25,9 +25,7 @@ _GOES = (
     r"|bring yourself|(?:drag|move|drive|roll|wheel|take) yourself|find your way|head|proceed|get|come)"
 )
 _ASIDE = r"(?: (?:on|off|over|down|up|along|out|back|round|around|across|across the hall|straight|through))*"
-_ONE = (
-    r"(?:i|he|she|it|they|we|(?:the |my |our )?(?:baby|kids?|dog|cat|mum|dad|mom|granny|grandma))"
-)
+_ONE = r"(?:i|he|she|it|they|we|(?:the |my |our )?(?:baby|kids?|dog|cat|m[uo]m|dad|gran(?:ny|dma)))"
 _REASON = (
     rf"{_ONE}(?: is|'s| are|'re| am|'m|s)? (?:all |so |really |very |just |still )?(?:lost|missing"
     r"|gone|asleep|sleeping|hungry|thirsty|waiting|tired|late|in a (?:hurry|rush)|cold|bored|sad"
