@@ -100,8 +100,24 @@ _IN_THE_WAY = (
     rf"(?:我们?|他|她|奶奶|爷爷|孩子|宝宝|路|道|人|门|光线?|大家|别人|{MARK})*(?:的)?(?:路|道|脚|视线|眼睛)?(?:了|啦|啊|呢)*"
 )
 """A place may stand in it: it says what the robot stands before."""
+_MAKE_ROOM = (
+    rf"(?:好)?(?:让|给)(?:{_WHO}|[^,。!?;去到回别不]{{1,4}}?)(?:先|好|能)?"
+    r"(?:过去|过一下|过路|走过去|通过)(?:一下)?"
+)
 _ENOUGH = r"(?:今天|现在)?(?:就|先)*到(?:这里|这儿|此|这)(?:了|吧|为止)*|(?:这里|这边|这儿|现在)?没(?:你|您|你们)?的?(?:什么|别的|啥)?事儿?(?:了|啦)"
-_TELLS = (_DOING, _DONE, _SOON, _FOR_USE, _SENSES, _FORGOT_WHERE, _NO_IDEA, _SOUNDS, _AIR, _ENOUGH)
+_TELLS = (
+    _DOING,
+    _DONE,
+    _SOON,
+    _FOR_USE,
+    _SENSES,
+    _FORGOT_WHERE,
+    _NO_IDEA,
+    _SOUNDS,
+    _AIR,
+    _ENOUGH,
+    _MAKE_ROOM,
+)
 """Clauses that say what people do, want, hear or fear, and order nothing."""
 _KEPT = rf"(?![^,。!?;]*(?:{MARK}|\d|自己|我来|我去|我(?:们)?已经|算了|不用|不必|除了|而是|那个|这个|时候|如果|要是|的话|以后|之后|别|勿))"
 _JOIN = r"(?:因为|毕竟|反正|主要是|那|既然|可是|不过)?"

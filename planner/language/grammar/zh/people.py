@@ -131,6 +131,8 @@ _OF_THEM = re.compile(r"^(?:他|她)(?!们)")
 
 _AT = rf"(?:{loc('at')})?"
 _AT2 = rf"(?:{loc('at2')})?"
+_PASSES = r"[^,]{1,6}?(?:先|好|能)?(?:过去|过一下|过路|走过去|通过)(?:一下)?$"
+"""What somebody is made room for: 往后退一退，让姥姥先过去 tells her nothing."""
 _WHO = rf"(?P<who>{PERSON})"
 
 GUIDE: tuple[Rule, ...] = (
@@ -166,7 +168,7 @@ RULES: tuple[Rule, ...] = (
         _what_words,
     ),
     rule(
-        rf"{_AT}(?:(?:告诉|通知|提醒|叫|喊|让|请|催|对|跟)|给(?=[^,]{{1,8}}[说讲])){_AT2}{_WHO}(?:说|讲)?(?:一下|"
+        rf"{_AT}(?:(?:告诉|通知|提醒|叫|喊|让(?!{_PASSES})|请|催|对|跟)|给(?=[^,]{{1,8}}[说讲])){_AT2}{_WHO}(?:说|讲)?(?:一下|"
         r"一声|一句|[声句](?![音子明]))?(?P<words>(?![说讲]$)[^,]+)",
         _tell_words,
     ),

@@ -225,3 +225,9 @@ def test_no_place_number_or_word_that_holds_back_is_lost(text: str) -> None:
 )
 def test_where_somebody_is_said_to_be_sends_nobody_there(home: Vocabulary, said: str) -> None:
     assert motion(said, home) is None
+
+
+@pytest.mark.parametrize("who", ["姥姥", "爷爷", "孩子", "我"])
+def test_whom_room_is_made_for_is_told_nothing(who: str, home: Vocabulary) -> None:
+    assert motion(f"后退半米，让{who}先过去", home) == motion("后退半米", home)
+    assert motion("后退半米", home) is not None
