@@ -1,7 +1,7 @@
 """Write words that are to be said in every room as one drive after the other, each with its words.
 
-Pure text to text, English: "say good night in every room". Law: words with a condition, a choice or
-an exception in them are left to the grammar, which refuses them.
+Pure text to text: "say good night in every room", 每个房间喊一声吃饭了. Law: words with a
+condition, a choice or an exception in them are left to the grammar, which refuses them.
 """
 
 from __future__ import annotations
@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from planner.language.folding import has_chinese
+from planner.language.grammar.sentence_text import normalise
 from planner.plan import MAX_STEPS
 
 if TYPE_CHECKING:
@@ -45,6 +47,20 @@ _FORMS = (
         re.IGNORECASE,
     ),
 )
+_ROOMS_ZH = (
+    r"(?:每(?:一?个|间)?(?:房间|屋子?)|(?:所有|各个|全部)(?:的)?(?:房间|屋子?)"
+    r"|挨(?:个|着)?(?:房间|屋子?)?|一个个房间|一个房间一个房间)"
+)
+_FORM_ZH = re.compile(
+    rf"(?P<lead>(?:[^,]{{1,6}}了,)?)(?:请|你|帮我|麻烦|,)*(?:去|到|在)?{_ROOMS_ZH}(?:里面?)?"
+    r"(?:都|去|挨个|给我|也|,)*(?:喊|说|讲|叫)(?:大家|他们|人)?(?:一[声句下遍])?[:,]?"
+    r"(?P<w>[^,]{2,30}?)"
+    r"(?P<rest>(?:,(?:喊|说|讲|叫|弄)?完(?:了|以后|之后)?(?:就|再|你)*(?:回|去).+)?)"
+)
+_DONE_ZH = re.compile(r",(?:喊|说|讲|叫|弄)?完(?:了|以后|之后)?(?:就|再|你)*")
+_OPEN_ZH = re.compile(
+    r"如果|要是|的话|除非|除了|或者?|还是|别|不要|不用|然后|再|什么|谁|哪|几|吗|有没有"
+)
 _OPEN = re.compile(
     r"\b(?:if|unless|until|till|when|whenever|while|before|after|or|except|but|not|then|once|twice"
     r"|times)\b|n't\b",
@@ -57,6 +73,8 @@ _ASKS = re.compile(
 
 def say_in_each_room(text: str, vocabulary: Vocabulary) -> str:
     """Return the text with the drives to all rooms written out; the same where it is none such."""
+    if has_chinese(text):
+        return _say_chinese(text, vocabulary)
     said = " ".join(text.split())
     names = [entry.name.en for entry in vocabulary.entries if entry.kind == "room"]
     for form in _FORMS:
@@ -76,3 +94,16 @@ def say_in_each_room(text: str, vocabulary: Vocabulary) -> str:
         said_there = (f'go to the {name} and say "{words}"' for name in names)
         return f"{', then '.join(said_there)}{found['rest'] or ''}"
     return text
+
+
+def _say_chinese(text: str, vocabulary: Vocabulary) -> str:
+    said = normalise(text).strip(" ,。.!?")
+    found = _FORM_ZH.fullmatch(said)
+    names = [entry.name.zh for entry in vocabulary.entries if entry.kind == "room"]
+    if found is None or not names or 2 * len(names) >= MAX_STEPS:
+        return text
+    words = found["w"].strip('"“”「」')
+    if not words or _OPEN_ZH.search(words) or _OPEN_ZH.search(found["lead"]):
+        return text
+    there = "，然后".join(f"去{name}说“{words}”" for name in names)
+    return found["lead"] + there + _DONE_ZH.sub("，然后", found["rest"])

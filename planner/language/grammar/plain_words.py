@@ -17,7 +17,7 @@ from planner.language.grammar.asides import tells_where, without_asides
 from planner.language.grammar.checks import without_compounds
 from planner.language.grammar.en.courtesy import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
-from planner.language.grammar.en.looser_phrases import LOOSER, LOST_THINGS
+from planner.language.grammar.en.looser_phrases import LOOSER, LOST_THINGS, ONE_TURN
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.en.told_words import quote_told_words as quote_told_english
 from planner.language.grammar.everyday import rewrite
@@ -53,7 +53,7 @@ def without_sending(text: str) -> str:
     that an order has anyhow, "until it is found".
     """
     said, ended = normalise(text), normalise(end_anyhow(text))
-    plain = rewrite(ended, ASKED_AND_SENT if has_chinese(text) else TOLD_TWICE)
+    plain = rewrite(ended, ASKED_AND_SENT if has_chinese(text) else (*TOLD_TWICE, *ONE_TURN))
     return text if plain == rewrite(said, ()) else plain
 
 

@@ -105,6 +105,8 @@ def put_time_first(text: str) -> str:
 
 _FILLER = re.compile(
     r"(?:as well|too|also|instead|again|please|on second thoughts?|and|then|[ ,])+"
+    r"|[也都再]+(?:要|得)?(?:提醒|叫|喊|说|讲|念|来|去|做|弄)(?:一?[下声])?(?:我们?|[他她]们?)?"
+    r"(?:一?(?:次|遍|回|下))?[吧啊哈哦]?"
 )
 
 

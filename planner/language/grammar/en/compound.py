@@ -17,7 +17,9 @@ _FAILS = (
     r"|(?:it|that|this|the (?:way|door|room)) (?:fails|is (?:blocked|closed|shut|locked))"
     r"|there is no way(?: there| in)?)"
 )
-_OTHERWISE = r"(?:[,;.]? ?(?:and |but )?(?:otherwise|or else|else|if not|if no)(?:,| then)? )"
+_OTHERWISE = (
+    r"(?:[,;.]? ?(?:and |but )?(?:otherwise|or else|else|if not|if no)(?:,| then)?(?: just)? )"
+)
 _IF = r"(?:if|in case)"
 _IF_NOT = r"(?:if|in case|(?P<unless>unless))"
 _VERBS = (
@@ -101,6 +103,7 @@ _KEEP = r"(?:please |just )?(?:(?:keep(?: on)?|carry on|go on|continue) )?"
 _SO = r"(?:(?:please|just|also|then|go|come|and|instead|maybe|you can|could you) )*"
 _ANOTHER = r"(?!me\b|us\b|him\b|her\b|them\b)(?:my )?[a-z]+"
 _STOP = r"(?:wait|stay|stand|sit)"
+_I_RETURN = r"(?:i am|i'm|we are|i|we)(?: (?:come|get|am|are))? (?:back|return|here)(?: again)?"
 _THEM = r"(?:him|her|them)"
 _TOLD_END = r"(?=$|[,;]| and (?:then )?(?:go|come|drive|return|look|find|wait|follow|turn|head)\b)"
 
@@ -111,6 +114,11 @@ ENGLISH_COMPOUND = CompoundForms(
         re.ASCII,
     ),
     conditions=(
+        re.compile(
+            rf"(?:please )?{_IF} (?P<body>(?:there is )?(?:nobody|no one)\b.+?)[,.;]"
+            r" ?(?:and |but )?if (?:there is (?:some|any)(?:body|one)|(?:some|any)(?:body|one) is)"
+            r"(?: (?:there|in|in there|inside))?,?(?: then)? (?P<else>.+)"
+        ),
         re.compile(rf"(?:please )?{_IF_NOT} (?P<body>.+?){_OTHERWISE}(?P<else>.+)"),
         re.compile(rf"(?:please )?{_IF_NOT} (?P<body>.+)"),
         re.compile(
@@ -141,7 +149,8 @@ ENGLISH_COMPOUND = CompoundForms(
     tells=(
         (
             re.compile(
-                rf"\b(?:tell|inform|remind|let) {_THEM} (?:know )?to (?P<w>[^,;\"]+?){_TOLD_END}"
+                rf"\b(?:tell|inform|remind|let|ask) {_THEM} (?:know )?to"
+                rf" (?P<w>[^,;\"]+?){_TOLD_END}"
             ),
             r'say "please \g<w>"',
         ),
@@ -181,6 +190,7 @@ ENGLISH_COMPOUND = CompoundForms(
             rf"(?P<time>(?:half past )?[a-z0-9]+(?::\d\d)?(?: ?[ap]\.?m\.?)?){_GO_ON}"
         ),
         re.compile(rf"{_BEFORE}{_STAY}{_AT}(?: until| till) (?P<who>{PERSON}) {_COMES}{_GO_ON}"),
+        re.compile(rf"{_BEFORE}{_STAY}{_AT}(?: until| till) (?P<who>{_I_RETURN}){_GO_ON}"),
         re.compile(
             rf"{_BEFORE}{_STAY}{_AT}(?: until| till) you (?:can )?see (?P<who>{PERSON}){_GO_ON}"
         ),

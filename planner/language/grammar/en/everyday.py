@@ -269,7 +269,7 @@ ENGLISH_EVERYDAY = table(
      r"(?P<w>[^\",;]+?)(?=$|[,;]? ?(?:otherwise|or else|else|if not)\b)", r'\g<c>, say "\g<w>"'),
     (r"\b(?:inform|advise) me\b", "tell me"),
     # looking
-    (r"[, ]+and tell me what(?: all)? (?:you (?:can )?(?:see|find)|is (?:in )?there|is going on)$", ""),
+    (r"(?P<l>\b(?:look|check|see|peek|peep|glance|inspect)\b[^.;]*?)[, ]+and tell me what(?: all)? (?:you (?:can )?(?:see|find)|is (?:in )?there|is going on)$", r"\g<l>"),
     (r"[, ]+and (?:then )?come (?:back )?(?:and )?tell me (?:where (?:it|he|she) is|what you (?:find|see|found|saw))$",
      ", then come back"),
     (rf"\b(?:check|see|look) (?:if|whether) (?P<t>(?:the|my|a|our) [a-z ]+?) (?:has |have |had )?(?:rolled|fallen|fell|gone|went"

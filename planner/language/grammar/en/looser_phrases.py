@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from planner.language.grammar.everyday import table
 from planner.language.grammar.lexicon import MARK
-from planner.language.numbers import EN_LENGTH
+from planner.language.numbers import EN_DURATION, EN_LENGTH
 
 _PLACE = rf"(?:(?:the|a|my|our|your|this|that) )?{MARK}"
 _AT = r"(?:in|at|on|by|under|behind|near|beside|next to|inside)"
@@ -36,7 +36,21 @@ LOST_THINGS = table(
 )  # fmt: skip
 """A thing that is missed, and where to look: what is looked at is that thing, and not the place."""
 
+_OF = r"(?:(?:my|the|our|your|his|her) )[a-z]+(?: [a-z]+)??"
+ONE_TURN = table(
+    (r"\b(?P<t>(?:spin|rotate)(?: (?:a?round|about|right round|all the way round))+) (?:just )?once"
+     r"(?! (?:you|i|we|he|she|it|they|the|my|more|again|every|a|somebody|someone|there)\b)", r"\g<t>"),
+    (r"\b(?P<v>tell (?:me|us)|describe) (?:everything|all) (?:that )?you (?:can )?see\b", r"\g<v> what you see"),
+    (r"\bturn to face (?:the other way|the opposite (?:way|direction)|backwards)", "turn around"),
+    (rf"^(?:is|are) (?P<t>{_OF}) in (?P<a>{_OF}) or (?:in )?(?P<b>{_OF})[?.!]*$",
+     r"look for \g<t> in \g<a>, and if it is not there look in \g<b>"),
+)  # fmt: skip
+"""Once round is round, and a thing that is in one of two rooms is looked for in both."""
+
 LOOSER = table(
+    (rf"\bfor (?:exactly|precisely|about|around|roughly|another|a good) (?={EN_DURATION})", "for "),
+    (r"\blook in (?:at|on) (?=(?:the|my|our) )", "check "),
+    (r"\b(?P<h>go home|go (?:and )?charge|dock) and (?:have a )?(?:rest|relax|recharge)\b", r"\g<h>"),
     (r"\bwake (?:up (?P<w>(?!me\b|us\b)(?:(?:the|my|our) )?[a-z]+)|(?P<v>(?!me\b|us\b|up\b)(?:(?:the|my|our) )?[a-z]+)(?: up)?)"
      r"(?=[.!]*$|,| and\b)", r"tell \g<w>\g<v> to wake up"),
     (r"(?P<f>\b(?:follow|come along with|come with) (?:me|us|him|her|them)\b[^,.;]*?),? (?:and |but )?(?:keep|stay)"

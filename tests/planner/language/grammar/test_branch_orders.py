@@ -168,3 +168,24 @@ def test_how_many_there_must_be_no_look_answers(home: Vocabulary, things: str, c
     ):
         made = plan(text, home, WHOLE)
         assert isinstance(made, Refuse), text
+
+
+@pytest.mark.parametrize("words", ["come to dinner", "wait in the hall"])
+def test_what_they_are_asked_to_do_is_said_as_a_plea(home: Vocabulary, words: str) -> None:
+    asked = branch(f"if there's somebody in the study, ask them to {words}", home)
+    assert asked == branch(f"if there's somebody in the study, tell them to {words}", home)
+    assert asked.then == (Say(text=f"please {words}"),)
+
+
+def test_somebody_behind_nobody_is_the_other_branch(home: Vocabulary) -> None:
+    both = branch("if nobody is in the study, go home. If somebody is, say hello", home)
+    plain = branch("if somebody is in the study, say hello, otherwise go home", home)
+    assert (both.then, both.otherwise) == (plain.then, plain.otherwise)
+
+
+@pytest.mark.parametrize("more", ["", " again"])
+def test_to_wait_until_one_is_back_is_to_wait_for_somebody(home: Vocabulary, more: str) -> None:
+    waits = plan("wait for somebody", home, WHOLE)
+    assert isinstance(waits, StepPlan)
+    assert plan(f"wait here until I'm back{more}", home, WHOLE) == waits
+    assert plan("stay here till I come back", home, WHOLE) == waits

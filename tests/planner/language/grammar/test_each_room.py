@@ -39,3 +39,17 @@ def test_open_words_are_left_as_they_are(home: Vocabulary, order: str, words: st
 def test_a_denied_order_says_nothing(home: Vocabulary, order: str, words: str) -> None:
     made = plan(f"don't {order.format(words)}", home, WHOLE)
     assert not isinstance(made, StepPlan)
+
+
+@given(
+    sampled_from(
+        ("每个房间喊一声{}", "去每个房间说一声{}", "挨个房间都喊“{}”", "饭好了，所有房间喊一下{}")
+    ),
+    sampled_from(("吃饭了", "晚安", "我们出发了")),
+)  # fmt: skip
+def test_words_are_said_in_every_room_in_chinese(home: Vocabulary, order: str, words: str) -> None:
+    made = plan(order.format(words), home, WHOLE)
+    assert isinstance(made, StepPlan)
+    rooms = [entry.id for entry in home.entries if entry.kind == "room"]
+    assert [s.place for s in made.steps if isinstance(s, GoTo)] == rooms
+    assert [s.text for s in made.steps if isinstance(s, Say)] == [words] * len(rooms)
