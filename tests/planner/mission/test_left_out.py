@@ -43,7 +43,13 @@ TELLING = order_under_way(
 )
 WORDS = ("not the bedroom", "skip the bedroom", "don't go into the bedroom, Anna's asleep",
          "you can leave out the bedroom", "never mind the bedroom")  # fmt: skip
-WORDS_ZH = ("卧室就别进了，孩子睡着呢", "卧室别进去", "别去卧室了", "卧室不用看了")
+WORDS_ZH = (
+    "卧室就别进了，孩子睡着呢",
+    "卧室就别进了，大刘在换衣服",
+    "卧室别进去",
+    "别去卧室了",
+    "卧室不用看了",
+)
 
 
 def takes(book: MissionState, text: str) -> bool:

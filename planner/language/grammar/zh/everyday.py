@@ -5,13 +5,19 @@ from __future__ import annotations
 from planner.language.grammar.everyday import table
 from planner.language.grammar.lexicon import MARK
 from planner.language.numbers import ZH_DURATION, ZH_LENGTH
+from planner.language.person_names import NAMES_ZH
 
 _BEGIN = r"(?:^|(?<=[,.!?;。]))"
 _END = r"(?=$|[,.!?;。])"
 _WHO = (
-    r"(?:小家伙|小宝贝|宝贝儿?|小机|小朋友|小可爱|小东西|小伙子|小乖乖?|乖乖?|亲爱的|亲|老弟|兄弟|哥们�?|伙计|小车|机器人|"
+    r"(?:小家伙|小宝贝|宝贝儿?|小机|小朋友|小可爱|小东西|小伙子|小乖乖?|乖乖?|亲爱的|亲|老弟|兄弟|哥们儿?|伙计|小车|机器人|"
     r"机器宝宝|小助手|小管家|小机器人)"
 )
+_CALLED = (
+    rf"(?!(?:{NAMES_ZH}),|妈妈|爸爸|宝宝|看看|谢谢|等等|慢慢|好好|来来|停停|别别|不不)"
+    r"(?:小[一-龥]|(?P<c>[一-龥])(?P=c))"
+)
+"""What a household calls its robot, 豆豆, 小白: no name that people are known by."""
 _PLACE = rf"(?:{MARK}的)?{MARK}"
 _SIDE = r"(?:那边|这边|那儿|这儿|那里|这里|那头|这头|里头|里面|里|上)?"
 _GOES = (
@@ -128,6 +134,7 @@ CHINESE_EVERYDAY = table(
     # hesitation, address, courtesy
     (r"(?:呃+|额+|嗯+|唔+|啊+(?=,)|那个(?=那个|[嗯呃,去到找看])|这个(?=这个|[嗯呃,])|就是说|怎么说呢|叫啥来着)", ""),
     (rf"{_BEGIN}(?:喂|嘿|哎|诶|欸)?,?{_WHO}(?:呀|啊|,)*(?=.)", ""),
+    (rf"^(?:喂|嘿|哎|诶|欸)?,?{_CALLED},(?=.)", ""),
     (rf"{_BEGIN}(?:不好意思(?:哈|啊)?|跟你商量个事|有个事儿?|来来来?|走走走|好了好了|那行|行了?(?=,)|得了(?=,))[,]?", ""),
     (r"(?:好不好|好吗|行吗|行不行|可以吗|行不|成不|可好|好伐)[?]+$", ""),
     (rf"(?:好不好|好吗|行吗|行不行|可以吗|好嘛|嘛|吧|呗|哈|咯|啦|嘞|哟|呐|捏|喽|哇|好伐|行不|成不|可好|听好了|好不|谢啦|辛苦了?|快点儿?|麻溜的?){_END}", ""),

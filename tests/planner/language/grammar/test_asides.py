@@ -231,3 +231,17 @@ def test_where_somebody_is_said_to_be_sends_nobody_there(home: Vocabulary, said:
 def test_whom_room_is_made_for_is_told_nothing(who: str, home: Vocabulary) -> None:
     assert motion(f"后退半米，让{who}先过去", home) == motion("后退半米", home)
     assert motion("后退半米", home) is not None
+
+
+@pytest.mark.parametrize("called", ["豆豆", "小白", "球球"])
+@pytest.mark.parametrize("said", ["去厨房", "回去充电", "去客厅，然后去厨房"])
+def test_what_the_robot_is_called_changes_no_order(
+    called: str, said: str, home: Vocabulary
+) -> None:
+    assert motion(f"{called}，{said}", home) == motion(said, home) is not None
+    assert not motion(f"{called}，别{said}", home)
+
+
+@pytest.mark.parametrize("person", ["小明", "乐乐", "奶奶", "妈妈"])
+def test_what_a_person_is_told_is_no_order_for_the_robot(person: str, home: Vocabulary) -> None:
+    assert motion(f"{person}，去厨房", home) is None
