@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planner.language.commands import (
+    LeaveOutCommand,
+    intent_of,
     read_absent_place,
     read_denied_place,
     read_first_place,
@@ -35,6 +37,7 @@ _WAY_HOME = {
     "come_back": ("then come back", "再回来"),
     "return_home": ("then go home", "再回去充电"),
 }
+_CLAUSE_END = re.compile(r"[,，;；.。!！](?!$)")
 _ARTICLE = re.compile(r"^(?:the|my|our|your|an?|some|any) ", re.IGNORECASE)
 
 
@@ -86,8 +89,15 @@ def put_first(text: str, last: Mission, facts: SiteView) -> str | None:
 
 
 def is_destination_denied(text: str, last: Mission, facts: SiteView) -> bool:
-    """Tell whether a place that an order still goes to is said not to be meant."""
+    """Tell whether a place that an order still goes to is said not to be meant.
+
+    What follows behind a mark, "not the bedroom, he's reading in the study", changes nothing of it.
+    """
     place = _only_place(text, read_denied_place(text), facts)
+    first = _CLAUSE_END.split(text.strip(), maxsplit=1)[0]
+    other = intent_of(text) if first != text else None
+    if place is None and first != text and (other is None or isinstance(other, LeaveOutCommand)):
+        place = _only_place(first, read_denied_place(first) or read_left_out(first), facts)
     ahead = last.steps[last.step :] if not last.has_ended else ()
     return place is not None and any(place in (step.place, *step.places) for step in ahead)
 

@@ -153,3 +153,18 @@ def test_who_is_on_the_way_to_a_wrong_place_stops(said: str) -> None:
     other = run("go to the study", GoTo(place="study"))
     heard = receive(other, parse(said), Submitted("new", said, Language.EN), NOW_S)
     assert heard.stops is parse(said).may_mean_stop
+
+
+@pytest.mark.parametrize(
+    ("book", "text"),
+    [
+        (run("go to the bedroom", GoTo(place="bedroom")), "not the bedroom, he's in the study"),
+        (run("去卧室看看姥爷", GoTo(place="bedroom")), "不是卧室，他在书房看报呢"),
+        (run("去卧室看看姥爷", GoTo(place="bedroom")), "不是卧室，在书房"),
+    ],
+)
+def test_a_wrong_destination_stops_whatever_is_said_behind_it(
+    book: MissionState, text: str
+) -> None:
+    heard = receive(book, parse(text), Submitted("new", text, Language.EN), NOW_S)
+    assert heard.stops or heard.takes_back == "g0"
