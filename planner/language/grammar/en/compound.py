@@ -104,6 +104,13 @@ _SO = r"(?:(?:please|just|also|then|go|come|and|instead|maybe|you can|could you)
 _ANOTHER = r"(?!me\b|us\b|him\b|her\b|them\b)(?:my )?[a-z]+"
 _STOP = r"(?:wait|stay|stand|sit)"
 _I_RETURN = r"(?:i am|i'm|we are|i|we)(?: (?:come|get|am|are))? (?:back|return|here)(?: again)?"
+_HOUR = r"(?:half past )?[a-z0-9]+(?::\d\d)? ?[ap]\.?m\.?|half past [a-z]+|\d{1,2}:\d\d"
+_UNTIL_SEEN = (
+    rf"(?:until|till) (?:(?:it is )?(?P<time>{_HOUR})"
+    r"|(?:you (?:can )?(?:see|find|spot) |there is )?"
+    r"(?P<until>(?!no\b|nobody\b|not\b|i\b|you\b)[^,;]+?)"
+    r"(?: (?:comes(?: in)?|is there|there|shows up|turns up|arrives|appears))?)"
+)
 _THEM = r"(?:him|her|them)"
 _TOLD_END = r"(?=$|[,;]| and (?:then )?(?:go|come|drive|return|look|find|wait|follow|turn|head)\b)"
 
@@ -206,6 +213,20 @@ ENGLISH_COMPOUND = CompoundForms(
     ),
     time=_time,
     slowly=re.compile(r"\b(?<!not )(?<!too )(?:very |nice and )?(?:slowly|carefully)\b"),
+    polls=(
+        re.compile(
+            rf"(?:please )?every {EN_DURATION},? (?:please )?(?P<main>[^,;]+?),? {_UNTIL_SEEN}"
+        ),
+        re.compile(rf"(?:please )?(?P<main>[^,;]+?) every {EN_DURATION},? {_UNTIL_SEEN}"),
+    ),
+    poll_there="there is {until} in the {place}",
+    spins=re.compile(
+        r"(?:please )?(?:keep |slowly )*(?:turn|spin|rotat)(?:ing|e)?"
+        r"(?: (?:a?round|slowly|on the spot))*"
+        r"(?: (?:to the )?(?:left|(?P<right>right)))?(?: slowly)?,? (?:until|till) you (?:can )?"
+        r"(?:see|find|spot) (?P<until>(?!no\b|nobody\b|not\b)[^,;]+)"
+    ),
+    spun_to="there is {until}",
     follows=re.compile(rf"(?P<main>.*\bfollow\b.+?) for {EN_DURATION}"),
     there=(
         (re.compile(r"\bgo(?: on)? in(?: there|side)?(?=$|[,;]| and\b| then\b)"), "go there"),

@@ -89,3 +89,51 @@ def test_a_turn_until_something_is_seen_goes_round_once_at_most(thing: str) -> N
 def test_what_is_seen_on_the_look_before_is_a_condition_there() -> None:
     assert plan("看一次厨房，看到有人就回来") == plan("如果厨房有人，就回来")
     assert plan("去厨房看看，看到有人就告诉我") == plan("如果厨房有人，就告诉我")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["every five minutes check the kitchen until somebody comes",
+     "check the kitchen every five minutes until there is somebody",
+     "please every five minutes look in the kitchen till you see somebody"],
+)  # fmt: skip
+def test_english_looks_now_and_then_until_somebody_is_seen(text: str) -> None:
+    (round_,) = only_if(text).otherwise
+    assert isinstance(round_, Repeat)
+    assert round_.steps == (Wait(seconds=300.0),)
+    assert isinstance(round_.until, Look)
+    assert (round_.until.place, round_.times) == ("kitchen", 12)
+    assert not isinstance(read_order_command(text), ScheduleCommand)
+
+
+def only_if(text: str) -> If:
+    step = only(text)
+    assert isinstance(step, If)
+    assert step.when == step.otherwise[0].until  # type: ignore[union-attr]
+    return step
+
+
+def test_english_looks_end_at_an_hour() -> None:
+    step = only("check the kitchen every ten minutes until 6 pm")
+    assert isinstance(step, Repeat)
+    assert step.until == ClockTime(after="18:00")
+
+
+@pytest.mark.parametrize(("side", "sign"), [("", 1.0), (" to the right", -1.0), (" left", 1.0)])
+def test_an_english_turn_ends_at_what_is_seen_and_once_about(side: str, sign: float) -> None:
+    step = only(f"keep turning{side} until you see a person")
+    assert isinstance(step, Repeat)
+    assert step.steps == (Turn(angle_rad=sign * pi / 6),)
+    assert step.times == 12
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["turn until you see Tom", "spin around until you see nobody",
+     "every five minutes check the kitchen until nobody is there",
+     "every five minutes check the kitchen until I say banana",
+     "every five minutes say hello until Tom comes",
+     "every five minutes go to the kitchen and follow somebody until somebody comes"],
+)  # fmt: skip
+def test_an_english_end_that_nobody_can_tell_is_refused(text: str) -> None:
+    assert not isinstance(plan(text), StepPlan)
