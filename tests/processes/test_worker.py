@@ -129,7 +129,7 @@ async def test_one_that_never_says_its_first_word_is_started_again(
     kept = Tiny()
     monkeypatch.setattr(kept, "_first_word_s", 0.001)  # so none is quick enough
     try:
-        assert await code_of(kept.start(0.1)) == "down"
+        assert await code_of(kept.start(1.0)) == "down"
         assert "started again in 0.05 s; its stream ended: TimeoutError()" in caplog.text
         monkeypatch.undo()
         await kept.asked()
