@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, plain
 from planner.language.object_names import resolve
-from planner.mission.reason_clauses import REASON, REASON_ZH
 from planner.mission.whereabouts import sought_thing
 
 if TYPE_CHECKING:
@@ -24,6 +23,25 @@ if TYPE_CHECKING:
 MAX_READ = 80
 _ENDS = " .!,;:。~…，；！?？"
 LOOKS = frozenset({"count", "find", "look"})
+_NO_REASON = (
+    r"(?:go|come|drive|turn|move|look|find|search|check|count|follow|wait|say|tell|ask|try|bring"
+    r"|stop|if|unless|until|till|when|while|or|instead|please|then|not)"
+)
+_SAID_OF = (
+    r"(?:i|we|you|he|she|it|they|there|that|this|one|somebody|someone|nobody|no one"
+    r"|(?:the|my|our|his|her) [a-z]+|[a-z]+(?='))"
+)
+_REASON = rf"(?:because |since )?(?!.*\b{_NO_REASON}\b){_SAID_OF}(?:'[a-z]+)? [a-z' ]{{2,60}}"
+"""One English clause without a comma; "n't" may stand in it, a denied order may not."""
+_NO_REASON_ZH = (
+    r"(?:如果|要是|假如|的话|除非|别|不要|不用|停|去(?![了过])|回来|过来|到(?![了过处])|改|换|先"
+    r"|而是|还是|吗|告诉|帮我|请)"
+)
+_REASON_ZH = (
+    rf"(?!.*{_NO_REASON_ZH})(?:我|你|[他她它]们?|应该|好像|肯定|可能|刚才|刚刚|都|已经|还有|不止|怎么"
+    r"|漏|少|大家|客人|奶奶|爷爷|妈妈?|爸爸?)[^,。;!?]{1,16}"
+)
+"""One Chinese clause."""
 _OPEN = (
     r"(?:(?:ok|okay|well|um+|uh+|oh|ah|hm+|right|really|no|wait|hang on|please|robot|pons|thanks"
     r"|great|good|now|actually|and|also|then|hey|while you(?:'re| are) (?:there|at it)"
@@ -52,7 +70,7 @@ _AGAIN = re.compile(
     r"(?:[ ,.!;]+(?:there (?:must|should) be more"
     r"|(?:i (?:think|believe|bet|reckon|guess) )?you(?:'ve| have)? missed"
     rf" (?:one|some|something|somebody|(?:a|an|the|my) [a-z]+(?: [a-z]+)?)))?{_CLOSE}"
-    rf"(?:[,.;!]+ {REASON})?"
+    rf"(?:[,.;!]+ {_REASON})?"
 )
 _DOUBT_ZH = (
     r"(?:(?:你?(?:真的?)?确定吗?|真的吗?|是吗|不会吧|不对吧?|不可能吧?|不止吧|你?没(?:搞|看|数"
@@ -60,7 +78,7 @@ _DOUBT_ZH = (
     r"|好像不对)[,?!。]*)*"
 )
 _AGAIN_ZH = re.compile(
-    rf"(?:{REASON_ZH},)?(?:[嗯哦啊哎诶]|那|麻烦|请|,)*{_DOUBT_ZH}(?:你)?(?:刚才|刚刚)?(?:的)?(?:那边|那里|那儿"
+    rf"(?:{_REASON_ZH},)?(?:[嗯哦啊哎诶]|那|麻烦|请|,)*{_DOUBT_ZH}(?:你)?(?:刚才|刚刚)?(?:的)?(?:那边|那里|那儿"
     rf"|那个房间|那间|同样的地方)?(?:你)?"
     r"(?:(?:再|重新|重)(?:去|好好|仔细)?(?P<verb>数|看|找|检查|清点)(?:一|上)?(?:遍|次|下|回"
     r"|[数看找](?:看)?)"
@@ -68,7 +86,7 @@ _AGAIN_ZH = re.compile(
     r"(?:看|吧|啊|呀|呗|嘛)*"
     r"(?:,(?:应该|好像|肯定|可能)?(?:不止|还有|不对|没那么[多少]|漏了)(?:这么?些"
     r"|这些|的)?(?:吧|啊|呀|了)*"
-    rf"|,{REASON_ZH})?"
+    rf"|,{_REASON_ZH})?"
 )
 _DET = r"(?:(?:the|any|some|a|an|my|our) )?"
 _THING = rf"{_DET}[a-z][a-z -]{{1,24}}?"

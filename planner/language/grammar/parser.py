@@ -57,7 +57,6 @@ from planner.language.grammar.plain_words import (
     without_sending,
 )
 from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
-from planner.language.grammar.rounds import has_patrol, has_rounds_alone, is_round
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
     mend,
@@ -78,8 +77,10 @@ from planner.plan import (
     Code,
     Language,
     Option,
+    Patrol,
     Recall,
     Refuse,
+    Repeat,
     Step,
     StepPlan,
     Vocabulary,
@@ -126,7 +127,7 @@ def _plan(
         offers = isinstance(guessed, Clarify) and guessed.options
         return (answer_praise(text) or asked or guessed) if lost and not offers else guessed
     missing = made.code is Code.INCOMPLETE  # what is asked for is not guessed, but "the rounds"
-    return made if missing and not has_rounds_alone(second) else second
+    return made if missing and not _has_rounds_alone(second) else second
 
 
 def _guess(
@@ -143,6 +144,24 @@ def _guess(
         lambda order: _plan_as_said(order, vocabulary, context),
         lambda steps: option(steps, vocabulary, lexicon, language),
     )
+
+
+def _has_rounds_alone(plan: StepPlan) -> bool:
+    """Tell whether a plan does nothing but rounds, repeated or not."""
+    inner = [
+        s for step in plan.steps for s in (step.steps if isinstance(step, Repeat) else (step,))
+    ]
+    return all(isinstance(step, Patrol) for step in inner)
+
+
+def _is_round(plan: StepPlan) -> bool:
+    """Tell whether a plan begins with steps that are done so many times."""
+    return isinstance(plan.steps[0], Repeat)
+
+
+def _has_patrol(plan: StepPlan) -> bool:
+    """Tell whether a plan drives round by itself."""
+    return any(isinstance(step, Patrol) for step in plan.steps)
 
 
 _READ_AGAIN = frozenset(
@@ -174,10 +193,10 @@ def _plan_as_said(
     said = normalise(apart)
     sentence = _Sentence(text, apart, quotes)
     whole = _read_compound(said, sentence, vocabulary, context)
-    if whole is not None and not is_round(whole):
+    if whole is not None and not _is_round(whole):
         return whole
     made = _offering(said, sentence, vocabulary, context)
-    if whole is not None and not (isinstance(made, StepPlan) and has_patrol(made)):
+    if whole is not None and not (isinstance(made, StepPlan) and _has_patrol(made)):
         return whole  # "twice" is a patrol's own word where the grammar reads it as such
     if isinstance(made, Clarify) and made.code is Code.NOT_UNDERSTOOD:
         mended = mend(said, _SPELT)  # only now: "the green cup" is no "greet"

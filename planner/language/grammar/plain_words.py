@@ -15,17 +15,16 @@ from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
 from planner.language.grammar.asides import tells_where, without_asides
 from planner.language.grammar.checks import without_compounds
+from planner.language.grammar.en import told_words as english_told_words
 from planner.language.grammar.en.courtesy import COURTESY as EN_COURTESY
 from planner.language.grammar.en.everyday import ENGLISH_EVERYDAY, TOLD_TWICE
 from planner.language.grammar.en.looser_phrases import LOOSER, LOST_THINGS, ONE_TURN
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.en.told_words import quote_told_words as quote_told_english
 from planner.language.grammar.everyday import rewrite
 from planner.language.grammar.excepted_rooms import without_excepted_rooms
 from planner.language.grammar.lexicon import MARK, NAME, lexicon_of
 from planner.language.grammar.self_correction import take_last_word
 from planner.language.grammar.sentence_text import normalise
-from planner.language.grammar.told_words import quote_told_words, quote_words_for_me, say_why_called
 from planner.language.grammar.zh.drive_phrases import DRIVE_PHRASES
 from planner.language.grammar.zh.everyday import ASKED_AND_SENT, CHINESE_EVERYDAY
 from planner.language.grammar.zh.everyday import COURTESY as ZH_COURTESY
@@ -33,6 +32,11 @@ from planner.language.grammar.zh.left_out_phrases import without_left_out_rooms
 from planner.language.grammar.zh.look_phrases import LOOK_PHRASES
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.grammar.zh.seen_phrases import looks_first
+from planner.language.grammar.zh.told_words import (
+    quote_told_words,
+    quote_words_for_me,
+    say_why_called,
+)
 from planner.language.grammar.zh.until_phrases import without_known_ends
 from planner.plan import AnswerPlan, Clarify, Code, Refuse, StepPlan, Vocabulary
 
@@ -171,7 +175,7 @@ def in_plain_words(text: str, vocabulary: Vocabulary) -> str | None:
 
 def in_other_words(text: str, vocabulary: Vocabulary, *, plainer: bool) -> Iterator[str]:
     """Yield a sentence in other words: its told words quoted, its asides left out, plainer."""
-    quoted = quote_told_english(text)
+    quoted = english_told_words.quote_told_words(text)
     if quoted is not None:
         yield quoted
     lexicon = lexicon_of(vocabulary)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from planner.language.grammar.told_words import quote_told_words
+from planner.language.grammar.zh.told_words import quote_told_words
 
 Understood = Callable[[str], str]
 
