@@ -314,6 +314,7 @@ DETECTORS = (
     pose,
     zone,
     drive,
+    detect_motion.sector,
     detect_motion.runaway,
     detect_motion.progress,
     detect_motion.yaw,

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from bridge.core.config import PERIOD_S
 from bridge.core.geometry.kinematics import advance
 from bridge.core.geometry.lidar_scan import ScanPicture
+from bridge.core.sensing.blind_sector import watch_sectors
 from bridge.core.sensing.stop_inputs import hear_link
 from bridge.core.state_motion import AS_CONFIGURED, Braking
 from bridge.core.state_senses import Drift, PoseMemory
@@ -203,6 +204,7 @@ def _hear_scan(tick: TickContext, scan: Scan) -> None:
         equal_from_m=lidar.equal_from_m if equal else s.odometry.travelled_m,
         baseline_scans=scans,
         baseline_returns=mean + (picture.returns - mean) / scans if learns else mean,
+        sectors=watch_sectors(lidar.sectors, picture, s.odometry.travelled_m, tick.now_s),
     )
 
 
