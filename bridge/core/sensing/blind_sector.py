@@ -8,8 +8,8 @@ without a map, from bins of 3 degrees:
   dead until something comes back from it;
 - no beam of a bin has ever returned since the start: such a bin is unproven.
 
-Neither counts for a silence whose edges are far off: there the lidar's range may end. Pure; ages
-run on the bridge's clock.
+The lidar's range may end in a silence, too, so the first sign counts only where one of its edges is
+near, the second where both are. Pure; ages run on the bridge's clock.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ LEAST_RAD = 0.2
 """A narrower hole hides nothing that a disc could hit: its sides see it first. 11.5 degrees."""
 NEAR_SHARE = 0.7
 """Of the lidar's range: silence between edges further off may be where its range ends."""
-KEPT_M = 1.0
+KEPT_M = 0.3
 """Of way driven: what was seen longer ago is seen from too far aside to be missed."""
 SEEN_S, RECENT_S = 0.2, 0.35
 """So long nothing comes where something was seen; and how far back scans are compared."""
@@ -66,17 +66,18 @@ def watch_sectors(
     points = _remembered(had.points, far_m, middles, lidar_in_odom, travelled_m)
     alive = had.alive | seen
     least = max(2, ceil(LEAST_RAD * count / tau - 1e-9))
-    enclosed = 0
+    bounded = enclosed = 0
     for run in runs(silent, count, least):
         edges = far_m[run[0] - 1], far_m[(run[1] + 1) % count]
-        if all(0.0 <= edge <= NEAR_SHARE * picture.range_max_m for edge in edges):
-            enclosed |= _bits(run, count)
-    if not (enclosed or had.dead):
+        near = [0.0 <= edge <= NEAR_SHARE * picture.range_max_m for edge in edges]
+        bounded |= _bits(run, count) if any(near) and min(edges) >= 0.0 else 0
+        enclosed |= _bits(run, count) if all(near) else 0
+    if not (bounded or had.dead):
         return SectorMemory(count, alive, 0, points)
     missed = 0
-    if enclosed:
+    if bounded:
         first = middles[0]
-        missed = enclosed & _expected(points, lidar_in_odom, first, picture, travelled_m, count)
+        missed = bounded & _expected(points, lidar_in_odom, first, picture, travelled_m, count)
     recent = tuple(one for one in (*had.recent, (now_s, missed)) if now_s - one[0] <= RECENT_S)
     lasting = missed if now_s - recent[0][0] >= SEEN_S - 1e-6 else 0
     for _, mask in recent:
