@@ -29,14 +29,18 @@ BINS = 120
 """Of 3 degrees; a lidar with fewer beams has one a beam."""
 LEAST_RAD = 0.2
 """A narrower hole hides nothing that a disc could hit: its sides see it first. 11.5 degrees."""
-NEAR_SHARE = 0.7
-"""Of the lidar's range: silence between edges further off may be where its range ends."""
+NEAR_SHARE, REACHED_SHARE = 0.7, 0.85
+"""Of the lidar's range: silence may be where that ends unless both edges are so near, for what was
+never proven, or one is, for what was seen. A corridor 2 m wide fades out between edges at 0.86."""
 KEPT_M = 0.3
 """Of way driven: what was seen longer ago is seen from too far aside to be missed."""
 SEEN_S, RECENT_S = 0.2, 0.35
 """So long nothing comes where something was seen; and how far back scans are compared."""
 AHEAD_RAD = pi / 3
 """To each side of the way: beyond it the disc passes what the beams ahead have seen before."""
+
+COARSE_RAD = 0.045
+"""Between two beams: 2.6 degrees, more than any lidar that Pons reads; told once."""
 
 Point = tuple[float, float, float]
 """x and y in ``odom`` [m], and the odometer's reading when it was seen [m]."""
@@ -69,9 +73,10 @@ def watch_sectors(
     bounded = enclosed = 0
     for run in runs(silent, count, least):
         edges = far_m[run[0] - 1], far_m[(run[1] + 1) % count]
-        near = [0.0 <= edge <= NEAR_SHARE * picture.range_max_m for edge in edges]
-        bounded |= _bits(run, count) if any(near) and min(edges) >= 0.0 else 0
-        enclosed |= _bits(run, count) if all(near) else 0
+        if 0.0 <= min(edges) <= REACHED_SHARE * picture.range_max_m:
+            bounded |= _bits(run, count)
+            if max(edges) <= NEAR_SHARE * picture.range_max_m:
+                enclosed |= _bits(run, count)
     if not (bounded or had.dead):
         return SectorMemory(count, alive, 0, points)
     missed = 0
@@ -91,6 +96,14 @@ def watch_sectors(
     ]
     wide = [width if width >= least * tau / count - 1e-9 else 0.0 for width in widths]
     return SectorMemory(count, alive, dead, points, recent, wide[0], wide[1])
+
+
+def coarse_words(step_rad: float) -> str:
+    """Say what slips between beams so far apart."""
+    return (
+        f"{step_rad * 180.0 / pi:.0f} degrees between beams: what is narrower than "
+        f"{step_rad:.2f} m slips between two at 1 m"
+    )
 
 
 def runs(mask: int, count: int, least: int) -> list[tuple[int, int]]:

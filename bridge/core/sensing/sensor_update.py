@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from bridge.core.config import PERIOD_S
 from bridge.core.geometry.kinematics import advance
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.sensing.blind_sector import watch_sectors
+from bridge.core.sensing.blind_sector import COARSE_RAD, coarse_words, watch_sectors
 from bridge.core.sensing.stop_inputs import hear_link
 from bridge.core.state_motion import AS_CONFIGURED, Braking
 from bridge.core.state_senses import Drift, PoseMemory
@@ -187,6 +187,9 @@ def _hear_scan(tick: TickContext, scan: Scan) -> None:
         if told not in {"", "again"}:
             tick.drop(f"scan_{told}")
             return
+    step_rad = scan.angle_increment_rad
+    if step_rad > COARSE_RAD and (last is None or last.angle_increment_rad != step_rad):
+        tick.say("scan_coarse", coarse_words(step_rad))
     equal = last is not None and last.ranges_m == scan.ranges_m
     taken_s = scan.stamp_s if tick.inbox.sensors_same_host else tick.now_s
     robot = tick.config.robot
