@@ -9,7 +9,7 @@ then called the planner's word.
 
 from __future__ import annotations
 
-import os
+import secrets
 import sys
 import threading
 from typing import TYPE_CHECKING
@@ -73,7 +73,7 @@ def _straight_to_the_bridge(settings: LaunchSettings) -> str | None:
     try:
         from pons.bridge_client import stop_direct
 
-        stop_direct(settings, f"cli-{os.getpid()}-direct")
+        stop_direct(settings, f"cli-{secrets.token_hex(6)}")
     except Exception as trouble:  # noqa: BLE001  # nothing may keep the first way from being told
         return in_a_line(trouble)
     return None
