@@ -12,7 +12,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeVar
 
 from bridge.core.inbox import ArrivedAt, FenceArrival, Inbox, LoopFacts, OperatorArrival, RejectedAt
-from wire import DecodeFailure, DriveState, OpRequest, Stop, authentic, authentic_fence, decode
+from wire import (
+    UNREADABLE,
+    DecodeFailure,
+    DriveState,
+    OpRequest,
+    Stop,
+    authentic,
+    authentic_fence,
+    decode,
+)
 from wire.base import Record
 from wire.keys import (
     ARM,
@@ -54,8 +63,6 @@ PARSED = 4
 """At most so many newest messages of a key are worth parsing in one tick."""
 STOPS_KEPT = 4
 """Different stops without a verdict that one tick answers, of each key; any one of them stops."""
-UNREADABLE = "unreadable"
-"""Id and source of a stop that can't be read: a newer shell's, or a button's with a field more."""
 
 _HALTS: tuple[tuple[OpKind, Key[OpRequest]], ...] = (("estop", ESTOP), ("disarm", DISARM))
 _OPS: tuple[tuple[OpKind, Key[OpRequest]], ...] = (
