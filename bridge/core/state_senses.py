@@ -21,6 +21,10 @@ class DriveMemory:
     """By how much its echo names a command that this bridge has not sent yet."""
     behind_base: int = 0
     """The command seq before which no echo can be asked for (start of this drive's life)."""
+    echoed_us: bool = False
+    """It has echoed a command of this bridge: it may echo nobody else's after that."""
+    echoes_other: str = ""
+    """The boot of another commander that it echoes since."""
     reborn_s: float | None = None
     """When the drive's boot id changed last."""
     still_since_s: float | None = None

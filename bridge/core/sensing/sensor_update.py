@@ -162,7 +162,10 @@ def _hear_drive(tick: TickContext, state: DriveState) -> None:
         drive.behind_base = s.command_seq  # it cannot echo what was said before it lived
     s.odometry = advance(s.odometry, state, tick.config.robot.base, rezero=reborn)
     drive.newest, drive.received_s = state, tick.now_s
-    echoed = state.echo_seq if state.echo_boot == tick.config.boot else 0
+    ours = state.echo_boot == tick.config.boot
+    echoed = state.echo_seq if ours else 0
+    drive.echoed_us = drive.echoed_us or ours
+    drive.echoes_other = "" if ours or not drive.echoed_us else state.echo_boot or ""
     drive.ahead = max(0, echoed - s.command_seq)
     drive.behind = max(0, s.command_seq - max(echoed, drive.behind_base))
     measured = s.odometry.measured
