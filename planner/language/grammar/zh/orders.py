@@ -119,7 +119,7 @@ CHINESE = Grammar(
         rf"|(?<={MARK})(?:和|与|跟(?!前)|及|以及|还有(?![^,。;]*吗)|后(?=[去到回再等说返找看数])|(?=然后))"
         rf"|(?<={MARK})(?:那里|那儿|里)?(?=(?:等待?|停留)[\d零一二三四五六七八九十两半]|说|打招呼)"
     ),
-    courtesy=re.compile(rf"^(?:{_COURTESY})+"),
+    courtesy=re.compile(rf"^(?:{_COURTESY})++"),
     thanks=re.compile(rf"(?:{_THANKS})$"),
     opening=re.compile(r"^(?:首先|先)"),
     closing=re.compile(r"^(?:最后|最终)"),
