@@ -32,7 +32,7 @@ _NO_ARM = (
     r"放[松心慢假学弃]|开放|关[于心注系键节]|[相有机无]关|推[荐迟测理]|拉近|拿[手定]|端[正午]|送[行达]|带头|"
     r"举[例办行动]|装[修作]|[假安服包西]装|修[正改养]|取[决名得]|[争采]取|搬家|抓紧|提起|擦肩|扫[一视]|摆脱|拖延|盛大"
 )
-_WITH_ARM = rf"(?:{_NO_ARM}|(?!{_ARM}).)*(?!{_NO_ARM}){_ARM}"
+_WITH_ARM = rf"(?:{_NO_ARM}|(?!{_ARM}|{_NO_ARM}).)*(?!{_NO_ARM}){_ARM}"
 """A verb of an arm that is no part of another word: 放松 and 关于 grasp nothing."""
 _NO_LOOK = rf"(?!(?:{SEE}).*[着了]没有?$)"
 """看看门关了没 closes no door."""
