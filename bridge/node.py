@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     from bridge.drive import Drive
     from bridge.fence_update import FenceDesk
     from bridge.link import BridgeLink
-    from bridge.realtime import Pacer, PacerTick, Service, SlackCollector
+    from bridge.realtime import Pacer, PacerTick, SlackCollector
     from bridge.recording.recorder import Recorder
+    from processes.service import Service
 
 log = logging.getLogger("bridge")
 

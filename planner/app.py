@@ -8,6 +8,7 @@ import os
 import signal
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from planner.api import Access, build, warm_up
@@ -31,6 +32,7 @@ from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
 from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
+from processes.service import Service
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -47,7 +49,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-WATCH_S = 0.5
+WATCH_S = FEED_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,15 +227,28 @@ def application(planner: Planner, access: Access, authority: bytes = b"") -> Fas
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await planner.start()
         watch = asyncio.create_task(_end_with(planner))
+        service = Service()
+        service.ready()
+        feeding = asyncio.create_task(_feed(service), name="feed the watchdog")
         try:
             yield
         finally:
+            feeding.cancel()
+            service.stopping()
             watch.cancel()
             await planner.close()
+            service.close()
 
     app = build(planner, access, lifespan, authority=authority)
     warm_up(app)
     return app
+
+
+async def _feed(service: Service) -> None:
+    """Tell who supervises this process that its loop turns: one that hangs is started again."""
+    while True:
+        service.feed(monotonic())
+        await asyncio.sleep(FEED_S)
 
 
 async def _end_with(planner: Planner) -> None:

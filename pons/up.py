@@ -113,6 +113,8 @@ class Supervisor:
 
     def _tend(self, now_s: float) -> None:
         for child in self._children:
+            if child.kill_if_hung(now_s):
+                say(f"{child.name} hangs: killed. Its log: {child.log}")
             status = child.died(now_s)
             if status == REFUSED_TO_START:
                 raise ChildRefusal(f"{child.name} refused to start:\n{child.last_words()}")
