@@ -29,7 +29,7 @@ from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest
-from planner.mission.errors import IdempotencyConflict, QueueFull
+from planner.mission.errors import IdempotencyConflict, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import (
     change_round,
@@ -41,7 +41,7 @@ from planner.mission.follow_up import (
 )
 from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
-from planner.mission.state import GoalKey, MissionState
+from planner.mission.state import RESERVED_KEYS, GoalKey, MissionState
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ class Reception:
     takes_back: str | None = None
     """The goal that it ends."""
     refused: MissionError | None = None
-    """Why it is not taken in: QueueFull or IdempotencyConflict."""
+    """Why it is not taken in: QueueFull, IdempotencyConflict or ReservedKey."""
     repeats: str | None = None
     """The goal that this very request made before: it is shown, and nothing is done."""
     request: GoalKey | None = None
@@ -131,6 +131,8 @@ def receive(
     if not asking and _may_stop(book, said, now_s):
         marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
         return Reception(marked, stops=True)
+    if key is not None and key.startswith(RESERVED_KEYS):
+        return Reception(given, refused=ReservedKey(key))
     body = _body_of(given)
     before = repeats.find(key) if repeats is not None else None
     if before is not None and before.body != body:

@@ -171,7 +171,7 @@ class Missions:
 
         Raises:
             QueueFull: 33 goals are open, and none of them waits for an answer alone.
-            IdempotencyConflict: the key came with another request before.
+            IdempotencyConflict, ReservedKey: the key is another request's, or a standing order's.
             JournalDown: it can't be written down, so it was not taken.
         """
         said, goal_id = parse(text), self._clocks.new_id()

@@ -35,6 +35,8 @@ from wire import Status
 
 ORDER_SOURCE = "order:"
 """What the source of every goal of a standing order begins with."""
+RESERVED_KEYS = "standing-order:"
+"""What the Idempotency-Key of every such goal begins with, and no other request's may."""
 MAX_OPEN = 33
 """Goals that have not ended: one running and 32 that wait."""
 MAX_ENDED = 200

@@ -14,6 +14,7 @@ from planner.language.catalogue import join, message, say
 from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, OrderCommand
 from planner.language.utterance import parse
 from planner.mission.events import Planned
+from planner.mission.state import ORDER_SOURCE
 from planner.orders.changer import OrderChanger
 from planner.orders.corrector import OrderCorrector
 from planner.orders.day_question import ask_which_day
@@ -25,7 +26,7 @@ from planner.orders.new_order import (
     read_new_order,
 )
 from planner.orders.new_order_judge import NewOrderJudge
-from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder
+from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder, new_nonce
 from planner.orders.rule import settle
 from planner.orders.teller import OrderTeller
 from planner.orders.unfinished_order import UnfinishedOrder
@@ -150,7 +151,8 @@ class OrderIntake:
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is gone."""
-        return self._keeper.allowed_steps(source)
+        order = self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
+        return order.allowed if order is not None else None
 
     # Giving -------------------------------------------------------------------------------------
 
@@ -176,10 +178,11 @@ class OrderIntake:
                 self._corrector.note(same.id)
                 return same
             self._judge.judge_room(new, rule)
-            number = max((o.number for o in self._keeper.book.orders.values()), default=0) + 1
+            number = self._keeper.last_number + 1
             order = StandingOrder(
-                id=f"o{number}", number=number, text=new.text[:MAX_ORDER_CHARACTERS],
-                order=new.order, language=new.language, rule=rule, reminder=new.reminder,
+                id=f"o{number}", number=number, nonce=new_nonce(),
+                text=new.text[:MAX_ORDER_CHARACTERS], order=new.order,
+                language=new.language, rule=rule, reminder=new.reminder,
                 source=new.source, allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
                 paused=new.begins_unix_s is not None, resume_unix_s=new.begins_unix_s,
             )  # fmt: skip

@@ -13,6 +13,7 @@ import pytest
 from planner.brain.scripted import Reply
 from planner.orders.factory import StandingOrders, standing_orders_of
 from planner.orders.interfaces import OrderClocks
+from planner.orders.order import key_of
 from planner.plan import (
     AnswerPlan,
     Bilingual,
@@ -344,7 +345,8 @@ def test_a_killed_planner_gives_no_goal_twice(tmp_path: Path) -> None:
             await made.say("every day at 12:10 go to the kitchen")
             await made.pass_s(601.0)
             [goal] = made.fired()
-            key = "standing-order:o1:1"
+            [order] = made.orders.keeper.book.orders.values()
+            key = key_of(order, 1)
             assert made.together.missions.standing.find(key) == goal.id
         async with home(tmp_path, KITCHEN, prefix="h") as again:
             again.unix_s = NOON_UNIX_S + 610.0
