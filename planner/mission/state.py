@@ -71,6 +71,8 @@ class Mission(Frozen):
     """It comes in place of a goal that was taken back: nobody who waits overtakes it."""
     doubtful_stop: bool = False
     """Its sentence holds a stop word and stopped the robot before it was thought about."""
+    interrupted: str | None = None
+    """The goal that was paused by that stop; a correction ends it."""
     given_under_hold: str | None = None
     """The bridge's hold that stood when a person last spoke for this goal. Once a plan is made and
     accepted, that hold is cleared, and no hold that came later."""
@@ -230,3 +232,10 @@ class MissionState:
     def means(self) -> Means:
         """Return the robot's means besides driving and talking, as its eyes are now."""
         return self.eyes.means(self.sight.blind, grows=self.facts.grows)
+
+
+def newest_paused(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that was paused last, besides the one that asks; None: none is."""
+    paused = (m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking)
+    newest = max(paused, key=lambda m: (m.updated_unix_s, m.order), default=None)
+    return newest.id if newest is not None else None
