@@ -17,6 +17,7 @@ from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
+from planner.brain.model_error_codes import reason
 from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
@@ -150,7 +151,8 @@ def thinker(
             thought = await think_warily(brain, request, hear)
         except BadPlan as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
-            said = Outcome(code=Code.BAD_PLAN, message=say("model_error.no_plan"))
+            why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
+            said = Outcome(code=Code.BAD_PLAN, message=why)
             return Planned(ask.id, None, said, error.brain or brain.tag)
         except OutOfBudget as error:
             log.warning("goal %s: no call went out: %s", ask.id, error)
