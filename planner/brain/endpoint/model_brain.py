@@ -121,7 +121,9 @@ class EndpointBrain:
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
         again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
         second = await self._asker.ask(again, schema, end_s, told)
-        mended = self._held_to_truth(self._plan_of(second, request), reading, request, messages)
+        mended = self._held_to_truth(
+            self._plan_of(second, request), reading, request, messages, mended=True
+        )
         self._keep(request, ReplyTurn.REPAIR, second, mended)
         if isinstance(mended, Unusable):
             cost = (first.tokens + second.tokens).total
@@ -134,11 +136,14 @@ class EndpointBrain:
         reading: Planned | None,
         request: ThinkRequest,
         messages: list[Message],
+        *,
+        mended: bool = False,
     ) -> Planned | Unusable:
         """Return why a plan is not to be told or done, where it is one and there is a reason."""
         if isinstance(plan, Unusable):
             return plan
-        return find_untruth(plan, reading, request, messages[0]["content"]) or plan
+        instructions = messages[0]["content"]
+        return find_untruth(plan, reading, request, instructions, mended=mended) or plan
 
     def _keep(
         self, request: ThinkRequest, turn: ReplyTurn, reply: ModelReply, plan: Planned | Unusable

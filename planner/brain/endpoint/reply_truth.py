@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from planner.brain.endpoint.plan_reply import Unusable, clean
 from planner.language.commands import Forget, ForgetFacts
-from planner.language.folding import has_chinese
+from planner.language.folding import fold_words, has_chinese
 from planner.language.schedule import ChangeOrders, ScheduleCommand, split_time
 from planner.language.utterance import language_of, parse
 from planner.plan import AnswerPlan, Ask, Clarify, Language, Say, StepPlan, words_of
@@ -35,7 +35,12 @@ _DONE_BY_WORD = DRIVES - {"find"}
 
 
 def find_untruth(
-    plan: Planned, grammar: Planned | None, request: ThinkRequest, instructions: str
+    plan: Planned,
+    grammar: Planned | None,
+    request: ThinkRequest,
+    instructions: str,
+    *,
+    mended: bool = False,
 ) -> Unusable | None:
     """Return why a reply is not to be told or done; None: it is.
 
@@ -44,13 +49,16 @@ def find_untruth(
         grammar: the built-in brain's reading of the order, where nothing of it was done yet.
         request: what the person said.
         instructions: what the model was told by us.
+        mended: the model was told of a fault before. What it lets the robot say in another language
+            is then what somebody may have asked for ("greet her in French").
     """
     language = request.language or language_of(request.order or request.text)
     if _only_talks(plan) and (drives := _drives_of(grammar)):
         why = f"this order is to be done, and words move nothing: plan {', '.join(drives)}"
         return _told("only_words", why)
     for text in _texts(plan, language):
-        if (foreign := _misspoken(text, language)) is not None:
+        spoken = mended and isinstance(plan, StepPlan)
+        if not spoken and (foreign := _misspoken(text, language)) is not None:
             return _told("wrong_language", foreign)
         if (copied := _is_copied(text, instructions)) is not None:
             return _told("instructions_told", copied)
@@ -122,7 +130,7 @@ def _traps(plan: Clarify, request: ThinkRequest) -> str | None:
     own = [parse(words).intent for words in said if words]
     deletes = any(isinstance(intent, Forget | ForgetFacts | ChangeOrders) for intent in own)
     timed = any(isinstance(intent, ScheduleCommand) for intent in own)
-    timed = timed or any(split_time(words)[0] for words in said if words)
+    timed = timed or any(split_time(fold_words(words))[0] for words in said if words)
     for option in plan.options:
         intent, shown = parse(option.text).intent, f"option “{clean(option.text)[:60]}”"
         if isinstance(intent, Forget | ForgetFacts | ChangeOrders) and not deletes:

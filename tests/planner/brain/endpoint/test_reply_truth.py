@@ -120,6 +120,14 @@ def test_what_no_brain_answers_well_ends_typed(home: Vocabulary, tmp_path: Path)
     assert error.value.code == "wrong_language"
 
 
+def test_a_model_that_insists_on_words_in_another_language_is_believed(
+    home: Vocabulary, tmp_path: Path
+) -> None:
+    server = Server(wrote(speaks("Bonjour Marie!")))
+    result = thought(server, tmp_path, home, "用法语跟玛丽打个招呼")
+    assert (result.plan.kind, len(server.requests)) == ("plan", 2)
+
+
 def test_an_answer_in_the_course_of_an_order_is_not_held_to_its_words(
     home: Vocabulary, tmp_path: Path
 ) -> None:
