@@ -94,7 +94,8 @@ def _texts(plan: Planned, language: Language) -> list[str]:
             if isinstance(step, Ask | Say)
         ]
     said = words_of(plan)
-    return [] if said is None else [said.of(language)]
+    offers = [option.text for option in plan.options] if isinstance(plan, Clarify) else []
+    return [*([] if said is None else [said.of(language)]), *offers]
 
 
 def _misspoken(text: str, language: Language) -> str | None:
