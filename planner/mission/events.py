@@ -66,6 +66,8 @@ class Planned:
     brain: BrainTag | None = None
     unasked: tuple[int, ...] = ()
     """The steps of the plan that move the robot though no words of a person ask for it."""
+    sure: StepPlan | None = None
+    """The built-in brain's own reading of the order, where a model's plan has such steps."""
 
 
 @dataclass(frozen=True, slots=True)

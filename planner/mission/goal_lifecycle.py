@@ -184,7 +184,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         case StepPlan():
             share, back = share_of(plan), way_back_of(mission)
             mission = turn.put(mission, speed_share=share, accepted_at=back)
-            _walkable(turn, assume_role(turn, mission, plan.does), event.unasked)
+            _walkable(turn, assume_role(turn, mission, plan.does), event)
 
 
 def _act_on_others(turn: Transaction, mission: Mission, role: PlanRole) -> None:
@@ -197,7 +197,7 @@ def _act_on_others(turn: Transaction, mission: Mission, role: PlanRole) -> None:
         reply(turn, asking, mission.words)
 
 
-def _walkable(turn: Transaction, mission: Mission, unasked: tuple[int, ...]) -> None:
+def _walkable(turn: Transaction, mission: Mission, event: Planned) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
@@ -207,7 +207,7 @@ def _walkable(turn: Transaction, mission: Mission, unasked: tuple[int, ...]) -> 
         finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
-    shall_i = ask_for_motion(turn.book.facts, (), mission.steps, unasked)
+    shall_i = ask_for_motion(turn.book.facts, (), mission.steps, event.unasked)
     if mission.doubtful_stop and not (shall_i is None and corrects(turn, mission)):
         asked = ask_what_was_meant(turn.book, mission)
         if shall_i is not None:  # a yes is a yes to all that is asked
@@ -215,7 +215,8 @@ def _walkable(turn: Transaction, mission: Mission, unasked: tuple[int, ...]) -> 
         said = Outcome(code=Code.CONFIRM, message=asked)
         turn.move_to(mission, BrainCause.NEEDS_YES, reason="doubtful_stop", outcome=said)
     elif shall_i is not None:
-        turn.move_to(mission, BrainCause.NEEDS_YES, reason=UNASKED, outcome=shall_i)
+        sure = None if event.sure is None else plan_record(event.sure)
+        turn.move_to(mission, BrainCause.NEEDS_YES, reason=UNASKED, outcome=shall_i, sure=sure)
     elif mission.doubtful_stop:  # it stands, and what was said in its place is what was asked
         end_paused(turn, mission.interrupted)
         ready(turn, turn.put(mission, confirm=False), BrainCause.PLANS)

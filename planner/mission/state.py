@@ -64,6 +64,8 @@ class Mission(Frozen):
     plan: PlanRecord | None = None
     outcome: Outcome | None = None
     brain: BrainTag | None = None
+    sure: PlanRecord | None = None
+    """What the built-in brain read in the order: offered where a model's plan gets a no."""
     confirm: bool = False
     """Wait for a yes before the first step."""
     replace: bool = False

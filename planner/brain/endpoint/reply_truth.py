@@ -101,7 +101,7 @@ def _texts(plan: Planned, language: Language) -> list[str]:
 def _misspoken(text: str, language: Language) -> str | None:
     """Return why a text is not of a language; its script alone is judged."""
     letters = sum(map(str.isalpha, text))
-    if letters <= MERE_SIGNS:
+    if letters <= MERE_SIGNS and not has_chinese(text):
         return None
     if language is Language.ZH and not has_chinese(text):
         return f"“{clean(text)[:60]}” is not Chinese: speak to the person in Chinese"

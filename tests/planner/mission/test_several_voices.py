@@ -122,6 +122,40 @@ def test_a_model_ends_the_goal_that_the_very_sentence_has_stopped(
     run(story())
 
 
+@pytest.mark.parametrize("agrees", [True, False])
+def test_after_a_no_to_a_models_plan_the_order_itself_is_offered(
+    tmp_path: Path, site: Site, agrees: bool
+) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, SOFA, by_grammar=False) as world:
+            goal = await world.missions.submit("go to the kitchen")
+            await world.reach(goal.id, CONFIRMS)
+            await world.missions.answer(goal.id, "no")
+            offered = world.missions.goal(goal.id)
+            assert offered.state is CONFIRMS
+            assert offered.outcome is not None
+            assert "kitchen" in offered.outcome.message.en
+            await world.missions.answer(goal.id, "yes" if agrees else "no")
+            ended = await world.reach(goal.id, SUCCEEDED, CANCELLED)
+            assert ended.state is (SUCCEEDED if agrees else CANCELLED)
+            kinds = [step.place for step in ended.plan.steps] if ended.plan else []
+            assert kinds == ["kitchen"]
+
+    run(story())
+
+
+@pytest.mark.parametrize("text", ["good morning", "hello robot"])
+def test_where_nothing_was_ordered_a_no_is_the_end(tmp_path: Path, site: Site, text: str) -> None:
+    async def story() -> None:
+        async with planner(tmp_path, site, SOFA, by_grammar=False) as world:
+            goal = await world.missions.submit(text)
+            await world.reach(goal.id, CONFIRMS)
+            await world.missions.answer(goal.id, "no")
+            assert world.missions.goal(goal.id).state is CANCELLED
+
+    run(story())
+
+
 def test_a_cry_that_denies_no_way_keeps_the_drives_place(tmp_path: Path, site: Site) -> None:
     async def story() -> None:
         async with planner(tmp_path, site, KITCHEN, CANCEL, by_grammar=False) as world:
