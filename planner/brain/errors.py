@@ -11,12 +11,18 @@ if TYPE_CHECKING:
 class BadPlan(Exception):
     """The model's fault: goes back to it, at most as often as the budget has repairs."""
 
-    code = "bad_plan"
-
     def __init__(
-        self, detail: str, brain: BrainTag | None = None, *, calls: int = 0, tokens: int = 0
+        self,
+        detail: str,
+        brain: BrainTag | None = None,
+        *,
+        calls: int = 0,
+        tokens: int = 0,
+        code: str = "bad_plan",
     ) -> None:
         super().__init__(detail)
+        self.code = code
+        """One of ``planner.brain.model_error_codes``."""
         self.brain = brain
         """Who thought last, where another than the brain that was asked."""
         self.calls, self.tokens = calls, tokens

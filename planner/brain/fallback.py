@@ -101,7 +101,7 @@ class FallbackBrain:
         if _is_lost(thought) and isinstance(failure, BrainDown):
             raise BrainDown(str(failure), tag, why=why) from failure
         if _is_lost(thought):
-            raise BadPlan(str(failure), tag) from failure
+            raise BadPlan(str(failure), tag, code=failure.code) from failure
         return thought.model_copy(update={"brain": tag})
 
 

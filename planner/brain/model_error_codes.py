@@ -29,6 +29,11 @@ REASONS: dict[str, Bilingual] = {
         "bad_picture",
         "picture_too_large",
         "bad_plan",
+        "only_words",
+        "wrong_language",
+        "instructions_told",
+        "answer_too_long",
+        "offer_not_asked",
         "out_of_budget",
         "unavailable",
     )

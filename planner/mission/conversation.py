@@ -46,9 +46,17 @@ def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situatio
         step=None if own or running is None else _step(running),
         queue=tuple(book.missions[i].order_text[:_QUEUED] for i in waiting[:MAX_QUEUED]),
         more=max(0, len(waiting) - MAX_QUEUED),
+        thinking=_orders_in(book, mission, GoalState.PLANNING)[:MAX_QUEUED],
+        paused=_orders_in(book, mission, GoalState.PAUSED)[: -MAX_QUEUED - 1 : -1],
         question=_question(book, mission),
         recent=_recent(book, mission, now_s + book.wall_offset_s),
     )
+
+
+def _orders_in(book: MissionState, mission: Mission, state: GoalState) -> tuple[str, ...]:
+    """Return the other orders in a state, oldest first."""
+    others = (m for m in book.missions.values() if m.state is state and m.id != mission.id)
+    return tuple(m.order_text[:_QUEUED] for m in sorted(others, key=lambda m: m.order))
 
 
 def _place_near(facts: SiteView, pose: Pose2) -> str | None:

@@ -17,6 +17,8 @@ from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
+from planner.brain.model_error_codes import reason
+from planner.brain.offline_brain import OfflineBrain
 from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
@@ -150,7 +152,8 @@ def thinker(
             thought = await think_warily(brain, request, hear)
         except BadPlan as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
-            said = Outcome(code=Code.BAD_PLAN, message=say("model_error.no_plan"))
+            why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
+            said = Outcome(code=Code.BAD_PLAN, message=why)
             return Planned(ask.id, None, said, error.brain or brain.tag)
         except OutOfBudget as error:
             log.warning("goal %s: no call went out: %s", ask.id, error)
@@ -164,9 +167,19 @@ def thinker(
         if rejection is not None:
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
         unasked = unasked_of(thought, request)
-        return Planned(ask.id, thought.plan, None, thought.brain, unasked)
+        sure = await _read_surely(request) if unasked else None
+        return Planned(ask.id, thought.plan, None, thought.brain, unasked, sure)
 
     return think
+
+
+async def _read_surely(request: ThinkRequest) -> StepPlan | None:
+    """Return the built-in brain's plan of an order of which nothing was done; None: it has none."""
+    if request.observed or request.exchanges:
+        return None
+    plan = (await OfflineBrain().think(request)).plan
+    runs = check_plan(plan, request.vocabulary, request.runnable, request.blind) is None
+    return plan if isinstance(plan, StepPlan) and runs else None
 
 
 def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:

@@ -13,12 +13,14 @@ from planner.brain.endpoint.completion import ModelReply, Tokens
 from planner.brain.endpoint.image_client import EndpointLooker, LayOut, Shrink
 from planner.brain.endpoint.plan_draft import Drafting
 from planner.brain.endpoint.plan_reply import Planned, Unusable, clean, judge
+from planner.brain.endpoint.reply_truth import find_untruth
 from planner.brain.endpoint.session import Line
 from planner.brain.errors import BadPlan
 from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.brain.model_replies import ReplyCollector, ReplyTurn
+from planner.brain.offline_brain import OfflineBrain
 from planner.brain.prompt import Prompt
-from planner.brain.schema import schema_of
+from planner.brain.schema import Message, schema_of
 from planner.brain.streamed_draft import Hear
 from planner.brain.usage_meter import Meter
 from planner.language.catalogue import message, say
@@ -110,18 +112,38 @@ class EndpointBrain:
         told = None if hear is None else Drafting(request.vocabulary, request.runnable, hear)
         first = await self._asker.ask(messages, schema, end_s, told)
         plan = _without_vain_offers(self._plan_of(first, request), request)
+        begun = bool(request.observed or request.exchanges)
+        reading = None if begun else (await OfflineBrain().think(request)).plan
+        plan = self._held_to_truth(plan, reading, request, messages)
         self._keep(request, _turn_of(request), first, plan)
         if not isinstance(plan, Unusable):
             return self._make_result(plan, 1, first.tokens)
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
         again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
         second = await self._asker.ask(again, schema, end_s, told)
-        mended = self._plan_of(second, request)
+        mended = self._held_to_truth(
+            self._plan_of(second, request), reading, request, messages, mended=True
+        )
         self._keep(request, ReplyTurn.REPAIR, second, mended)
         if isinstance(mended, Unusable):
             cost = (first.tokens + second.tokens).total
-            raise BadPlan(f"asked twice: {mended}"[:400], calls=2, tokens=cost)
+            raise BadPlan(f"asked twice: {mended}"[:400], calls=2, tokens=cost, code=mended.code)
         return self._make_result(mended, 2, first.tokens + second.tokens)
+
+    def _held_to_truth(
+        self,
+        plan: Planned | Unusable,
+        reading: Planned | None,
+        request: ThinkRequest,
+        messages: list[Message],
+        *,
+        mended: bool = False,
+    ) -> Planned | Unusable:
+        """Return why a plan is not to be told or done, where it is one and there is a reason."""
+        if isinstance(plan, Unusable):
+            return plan
+        instructions = messages[0]["content"]
+        return find_untruth(plan, reading, request, instructions, mended=mended) or plan
 
     def _keep(
         self, request: ThinkRequest, turn: ReplyTurn, reply: ModelReply, plan: Planned | Unusable

@@ -55,6 +55,8 @@ class Unusable:
     """Hold why a reply is no plan, for the repair turn."""
 
     reasons: tuple[str, ...]
+    code: str = "bad_plan"
+    """One of ``planner.brain.model_error_codes``."""
 
     def __str__(self) -> str:
         return "; ".join(self.reasons)
