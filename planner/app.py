@@ -12,7 +12,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from planner.api import Access, build, warm_up
-from planner.brain import Brain, FallbackBrain, OfflineBrain
+from planner.brain import Brain, FallbackBrain, OfflineBrain, ThinkRequest
 from planner.brain.model_replies import ReplyCollector
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
@@ -103,6 +103,7 @@ class Planner:
         self.robot = LinkedRobot(link, self.description)
         self.detector = Opening(self.settings.vision, self.description)
         self._opening: asyncio.Task[None] | None = None
+        self._warming: asyncio.Task[None] | None = None
         worker = self.detector.worker
         self.eyes = eyes_of(
             worker, self.settings.vision, link, self._session,
@@ -172,6 +173,9 @@ class Planner:
         await self.eyes.start()
         await self.recorder.start(self.eyes.sight.things)
         await self.orders.keeper.start()
+        if self._model is not None:
+            request = ThinkRequest(text="hello", vocabulary=self.memory.vocabulary)
+            self._warming = asyncio.create_task(self._model.warm_up(request), name="warm up model")
 
     async def close(self) -> None:
         """End all parts; goals that ran come back paused in the next process."""
@@ -179,9 +183,10 @@ class Planner:
         await self.recorder.close()
         await self.eyes.close()
         await self.goals.close()
-        if self._opening is not None:
-            self._opening.cancel()
-            await asyncio.gather(self._opening, return_exceptions=True)
+        for begun in (self._opening, self._warming):
+            if begun is not None:
+                begun.cancel()
+                await asyncio.gather(begun, return_exceptions=True)
         await self.detector.worker.close()
         await self._router.close()
         await self._voice.close()

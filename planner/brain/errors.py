@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
     from planner.plan import Bilingual, BrainTag
 
 
@@ -38,11 +40,35 @@ class BrainDown(Exception):
     code = "model_unavailable"
 
     def __init__(
-        self, detail: str, brain: BrainTag | None = None, *, why: str = "unavailable"
+        self,
+        detail: str,
+        brain: BrainTag | None = None,
+        *,
+        why: str = "unavailable",
+        server: str = "",
     ) -> None:
         super().__init__(detail)
         self.brain = brain
         self.why = why
+        self.server = server
+        """What the server said of it, for a person. Anybody may have written it: shown, bounded,
+        and never told to a model."""
+
+
+class StillLoading(BrainDown):
+    """Nobody's fault: a server on this machine has not said a word yet, and may be loading.
+
+    Its connection stays open, for a server ends the load where the client leaves.
+    """
+
+    def __init__(
+        self, detail: str, later: Callable[[], Awaitable[Any]], drop: Callable[[], None]
+    ) -> None:
+        super().__init__(detail, why="loading")
+        self.later = later
+        """Waits for what was asked for, within a bound of its own."""
+        self.drop = drop
+        """Gives up what was asked for, though not the one connection that loads."""
 
 
 class OutOfBudget(BrainDown):

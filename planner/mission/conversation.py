@@ -19,7 +19,7 @@ from planner.brain.situation import (
 from planner.language.commands import OutcomeCommand, intent_of
 from planner.mission.open_questions import WAITS
 from planner.mission.outcomes import spot_at
-from planner.plan import GoalState
+from planner.plan import Code, GoalState
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
@@ -106,6 +106,8 @@ def _tell_outcome(mission: Mission) -> str:
     it repeats what another goal came to.
     """
     if mission.outcome is None or any(step.read is not None for step in mission.steps):
+        return ""
+    if mission.outcome.code is Code.MODEL_UNAVAILABLE:  # a server's own words may be in it
         return ""
     if isinstance(intent_of(mission.text), OutcomeCommand):
         return ""

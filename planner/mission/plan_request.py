@@ -17,12 +17,12 @@ from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
-from planner.brain.model_error_codes import reason
+from planner.brain.model_error_codes import reason, tell_failure
 from planner.brain.offline_brain import OfflineBrain
 from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
-from planner.language.catalogue import message, say
+from planner.language.catalogue import join, message, say
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
@@ -161,7 +161,10 @@ def thinker(
             return Planned(ask.id, None, said, error.brain or brain.tag)
         except BrainDown as error:
             log.warning("goal %s: the brain is down: %s", ask.id, error)
-            said = _outcome(Code.MODEL_UNAVAILABLE)
+            told = message(Code.MODEL_UNAVAILABLE)
+            if error.server:  # what to do about it stands in the server's own words alone
+                told = join((told, tell_failure(error.why, error.server)))
+            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=told)
             return Planned(ask.id, None, said, error.brain or brain.tag)
         rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
         if rejection is not None:
@@ -207,7 +210,3 @@ def things_of(classes: tuple[str, ...]) -> frozenset[str]:
     None while it has not said what it knows: an unknown place is then told as one.
     """
     return known_words(classes)
-
-
-def _outcome(code: Code, **facts: str) -> Outcome:
-    return Outcome(code=code, message=message(code, **facts))
