@@ -55,15 +55,14 @@ def status(settings: LaunchSettings, *, as_json: bool) -> int:
     """Show the robot and its goals; of several that run here, where none is named, each."""
     if is_robot_named():
         return _status_of(settings, as_json=as_json)
-    from pons.running import is_guess, robots_to_halt
-    from pons.stop import describe
+    from pons.running import describe_robot, is_guess, robots_to_halt
 
     robots = robots_to_halt(settings)
     shown = [one for one in robots if not is_guess(one, robots[:-1])] or robots
     told = 0
     for robot in shown:
         if len(shown) > 1 and not as_json:
-            print(f"{describe(robot)}:")
+            print(f"{describe_robot(robot)}:")
         told = max(told, _status_of(robot, as_json=as_json))
     return told
 

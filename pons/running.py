@@ -141,6 +141,12 @@ def of_this_user(settings: LaunchSettings) -> LaunchSettings:
     return ours[0] if len(ours) == 1 else settings
 
 
+def describe_robot(robot: LaunchSettings) -> str:
+    """Return which robot it is: its id, its folder and whose it is, as far as that is known."""
+    user = "" if robot.owner_uid is None else f", user {robot.owner_uid}"
+    return f"{robot.robot_id or 'robot'} in {robot.home}{user}"
+
+
 def _lies_there(home: Path) -> bool:
     return os.path.exists(home / "run" / "bridge" / "bridge.sock")  # noqa: PTH110  # never raises
 

@@ -42,7 +42,7 @@ SAID_BY_PLANNER = (
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class HaltOutcome:
     """Hold what became of an order at one robot, and the exit status that says so."""
 
     status: int
@@ -51,7 +51,7 @@ class Outcome:
 
 def run(settings: LaunchSettings, word: Halt = "stop") -> int:
     """Give the order; return 0 only when each bridge has confirmed, as far as it can be asked."""
-    from pons.running import is_guess, robots_to_halt
+    from pons.running import describe_robot, is_guess, robots_to_halt
 
     robots = [settings] if is_robot_named() else robots_to_halt(settings)
     if len(robots) == 1:
@@ -68,18 +68,12 @@ def run(settings: LaunchSettings, word: Halt = "stop") -> int:
         if order.outcome.status and guess:
             continue  # nothing of a robot is here: the others were meant
         status = max(status, order.outcome.status)
-        told = f"{describe(order.robot)}: {order.outcome.text}"
+        told = f"{describe_robot(order.robot)}: {order.outcome.text}"
         print(told, file=sys.stderr if order.outcome.status else sys.stdout, flush=True)
     return status
 
 
-def describe(robot: LaunchSettings) -> str:
-    """Return which robot it is: its id, its folder and whose it is, as far as that is known."""
-    user = "" if robot.owner_uid is None else f", user {robot.owner_uid}"
-    return f"{robot.robot_id or 'robot'} in {robot.home}{user}"
-
-
-def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> Outcome:
+def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> HaltOutcome:
     """Give one robot the order by both ways."""
     by_http = _Attempt(robot, word)
     by_http.start()
@@ -92,11 +86,11 @@ def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> Outcome:
         return _describe_answer(word, answer)
     by_http.join(HTTP_TIMEOUT_S)
     if by_http.confirmed and (out_of_reach := out_of_reach or _out_of_reach(robot)):
-        return Outcome(0, SAID_BY_PLANNER.format(word=word, why=out_of_reach))
+        return HaltOutcome(0, SAID_BY_PLANNER.format(word=word, why=out_of_reach))
     planner = by_http.trouble or "no answer yet"
     if by_http.confirmed:
         planner = "it says that the bridge confirmed, and is not believed"
-    return Outcome(
+    return HaltOutcome(
         EXIT_UNCONFIRMED[word],
         f"no_bridge: the bridge itself did not confirm the {word}. "
         "Without a bridge the drive's own time-out stops the wheels; use the robot's stop button. "
@@ -105,15 +99,15 @@ def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> Outcome:
     )
 
 
-def _describe_answer(word: Halt, answer: Answer) -> Outcome:
+def _describe_answer(word: Halt, answer: Answer) -> HaltOutcome:
     """Return what a person is told of the bridge's own verdict."""
     if word == "stop":
-        return Outcome(0, CONFIRMED)
+        return HaltOutcome(0, CONFIRMED)
     if answer.accepted:
-        return Outcome(0, f"{word}: accepted {answer.detail}".rstrip())
+        return HaltOutcome(0, f"{word}: accepted {answer.detail}".rstrip())
     from pons.operator import refusal_lines
 
-    return Outcome(EXIT_REFUSED, "\n".join(refusal_lines(word, answer)))
+    return HaltOutcome(EXIT_REFUSED, "\n".join(refusal_lines(word, answer)))
 
 
 def _out_of_reach(robot: LaunchSettings) -> str | None:
@@ -148,7 +142,7 @@ class _Order(threading.Thread):
     def __init__(self, robot: LaunchSettings, word: Halt) -> None:
         super().__init__(daemon=True)
         self.robot, self._word = robot, word
-        self.outcome = Outcome(EXIT_UNCONFIRMED[word], "not told")
+        self.outcome = HaltOutcome(EXIT_UNCONFIRMED[word], "not told")
 
     def run(self) -> None:
         self.outcome = _halt(self.robot, self._word, tells=False)

@@ -73,7 +73,7 @@ def _lines(stop: StopReport) -> Iterator[tuple[str, str]]:
     yield "stop", f"{stop.before.value} -> {stop.after.value}, by {stop.cause}"
     yield from _words("why", stop.cause)
     if stop.ordered_by is not None:
-        yield from _both_languages("who", _who(stop.ordered_by))
+        yield from _both_languages("who", _name_sources(stop.ordered_by))
     for stage, evidence in stop.rows:
         yield "evidence", f"{stage.name} ({stage.action.value}): {evidence}"
     yield "motion", _motion(stop)
@@ -91,7 +91,7 @@ def _lines(stop: StopReport) -> Iterator[tuple[str, str]]:
         yield from _both_languages("", _GROWING if stop.growing else _CUT)
 
 
-def _who(sources: str) -> tuple[str, str]:
+def _name_sources(sources: str) -> tuple[str, str]:
     """Name those who gave the order. What came by the planner is its word, and called so."""
     english, chinese = [], []
     for source in sources.split(", "):

@@ -25,7 +25,7 @@ from wire.commands import (
     VelocitySequence,
     Waypoint,
     Waypoints,
-    relayed,
+    mark_relayed,
 )
 from wire.errors import ConfigError, DecodeFailure, Unwritable
 from wire.fence import FenceFile
@@ -194,7 +194,7 @@ __all__ = [
     "inverse",
     "load_robot",
     "map_id",
-    "relayed",
+    "mark_relayed",
     "sign",
     "sign_fence",
     "signed_request",

@@ -81,7 +81,7 @@ RELAYED = "planner:"
 """Before the source of a request that the planner passes on: who asked is then its word alone."""
 
 
-def relayed(source: str) -> str:
+def mark_relayed(source: str) -> str:
     """Return the source of a request that the planner passes on."""
     return f"{RELAYED}{source}"[:64]
 

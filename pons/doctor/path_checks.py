@@ -15,8 +15,7 @@ from planner.settings import find_exposed
 from planner.site import Site, SiteError
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.launch_checks import MIN_FREE_BYTES
-from pons.running import find_robots
-from pons.stop import describe
+from pons.running import describe_robot, find_robots
 from wire import ConfigError, RobotDescription, load_robot
 from wire.doors import DOORS
 from wire.sockets import MAX_SOCKET_PATH, Endpoints, is_listening
@@ -160,7 +159,7 @@ def port(settings: LaunchSettings, *, running: bool) -> HealthFinding:
                       f"{host}:{number} 正由运行中的机器人使用")  # fmt: skip
         there = next((one for one in find_robots() if one.port == number), None)
         if there is not None:
-            found = f"{host}:{number}: {describe(there)}"
+            found = f"{host}:{number}: {describe_robot(there)}"
             return warn(
                 "port",
                 BilingualWords(f"{found} runs there", f"{found} 正在运行"),
