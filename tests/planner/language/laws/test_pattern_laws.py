@@ -185,9 +185,9 @@ def test_no_repeated_words_hang_at_the_door(seed: int) -> None:
 
 @pytest.mark.parametrize(
     "word",
-    ["喂", "哎", "诶", "啊哎呀", "先给我", "去", "到", "回", "在", "去找", "然后去", "劳驾你"]
-    + ["麻烦你", "刚", "刚刚", "真的", "那就", "多少个", "and ", "in the ", "x, unless x", " "]
-    + ["\t", ", aa", ",", "停", "stop "],
+    [*["喂", "哎", "诶", "啊哎呀", "先给我", "去", "到", "回", "在", "去找", "然后去", "劳驾你"],
+     *["麻烦你", "刚", "刚刚", "真的", "那就", "多少个", "and ", "in the ", "x, unless x", " "],
+     *["\t", ", aa", ",", "停", "stop "]],
 )  # fmt: skip
 @pytest.mark.parametrize("length", LENGTHS)
 def test_words_that_people_shout_over_and_over_are_read(word: str, length: int) -> None:
