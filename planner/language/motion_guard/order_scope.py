@@ -22,7 +22,10 @@ _SPEAK = (
     r"\b(?:say|saying|tell|announce|inform|shout|whisper|repeat|remind|ask|greet|read|answer|reply"
     r"|know)\b"
 )
-_THEN = r"(?=[.;!?]|,? (?:and )?then\b|(?:,| and) (?:come|go|return|drive|after)\b|$)"
+_THEN = (
+    r"(?=[.;!?]|,? (?:and )?then\b|(?:,| and) (?:come|go|return|drive|after)\b"
+    r"|, (?:he|she|they)(?:'s|'re| is| are) (?:in|at|on|by)\b|$)"
+)
 _SPEECH = re.compile(
     rf"{_SPEAK}[^.;!?\"“”「」『』]{{0,60}}?(?:[\"“「『][^\"”」』]*[\"”」』]?"
     rf"|(?:\bthat\b|\bwhether\b|\bif\b|: *[^ ]+).*?{_THEN}"
@@ -39,6 +42,7 @@ _SPEAKS = re.compile(rf"{_SPEAK}|[说喊问念叫]|告诉|转告|通知|提醒|�
 _NO_DENIAL_ZH = re.compile(
     r"特别|别墅|分别|级别|性别|识别|类别|差别|不错|差不多|不锈钢|不好意思|对不起|了不起|不客气"
     r"|休息|免费|多少|不对|不少|至少|([^\s,.])[不没]\1|是否|能否|可否"
+    r"|(?<=[^\s,，。;；!！你您千万请])别(?:动|走|停)(?=$|[,，。;；!！])"
 )
 _DENY_EN = re.compile(
     r"\b(?:do not|don't|dont|never|must not|mustn't|may not|should not|shouldn't|ought not"
@@ -219,7 +223,7 @@ def _cut_conditions(said: str) -> str:
     for found in _CONDITION.finditer(said):
         if any(start <= found.start() < end for start, end in polite):
             continue
-        before = [m.end() for m in _CONNECTS.finditer(said, 0, found.start())]
+        before = [m.end() for m in _CONNECTS.finditer(said) if m.end() <= found.start()]
         after = _CONNECTS.search(said, found.end())
         rest = said[after.end() :] if after is not None else ""
         return f"{said[: max(before, default=0)]}{_GAP}{_cut_conditions(rest)}"
