@@ -73,7 +73,8 @@ _BARE_DENIAL = re.compile(
 )
 _NEXT_NAME = re.compile(r"[,;]?\s*(?:(?:or|nor|and|neither)\b|(?:the|my|our|your) [a-z]+ ?[a-z]*$)")
 _DENY_ZH = re.compile(
-    r"别|不要|不用|不必|不许|不准|不能|不可|不该|不得|禁止|严禁|切勿|勿|甭|莫|不去|不进|(?<![找看见听收想])不到|不是|不想"
+    r"别|不要|不用|不必|不许|不准|不能|不可|不该|不得|禁止|严禁|切勿|勿|甭|莫|不去|不进"
+    r"|(?<![找看见听收想])不到|不是|不想"
     r"|没必要|谁[让叫]|离.{1,8}远|不让|除|避开|绕开|绕过|跳过|排除|没有.{0,6}允许|唔好|唔使"
 )
 _CLAUSE_ZH = re.compile(r"([,，。；;！!？?]|而是|但是|但|然后|改去|改成|(?<!不)是(?=去))")
@@ -96,7 +97,8 @@ _CONDITION = re.compile(
     r"\b(?:if|unless|whenever|when|as soon as|in case|provided|only if|until|tomorrow|tonight"
     r"|every (?:day|morning|evening|night|hour|week)|at (?:\d|noon|midnight)|in \d+ minutes?|later"
     r"|next time)\b"
-    r"|如果|要是|假如|万一|只要|除非|一旦|每当|若(?!干)|的话|只有|明天|今晚|每天|每晚|等会儿?(?!儿?再见)"
+    r"|如果|要是|假如|万一|只要|除非|一旦|每当|若(?!干)|的话|只有|明天|今晚|每天|每晚"
+    r"|等会儿?(?!儿?再见)"
     r"|当.{1,12}时|等(?!.{0,6}[秒分]).{1,12}[了完好后]再"
 )
 _CLAUSE = re.compile(r"[,.;!?。；！？]")

@@ -135,7 +135,9 @@ def read_grammar(
         own = (n.step for i, n in enumerate(row) if not hangs_on_more(row, i))
         return Counter(map(key_of_step, own)), Counter(key_of_step(n.step) for n in row), None
     vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
-    if vetoed and read.code is Code.AMBIGUOUS:  # a choice of drinks is no choice of ways
+    if (
+        isinstance(read, Clarify) and vetoed and read.code is Code.AMBIGUOUS
+    ):  # a choice of drinks is no choice of ways
         vetoed = len(set(places_named(text, vocabulary))) > 1
     return (
         Counter(),

@@ -54,9 +54,11 @@ _TO_YOU = re.compile(
     r"|you(?:'d| had)? (?:can|could|may|must|should|need to|have to|ought to|better|will)"
     r"|i(?:'d| would| will)? ?(?:want|need|like|love|wish|expect|ask|prefer)s? (?:it if )?you"
     r"|we(?:'d| would)? ?(?:want|need|like|love) you|(?:i|we) (?:think|guess|hope) you"
-    r"|you(?:'re| are) (?:to|needed|wanted|expected|supposed|free|allowed)|you|let's|let us|let me see"
+    r"|you(?:'re| are) (?:to|needed|wanted|expected|supposed|free|allowed)|you|let's|let us"
+    r"|let me see"
     r"|(?:i|we)(?:'d| would) (?:like|love|appreciate|be \w+)(?: it)?(?: if you)?"
-    r"|(?:how|what) about|time (?:for you )?to|it(?:'s| is) time|feel free to|try|start|begin|finish|end|keep|i (?:said|mean|meant)|fancy|rather)\b[ ']*"
+    r"|(?:how|what) about|time (?:for you )?to|it(?:'s| is) time|feel free to|try|start"
+    r"|begin|finish|end|keep|i (?:said|mean|meant)|fancy|rather)\b[ ']*"
     r"(?:could|would|can|please|to|by|with|like|kindly|just|maybe|and|also|now|then|first|ever"
     r"|quickly|be so kind as|be able|in|at|possibly|mind|awfully|have|never)?\b ?"
 )
@@ -64,12 +66,14 @@ _VERB_EN = (
     r"(?:go|goe?ing|drive|driving|ride|come|coming|walk|run|rush|hurry|dash|head|move|roll|scoot"
     r"|travel|navigat\w+|proceed|make|get|visit|visiting|swing|stop|drop|return|take|bring|fetch"
     r"|carry|deliver|lead|guide|escort|accompany|show|follow|meet|greet|welcome|tell|ask|say"
-    r"|announce|call|wake|remind|patrol|rounds?|tour|inspect|check\w*|look\w*|see|seeing|find|finding"
+    r"|announce|call|wake|remind|patrol|rounds?|tour|inspect|check\w*|look\w*|see|seeing"
+    r"|find|finding"
     r"|search|count|scan|watch|monitor|explore|observe|survey|wait|stay|stand|park|face|turn|spin"
     r"|rotate|approach|reach|position|place|charge|recharge|dock|enter|leave|pop|nip|peek|peep|pass"
     r"|cross|join|hang|send|describe|identify|locate|report|introduce|inform|talk|speak|answer|give"
     r"|back|reverse|step|do|have|repeat|let|map|circle|creep|crawl|shoo|track|trail|chase|listen"
-    r"|forget|use|spot|notice|contact|conduct|head|continue|resume|start|help|pick|put|place|grasp|grab)\b"
+    r"|forget|use|spot|notice|contact|conduct|head|continue|resume|start|help|pick|put"
+    r"|place|grasp|grab)\b"
 )
 _ORDER_EN = re.compile(
     rf"{_VERB_EN}|(?:a |one |another )?(?:trip|tour|round|lap|look)s?\b"
@@ -80,7 +84,8 @@ _ORDER_EN = re.compile(
     r"(?:the|my|our|your)\b"
 )
 _VERB_FIRST = re.compile(
-    rf"(?!(?:is|are|do|does|have)\b){_VERB_EN}|(?:if|when|whenever|once|unless|until|after|before)\b"
+    rf"(?!(?:is|are|do|does|have)\b){_VERB_EN}|(?:if|when|whenever|once|unless|until|after"
+    rf"|before)\b"
 )
 _ASKS_PAST = re.compile(
     r"(?:did|was|were|had|have you|has|haven't|what would|how do i|how can i)\b"
@@ -90,7 +95,8 @@ _ASKS = re.compile(
     r"|.*\?\s*$"
 )
 _PAST_YOU = re.compile(
-    r"you(?!(?: are|'re)? (?:needed|wanted|expected|supposed|to)\b)(?:'re|'ve|'d)?(?: (?:are|were|have|had|did|just))? ?"
+    r"you(?!(?: are|'re)? (?:needed|wanted|expected|supposed|to)\b)(?:'re|'ve"
+    r"|'d)?(?: (?:are|were|have|had|did|just))? ?"
     r"(?:went|drove|came|found|saw|looked|checked|were|was|did|been|have|had|are|\w+ed|always|never"
     r"|keep|know|look(?:ed)? (?:so|good|great|nice))\b"
 )
@@ -109,14 +115,19 @@ _FILLS = re.compile(
 """What may stand beside a bare name."""
 
 _OPENS_ZH = re.compile(
-    r"(?:[能可会]不[能可会](?:以)?|快[点些]|慢?一[点些下]|慢[点些]|[嗯哦啊喂嘿哎唉那请你您快先再又也就都还得该能会别\s]|那个|好[的了]?|不对|不是|而是|是|对了|麻烦|拜托|劳驾"
-    r"|机器人|帮我?个?忙?|给我|替我|赶紧|赶快|马上|立刻|现在|然后|接着|之后|最后|以后|直接|最好|要不然?|不如|否则"
-    r"|能不能|可不可以|可以|可否|能否|应该|需要|要|记得|继续|慢慢地?|悄悄地?|一起|自己|分别|依次|每[^,，去看]{1,4}"
-    r"|我(?:想|要|希望|需要)(?:让|叫|请)?[你您]|我(?:是|刚)?说(?:的是)?|我的意思是|改成|换成|咱们?|顺便|一会儿?"
+    r"(?:[能可会]不[能可会](?:以)?|快[点些]|慢?一[点些下]|慢[点些]"
+    r"|[嗯哦啊喂嘿哎唉那请你您快先再又也就都还得该能会别\s]|那个|好[的了]?|不对|不是|而是|是|对了|麻烦|拜托|劳驾"
+    r"|机器人|帮我?个?忙?|给我|替我|赶紧|赶快|马上|立刻|现在|然后|接着|之后|最后|以后|直接"
+    r"|最好|要不然?|不如|否则"
+    r"|能不能|可不可以|可以|可否|能否|应该|需要|要|记得|继续|慢慢地?|悄悄地?|一起|自己|分别"
+    r"|依次|每[^,，去看]{1,4}"
+    r"|我(?:想|要|希望|需要)(?:让|叫|请)?[你您]|我(?:是|刚)?说(?:的是)?|我的意思是|改成"
+    r"|换成|咱们?|顺便|一会儿?"
     r"|从[^,，去到]{1,8}(?=去|到)|[在往向朝]|用[^,，]{1,4}|按[^,，]{1,6}|以[^,，]{1,6})"
 )
 _ORDER_ZH = re.compile(
-    r"(?!看起?来|看上去|看样子)(?:[去到进回来找查数转跟走巡送带接停站靠绕逛溜过开看瞧盯睇返往朝驶问叫喊讲念等待留跑退掉拿取"
+    r"(?!看起?来|看上去"
+    r"|看样子)(?:[去到进回来找查数转跟走巡送带接停站靠绕逛溜过开看瞧盯睇返往朝驶问叫喊讲念等待留跑退掉拿取"
     r"移躲歇睡躺躲让候陪抵穿搜寻巡环观描介通追随左右向原面后继充拍领引出前直倒统导充]|前[往进面]|说(?!呢|得|不定)|告诉|通知|检查|环顾|探索|观察|打|把|如果|要是|假如|万一|若"
     r"|除[了非]|只要|当|直到|[一二两三四五六七八九十\d](?!点))"
 )
@@ -124,7 +135,8 @@ _UPON_ZH = re.compile(rf"(?:[就便则再]|的话|以后)(?:你|{_ORDER_ZH.patte
 _IF_ZH = re.compile(r"要是|如果|假如|的话")
 _OTHER_ZH = re.compile(rf"(?:{NAMES_ZH}|孩子们?|宝宝们?|大家|同学们|妈|爸|\w{{1,3}}们)")
 _PAST_ZH = re.compile(
-    r"[你您](?:刚才?|昨[天晚]|前天|上[回次]|之前|已经|早上|今天|平时|老是?|经过)|^(?:谢谢|感谢|多谢)|辛苦|过(?:吗|没|了|的|$)"
+    r"[你您](?:刚才?|昨[天晚]|前天|上[回次]|之前|已经|早上|今天|平时|老是?|经过)|^(?:谢谢"
+    r"|感谢|多谢)|辛苦|过(?:吗|没|了|的|$)"
     r"|[你您][^,，]{0,4}真|[去来]的$|到了[我你他她]|[哪怎]么?(?:个|走)"
 )
 _ASKS_ZH = re.compile(r".*(?:吗|呢|没有?|什么|谁|哪|多少|几|怎|啥|[？?])|.*([^\W\d])[不没]\1")
@@ -160,7 +172,7 @@ def _mood(clause: str, vocabulary: Vocabulary) -> Mood:
 def _mood_en(clause: str, rest: str, vocabulary: Vocabulary) -> Mood:
     if not rest:
         return Mood.ORDER if _OPENS.match(clause) and "wait" in clause else Mood.STATEMENT
-    first = rest.split(" ")[0]
+    first = rest.split(" ", maxsplit=1)[0]
     named = bool(places_named(rest, vocabulary))
     if is_given_name(rest) or (rest.count(" ") == 0 and _is_call(rest, named)):
         return Mood.CALL
@@ -248,7 +260,8 @@ def orders_anything(texts: Sequence[str], vocabulary: Vocabulary, *, by_question
 
 
 _STILL = re.compile(
-    r"(?:please |just |you )*(?:wait|stay|stop|say|remind|stand still)\b|[请你就先]*(?:[等待说念停别站]|留在)"
+    r"(?:please |just |you )*(?:wait|stay|stop|say|remind|stand still)\b"
+    r"|[请你就先]*(?:[等待说念停别站]|留在)"
 )
 
 
@@ -258,7 +271,8 @@ _CORRECTS = re.compile(
 )
 """What stands before it is taken back where a place follows."""
 _OWN_WAY = re.compile(
-    r"(?:i|we)(?:'m|'re|'ll| am| are| will| need| have to| must| might| may| want to| gotta| got to) "
+    r"(?:i|we)(?:'m|'re|'ll| am| are| will| need| have to| must| might| may| want to| gotta"
+    r"| got to) "
     r"(?!you\b)|我们?(?:先|要|去|得|马上|一会|正|自己)"
 )
 """A person's own way is no place to seek anything for them."""

@@ -80,7 +80,8 @@ _FOLLOWS = re.compile(
     r"|跟(?!.{1,8}?(?:说|讲|聊|打.{0,2}招呼|告诉|道|问))"
 )
 _SEES = re.compile(
-    r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe|around|show)\b"
+    r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe"
+    r"|around|show)\b"
     r"|[看瞧查找吗呢]|什么|谁|有没有|哪"
 )
 _SEES_ROUND = re.compile(
@@ -237,10 +238,11 @@ class _Judge:
     def enter(self, row: tuple[StepNode, ...], index: int) -> None:
         """Note in which branches the step stands that is judged next."""
         self._path = {
-            parent: row[at].role
+            parent: role
             for at in (index, *parents_of(row, index))
             if (parent := parent_of(row, at)) is not None
-            and row[at].role in (StepRole.THEN, StepRole.OTHERWISE)
+            and (role := row[at].role) in (StepRole.THEN, StepRole.OTHERWISE)
+            and role is not None
         }
 
     def find_branch(self, row: tuple[StepNode, ...], index: int) -> str:
@@ -364,7 +366,8 @@ class _Judge:
 _GAP = " | "
 _CONDITION = re.compile(r"\b(?:if|when|whether|unless|should)\b|如果|要是|若|假如|的话|就|没")
 _HOLDS = re.compile(
-    r"\b(?:with|has|have|having|where)\b[^,.;|]{0,24}$|(?:有|摆着?|放着?)[^,，。;|]{0,6}$"
+    r"\b(?:room|one|place) (?:that )?(?:with|has|having|where)\b[^,.;|]{0,24}$|(?:有|摆着?"
+    r"|放着?)[^,，。;|]{0,6}$"
 )
 _HELD_ZH = re.compile(r"(?:在的|所在的?)那?[个间]?")
 _SIDE_AFTER = re.compile(r"的?(?:正?前[面方]?|后[面方]?|背后)")
