@@ -25,7 +25,7 @@ from planner.orders.new_order import (
     read_new_order,
 )
 from planner.orders.new_order_judge import NewOrderJudge
-from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder
+from planner.orders.order import MAX_ORDER_CHARACTERS, SOURCE, StandingOrder
 from planner.orders.rule import settle
 from planner.orders.teller import OrderTeller
 from planner.orders.unfinished_order import UnfinishedOrder
@@ -36,6 +36,7 @@ from planner.plan import (
     Code,
     Language,
     Refuse,
+    Say,
     StepPlan,
     StepRecord,
     plan_record,
@@ -62,7 +63,9 @@ class Considers(Protocol):
     @property
     def book(self) -> MissionState: ...
 
-    async def consider(self, text: str, language: Language, goal_id: str) -> Planned: ...
+    async def consider(
+        self, text: str, language: Language, goal_id: str, standing: str = ""
+    ) -> Planned: ...
 
 
 class OrderIntake:
@@ -152,6 +155,11 @@ class OrderIntake:
         """Return what the standing order of a goal may do; None where it is gone."""
         return self._keeper.allowed_steps(source)
 
+    def sentence_of(self, source: str) -> tuple[str, str | None]:
+        """Return the sentence of a goal's standing order, and a reminder's fixed words."""
+        order = self._keeper.book.orders.get(source.removeprefix(SOURCE))
+        return ("", None) if order is None else (order.text, order.reminder)
+
     # Giving -------------------------------------------------------------------------------------
 
     async def give(self, new: NewOrder, goal_id: str) -> StandingOrder:
@@ -191,7 +199,9 @@ class OrderIntake:
         return order
 
     async def _consider(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
-        planned = await self._goals.consider(new.order, new.language, goal_id)
+        if new.reminder:  # its words are fixed: no brain is asked
+            return plan_record(StepPlan(steps=(Say(text=new.reminder),))).steps
+        planned = await self._goals.consider(new.order, new.language, goal_id, new.text)
         plan = planned.plan
         if isinstance(plan, Clarify):
             raise OrderQuestion(plan)
