@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from wire import Pose2
 
 NEAR_M = 1.0
+_EYES = frozenset({"look", "find", "count"})
+"""Steps of which a detector has words of its own."""
 _ORDER, _TOLD, _QUEUED = 70, 80, 50  # characters
 _UNSEEN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.RUNNING})
 
@@ -105,10 +107,26 @@ def _tell_outcome(mission: Mission) -> str:
     """Return what a person was told of a goal; nothing where a picture was read for it, nor where
     it repeats what another goal came to.
     """
-    if mission.outcome is None or any(step.read is not None for step in mission.steps):
+    if mission.outcome is None:
         return ""
+    if any(step.read is not None for step in mission.steps):
+        return _tell_looks(mission)[:_TOLD]
     if mission.outcome.code is Code.MODEL_UNAVAILABLE:  # a server's own words may be in it
         return ""
     if isinstance(intent_of(mission.text), OutcomeCommand):
         return ""
     return mission.outcome.message.of(mission.language)[:_TOLD]
+
+
+def _tell_looks(mission: Mission) -> str:
+    """Return the detector's own words of a goal that looked.
+
+    Nothing of a step that comes after a model's reading: a ``say`` or an answer may repeat it.
+    """
+    told: list[str] = []
+    for step in mission.steps:
+        if step.said is not None and step.kind in _EYES:
+            told.append(step.said.of(mission.language))
+        if step.read is not None:
+            break
+    return " ".join(told)

@@ -142,6 +142,7 @@ def thinker(
             observed=ask.observed,
             replan=ask.replan,
             order=ask.order if ask.exchanges else "",
+            standing=ask.standing,
             departed=ask.departed,
             exchanges=ask.exchanges,
             situation=_situation(ask, clock, remembered),
@@ -162,8 +163,7 @@ def thinker(
         except BrainDown as error:
             log.warning("goal %s: the brain is down: %s", ask.id, error)
             told = message(Code.MODEL_UNAVAILABLE)
-            if error.server:  # what to do about it stands in the server's own words alone
-                told = join((told, tell_failure(error.why, error.server)))
+            told = join((told, tell_failure(error.why, error.server))) if error.server else told
             said = Outcome(code=Code.MODEL_UNAVAILABLE, message=told)
             return Planned(ask.id, None, said, error.brain or brain.tag)
         rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)

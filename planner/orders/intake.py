@@ -37,7 +37,10 @@ from planner.plan import (
     Code,
     Language,
     Refuse,
+    Say,
+    StepPlan,
     StepRecord,
+    plan_record,
     words_of,
 )
 from planner.plan.timing import AtRule, DayTime
@@ -62,7 +65,9 @@ class Considers(Protocol):
     @property
     def book(self) -> MissionState: ...
 
-    async def consider(self, text: str, language: Language, goal_id: str) -> Planned: ...
+    async def consider(
+        self, text: str, language: Language, goal_id: str, standing: str = ""
+    ) -> Planned: ...
 
 
 class OrderIntake:
@@ -156,6 +161,11 @@ class OrderIntake:
         order = self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
         return order.allowed if order is not None else None
 
+    def sentence_of(self, source: str) -> tuple[str, str | None]:
+        """Return the sentence of a goal's standing order, and a reminder's fixed words."""
+        order = self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
+        return ("", None) if order is None else (order.text, order.reminder)
+
     # Giving -------------------------------------------------------------------------------------
 
     async def give(
@@ -177,8 +187,10 @@ class OrderIntake:
         if (asked := ask_which_day(new, now_s, book.zone)) is not None:
             raise OrderQuestion(asked, is_whole=True)
         rule = self._judge.judge(new, now_s)
-        planned = planned or await self._goals.consider(new.order, new.language, goal_id)
-        allowed = judge_deed(new, planned)
+        if planned is not None:
+            allowed = judge_deed(new, planned)
+        else:
+            allowed = await self._think_of_deed(new, goal_id)
         async with self._keeper.lock:
             if (same := self._judge.find_same(new, rule)) is not None:
                 self._corrector.note(same.id)
@@ -205,7 +217,14 @@ class OrderIntake:
         known = said.intent is not None or said.consent is not None or said.orders_stop
         if command.reminder is not None or not command.order.strip() or known:
             return None
-        return await self._goals.consider(command.order, ask.language, ask.id)
+        return await self._goals.consider(command.order, ask.language, ask.id, ask.text)
+
+    async def _think_of_deed(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
+        if new.reminder:  # its words are fixed: no brain is asked
+            return plan_record(StepPlan(steps=(Say(text=new.reminder),))).steps
+        return judge_deed(
+            new, await self._goals.consider(new.order, new.language, goal_id, new.text)
+        )
 
     def judge_quiet(self, rule: Rule, now_s: float) -> None:
         """Refuse a rule all of whose runs are left out. Raises OrderRefusal."""

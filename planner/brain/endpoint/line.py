@@ -103,7 +103,7 @@ class Line:
             BrainDown: ``timeout``; and whatever talking raises.
         """
         if not self._may_load():
-            return await self._within(goal, talk, wanted)
+            return await self._talk_in_time(goal, talk, wanted)
         task = asyncio.create_task(self._load(goal, talk, wanted, slow))
         try:
             done, _ = await asyncio.wait({task}, timeout=self.settings.timeout_s)
@@ -119,7 +119,9 @@ class Line:
         told = f"no {wanted} within {self.settings.timeout_s:g} s, and not a word for long before"
         raise StillLoading(told, lambda: self._later(task), lambda: self._drop(task))
 
-    async def _within(self, goal: str, talk: Callable[[float], Awaitable[T]], wanted: str) -> T:
+    async def _talk_in_time(
+        self, goal: str, talk: Callable[[float], Awaitable[T]], wanted: str
+    ) -> T:
         end_s = time.monotonic() + self.settings.timeout_s
         try:
             with thinking_about(goal):

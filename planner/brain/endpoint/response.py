@@ -249,7 +249,7 @@ async def _listen(
                 if events.done:
                     await _let_end(chunks)
                     break
-                silence.bound()
+                silence.set_limit()
                 if told is not None and assembly.begun:
                     told(lambda: secret.struck_growing(assembly.text))
             for event in events.end():
@@ -285,7 +285,7 @@ class _Silence:
             self.passed = True
         return self.passed
 
-    def bound(self) -> None:
+    def set_limit(self) -> None:
         """Set, move or lift the limit, by what has come so far; what brings nothing moves none."""
         assembly, set_s = self._assembly, self._limit.when()
         silent_s: float | None

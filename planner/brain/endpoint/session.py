@@ -68,21 +68,12 @@ class Asker:
     ) -> ModelReply:
         """Return a reply to these messages.
 
-        A way of asking that is taken and brings nothing is left for the next simpler one; what then
-        brings something is remembered.
+        A way of asking that is taken and brings nothing is left for the next; what then brings
+        something is remembered. ``told`` takes what is written so far (None: no stream), until
+        ``end_s`` on the monotonic clock; ``form`` names the reply, ``picture`` is a data URL.
+        ``again``: the reply before it was no use, so the way of asking stays.
 
-        Args:
-            messages: the prompt.
-            schema: of the reply.
-            end_s: when the goal's time is up, on the monotonic clock.
-            told: takes what is written so far; None: no stream is asked for.
-            form: what the reply is called.
-            picture: the data URL of a picture that goes with the words.
-            again: the reply before it was no use, so the way of asking stays as it is.
-
-        Raises:
-            BrainDown: there is none.
-            NotSent: the server takes no pictures, or not this one.
+        Raises BrainDown, or NotSent where no picture is taken, or not this one.
         """
         dialect, refused, barren = self._dialects.current, list[Body](), list[ModelReply]()
         stream = told is not None and self._settings.stream and self._breaks < MAX_BREAKS
@@ -120,7 +111,7 @@ class Asker:
                 below = None if again or not reply.is_barren else next(dialect.lower(), None)
                 if below is None:
                     self._keep(dialect, reply, barren)
-                    return _billed(reply, barren)
+                    return _add_cost(reply, barren)
                 log.info("%s brought nothing by %s", self._settings.name, dialect.mode.value)
                 barren.append(reply)
                 dialect = below
@@ -182,6 +173,6 @@ class Asker:
         return replace(reply, text=struck(reply.text))
 
 
-def _billed(reply: ModelReply, before: list[ModelReply]) -> ModelReply:
+def _add_cost(reply: ModelReply, before: list[ModelReply]) -> ModelReply:
     """Return a reply with what those before it have cost, too."""
     return replace(reply, tokens=sum((each.tokens for each in before), reply.tokens))

@@ -316,7 +316,7 @@ def test_stop_words_stop_first_and_then_mean_what_they_say(tmp_path: Path) -> No
 
 def test_a_word_that_may_mean_stop_stops_and_removes(tmp_path: Path) -> None:
     async def story() -> None:
-        async with home(tmp_path, HELLO, KITCHEN) as made:
+        async with home(tmp_path, KITCHEN) as made:
             await made.say("remind me in 20 minutes to call Tom")
             drive = await made.together.missions.submit("go to the kitchen")
             await made.together.reach(drive.id, GoalState.RUNNING)
