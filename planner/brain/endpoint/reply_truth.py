@@ -55,21 +55,21 @@ def find_untruth(
     language = request.language or language_of(request.order or request.text)
     if _only_talks(plan) and (drives := _drives_of(grammar)):
         why = f"this order is to be done, and words move nothing: plan {', '.join(drives)}"
-        return _told("only_words", why)
+        return _unusable("only_words", why)
     for text in _texts(plan, language):
         spoken = mended and isinstance(plan, StepPlan)
         if not spoken and (foreign := _misspoken(text, language)) is not None:
-            return _told("wrong_language", foreign)
+            return _unusable("wrong_language", foreign)
         if (copied := _is_copied(text, instructions)) is not None:
-            return _told("instructions_told", copied)
+            return _unusable("instructions_told", copied)
     if isinstance(plan, AnswerPlan) and (long := _is_too_long(plan.text.of(language))) is not None:
-        return _told("answer_too_long", long)
+        return _unusable("answer_too_long", long)
     if isinstance(plan, Clarify) and (trap := _traps(plan, request)) is not None:
-        return _told("offer_not_asked", trap)
+        return _unusable("offer_not_asked", trap)
     return None
 
 
-def _told(code: str, why: str) -> Unusable:
+def _unusable(code: str, why: str) -> Unusable:
     return Unusable((why,), code)
 
 
