@@ -67,7 +67,7 @@ def watch_sectors(
     silent = _with_beams(picture.step_rad, picture.beams, count) & ~seen
     middles = _middles(picture.first_rad, picture.step_rad, count)
     lidar_in_odom = compose(picture.base_in_odom, Pose2(picture.lidar_x_m, picture.lidar_y_m, 0.0))
-    points = _remembered(had.points, far_m, middles, lidar_in_odom, travelled_m)
+    points = _remember_points(had.points, far_m, middles, lidar_in_odom, travelled_m)
     alive = had.alive | seen
     least = max(2, ceil(LEAST_RAD * count / tau - 1e-9))
     bounded = enclosed = 0
@@ -82,7 +82,7 @@ def watch_sectors(
     missed = 0
     if bounded:
         first = middles[0]
-        missed = bounded & _expected(points, lidar_in_odom, first, picture, travelled_m, count)
+        missed = bounded & _expected_bins(points, lidar_in_odom, first, picture, travelled_m, count)
     recent = tuple(one for one in (*had.recent, (now_s, missed)) if now_s - one[0] <= RECENT_S)
     lasting = missed if now_s - recent[0][0] >= SEEN_S - 1e-6 else 0
     for _, mask in recent:
@@ -141,7 +141,7 @@ def _farthest(picture: ScanPicture, count: int) -> list[float]:
     return far_m
 
 
-def _remembered(
+def _remember_points(
     points: tuple[Point | None, ...],
     far_m: list[float],
     middles: tuple[float, ...],
@@ -159,7 +159,7 @@ def _remembered(
     return tuple(kept)
 
 
-def _expected(
+def _expected_bins(
     points: tuple[Point | None, ...],
     lidar_in_odom: Pose2,
     first_rad: float,

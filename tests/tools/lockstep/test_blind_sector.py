@@ -40,7 +40,7 @@ def test_it_does_not_drive_off_into_a_sector_that_is_covered_from_the_start(
     assert world.standing
 
 
-@pytest.mark.parametrize(("width_deg", "at_deg", "beams"), [(15, 2, 720), (120, 20, 450)])
+@pytest.mark.parametrize(("width_deg", "at_deg", "beams"), [(45, 5, 720), (120, 20, 450)])
 def test_it_stands_before_what_a_sector_that_goes_silent_hides(
     width_deg: float, at_deg: float, beams: int
 ) -> None:
