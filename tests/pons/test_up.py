@@ -14,7 +14,8 @@ from planner.plan import Means, StepPlan, Vocabulary
 from pons.launch_checks import CannotStart
 from pons.running import RunningNote
 from pons.settings import CHECKOUT, LaunchSettings
-from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, Supervisor, describe_base, what_to_try
+from pons.launch_words import what_to_try
+from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, Supervisor, describe_base
 from tests.planner.api.serving import served
 from tests.pons.test_readiness import starting
 from wire import RobotDescription, load_robot
