@@ -8,6 +8,7 @@ kept but mean nothing to the mapper (some logs have the same on each line). Plai
 from __future__ import annotations
 
 import gzip
+import zlib
 from dataclasses import dataclass
 from math import isfinite, pi
 from typing import TYPE_CHECKING
@@ -90,7 +91,7 @@ def _lines(path: Path) -> Iterator[str]:
                     text = "a line or the whole of it is too long for a log"
                     raise CarmenError(text, "某一行或整个文件过长，不是日志")
                 yield line.decode("ascii", "replace")
-    except (OSError, EOFError) as error:  # gzip's BadGzipFile is an OSError
+    except (OSError, EOFError, zlib.error) as error:  # gzip's BadGzipFile is an OSError
         zh = system_reason_zh(error) if isinstance(error, OSError) else "压缩文件不完整"
         raise CarmenError(str(error), zh) from error
 

@@ -28,6 +28,8 @@ FORMAT = 1
 KEYFRAMES_FILE = "keyframes.npz"
 _MOST_KEYFRAMES, _MOST_POINTS = 20_000, 4_000
 """Of a file: beyond them it is not one of ours."""
+_HEADER_BYTES, _MOST_EDGES_BYTES = 1024, 64 << 20
+"""Room for what numpy writes before an array; edges have no count of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +103,23 @@ def write_keyframes(keyframes: Sequence[Keyframe], edges: Floats) -> bytes:
     return out.getvalue()
 
 
+def _check_sizes(archive: zipfile.ZipFile, points: int) -> None:
+    """Refuse arrays that would unpack to more than they may hold, before they are read.
+
+    Args:
+        archive: of the arrays.
+        points: how many all keyframes have together; 0: not known yet, so only the rest is judged.
+
+    Raises:
+        ValueError: an array is too large.
+    """
+    most = {"edges": _MOST_EDGES_BYTES, "points_mm": 8 * points or 8 << 40}
+    for member in archive.infolist():
+        name = member.filename.removesuffix(".npy")
+        if not member.file_size <= most.get(name, 24 * _MOST_KEYFRAMES) + _HEADER_BYTES:
+            raise ValueError(f"{name} holds {member.file_size} bytes")
+
+
 def read_keyframes(data: bytes) -> tuple[tuple[Keyframe, ...], Floats]:
     """Return the keyframes and edges of a file.
 
@@ -109,8 +128,10 @@ def read_keyframes(data: bytes) -> tuple[tuple[Keyframe, ...], Floats]:
     """
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as held:
+            _check_sizes(held.zip, 0)
             kind, poses = int(held["format"]), np.asarray(held["poses"], np.float64)
             stamps_s, counts = held["stamps_s"].astype(np.float64), held["counts"].astype(np.int64)
+            _check_sizes(held.zip, int(np.clip(counts, 0, _MOST_POINTS).sum()))
             points_m, edges = held["points_mm"] / 1e3, np.asarray(held["edges"], np.float64)
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         # Without numpy's words: for what it can't read it advises to unpickle it.

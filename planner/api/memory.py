@@ -36,6 +36,8 @@ class NewFact(Body):
     place: PlaceId | None = None
     """A room or place that it speaks of."""
     source: Name = "api"
+    """What the client calls itself. Kept behind ``api:``, for by which door a fact came is not a
+    client's to say."""
 
 
 def routes(services: Services) -> APIRouter:
@@ -63,8 +65,9 @@ def routes(services: Services) -> APIRouter:
         if new.place is not None and new.place not in services.memory.vocabulary:
             raise unknown_place(new.place, services.memory.vocabulary)
         try:
+            door = "api" if new.source == "api" else f"api:{new.source}"
             kept = await services.recollection.teach(
-                new.text, said_by=new.source, room=new.place, map_id=services.site.map_id
+                new.text, said_by=door, room=new.place, map_id=services.site.map_id
             )
         except FactRefusal as refused:
             raise _problem(refused) from None

@@ -89,7 +89,13 @@ def test_what_is_no_log_is_refused(text: str, told: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(
-    "data", [b"\x1f\x8b", b"\x1f\x8b\x08 no gzip", gzip.compress(b"F" * 99, mtime=0)[:30]]
+    "data",
+    [
+        b"\x1f\x8b",
+        b"\x1f\x8b\x08 no gzip",
+        gzip.compress(b"F" * 99, mtime=0)[:30],
+        gzip.compress(b"", mtime=0)[:10] + b"\xff" * 40,
+    ],
 )
 def test_a_spoilt_archive_is_refused(data: bytes, tmp_path: Path) -> None:
     path = tmp_path / "a.log.gz"

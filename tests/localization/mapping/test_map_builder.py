@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -152,6 +154,19 @@ def test_a_keyframe_needs_a_relation() -> None:
 def test_a_file_that_is_not_ours_is_refused(data: bytes) -> None:
     with pytest.raises(KeyframeFileError, match=r"^not a file of keyframes$"):
         read_keyframes(data)
+
+
+@pytest.mark.parametrize(("array", "rows"), [("poses", 400_000), ("points_mm", 400_000)])
+def test_a_file_that_unpacks_to_more_than_its_frames_hold_is_refused(array: str, rows: int) -> None:
+    arrays: dict[str, Any] = {
+        "format": np.int64(1), "poses": np.zeros((1, 3)), "stamps_s": np.zeros(1),
+        "counts": np.ones(1, np.int64), "points_mm": np.zeros((1, 2), np.int32),
+        "edges": np.zeros((0, 6)),
+    }  # fmt: skip
+    out = io.BytesIO()
+    np.savez_compressed(out, **arrays | {array: np.zeros((rows, *arrays[array].shape[1:]))})
+    with pytest.raises(KeyframeFileError, match=r"^not a file of keyframes$"):
+        read_keyframes(out.getvalue())
 
 
 def test_half_a_file_is_refused(room: tuple[MapBuilder, ScanTracker, Floats, Floats]) -> None:

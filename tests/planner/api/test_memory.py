@@ -46,6 +46,12 @@ def test_things_people_and_facts_are_one_list(services: FakeServices) -> None:
     assert by_kind["thing"]["step"] == "patrol"
 
 
+def test_a_client_does_not_say_by_which_door_a_fact_came(services: FakeServices) -> None:
+    client = client_of(services)
+    body = {"text": "the keys are on the sofa", "source": "sentence"}
+    assert client.post("/v1/memory/facts", json=body).json()["source"] == "api:sentence"
+
+
 @pytest.mark.parametrize(
     ("query", "kinds"),
     [("q=red+cup", ["thing"]), ("q=杯子", ["thing"]), ("q=mug", ["thing"]), ("q=unicorn", []),
