@@ -59,7 +59,6 @@ class BridgeProcess:
             self._drive.read(),
             ON_TIME,
             real_time=True,
-            recorder_ok=True,
             chance=chance,
             imu=self._drive.take_imu(),
         )
