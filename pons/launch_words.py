@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
+    from pons.settings import LaunchSettings
+
 _CODE: Final = re.compile(r"\b([a-z0-9]+(?:_[a-z0-9]+)+): ")
 CHINESE: Final[Mapping[str, str]] = {
     "robot_toml_missing": "找不到或无法读取 robot.toml：请检查 --robot 的路径",
@@ -58,6 +60,13 @@ CHINESE: Final[Mapping[str, str]] = {
     **{code: chinese for code, (_, chinese) in PORT_CURES.items()},
 }
 """By code: what a person does about it."""
+SEARCHES = (
+    "      the robot is looking for where it is, and stands still. On that page press"
+    " “The robot is here …”\n"
+    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上点击“机器人在这里……”"
+)
+SET_UP = "set-up: no bridge, nothing drives; try the robot on that page / 设置模式：请在网页上测试"
+UNREACHED = "not reached yet: dialled until it answers / 尚未连上机器人：会一直重试，网页可用"
 
 
 def chinese_cure(refusal: str) -> str | None:
@@ -94,3 +103,12 @@ def drives_to_try(site: Path) -> str:
         return 'pons say "go home"   pons say 回家'
     english, chinese = rooms[0].name.en, rooms[1 % len(rooms)].name.zh
     return f'pons say "go to the {english}"   pons say 去{chinese}'
+
+
+def what_to_try(settings: LaunchSettings) -> str:
+    """Return a line for a person who has just started a robot."""
+    if settings.mapping is not None:
+        # No distance: nobody knows yet how much room there is ahead.
+        steps = 'pons say "turn around"   pons say "explore the house"   pons say 探索一下房子'
+        return f"try: {steps}, then: pons map {settings.mapping}"
+    return f"try: {drives_to_try(settings.site)}   pons stop"

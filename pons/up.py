@@ -22,7 +22,7 @@ from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
-from pons.launch_words import chinese_line, drives_to_try
+from pons.launch_words import SEARCHES, SET_UP, UNREACHED, chinese_line, what_to_try
 from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
 from pons.running import RunningNote
@@ -40,20 +40,18 @@ if TYPE_CHECKING:
 
 POLL_S = 0.05
 READY_LIMIT_S = 60.0
+UNREACHED_TOLD_S = 3.0
+"""A robot's computer that answers at all does so within this time."""
+_NO_ROS2 = "ros2_no_"
+"""How the codes begin that say that nobody answers there (ros2/trouble.py)."""
 ARM_RETRY_S = 0.5
 SEARCH_TOLD_S = 20.0
 """A home in which it is clear where the robot is takes a tenth of it."""
-SEARCHES = (
-    "      the robot is looking for where it is, and stands still. On that page press"
-    " “The robot is here …”\n"
-    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上点击“机器人在这里……”"
-)
 LOOK_S = 0.5
 """The longest that a removed socket stays unreachable, or a log longer than its bound."""
 PRIVATE = 0o077
 """What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
 _CHANGERS = frozenset({"planner", "setup"})
-SET_UP = "set-up: no bridge, nothing drives; try the robot on that page / 设置模式：请在网页上测试"
 
 
 class Supervisor:
@@ -70,9 +68,9 @@ class Supervisor:
         set_up: bool = False,
         came_from_setup: bool = False,
     ) -> None:
-        self._is_patient = came_from_setup or set_up
+        self._is_patient = came_from_setup or set_up or robot.ros2 is not None
         """The page is all that this person has: it is not taken away for being slow."""
-        self._said_late = self._said_search = False
+        self._said_late = self._said_search = self._said_unreached = False
         self.changes = False
         """Whether the run ended because a person asked for set-up, or to leave it."""
         self._set_up = set_up
@@ -158,6 +156,7 @@ class Supervisor:
                 self._said_search = True
                 say(f"{self._settings.url}\n{SEARCHES}")
             return
+        self._tell_unreached(now_s - began_s)
         if now_s - max(began_s, self._searched_s) > READY_LIMIT_S:
             text = (
                 f"not_ready: the {'planner' if self._planner else 'bridge'} was not ready within "
@@ -168,6 +167,19 @@ class Supervisor:
             if not self._said_late:
                 say(text)
             self._said_late = True
+
+    def _tell_unreached(self, after_s: float) -> None:
+        """Say once why the robot's ROS 2 computer is not reached; dialling goes on."""
+        if self._said_unreached or after_s < UNREACHED_TOLD_S:
+            return
+        child = next((each for each in self._children if each.name == "ros2"), None)
+        why = (
+            [line for line in child.last_words().splitlines() if _NO_ROS2 in line] if child else []
+        )
+        if why:
+            self._said_unreached = True
+            cause = why[-1][why[-1].index(_NO_ROS2) :]
+            say(f"{self._settings.url}\nrobot_unreached: {cause}\n  {UNREACHED}")
 
     def _say_ready(self, after_s: float) -> None:
         if self._planner:
@@ -204,15 +216,6 @@ class Supervisor:
         for child in reversed(self._children):
             child.stop(PATIENCE_S)
             self._sockets.forget(child.name)
-
-
-def what_to_try(settings: LaunchSettings) -> str:
-    """Return a line for a person who has just started a robot."""
-    if settings.mapping is not None:
-        # No distance: nobody knows yet how much room there is ahead.
-        steps = 'pons say "turn around"   pons say "explore the house"   pons say 探索一下房子'
-        return f"try: {steps}, then: pons map {settings.mapping}"
-    return f"try: {drives_to_try(settings.site)}   pons stop"
 
 
 def describe_base(settings: LaunchSettings, robot: RobotDescription) -> str:

@@ -106,13 +106,23 @@ copy_settings() {
 
 keep_old() { [ ! -f "$1" ] || cp -p "$1" "$1.before-$(date -u +%Y%m%dT%H%M%SZ)"; }
 
+# The site that counts now: --site, else the one that the units of the last run name, else the demo home.
+site_name() {
+  if [ -n "$site" ]; then
+    basename "$(cd "$site" && pwd)"
+    return
+  fi
+  sed -n 's|.*/etc/pons/sites/\([^/[:space:]]*\).*|\1|p' "$stage"/etc/systemd/system/pons-bridge.service 2>/dev/null |
+    head -n 1 | grep . || echo home
+}
+
 # Units name the site that is the robot's own.
 copy_units() {
   local units=$stage/etc/systemd/system name
   mkdir -p "$units" "$stage/etc/sysusers.d" "$stage/etc/tmpfiles.d" "$stage/etc/udev/rules.d"
-  name=${site:+$(basename "$(cd "$site" && pwd)")}
+  name=$(site_name) # read before the units are written over
   for one in "$SOURCE"/deploy/systemd/*.service "$SOURCE"/deploy/systemd/*.target; do
-    sed "s|/etc/pons/sites/home|/etc/pons/sites/${name:-home}|" "$one" >"$units/$(basename "$one")"
+    sed "s|/etc/pons/sites/home|/etc/pons/sites/$name|" "$one" >"$units/$(basename "$one")"
   done
   install -m 0644 "$SOURCE/deploy/systemd/pons.sysusers.conf" "$stage/etc/sysusers.d/pons.conf"
   install -m 0644 "$SOURCE/deploy/systemd/pons.tmpfiles.conf" "$stage/etc/tmpfiles.d/pons.conf"

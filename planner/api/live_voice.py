@@ -47,14 +47,14 @@ class NoRecording(Exception):
         self.code, self.detail = code, detail
 
 
-class Seats:
+class RecordingSeats:
     """Hand out what recordings are heard at, so that nobody takes them away for good."""
 
     def __init__(self) -> None:
         self._held: list[tuple[str, asyncio.Timeout]] = []
 
     @contextlib.asynccontextmanager
-    async def taken(self, address: str, limit: asyncio.Timeout) -> AsyncIterator[None]:
+    async def hold(self, address: str, limit: asyncio.Timeout) -> AsyncIterator[None]:
         """Hold a seat; where it is needed for a newer recording, its limit ends at once."""
         own = [seat for seat in self._held if seat[0] == address]
         if len(own) >= MOST_OF_ADDRESS:
@@ -77,7 +77,7 @@ class Seats:
 def routes(services: Services) -> APIRouter:
     """Return the socket."""
     router = APIRouter(tags=["goals"])
-    seats = Seats()
+    seats = RecordingSeats()
 
     @router.websocket("/v1/voice/live")
     async def live(socket: WebSocket) -> None:
@@ -86,7 +86,7 @@ def routes(services: Services) -> APIRouter:
         address = address_of(socket.client.host) if socket.client else ""
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # gone: nobody to tell
             try:
-                async with asyncio.timeout(MOST_CLOCK_S) as limit, seats.taken(address, limit):
+                async with asyncio.timeout(MOST_CLOCK_S) as limit, seats.hold(address, limit):
                     await _attend(services, socket)
             except TimeoutError:
                 told = f"a seat is held for {MOST_CLOCK_S:g} s, and the oldest goes for a new one"

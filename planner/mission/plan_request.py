@@ -162,9 +162,7 @@ def thinker(
             return Planned(ask.id, None, said, error.brain or brain.tag)
         except BrainDown as error:
             log.warning("goal %s: the brain is down: %s", ask.id, error)
-            told = message(Code.MODEL_UNAVAILABLE)
-            told = join((told, tell_failure(error.why, error.server))) if error.server else told
-            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=told)
+            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
             return Planned(ask.id, None, said, error.brain or brain.tag)
         rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
         if rejection is not None:
@@ -174,6 +172,11 @@ def thinker(
         return Planned(ask.id, thought.plan, None, thought.brain, unasked, sure)
 
     return think
+
+
+def _tell_down(error: BrainDown) -> Bilingual:
+    told = message(Code.MODEL_UNAVAILABLE)
+    return join((told, tell_failure(error.why, error.server))) if error.server else told
 
 
 async def _read_surely(request: ThinkRequest) -> StepPlan | None:

@@ -88,6 +88,10 @@ class _Desk:
         del source
         return None
 
+    def sentence_of(self, source: str) -> tuple[str, str | None]:
+        del source
+        return "", None
+
     def refuse_offer(self, text: str) -> Bilingual | None:
         del text
         return None

@@ -83,6 +83,18 @@ def test_robot_and_site_are_kept_unless_another_is_named(tmp_path: Path) -> None
     assert old.read_text() == "# mine\n"
 
 
+def test_an_update_keeps_the_site_that_the_units_name(tmp_path: Path) -> None:
+    attic = tmp_path / "attic"
+    shutil.copytree(ROOT / "sites" / "two_room", attic)
+    stage = tmp_path / "stage"
+    assert install("--stage", str(stage), "--site", str(attic)).returncode == 0
+    units = stage / "etc" / "systemd" / "system"
+    before = {path.name: path.read_text() for path in units.iterdir()}
+    assert "/etc/pons/sites/attic" in before["pons-bridge.service"]
+    assert install("--stage", str(stage)).returncode == 0
+    assert {path.name: path.read_text() for path in units.iterdir()} == before
+
+
 @pytest.mark.parametrize(
     ("words", "code", "says"),
     [

@@ -12,9 +12,10 @@ import pytest
 from planner.brain import OfflineBrain, ThinkRequest
 from planner.plan import Means, StepPlan, Vocabulary
 from pons.launch_checks import CannotStart
+from pons.launch_words import what_to_try
 from pons.running import RunningNote
 from pons.settings import CHECKOUT, LaunchSettings
-from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, Supervisor, describe_base, what_to_try
+from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, UNREACHED_TOLD_S, Supervisor, describe_base
 from tests.planner.api.serving import served
 from tests.pons.test_readiness import starting
 from wire import RobotDescription, load_robot
@@ -23,11 +24,11 @@ HOUR_S = 3600.0
 ROS2 = "ros2_diff_drive.toml"
 
 
-def supervisor(tmp_path: Path, port: int) -> Supervisor:
+def supervisor(tmp_path: Path, port: int, robot: RobotDescription | None = None) -> Supervisor:
     site = CHECKOUT / "sites" / "two_room"
     settings = LaunchSettings(tmp_path, CHECKOUT / "robot.toml", site, "127.0.0.1", port)
     note = RunningNote(settings, "r1")
-    return Supervisor(settings, RobotDescription(), note, planner=True)
+    return Supervisor(settings, robot or RobotDescription(), note, planner=True)
 
 
 def test_a_robot_that_looks_for_its_place_is_told_of_once_and_waited_for(
@@ -69,6 +70,24 @@ def test_a_localization_that_is_silent_is_not_waited_for(tmp_path: Path) -> None
         up._greet(100.0, 100.0)
         with pytest.raises(CannotStart, match="not_ready"):
             up._greet(101.0 + READY_LIMIT_S, 100.0)
+
+
+def test_a_ros2_robot_that_is_not_reached_is_told_at_once_and_keeps_its_page(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with served(starting(("localization", "bridge:drive"), None)) as planner:
+        up = supervisor(tmp_path, planner.port, load_robot(CHECKOUT / "robots" / ROS2))
+        (ros2,) = (child for child in up._children if child.name == "ros2")
+        ros2.log.parent.mkdir(parents=True, exist_ok=True)
+        ros2.log.write_text("12:00 ros2 WARNING ros2_no_server: ws://127.0.0.1:9090: refused\n")
+        up._greet(100.0, 100.0)
+        assert "ros2_no_server" not in capsys.readouterr().out
+        up._greet(100.0 + UNREACHED_TOLD_S, 100.0)
+        up._greet(101.0 + UNREACHED_TOLD_S, 100.0)
+        told = capsys.readouterr().out
+        assert told.count("robot_unreached: ros2_no_server: ws://127.0.0.1:9090: refused") == 1
+        assert up._settings.url in told
+        up._greet(101.0 + READY_LIMIT_S, 100.0)  # raises nothing: the page stays
 
 
 def test_a_person_reads_whether_metal_is_driven(tmp_path: Path) -> None:

@@ -102,7 +102,8 @@ def _mcap(folder: Path) -> Reader:
 
 def _model(_folder: Path) -> Reader:
     """Read a body, a plan, a look and a point, or a stream, by the first byte."""
-    from planner.brain.endpoint.completion import Assembly, StreamFailure, read_json, read_reply
+    from planner.brain.endpoint.assembly import Assembly, StreamFailure
+    from planner.brain.endpoint.completion import read_json, read_reply
     from planner.brain.endpoint.image_client import judge_look, judge_point
     from planner.brain.endpoint.plan_draft import Drafting
     from planner.brain.endpoint.plan_reply import judge

@@ -298,11 +298,10 @@ def _read_once(
     if vetoed is not None:
         return vetoed
     ordered = replace(marked, text=in_order(marked.text))
+    tongue = Language.ZH if has_chinese(text) else Language.EN
     meanings = [
         limit_to_means(meaning, context.runnable, context.blind)
-        for meaning in _meanings(
-            ordered, reading, Language.ZH if has_chinese(text) else Language.EN
-        )
+        for meaning in _meanings(ordered, reading, tongue)
     ]
     if not meanings:
         return Refuse(code=Code.EMPTY_GOAL, reason=message(Code.EMPTY_GOAL, example=EXAMPLE))

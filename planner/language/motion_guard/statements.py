@@ -1,9 +1,9 @@
 """Tell by sentence structure whether a clause orders the robot, asks, or merely states. Pure.
 
 The law is positional: an order opens with a verb that the robot can follow, once courtesy is set
-aside ("could you", "I want you to", 你, 帮我). A clause in which somebody else stands before the verb
-("Mum is going to the kitchen", 我先去厨房), one in the past, and one that calls another person by name
-order nothing, whatever verb comes later. A bare name ("the kitchen, please") is an order by itself.
+aside ("could you", "I want you to", 你, 帮我). A clause in which somebody else stands before the
+verb ("Mum is going to the kitchen", 我先去厨房), one in the past, and one that calls another person
+by name order nothing, whatever verb comes later. A bare name ("the kitchen, please") is an order.
 In doubt a clause is a statement: a person is then asked, and nothing else.
 """
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from planner.plan import Vocabulary
 
 
-class Mood(Enum):
-    """What a clause does: only an order sends the robot anywhere."""
+class ClauseMood(Enum):
+    """Tell what a clause does: only an order sends the robot anywhere."""
 
     ORDER = auto()
     QUESTION = auto()
@@ -142,59 +142,61 @@ _PAST_ZH = re.compile(
 _ASKS_ZH = re.compile(r".*(?:吗|呢|没有?|什么|谁|哪|多少|几|怎|啥|[？?])|.*([^\W\d])[不没]\1")
 
 
-def moods_of(text: str, vocabulary: Vocabulary) -> tuple[tuple[str, Mood], ...]:
+def moods_of(text: str, vocabulary: Vocabulary) -> tuple[tuple[str, ClauseMood], ...]:
     """Return the clauses of a text, each with what it does."""
-    found: list[tuple[str, Mood]] = []
+    found: list[tuple[str, ClauseMood]] = []
     called = False
     for clause in _ENDS.split(plain(text)):
         words = clause.strip(" '\"“”")
         if not words:
             continue
         mood = _mood(words, vocabulary)
-        if mood is Mood.CALL:
+        if mood is ClauseMood.CALL:
             called = True
-        elif called and mood is Mood.ORDER:
-            mood = Mood.STATEMENT
+        elif called and mood is ClauseMood.ORDER:
+            mood = ClauseMood.STATEMENT
         found.append((words, mood))
     return tuple(found)
 
 
-def _mood(clause: str, vocabulary: Vocabulary) -> Mood:
+def _mood(clause: str, vocabulary: Vocabulary) -> ClauseMood:
     rest = _strip(clause, _OPENS)
     if rest and _VERB_FIRST.match(rest):
-        return Mood.ORDER
+        return ClauseMood.ORDER
     chinese = re.search(r"[\u3400-\u9fff]", clause) is not None
     if _is_bare(clause, vocabulary):
-        return Mood.ORDER
+        return ClauseMood.ORDER
     return _mood_zh(clause, vocabulary) if chinese else _mood_en(clause, rest, vocabulary)
 
 
-def _mood_en(clause: str, rest: str, vocabulary: Vocabulary) -> Mood:
+def _mood_en(clause: str, rest: str, vocabulary: Vocabulary) -> ClauseMood:
     if not rest:
-        return Mood.ORDER if _OPENS.match(clause) and "wait" in clause else Mood.STATEMENT
+        return (
+            ClauseMood.ORDER if _OPENS.match(clause) and "wait" in clause else ClauseMood.STATEMENT
+        )
     first = rest.split(" ", maxsplit=1)[0]
     named = bool(places_named(rest, vocabulary))
     if is_given_name(rest) or (rest.count(" ") == 0 and _is_call(rest, named)):
-        return Mood.CALL
+        return ClauseMood.CALL
     if is_given_name(first):
-        return Mood.STATEMENT
+        return ClauseMood.STATEMENT
     if _ASKS_PAST.match(rest) or _PAST_YOU.match(rest):
-        return Mood.STATEMENT
+        return ClauseMood.STATEMENT
     while (led := _named_first(rest, vocabulary)) != rest:
         rest = led
     asked = _TO_YOU.match(rest)
     if asked is not None:
         verb = _strip(rest[asked.end() :].strip(), _OPENS)
         return (
-            Mood.ORDER
+            ClauseMood.ORDER
             if _ORDER_EN.match(verb) or _is_bare(verb, vocabulary)
-            else Mood.QUESTION
+            else ClauseMood.QUESTION
             if _ASKS.match(rest)
-            else Mood.STATEMENT
+            else ClauseMood.STATEMENT
         )
     if _ASKS.match(rest) and not re.match(r"(?:do|have) (?:a|an|the|one|your|it)\b", rest):
-        return Mood.QUESTION
-    return Mood.ORDER if _ORDER_EN.match(rest) else Mood.STATEMENT
+        return ClauseMood.QUESTION
+    return ClauseMood.ORDER if _ORDER_EN.match(rest) else ClauseMood.STATEMENT
 
 
 def _named_first(rest: str, vocabulary: Vocabulary) -> str:
@@ -210,18 +212,22 @@ def _is_call(word: str, named: bool) -> bool:
     return not (named or _NOT_CALLED.match(word) or _ORDER_EN.match(word) or _TO_YOU.match(word))
 
 
-def _mood_zh(clause: str, vocabulary: Vocabulary) -> Mood:
+def _mood_zh(clause: str, vocabulary: Vocabulary) -> ClauseMood:
     if _OTHER_ZH.fullmatch(clause.strip("啊呀哎,， ")):
-        return Mood.CALL
+        return ClauseMood.CALL
     other = _OTHER_ZH.match(clause)
     if other is None and not clause.startswith("我") and _UPON_ZH.search(clause):
-        return Mood.ORDER
+        return ClauseMood.ORDER
     if other is not None:
         if _IF_ZH.search(clause):
-            return Mood.ORDER
-        return Mood.QUESTION if _ASKS_ZH.match(clause) and "去" not in clause else Mood.STATEMENT
+            return ClauseMood.ORDER
+        return (
+            ClauseMood.QUESTION
+            if _ASKS_ZH.match(clause) and "去" not in clause
+            else ClauseMood.STATEMENT
+        )
     if _PAST_ZH.search(clause):
-        return Mood.STATEMENT
+        return ClauseMood.STATEMENT
     rest = _strip(clause, _OPENS)
     asked = _TO_YOU.match(rest)
     rest = rest[asked.end() :] if asked is not None else rest
@@ -237,8 +243,8 @@ def _mood_zh(clause: str, vocabulary: Vocabulary) -> Mood:
             break
         rest = rest[opened.end() :]
     if _ORDER_ZH.match(rest):
-        return Mood.ORDER
-    return Mood.QUESTION if _ASKS_ZH.match(clause) else Mood.STATEMENT
+        return ClauseMood.ORDER
+    return ClauseMood.QUESTION if _ASKS_ZH.match(clause) else ClauseMood.STATEMENT
 
 
 def _strip(text: str, opener: re.Pattern[str]) -> str:
@@ -255,7 +261,7 @@ def orders_anything(texts: Sequence[str], vocabulary: Vocabulary, *, by_question
         vocabulary: whose names are no words of their own.
         by_question: a question counts, too: the step is one by which questions are answered.
     """
-    counts = {Mood.ORDER, Mood.QUESTION} if by_question else {Mood.ORDER}
+    counts = {ClauseMood.ORDER, ClauseMood.QUESTION} if by_question else {ClauseMood.ORDER}
     return any(mood in counts for text in texts for _, mood in moods_of(text, vocabulary))
 
 
@@ -289,7 +295,7 @@ def cut_statements(text: str, vocabulary: Vocabulary) -> str:
             text = text[found.end() :]
             break
     clauses = [each for each in moods_of(text, vocabulary) if not _OWN_WAY.match(each[0])]
-    orders = [words for words, mood in clauses if mood is not Mood.STATEMENT]
+    orders = [words for words, mood in clauses if mood is not ClauseMood.STATEMENT]
     leads = [words for words in orders if not _STILL.match(words)]
     leans = bool(leads) and not any(places_named(words, vocabulary) for words in leads)
     return " | ".join(words for words, _ in clauses) if leans else " | ".join(orders)

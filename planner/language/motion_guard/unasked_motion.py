@@ -13,11 +13,11 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
+from planner.language.motion_guard.kind_words import ROUNDS, unsaid_kind
 from planner.language.motion_guard.mentioned_names import (
     find_places,
     places_named,
     plain,
-    thing_named,
 )
 from planner.language.motion_guard.order_scope import read_scope
 from planner.language.motion_guard.second_reader import (
@@ -30,7 +30,7 @@ from planner.language.motion_guard.second_reader import (
     spare_clauses,
 )
 from planner.language.motion_guard.statements import cut_statements, orders_anything
-from planner.language.motion_guard.step_words import evidence, makes_way, moves, unnamed_part
+from planner.language.motion_guard.step_words import evidence, makes_way, moves
 from planner.language.questions import looks_round
 from planner.language.yes_no import consents
 from planner.plan import (
@@ -38,10 +38,7 @@ from planner.plan import (
     Code,
     Count,
     Look,
-    MoveStraight,
-    Patrol,
     Repeat,
-    StandAt,
     Step,
     StepNode,
     StepPlan,
@@ -62,7 +59,6 @@ _ALL_ROOMS = re.compile(
     r"|\b(?:around|through) the (?:house|home|flat|apartment)\b"
     r"|(?:所有|每个|每间|各个|各|全部)的?(?:房间|屋子|屋)|全屋|整个(?:家|屋|房)|到处|四处|全家"
 )
-_ROUNDS = re.compile(r"\bpatrol|\brounds?\b|\btour\b|巡")
 _HERE = re.compile(
     r"\b(?:here|this room|in this|around|the room)\b|这里|这儿|这个房间|这间|周围|四周|屋里"
 )
@@ -74,30 +70,10 @@ _ROUNDS_SAID = re.compile(
     rf"{_REPEATS.pattern}|\b(?:until|till|while|as long as|every|for [a-z0-9]+ (?:minutes?|hours?"
     r"|seconds?)|rounds?)\b|直到|等到|为止|每|分钟|小时|秒|轮"
 )
-_FOLLOWS = re.compile(
-    r"\bfollow|\b(?:go|goes|come|walk|drive|run|stay|keep) (?:along )?(?:after|behind|with)\b"
-    r"|\b(?:track|trail|chase|tag along)\b|随|尾"
-    r"|跟(?!.{1,8}?(?:说|讲|聊|打.{0,2}招呼|告诉|道|问))"
-)
-_SEES = re.compile(
-    r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe"
-    r"|around|show)\b"
-    r"|[看瞧查找吗呢]|什么|谁|有没有|哪"
-)
-_SEES_ROUND = re.compile(
-    r"\b(?:look\w*|see|seen|watch|check\w*|inspect\w*|around|there|describe)\b|\bany(?:one|body)\b"
-    r"|[看瞧]|环顾|周围|四周|附近|有没有|有什么|有谁"
-)
-_WATCHES = re.compile(rf"{_ROUNDS.pattern}|{_SEES.pattern}")
 _ENDS_THERE = frozenset({"go_to", "patrol", "stand_at"})
 _THERE = re.compile(
     r"\b(?:go|get|drive|move|head|stay|wait|come|back|over|return|walk|in) there\b"
     r"|那里|那儿|那边|过去|进去"
-)
-_NEARS = re.compile(
-    r"\b(?:go|goes|approach|up to|walk|drive|come|near|next to|closer|meet|greet|tell|ask|say|bring"
-    r"|guide|lead|take|deliver|move|head|to|follow|join|visit|reach|welcome|introduce)\b"
-    r"|靠近|走|去|到|过|开|近|面前|跟前|旁|边|给|问|告诉|招呼|跟|找|接|带"
 )
 
 
@@ -321,7 +297,7 @@ class _Judge:
 
     def _rooms_of_group(self, said: str) -> frozenset[str]:
         """Return the rooms that "every room" means, without those that are left out."""
-        rounds = _ROUNDS.search(said) and not places_named(said, self._vocabulary)
+        rounds = ROUNDS.search(said) and not places_named(said, self._vocabulary)
         if not (_ALL_ROOMS.search(said) or rounds):
             return frozenset()
         out = {p for scope in self._scopes for p in places_named(scope.excluded, self._vocabulary)}
@@ -329,32 +305,8 @@ class _Judge:
         return frozenset(rooms) - out
 
     def _why_kind(self, step: Step | ClockTime, said: str) -> str:
-        if isinstance(step, Look):
-            looks = _SEES if step.place is not None else _SEES_ROUND
-            return "" if looks.search(said) else "no word of looking"
-        if isinstance(step, Patrol) and step.look and not _WATCHES.search(said):
-            return "no word of looking on the way"
-        label = getattr(step, "object", None)
-        if label is None or isinstance(step, StandAt):
-            bare = self._without_sides(said) if isinstance(step, MoveStraight) else said
-            return unnamed_part(step, bare)
         things = _GAP.join(scope.things for scope in self._scopes)
-        if not thing_named(label, things):
-            return f"{label!r} is not named"
-        if step.kind == "go_to_object" and not _NEARS.search(things):
-            return "no word of going there"
-        follows = step.kind != "follow" or _FOLLOWS.search(said)
-        return "" if follows else "no word of following"
-
-    def _without_sides(self, said: str) -> str:
-        """Cut the sides of places: "before the sofa", 沙发前 say nothing of the robot's own way."""
-        for place in reversed(find_places(said, self._vocabulary)):
-            after = _SIDE_AFTER.match(said, place.end)
-            before = _SIDE_BEFORE.search(said, 0, place.start)
-            start = before.start() if before is not None else place.start
-            end = after.end() if after is not None else place.end
-            said = f"{said[:start]}{_GAP}{said[end:]}"
-        return said
+        return unsaid_kind(step, said, things, self._vocabulary)
 
     def _why_often(self, step: Step | ClockTime, key: object, said: str) -> str:
         if self._repeats or places_of(step):
@@ -370,10 +322,6 @@ _HOLDS = re.compile(
     r"|放着?)[^,，。;|]{0,6}$"
 )
 _HELD_ZH = re.compile(r"(?:在的|所在的?)那?[个间]?")
-_SIDE_AFTER = re.compile(r"的?(?:正?前[面方]?|后[面方]?|背后)")
-_SIDE_BEFORE = re.compile(
-    r"(?:in front of|before|behind|(?:front|back) of|away from) (?:(?:the|my|our|your) )?$"
-)
 _ORDERS = re.compile(
     r"\b(?:go|goes|drive|come|walk|run|head|move|look|see|check|find|search|count|turn|follow|wait"
     r"|visit|swing|stop by|return|take|bring|tell|ask|patrol|rounds?|back)\b"

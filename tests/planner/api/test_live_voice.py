@@ -173,18 +173,19 @@ def test_sound_that_trickles_holds_no_seat_for_ever(
 
 def test_a_seat_too_many_takes_the_oldest_of_all() -> None:
     async def sit() -> list[int]:
-        seats, over = live_voice.Seats(), []
+        seats, over, both = live_voice.RecordingSeats(), [], asyncio.Event()
 
         async def hold(number: int) -> None:
             try:
-                async with asyncio.timeout(60.0) as limit, seats.taken(f"a{number}", limit):
+                async with asyncio.timeout(60.0) as limit, seats.hold(f"a{number}", limit):
                     await asyncio.Event().wait()
             except TimeoutError:
                 over.append(number)
+                if len(over) == 2:
+                    both.set()
 
         holding = [asyncio.create_task(hold(n)) for n in range(live_voice.MOST_SOCKETS + 2)]
-        while len(over) < 2:
-            await asyncio.sleep(0)
+        await both.wait()
         for task in holding:
             task.cancel()
         await asyncio.gather(*holding, return_exceptions=True)
