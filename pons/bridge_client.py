@@ -16,6 +16,7 @@ from pons.settings import asker
 from wire import (
     Answer,
     FenceRequest,
+    Mode,
     OpKind,
     OpRequest,
     Status,
@@ -39,6 +40,10 @@ PERIOD_S = 0.05
 LIMIT_S = 2.0
 OTHERS_S = 0.3
 """So much longer the right robot is waited for once another was heard."""
+_SELFTEST = (
+    "  the bridge still tests itself; `pons status` shows what it waits for, `pons doctor` why",
+    "  桥仍在自检：`pons status` 显示它在等待什么，`pons doctor` 说明原因",
+)
 
 
 class NoBridge(Exception):
@@ -97,6 +102,16 @@ def ask_direct(settings: LaunchSettings, kind: OpKind) -> Answer:
         key = load_operator_key(settings.home, virtual=status.drive.virtual)
         request = signed_request(key, kind, status, asker(), request_id)
         return _until_answered(settings, lambda: mouth.put(request), ears, request_id, kind)
+
+
+def refusal_lines(kind: OpKind, answer: Answer) -> list[str]:
+    """Return what a person is told of a refusal: code, what came, and why in two languages."""
+    from pons.code_messages import code_lines
+
+    head = f"{kind}: refused, {answer.code}: {answer.detail}"
+    if kind == "arm" and Mode.SELFTEST.value in answer.detail:  # neither armed nor latched
+        return [head, *_SELFTEST]
+    return [head, *code_lines(answer.code)]
 
 
 def resume_request(settings: LaunchSettings) -> OpRequest:

@@ -15,17 +15,12 @@ from pons.terminal_text import goal_line, robot_lines
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
-    from wire import Answer, OpKind
-
-_SELFTEST = (
-    "  the bridge still tests itself; `pons status` shows what it waits for, `pons doctor` why",
-    "  桥仍在自检：`pons status` 显示它在等待什么，`pons doctor` 说明原因",
-)
+    from wire import OpKind
 
 
 def ask(settings: LaunchSettings, kind: OpKind) -> int:
     """Make the request at the bridge itself and print its verdict."""
-    from pons.bridge_client import NoBridge, ask_direct
+    from pons.bridge_client import NoBridge, ask_direct, refusal_lines
     from wire import ConfigError
 
     try:
@@ -38,17 +33,6 @@ def ask(settings: LaunchSettings, kind: OpKind) -> int:
         return 0
     print("\n".join(refusal_lines(kind, answer)), file=sys.stderr)
     return 3
-
-
-def refusal_lines(kind: OpKind, answer: Answer) -> list[str]:
-    """Return what a person is told of a refusal: code, what came, and why in two languages."""
-    from pons.code_messages import code_lines
-    from wire import Mode
-
-    head = f"{kind}: refused, {answer.code}: {answer.detail}"
-    if kind == "arm" and Mode.SELFTEST.value in answer.detail:  # neither armed nor latched
-        return [head, *_SELFTEST]
-    return [head, *code_lines(answer.code)]
 
 
 def status(settings: LaunchSettings, *, as_json: bool) -> int:

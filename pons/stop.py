@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from typing import Literal
 
     from pons.settings import LaunchSettings
-    from wire import Answer
 
     Halt = Literal["stop", "estop", "disarm"]
 
@@ -83,7 +82,7 @@ def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> HaltOutcome:
     out_of_reach = _out_of_reach(robot) if by_http.confirmed else None
     answer = out_of_reach or _straight_to_the_bridge(robot, word)
     if not isinstance(answer, str):
-        return _describe_answer(word, answer)
+        return answer
     by_http.join(HTTP_TIMEOUT_S)
     if by_http.confirmed and (out_of_reach := out_of_reach or _out_of_reach(robot)):
         return HaltOutcome(0, SAID_BY_PLANNER.format(word=word, why=out_of_reach))
@@ -99,17 +98,6 @@ def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> HaltOutcome:
     )
 
 
-def _describe_answer(word: Halt, answer: Answer) -> HaltOutcome:
-    """Return what a person is told of the bridge's own verdict."""
-    if word == "stop":
-        return HaltOutcome(0, CONFIRMED)
-    if answer.accepted:
-        return HaltOutcome(0, f"{word}: accepted {answer.detail}".rstrip())
-    from pons.operator import refusal_lines
-
-    return HaltOutcome(EXIT_REFUSED, "\n".join(refusal_lines(word, answer)))
-
-
 def _out_of_reach(robot: LaunchSettings) -> str | None:
     """Say why the bridge itself can't be asked from here; None where it can."""
     try:
@@ -120,12 +108,18 @@ def _out_of_reach(robot: LaunchSettings) -> str | None:
         return in_a_line(trouble)
 
 
-def _straight_to_the_bridge(robot: LaunchSettings, word: Halt) -> Answer | str:
+def _straight_to_the_bridge(robot: LaunchSettings, word: Halt) -> HaltOutcome | str:
     """Give the order over the wire; return the verdict, or in one line why there is none."""
     try:
-        from pons.bridge_client import ask_direct, stop_direct
+        from pons.bridge_client import ask_direct, refusal_lines, stop_direct
 
-        return stop_direct(robot) if word == "stop" else ask_direct(robot, word)
+        if word == "stop":
+            stop_direct(robot)
+            return HaltOutcome(0, CONFIRMED)
+        answer = ask_direct(robot, word)
+        if answer.accepted:
+            return HaltOutcome(0, f"{word}: accepted {answer.detail}".rstrip())
+        return HaltOutcome(EXIT_REFUSED, "\n".join(refusal_lines(word, answer)))
     except Exception as trouble:  # noqa: BLE001  # nothing may keep the first way from being told
         return in_a_line(trouble)
 

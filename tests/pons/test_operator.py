@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from pons.operator import refusal_lines
+from pons.bridge_client import refusal_lines
 from wire import Answer, OpKind
 
 

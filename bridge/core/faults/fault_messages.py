@@ -80,8 +80,10 @@ WORDS: dict[str, tuple[str, str]] = {
     ),
     "BATTERY": ("The battery is low.", "电池电量低。"),
     "DEAD_MAN": (
-        "Speed limited: this base has not been seen to stop by itself when the computer falls "
-        "silent, or it stops late. Run pons robot try.",
+        (
+            "Speed limited: this base has not been seen to stop by itself when the computer falls "
+            "silent, or it stops late. Run pons robot try."
+        ),
         "尚未验证该底盘在计算机失联时会自行停车，或停得太慢，限速行驶。请执行 pons robot try。",
     ),
     "LOOP_LATE": (

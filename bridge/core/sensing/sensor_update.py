@@ -319,12 +319,8 @@ REACH_M = 2.0
 """Nobody looks further: at the fastest and weakest that robot.toml may say, caps hold before."""
 FREE_M = 0.3
 """So much free way ends a block."""
-
-
 _FRESH_S = 0.15
 """No scan is older where each comes in time and is on its way for half a period."""
-
-
 ROUNDING_M = 1e-3
 
 
