@@ -30,6 +30,10 @@ _THERE_IS = re.compile(
     rf"(?P<a>{_A})?{_NOUN}{_WHERE}"
 )
 _IS_IT = re.compile(rf"(?:is|are) {_A}{_NOUN}(?: still| now)?(?= ){_WHERE}")
+_ANYBODY = re.compile(
+    rf"(?:(?:please|hey|and|so|ok|now)[ ,]+)*(?:[a-z, ]{{0,30}}\b(?:if|whether) )?(?:(?:is|are) )?"
+    rf"(?P<what>(?:any|some)(?:body|one)|any [a-z'-]+(?: [a-z'-]+)?)(?: is| are)?{_WHERE}"
+)
 _NO_NOUN = re.compile(
     r"\b(?:about|and|as|at|but|by|for|from|in|into|it|like|not|of|off|on|or|out|over|than|that|the"
     r"|to|up|what|when|where|which|who|with|without|you|me|him|them|us|he|she|they|else|enough|lots?"
@@ -86,7 +90,7 @@ def read_yes_no(text: str, names: PlaceNames) -> Iterator[ObjectQuestion]:
         vague = _VAGUE.fullmatch(head) is not None or _NO_NOUN.search(what) is not None
         certain = not (named or vague or names.get(what))
         yield ObjectQuestion(what, certain, found["where"] or "")
-    found = _IS_IT.fullmatch(text)
+    found = _IS_IT.fullmatch(text) or _ANYBODY.fullmatch(text)
     if found is not None:
         yield ObjectQuestion(found["what"], where=found["where"] or "")
 

@@ -116,3 +116,16 @@ def test_a_name_is_searched_for_as_anybody(name: str) -> None:
 @pytest.mark.parametrize("thing", ["cup", "lego", "the red box", "杯子", ""])
 def test_a_thing_is_nobody(thing: str) -> None:
     assert anybody_for(thing, CLASSES) is None
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "is the cup empty", "is the fridge door open", "is the sofa on in the kitchen",
+        "is there an empty cup", "has somebody fallen?", "is anybody in the kitchen asleep?",
+        "有人摔倒了吗", "冰箱关着吗", "人在睡觉吗", "餐桌收拾了吗",
+    ],
+)  # fmt: skip
+def test_a_state_is_never_judged_by_presence(question: str) -> None:
+    sought = sought_in(question, HOME, None, CLASSES)
+    assert sought.what is None or not sought.is_presence
