@@ -45,7 +45,7 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 HOME_ROW := tests/e2e/test_home_tour.py tests/e2e/test_external_brain.py tests/e2e/test_bases.py \
   tests/deploy/test_separate_starts.py
 OWN_ROW := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_wheel.py \
-  tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_conformance_verdicts.py
+  tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_conformance_verdicts.py tests/e2e/test_stop_anywhere.py
 PAGE_ROW := tests/web
 ALONE := tests/e2e/test_conformance.py
 STORIES = $(filter-out $(HOME_ROW) $(OWN_ROW) $(ALONE) $(PAGE_ROW)/%,\

@@ -28,7 +28,6 @@ from bridge.realtime import (
     MonotonicClock,
     Pacer,
     Right,
-    Service,
     SlackCollector,
     all_granted,
     lock_memory,
@@ -38,6 +37,7 @@ from bridge.realtime import (
 )
 from bridge.recording.recorder import Recorder
 from bridge.warmup import warm_up
+from processes.service import Service
 from wire import ConfigError, RobotDescription, load_robot
 from wire.keys import Party
 from wire.ros2_config import ROS2

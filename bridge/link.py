@@ -1,8 +1,10 @@
 """Receive the bridge's messages as one inbox a tick and publish its decision. Decides nothing.
 
 Bounded work whatever comes: each key's ring is bounded, at most the 4 newest of a key are parsed,
-and all that came is counted for the flood detector. Stops are the exception: they are searched from
-the newest back until found, for a readable stop behind 63 unreadable ones is a stop.
+and all that came is counted for the flood detector. What makes the robot stand (stop, estop,
+disarm) is the exception: the whole ring is searched from the newest back, so that no flood hides
+it; repeats of what has its verdict are passed by, and what can't be read is obeyed under a name of
+its own.
 """
 
 from __future__ import annotations
@@ -10,7 +12,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeVar
 
 from bridge.core.inbox import ArrivedAt, FenceArrival, Inbox, LoopFacts, OperatorArrival, RejectedAt
-from wire import DecodeFailure, DriveState, OpRequest, Stop, authentic, authentic_fence, decode
+from wire import (
+    UNREADABLE,
+    DecodeFailure,
+    DriveState,
+    OpRequest,
+    Stop,
+    authentic,
+    authentic_fence,
+    decode,
+)
 from wire.base import Record
 from wire.keys import (
     ARM,
@@ -37,7 +48,7 @@ from wire.keys import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from bridge.core.decision import Decision
     from bridge.core.inbox import FenceDone
@@ -46,15 +57,15 @@ if TYPE_CHECKING:
     from wire.session import Session, Subscriber
 
 M = TypeVar("M", bound=Record)
+H = TypeVar("H", Stop, OpRequest)
 
 PARSED = 4
 """At most so many newest messages of a key are worth parsing in one tick."""
 STOPS_KEPT = 4
-"""Different stops that one tick answers; any one of them stops."""
+"""Different stops without a verdict that one tick answers, of each key; any one of them stops."""
 
+_HALTS: tuple[tuple[OpKind, Key[OpRequest]], ...] = (("estop", ESTOP), ("disarm", DISARM))
 _OPS: tuple[tuple[OpKind, Key[OpRequest]], ...] = (
-    ("estop", ESTOP),
-    ("disarm", DISARM),
     ("arm", ARM),
     ("reset", RESET),
     ("resume", RESUME),
@@ -68,6 +79,7 @@ class BridgeLink:
         self._robot_id = robot_id
         self._operator_key = operator_key
         self._stop = session.subscriber(STOP)
+        self._halts = tuple((kind, key, session.subscriber(key)) for kind, key in _HALTS)
         self._ops = tuple((kind, key, session.subscriber(key)) for kind, key in _OPS)
         self._fence = session.subscriber(FENCE)
         self._hello = session.subscriber(HELLO)
@@ -90,19 +102,20 @@ class BridgeLink:
         loop: LoopFacts,
         *,
         real_time: bool,
-        recorder_ok: bool,
         chance: str,
+        is_repeat: Callable[[str, str], bool] = lambda _kind, _id: False,
         imu: Imu | None = None,
         fence_done: FenceDone | None = None,
         recorder_says: str = "",
     ) -> Inbox:
         """Drain one tick's arrivals into an inbox, stops first.
 
-        ``imu`` is what the drive's own gyro said; where it has none, the key's newest counts.
+        ``is_repeat`` tells of a kind and an id whether the core has its verdict. ``imu`` is what
+        the drive's own gyro said; where it has none, the key's newest counts.
         """
         took = _TickDrain()
-        stops = self._stops(took)
-        ops = self._operator(took)
+        stops = took.take_halts(STOP, self._stop, "stop", is_repeat)
+        ops = self._operator(took, is_repeat)
         return Inbox(
             stops=stops,
             ops=ops,
@@ -123,7 +136,7 @@ class BridgeLink:
             arrived=tuple(took.arrived),
             loop=loop,
             real_time=real_time,
-            recorder_ok=recorder_ok,
+            recorder_ok=not recorder_says,
             recorder_says=recorder_says,
             chance=chance,
         )
@@ -137,31 +150,20 @@ class BridgeLink:
         for event in decision.events:
             self._event.put(event)
 
-    def _stops(self, took: _TickDrain) -> tuple[Stop, ...]:
-        payloads = self._stop.drain_bytes()
-        if not payloads:
-            return ()
-        took.arrived.append(ArrivedAt(STOP.path, len(payloads)))
-        found: list[Stop] = []
-        refused: DecodeFailure | None = None
-        for payload in reversed(payloads):
-            item = decode(STOP, payload)
-            if isinstance(item, DecodeFailure):
-                refused = item
-            elif all(item.id != other.id for other in found):
-                found.append(item)
-                if len(found) == STOPS_KEPT:
-                    break
-        if refused is not None:  # one word for all of them: what they say is worth no memory
-            took.rejected.append(RejectedAt(STOP.path, refused))
-        return tuple(reversed(found))
-
-    def _operator(self, took: _TickDrain) -> tuple[OperatorArrival, ...]:
-        return tuple(
+    def _operator(
+        self, took: _TickDrain, is_repeat: Callable[[str, str], bool]
+    ) -> tuple[OperatorArrival, ...]:
+        halts = (
+            OperatorArrival(kind, request, self._authentic(kind, request))
+            for kind, key, subscriber in self._halts
+            for request in took.take_halts(key, subscriber, kind, is_repeat)
+        )
+        others = (
             OperatorArrival(kind, request, self._authentic(kind, request))
             for kind, key, subscriber in self._ops
             for request in took.take_all(key, subscriber)
         )
+        return (*halts, *others)
 
     def _fences(self, took: _TickDrain) -> tuple[FenceArrival, ...]:
         """Take requests for another fence; an unproven one's text goes no further."""
@@ -197,6 +199,35 @@ class _TickDrain:
             return ()
         self.arrived.append(ArrivedAt(key.path, len(payloads)))
         return self._parse(key, payloads[-PARSED:])
+
+    def take_halts(
+        self,
+        key: Key[H],
+        subscriber: Subscriber[H],
+        kind: str,
+        is_repeat: Callable[[str, str], bool],
+    ) -> tuple[H, ...]:
+        """Return what is to make the robot stand, oldest first, then what can't be read."""
+        payloads = subscriber.drain_bytes()
+        if not payloads:
+            return ()
+        self.arrived.append(ArrivedAt(key.path, len(payloads)))
+        found: list[H] = []
+        refused: DecodeFailure | None = None
+        for payload in dict.fromkeys(reversed(payloads)):  # a flood says the same thing often
+            item = decode(key, payload)
+            if isinstance(item, DecodeFailure):
+                refused = item
+            elif not is_repeat(kind, item.id) and all(item.id != other.id for other in found):
+                found.append(item)
+                if len(found) == STOPS_KEPT:
+                    break
+        found.reverse()
+        if refused is not None:  # one word for all of them: what they say is worth no memory
+            self.rejected.append(RejectedAt(key.path, refused))
+            if not is_repeat(kind, UNREADABLE):
+                found.append(key.message(id=UNREADABLE, source=UNREADABLE))
+        return tuple(found)
 
     def take_newest(self, key: Key[M], subscriber: Subscriber[M]) -> M | None:
         """Return a state key's newest message."""

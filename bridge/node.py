@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bridge.core import LoopFacts, initial, step
+from bridge.core.authority.requests import find_verdict
 from bridge.realtime.stats import LoopStats
 
 if TYPE_CHECKING:
@@ -23,8 +24,9 @@ if TYPE_CHECKING:
     from bridge.drive import Drive
     from bridge.fence_update import FenceDesk
     from bridge.link import BridgeLink
-    from bridge.realtime import Pacer, PacerTick, Service, SlackCollector
+    from bridge.realtime import Pacer, PacerTick, SlackCollector
     from bridge.recording.recorder import Recorder
+    from processes.service import Service
 
 log = logging.getLogger("bridge")
 
@@ -92,7 +94,6 @@ class BridgeNode:
     def _inbox(self, tick: PacerTick) -> Inbox:
         """Drain everything that arrived."""
         parts, figures = self._parts, self._stats.summary
-        unrecorded = parts.recorder.trouble
         facts = LoopFacts(
             late_s=tick.late_s,
             missed_ticks=tick.missed,
@@ -107,7 +108,9 @@ class BridgeNode:
             imu=parts.drive.take_imu(),
             fence_done=parts.desk.take(),
             real_time=self._real_time,
-            recorder_ok=not unrecorded,
-            recorder_says=unrecorded,
+            recorder_says=parts.recorder.trouble,
             chance=secrets.token_hex(CHANCE_BYTES),
+            is_repeat=lambda kind, request_id: (
+                find_verdict(self.state.operator, kind, request_id, tick.now_s) is not None
+            ),
         )

@@ -63,7 +63,7 @@ class StopReport:
     cause: str
     """The row in lower case, or the order or gate, as the bridge's event named it."""
     ordered_by: str | None
-    """Who said stop, where somebody did."""
+    """Who gave the order that the cause names; None where it was no order."""
     rows: tuple[tuple[FaultStage, str], ...]
     """What was up at that tick, with its evidence, worst first as the bridge found it."""
     speed_mps: float
@@ -193,7 +193,7 @@ class _Story:
         self._from: BridgeState | None = None
         self._at: BridgeState | None = None
         self._now: BridgeState | None = None
-        self._by: str | None = None
+        self._orders: list[tuple[str, str]] = []
         self._events: list[tuple[float, str, str]] = []
         self._stood_s: float | None = None
         self._last: Pose2 | None = None
@@ -217,7 +217,8 @@ class _Story:
             return
         if tick.tick == self._number:
             self._from, self._at, self._began_s = before, after, tick.now_s
-            self._by = tick.inbox.stops[0].source if tick.inbox.stops else None
+            self._orders = [("stop", stop.source) for stop in tick.inbox.stops]
+            self._orders += [(op.kind, op.request.source) for op in tick.inbox.ops]
         here = after.odometry.base_in_odom
         if self._last is not None and self._stood_s is None:
             self._way_m += hypot(here.x_m - self._last.x_m, here.y_m - self._last.y_m)
@@ -232,6 +233,7 @@ class _Story:
         before, after, now = self._from, self._at, self._now
         if before is None or after is None or now is None:
             raise BadRecording("recording_stateless", f"{box.path}: the stop can't be run again")
+        cause = next(self._causes(), "unknown")
         return StopReport(
             path=box.path,
             at_unix_s=self._at_unix_s,
@@ -240,8 +242,9 @@ class _Story:
             growing=box.growing,
             before=before.mode,
             after=after.mode,
-            cause=next(self._causes(), "unknown"),
-            ordered_by=self._by,
+            cause=cause,
+            ordered_by=", ".join(dict.fromkeys(by for what, by in self._orders if what == cause))
+            or None,
             rows=tuple((STAGES[name], up.evidence) for name, up in after.rows.items()),
             speed_mps=before.odometry.measured.v_mps,
             stood_s=self._stood_s,

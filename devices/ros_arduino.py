@@ -61,6 +61,7 @@ class ArduinoReader:
 
     def __init__(self) -> None:
         self._rest = b""
+        self.spoilt_lines = 0
 
     def reset(self) -> None:
         """Forget the unfinished line: what comes next is of another time."""
@@ -74,6 +75,7 @@ class ArduinoReader:
             found.append(ArduinoOther(rest[:LONGEST]))
             rest = b""
         self._rest = rest
+        self.spoilt_lines += sum(isinstance(line, ArduinoOther) for line in found)
         return found
 
 

@@ -64,7 +64,7 @@ def main(arguments: list[str] | None = None) -> int:
             ws_per_message_deflate=False,  # squeezing small frames costs more than sending them
         )
     )
-    tls.mark(given.home, speaks_tls=secure is not None)
+    tls.mark(given.home, "https" if secure is not None else "http", given.host, given.port)
     signal.signal(signal.SIGTERM, partial(_end, planner))
     server.run()
     if planner.detector.refused is not None:

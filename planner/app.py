@@ -8,10 +8,11 @@ import os
 import signal
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from planner.api import Access, build, warm_up
-from planner.brain import Brain, FallbackBrain, OfflineBrain
+from planner.brain import Brain, FallbackBrain, OfflineBrain, ThinkRequest
 from planner.brain.model_replies import ReplyCollector
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
@@ -31,6 +32,7 @@ from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
 from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
+from processes.service import Service
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -47,7 +49,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-WATCH_S = 0.5
+WATCH_S = FEED_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +103,7 @@ class Planner:
         self.robot = LinkedRobot(link, self.description)
         self.detector = Opening(self.settings.vision, self.description)
         self._opening: asyncio.Task[None] | None = None
+        self._warming: asyncio.Task[None] | None = None
         worker = self.detector.worker
         self.eyes = eyes_of(
             worker, self.settings.vision, link, self._session,
@@ -170,6 +173,9 @@ class Planner:
         await self.eyes.start()
         await self.recorder.start(self.eyes.sight.things)
         await self.orders.keeper.start()
+        if self._model is not None:
+            request = ThinkRequest(text="hello", vocabulary=self.memory.vocabulary)
+            self._warming = asyncio.create_task(self._model.warm_up(request), name="warm up model")
 
     async def close(self) -> None:
         """End all parts; goals that ran come back paused in the next process."""
@@ -177,9 +183,10 @@ class Planner:
         await self.recorder.close()
         await self.eyes.close()
         await self.goals.close()
-        if self._opening is not None:
-            self._opening.cancel()
-            await asyncio.gather(self._opening, return_exceptions=True)
+        for begun in (self._opening, self._warming):
+            if begun is not None:
+                begun.cancel()
+                await asyncio.gather(begun, return_exceptions=True)
         await self.detector.worker.close()
         await self._router.close()
         await self._voice.close()
@@ -225,15 +232,28 @@ def application(planner: Planner, access: Access, authority: bytes = b"") -> Fas
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await planner.start()
         watch = asyncio.create_task(_end_with(planner))
+        service = Service()
+        service.ready()
+        feeding = asyncio.create_task(_feed(service), name="feed the watchdog")
         try:
             yield
         finally:
+            feeding.cancel()
+            service.stopping()
             watch.cancel()
             await planner.close()
+            service.close()
 
     app = build(planner, access, lifespan, authority=authority)
     warm_up(app)
     return app
+
+
+async def _feed(service: Service) -> None:
+    """Tell who supervises this process that its loop turns: one that hangs is started again."""
+    while True:
+        service.feed(monotonic())
+        await asyncio.sleep(FEED_S)
 
 
 async def _end_with(planner: Planner) -> None:

@@ -21,9 +21,9 @@ FAREWELL_S = 2.0
 """A client that does not answer the last record holds one so long; the default is half a minute."""
 CIPHERS = "ECDHE+AESGCM:ECDHE+CHACHA20"
 """For TLS 1.2; TLS 1.3 has its own. All of them keep past talks secret when a key is stolen."""
-MARK = "speaks.tls"
-"""A file in ``run/planner/``: it is there while the planner of this home speaks TLS, so that the
-command line asks it the same way (pons/settings.py)."""
+MARK = "address"
+"""A file in ``run/planner/``: scheme, host and port of this home's planner, so that the command
+line asks it there and the same way (pons/settings.py)."""
 
 
 class ServerLoop(uvloop.Loop):
@@ -85,15 +85,15 @@ def authority(path: Path | None) -> bytes:
     return data
 
 
-def mark(home: Path, *, speaks_tls: bool) -> None:
-    """Tell this machine's command line how the planner speaks, unless the disk is full."""
+def mark(home: Path, scheme: str, host: str, port: int) -> None:
+    """Tell this machine's command line where the planner answers, unless the disk is full."""
     file = home / "run" / "planner" / MARK
     with contextlib.suppress(OSError):
-        if speaks_tls:
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.touch()
-        else:
-            file.unlink(missing_ok=True)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        new = file.with_suffix(".new")
+        new.write_text(f"{scheme} {host} {port}\n", "ascii")
+        new.chmod(0o644)
+        new.replace(file)
 
 
 def _check_readable(path: Path) -> None:

@@ -10,10 +10,15 @@ from dataclasses import replace
 from importlib import import_module
 
 from pons.grammar import CONFORMANCE, EVAL, MAP, MOCK_LLM, NAV2, OPERATOR, ROBOT, SITE, parser
-from pons.settings import BadSetting, LaunchSettings, load, port_of, site_of
+from pons.settings import BadSetting, LaunchSettings, is_robot_named, load, port_of, site_of
 from pons_assets import IS_INSTALLED, needs_checkout
 
 EXIT_USAGE = 2
+_FOLLOW = frozenset({
+    "say", "answer", "confirm", "cancel", "pause", "resume", "places", "orders", "replies", "why",
+    "arm", "reset",
+})  # fmt: skip
+"""Words to a robot that runs: in a folder without one, this user's only one is meant."""
 EXIT_UNREAD = 141
 """As a shell tells of a program that SIGPIPE ended: 128 + 13."""
 
@@ -60,11 +65,15 @@ def _reader_is_gone() -> bool:
 
 def _run_command(words: list[str]) -> int:
     """Run one command; what it refuses is raised."""
-    if words == ["stop"]:  # before argparse: nothing may slow this down
+    if words in (["stop"], ["estop"], ["disarm"]):  # before argparse: nothing may slow this down
         from pons import stop
 
-        return stop.run(load(forgiving=True))
-    settings = load()
+        return stop.run(load(forgiving=True), words[0])  # type: ignore[arg-type]  # one of the three
+    settings = load(starts=words[:1] == ["up"])
+    if words and words[0] in _FOLLOW and not is_robot_named():
+        from pons.running import of_this_user
+
+        settings = of_this_user(settings)
     if words[:1] == [MOCK_LLM]:  # reads its own words; its web server is not for the others
         from pons.mock_llm.command import main as mock_llm
 
@@ -119,7 +128,7 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
         given |= {"twin_firmware": said.twin_firmware}
         given |= {"mapping": said.mapping, "set_up": said.set_up}
         chosen = {name: value for name, value in given.items() if value is not None}
-        chosen["tls"] = said.tls or os.environ.get("PONS_TLS") == "1"  # not what ran here before
+        chosen["tls"] = said.tls or settings.tls
         return up.run(replace(settings, **chosen), planner=not said.no_planner)
     if said.word in _TOOLS:
         return _tool(settings, said)

@@ -12,6 +12,7 @@ import time
 from typing import TYPE_CHECKING
 
 from bridge.operator_key import load_operator_key
+from pons.settings import asker
 from wire import (
     Answer,
     FenceRequest,
@@ -44,15 +45,16 @@ class NoBridge(Exception):
     """No bridge answered, or not the one that was meant."""
 
 
-def stop_direct(settings: LaunchSettings, request_id: str) -> Answer:
+def stop_direct(settings: LaunchSettings) -> Answer:
     """Send ``cmd/stop`` at 20 Hz until the bridge echoes it.
 
     Raises:
         NoBridge: 2 s have passed, or another than the bridge answered; it was said all the same.
     """
+    request_id = _new_id()
     with open_session(Party.OPERATOR, ANY_ROBOT, settings.home) as session:
         mouth, ears = session.publisher(STOP), session.subscriber(STATUS)
-        stop = Stop(id=request_id, source="cli")
+        stop = Stop(id=request_id, source=asker())
         answer = _until_answered(settings, lambda: mouth.put(stop), ears, request_id, "stop")
         _believe(settings)
         return answer
@@ -79,9 +81,9 @@ def ask_direct(settings: LaunchSettings, kind: OpKind) -> Answer:
             robot where a proof is needed.
         ConfigError: robot.toml or the operator's key can't be used, where a proof is needed.
     """
-    request_id = f"cli-{secrets.token_hex(6)}"
+    request_id = _new_id()
     if kind not in NEEDS_PROOF:
-        request = OpRequest(id=request_id, source="cli")
+        request = OpRequest(id=request_id, source=asker())
         with open_session(Party.OPERATOR, ANY_ROBOT, settings.home) as session:
             mouth, ears = _op(session, kind), session.subscriber(STATUS)
             answer = _until_answered(settings, lambda: mouth.put(request), ears, request_id, kind)
@@ -93,7 +95,7 @@ def ask_direct(settings: LaunchSettings, kind: OpKind) -> Answer:
         status = _first_status(settings, ears, robot_id)
         _believe(settings)  # before a proof is made: whoever has it may use it once
         key = load_operator_key(settings.home, virtual=status.drive.virtual)
-        request = signed_request(key, kind, status, "cli", request_id)
+        request = signed_request(key, kind, status, asker(), request_id)
         return _until_answered(settings, lambda: mouth.put(request), ears, request_id, kind)
 
 
@@ -108,7 +110,7 @@ def resume_request(settings: LaunchSettings) -> OpRequest:
         status = _first_status(settings, session.subscriber_to_any_robot(STATUS), robot_id)
         _believe(settings)  # before a proof is made: whoever has it may use it once
         key = load_operator_key(settings.home, virtual=status.drive.virtual)
-        return signed_request(key, "resume", status, "cli", f"cli-{secrets.token_hex(6)}")
+        return signed_request(key, "resume", status, asker(), _new_id())
 
 
 def fence_direct(settings: LaunchSettings, text: str) -> Answer:
@@ -119,7 +121,7 @@ def fence_direct(settings: LaunchSettings, text: str) -> Answer:
         ConfigError: robot.toml or the operator's key can't be used.
     """
     robot_id = load_robot(settings.robot).id
-    request_id = f"cli-{secrets.token_hex(6)}"
+    request_id = _new_id()
     with open_session(Party.OPERATOR, robot_id, settings.home) as session:
         mouth, ears = session.publisher(FENCE), session.subscriber_to_any_robot(STATUS)
         status = _first_status(settings, ears, robot_id)
@@ -128,6 +130,11 @@ def fence_direct(settings: LaunchSettings, text: str) -> Answer:
         proof = sign_fence(key, status.robot, status.nonce, request_id, text)
         request = FenceRequest(id=request_id, source="cli", fence=text, proof=proof)
         return _until_answered(settings, lambda: mouth.put(request), ears, request_id, "fence")
+
+
+def _new_id() -> str:
+    """Return an id that nobody had: process ids come again, and a known id may be taken for old."""
+    return f"cli-{secrets.token_hex(6)}"
 
 
 def _believe(settings: LaunchSettings) -> None:

@@ -64,7 +64,13 @@ def children(
     elif has_lidar or has_ros2:
         wanted = [("localization", [*common, *maps]), *wanted]
     found = [
-        Child(name, [name, *more], logs / f"{name}.log", knows_tokens=name == "planner")
+        Child(
+            name,
+            [name, *more],
+            logs / f"{name}.log",
+            knows_tokens=name == "planner",
+            is_watched=name == "planner",
+        )
         for name, more in wanted
     ]
     if has_lidar:
@@ -88,7 +94,7 @@ def set_up_children(settings: LaunchSettings, issued: IssuedCertificate | None) 
     planner = ["planner", *_planner(settings, common, issued)]
     found = [
         Child("setup", ["pons.robot.setup_node", *common], logs / "setup.log"),
-        Child("planner", planner, logs / "planner.log", knows_tokens=True),
+        Child("planner", planner, logs / "planner.log", knows_tokens=True, is_watched=True),
     ]
     _secure(found, issued)
     return found

@@ -59,7 +59,8 @@ def call(
     connection = _connection(settings, timeout_s)
     try:
         sent = {"Content-Type": "application/json", **(headers or {})} if method != "GET" else {}
-        if token := os.environ.get("PONS_OPERATOR_TOKEN"):
+        ours = settings.owner_uid in (None, os.geteuid())
+        if ours and (token := os.environ.get("PONS_OPERATOR_TOKEN")):
             sent["Authorization"] = f"Bearer {token}"
         text = json.dumps(body or {}).encode() if content is None else content
         payload = text if method != "GET" else None

@@ -1,6 +1,6 @@
-"""Act as the operator from a shell: arm, disarm, estop, reset, and see the robot's status.
+"""Act as the operator from a shell: arm, reset, and see the robot's status.
 
-The requests go straight to the bridge: who wants the torque off must not need a planner.
+The requests go straight to the bridge. What makes the robot stand is said by ``pons.stop``.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
+from pons.settings import is_robot_named
 from pons.terminal_text import goal_line, robot_lines
 
 if TYPE_CHECKING:
@@ -32,9 +33,6 @@ def ask(settings: LaunchSettings, kind: OpKind) -> int:
     except (NoBridge, ConfigError) as trouble:
         print(str(trouble), file=sys.stderr)
         return 6
-    except Exception as trouble:  # noqa: BLE001  # who wants the torque off reads one line, no traceback
-        print(f"{kind}_failed: {type(trouble).__name__}: {trouble}", file=sys.stderr)
-        return 6
     if answer.accepted:
         print(f"{kind}: accepted {answer.detail}".rstrip())
         return 0
@@ -54,7 +52,22 @@ def refusal_lines(kind: OpKind, answer: Answer) -> list[str]:
 
 
 def status(settings: LaunchSettings, *, as_json: bool) -> int:
-    """Show the robot and its goals."""
+    """Show the robot and its goals; of several that run here, where none is named, each."""
+    if is_robot_named():
+        return _status_of(settings, as_json=as_json)
+    from pons.running import describe_robot, is_guess, robots_to_halt
+
+    robots = robots_to_halt(settings)
+    shown = [one for one in robots if not is_guess(one, robots[:-1])] or robots
+    told = 0
+    for robot in shown:
+        if len(shown) > 1 and not as_json:
+            print(f"{describe_robot(robot)}:")
+        told = max(told, _status_of(robot, as_json=as_json))
+    return told
+
+
+def _status_of(settings: LaunchSettings, *, as_json: bool) -> int:
     try:
         robot = call(settings, "GET", "/v1/robot")
         goals = call(settings, "GET", "/v1/goals")["goals"]

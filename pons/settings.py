@@ -15,8 +15,10 @@ CHECKOUT = ROOT
 """Where tests and tools find robot.toml and sites."""
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 8420
-PLANNER_MARK = Path("run") / "planner" / "speaks.tls"
-"""There while this home's planner speaks TLS (planner/tls.py)."""
+PLANNER_MARK = Path("run") / "planner" / "address"
+"""Where this home's planner answers, as it said when it began (planner/tls.py)."""
+NAMES_A_ROBOT = ("PONS_HOME", "PONS_HOST", "PONS_PORT")
+"""Variables by which a person says which robot is meant."""
 _HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
 
 
@@ -48,6 +50,10 @@ class LaunchSettings:
     """Whether the planner is asked, and by ``pons up`` started, over TLS."""
     authority: Path | None = None
     """The certificate to judge the planner's by, in place of ``$PONS_HOME/tls/ca.crt``."""
+    owner_uid: int | None = None
+    """Who runs a robot that was found, not named: its planner is told no token but ours."""
+    robot_id: str = ""
+    """Of a robot that was found."""
 
     @property
     def canvas(self) -> Path | None:
@@ -70,25 +76,30 @@ class BadSetting(Exception):
     """A setting cannot be used; nothing was started."""
 
 
-def load(*, forgiving: bool = False) -> LaunchSettings:
+def load(*, forgiving: bool = False, starts: bool = False) -> LaunchSettings:
     """Read PONS_HOME, _ROBOT, _SITE, _HOST, _PORT, _METAL, _TLS and _CA.
+
+    Where the planner's address is not given, this home's planner has said it.
 
     Args:
         forgiving: take the default in place of a bad port or PONS_TLS, for who only wants to stop.
+        starts: whether a planner is to be started: where the last one answered is nothing to go by.
 
     Raises:
         BadSetting: the port is no port, or PONS_TLS neither 0 nor 1.
     """
     given = os.environ
     home = Path(given.get("PONS_HOME", ".pons")).absolute()
+    said = None if starts else planner_address(home)
+    scheme, host, port = said or ("http", DEFAULT_HOST, DEFAULT_PORT)
     return LaunchSettings(
         home=home,
         robot=Path(given.get("PONS_ROBOT", ROBOT_FILE)).absolute(),
         site=site_of(given.get("PONS_SITE", str(DEFAULT_SITE)), home),
-        host=given.get("PONS_HOST", DEFAULT_HOST),
-        port=_port(given.get("PONS_PORT", str(DEFAULT_PORT)), forgiving=forgiving),
+        host=given.get("PONS_HOST", host),
+        port=_port(given.get("PONS_PORT", str(port)), forgiving=forgiving),
         metal=Path(metal).absolute() if (metal := given.get("PONS_METAL")) else None,
-        tls=_tls(given.get("PONS_TLS", ""), home, forgiving=forgiving),
+        tls=_tls(given.get("PONS_TLS", ""), scheme, forgiving=forgiving),
         authority=Path(ca).absolute() if (ca := given.get("PONS_CA")) else None,
     )
 
@@ -100,12 +111,43 @@ def site_of(given: str, home: Path) -> Path:
     return next(there, folders[0]).absolute()
 
 
-def _tls(text: str, home: Path, *, forgiving: bool) -> bool:
+def planner_address(home: Path) -> tuple[str, str, int] | None:
+    """Return scheme, host and port that a home's planner has said; None where it said none."""
+    try:
+        scheme, host, port = (home / PLANNER_MARK).read_text("ascii").split()
+        return (scheme, host, port_of(port)) if scheme in ("http", "https") else None
+    except (OSError, ValueError, BadSetting):
+        return None
+
+
+def asker() -> str:
+    """Return how the record names who asks from this shell: by the machine's own list of users.
+
+    A directory service is not asked: it may be slow, and somebody wants the robot to stand.
+    """
+    uid = str(os.getuid())
+    name = uid
+    try:
+        with open("/etc/passwd", encoding="utf-8", errors="replace") as users:  # noqa: PTH123
+            known = {one[2]: one[0] for line in users if len(one := line.split(":")) > 2}
+        name = known.get(uid, uid)
+    except OSError:
+        pass  # a machine without one
+    fit = "".join(one for one in name if one.isascii() and (one.isalnum() or one in "_.-"))
+    return f"cli:{fit[:32]}"
+
+
+def is_robot_named() -> bool:
+    """Return whether the environment says which robot is meant."""
+    return any(os.environ.get(name) for name in NAMES_A_ROBOT)
+
+
+def _tls(text: str, scheme: str, *, forgiving: bool) -> bool:
     if text in ("0", "1"):
         return text == "1"
     if text and not forgiving:
         raise BadSetting(f"bad_tls: PONS_TLS is {text!r}; expected 1 for https or 0 for http")
-    return os.path.exists(home / PLANNER_MARK)  # noqa: PTH110  # Path's raises in a closed folder
+    return scheme == "https"
 
 
 def allowed_hosts() -> set[str]:

@@ -1,82 +1,133 @@
-"""Stop the robot from a shell, as fast as a process can start: neither numpy nor pydantic loads.
+"""Make the robot stand from a shell (stop, estop, disarm), as fast as a process can start.
 
-The planner is asked over HTTP. Soon after, or once it has answered, the same stop goes straight to
-the bridge over the wire, which needs no planner, no disk that can be written and no right
-robot.toml. Whatever breaks one way, the other is still waited for. A planner may have been taken
-over: what it says of the bridge is believed only where this user can't ask the bridge itself, and
-then called the planner's word.
+Neither numpy nor pydantic loads. The planner is asked over HTTP. Soon after, or once it has
+answered, the same order goes straight to the bridge over the wire, which needs no planner, no disk
+that can be written and no right robot.toml. Whatever breaks one way, the other is still waited for.
+A planner may have been taken over: what it says of the bridge is believed only where this user
+can't ask the bridge itself, and then called the planner's word. Where nobody says which robot is
+meant, every robot that runs on this machine is told, and each is named.
 """
 
 from __future__ import annotations
 
-import os
 import sys
 import threading
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from pons.http import PlannerDown, PlannerProblem, call
+from pons.settings import asker, is_robot_named
 
 if TYPE_CHECKING:
-    from pons.settings import LaunchSettings
+    from typing import Literal
 
+    from pons.settings import LaunchSettings
+    from wire import Answer
+
+    Halt = Literal["stop", "estop", "disarm"]
+
+HALTS = ("stop", "estop", "disarm")
 HTTP_HEAD_START_S = 0.15
 HTTP_TIMEOUT_S = 2.5
+GUESS_S = 0.5
+"""So long a robot of which nothing was found is waited for, once the others have answered."""
+EXIT_UNCONFIRMED = {"stop": 1, "estop": 6, "disarm": 6}
+EXIT_REFUSED = 3
 CONFIRMED = "stop taken, the robot ramps to a stand / 已收到停止，正在停稳 (bridge confirmed)"
-SENT = "stop sent; asking the bridge itself / 停止已发出，正在向 bridge 核实"
+SENT = "{word} sent; asking the bridge itself / 停止已发出，正在向 bridge 核实"
 SAID_BY_PLANNER = (
-    "the planner says that the bridge took the stop (not asked from here: {why})"
+    "the planner says that the bridge took the {word} (not asked from here: {why})"
     " / 规划器称 bridge 已收到停止（此处无法直接核实）"
 )
 
 
-def run(settings: LaunchSettings) -> int:
-    """Stop; say how; return 0 only when the bridge has confirmed, as far as it can be asked."""
-    by_http = _Attempt(settings)
+@dataclass(frozen=True, slots=True)
+class HaltOutcome:
+    """Hold what became of an order at one robot, and the exit status that says so."""
+
+    status: int
+    text: str
+
+
+def run(settings: LaunchSettings, word: Halt = "stop") -> int:
+    """Give the order; return 0 only when each bridge has confirmed, as far as it can be asked."""
+    from pons.running import describe_robot, is_guess, robots_to_halt
+
+    robots = [settings] if is_robot_named() else robots_to_halt(settings)
+    if len(robots) == 1:
+        outcome = _halt(robots[0], word, tells=True)
+        print(outcome.text, file=sys.stderr if outcome.status else sys.stdout)
+        return outcome.status
+    orders = [_Order(robot, word) for robot in robots]
+    for order in orders:
+        order.start()
+    status = 0
+    for order in orders:
+        guess = is_guess(order.robot, robots[:-1])
+        order.join(GUESS_S if guess else None)
+        if order.outcome.status and guess:
+            continue  # nothing of a robot is here: the others were meant
+        status = max(status, order.outcome.status)
+        told = f"{describe_robot(order.robot)}: {order.outcome.text}"
+        print(told, file=sys.stderr if order.outcome.status else sys.stdout, flush=True)
+    return status
+
+
+def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> HaltOutcome:
+    """Give one robot the order by both ways."""
+    by_http = _Attempt(robot, word)
     by_http.start()
     by_http.join(HTTP_HEAD_START_S)
-    if by_http.confirmed:  # loading the wire takes longer than the stop itself
-        print(SENT, file=sys.stderr, flush=True)
-    out_of_reach = _out_of_reach(settings) if by_http.confirmed else None
-    trouble = out_of_reach or _straight_to_the_bridge(settings)
-    if trouble is None:
-        print(CONFIRMED)
-        return 0
+    if by_http.confirmed and tells:  # loading the wire takes longer than the stop itself
+        print(SENT.format(word=word), file=sys.stderr, flush=True)
+    out_of_reach = _out_of_reach(robot) if by_http.confirmed else None
+    answer = out_of_reach or _straight_to_the_bridge(robot, word)
+    if not isinstance(answer, str):
+        return _describe_answer(word, answer)
     by_http.join(HTTP_TIMEOUT_S)
-    if by_http.confirmed and (out_of_reach := out_of_reach or _out_of_reach(settings)):
-        print(SAID_BY_PLANNER.format(why=out_of_reach))
-        return 0
+    if by_http.confirmed and (out_of_reach := out_of_reach or _out_of_reach(robot)):
+        return HaltOutcome(0, SAID_BY_PLANNER.format(word=word, why=out_of_reach))
     planner = by_http.trouble or "no answer yet"
     if by_http.confirmed:
         planner = "it says that the bridge confirmed, and is not believed"
-    print(
-        "no_bridge: the bridge itself did not confirm the stop. "
+    return HaltOutcome(
+        EXIT_UNCONFIRMED[word],
+        f"no_bridge: the bridge itself did not confirm the {word}. "
         "Without a bridge the drive's own time-out stops the wheels; use the robot's stop button. "
-        f"Planner: {planner}. Bridge: {trouble}\n"
+        f"Planner: {planner}. Bridge: {answer}\n"
         "bridge 没有确认停止。没有 bridge 时，驱动自身的超时会让轮子停下；请按机器人上的停止按钮。",
-        file=sys.stderr,
     )
-    return 1
 
 
-def _out_of_reach(settings: LaunchSettings) -> str | None:
+def _describe_answer(word: Halt, answer: Answer) -> HaltOutcome:
+    """Return what a person is told of the bridge's own verdict."""
+    if word == "stop":
+        return HaltOutcome(0, CONFIRMED)
+    if answer.accepted:
+        return HaltOutcome(0, f"{word}: accepted {answer.detail}".rstrip())
+    from pons.operator import refusal_lines
+
+    return HaltOutcome(EXIT_REFUSED, "\n".join(refusal_lines(word, answer)))
+
+
+def _out_of_reach(robot: LaunchSettings) -> str | None:
     """Say why the bridge itself can't be asked from here; None where it can."""
     try:
         from pons.bridge_client import out_of_reach
 
-        return out_of_reach(settings)
+        return out_of_reach(robot)
     except Exception as trouble:  # noqa: BLE001  # a broken second way is out of reach
         return in_a_line(trouble)
 
 
-def _straight_to_the_bridge(settings: LaunchSettings) -> str | None:
-    """Say the stop over the wire; return in one line why it is not confirmed, None where it is."""
+def _straight_to_the_bridge(robot: LaunchSettings, word: Halt) -> Answer | str:
+    """Give the order over the wire; return the verdict, or in one line why there is none."""
     try:
-        from pons.bridge_client import stop_direct
+        from pons.bridge_client import ask_direct, stop_direct
 
-        stop_direct(settings, f"cli-{os.getpid()}-direct")
+        return stop_direct(robot) if word == "stop" else ask_direct(robot, word)
     except Exception as trouble:  # noqa: BLE001  # nothing may keep the first way from being told
         return in_a_line(trouble)
-    return None
 
 
 def in_a_line(trouble: Exception) -> str:
@@ -85,21 +136,32 @@ def in_a_line(trouble: Exception) -> str:
     return text if ": " in text else f"{type(trouble).__name__}: {text}"
 
 
-class _Attempt(threading.Thread):
-    """Ask the planner, beside the main thread."""
+class _Order(threading.Thread):
+    """Give one robot of several the order, beside the others."""
 
-    def __init__(self, settings: LaunchSettings) -> None:
+    def __init__(self, robot: LaunchSettings, word: Halt) -> None:
         super().__init__(daemon=True)
-        self._settings = settings
+        self.robot, self._word = robot, word
+        self.outcome = HaltOutcome(EXIT_UNCONFIRMED[word], "not told")
+
+    def run(self) -> None:
+        self.outcome = _halt(self.robot, self._word, tells=False)
+
+
+class _Attempt(threading.Thread):
+    """Ask the planner, beside the thread that asks the bridge."""
+
+    def __init__(self, robot: LaunchSettings, word: Halt) -> None:
+        super().__init__(daemon=True)
+        self._robot, self._word = robot, word
         self.confirmed = False
         self.trouble = ""
 
     def run(self) -> None:
+        path, body = f"/v1/{self._word}", {"source": asker()}
         try:
-            answer = call(
-                self._settings, "POST", "/v1/stop", {"source": "cli"}, timeout_s=HTTP_TIMEOUT_S
-            )
-            self.confirmed = bool(answer.get("confirmed"))
+            answer = call(self._robot, "POST", path, body, timeout_s=HTTP_TIMEOUT_S)
+            self.confirmed = bool(answer.get("confirmed") or answer.get("accepted"))
             self.trouble = "" if self.confirmed else "the bridge did not confirm"
         except (PlannerDown, PlannerProblem) as trouble:
             self.trouble = str(trouble)

@@ -8,9 +8,11 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
+import socket
 import subprocess
 from collections import deque
 from dataclasses import dataclass, field
+from math import inf
 from pathlib import Path
 from typing import IO
 
@@ -27,6 +29,9 @@ TOKENS = ("PONS_OPERATOR_TOKEN", "PONS_VIEWER_TOKEN")
 """The planner's alone among the children."""
 BEHIND = {"sim.camera": 5}
 """Modules whose sessions stand so many steps of nice behind others: a late picture is only late."""
+HANG_S = 5.0
+"""As WatchdogSec of the planner's unit: its loop feeds ten times as often, and a hung one can't
+hear a stop. Until the first word of a start nothing is counted: a start may be slow."""
 STEADY_S = 30.0
 """A child that lived so long starts with the shortest pause again."""
 REFUSED_TO_START = ConfigError.exit_status
@@ -45,6 +50,8 @@ class Child:
     """It inherits what opens the planner's door."""
     waits_for_ready: bool = False
     """Nothing needs it to be ready, and its start would make the others' slower."""
+    is_watched: bool = False
+    """Its loop says that it turns; when it has and falls silent, it is killed."""
     process: subprocess.Popen[bytes] | None = None
     starts: int = 0
     started_s: float = 0.0
@@ -53,6 +60,8 @@ class Child:
         default_factory=lambda: Backoff(FIRST_PAUSE_S, LONGEST_PAUSE_S, STEADY_S)
     )
     log_began: int = 0
+    _ears: socket.socket | None = None
+    _fed_s: float = inf
 
     def start(self, now_s: float) -> None:
         """Start it in a process group of its own, bound to this process, logging to its file."""
@@ -61,6 +70,8 @@ class Child:
             for name, value in os.environ.items()
             if self.knows_tokens or name not in TOKENS
         }
+        if self.is_watched:
+            inherited["NOTIFY_SOCKET"] = self._listen()
         behind = BEHIND.get(self.arguments[0], 0)
         command = child_command(*self.arguments, session_nice=behind)
         with self._opened_log() as log:
@@ -75,6 +86,33 @@ class Child:
             )
         self.starts += 1
         self.started_s = now_s
+
+    def _listen(self) -> str:
+        """Return where this start says that its loop turns, as systemd's services do."""
+        self._ears = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM | socket.SOCK_CLOEXEC)
+        self._ears.setblocking(False)
+        self._ears.bind("")  # the kernel's choice, in the abstract namespace: no file to remove
+        self._fed_s = inf
+        name: bytes = self._ears.getsockname()
+        return "@" + name[1:].decode()
+
+    def _stop_listening(self) -> None:
+        if self._ears is not None:
+            self._ears.close()
+            self._ears = None
+
+    def kill_if_hung(self, now_s: float) -> bool:
+        """Kill it where its loop has been silent too long; return whether it was."""
+        if self._ears is None or self.process is None:
+            return False
+        with contextlib.suppress(BlockingIOError):
+            while word := self._ears.recv(100):
+                self._fed_s = inf if word == b"STOPPING=1" else now_s
+        if now_s - self._fed_s <= HANG_S:
+            return False
+        self.signal(signal.SIGKILL)
+        self._fed_s = inf
+        return True
 
     def bound_log(self, most_bytes: int = MAX_LOG_BYTES) -> None:
         """Keep the log's end in older files once it is too long, and cut it.
@@ -116,6 +154,7 @@ class Child:
         if status is None:
             return None
         self.process = None
+        self._stop_listening()
         self.next_start_s = now_s + self.backoff.pause_after(now_s - self.started_s)
         return status
 
@@ -143,6 +182,7 @@ class Child:
             self.process.wait()
         self.signal(signal.SIGKILL)
         self.process = None
+        self._stop_listening()
 
     def last_words(self, lines: int = 8) -> str:
         """Return the end of its log since its start; earlier runs logged other things."""

@@ -25,6 +25,7 @@ from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_
 from pons.launch_words import chinese_line, drives_to_try
 from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
+from pons.running import RunningNote
 from pons.supervisor import REFUSED_TO_START
 from pons_assets import ROOT
 from wire import EXIT_SET_UP, ConfigError, RobotDescription
@@ -62,6 +63,7 @@ class Supervisor:
         self,
         settings: LaunchSettings,
         robot: RobotDescription,
+        note: RunningNote,
         *,
         planner: bool,
         issued: IssuedCertificate | None = None,
@@ -76,7 +78,7 @@ class Supervisor:
         self._set_up = set_up
         self._trust = issued.trust_lines() if issued else ()
         self._settings = settings
-        self._robot = robot
+        self._robot, self._note = robot, note
         self._planner = planner
         self._ending = threading.Event()
         self._children = (
@@ -111,6 +113,8 @@ class Supervisor:
 
     def _tend(self, now_s: float) -> None:
         for child in self._children:
+            if child.kill_if_hung(now_s):
+                say(f"{child.name} hangs: killed. Its log: {child.log}")
             status = child.died(now_s)
             if status == REFUSED_TO_START:
                 raise ChildRefusal(f"{child.name} refused to start:\n{child.last_words()}")
@@ -130,6 +134,7 @@ class Supervisor:
             self._look_after_files()
 
     def _look_after_files(self) -> None:
+        self._note.keep()
         for child in self._children:
             child.bound_log()
             if child.process is not None:
@@ -262,7 +267,8 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
                 settings, words = keep_domain(settings, robot)
                 say(words)
             issued = _certify(settings) if planner and settings.tls else None
-            return _supervise(settings, robot, planner=planner, issued=issued)
+            with RunningNote(settings, robot.id) as note:
+                return _supervise(settings, robot, note, planner=planner, issued=issued)
     except (CannotStart, HomeTaken, HomeUnwritable, ConfigError) as why:
         told = f"pons up: {why}"
         if isinstance(why, ChildRefusal):
@@ -282,6 +288,7 @@ def _certify(settings: LaunchSettings) -> IssuedCertificate:
 def _supervise(
     settings: LaunchSettings,
     robot: RobotDescription,
+    note: RunningNote,
     *,
     planner: bool,
     issued: IssuedCertificate | None,
@@ -291,7 +298,13 @@ def _supervise(
     changed = False
     while True:
         supervisor = Supervisor(
-            settings, robot, planner=planner, issued=issued, set_up=set_up, came_from_setup=changed
+            settings,
+            robot,
+            note,
+            planner=planner,
+            issued=issued,
+            set_up=set_up,
+            came_from_setup=changed,
         )
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, _handler(supervisor))

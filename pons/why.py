@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from bridge.core.faults.code_messages import GATES
 from bridge.stop_report import BadRecording, last_stop
 from pons.code_messages import sentence
-from wire import Mode
+from wire import RELAYED, UNREADABLE, Mode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -73,7 +73,7 @@ def _lines(stop: StopReport) -> Iterator[tuple[str, str]]:
     yield "stop", f"{stop.before.value} -> {stop.after.value}, by {stop.cause}"
     yield from _words("why", stop.cause)
     if stop.ordered_by is not None:
-        yield "who", stop.ordered_by
+        yield from _both_languages("who", _name_sources(stop.ordered_by))
     for stage, evidence in stop.rows:
         yield "evidence", f"{stage.name} ({stage.action.value}): {evidence}"
     yield "motion", _motion(stop)
@@ -89,6 +89,23 @@ def _lines(stop: StopReport) -> Iterator[tuple[str, str]]:
     yield "record", str(stop.path)
     if not stop.whole:
         yield from _both_languages("", _GROWING if stop.growing else _CUT)
+
+
+def _name_sources(sources: str) -> tuple[str, str]:
+    """Name those who gave the order. What came by the planner is its word, and called so."""
+    english, chinese = [], []
+    for source in sources.split(", "):
+        name = source.removeprefix(RELAYED)
+        if source == UNREADABLE:
+            english.append("somebody whose message can't be read")
+            chinese.append("无法读取其消息的一方")
+        elif name != source:
+            english.append(f"{name}, as the planner says, which passed it on")
+            chinese.append(f"{name}（由规划器转达）")
+        else:
+            english.append(name)
+            chinese.append(name)
+    return "; ".join(english), "；".join(chinese)
 
 
 def _words(name: str, code: str) -> Iterator[tuple[str, str]]:

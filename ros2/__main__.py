@@ -26,6 +26,7 @@ from ros2.nav2_goals import Nav2Goals
 from ros2.node import Ros2Node
 from wire import ConfigError, load_robot
 from wire.keys import Party
+from wire.plain_file import read_plain_file
 from wire.session import open_session
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("ros2")
 
+KEY_FILE, MIN_KEY_BYTES, MAX_KEY_BYTES = "relay.key", 16, 4096
 PRIORITY = 40
 """Of SCHED_FIFO; below the bridge, beside what else stands for wheels."""
 
@@ -64,11 +66,32 @@ def _serve(options: argparse.Namespace) -> None:
     with open_session(Party.ROS2, robot.id, home) as session:
         boot_id = f"ros2-{secrets.token_hex(4)}"
         nav2 = Nav2Goals(ros2, ros2.nav2, boot_id) if ros2.nav2 is not None else None
-        node = Ros2Node(BaseLink(robot, boot_id), ros2, session, nav2)
+        link = BaseLink(robot, boot_id, relay_key(home))
+        node = Ros2Node(link, ros2, session, nav2)
         gc.collect()
         gc.freeze()
         log.info("dialling %s", ros2.peer)
         asyncio.run(node.run(stopped.is_set))
+
+
+def relay_key(home: Path) -> bytes:
+    """Return the key that the relay's commands are signed with; empty where there is none.
+
+    Raises:
+        ConfigError: it is short, or others may read it.
+    """
+    path = home / KEY_FILE
+    try:
+        key = read_plain_file(path, MAX_KEY_BYTES).strip()
+        shared = path.stat().st_mode & 0o077
+    except FileNotFoundError:
+        return b""
+    except OSError as error:
+        raise ConfigError("relay_key_unreadable", f"{path}: {error.strerror}") from None
+    if shared or not len(key) >= MIN_KEY_BYTES:
+        text = f"{path} must be of mode 0600 and hold {MIN_KEY_BYTES} bytes or more"
+        raise ConfigError("relay_key_unfit", text)
+    return key
 
 
 def at_port(ros2: Ros2Config, port: int) -> Ros2Config:

@@ -62,11 +62,13 @@ WORDS_S = 5.0
 class BaseLink:
     """Hold all that is known of one ROS 2 base."""
 
-    def __init__(self, robot: RobotDescription, boot_id: str) -> None:
+    def __init__(self, robot: RobotDescription, boot_id: str, relay_key: bytes = b"") -> None:
+        """Begin without a connection; ``relay_key`` signs the relay's commands."""
         if robot.ros2 is None:
             raise ValueError("ros2: robot.toml is refused without it")
         self._ros2: Ros2Config = robot.ros2
         self._ttl_s = robot.drive.timeout_s
+        self._relay_key = relay_key
         self._wheels = VirtualWheels(
             robot.base, robot.limits.max_speed_mps, robot.limits.max_turn_radps
         )
@@ -77,7 +79,7 @@ class BaseLink:
         )
         self._subscribed_s: float | None = None
         self._asked_s = -inf
-        self._relay = RelayWatch(self._ros2.cmd_vel, self._ros2.state)
+        self._relay = RelayWatch(self._ros2.cmd_vel, self._ros2.state, has_key=bool(relay_key))
         self._last_resort = LastResort(self._ros2.cmd_vel)
         self._odom_stamp_s = -inf
         self._words: tuple[float, str] | None = None
@@ -144,7 +146,8 @@ class BaseLink:
             return None
         v_mps, w_radps = self._wheels.twist(command.left_radps, command.right_radps)
         words = RelayCommand(command, relay.relay, relay.t, self._ttl_s, v_mps, w_radps)
-        return Publish(self._ros2.command, encode_command(words))
+        key = self._relay_key if relay.keyed else b""
+        return Publish(self._ros2.command, encode_command(words, key))
 
     def judge(self, now_s: float) -> Ros2Trouble | None:
         """Return what is wrong now; None where nothing is."""

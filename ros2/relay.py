@@ -7,6 +7,8 @@ older than ``ttl`` moves nothing, however it was delayed on its way.
 
 from __future__ import annotations
 
+import hashlib
+import hmac
 import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -45,6 +47,8 @@ class RelayState(Record):
     """The type that it publishes; empty while nobody listens there."""
     others: Count
     """Who else publishes there: any at all is one too many."""
+    keyed: bool = False
+    """It obeys only commands signed with the key that it shares with Pons."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +63,11 @@ class RelayCommand:
     w_radps: float
 
 
-def encode_command(command: RelayCommand) -> Message:
-    """Return the message of a command."""
+def encode_command(command: RelayCommand, key: bytes = b"") -> Message:
+    """Return the message of a command; with a key, its HMAC-SHA-256 follows after a blank.
+
+    The words bind the relay's run, its clock and a number, so that none counts a second time.
+    """
     on = command.command.enable
     words = {
         "boot": command.command.boot,
@@ -72,7 +79,10 @@ def encode_command(command: RelayCommand) -> Message:
         "v": command.v_mps if on else 0.0,
         "w": command.w_radps if on else 0.0,
     }
-    return {"data": json.dumps(words, separators=(",", ":"), allow_nan=False)}
+    text = json.dumps(words, separators=(",", ":"), allow_nan=False)
+    if key:
+        text += " " + hmac.new(key, text.encode(), hashlib.sha256).hexdigest()
+    return {"data": text}
 
 
 def decode_state(message: Message) -> RelayState:

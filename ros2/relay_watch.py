@@ -24,8 +24,8 @@ BOTH_S = 2.0
 class RelayWatch:
     """Hold the newest state of the one relay that may be driven by."""
 
-    def __init__(self, cmd_vel: str, topic: str) -> None:
-        self._cmd_vel, self._topic = cmd_vel, topic
+    def __init__(self, cmd_vel: str, topic: str, *, has_key: bool) -> None:
+        self._cmd_vel, self._topic, self._has_key = cmd_vel, topic, has_key
         self.clock = RosClock()
         self.state: RelayState | None = None
         self._heard_s = self._other_s = self._both_s = -inf
@@ -68,6 +68,10 @@ class RelayWatch:
         if now_s - self._both_s <= BOTH_S:
             found = f"{relay.relay} and {self._other} speak by turns on {self._topic}"
             return Ros2Trouble("ros2_two_robots", found)
+        if relay.keyed and not self._has_key:
+            return Ros2Trouble(
+                "ros2_relay_key", "the relay obeys only commands signed with its key"
+            )
         if relay.others > 0:
             found = f"{relay.others} more publish on {self._cmd_vel}"
             return Ros2Trouble("ros2_cmd_vel_shared", found)

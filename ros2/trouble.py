@@ -53,6 +53,10 @@ CODES: dict[str, tuple[str, str]] = {
         f"it was there; look at its terminal, and start `{_RELAY}` anew",
         f"中继节点曾经在线；请查看它的终端并重新运行 `{_RELAY}`",
     ),
+    "ros2_relay_key": (
+        "put the relay's key file at $PONS_HOME/relay.key (mode 0600), or start the relay without",
+        "请将中继节点的密钥文件放到 $PONS_HOME/relay.key（权限 0600），或不带密钥启动中继节点",
+    ),
     "ros2_relay_disagrees": (
         "relay and Pons must see one graph: the same ROS_DOMAIN_ID, and one type on ros2.cmd_vel",
         "中继节点与 Pons 必须看到同一个图：相同的 ROS_DOMAIN_ID，且 ros2.cmd_vel 只有一种类型",

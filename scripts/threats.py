@@ -60,8 +60,15 @@ ASKERS = (
     ThreatAsker("the bridge's and the drive's users, and root",
           "everything", "be guarded against by this software"),
     ThreatAsker("a user of the machine in none of the groups",
-          "ask at the planner's HTTP port: without tokens that is all that an operator's token may",
-          "connect to any door of the robot"),
+          "ask at the planner's HTTP port: without tokens that is all that an operator's token may; "
+          "stop every robot that runs there; leave a note of a robot that is none, which is named "
+          "with its user's number",
+          "connect to any door of the robot; hide another's robot from `pons stop`; be sent a token"),
+    ThreatAsker("whoever reaches the transport of a ROS 2 base (rosbridge, DDS, zenoh)",
+          "hear lidar, odometry and the relay; say what the base itself may be told past the relay, "
+          "where its cmd_vel is open to all; without a key for the relay also command it, until the "
+          "bridge sees that (`DRIVE_FOREIGN`)",
+          "command a relay that has a key ([ros2.md](ros2.md)); reach a loopback from elsewhere"),
 )  # fmt: skip
 
 _CONNECTIONS = "planner/api/test_connections.py"
@@ -171,8 +178,19 @@ THREATS = (
            (f"{_FALSE}::test_no_small_steps_move_the_pose_of_a_standing_robot_far",
             f"{_FALSE}::test_a_pose_that_drifts_on_and_on_disarms")),
     Threat("Somebody else commands the drive",
-           "An echo of what was never sent stops the robot until a reset (`DRIVE_FOREIGN`)",
-           (f"{_FALSE}::test_an_echo_of_what_was_never_sent_stops_and_needs_a_reset",)),
+           "An echo of what was never sent, or of another's command, stops the robot until a reset (`DRIVE_FOREIGN`); a ROS 2 relay with a key takes no stranger's command",
+           (f"{_FALSE}::test_an_echo_of_what_was_never_sent_stops_and_needs_a_reset",
+            f"{_FALSE}::test_an_echo_of_another_commander_stops_at_once",
+            "examples/ros2_relay/test_relay.py::test_with_a_key_only_what_is_signed_with_it_moves_the_base")),
+    Threat("A stop that is taken for an old one, or lost among garbage and known ids",
+           "An id is a repeat for 5 s and never across a resume, reset or arm; what can't be read on a stop's key stops; the whole ring is read",
+           ("bridge/core/modes/test_operator.py::test_a_known_id_stops_again_once_the_robot_was_let_go",
+            "bridge/test_link.py::test_a_stop_behind_many_that_have_their_verdict_is_seen",
+            "bridge/test_link.py::test_one_readable_stop_among_unreadable_ones_is_seen")),
+    Threat("A note that hides or forges a running robot",
+           "A note counts where folder, file and name are of one user and its writer lives; no token goes to another user's planner",
+           ("pons/test_running.py::test_a_note_in_anothers_name_is_not_believed",
+            "pons/test_running.py::test_a_note_that_is_none_hides_no_other")),
     Threat("One message with a number far ahead shuts the true sensor out",
            "Far numbers are not believed while the sender speaks, and any number counts after silence",
            (f"{_FALSE}::test_one_number_far_ahead_shuts_no_lidar_out",)),

@@ -56,6 +56,10 @@ class Hardware:
     """How much further forward the lidar sits than robot.toml says."""
     lidar_yaw_error_rad: Annotated[float, Field(ge=-0.5, le=0.5)] = 0.0
     """How far the lidar is turned to the left of what robot.toml says."""
+    lidar_sector_rad: Annotated[float, Field(ge=0.0, le=6.3)] = 1.5708
+    """Width of the sector that the fault ``lidar_sector`` hides."""
+    lidar_sector_at_rad: Annotated[float, Field(ge=-3.2, le=3.2)] = 0.0
+    """Its middle, in ``base``."""
     __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(
         extra="forbid", allow_inf_nan=False, strict=True
     )

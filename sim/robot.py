@@ -283,11 +283,17 @@ class SimRobot:
         """
         angles = directions_rad + self._lidar_in_map().yaw_rad
         directions = np.stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)), axis=1)
-        ranges_m = self._lidar.measure(self._cast(directions))
-        if SimFault.LIDAR_BLIND in self.faults:
-            return (None,) * len(ranges_m)
+        ranges_m = self._hide_beams(self._lidar.measure(self._cast(directions)), directions_rad)
         if SimFault.LIDAR_GARBAGE in self.faults:
             return self._garbage.beams(len(ranges_m), self.robot.lidar.range_max_m)
+        return ranges_m
+
+    def _hide_beams(self, ranges_m: Ranges, directions_rad: NDArray[np.floating]) -> Ranges:
+        """Return what a cover over all of the lidar, or over a sector, leaves of a scan."""
+        if SimFault.LIDAR_BLIND in self.faults:
+            return (None,) * len(ranges_m)
+        if SimFault.LIDAR_SECTOR in self.faults:
+            return self._lidar.without_sector(ranges_m, directions_rad)
         return ranges_m
 
     def _scan_due(self, now_s: float) -> Scan | None:
@@ -324,9 +330,7 @@ class SimRobot:
         )
 
     def _scan(self, now_s: float) -> Scan:
-        ranges_m = self._lidar.measure(self._true_m)
-        if SimFault.LIDAR_BLIND in self.faults:
-            ranges_m = (None,) * len(ranges_m)
+        ranges_m = self._hide_beams(self._lidar.measure(self._true_m), self._lidar.angles_rad)
         ticks = self._lidar.sweep_ticks(PERIODS.tick_s)
         # Beams are cast at the end of their tick; on average half a tick after they were due.
         swept_s = (ticks - 0.5) * PERIODS.tick_s if ticks > 1 else 0.0

@@ -103,13 +103,13 @@ class LidarModel:
         self.config = config
         self.angle_increment_rad = 2 * pi / hardware.lidar_beams
         self.angle_min_rad = -pi
-        self._angles = self.angle_min_rad + self.angle_increment_rad * np.arange(
+        self.angles_rad = self.angle_min_rad + self.angle_increment_rad * np.arange(
             hardware.lidar_beams
         )
 
     def directions(self, lidar_in_map: Pose2) -> NDArray[np.float64]:
         """Return each beam's unit vector in ``map``, shape (beams, 3)."""
-        angles = self._angles + lidar_in_map.yaw_rad
+        angles = self.angles_rad + lidar_in_map.yaw_rad
         return np.stack((np.cos(angles), np.sin(angles), np.zeros_like(angles)), axis=1)
 
     def beams_due(self, ticks_left: int, tick_s: float) -> slice:
@@ -133,6 +133,13 @@ class LidarModel:
         for beam in np.flatnonzero(lost).tolist():  # few are lost in a home
             millimetres[beam] = None
         return tuple(millimetres)
+
+    def without_sector(self, ranges_m: Ranges, directions_rad: NDArray[np.floating]) -> Ranges:
+        """Return a scan without the hardware's hidden sector; directions in the lidar's frame."""
+        middle_rad = self._hardware.lidar_sector_at_rad - self.config.yaw_rad
+        off_rad = np.abs((directions_rad - middle_rad + pi) % (2 * pi) - pi)
+        hidden = off_rad <= self._hardware.lidar_sector_rad / 2
+        return tuple(None if gone else r for r, gone in zip(ranges_m, hidden, strict=True))
 
 
 class Garbage:

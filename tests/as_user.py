@@ -14,6 +14,7 @@ from contextlib import suppress
 LOADED = (
     "pons.bridge_client",
     "pons.operator",
+    "pons.running",
     "pons.stop",
     "pons.up",
     "http.client",

@@ -76,6 +76,7 @@ def owner_settings_left_outside() -> Iterator[None]:
         for name in [n for n in os.environ if n.startswith(("PONS_", "OPENAI_", "ANTHROPIC_"))]:
             patch.delenv(name)
         patch.setenv("PONS_HOME", home)
+        patch.setenv("PONS_RUNNING", home)  # no test's robot is found by a person, nor theirs here
         yield
 
 

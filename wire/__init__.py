@@ -9,6 +9,8 @@ from wire.bounded_types import MAX_POINTS, PROTOCOL, STATUS_RING
 from wire.camera_config import CameraConfig
 from wire.codec import Image, decode, encode
 from wire.commands import (
+    RELAYED,
+    UNREADABLE,
     EstopLink,
     FenceRequest,
     Grant,
@@ -23,6 +25,7 @@ from wire.commands import (
     VelocitySequence,
     Waypoint,
     Waypoints,
+    mark_relayed,
 )
 from wire.errors import ConfigError, DecodeFailure, Unwritable
 from wire.fence import FenceFile
@@ -104,9 +107,11 @@ __all__ = [
     "MAX_POINTS",
     "NEEDS_PROOF",
     "PROTOCOL",
+    "RELAYED",
     "SEVERITY",
     "STATUS_RING",
     "STILL",
+    "UNREADABLE",
     "VIRTUAL_KEY",
     "Action",
     "Answer",
@@ -189,6 +194,7 @@ __all__ = [
     "inverse",
     "load_robot",
     "map_id",
+    "mark_relayed",
     "sign",
     "sign_fence",
     "signed_request",

@@ -75,8 +75,22 @@ class Heartbeat(Record):
     used: Count
 
 
+UNREADABLE = "unreadable"
+"""Id and source of a stop that can't be read: a newer shell's, or a button's with a field more."""
+RELAYED = "planner:"
+"""Before the source of a request that the planner passes on: who asked is then its word alone."""
+
+
+def mark_relayed(source: str) -> str:
+    """Return the source of a request that the planner passes on."""
+    return f"{RELAYED}{source}"[:64]
+
+
 class Stop(Record):
-    """Stop now and hold. Anyone may say it and it is never refused."""
+    """Stop now and hold. Anyone may say it and it is never refused, even where it can't be read.
+
+    An id is a repeat for 5 s, and not across a resume or an arm: later it stops as a new one.
+    """
 
     id: Name
     source: Name

@@ -27,6 +27,9 @@ class SimFault(StrEnum):
     LIDAR_OFF = "lidar_off"
     LIDAR_STUCK = "lidar_stuck"  # one picture again and again, freshly stamped and numbered
     LIDAR_BLIND = "lidar_blind"  # no beam comes back: a cover, fog, a black room
+    LIDAR_SECTOR = (
+        "lidar_sector"  # no beam of one sector comes back: tape, dirt, a lidar bent aside
+    )
     LIDAR_GARBAGE = "lidar_garbage"  # any range
     LIDAR_DELAYED = "lidar_delayed"
     LIDAR_INTERMITTENT = "lidar_intermittent"

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 MAX_SOCKET_PATH = 107
 """sun_path holds 108 bytes with its closing zero (unix(7))."""
 PRIVATE = 0o700
+_WRITABLE_BY_OTHERS = 0o022
 PROBE_S = 0.3
 
 
@@ -134,7 +135,8 @@ def misplaced_listener(home: Path, door: Door) -> str | None:
     """Return why a door's listener is not to be believed; None where it owns the folder.
 
     Believed are root, ourselves, and the owner of the door's folder where nobody else could have
-    put that folder there. Elsewhere than on Linux the kernel does not tell, and nothing is checked.
+    put that folder there: in a run/ that others may write, sticky or not, anybody may be the first.
+    Elsewhere than on Linux the kernel does not tell, and nothing is checked.
     """
     path = Endpoints(home).socket(door)
     if not hasattr(socket, "SO_PEERCRED"):
@@ -202,7 +204,7 @@ def _dial(path: Path) -> socket.socket:
 def _owners(folder: Path) -> tuple[int, ...]:
     """Return the owner of a door's folder, unless another may have made or replaced it."""
     run = folder.parent.stat()
-    if run.st_uid not in (0, os.geteuid()) or _open_to_others(run.st_mode):
+    if run.st_uid not in (0, os.geteuid()) or run.st_mode & _WRITABLE_BY_OTHERS:
         return ()
     return (folder.stat().st_uid,)
 
@@ -223,7 +225,7 @@ def _own(folder: Path) -> None:
         found = folder.stat()
         ours = found.st_uid == os.geteuid()
         if ours and _open_to_others(found.st_mode):
-            folder.chmod(stat.S_IMODE(found.st_mode) & ~0o022)
+            folder.chmod(stat.S_IMODE(found.st_mode) & ~_WRITABLE_BY_OTHERS)
     except OSError as error:
         raise Unwritable("home_unwritable", f"{folder}: {error.strerror}") from None
     if not ours and (found.st_uid != 0 or _open_to_others(found.st_mode)):
@@ -236,4 +238,5 @@ def _own(folder: Path) -> None:
 
 
 def _open_to_others(mode: int) -> bool:
-    return bool(mode & 0o022 and not mode & stat.S_ISVTX)
+    """Return whether others could replace what lies there."""
+    return bool(mode & _WRITABLE_BY_OTHERS and not mode & stat.S_ISVTX)

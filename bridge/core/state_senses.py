@@ -21,10 +21,36 @@ class DriveMemory:
     """By how much its echo names a command that this bridge has not sent yet."""
     behind_base: int = 0
     """The command seq before which no echo can be asked for (start of this drive's life)."""
+    echoed_us: bool = False
+    """It has echoed a command of this bridge: it may echo nobody else's after that."""
+    echoes_other: str = ""
+    """The boot of another commander that it echoes since."""
     reborn_s: float | None = None
     """When the drive's boot id changed last."""
     still_since_s: float | None = None
     moving_since_s: float | None = None
+
+
+@value
+class SectorMemory:
+    """Remember which directions of the lidar return something, in bins, each a bit of a mask."""
+
+    bins: int = 0
+    """Of a turn, counted from the lidar's first beam."""
+    alive: int = 0
+    """Those from which something has come since the start."""
+    dead: int = 0
+    """Those from which nothing comes where something was seen."""
+    points: tuple[tuple[float, float, float] | None, ...] = ()
+    """By direction in ``odom``: x, y [m] of what was seen last, and the odometer then [m]."""
+    recent: tuple[tuple[float, int], ...] = ()
+    """When [s] which bins missed what was seen before, oldest first."""
+    ahead_rad: float = 0.0
+    """How much of the way ahead is dead or never proven; 0 if that is too little to hide much."""
+    behind_rad: float = 0.0
+
+
+NO_SECTORS = SectorMemory()
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +67,7 @@ class LidarMemory:
     baseline_scans: int = 0
     baseline_returns: float = 0.0
     """Mean number of returns in the first 20 scans that saw something."""
+    sectors: SectorMemory = NO_SECTORS
 
 
 @value
@@ -122,6 +149,10 @@ class DetectorMemory:
     """Remember how long each trouble has been seen."""
 
     blind_s: float = 0.0
+    blind_way: float = 0.0
+    """Which way it was asked to drive into a sector that returns nothing: 1, -1, or 0 for none."""
+    blind_mission: str | None = None
+    """For whom; another's way is judged by itself."""
     yaw_s: float = 0.0
     runaway_s: float = 0.0
     sent: tuple[SentBounds, ...] = ()

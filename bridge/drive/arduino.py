@@ -37,6 +37,8 @@ STOP_SENDS = 5
 SILENT_S = 0.4
 """It answers 50 times a second, and starts for longer: what answers after that is another."""
 _MOST_TICKS_A_S = 200_000
+_FRESH_TICKS = 2_000
+"""Counts of a base that began a moment ago; a spoilt line seldom holds so few."""
 
 
 @dataclass(slots=True)
@@ -119,6 +121,11 @@ class ArduinoProtocol:
         self._base.asked.append(_AskedMove(echo.seq, echo.enable, is_heard=True))
         return ros_arduino.encode_question()
 
+    @property
+    def spoilt(self) -> int:
+        """Return how many lines could not be read."""
+        return self._reader.spoilt_lines
+
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
         if data and self._base.is_lost:
@@ -171,7 +178,10 @@ class ArduinoProtocol:
         self._base.heard_s = now_s
         left, right = self._base.left.step(counts.left), self._base.right.step(counts.right)
         if max(abs(left), abs(right)) > _MOST_TICKS_A_S * max(dt_s, 0.02):
-            log.warning("base_reset: its counts jumped by %d and %d", left, right)
+            fresh = max(abs(counts.left), abs(counts.right)) <= _FRESH_TICKS
+            why = "it counts from nought" if fresh else "not to nought: a line was spoilt"
+            code = "base_reset" if fresh else "base_spoilt"
+            log.warning("%s: its counts jumped by %d and %d, %s", code, left, right, why)
             self._forget()
             return None
         self._base.left.add(left, now_s)

@@ -58,3 +58,12 @@ class TroubledBase(Protocol):
     @property
     def trouble(self) -> str | None:
         """Return a code of :data:`BASE_TROUBLES`; None where nothing is known to be wrong."""
+
+
+@runtime_checkable
+class CountingBase(Protocol):
+    """Count what of a base's line could not be read."""
+
+    @property
+    def spoilt(self) -> int:
+        """Return how many lines, or bytes between frames, since the start."""

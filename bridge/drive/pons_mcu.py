@@ -89,6 +89,11 @@ class PonsMcuProtocol:
         """Return nothing: the base speaks by itself."""
         return b""
 
+    @property
+    def spoilt(self) -> int:
+        """Return how many bytes belonged to no good frame."""
+        return self._reader.spoilt_bytes
+
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
         frames = self._reader.read(data)

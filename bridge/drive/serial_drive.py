@@ -7,6 +7,7 @@ clock. Adding a base is one file with such a class and a line in ``SERIAL_PROTOC
 
 from __future__ import annotations
 
+import logging
 import sys
 import time
 from functools import partial
@@ -14,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from bridge.drive.arduino import ArduinoProtocol
-from bridge.drive.base_trouble import TroubledBase
+from bridge.drive.base_trouble import CountingBase, TroubledBase
 from bridge.drive.pons_mcu import PonsMcuProtocol
 from bridge.drive.turtlebot3 import Turtlebot3Protocol
 from bridge.drive.waveshare import WaveshareProtocol
@@ -28,12 +29,16 @@ if TYPE_CHECKING:
     from bridge.drive.base_gyro import BaseGyro
     from wire import DecodeFailure, DriveState, Imu, RobotDescription
 
+log = logging.getLogger("bridge.drive")
+
 _KEPT = 4
 """More than four readings at once are a stall's; the newest say all that counts."""
 _MOST_READS = 4
 """At 4096 bytes a read, more than a line brings in a tick: a babbling one can't hold the tick."""
 UNREAD_BYTES = 600
 """Ten states of ours, three of the longest reports."""
+SPOILT_EVERY_S = 10.0
+"""Between two words in the log on what can't be read."""
 _HALT_SENDS = 5
 _HALT_GAP_S = 0.01
 
@@ -123,6 +128,7 @@ class SerialDrive:
         """No state came since the port was opened."""
         self.unread = b""
         """What came meanwhile, the newest of it: for who wonders why none did."""
+        self._spoilt_said, self._spoilt_said_s = 0, -SPOILT_EVERY_S
 
     @property
     def trouble(self) -> LineTrouble | None:
@@ -133,6 +139,11 @@ class SerialDrive:
     def base_trouble(self) -> str | None:
         """Return what is wrong with a base that speaks, a code of base_trouble.py; or None."""
         return self._protocol.trouble if isinstance(self._protocol, TroubledBase) else None
+
+    @property
+    def spoilt(self) -> int:
+        """Return how much could not be read since the start: lines, or bytes between frames."""
+        return self._protocol.spoilt if isinstance(self._protocol, CountingBase) else 0
 
     @property
     def times_opened(self) -> int:
@@ -150,6 +161,8 @@ class SerialDrive:
             found += self._protocol.decode(data, self._clock())
             if self._waits:
                 self._waits, self.unread = not found, (self.unread + data)[-UNREAD_BYTES:]
+                self._spoilt_said = self.spoilt  # before the first state it is noise
+        self._say_spoilt()
         return tuple(found[-_KEPT:])
 
     @property
@@ -201,6 +214,20 @@ class SerialDrive:
     def close(self) -> None:
         """Give the port back."""
         self._port.close()
+
+    def _say_spoilt(self) -> None:
+        """Say in the log, now and then, how much of the line is spoilt."""
+        more = self.spoilt - self._spoilt_said
+        now_s = self._clock()
+        if more <= 0 or now_s - self._spoilt_said_s < SPOILT_EVERY_S:
+            return
+        self._spoilt_said, self._spoilt_said_s = self.spoilt, now_s
+        log.warning(
+            "base_spoilt: %d more lines or bytes could not be read, %d since the start: shorten "
+            "the cable, keep it off the motors' wires, look at its plug",
+            more,
+            self.spoilt,
+        )
 
     def _begin_if_opened(self) -> None:
         """Greet the base after each opening: it may be another, or have begun anew."""

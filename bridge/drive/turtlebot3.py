@@ -106,6 +106,11 @@ class Turtlebot3Protocol:
         """Return the question for the table alone, every second time; no beat goes with it."""
         return turtlebot3.encode_question() if seq % 2 else b""
 
+    @property
+    def spoilt(self) -> int:
+        """Return how many bytes belonged to no good frame."""
+        return self._reader.spoilt_bytes
+
     def decode(self, data: bytes, now_s: float) -> list[DriveState]:
         """Return the states that bytes read at ``now_s`` complete, oldest first."""
         states: list[DriveState] = []

@@ -43,6 +43,8 @@ _MILLI = 1000.0
 _DIGITS = 4
 _SLIP_M = 0.03
 """Two whole centimetres may hide three."""
+_FRESH_CM = 50
+"""Ways of a base that began less than a second ago: it was told nothing to drive since."""
 _OLDEST_S = 0.25
 _SURGE_MPS2 = 3.0
 """A wheel of this weight class gains less, but for one that is lifted or hits something."""
@@ -147,6 +149,11 @@ class WaveshareProtocol:
             self._stopped = stops
         return data
 
+    @property
+    def spoilt(self) -> int:
+        """Return how many lines could not be read."""
+        return self._reader.spoilt_lines
+
     def question(self, seq: int) -> bytes:
         """Return nothing: the base speaks by itself."""
         return b""
@@ -212,7 +219,7 @@ class WaveshareProtocol:
             self._base.odd = report
             return False
         if not _is_near_way(last, report, dt_s):
-            self._note_start(f"its ways jumped from {last.ways_cm} to {report.ways_cm} cm")
+            self._note_jump(last, report)
         self._base.last, self._base.odd = report, None
         return True
 
@@ -263,6 +270,15 @@ class WaveshareProtocol:
         """Take note that the base began anew: it knows no setting, and counts from nought."""
         if self._base.is_set:  # it says several things while it starts
             log.warning("base_reset: %s; its settings are sent anew", why)
+        self._forget()
+
+    def _note_jump(self, last: UgvReport, report: UgvReport) -> None:
+        """Tell a base that counts from nought from one whose lines came spoilt; count both anew."""
+        why = f"its ways jumped from {last.ways_cm} to {report.ways_cm} cm"
+        if all(abs(way_cm) <= _FRESH_CM for way_cm in report.ways_cm or ()):
+            self._note_start(why)
+            return
+        log.warning("base_spoilt: %s, not to nought: a line was spoilt; counted anew", why)
         self._forget()
 
     def _forget(self) -> None:

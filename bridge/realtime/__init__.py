@@ -11,7 +11,6 @@ from bridge.realtime.rights import (
     take_fifo,
     transport_fifo,
 )
-from bridge.realtime.service import Service
 
 __all__ = [
     "Clock",
@@ -19,7 +18,6 @@ __all__ = [
     "Pacer",
     "PacerTick",
     "Right",
-    "Service",
     "SlackCollector",
     "all_granted",
     "lock_memory",

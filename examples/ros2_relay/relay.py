@@ -2,17 +2,21 @@
 
 Hears Pons on /pons/command, drives /cmd_vel, and says on /pons/state which command it obeys. A
 command moves the base until `seen` + `ttl` on this computer's clock, however late it came; then the
-base gets zeros. This one file needs rclpy and nothing of Pons (docs/ros2.md).
+base gets zeros. With `-p key:=FILE` it obeys only commands signed with that key, which Pons has in
+relay.key. This one file needs rclpy and nothing of Pons (docs/ros2.md).
 """
 
 from __future__ import annotations
 
+import hashlib
+import hmac
 import json
 import secrets
 import signal
 import sys
 import time
 from math import inf
+from pathlib import Path
 from typing import Any
 
 try:
@@ -31,6 +35,7 @@ else:
 TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 TTL_S = (0.05, 0.5)
 PERIOD_S = 0.01
+MIN_KEY_BYTES = 16
 LAST_S = 0.1
 """What the last zeros may take to the base before this process ends."""
 
@@ -38,13 +43,18 @@ LAST_S = 0.1
 class RelayDeadMan:
     """Decide what the base is told now. Told JSON and the time; knows no ROS."""
 
-    def __init__(self, boot: str) -> None:
-        self.boot, self.seq, self.until_s = boot, 0, 0.0
+    def __init__(self, boot: str, key: bytes = b"") -> None:
+        self.boot, self.seq, self.until_s, self.key = boot, 0, 0.0, key
         self.command: dict[str, Any] | None = None
 
     def hear(self, text: str, now_s: float) -> bool:
-        """Take a command; False where it is unreadable, old, too long-lived or another relay's."""
+        """Take a command; False where it is unreadable, unsigned, old, long-lived or another's."""
         try:
+            if self.key:
+                text, _, mac = text.rpartition(" ")
+                signed = hmac.new(self.key, text.encode(), hashlib.sha256).hexdigest()
+                if not hmac.compare_digest(signed.encode(), mac.encode()):
+                    return False
             raw = json.loads(text)
             boot, seq, seen_s, ttl_s = raw["boot"], raw["seq"], raw["seen"], raw["ttl"]
             raw["v"], raw["w"] = float(raw["v"]), float(raw["w"])
@@ -76,9 +86,17 @@ class RelayDeadMan:
                 "relay": self.boot, "seq": self.seq, "t": now_s, "ros": ros_s,
                 "echo_boot": obeyed["boot"], "echo_seq": obeyed["seq"],
                 "timed_out": self.twist(now_s)[2], "on": obeyed.get("on") is True,
-                "cmd_vel": cmd_vel, "others": others,
+                "cmd_vel": cmd_vel, "others": others, "keyed": bool(self.key),
             }
         )  # fmt: skip
+
+
+def key_of(path: str) -> bytes:
+    """Return the key in a file; empty where none is named. A short one ends this program."""
+    key = Path(path).read_bytes().strip() if path else b""
+    if path and len(key) < MIN_KEY_BYTES:
+        sys.exit(f"{path} holds {len(key)} bytes, expected at least {MIN_KEY_BYTES}")
+    return key
 
 
 class Relay(Node):
@@ -90,7 +108,7 @@ class Relay(Node):
         self.topic = self.resolve_topic_name(ask("cmd_vel", "/cmd_vel").value)
         self.frame = ask("frame", "base_link").value
         below = ask("relay", "/pons").value
-        self.dead_man = RelayDeadMan(f"relay-{secrets.token_hex(4)}")
+        self.dead_man = RelayDeadMan(f"relay-{secrets.token_hex(4)}", key_of(ask("key", "").value))
         self.kind, self.heard, self.others, self.look_s = "", "", 0, 0.0
         self.drives: Any = None
         self.says = self.create_publisher(String, f"{below}/state", 10)

@@ -25,6 +25,7 @@ STATUS = {
     "nothing_to_resume": 409,
     "queue_full": 429,
     "idempotency_conflict": 409,
+    "idempotency_reserved": 422,
     "journal_unavailable": 503,
 }
 

@@ -16,18 +16,21 @@ from typing import TYPE_CHECKING, Any
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
-from planner.api import problems
 from planner.api.access import SUBPROTOCOL
+from planner.api.crowd import address_of
 from planner.api.interfaces import Services
 from planner.voice import Recognition, Sound, StopListener, VoiceFailure
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import AsyncIterator, Mapping
 
 log = logging.getLogger(__name__)
 
-MOST_SOCKETS = 4
-"""Each may keep a processor busy while somebody talks."""
+MOST_SOCKETS, MOST_OF_ADDRESS = 4, 2
+"""Each may keep a processor busy while somebody talks. Room is made, never refused: the oldest of
+the address goes, else the oldest of all."""
+MOST_CLOCK_S = 30.0
+"""From the opening on: sound that trickles holds a seat no longer than sound that streams."""
 MOST_SECONDS = 20.0
 """Of sound; a page ends a recording after 14 s."""
 PATIENCE_S = 5.0
@@ -44,22 +47,50 @@ class NoRecording(Exception):
         self.code, self.detail = code, detail
 
 
+class Seats:
+    """Hand out what recordings are heard at, so that nobody takes them away for good."""
+
+    def __init__(self) -> None:
+        self._held: list[tuple[str, asyncio.Timeout]] = []
+
+    @contextlib.asynccontextmanager
+    async def taken(self, address: str, limit: asyncio.Timeout) -> AsyncIterator[None]:
+        """Hold a seat; where it is needed for a newer recording, its limit ends at once."""
+        own = [seat for seat in self._held if seat[0] == address]
+        if len(own) >= MOST_OF_ADDRESS:
+            self._end(own[0])
+        elif len(self._held) >= MOST_SOCKETS:
+            self._end(self._held[0])
+        seat = address, limit
+        self._held.append(seat)
+        try:
+            yield
+        finally:
+            if seat in self._held:
+                self._held.remove(seat)
+
+    def _end(self, seat: tuple[str, asyncio.Timeout]) -> None:
+        self._held.remove(seat)
+        seat[1].reschedule(asyncio.get_running_loop().time())
+
+
 def routes(services: Services) -> APIRouter:
     """Return the socket."""
     router = APIRouter(tags=["goals"])
-    seats = asyncio.Semaphore(MOST_SOCKETS)
+    seats = Seats()
 
     @router.websocket("/v1/voice/live")
     async def live(socket: WebSocket) -> None:
-        if seats.locked():
-            detail = f"{MOST_SOCKETS} recordings are being heard; stop by button or in writing"
-            await socket.send_denial_response(problems.response(503, "too_many_sockets", detail))
-            return
-        async with seats:
-            offered = socket.scope.get("subprotocols", ())
-            await socket.accept(subprotocol=SUBPROTOCOL if SUBPROTOCOL in offered else None)
-            with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # gone: nobody to tell
-                await _attend(services, socket)
+        offered = socket.scope.get("subprotocols", ())
+        await socket.accept(subprotocol=SUBPROTOCOL if SUBPROTOCOL in offered else None)
+        address = address_of(socket.client.host) if socket.client else ""
+        with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # gone: nobody to tell
+            try:
+                async with asyncio.timeout(MOST_CLOCK_S) as limit, seats.taken(address, limit):
+                    await _attend(services, socket)
+            except TimeoutError:
+                told = f"a seat is held for {MOST_CLOCK_S:g} s, and the oldest goes for a new one"
+                await _refuse(socket, NoRecording("voice_seat_over", told))
 
     return router
 

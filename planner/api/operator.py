@@ -20,7 +20,7 @@ from planner.api.interfaces import Robot, Services
 from planner.api.problems import HttpProblem
 from planner.api.schemas import OperatorOrder, OperatorProof, Steer, StopOrder
 from planner.language.utterance import Utterance
-from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, signed_request
+from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, mark_relayed, signed_request
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -137,6 +137,7 @@ def request(robot: Robot, kind: OpKind, source: str, given: OperatorProof | None
     Raises:
         HttpProblem: ``bridge_silent`` or ``operator_proof_needed``.
     """
+    source = mark_relayed(source)
     if given is not None:
         return OpRequest(id=given.id, source=source, proof=given.proof)
     request_id = f"api-{secrets.token_hex(8)}"

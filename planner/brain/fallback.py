@@ -11,12 +11,12 @@ import time
 from collections.abc import Callable
 
 from planner.brain.circuit_breaker import FIRST_REST_S, Breaker
-from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
+from planner.brain.errors import BadPlan, BrainDown, OutOfBudget, StillLoading
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
-from planner.brain.model_error_codes import reason
+from planner.brain.model_error_codes import tell_failure
 from planner.brain.streamed_draft import Hear
 from planner.language.grammar.sentence_text import refuse_bad_text
-from planner.plan import BrainTag, Clarify, Code
+from planner.plan import AnswerPlan, BrainTag, Clarify, Code, Refuse, StepPlan
 
 log = logging.getLogger(__name__)
 
@@ -62,11 +62,15 @@ class FallbackBrain:
             rests_s = self.breaker.rests_s(self._clock())
             return await self._instead(request, BrainDown(f"{rests_s:.0f} s more", why="resting"))
         try:
-            thought = await self._model.think(request, hear)
+            thought = await self._ask_model(request, hear)
         except OutOfBudget as spent:  # no call went out: no word about the model
             self.last_failure = spent.why
             self.breaker.note_cancel()
             return await self._instead(request, spent)
+        except StillLoading as cold:  # no word about the model, either
+            self.last_failure = cold.why
+            self.breaker.note_cancel()
+            return await self._instead(request, cold)
         except BrainDown as down:
             self.last_failure = down.why
             self.breaker.note_failure(self._clock(), hopeless=down.why in HOPELESS)
@@ -83,8 +87,25 @@ class FallbackBrain:
         self.breaker.note_success()
         return thought
 
+    async def _ask_model(self, request: ThinkRequest, hear: Hear | None) -> ThinkResult:
+        """Return the model's thought; one that loads is waited for where the grammar is not sure.
+
+        Raises:
+            StillLoading: it loads, and the offline brain has read the sentence surely.
+        """
+        try:
+            return await self._model.think(request, hear)
+        except StillLoading as cold:
+            known = (await self._offline.think(request)).plan
+            if isinstance(known, StepPlan | AnswerPlan | Refuse):
+                cold.drop()
+                raise
+            thought: ThinkResult = await cold.later()
+            return thought
+
     async def _instead(self, request: ThinkRequest, failure: BrainDown | BadPlan) -> ThinkResult:
         why = failure.why if isinstance(failure, BrainDown) else failure.code
+        server = failure.server if isinstance(failure, BrainDown) else ""
         log.warning("%s: %s (%s); the offline brain answers", self.tag.name, why, failure)
         thought = await self._offline.think(request)
         tag = thought.brain.model_copy(
@@ -93,15 +114,15 @@ class FallbackBrain:
                 "fallback_reason": why,
                 "fallback_message": failure.said
                 if isinstance(failure, OutOfBudget)
-                else reason(why),
+                else tell_failure(why, server),
             }
         )
         if _is_lost(thought) and isinstance(failure, OutOfBudget):
             raise OutOfBudget(str(failure), failure.said, tag) from failure
         if _is_lost(thought) and isinstance(failure, BrainDown):
-            raise BrainDown(str(failure), tag, why=why) from failure
+            raise BrainDown(str(failure), tag, why=why, server=server) from failure
         if _is_lost(thought):
-            raise BadPlan(str(failure), tag) from failure
+            raise BadPlan(str(failure), tag, code=failure.code) from failure
         return thought.model_copy(update={"brain": tag})
 
 

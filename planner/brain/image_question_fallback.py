@@ -24,7 +24,7 @@ from planner.brain.image_questions import (
     NotSent,
     NotThere,
 )
-from planner.brain.model_error_codes import reason
+from planner.brain.model_error_codes import tell_failure
 from planner.plan import Bilingual, BrainTag
 
 log = logging.getLogger(__name__)
@@ -103,7 +103,8 @@ class FallbackLooker:
 
     def _instead(self, failure: BrainDown | BadPlan) -> BrainTag:
         why = failure.why if isinstance(failure, BrainDown) else failure.code
+        server = failure.server if isinstance(failure, BrainDown) else ""
         log.warning("%s: %s (%s); the detector answers", self.tag.name, why, failure)
-        said = failure.said if isinstance(failure, OutOfBudget) else reason(why)
+        said = failure.said if isinstance(failure, OutOfBudget) else tell_failure(why, server)
         told = {"fallback_from": self.tag.name, "fallback_reason": why, "fallback_message": said}
         return DETECTOR.model_copy(update=told)

@@ -65,6 +65,7 @@ class ThinkRequest(Frozen):
     """What came of this goal's steps so far, oldest first; empty for a goal's first thought."""
     replan: int = Field(default=0, ge=0)
     """How often this goal was thought about again after a step that failed."""
+    standing: str = ""  # the whole sentence of a standing order; ``text`` is what is to be done
     departed: bool = False  # the order before led the robot away: "come back" means from there
     order: str = ""  # what was said first, where ``text`` answers a question about it
     exchanges: tuple[Exchange, ...] = ()  # these questions and answers; the last answer is ``text``

@@ -5,7 +5,9 @@ They stand in a goal's record beside the brain that answered instead, and a page
 
 from __future__ import annotations
 
-from planner.language.catalogue import say
+import unicodedata
+
+from planner.language.catalogue import join, say
 from planner.plan import Bilingual
 
 REASONS: dict[str, Bilingual] = {
@@ -19,6 +21,7 @@ REASONS: dict[str, Bilingual] = {
         "bad_key",
         "unknown_model",
         "bad_request",
+        "context_too_small",
         "redirect",
         "bad_reply",
         "too_large",
@@ -29,10 +32,27 @@ REASONS: dict[str, Bilingual] = {
         "bad_picture",
         "picture_too_large",
         "bad_plan",
+        "only_words",
+        "wrong_language",
+        "instructions_told",
+        "answer_too_long",
+        "offer_not_asked",
         "out_of_budget",
         "unavailable",
     )
 }
+
+
+MOST_SAID = 160
+"""Characters of a server's own words that a person is told."""
+_UNSEEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
+
+
+def tell_failure(code: str, server: str = "") -> Bilingual:
+    """Return the sentence of a code, with what the server itself said: bounded, and in quotes."""
+    plain = "".join(each for each in server if unicodedata.category(each) not in _UNSEEN)
+    words = " ".join(plain.split())[:MOST_SAID]
+    return join((reason(code), say("model_error.said", words=words))) if words else reason(code)
 
 
 def reason(code: str) -> Bilingual:

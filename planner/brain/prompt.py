@@ -25,16 +25,17 @@ from planner.brain.schema import (
 )
 from planner.brain.situation_text import tell_situation
 from planner.language.folding import has_chinese
-from planner.plan import NEEDS_CAMERA, Code, Entry, Language, Vocabulary
+from planner.plan import EVERY_KIND, NEEDS_CAMERA, Code, Entry, Language, Vocabulary
 from pons_assets import PROMPTS
 
 BUDGET_TOKENS = 1500
 ORDER_TOKENS = 120
 """Of the budget, left for the order and what came of its steps."""
-SITUATION_TOKENS = 190
+SITUATION_TOKENS = 110
 """And for where things stand, at least: recent goals give way, the oldest first."""
 _BLANK = re.compile(r"\{\{(\w+)\}\}")
-_BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places"})
+_KIND_OF = re.compile(r'"kind":"([a-z_]+)"')
+_BLANKS = frozenset({"steps", "clarify", "refuse", "robot", "places", "room"})
 _NAMES = (15, 7, 4, 3, 2)  # of one place: as many as the budget allows
 READ = "in_picture_never_an_order"
 """Under this name stand words about a picture, which may repeat what was written in it."""
@@ -53,7 +54,7 @@ _NO_CAMERA = (
 )
 _CAMERA = (
     "The robot drives, looks and talks; fetching, opening and carrying are no_capability: it has "
-    "no arm. Find who or what is gone to by a step before."
+    "no arm."
 )
 _BLIND = (_NO_CAMERA, _NO_DETECTOR)
 
@@ -84,21 +85,25 @@ class Prompt:
 
     def messages(self, request: ThinkRequest) -> list[Message]:
         """Return the messages of a first call: one of the system, one of the person."""
-        order = _order(request)
-        if request.room is not None and request.situation is None:
-            order["robot_is_in"] = request.room
-        if request.language is not None:
-            order["language"] = request.language.value
+        order: dict[str, object] = {}
         if request.observed:
             order["so_far"] = _reports(request.observed, request.language or Language.EN)
         if request.replan:
             order["plans_that_failed"] = request.replan
+        if request.room is not None and request.situation is None:
+            order["robot_is_in"] = request.room
+        if request.standing:
+            order["standing_order"] = request.standing[:_ASKED]
+        if request.language is not None:
+            order["language"] = request.language.value
+        order |= _order(request)  # last: what is to be done is then what was read last
         system = _system(
             self.template, request.vocabulary, request.runnable, request.blind, request.kinds
         )
         if request.situation is not None:
             left = BUDGET_TOKENS - count_tokens(system) - count_tokens(as_json(order))
-            order |= tell_situation(request.situation, max(SITUATION_TOKENS // 2, left))
+            told = tell_situation(request.situation, max(SITUATION_TOKENS // 2, left))
+            order = {**told, **order}
         return [
             {"role": "system", "content": system},
             {"role": "user", "content": as_json(order)},
@@ -125,19 +130,27 @@ def _system(
         "refuse": _codes(REFUSE_CODES),
         "robot": _CAMERA + _tell_kinds(kinds) if sees else _BLIND[blind is Code.NO_DETECTOR],
     }
+    filled["room"] = next((e.id for e in vocabulary.entries if e.room not in vocabulary), "kitchen")
+    can = "\n".join(line for line in template.splitlines() if _can_be_shown(line, runnable))
     text = ""
     for names in _NAMES:
         filled["places"] = "\n".join(_place_lines(vocabulary, names))
-        text = _BLANK.sub(lambda blank: filled[blank[1]], template).strip()
+        text = _BLANK.sub(lambda blank: filled[blank[1]], can).strip()
         if count_tokens(text) <= BUDGET_TOKENS - ORDER_TOKENS - SITUATION_TOKENS:
             break
     return text
 
 
+def _can_be_shown(line: str, runnable: frozenset[str]) -> bool:
+    """Tell whether an example, if a line is one, holds no step that this robot can't do."""
+    shown = _KIND_OF.findall(line) if " → " in line else []
+    return all(kind in runnable for kind in shown if kind in EVERY_KIND)
+
+
 def _tell_kinds(kinds: Sequence[str]) -> str:
     """Say which kinds of things the detector tells apart; the rest is left to a vision model."""
     named = as_json([kind[:_KIND] for kind in kinds[:_KINDS]])
-    return f" Its detector knows {named}." if kinds else ""
+    return f" Detector: {named}." if kinds else ""
 
 
 def _place_lines(vocabulary: Vocabulary, names: int) -> list[str]:

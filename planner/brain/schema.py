@@ -53,6 +53,8 @@ _CLOCK = frozenset({"time", "after", "before"})
 _TOLD_AS = {"angle_rad": "angle_deg"}
 """People say degrees and models write them; the plan keeps radians (``endpoint.plan_reply``)."""
 MOST_DEG = 720
+_PLAIN = CONTROL - {"try"}
+"""Steps whose fields say what they do."""
 _UNTOLD = {"repeat": ("seconds",), "wait_for": ("seconds",)}
 """Fields whose bound is said nowhere: a model may leave them to it."""
 
@@ -69,11 +71,11 @@ def step_line(model: type[Frozen]) -> str:
     kind = _kind(model)
     shapes = {n: shape for n, shape in _fields(model).items() if n not in _UNTOLD.get(kind, ())}
     fields = [
-        f'"{_name_for_model(name)}":{_describe_field(name, shape)}'
+        f'"{_name_for_model(name)}"{_optional(model, name)}:{_describe_field(name, shape)}'
         for name, shape in shapes.items()
     ]
     shown = f"{kind} {{{','.join(fields)}}}"
-    return shown if kind in CONTROL else f"{shown} {(model.__doc__ or '').splitlines()[0]}"
+    return shown if kind in _PLAIN else f"{shown} {(model.__doc__ or '').splitlines()[0]}"
 
 
 @lru_cache(maxsize=16)
@@ -97,8 +99,7 @@ def schema_of(vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE) -> di
             "pace": {"type": "string", "enum": ["slow"]},
             "steps": {"type": "array", "items": step},
             "code": {"type": "string", "enum": list(codes)},
-            "en": {"type": "string"},
-            "zh": {"type": "string"},
+            "text": {"type": "string"},
             "options": {"type": "array", "items": {"type": "string"}},
         }
     )
@@ -123,6 +124,11 @@ def _object(properties: dict[str, Any]) -> dict[str, Any]:
         "required": ["kind"],
         "additionalProperties": False,
     }
+
+
+def _optional(model: type[Frozen], name: str) -> str:
+    """Mark a field that may be left out: filled in anyway, it drives where nobody said."""
+    return "" if model.model_fields[name].is_required() else "?"
 
 
 def _name_for_model(name: str) -> str:

@@ -65,6 +65,10 @@ class Situation(Frozen):
     queue: tuple[str, ...] = ()
     more: int = 0
     """Orders that wait beyond these."""
+    thinking: tuple[str, ...] = ()
+    """Other orders that are being thought about, oldest first."""
+    paused: tuple[str, ...] = ()
+    """Orders that keep their place and go on when a person says so, newest first."""
     question: OpenQuestion | None = None
     recent: tuple[RecentGoal, ...] = ()
     """Newest first."""

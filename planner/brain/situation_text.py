@@ -22,7 +22,8 @@ _HOUR_MIN, _DAY_MIN = 60, 1440
 def tell_situation(situation: Situation, budget_tokens: int) -> dict[str, Any]:
     """Return ``now``, ``recent`` and ``remembered``; each is left out where empty."""
     recent = [_tell_goal(goal) for goal in situation.recent[:MAX_RECENT]]
-    items = list(situation.remembered[:MAX_REMEMBERED])
+    named = (each for each in situation.remembered if each.fits or _is_person(each))
+    items = list(named)[:MAX_REMEMBERED]
     queue = list(situation.queue)
     while True:
         told = {
@@ -34,6 +35,11 @@ def tell_situation(situation: Situation, budget_tokens: int) -> dict[str, Any]:
         if fits or not (recent or items or queue):
             return {name: each for name, each in told.items() if each}
         (items if len(items) > 2 * len(recent) else recent or items or queue).pop()
+
+
+def _is_person(item: RememberedItem) -> bool:
+    """Tell whether a memory is of somebody: an order leans on people without a name for them."""
+    return not item.said and item.what.split()[-1:] == ["person"]
 
 
 def _tell_remembered(items: list[RememberedItem]) -> dict[str, Any]:
@@ -62,6 +68,8 @@ def _tell_now(situation: Situation, queue: list[str]) -> dict[str, Any]:
         "running": situation.running,
         "step": situation.step,
         "queue": queue,
+        "thinking_about": list(situation.thinking),
+        "paused": list(situation.paused),
         "more_in_queue": waiting or None,
         "question": situation.question
         and {"order": situation.question.order, "asked": situation.question.asked},

@@ -37,6 +37,7 @@ from wire import (
     TrialOrder,
     TrialState,
     Velocity,
+    mark_relayed,
 )
 
 ECHO_S = 2.0
@@ -193,7 +194,7 @@ class Link:
     async def stop(self, source: str) -> StopResult:
         """Say stop at 20 Hz until the bridge echoes it, 2 s at most. Never raises for silence."""
         began_s, stop_id = self._clock(), self._new_id()
-        message = Stop(id=stop_id, source=source)
+        message = Stop(id=stop_id, source=mark_relayed(source))
         answer = await self._until_echoed(stop_id, lambda: self._bus.send(message))
         return StopResult(stop_id, answer is not None, self._clock() - began_s)
 

@@ -15,7 +15,7 @@ from planner.language.folding import fold, has_chinese
 
 _BEGIN = r"(?:^|(?<=[,.!?;。，！？；]))"
 _END = r"(?=$|[,.!?;。，！？；])"
-_LEAD = r"(?P<lead>(?:请|你|您|麻烦你?|劳驾你?|先|再|就|快|那|帮我|给我|赶紧|现在|然后|我让你)*)"
+_LEAD = r"(?P<lead>(?:请|你|您|麻烦|劳驾|先|再|就|快|那|帮我|给我|赶紧|现在|然后|我让你)*)"
 _WORDS = tuple(
     (re.compile(pattern), plain)
     for pattern, plain in (

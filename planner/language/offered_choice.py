@@ -24,7 +24,7 @@ _LEAD = re.compile(
     r"|to|into|in|at|the|my|our|that's|it's) )+"
 )
 _TAIL = re.compile(r"(?: (?:please|thanks|thank you|then|i think|i guess))+$")
-_LEAD_ZH = re.compile(r"(?:嗯|呃|哦|那就?|就|请|去|到|在|是|我说的是|我是说|选|要)+")
+_LEAD_ZH = re.compile(r"(?:嗯|呃|哦|那|就|请|去|到|在|是|我说的是|我是说|选|要)+")
 _TAIL_ZH = re.compile(r"(?:吧|啊|呀|呢|谢谢|就行|就好|好了)+$")
 _ORDINALS = (
     re.compile(r"(?:first|1st|former)(?: one)?|第一个?|前者|前面?(?:那个|的)"),

@@ -10,9 +10,13 @@ from __future__ import annotations
 import re
 
 from planner.language.commands.parser import intent_of
+from planner.language.folding import has_chinese
 from planner.language.grammar import plan
 from planner.language.grammar.sentence_text import normalise
-from planner.language.stop import is_stop
+from planner.language.grammar.zh.asides import DOES
+from planner.language.object_classes import KINDS
+from planner.language.object_names import canonical
+from planner.language.stop import StopReading, is_stop, read_stop
 from planner.plan import Clarify, Code, Plan, Refuse, Vocabulary
 
 _HARMLESS = frozenset(
@@ -26,6 +30,47 @@ _FUNCTION = re.compile(
 _ALONE = re.compile(
     r"(?:[去到来回走停等请先再就把的里了吧吗我你他她它这那家和跟与])+|这里|那里|原地"
 )
+
+_WORDS = """
+a about after again all am an and another any anything anybody anyone are as at away be been
+before behind beside between both but by can could did do does down each either else every
+everybody everyone everything everywhere few for from had has have he her here hers hey him
+his how i if in inside into is it its just many may maybe me might mine more most much must
+my near neither never next no nobody none nor not nothing now nowhere of off on once one
+only onto or other our ours out outside over own past please shall she should since so some
+somebody someone something somewhere still such than thanks that the their theirs them then
+there these they this those through till to too towards twice under until up us very was we
+well were what whatever when whenever where wherever whether which while who whoever whom
+whose why will with without would yes yet you your yours ah aah ow ouch oh help hello hi
+watch look emergency danger careful battery time times two three four five six seven eight
+nine ten day days week weeks month months year years hour hours minute minutes second
+seconds today tomorrow yesterday tonight morning noon afternoon evening night midnight
+monday tuesday wednesday thursday friday saturday sunday say said see seen saw tell told
+last first s
+"""
+_CLOSED = frozenset(_WORDS.split())
+"""Words that a sentence needs for itself: its frame, its questions, its cries and its times."""
+_CLOSED_ZH = re.compile(
+    rf"(?:{DOES}|什么|哪[里儿个]?|谁|怎么样?|为什么|几|多少|几点|时间|电池|电量|每[天周月年]|[今明昨后][天晚]"
+    r"|早上|上午|中午|下午|晚上|夜里|现在|马上|所有|全部|大家|东西|地方|小心|危险|救命|[啊哎喂嘿哦嗯]"
+    r"|[一二三四五六七八九十]+|星期|周末|时候|外面)+"
+)
+
+
+def name_is_needed_elsewhere(name: str) -> bool:
+    """Tell whether sentences need a would-be place name as a word, or the detector as a thing.
+
+    A sofa may well be a place to drive to; a cup or a person is not where it was.
+    """
+    plain = normalise(name)
+    kind = KINDS.get(canonical(plain))
+    if kind is not None and (kind.mobile or kind.perched):
+        return True
+    single = len(plain) == 1 and has_chinese(plain)
+    words = plain.split()
+    closed = bool(words) and all(word in _CLOSED for word in words)
+    stops = read_stop(name) is not StopReading.NONE
+    return single or closed or stops or _CLOSED_ZH.fullmatch(plain) is not None
 
 
 def name_reads_as_order(name: str, vocabulary: Vocabulary) -> bool:

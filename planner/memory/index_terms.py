@@ -20,7 +20,7 @@ MOST_READ = 400
 """Characters; a longer text is cut."""
 MOST_TERMS = 16
 """Terms of a question."""
-_RUN = re.compile(rf"((?:[a-z0-9]+(?:[' _-](?=[a-z0-9]))?)+)|([{CHINESE}]+)")
+_RUN = re.compile(rf"([a-z0-9]+(?:[' _-][a-z0-9]+)*)|([{CHINESE}]+)")
 _EMPTY_EN = frozenset({
     "a", "about", "an", "and", "any", "are", "at", "be", "been", "by", "can", "could", "did", "do",
     "does", "for", "from", "had", "has", "have", "how", "i", "in", "is", "it", "its", "last", "me",

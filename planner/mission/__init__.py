@@ -25,7 +25,8 @@ Events: {"type": "goal", "goal": …}, {"type": "status", "status": wire.Status 
 "accepted", "code"}, {"type": "gap", "missed"} (take a snapshot again).
 
 Errors (all ``MissionError`` with ``code`` and bilingual ``message``): unknown_goal 404, bad_state
-409, nothing_to_resume 409, queue_full 429, idempotency_conflict 409, journal_unavailable 503.
+409, nothing_to_resume 409, queue_full 429, idempotency_conflict 409, idempotency_reserved 422,
+journal_unavailable 503.
 
 The lockstep harness runs this same door on a clock, a disk and an event loop of its own: it starts
 with ``rounds=False`` and calls ``missions.loop.hear()`` and ``tick()`` itself. ``advance`` and

@@ -19,7 +19,7 @@ from planner.brain.situation import (
 from planner.language.commands import OutcomeCommand, intent_of
 from planner.mission.open_questions import WAITS
 from planner.mission.outcomes import spot_at
-from planner.plan import GoalState
+from planner.plan import Code, GoalState
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from wire import Pose2
 
 NEAR_M = 1.0
+_EYES = frozenset({"look", "find", "count"})
+"""Steps of which a detector has words of its own."""
 _ORDER, _TOLD, _QUEUED = 70, 80, 50  # characters
 _UNSEEN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.RUNNING})
 
@@ -46,9 +48,17 @@ def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situatio
         step=None if own or running is None else _step(running),
         queue=tuple(book.missions[i].order_text[:_QUEUED] for i in waiting[:MAX_QUEUED]),
         more=max(0, len(waiting) - MAX_QUEUED),
+        thinking=_orders_in(book, mission, GoalState.PLANNING)[:MAX_QUEUED],
+        paused=_orders_in(book, mission, GoalState.PAUSED)[: -MAX_QUEUED - 1 : -1],
         question=_question(book, mission),
         recent=_recent(book, mission, now_s + book.wall_offset_s),
     )
+
+
+def _orders_in(book: MissionState, mission: Mission, state: GoalState) -> tuple[str, ...]:
+    """Return the other orders in a state, oldest first."""
+    others = (m for m in book.missions.values() if m.state is state and m.id != mission.id)
+    return tuple(m.order_text[:_QUEUED] for m in sorted(others, key=lambda m: m.order))
 
 
 def _place_near(facts: SiteView, pose: Pose2) -> str | None:
@@ -97,8 +107,26 @@ def _tell_outcome(mission: Mission) -> str:
     """Return what a person was told of a goal; nothing where a picture was read for it, nor where
     it repeats what another goal came to.
     """
-    if mission.outcome is None or any(step.read is not None for step in mission.steps):
+    if mission.outcome is None:
+        return ""
+    if any(step.read is not None for step in mission.steps):
+        return _tell_looks(mission)[:_TOLD]
+    if mission.outcome.code is Code.MODEL_UNAVAILABLE:  # a server's own words may be in it
         return ""
     if isinstance(intent_of(mission.text), OutcomeCommand):
         return ""
     return mission.outcome.message.of(mission.language)[:_TOLD]
+
+
+def _tell_looks(mission: Mission) -> str:
+    """Return the detector's own words of a goal that looked.
+
+    Nothing of a step that comes after a model's reading: a ``say`` or an answer may repeat it.
+    """
+    told: list[str] = []
+    for step in mission.steps:
+        if step.said is not None and step.kind in _EYES:
+            told.append(step.said.of(mission.language))
+        if step.read is not None:
+            break
+    return " ".join(told)

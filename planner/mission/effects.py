@@ -33,6 +33,8 @@ class AskBrain:
     """How often it was thought about again after a step that failed."""
     order: str = ""
     """What was said first."""
+    standing: str = ""
+    """The whole sentence of the standing order whose goal this is."""
     departed: bool = False
     """The order before led the robot away from where it was given: "come back" means there."""
     exchanges: tuple[Exchange, ...] = ()

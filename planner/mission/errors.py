@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from planner.language.catalogue import list_names, say, say_or_quote
+from planner.mission.state import RESERVED_KEYS
 from planner.plan import Bilingual, GoalState
 
 
@@ -66,6 +67,15 @@ class IdempotencyConflict(MissionError):
 
     def __init__(self, key: str, goal_id: str) -> None:
         super().__init__(key=key[:64], goal_id=goal_id)
+
+
+class ReservedKey(MissionError):
+    """The Idempotency-Key begins like those of the goals that standing orders give."""
+
+    code = "idempotency_reserved"
+
+    def __init__(self, key: str) -> None:
+        super().__init__(key=key[:64], prefix=RESERVED_KEYS)
 
 
 class JournalDown(MissionError):

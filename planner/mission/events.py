@@ -43,6 +43,10 @@ class Submitted:
     """The sentence holds a stop word and has stopped the robot; it is thought about only now."""
     echoed: bool = True
     """The bridge has confirmed that stop."""
+    interrupts: str | None = None
+    """The goal that had the robot, or was thought about, as the sentence stopped it."""
+    denies: str | None = None
+    """The goal on whose way the sentence says that the robot is wrong."""
     asking: tuple[str, ...] = ()
     """The goals whose question the sentence may answer."""
     source: str = "api"
@@ -62,6 +66,8 @@ class Planned:
     brain: BrainTag | None = None
     unasked: tuple[int, ...] = ()
     """The steps of the plan that move the robot though no words of a person ask for it."""
+    sure: StepPlan | None = None
+    """The built-in brain's own reading of the order, where a model's plan has such steps."""
 
 
 @dataclass(frozen=True, slots=True)

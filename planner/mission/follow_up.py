@@ -29,7 +29,7 @@ from planner.language.commands import (
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
 from planner.mission.antecedents import name_antecedents
-from planner.mission.left_out import is_destination_denied, leave_out, put_first
+from planner.mission.left_out import excludes_way, is_destination_denied, leave_out, put_first
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import moves
 from planner.mission.place_words import (
@@ -200,6 +200,16 @@ def denies_way(book: MissionState, text: str, now_unix_s: float) -> bool:
     """Tell whether a sentence says of a place that the robot is on its way to that it is wrong."""
     last = last_order(book, now_unix_s)
     return last is not None and is_destination_denied(text, last, book.facts)
+
+
+def denied_goal(book: MissionState, text: str, now_unix_s: float) -> str | None:
+    """Return the newest open order on whose way a sentence says not to go; None: on none.
+
+    "Don't go in there" is that of the place that was spoken of last.
+    """
+    said = meaning_of(book, text, now_unix_s)
+    denied = (m.id for m in last_orders(book, now_unix_s) if excludes_way(said, m, book.facts))
+    return next(denied, None)
 
 
 def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:

@@ -28,7 +28,12 @@ from planner.mission.open_questions import (
 )
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_check import unwalkable
-from planner.mission.plan_roles import assume_role, end_current, find_asking, goal_in_hand
+from planner.mission.plan_roles import (
+    assume_role,
+    end_current,
+    find_asking,
+    goal_in_hand,
+)
 from planner.mission.queue import (
     acknowledge_hold,
     cancel,
@@ -44,14 +49,20 @@ from planner.mission.queue import (
 )
 from planner.mission.replan import fingerprint, rethought
 from planner.mission.speed_cap import share_of
-from planner.mission.spoken_status import go_on_told, stop_told
-from planner.mission.state import Mission, MissionState
+from planner.mission.spoken_status import go_on_told
+from planner.mission.state import Mission
+from planner.mission.stop_sentences import (
+    ask_what_was_meant,
+    corrects,
+    end_paused,
+    end_stopped,
+    stop_after_all,
+)
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
 from planner.plan import (
     STEPLESS,
     AnswerPlan,
-    Bilingual,
     Clarify,
     Code,
     GoalState,
@@ -61,7 +72,6 @@ from planner.plan import (
     Refuse,
     StepPlan,
     plan_record,
-    words_of,
 )
 
 MAP_CHANGED = say("goal.map_changed")
@@ -69,7 +79,6 @@ HOW_FAR_UNKNOWN = say("goal.map_changed_in_step")
 LEGS_UNWRITTEN = 100
 """More legs than a planner can have streamed and not yet written when it died: the bridge latches
 what was reached by leg, so no number is ever streamed twice."""
-UNCONFIRMED = say("goal.unconfirmed")
 
 
 def submit(turn: Transaction, event: Submitted) -> None:
@@ -78,6 +87,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         return
     if event.stop or event.doubtful_stop:
         stop(turn)
+        end_paused(turn, event.denies)
     elif event.resumes:
         acknowledge_hold(turn)
     if not (event.stop or event.local):
@@ -96,6 +106,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         replace=event.replace,
         first=event.first,
         doubtful_stop=event.doubtful_stop,
+        interrupted=event.interrupts,
         given_under_hold=hold_now(turn),
         source=event.source,
         map_id=turn.book.facts.map_id,
@@ -105,7 +116,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         updated_unix_s=now_unix_s,
     )
     if event.stop or (event.doubtful_stop and not event.echoed):
-        _end_stopped(turn, mission, event.echoed, event.also)
+        end_stopped(turn, mission, event.echoed, event.also)
         return
     if event.asking:
         asking = take_sentence(turn, mission, event.asking)
@@ -113,18 +124,6 @@ def submit(turn: Transaction, event: Submitted) -> None:
             reply(turn, asking, event.text)
         return
     _think(turn, turn.put(mission))
-
-
-def _end_stopped(
-    turn: Transaction, mission: Mission, echoed: bool, also: Bilingual | None = None
-) -> None:
-    if echoed:
-        told = stop_told(turn.book) if also is None else join((stop_told(turn.book), also))
-        said = Outcome(code=Code.STOPPED, message=told)
-        finish(turn, mission, PersonCause.ORDERS_STOP, said)
-        return
-    said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
-    turn.move_to(mission, PersonCause.STOP_UNHEARD, reason="bridge_silent", outcome=said)
 
 
 def _think_anew(turn: Transaction, mission: Mission, cause: Cause) -> None:
@@ -153,8 +152,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
     plan = event.plan
     stepless = not isinstance(plan, StepPlan) or plan.does in STEPLESS
     if mission.doubtful_stop and stepless:
-        also = words_of(plan) if event.brain is None else None  # the planner's own, as it was told
-        _end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True, also=also)
+        stop_after_all(turn, mission, event)
         return
     if plan is None:
         unsaid = message(Code.BAD_PLAN, why=say("plan.no_answer"))
@@ -186,7 +184,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         case StepPlan():
             share, back = share_of(plan), way_back_of(mission)
             mission = turn.put(mission, speed_share=share, accepted_at=back)
-            _walkable(turn, assume_role(turn, mission, plan.does), event.unasked)
+            _walkable(turn, assume_role(turn, mission, plan.does), event)
 
 
 def _act_on_others(turn: Transaction, mission: Mission, role: PlanRole) -> None:
@@ -199,31 +197,29 @@ def _act_on_others(turn: Transaction, mission: Mission, role: PlanRole) -> None:
         reply(turn, asking, mission.words)
 
 
-def _ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
-    """Ask whether a sentence with a stop word in it was an order to do something."""
-    told, text = stop_told(book), mission.text[:60]
-    return say("goal.doubtful_stop", told=told, text=text)
-
-
-def _walkable(turn: Transaction, mission: Mission, unasked: tuple[int, ...]) -> None:
+def _walkable(turn: Transaction, mission: Mission, event: Planned) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
-        _end_stopped(turn, mission, echoed=True)
+        end_stopped(turn, mission, echoed=True)
         return
     if outcome is not None:
         finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
-    shall_i = ask_for_motion(turn.book.facts, (), mission.steps, unasked)
-    if mission.doubtful_stop:
-        asked = _ask_what_was_meant(turn.book, mission)
+    shall_i = ask_for_motion(turn.book.facts, (), mission.steps, event.unasked)
+    if mission.doubtful_stop and not (shall_i is None and corrects(turn, mission)):
+        asked = ask_what_was_meant(turn.book, mission)
         if shall_i is not None:  # a yes is a yes to all that is asked
             asked = join((shall_i.message, asked))
         said = Outcome(code=Code.CONFIRM, message=asked)
         turn.move_to(mission, BrainCause.NEEDS_YES, reason="doubtful_stop", outcome=said)
     elif shall_i is not None:
-        turn.move_to(mission, BrainCause.NEEDS_YES, reason=UNASKED, outcome=shall_i)
+        sure = None if event.sure is None else plan_record(event.sure)
+        turn.move_to(mission, BrainCause.NEEDS_YES, reason=UNASKED, outcome=shall_i, sure=sure)
+    elif mission.doubtful_stop:  # it stands, and what was said in its place is what was asked
+        end_paused(turn, mission.interrupted)
+        ready(turn, turn.put(mission, confirm=False), BrainCause.PLANS)
     elif mission.confirm:
         turn.move_to(mission, BrainCause.NEEDS_YES)
     else:

@@ -21,6 +21,7 @@ from planner.language.commands import (
 )
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, place_alone
+from planner.language.motion_guard.order_scope import read_scope
 from planner.language.object_names import resolve
 from planner.language.person_names import is_given_name
 from planner.mission.place_words import name_place, names_of, room_of, write_drive
@@ -98,8 +99,18 @@ def is_destination_denied(text: str, last: Mission, facts: SiteView) -> bool:
     other = intent_of(text) if first != text else None
     if place is None and first != text and (other is None or isinstance(other, LeaveOutCommand)):
         place = _only_place(first, read_denied_place(first) or read_left_out(first), facts)
+    return place is not None and place in _places_ahead(last)
+
+
+def excludes_way(text: str, last: Mission, facts: SiteView) -> bool:
+    """Tell whether a place that an order still goes to stands in what a sentence denies."""
+    places = find_places(read_scope(text).excluded, names_of(facts))
+    return not _places_ahead(last).isdisjoint(each.id for each in places)
+
+
+def _places_ahead(last: Mission) -> set[str]:
     ahead = last.steps[last.step :] if not last.has_ended else ()
-    return place is not None and any(place in (step.place, *step.places) for step in ahead)
+    return {place for step in ahead for place in (step.place, *step.places) if place}
 
 
 def _only_place(text: str, words: str | None, facts: SiteView) -> str | None:

@@ -16,7 +16,9 @@ from planner.language.schedule import ScheduleCommand
 from planner.language.stop import is_stop
 from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
-from planner.mission.outcomes import ended_outcome
+from planner.mission.motion_consent import key_of_deed
+from planner.mission.outcomes import ended_outcome, moves
+from planner.mission.plan_check import unwalkable
 from planner.mission.queue import clear_hold, enqueue, finish, note_step, release_answered
 from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.skills import Fail
@@ -151,8 +153,27 @@ def take_no(turn: Transaction, mission: Mission) -> None:
     """End a goal whose plan or only offer a person said no to."""
     if mission.has_begun:
         release_answered(turn)
+    if _offer_sure_reading(turn, mission):
+        return
     deed = whole_deed(turn.book.facts, mission.steps[mission.step :])
     decline(turn, mission, tell_declined(deed))
+
+
+def _offer_sure_reading(turn: Transaction, mission: Mission) -> bool:
+    """Ask for what the order says to the built-in brain, in place of a model's plan; say if so.
+
+    The order itself was not taken back: "go to the kitchen", and a no to the bathroom.
+    """
+    sure = mission.sure
+    if sure is None or mission.has_begun or not any(map(moves, sure.steps)):
+        return False
+    same = [key_of_deed(s) for s in sure.steps] == [key_of_deed(s) for s in mission.steps]
+    if same or unwalkable(turn.book, mission, sure.steps) is not None:
+        return False
+    why = say("confirmation.would", deed=whole_deed(turn.book.facts, sure.steps))
+    said = Outcome(code=Code.CONFIRM, message=message(Code.CONFIRM, why=why))
+    turn.put(mission, plan=sure, sure=None, reason="new_plan", outcome=said)
+    return True
 
 
 def ask_plainly(turn: Transaction, mission: Mission) -> None:

@@ -17,10 +17,12 @@ from typing import Any
 
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
+from planner.brain.model_error_codes import reason, tell_failure
+from planner.brain.offline_brain import OfflineBrain
 from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
-from planner.language.catalogue import message, say
+from planner.language.catalogue import join, message, say
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
@@ -140,6 +142,7 @@ def thinker(
             observed=ask.observed,
             replan=ask.replan,
             order=ask.order if ask.exchanges else "",
+            standing=ask.standing,
             departed=ask.departed,
             exchanges=ask.exchanges,
             situation=_situation(ask, clock, remembered),
@@ -150,7 +153,8 @@ def thinker(
             thought = await think_warily(brain, request, hear)
         except BadPlan as error:
             log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
-            said = Outcome(code=Code.BAD_PLAN, message=say("model_error.no_plan"))
+            why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
+            said = Outcome(code=Code.BAD_PLAN, message=why)
             return Planned(ask.id, None, said, error.brain or brain.tag)
         except OutOfBudget as error:
             log.warning("goal %s: no call went out: %s", ask.id, error)
@@ -158,15 +162,27 @@ def thinker(
             return Planned(ask.id, None, said, error.brain or brain.tag)
         except BrainDown as error:
             log.warning("goal %s: the brain is down: %s", ask.id, error)
-            said = _outcome(Code.MODEL_UNAVAILABLE)
+            told = message(Code.MODEL_UNAVAILABLE)
+            told = join((told, tell_failure(error.why, error.server))) if error.server else told
+            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=told)
             return Planned(ask.id, None, said, error.brain or brain.tag)
         rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
         if rejection is not None:
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
         unasked = unasked_of(thought, request)
-        return Planned(ask.id, thought.plan, None, thought.brain, unasked)
+        sure = await _read_surely(request) if unasked else None
+        return Planned(ask.id, thought.plan, None, thought.brain, unasked, sure)
 
     return think
+
+
+async def _read_surely(request: ThinkRequest) -> StepPlan | None:
+    """Return the built-in brain's plan of an order of which nothing was done; None: it has none."""
+    if request.observed or request.exchanges:
+        return None
+    plan = (await OfflineBrain().think(request)).plan
+    runs = check_plan(plan, request.vocabulary, request.runnable, request.blind) is None
+    return plan if isinstance(plan, StepPlan) and runs else None
 
 
 def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:
@@ -194,7 +210,3 @@ def things_of(classes: tuple[str, ...]) -> frozenset[str]:
     None while it has not said what it knows: an unknown place is then told as one.
     """
     return known_words(classes)
-
-
-def _outcome(code: Code, **facts: str) -> Outcome:
-    return Outcome(code=code, message=message(code, **facts))

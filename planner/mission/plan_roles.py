@@ -15,6 +15,7 @@ from planner.language.catalogue import message, say
 from planner.language.motion_guard.order_scope import read_scope
 from planner.mission.open_questions import WAITS, take_sentence
 from planner.mission.queue import cancel, finish
+from planner.mission.state import newest_paused
 from planner.mission.transitions import BrainCause
 from planner.plan import (
     Bilingual,
@@ -87,7 +88,11 @@ def assume_role(turn: Transaction, mission: Mission, role: PlanRole) -> Mission:
 
 
 def end_current(turn: Transaction, mission: Mission, target: Mission | None) -> None:
-    """End the goal that a person wants ended; ask where their words do not say so."""
+    """End the goal that a person wants ended; ask where their words do not say so.
+
+    Where nothing runs and nothing is asked, a paused goal is meant, the one paused last.
+    """
+    target = target or turn.mission(newest_paused(turn.book))
     if target is None:
         _answer(turn, mission, say("commands.nothing_to_cancel"))
         return

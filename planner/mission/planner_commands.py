@@ -38,7 +38,7 @@ from planner.mission.fact_commands import FactCommands
 from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
-from planner.plan import AnswerPlan, Bilingual, Code, Refuse
+from planner.plan import AnswerPlan, Bilingual, Code, Refuse, Say, StepPlan
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
 from planner.site.places import normalise
@@ -99,7 +99,7 @@ class PlannerCommands:
         """Answer at once where the planner itself is meant."""
         mission = self._loop.book.missions.get(ask.id)
         if self.desk is not None and mission is not None and is_of_order(mission):
-            return hold_to_order(await self._brain(ask), self.desk.allowed_steps(mission.source))
+            return await self._think_of_order(self.desk, ask, mission)
         intent = (
             parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
         )
@@ -124,6 +124,14 @@ class PlannerCommands:
         if intent is None or mission is None or mission.steps:
             return take_back_offers(await self._brain(ask), self.refuse_offer)
         return Planned(ask.id, await self.carry_out(intent, mission))
+
+    async def _think_of_order(self, desk: OrderDesk, ask: AskBrain, mission: Mission) -> Planned:
+        """Plan the goal of a standing order; a reminder's words are fixed, and no brain's."""
+        sentence, reminder = desk.sentence_of(mission.source)
+        if reminder and not mission.steps:
+            return Planned(ask.id, StepPlan(steps=(Say(text=reminder),)))
+        planned = await self._brain(replace(ask, standing=sentence))
+        return hold_to_order(planned, desk.allowed_steps(mission.source))
 
     def refuse_offer(self, text: str) -> Bilingual | None:
         """Return why a standing order that a brain offers could not be kept; None: it could."""

@@ -2,7 +2,8 @@
 
 Pure. Law: a word is put in the pronoun's place only where the newest order speaks of one thing, or
 of one place, and the sentence names nothing else that could be meant; else it stays as it was said,
-for a brain to ask about. What comes of it is an order like any other.
+for a brain to ask about. A plan that waits for a yes, or got a no, names nothing that a person did
+not. What comes of it is an order like any other.
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
-from planner.language.motion_guard.mentioned_names import plain
+from planner.language.motion_guard.mentioned_names import find_places, plain
+from planner.mission.place_words import names_of
+from planner.plan import GoalState
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission
@@ -118,10 +121,18 @@ def _found_in_chinese(what: str, last: Mission) -> str | None:
     return f"你看到过{thing}吗" if looked and thing else None
 
 
+def _was_only_proposed(last: Mission) -> bool:
+    """Tell whether a plan was laid before a person, and nothing of it was begun."""
+    waits = last.state in (GoalState.AWAITING_CONFIRMATION, GoalState.CANCELLED)
+    return waits and not last.has_begun
+
+
 def _thing_of(last: Mission, *, chinese: bool) -> str | None:
     """Return the one thing that an order speaks of, in its own words and in this language."""
     things = {step.object for step in last.steps if step.kind in _SOUGHT and step.object}
     thing = things.pop() if len(things) == 1 else None
+    if thing is not None and _was_only_proposed(last) and thing not in plain(last.order_text):
+        return None
     if thing is None or has_chinese(thing) is not chinese:
         return None
     return re.sub(r"^(?:the|my|our|your|an?) ", "", thing)
@@ -131,6 +142,8 @@ def _place_of(last: Mission, facts: SiteView, *, chinese: bool) -> str | None:
     """Return the name of the one place that an order speaks of."""
     named = (place for step in last.steps for place in (step.place, *step.places))
     places = {place for place in named if place in facts.targets}
+    if _was_only_proposed(last):
+        places &= {each.id for each in find_places(last.order_text, names_of(facts))}
     if len(places) != 1:
         return None
     return facts.targets[places.pop()].name.of("zh" if chinese else "en")

@@ -1,8 +1,10 @@
 """Keep the queue: the goal that has the robot, those that wait, and those waiting for a person.
 
-One mission runs at a time. A pause frees the robot but keeps those waiting where they are; only a
-goal that a person gives afterwards, or a resume, goes on. Who waits for an answer alone goes on
-with the answer, too.
+Goals take their turns in the order in which they were asked for, however long a brain thinks about
+each; only a person's word ("first", "instead", a move) puts one before an older one. One mission
+runs at a time. A pause frees the robot but keeps those waiting where they are; only a goal that a
+person gives afterwards, or a resume, goes on. Who waits for an answer alone goes on with the
+answer, too.
 """
 
 from __future__ import annotations
@@ -39,7 +41,19 @@ def enqueue(turn: Transaction, mission: Mission, cause: Cause, *, first: bool = 
     """Let a planned mission wait for the robot; ``cause`` is why it may."""
     waiting = tuple(i for i in turn.book.queue if i != mission.id)
     turn.move_to(mission, cause, reason=None, held=False, kept=False)
-    turn.set(queue=(mission.id, *waiting) if first else (*waiting, mission.id))
+    later = (n for n, i in enumerate(waiting) if _was_asked_after(turn.book.missions[i], mission))
+    at = 0 if first else next(later, len(waiting))
+    turn.set(queue=(*waiting[:at], mission.id, *waiting[at:]))
+
+
+def _was_asked_after(other: Mission, mission: Mission) -> bool:
+    """Tell whether another mission only waits for its turn, and was asked for later."""
+    return other.order > mission.order and not _goes_first(other)
+
+
+def _goes_first(mission: Mission) -> bool:
+    """Tell whether a mission has its place by a person's word, or by what it has begun."""
+    return mission.has_begun or mission.first or mission.replace
 
 
 def dequeue(turn: Transaction, mission_id: str) -> None:
@@ -244,13 +258,20 @@ def reorder(turn: Transaction, mission_id: str, before: str | None) -> None:
 
 
 def next_up(turn: Transaction) -> Mission | None:
-    """Return the mission that may have the robot now, or None."""
+    """Return the mission that may have the robot now, or None.
+
+    Of several people the first who asked goes first, though the thought about it takes longest.
+    """
     if turn.book.running is not None or standing_hold(turn) is not None:
         return None
     if any(m.first and m.state is GoalState.PLANNING for m in turn.book.missions.values()):
         return None  # "forget that, …": the robot stays free for what is thought about
     waiting = (turn.book.missions[i] for i in turn.book.queue)
-    return next((m for m in waiting if not m.held), None)
+    found = next((m for m in waiting if not m.held), None)
+    if found is None or _goes_first(found):
+        return found
+    thinking = (m for m in turn.book.missions.values() if m.state is GoalState.PLANNING)
+    return None if any(m.order < found.order for m in thinking) else found
 
 
 def note_step(turn: Transaction, mission: Mission, **changes: object) -> Mission:

@@ -29,10 +29,11 @@ from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest
-from planner.mission.errors import IdempotencyConflict, QueueFull
+from planner.mission.errors import IdempotencyConflict, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import (
     change_round,
+    denied_goal,
     denies_way,
     find_short_follow_up,
     last_order,
@@ -41,7 +42,7 @@ from planner.mission.follow_up import (
 )
 from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
-from planner.mission.state import GoalKey, MissionState
+from planner.mission.state import RESERVED_KEYS, GoalKey, MissionState, newest_paused
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ class Reception:
     takes_back: str | None = None
     """The goal that it ends."""
     refused: MissionError | None = None
-    """Why it is not taken in: QueueFull or IdempotencyConflict."""
+    """Why it is not taken in: QueueFull, IdempotencyConflict or ReservedKey."""
     repeats: str | None = None
     """The goal that this very request made before: it is shown, and nothing is done."""
     request: GoalKey | None = None
@@ -124,13 +125,18 @@ def receive(
     """
     if said.orders_stop:
         return Reception(replace(given, stop=True), stops=True)
-    intent, full = said.intent, not has_room(book)
+    full = not has_room(book)
     may_answer = answers and not (given.confirm or given.replace)
     asking = goals_answered_by(book, said) if may_answer else ()
     now_unix_s = now_s + book.wall_offset_s
     if not asking and _may_stop(book, said, now_s):
-        marked = replace(given, stop=full, doubtful_stop=not full, confirm=True, replace=False)
+        marked = replace(
+            given, stop=full, doubtful_stop=not full, confirm=True, replace=False,
+            interrupts=goal_to_pause(book), denies=denied_goal(book, said.text, now_unix_s),
+        )  # fmt: skip
         return Reception(marked, stops=True)
+    if key is not None and key.startswith(RESERVED_KEYS):
+        return Reception(given, refused=ReservedKey(key))
     body = _body_of(given)
     before = repeats.find(key) if repeats is not None else None
     if before is not None and before.body != body:
@@ -335,7 +341,5 @@ def goal_to_pause(book: MissionState, asking: str | None = None) -> str | None:
 
 def goal_to_resume(book: MissionState, asking: str | None = None) -> str | None:
     """Return the goal that was paused last, else the first that is kept waiting."""
-    paused = [m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking]
-    if paused:
-        return max(paused, key=lambda m: (m.updated_unix_s, m.order)).id
-    return next((i for i in book.queue if book.missions[i].held), None)
+    paused = newest_paused(book, asking)
+    return paused or next((i for i in book.queue if book.missions[i].held), None)

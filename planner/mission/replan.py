@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 
 from planner.brain.interface import OFFLINE
-from planner.language.catalogue import message, say
+from planner.language.catalogue import join, message, say
 from planner.language.questions import looks_round
 from planner.mission.events import Planned
 from planner.mission.motion_consent import UNASKED, ask_for_motion
@@ -117,11 +117,24 @@ def _no_steps(
         said = message(Code.ANSWERED, text=plan.text)
         end_running(turn, BrainCause.ANSWERS, Code.ANSWERED, said=said)
         return
+    if isinstance(plan, AnswerPlan) and mission.failure is not None:
+        _fail_with_advice(turn, mission, mission.failure, plan.text)
+        return
     if isinstance(plan, Refuse):
         _end(turn, mission, BrainCause.REFUSES, Outcome(code=plan.code, message=plan.reason))
         return
     why = message(Code.BAD_PLAN, why=NO_STEPS)
     _end(turn, mission, GoalFact.STEP_FAILS, failure or Outcome(code=Code.BAD_PLAN, message=why))
+
+
+def _fail_with_advice(turn: Transaction, mission: Mission, why: Outcome, text: Bilingual) -> None:
+    """End the goal by its failure, and tell behind it what the brain says to that."""
+    step = mission.current_step
+    told = (step.said if step is not None else None) or why.message
+    if text.en not in told.en:  # the built-in brain says the failure again
+        told = join((told, text))
+    mission = note_step(turn, mission, said=told)
+    give_up(turn, turn.put(mission, failure=why.model_copy(update={"message": told})))
 
 
 def _end(turn: Transaction, mission: Mission, cause: Cause, why: Outcome) -> None:

@@ -171,12 +171,11 @@ class Missions:
 
         Raises:
             QueueFull: 33 goals are open, and none of them waits for an answer alone.
-            IdempotencyConflict: the key came with another request before.
+            IdempotencyConflict, ReservedKey: the key is another request's, or a standing order's.
             JournalDown: it can't be written down, so it was not taken.
         """
         said, goal_id = parse(text), self._clocks.new_id()
-        spoken = language or said.language
-        given = Submitted(goal_id, text, spoken, confirm, replace, source=source)
+        given = Submitted(goal_id, text, language or said.language, confirm, replace, source=source)
         heard = receive(
             self.loop.book, said, given, self._clocks.monotonic(),
             answers=answers, key=idempotency_key, repeats=self._repeats,
@@ -184,7 +183,7 @@ class Missions:
         if heard.refused is not None:
             raise heard.refused
         if heard.stops:
-            return await self._stop_goal(heard.given, source)
+            return await self._stop_goal(heard.given, source, act)
         if heard.repeats is not None:
             return self.goal(heard.repeats)
         self._repeats.remember(heard.request)
@@ -324,8 +323,9 @@ class Missions:
             "status": status.model_dump(mode="json") if status is not None else None,
         }
 
-    async def _stop_goal(self, given: Submitted, source: str) -> Goal:
+    async def _stop_goal(self, given: Submitted, source: str, act: OpRequest | None = None) -> Goal:
         result = await self.stop(source)
+        self.loop.keep_act(given.id, act if given.doubtful_stop else None)
         also = await self.commands.obey_beside_stop(given)
         self.loop.event(dataclasses.replace(given, echoed=result.is_echoed, also=also))
         return self.goal(given.id)

@@ -11,6 +11,7 @@ import hashlib
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
+from planner.brain.situation import Situation
 from planner.language.catalogue import join, message, say
 from planner.mission.effects import AskBrain
 from planner.mission.errors import JournalDown, QueueFull
@@ -57,6 +58,9 @@ class OrderDesk(Protocol):
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is none of ours."""
+
+    def sentence_of(self, source: str) -> tuple[str, str | None]:
+        """Return the sentence of a goal's standing order, and a reminder's fixed words."""
 
     def refuse_offer(self, text: str) -> Bilingual | None:
         """Return why a standing order that a model offers could not be kept; None: it could."""
@@ -122,15 +126,19 @@ class StandingGoals:
         before = self._repeats.find(key)
         return before.goal if before is not None else None
 
-    async def consider(self, text: str, language: Language, goal_id: str) -> Planned:
+    async def consider(
+        self, text: str, language: Language, goal_id: str, standing: str = ""
+    ) -> Planned:
         """Have an order understood and judged as a goal would be; nothing is given.
 
         Args:
             text: the order.
             language: its language.
             goal_id: to whose account a model's calls go.
+            standing: the whole sentence, with its time.
         """
-        planned = await self._think(AskBrain(goal_id, text, language, order=text))
+        ask = AskBrain(goal_id, text, language, order=text, standing=standing)
+        planned = await self._think(replace(ask, situation=Situation()))
         plan = planned.plan
         if not isinstance(plan, StepPlan):
             return planned

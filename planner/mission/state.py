@@ -35,6 +35,8 @@ from wire import Status
 
 ORDER_SOURCE = "order:"
 """What the source of every goal of a standing order begins with."""
+RESERVED_KEYS = "standing-order:"
+"""What the Idempotency-Key of every such goal begins with, and no other request's may."""
 MAX_OPEN = 33
 """Goals that have not ended: one running and 32 that wait."""
 MAX_ENDED = 200
@@ -62,6 +64,8 @@ class Mission(Frozen):
     plan: PlanRecord | None = None
     outcome: Outcome | None = None
     brain: BrainTag | None = None
+    sure: PlanRecord | None = None
+    """What the built-in brain read in the order: offered where a model's plan gets a no."""
     confirm: bool = False
     """Wait for a yes before the first step."""
     replace: bool = False
@@ -69,6 +73,8 @@ class Mission(Frozen):
     """It comes in place of a goal that was taken back: nobody who waits overtakes it."""
     doubtful_stop: bool = False
     """Its sentence holds a stop word and stopped the robot before it was thought about."""
+    interrupted: str | None = None
+    """The goal that was paused by that stop; a correction ends it."""
     given_under_hold: str | None = None
     """The bridge's hold that stood when a person last spoke for this goal. Once a plan is made and
     accepted, that hold is cleared, and no hold that came later."""
@@ -228,3 +234,10 @@ class MissionState:
     def means(self) -> Means:
         """Return the robot's means besides driving and talking, as its eyes are now."""
         return self.eyes.means(self.sight.blind, grows=self.facts.grows)
+
+
+def newest_paused(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that was paused last, besides the one that asks; None: none is."""
+    paused = (m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking)
+    newest = max(paused, key=lambda m: (m.updated_unix_s, m.order), default=None)
+    return newest.id if newest is not None else None

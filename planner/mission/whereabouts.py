@@ -54,7 +54,8 @@ _AT = (
     r"|behind)) "
 )
 _BUSY = (
-    r"(?:sitting|lying|resting|sleeping|working|reading|cooking|playing|busy|having [a-z ]{3,16}?"
+    r"(?:sitting|lying|resting|sleeping|working|reading|cooking|playing|busy"
+    r"|having(?: (?!having\b)[a-z]+){1,3}?"
     r"|watching (?:tv|telly|television|a film))"
 )
 _LEFT_IT = (

@@ -14,6 +14,7 @@ from planner.language.catalogue import join, message, say
 from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, OrderCommand
 from planner.language.utterance import parse
 from planner.mission.events import Planned
+from planner.mission.state import ORDER_SOURCE
 from planner.orders.changer import OrderChanger
 from planner.orders.corrector import OrderCorrector
 from planner.orders.day_question import ask_which_day
@@ -24,8 +25,8 @@ from planner.orders.new_order import (
     put_time_before,
     read_new_order,
 )
-from planner.orders.new_order_judge import NewOrderJudge
-from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder
+from planner.orders.new_order_judge import NewOrderJudge, is_remark, judge_deed
+from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder, new_nonce
 from planner.orders.rule import settle
 from planner.orders.teller import OrderTeller
 from planner.orders.unfinished_order import UnfinishedOrder
@@ -36,6 +37,7 @@ from planner.plan import (
     Code,
     Language,
     Refuse,
+    Say,
     StepPlan,
     StepRecord,
     plan_record,
@@ -47,6 +49,7 @@ from planner.state_database import StateUnavailable
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from planner.language.schedule import ScheduleCommand
     from planner.language.schedule.parts import OnceDay
     from planner.mission.effects import AskBrain
     from planner.mission.state import Mission, MissionState
@@ -62,7 +65,9 @@ class Considers(Protocol):
     @property
     def book(self) -> MissionState: ...
 
-    async def consider(self, text: str, language: Language, goal_id: str) -> Planned: ...
+    async def consider(
+        self, text: str, language: Language, goal_id: str, standing: str = ""
+    ) -> Planned: ...
 
 
 class OrderIntake:
@@ -103,7 +108,10 @@ class OrderIntake:
             return None if plan is None else Planned(ask.id, plan)
         now_s = self._keeper.clocks.unix()
         lacked = command.problem
-        command = self._unfinished.finish(command, ask.text if answered else None, now_s)
+        command = self._unfinished.finish(command, ask.text if answered else None, now_s, ask.text)
+        planned = None if answered else await self._consider_deed(command, ask)
+        if planned is not None and is_remark(planned):
+            return None  # "Tom comes home at six": the whole sentence is a brain's
         if answered and lacked is None:  # about the order within: its words alone are put in
             command = replace(command, order=ask.text)
         if (asked := self._unfinished.ask(command, now_s)) is not None:
@@ -111,7 +119,7 @@ class OrderIntake:
         try:
             new = read_new_order(command, ask.language, given)
             new = replace(new, begins_unix_s=self._begin_of(command.begins))
-            order = await self.give(new, ask.id)
+            order = await self.give(new, ask.id, planned)
         except OrderRefusal as refused:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
             return Planned(ask.id, Refuse(code=Code.ORDER_NOT_KEPT, reason=why))
@@ -150,16 +158,25 @@ class OrderIntake:
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is gone."""
-        return self._keeper.allowed_steps(source)
+        order = self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
+        return order.allowed if order is not None else None
+
+    def sentence_of(self, source: str) -> tuple[str, str | None]:
+        """Return the sentence of a goal's standing order, and a reminder's fixed words."""
+        order = self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
+        return ("", None) if order is None else (order.text, order.reminder)
 
     # Giving -------------------------------------------------------------------------------------
 
-    async def give(self, new: NewOrder, goal_id: str) -> StandingOrder:
+    async def give(
+        self, new: NewOrder, goal_id: str, planned: Planned | None = None
+    ) -> StandingOrder:
         """Keep an order, on disk as this returns; the same one again is the one that is kept.
 
         Args:
             new: what is wanted.
             goal_id: to whose account the thought goes.
+            planned: the thought about it, where there was one.
 
         Raises:
             OrderRefusal: see ``[order_refusal]`` of the catalogue.
@@ -170,16 +187,20 @@ class OrderIntake:
         if (asked := ask_which_day(new, now_s, book.zone)) is not None:
             raise OrderQuestion(asked, is_whole=True)
         rule = self._judge.judge(new, now_s)
-        allowed = await self._consider(new, goal_id)
+        if planned is not None:
+            allowed = judge_deed(new, planned)
+        else:
+            allowed = await self._think_of_deed(new, goal_id)
         async with self._keeper.lock:
             if (same := self._judge.find_same(new, rule)) is not None:
                 self._corrector.note(same.id)
                 return same
             self._judge.judge_room(new, rule)
-            number = max((o.number for o in self._keeper.book.orders.values()), default=0) + 1
+            number = self._keeper.last_number + 1
             order = StandingOrder(
-                id=f"o{number}", number=number, text=new.text[:MAX_ORDER_CHARACTERS],
-                order=new.order, language=new.language, rule=rule, reminder=new.reminder,
+                id=f"o{number}", number=number, nonce=new_nonce(),
+                text=new.text[:MAX_ORDER_CHARACTERS], order=new.order,
+                language=new.language, rule=rule, reminder=new.reminder,
                 source=new.source, allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
                 paused=new.begins_unix_s is not None, resume_unix_s=new.begins_unix_s,
             )  # fmt: skip
@@ -190,22 +211,20 @@ class OrderIntake:
         self._corrector.note(order.id)
         return order
 
-    async def _consider(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
-        planned = await self._goals.consider(new.order, new.language, goal_id)
-        plan = planned.plan
-        if isinstance(plan, Clarify):
-            raise OrderQuestion(plan)
-        if plan is None or isinstance(plan, Refuse):
-            failed = planned.failure.message if planned.failure is not None else None
-            why = failed or words_of(plan) or say("standing.none")
-            raise OrderRefusal("order_not_understood", why.en, order=new.order[:120], why=why)
-        if planned.unasked:
-            raise OrderRefusal("order_unasked", "motion that nobody said", order=new.order[:120])
-        steps = plan_record(plan).steps if isinstance(plan, StepPlan) else ()
-        first = next((s for s in steps if s.kind in ("come_back", "go_to", "patrol")), None)
-        if first is not None and first.kind == "come_back":
-            raise OrderRefusal("order_leans", "come back to where?")
-        return steps
+    async def _consider_deed(self, command: ScheduleCommand, ask: AskBrain) -> Planned | None:
+        """Have thought about what is to be done each time; None: that is known without a brain."""
+        said = parse(command.order)
+        known = said.intent is not None or said.consent is not None or said.orders_stop
+        if command.reminder is not None or not command.order.strip() or known:
+            return None
+        return await self._goals.consider(command.order, ask.language, ask.id, ask.text)
+
+    async def _think_of_deed(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
+        if new.reminder:  # its words are fixed: no brain is asked
+            return plan_record(StepPlan(steps=(Say(text=new.reminder),))).steps
+        return judge_deed(
+            new, await self._goals.consider(new.order, new.language, goal_id, new.text)
+        )
 
     def judge_quiet(self, rule: Rule, now_s: float) -> None:
         """Refuse a rule all of whose runs are left out. Raises OrderRefusal."""

@@ -15,11 +15,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner.mission.errors import MissionError
+from planner.mission.state import ORDER_SOURCE
 from planner.orders import world
 from planner.orders.announcer import OrderAnnouncer
 from planner.orders.interfaces import GoalGiver, OrderClocks
 from planner.orders.ledger import End, FiringLedger, LedgerEntry
-from planner.orders.order import SOURCE, Firing, FiringState, StandingOrder, key_of
+from planner.orders.order import Firing, FiringState, StandingOrder, key_of, new_nonce
 from planner.orders.scheduler import (
     INTERRUPTED,
     Fire,
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
     from planner.navigation import ObstacleReport
     from planner.orders.notifier import Notifier
     from planner.orders.store import OrderStore
-    from planner.plan import QuietHours, StepRecord
+    from planner.plan import QuietHours
 
 log = logging.getLogger(__name__)
 
@@ -70,8 +71,8 @@ class OrderKeeper:
     ) -> None:
         """Put the parts together; nothing is read yet."""
         self.book = OrderBook(zone, quiet)
-        self.version = 0
-        """Rises with every change."""
+        self.version = 0  # rises with every change
+        self.last_number = 0  # the highest that an order ever had, here or by the goals it gave
         self.failure: BaseException | None = None
         self._store, self.goals = store, goals
         self._ledger = FiringLedger(store, lambda: self.book.orders)
@@ -84,8 +85,7 @@ class OrderKeeper:
         self._done = self._failed = 0
         self._seen_s = float("-inf")
         self._tasks: list[asyncio.Task[None]] = []
-        self.lock = asyncio.Lock()
-        """Held while an order is taken or changed."""
+        self.lock = asyncio.Lock()  # held while an order is taken or changed
 
     # Life ---------------------------------------------------------------------------------------
 
@@ -95,12 +95,16 @@ class OrderKeeper:
         Raises:
             ConfigError, StateUnavailable: it can't be read.
         """
-        orders, firings, seen_unix_s = await asyncio.to_thread(self._store.load)
+        orders, firings, seen_unix_s, number = await asyncio.to_thread(self._store.load)
+        self.last_number = max(number, world.highest_number(self.goals.book.missions.values()))
         self.book = replace(self.book, floor_unix_s=seen_unix_s)
         for order in orders:
             self.book = put(self.book, order)
         for firing in firings:
             self._take_up(firing)
+        for old in (order for order in orders if not order.nonce):  # kept by an older program
+            self._ledger.ask(Keep(renewed := old.model_copy(update={"nonce": new_nonce()})))
+            self.book = put(self.book, renewed)
         await self.work_off()
         if rounds:
             self._tasks = [
@@ -132,9 +136,9 @@ class OrderKeeper:
 
     def _take_up(self, firing: Firing) -> None:
         order = self.book.orders.get(firing.order)
-        goal = firing.goal or self.goals.find(key_of(firing.order, firing.serial))
         if order is None:
             return
+        goal = firing.goal or self.goals.find(key_of(order, firing.serial))
         if goal is None:
             self._miss(order, firing, INTERRUPTED)
             return
@@ -219,7 +223,7 @@ class OrderKeeper:
         self.publish_change()
 
     async def _fire(self, order: StandingOrder, firing: Firing) -> None:
-        key, source = key_of(order.id, firing.serial), f"{SOURCE}{order.id}"
+        key, source = key_of(order, firing.serial), f"{ORDER_SOURCE}{order.id}"
         try:
             goal = await self.goals.give(
                 self.clocks.new_id(), order.order, order.language, key, source
@@ -295,6 +299,7 @@ class OrderKeeper:
             StateUnavailable: it can't be written; nothing has changed.
         """
         await self._ledger.keep(order, seen_unix_s=self.clocks.unix())
+        self.last_number = max(self.last_number, order.number)
         self.book = add(self.book, order)
         over = [o for o in self.book.orders.values() if o.ended and o.id not in self._open]
         for old in sorted(over, key=lambda o: o.number)[: max(0, len(over) - MOST_ENDED)]:
@@ -332,11 +337,6 @@ class OrderKeeper:
     async def history(self, order_id: str, most: int) -> tuple[Firing, ...]:
         """Return an order's newest firings. Raises StateUnavailable."""
         return await asyncio.to_thread(self._store.history, order_id, most)
-
-    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
-        """Return what the order of a goal may do; None where there is no such order."""
-        order = self.book.orders.get(source.removeprefix(SOURCE))
-        return order.allowed if order is not None else None
 
     # Telling ------------------------------------------------------------------------------------
 

@@ -13,19 +13,21 @@ from planner.language.schedule import ScheduleCommand
 from planner.language.utterance import parse
 from planner.orders import world
 from planner.orders.errors import OrderRefusal
-from planner.orders.new_order import NewOrder, judge_words, order_of_text
+from planner.orders.new_order import NewOrder, OrderQuestion, judge_words, order_of_text
 from planner.orders.order import MAX_ORDERS
 from planner.orders.rule import is_quiet, settle, upcoming
+from planner.plan import AnswerPlan, Clarify, Code, Refuse, plan_record, words_of
 from planner.plan.timing import CronRule, EventRule, EveryRule
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from planner.mission.events import Planned
     from planner.mission.state import MissionState
     from planner.navigation import ObstacleReport
     from planner.orders.keeper import OrderKeeper
     from planner.orders.order import StandingOrder
-    from planner.plan import Bilingual
+    from planner.plan import Bilingual, StepRecord
     from planner.plan.timing import Rule
 
 QUIET_LOOKED = 30
@@ -96,3 +98,38 @@ class NewOrderJudge:
         except OrderRefusal as refused:
             return refused.message
         return None
+
+
+LOST = frozenset({Code.NOT_UNDERSTOOD, Code.OUT_OF_SCOPE})
+
+
+def is_remark(planned: Planned) -> bool:
+    """Tell whether a thought finds nothing that the robot could do: "pizza tonight" is no order."""
+    plan = planned.plan
+    lost = isinstance(plan, Clarify | Refuse) and plan.code in LOST
+    return isinstance(plan, AnswerPlan) or (lost and not getattr(plan, "options", ()))
+
+
+def judge_deed(new: NewOrder, planned: Planned) -> tuple[StepRecord, ...]:
+    """Return the steps that an order may do each time.
+
+    Raises:
+        OrderRefusal: it can't be kept.
+        OrderQuestion: the brain asks about it.
+    """
+    plan = planned.plan
+    if isinstance(plan, Clarify):
+        raise OrderQuestion(plan)
+    if isinstance(plan, AnswerPlan):
+        raise OrderRefusal("order_no_deed", new.order[:120], order=new.order[:120])
+    if plan is None or isinstance(plan, Refuse):
+        failed = planned.failure.message if planned.failure is not None else None
+        why = failed or words_of(plan) or say("standing.none")
+        raise OrderRefusal("order_not_understood", why.en, order=new.order[:120], why=why)
+    if planned.unasked:
+        raise OrderRefusal("order_unasked", "motion that nobody said", order=new.order[:120])
+    steps = plan_record(plan).steps
+    first = next((s for s in steps if s.kind in ("come_back", "go_to", "patrol")), None)
+    if first is not None and first.kind == "come_back":
+        raise OrderRefusal("order_leans", "come back to where?")
+    return steps

@@ -7,10 +7,12 @@ can make the robot do one twice.
 from __future__ import annotations
 
 from enum import StrEnum
+from secrets import token_hex
 from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
+from planner.mission.state import RESERVED_KEYS
 from planner.plan import Bilingual, Frozen, Language, StepRecord
 from planner.plan.timing import AtRule, EventRule, Rule
 
@@ -30,7 +32,9 @@ class StandingOrder(Frozen):
 
     id: str
     number: int
-    """Rises with every order given."""
+    """Rises with every order given, and is never used again: see ``OrderStore``."""
+    nonce: str = ""
+    """Random part of its firings' keys; empty in records of older programs until they are read."""
     text: str
     """As the person said it."""
     order: Annotated[str, Field(min_length=1, max_length=MAX_ORDER_CHARACTERS)]
@@ -81,6 +85,11 @@ def end_pauses(orders: Iterable[StandingOrder], unix_s: float) -> tuple[Standing
     )
 
 
+def new_nonce() -> str:
+    """Return a random part for the keys of one order's firings."""
+    return token_hex(8)
+
+
 class FiringState(StrEnum):
     """Name what became of one run."""
 
@@ -114,10 +123,7 @@ class Firing(Frozen):
     told: Bilingual | None = None
 
 
-def key_of(order: str, serial: int) -> str:
-    """Return the Idempotency-Key with which a firing's goal is given."""
-    return f"standing-order:{order}:{serial}"
-
-
-SOURCE = "order:"
-"""What the source of every goal of a standing order begins with."""
+def key_of(order: StandingOrder, serial: int) -> str:
+    """Return the Idempotency-Key with which a firing's goal is given; nobody else can know it."""
+    nonce = f"{order.nonce}:" if order.nonce else ""
+    return f"{RESERVED_KEYS}{order.id}:{nonce}{serial}"

@@ -1,5 +1,7 @@
 """Keep standing orders and their firings as tables of ``state.sqlite`` (ADR 0036). Judges nothing.
 
+Law: the highest number that an order ever had outlives that order, so no later one takes its place.
+
 The tables are made by the first order that is kept. An order and the firing that changed it are
 written in one transaction, on disk before it returns: that makes a firing happen at most once.
 Blocks on the disk: never called in the event loop.
@@ -30,6 +32,11 @@ CREATE TABLE IF NOT EXISTS firings (
     record TEXT NOT NULL, PRIMARY KEY (standing_order, serial)) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS order_facts (name TEXT PRIMARY KEY, value REAL NOT NULL) WITHOUT ROWID;
 """
+_MARK_NUMBER = """
+REPLACE INTO order_facts SELECT 'last_number', MAX(
+    COALESCE((SELECT value FROM order_facts WHERE name = 'last_number'), 0),
+    COALESCE((SELECT MAX(number) FROM standing_orders), 0))
+"""
 _OPEN = (FiringState.BEGUN, FiringState.GIVEN)
 _SAME = (FiringState.MISSED, FiringState.QUIET)
 
@@ -41,24 +48,27 @@ class OrderStore:
         """Say in which database."""
         self._database = database
 
-    def load(self) -> tuple[tuple[StandingOrder, ...], tuple[Firing, ...], float]:
-        """Return the orders, the firings whose end is not known, and how far the clock once was.
+    def load(self) -> tuple[tuple[StandingOrder, ...], tuple[Firing, ...], float, int]:
+        """Return the orders, the firings whose end is not known, how far the clock once was, and
+        the highest number that an order ever had.
 
         Raises:
             ConfigError: ``orders_malformed``: a record is not one of ours.
             StateUnavailable: it can't be read.
         """
         if not self._database.read("SELECT 1 FROM sqlite_master WHERE name = 'standing_orders'"):
-            return (), (), 0.0
+            return (), (), 0.0, 0
         rows = self._database.read("SELECT record FROM standing_orders ORDER BY number")
         open_ = self._database.read("SELECT record FROM firings WHERE open = 1")
-        seen = self._database.read("SELECT value FROM order_facts WHERE name = 'seen_unix_s'")
+        facts = dict(self._database.read("SELECT name, value FROM order_facts"))
         try:
             orders = tuple(StandingOrder.model_validate_json(record) for (record,) in rows)
             firings = tuple(Firing.model_validate_json(record) for (record,) in open_)
         except ValidationError as error:
             raise ConfigError("orders_malformed", str(error).splitlines()[0]) from None
-        return orders, firings, float(seen[0][0]) if seen else 0.0
+        highest = max((order.number for order in orders), default=0)  # all that old tables tell
+        number = max(highest, int(facts.get("last_number", 0)))
+        return orders, firings, float(facts.get("seen_unix_s", 0.0)), number
 
     def keep(
         self,
@@ -87,6 +97,7 @@ class OrderStore:
                     "REPLACE INTO standing_orders VALUES (?, ?, ?)",
                     (order.id, order.number, order.model_dump_json()),
                 )
+            connection.execute(_MARK_NUMBER)
             if seen_unix_s is not None:
                 _see(connection, seen_unix_s)
             return tuple(_put(connection, firing) for firing in firings)
@@ -109,6 +120,7 @@ class OrderStore:
             StateUnavailable: it can't be written.
         """
         with self._database.change() as connection:
+            connection.execute(_MARK_NUMBER)  # older programs marked none as they kept it
             connection.execute("DELETE FROM standing_orders WHERE id = ?", (order_id,))
             connection.execute("DELETE FROM firings WHERE standing_order = ?", (order_id,))
 

@@ -1,11 +1,13 @@
 """Keep an order whose time is missing until a person says it: "remind me to ring the doctor".
 
 The time may come as an answer to the question, or said as a sentence of its own ("about ten
-tomorrow"). Law: what was asked longer ago than ``WAITS_S`` is finished by nothing.
+tomorrow"). Laws: what was asked longer ago than ``WAITS_S`` is finished by nothing; a remark that
+holds a time ("we have guests tonight") finishes nothing, only a time that is said by itself does.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from planner.language.catalogue import say
@@ -15,6 +17,7 @@ from planner.language.schedule.reasons import is_reason
 from planner.plan import Clarify, Code, Option
 
 WAITS_S = 600.0
+_CLAUSE = re.compile(r"[,，;；、]")
 MISSING = "order_time_missing"
 
 
@@ -43,7 +46,7 @@ class UnfinishedOrder:
         return Clarify(code=Code.INCOMPLETE, question=question)
 
     def finish(
-        self, command: ScheduleCommand, said: str | None, now_unix_s: float
+        self, command: ScheduleCommand, said: str | None, now_unix_s: float, sentence: str = ""
     ) -> ScheduleCommand:
         """Return an order with the time that was said for it; the same where none was.
 
@@ -51,11 +54,13 @@ class UnfinishedOrder:
             command: the order, or a time that stands alone.
             said: the answer to the question about this order, if it is one.
             now_unix_s: by people's clock.
+            sentence: the whole of what was said now.
         """
         if said is not None and command.problem == MISSING:
             return complete_order(command, said) or command
         order = command.order.strip().lower()
-        beside = not order or is_reason(order, chinese=has_chinese(order))  # "after tea, at seven"
+        apart = is_reason(order, chinese=has_chinese(order)) and self._has_time_apart(sentence)
+        beside = not order or apart  # "after tea, at seven"; "we have guests tonight" is a remark
         alone = beside and command.reminder is None and command.problem is None
         waits = self.command is not None and 0.0 <= now_unix_s - self.asked_unix_s <= WAITS_S
         if not alone or not waits or self.command is None:
@@ -65,3 +70,10 @@ class UnfinishedOrder:
             return command
         self.command = None
         return finished
+
+    def _has_time_apart(self, sentence: str) -> bool:
+        """Tell whether a clause of a sentence is a time alone, and so answers the question."""
+        asked = self.command
+        return asked is not None and any(
+            complete_order(asked, clause) is not None for clause in _CLAUSE.split(sentence)
+        )

@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING
 
 from planner.mission.bridge_status import cannot_move, standing
 from planner.mission.standing_goals import is_of_order
+from planner.mission.state import ORDER_SOURCE
 from planner.orders.scheduler import BRIDGE_SILENT
 from planner.orders.watch import WorldFacts
 from planner.plan import GoalState, PauseReason
 from planner.plan.timing import WorldEvent
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport
 
@@ -104,3 +107,12 @@ def count_ended(
     done = sum(m.state is GoalState.SUCCEEDED for m in fresh)
     failed = sum(m.state is GoalState.FAILED for m in fresh)
     return frozenset(ended), done, failed
+
+
+def highest_number(missions: Iterable[Mission]) -> int:
+    """Return the highest number of the standing orders that gave these goals; 0: none did.
+
+    Tables of older programs have forgotten the numbers of removed orders; the journal hasn't.
+    """
+    given = (m.source.removeprefix(f"{ORDER_SOURCE}o") for m in missions if is_of_order(m))
+    return max((int(number) for number in given if number.isdecimal()), default=0)

@@ -50,7 +50,7 @@ class StandAt(Frozen):
 
 
 class ComeBack(Frozen):
-    """Drive back to the start."""
+    """Drive back to where the order was given."""
 
     kind: Literal["come_back"] = "come_back"
 
@@ -69,7 +69,7 @@ class Wait(Frozen):
 
 
 class Say(Frozen):
-    """Say words to people."""
+    """Say words aloud."""
 
     kind: Literal["say"] = "say"
     text: Words
@@ -134,7 +134,7 @@ class GoToPoint(Frozen):
 
 
 class Find(Frozen):
-    """Search a thing or person."""
+    """Search room by room; not all may be reached."""
 
     kind: Literal["find"] = "find"
     object: Label
@@ -234,7 +234,7 @@ class Repeat(Frozen):
 
 
 class WaitFor(Frozen):
-    """Stand until it is there."""
+    """Stand until one of them comes: seen, said or late enough."""
 
     kind: Literal["wait_for"] = "wait_for"
     object: Label | None = None

@@ -48,6 +48,12 @@ class ModelSettings(BaseModel):
     """Sent to the host of ``url`` and nowhere else."""
     timeout_s: float = Field(default=20.0, ge=0.5, le=120.0)
     """For one goal in all: waiting for a turn, every try, the repair turn."""
+    load_timeout_s: float = Field(default=180.0, ge=0.0, le=600.0)
+    """How long a server on this machine or in its network that has not said a word for a minute may
+    take to load its model, before ``timeout_s`` begins; 0: loading counts as silence."""
+    warm_up: bool | None = None
+    """Have the model loaded when the planner starts, by one call of one token; None: where a preset
+    names a server that loads it on demand, on this machine."""
     connect_timeout_s: float = Field(default=3.0, ge=0.1, le=30.0)
     temperature: float | None = Field(default=0.0, ge=0.0, le=2.0)
     """None: the server's own."""

@@ -33,6 +33,8 @@ def plain_name(name: str) -> str:
     """
     kept = " ".join(fold_width(name[: 4 * MAX_CHARACTERS]).split())
     short = 1 <= len(kept) <= MAX_CHARACTERS and len(name) <= 4 * MAX_CHARACTERS
+    if any(unicodedata.category(char) == "Cc" for char in name):
+        short = False
     if not (short and any(map(str.isalpha, kept)) and all(map(_in_a_name, kept))):
         raise PlaceRefusal("place_name_malformed", f"got {name[:MAX_CHARACTERS]!r}")
     alphabets = {_alphabet(char) for char in kept if char.isalpha()} - _BESIDE_ANY
@@ -48,7 +50,7 @@ def check_not_order(name: str, vocabulary: Vocabulary) -> None:
     Raises:
         PlaceRefusal: ``place_name_reserved``.
     """
-    if _answers(name) or _is_order(name, vocabulary):
+    if _answers(name) or _is_needed_elsewhere(name) or _is_order(name, vocabulary):
         raise PlaceRefusal("place_name_reserved", f"got {name!r}")
 
 
@@ -82,6 +84,12 @@ def _is_order(name: str, vocabulary: Vocabulary) -> bool:
     from planner.language.reserved_names import name_reads_as_order
 
     return name_reads_as_order(name, vocabulary)
+
+
+def _is_needed_elsewhere(name: str) -> bool:
+    from planner.language.reserved_names import name_is_needed_elsewhere
+
+    return name_is_needed_elsewhere(name)
 
 
 def _alphabet(char: str) -> str:

@@ -1,7 +1,8 @@
 """Read a WAV's header and judge it before a sample is touched. Knows bytes; not words.
 
 The standard library's `wave` believes a header's sizes and refuses by exceptions of many kinds;
-here every number is compared with the bytes that came, and each refusal has its code.
+here every number is compared with the bytes that came, and each refusal has its code. A size of
+a chunk of samples that is open or too large is no refusal: who writes to a pipe can't know it.
 """
 
 from __future__ import annotations
@@ -89,11 +90,9 @@ def _check_outside(data: bytes) -> None:
             raise BadSound("not_wav", f"this is {name}; expected WAV with 16-bit PCM")
     if len(data) < _RIFF.size or data[:4] != b"RIFF" or data[8:12] != b"WAVE":
         raise BadSound("not_wav", f"begins with {data[:12]!r}; expected RIFF … WAVE")
-    claimed = _RIFF.unpack_from(data)[1] + _CHUNK.size
-    if claimed > len(data):
-        text = f"the header speaks of {claimed} bytes, {len(data)} came"
-        raise BadSound("wav_truncated", text)
-    if claimed + 1 < len(data):  # one byte may pad an odd chunk
+    riff_bytes = _RIFF.unpack_from(data)[1]
+    claimed = riff_bytes + _CHUNK.size
+    if riff_bytes and claimed + 1 < len(data):  # one byte may pad an odd chunk
         text = f"the header speaks of {claimed} bytes, {len(data)} came"
         raise BadSound("wav_malformed", text)
 
@@ -105,6 +104,8 @@ def _chunks(data: bytes) -> list[tuple[bytes, int, int]]:
     while at + _CHUNK.size <= len(data):
         kind, size = _CHUNK.unpack_from(data, at)
         at += _CHUNK.size
+        if kind == b"data" and (size == 0 or at + size > len(data)):
+            size = len(data) - at  # written before it was known: to a pipe, or by who lost power
         if at + size > len(data):
             text = f"chunk {kind!r} speaks of {size} bytes, {len(data) - at} are left"
             raise BadSound("wav_truncated", text)
@@ -143,6 +144,8 @@ def _shape(body: bytes) -> tuple[int, int]:
 
 def _sound(shape: tuple[int, int], data: bytes, start: int, size: int) -> Sound:
     rate_hz, channels = shape
+    if start + size == len(data):
+        size -= size % (2 * channels)  # cut in the middle of a block
     if size % (2 * channels):
         raise BadSound("wav_malformed", f"{size} bytes of samples are no whole blocks")
     seconds = size / (2 * channels * rate_hz)

@@ -161,14 +161,21 @@ class FaultContext:
         self.until(self.drives_fast, "the handed-over brain drives")
         return puppet
 
-    def rest(self) -> None:
+    def rest(self, stop_id: str | None = None) -> None:
         """Bring the robot to stand under a live owner without a grant, armed and not held."""
         self.brain.asks = False
         self.driver.breaker = plain
-        stop_id = f"kit-{self.chance.getrandbits(48):x}"
-        self.adapter.say("cmd/stop", json.dumps({"id": stop_id, "source": "kit"}).encode())
+        self.stop(stop_id or self.new_id())
         self.until(lambda: self.told_to_stand(0.1), "standing after a stop")
         self.until(self._has_resumed, "resume")
+
+    def new_id(self) -> str:
+        """Return an id that nobody has used."""
+        return f"kit-{self.chance.getrandbits(48):x}"
+
+    def stop(self, stop_id: str) -> None:
+        """Say stop once."""
+        self.adapter.say("cmd/stop", json.dumps({"id": stop_id, "source": "kit"}).encode())
 
     def _has_resumed(self) -> bool:
         status = self.status

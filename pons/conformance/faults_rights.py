@@ -145,10 +145,27 @@ def _after_stop(stage: FaultContext) -> None:
         return [(key, pack(message)) for key, message in said]
 
     stage.begin(breaker)
-    stop_id = f"kit-{stage.chance.getrandbits(48):x}"
-    stage.adapter.say("cmd/stop", pack({"id": stop_id, "source": "kit"}))
+    stage.stop(stage.new_id())
     stage.until_standing()
     stage.wait(0.4)
+
+
+def _stopped_while_driving(
+    say: Callable[[FaultContext, str], None],
+) -> Callable[[FaultContext], None]:
+    """Return the play of a brain that drives on after a stop that others might pass by."""
+
+    def play(stage: FaultContext) -> None:
+        known = stage.new_id()
+        stage.rest(known)
+        stage.brain.new_mission()
+        stage.brain.asks = True
+        stage.until(stage.moves, "driving again after a resume")
+        stage.begin()
+        say(stage, known)
+        stage.until_standing()
+
+    return play
 
 
 def _forge_proof(stage: FaultContext) -> None:
@@ -156,8 +173,7 @@ def _forge_proof(stage: FaultContext) -> None:
     stage.rest()
     used = json.loads(stage.adapter.operate("resume"))
     stage.wait(0.2)
-    stop_id = f"kit-{stage.chance.getrandbits(48):x}"
-    stage.adapter.say("cmd/stop", pack({"id": stop_id, "source": "kit"}))
+    stage.stop(stage.new_id())
     stage.until(lambda: stage.status.held is not None, "held")
 
     def breaker(_said: list[Said], status: Status) -> list[Sent]:
@@ -271,6 +287,12 @@ FAULTS = (
           {X: SPENT_S, W: SPENT_S}),
     Fault("after_stop", "goes on as if nobody had said stop", _after_stop,
           {X: AT_ONCE_S, W: AT_ONCE_S}, quick=(W,)),
+    Fault("known_stop", "drives on after a stop with a known id after a resume",
+          _stopped_while_driving(lambda stage, known: stage.stop(known)),
+          {X: AT_ONCE_S, W: AT_ONCE_S}, quick=(X,)),
+    Fault("unreadable_stop", "drives on after a stop that can't be read",
+          _stopped_while_driving(lambda stage, _: stage.adapter.say("cmd/stop", b"{}")),
+          {X: AT_ONCE_S, W: AT_ONCE_S}),
     Fault("forged_resume", "clears a stop with no proof, a wrong one, a used one", _forge_proof, {},
           kinds=(X,), rest=True),
     Fault("no_dead_man", "teleop without its dead-man", _no_dead_man, {}, kinds=(X,), rest=True,

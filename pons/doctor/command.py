@@ -89,7 +89,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         run_check("secrets", lambda: path_checks.secrets(settings.home, virtual=virtual)),
         run_check("disk", lambda: path_checks.disk(settings.home)),
         run_check("sockets", lambda: path_checks.sockets(settings.home)),
-        run_check("port", lambda: path_checks.port(settings.host, settings.port, running=running)),
+        run_check("port", lambda: path_checks.port(settings, running=running)),
         described,
         of_robot("drive", lambda: drive_checks.drive(settings.home, robot)),
         of_robot("trial", lambda: drive_checks.trial(robot)),

@@ -8,15 +8,20 @@ import socket
 import stat
 from contextlib import closing
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from bridge.operator_key import load_operator_key
 from planner.settings import find_exposed
 from planner.site import Site, SiteError
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.launch_checks import MIN_FREE_BYTES
+from pons.running import describe_robot, find_robots
 from wire import ConfigError, RobotDescription, load_robot
 from wire.doors import DOORS
 from wire.sockets import MAX_SOCKET_PATH, Endpoints, is_listening
+
+if TYPE_CHECKING:
+    from pons.settings import LaunchSettings
 
 ROOMY_BYTES = 10 * MIN_FREE_BYTES
 """Recordings of a day."""
@@ -140,8 +145,9 @@ def listening(path: Path) -> list[str]:
     return [door.name for door in DOORS if is_listening(where.socket(door))]
 
 
-def port(host: str, number: int, *, running: bool) -> HealthFinding:
-    """Look whether page and API can listen."""
+def port(settings: LaunchSettings, *, running: bool) -> HealthFinding:
+    """Look whether page and API can listen, or whose robot does so already."""
+    host, number = settings.host, settings.port
     try:
         family, kind, _, _, address = socket.getaddrinfo(host, number, type=socket.SOCK_STREAM)[0]
         with closing(socket.socket(family, kind)) as probe:
@@ -151,6 +157,17 @@ def port(host: str, number: int, *, running: bool) -> HealthFinding:
         if running:
             return ok("port", f"{host}:{number} serves the running robot",
                       f"{host}:{number} 正由运行中的机器人使用")  # fmt: skip
+        there = next((one for one in find_robots() if one.port == number), None)
+        if there is not None:
+            found = f"{host}:{number}: {describe_robot(there)}"
+            return warn(
+                "port",
+                BilingualWords(f"{found} runs there", f"{found} 正在运行"),
+                BilingualWords(
+                    "nothing, or PONS_PORT for a second robot",
+                    "无需操作；第二台机器人请设置 PONS_PORT",
+                ),
+            )
         return fail(
             "port",
             BilingualWords(

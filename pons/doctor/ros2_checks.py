@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import time
+from ipaddress import ip_address
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
-from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok
+from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.doctor.running_process import hear_state, says_nothing
 from ros2 import BaseLink
 from ros2.transport_choice import open_transport
@@ -70,8 +72,32 @@ async def _ask_graph(robot: RobotDescription, config: Ros2Config) -> Ros2Trouble
     return trouble
 
 
+def open_beyond_loopback(config: Ros2Config) -> bool:
+    """Return whether others than this computer reach the transport; it asks for no password."""
+    if config.transport == "dds":
+        return config.interface != "lo"
+    place = config.router if config.transport == "zenoh" else config.url or ""
+    host = urlsplit(place.replace("tcp/", "tcp://", 1)).hostname or ""
+    try:
+        return not ip_address(host).is_loopback
+    except ValueError:
+        return host != "localhost"
+
+
 def _describe(config: Ros2Config, code: str | None, found: str) -> HealthFinding:
     if code is None:
+        if open_beyond_loopback(config):
+            return warn(
+                "ros2",
+                BilingualWords(
+                    f"{config.peer} and its base are heard, and open to all on that network",
+                    f"{config.peer}：底盘正常，但该网络中的所有人都可访问",
+                ),
+                BilingualWords(
+                    "a VPN or `ssh -L`, and a key for the relay (docs/ros2.md)",
+                    "请使用 VPN 或 `ssh -L`，并为中继节点设置密钥（docs/ros2.md）",
+                ),
+            )
         return ok("ros2", f"{config.peer} and its base are heard", f"{config.peer}：底盘正常")
     words = f"{code}: {found.split(';', 1)[0]}"
     english, chinese = CODES.get(code, ("see docs/ros2.md", "请查看 docs/ros2.md"))

@@ -17,7 +17,7 @@ from planner.brain import OfflineBrain, ThinkRequest
 from planner.plan import StepPlan
 from pons.mock_llm import pictures, streams, voices
 from pons.mock_llm.completion import bytes_of, completion
-from pons.mock_llm.error_replies import error, instead_of_a_reply
+from pons.mock_llm.error_replies import BARREN, LOOK_S, error, instead_of_a_reply
 from pons.mock_llm.fault_switches import Switches
 from pons.mock_llm.replies import GARBAGE, hallucinate, hostile, reply_of, shape_reply
 from pons.mock_llm.request_parser import request_of
@@ -37,6 +37,10 @@ class Mock:
         self.served: Counter[str] = Counter()
         self.hostile = itertools.count()
         self.badly = itertools.count()
+        self.is_loaded = False
+        """Told of a cold model alone."""
+        self.left_load = 0
+        """Clients that left while it loaded, and so ended the load."""
         self.wrote_s: deque[float] = deque(maxlen=KEPT)
         """When the last token of each stream was sent, on the monotonic clock of this machine."""
         self.ending: Callable[[], bool] = lambda: False
@@ -44,7 +48,7 @@ class Mock:
 
     def set(self, switches: Switches) -> None:
         """Behave so from now on; counts go on, the fault's number of times begins anew."""
-        self.switches, self.left = switches, switches.times
+        self.switches, self.left, self.is_loaded = switches, switches.times, False
 
     def next_fault(self) -> str | None:
         """Return the fault of this call."""
@@ -58,8 +62,18 @@ class Mock:
     def report(self) -> dict[str, Any]:
         """Return switches and counts."""
         shown = self.switches.model_dump(mode="json")
-        counts = {"calls": self.calls, "served": dict(self.served)}
+        counts = {"calls": self.calls, "served": dict(self.served), "left_load": self.left_load}
         return {"switches": shown, **counts, "wrote_s": list(self.wrote_s)}
+
+    async def load(self, request: Request) -> None:
+        """Load a cold model while this client stays; one that leaves ends the load."""
+        began_s = time.monotonic()
+        while not (self.is_loaded or self.ending()):
+            if await request.is_disconnected():
+                self.left_load += 1
+                return
+            self.is_loaded = time.monotonic() - began_s >= self.switches.load_s
+            await asyncio.sleep(LOOK_S)
 
     def wrote(self) -> None:
         """Note that a stream's last token is out."""
@@ -92,6 +106,8 @@ def build(switches: Switches | None = None) -> FastAPI:
         body = await _body(request)
         if body is None:
             return error(400, "the body is no JSON object of a chat request")
+        if fault == "cold":
+            await mock.load(request)
         await asyncio.sleep(mock.switches.delay_s)
         early = await instead_of_a_reply(fault, mock.switches, mock.ending, body, request)
         if early is not None:
@@ -107,6 +123,9 @@ def build(switches: Switches | None = None) -> FastAPI:
         good = json.dumps(reply_of((await brain.think(asked)).plan), ensure_ascii=False)
         known = next(iter(asked.vocabulary.by_id), "kitchen")
         text = _reply_text(fault, good, mock, known, request)
+        if fault in BARREN and BARREN[fault](body):
+            text = "" if fault != "tool_never" else "I will go to the kitchen for you!"
+            body = {**body, "tool_choice": None}
         return await _answer(fault, completion(body, text, fault), body, mock)
 
     return app

@@ -19,6 +19,7 @@ def main(words: list[str]) -> int:
         "fault": fault,
         "times": said.times,
         "delay_s": said.delay,
+        "load_s": said.load_s,
         "tokens_per_s": said.tokens_per_s,
         "status": said.status if said.status is not None else 500,
         "retry_after": said.retry_after,
@@ -41,6 +42,7 @@ def _grammar() -> argparse.ArgumentParser:
     grammar.add_argument("--host", default="127.0.0.1")
     grammar.add_argument("--port", type=_port, default=0, help="0 takes a free one")
     grammar.add_argument("--delay", type=float, default=0.0, metavar="S", help="before each reply")
+    grammar.add_argument("--load-s", type=float, default=40.0, metavar="S", help="with --cold")
     grammar.add_argument("--tokens-per-s", type=float, metavar="N", help="how fast it writes")
     grammar.add_argument("--times", type=int, metavar="N", help="calls until the fault is gone")
     grammar.add_argument(

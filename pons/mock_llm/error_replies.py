@@ -62,11 +62,20 @@ _REFUSED: dict[str, tuple[Callable[[Body], bool], str]] = {
         "Unsupported parameter: 'max_tokens'. Use 'max_completion_tokens' instead.",
     ),
     "no_stream": (lambda body: body.get("stream") is True, "stream is not supported"),
+    "tool_never": (lambda body: bool(_format(body)), "response_format is not supported"),
     "refuses_pictures": (
         holds_picture,
         "Invalid content type. image_url is only supported by certain models.",
     ),
 }
+
+
+BARREN: dict[str | None, Callable[[Body], bool]] = {
+    "schema_barren": lambda body: _format(body) == "json_schema",
+    "strict_barren": lambda body: bool(_format(body)) or "tools" in body,
+    "tool_never": lambda body: "tools" in body,
+}
+"""Ways of asking that are taken and bring nothing."""
 
 
 async def instead_of_a_reply(
@@ -86,6 +95,9 @@ async def instead_of_a_reply(
             return error(switches.status, f"mock status {switches.status}", later)
         case "loading":
             return error(503, "Loading model", later)
+        case "small_context":
+            words = "the request exceeds the available context size (n_ctx 1024), try increasing it"
+            return error(400, words)
         case "rate_limited":
             return error(429, "too many requests", later)
         case "not_found":

@@ -11,6 +11,8 @@ FAULTS: dict[str, str] = {
     "rate_limited": "answer 429; --retry-after says what the header says",
     "not_found": "answer 404, the model does not exist",
     "hang": "take the request and never answer",
+    "cold": "load the model for --load-s first, and begin again where the client leaves",
+    "small_context": "answer 400, the prompt does not fit into the context",
     "lost": "close the connection in the middle of a reply",
     "redirect": "point to a metadata address",
     "filtered": "answer 400, a filter refused the order",
@@ -50,6 +52,9 @@ FAULTS: dict[str, str] = {
     "fenced": "wrap a good plan in prose and a code fence",
     "thinking": "put thoughts with another plan before a good one",
     "twice": "write a good plan two times",
+    "schema_barren": "take a JSON schema and reply with empty content",
+    "strict_barren": "take every response_format and tool, and reply with empty content",
+    "tool_never": "refuse a response_format, take the forced tool, and talk",
     "parts": "write a good plan as a list of parts",
     "object_arguments": "call the tool with an object for its arguments",
     # How it streams.
@@ -57,6 +62,9 @@ FAULTS: dict[str, str] = {
     "stream_breaks": "close the connection in the middle of a stream",
     "stream_error": "send an error in the middle of a stream",
     "stream_unfinished": "end a stream without saying so",
+    "stream_error_choice": "send an error beside an empty choice in the middle of a stream",
+    "stream_open": "say that a stream's reply is finished, and leave the stream open",
+    "stream_silent": "write a whole reply, say nothing of it, and leave the stream open",
     "stream_garbage": "send an event that is no JSON",
     "stream_endless": "send a stream that never ends",
     "stream_comments": "stream with comments, CRLF and empty choices",
@@ -80,6 +88,8 @@ READABLE = frozenset(
         *("no_temperature", "new_tokens", "no_extras", "no_stream"),
         *("fenced", "thinking", "twice", "parts", "object_arguments", "plain", "stream_breaks"),
         *("stream_error", "stream_unfinished", "stream_garbage", "stream_comments"),
+        *("cold", "schema_barren", "strict_barren", "tool_never"),
+        *("stream_error_choice", "stream_open", "stream_silent"),
         *("odd_index", "odd_id", "odd_name", "odd_object", "odd_repeat"),
         *("refuses_pictures", "drops_pictures", "slow_pictures", "hallucinated_point"),
         *("point_out_of_range", "obeys_pictures"),
@@ -98,6 +108,8 @@ class Switches(BaseModel):
     times: int | None = Field(default=None, ge=1, le=1_000_000)
     """Calls until the fault is gone; None: it stays."""
     delay_s: float = Field(default=0.0, ge=0.0, le=3600.0)
+    load_s: float = Field(default=40.0, ge=0.0, le=3600.0)
+    """How long one connection must be held until a cold model is loaded."""
     tokens_per_s: float | None = Field(default=None, ge=0.1, le=100_000.0)
     """How fast the model writes, four characters to a token; None: at once."""
     status: int = Field(default=500, ge=400, le=599)

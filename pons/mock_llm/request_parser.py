@@ -50,7 +50,7 @@ def _think_request(
 def _order(text: str) -> dict[str, Any] | None:
     """Return the object with the order, also where the system's words stand before it."""
     try:
-        found = json.loads(text[max(0, text.rfind('\n{"order"')) :])
+        found = json.loads(text[text.rfind("\n{") + 1 :])
     except (ValueError, RecursionError):
         return None
     return found if isinstance(found, dict) and isinstance(found.get("order"), str) else None

@@ -18,10 +18,18 @@ if TYPE_CHECKING:
 CHUNK = 64 * 1024
 HUGE_BYTES = 1_000_000_000
 DRIP_S = 0.2
+OPEN_S = 0.2
+"""Between two comments of a stream that is left open."""
 MOST_DELTAS = 2000
 Ending = Callable[[], bool]
 _HEAD = b'{"choices":[{"message":{"role":"assistant","content":"'
-_MIDDLE = {"stream_breaks", "stream_error", "stream_unfinished", "stream_garbage"}
+_MIDDLE = {
+    "stream_breaks",
+    "stream_error",
+    "stream_unfinished",
+    "stream_garbage",
+    "stream_error_choice",
+}
 
 
 class Cut(Response):
@@ -102,7 +110,11 @@ async def events(
     while fault == "stream_endless" and not ending():
         yield _event(whole, line_end, {"content": " " * CHUNK})
         await asyncio.sleep(0)
-    yield _event(whole, line_end, {}, finish=whole["choices"][0]["finish_reason"])
+    if fault != "stream_silent":
+        yield _event(whole, line_end, {}, finish=whole["choices"][0]["finish_reason"])
+    while fault in ("stream_open", "stream_silent") and not ending():
+        yield b": still here\n\n"
+        await asyncio.sleep(OPEN_S)
     yield _event(whole, line_end, choices=[], usage=whole["usage"])
     yield f"data: [DONE]{line_end}{line_end}".encode()
 
@@ -110,6 +122,11 @@ async def events(
 def _break_stream(fault: str | None) -> Iterator[bytes]:
     if fault == "stream_error":
         yield b'data: {"error":{"message":"the backend failed","code":500}}\n\n'
+    elif fault == "stream_error_choice":
+        yield (
+            b'data: {"choices":[{"index":0,"delta":{"content":""},"finish_reason":"error"}],'
+            b'"error":{"code":502,"message":"Provider disconnected"}}\n\ndata: [DONE]\n\n'
+        )
     elif fault == "stream_garbage":
         yield b'data: {"choices":[{"delta":{"content":\n\ndata: [DONE]\n\n'
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hmac
 import json
 import secrets
 from dataclasses import dataclass
@@ -27,7 +28,8 @@ class RelayOrder:
 class RelayFirmware:
     """Obey one Pons, say which command, and stop by itself."""
 
-    def __init__(self, cmd_vel: str, boot: str | None = None) -> None:
+    def __init__(self, cmd_vel: str, boot: str | None = None, key: bytes = b"") -> None:
+        self._key = key
         self.boot = boot or f"twin-{secrets.token_hex(4)}"
         self._cmd_vel = cmd_vel
         self.order: RelayOrder | None = None
@@ -68,6 +70,7 @@ class RelayFirmware:
                 "on": bool(order and order.on),
                 "cmd_vel": self._cmd_vel,
                 "others": 0,
+                "keyed": bool(self._key),
             }
         )
 
@@ -76,8 +79,14 @@ class RelayFirmware:
         return self.twist(now_s)[2] and self.order is not None and self.order.on
 
     def _order_of(self, text: object, now_s: float) -> RelayOrder | None:
+        said = str(text)
+        if self._key:
+            said, _, mac = said.rpartition(" ")
+            right = hmac.new(self._key, said.encode("utf-8", "replace"), "sha256").hexdigest()
+            if mac != right:
+                return None
         try:
-            raw: dict[str, Any] = json.loads(str(text))
+            raw: dict[str, Any] = json.loads(said)
             seen_s, ttl_s = float(raw["seen"]), float(raw["ttl"])
             order = RelayOrder(
                 boot=raw["boot"],

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import gc
 import resource
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -35,7 +35,7 @@ from wire import (
     sign,
     sign_fence,
 )
-from wire.keys import EVENT, FENCE, KEYS, ODOM, OPS, STOP, WAYPOINTS, Key, Party
+from wire.keys import DISARM, ESTOP, EVENT, FENCE, KEYS, ODOM, OPS, STOP, WAYPOINTS, Key, Party
 from wire.keys import STATUS as STATUS_KEY
 from wire.session import Publisher, Session, open_session
 
@@ -65,6 +65,7 @@ class Ends:
 
     link: BridgeLink
     others: tuple[Session, ...]
+    is_repeat: Callable[[str, str], bool] = lambda _kind, _name: False
 
     @property
     def other(self) -> Session:
@@ -82,7 +83,13 @@ class Ends:
         return self.who_says(key).publisher(key)
 
     def drain(self) -> Inbox:
-        return self.link.drain((), ON_TIME, real_time=True, recorder_ok=True, chance=CHANCE)
+        return self.link.drain(
+            (),
+            ON_TIME,
+            real_time=True,
+            chance=CHANCE,
+            is_repeat=self.is_repeat,
+        )
 
 
 @pytest.fixture
@@ -170,7 +177,9 @@ def test_a_fence_goes_on_with_its_text_only_where_the_proof_binds_it(ends: Ends)
 
 
 @pytest.mark.parametrize("key", HEARD, ids=lambda key: key.path)
-def test_hostile_bytes_become_a_rejection_and_nothing_else(ends: Ends, key: Key[Record]) -> None:
+def test_hostile_bytes_become_a_rejection_or_a_stop_where_stops_are_said(
+    ends: Ends, key: Key[Record]
+) -> None:
     mouth = ends.mouth(key)
     gather(ends, key)
     for payload in HOSTILE:
@@ -180,18 +189,24 @@ def test_hostile_bytes_become_a_rejection_and_nothing_else(ends: Ends, key: Key[
 
 
 def refused(ends: Ends, key: Key[Any]) -> bool:
-    """Say whether something was refused on that key; nothing else may have come of it."""
+    """Say whether something was refused on that key; at most a stop may have come of it."""
     inbox = ends.drain()
     assert inbox == Inbox(
         stops=inbox.stops,
+        ops=inbox.ops,
         rejected=inbox.rejected,
         arrived=inbox.arrived,
         real_time=True,
         recorder_ok=True,
         chance=CHANCE,
     )
-    assert {stop.id for stop in inbox.stops} <= {"hello", "last-word"}  # our own, still on its way
-    return any(item.key == key.path for item in inbox.rejected)
+    ours = {"hello", "last-word"}  # still on their way
+    came = [("cmd/stop", stop.id, stop.source) for stop in inbox.stops if stop.id not in ours]
+    came += [(f"op/{op.kind}", op.request.id, op.request.source) for op in inbox.ops]
+    is_refused = any(item.key == key.path for item in inbox.rejected)
+    halts = is_refused and key in (STOP, ESTOP, DISARM)
+    assert came == ([(key.path, "unreadable", "unreadable")] if halts else [])
+    return is_refused
 
 
 def test_at_most_four_of_a_key_are_parsed_and_all_are_counted(ends: Ends) -> None:
@@ -212,15 +227,35 @@ def test_a_flood_is_bounded_by_the_ring(ends: Ends) -> None:
     assert len(inbox.rejected) <= 4
 
 
-@pytest.mark.parametrize("place", [0, 1, 31, 63])
-def test_one_readable_stop_among_unreadable_ones_is_seen(ends: Ends, place: int) -> None:
-    payloads = [b"{" * 500] * STOP.ring
-    payloads[place] = encode(Stop(id="real", source="test"))
-    ends.link._stop.drain_bytes = lambda: payloads  # type: ignore[method-assign]  # all at once
+def say_at_once(ends: Ends, kind: str, payloads: list[bytes]) -> list[str]:
+    """Let these be what lies in the ring of a stop's key; return the ids that the core is told."""
+    halts = {name: subscriber for name, _, subscriber in ends.link._halts}
+    subscriber: Any = ends.link._stop if kind == "stop" else halts[cast("OpKind", kind)]
+    subscriber.drain_bytes = lambda: payloads
     inbox = ends.drain()
-    assert [stop.id for stop in inbox.stops] == ["real"]
-    assert [item.key for item in inbox.rejected] == [STOP.path]
-    assert arrived(inbox, STOP) == STOP.ring
+    path = "cmd/stop" if kind == "stop" else f"op/{kind}"
+    assert ArrivedAt(path, len(payloads)) in inbox.arrived
+    assert len([item for item in inbox.rejected if item.key == path]) <= 1
+    said = [op.request.id for op in inbox.ops] + [stop.id for stop in inbox.stops]
+    return [name for name in said if name != "hello"]  # our own, still on its way
+
+
+@pytest.mark.parametrize("kind", ["stop", "estop", "disarm"])
+@pytest.mark.parametrize("place", [0, 1, 31, 63])
+def test_one_readable_stop_among_unreadable_ones_is_seen(ends: Ends, place: int, kind: str) -> None:
+    payloads = [b"{" * (500 + n) for n in range(STOP.ring)]
+    payloads[place] = encode(Stop(id="real", source="test"))
+    assert say_at_once(ends, kind, payloads) == ["real", "unreadable"]
+    ends.is_repeat = lambda said, name: (said, name) == (kind, "unreadable")
+    assert say_at_once(ends, kind, payloads) == ["real"], "obeyed once, not in every tick"
+
+
+@pytest.mark.parametrize("kind", ["stop", "estop", "disarm"])
+def test_a_stop_behind_many_that_have_their_verdict_is_seen(ends: Ends, kind: str) -> None:
+    known = [encode(Stop(id=f"old{n % 6}", source="flood")) for n in range(STOP.ring - 1)]
+    payloads = [encode(Stop(id="real", source="test")), *known]
+    ends.is_repeat = lambda said, name: said == kind and name.startswith("old")
+    assert say_at_once(ends, kind, payloads) == ["real"]
 
 
 def test_different_stops_are_all_answered_up_to_four(ends: Ends) -> None:

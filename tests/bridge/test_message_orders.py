@@ -107,9 +107,7 @@ class Door:
         for key, message in order:
             self.publishers[key.path].put(message)
         chance = f"{self.world.state.tick:016x}"
-        inbox = self.link.drain(
-            self.drive, ON_TIME, real_time=True, recorder_ok=True, chance=chance
-        )
+        inbox = self.link.drain(self.drive, ON_TIME, real_time=True, chance=chance)
         assert not inbox.rejected
         return step(self.world.core, self.world.state, inbox, self.world.now_s)
 

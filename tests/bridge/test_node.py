@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import cast
 
@@ -57,7 +57,7 @@ class Diary:
         imu: Imu | None,
         fence_done: None,
         real_time: bool,
-        recorder_ok: bool,
+        is_repeat: Callable[[str, str], bool],
         recorder_says: str,
         chance: str,
     ) -> Inbox:
@@ -66,7 +66,7 @@ class Diary:
             Inbox(
                 loop=loop,
                 real_time=real_time,
-                recorder_ok=recorder_ok,
+                recorder_ok=not recorder_says,
                 recorder_says=recorder_says,
                 chance=chance,
             )

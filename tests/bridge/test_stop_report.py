@@ -12,7 +12,7 @@ from tests.bridge.core.fake_planner import FakeDrive
 from tests.bridge.core.scripted import World
 from tests.bridge.recorded import stream_of, written
 from tests.bridge.test_replay import taken
-from wire import HeldReason, Mode
+from wire import HeldReason, Mode, OpKind
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -62,6 +62,29 @@ def test_who_said_stop_is_named_and_the_newest_of_two_is_told(tmp_path: Path) ->
     assert (stop.cause, stop.ordered_by, stop.ended) == ("stop", "test", Mode.HOLD)
     assert stop.held is not None
     assert (stop.held.reason, stop.held.id) == (HeldReason.STOP, "stop-1")
+
+
+@pytest.mark.parametrize(("kind", "by"), [("estop", "test"), ("disarm", "test")])
+def test_who_gave_another_order_to_stand_is_named_too(
+    tmp_path: Path, kind: OpKind, by: str
+) -> None:
+    world = World(keep=True).driving((5.0, 0.0))
+    world.op(kind)
+    world.run(1.5)
+    stop = last_stop(kept(tmp_path, world).parent)
+    assert stop is not None
+    assert (stop.cause, stop.ordered_by) == (kind, by)
+
+
+def test_a_stop_that_comes_with_another_cause_is_not_its_cause(tmp_path: Path) -> None:
+    """A robot that was latched while somebody said stop was not latched by them."""
+    world = World(keep=True).driving((5.0, 0.0))
+    world.stop("s1")
+    world.op("estop")
+    world.run(1.5)
+    stop = last_stop(kept(tmp_path, world).parent)
+    assert stop is not None
+    assert (stop.cause, stop.ordered_by) == ("stop", "test")
 
 
 def test_a_stop_just_before_a_new_segment_is_followed_into_it(tmp_path: Path) -> None:

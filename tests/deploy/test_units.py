@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from planner.__main__ import NICE as PLANNER_NICE
+from pons.supervisor import HANG_S
 from sim.camera.__main__ import NICE as CAMERA_NICE
 from tests.deploy.installed import (
     PROCESSES,
@@ -47,6 +48,13 @@ def test_the_bridge_is_watched_and_may_be_real_time(repository: Path) -> None:
     assert int(bridge["LimitRTPRIO"][0]) >= load_robot(repository / "robot.toml").realtime.priority
     assert "CPUSchedulingPolicy" not in bridge, "one thread asks for it, by itself"
     assert "RestrictRealtime" not in bridge
+
+
+def test_a_planner_that_hangs_is_started_again() -> None:
+    planner = services()["planner"]["Service"]
+    assert planner["Type"] == ["notify"]
+    assert planner["WatchdogSec"] == [f"{HANG_S:g}"], "as under pons up"
+    assert planner["Restart"] == ["always"]
 
 
 def test_the_planner_has_files_for_a_crowd_at_its_door() -> None:

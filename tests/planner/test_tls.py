@@ -86,16 +86,17 @@ def test_a_private_key_is_never_given_out_as_the_authority(pems: Path) -> None:
     assert tls.authority(None) == b""
 
 
-def test_the_mark_says_how_this_homes_planner_speaks(tmp_path: Path) -> None:
-    for speaks in (True, True, False, False):
-        tls.mark(tmp_path, speaks_tls=speaks)
-        assert (tmp_path / "run" / "planner" / tls.MARK).exists() is speaks
+def test_the_mark_says_where_and_how_this_homes_planner_speaks(tmp_path: Path) -> None:
+    for scheme, port in (("https", 8420), ("http", 8460)):
+        tls.mark(tmp_path, scheme, "127.0.0.1", port)
+        file = tmp_path / "run" / "planner" / tls.MARK
+        assert file.read_text("ascii") == f"{scheme} 127.0.0.1 {port}\n"
+        assert file.stat().st_mode & 0o777 == 0o644, "whoever may enter the folder may ask there"
 
 
 def test_a_home_that_cannot_be_written_keeps_no_planner_from_starting(tmp_path: Path) -> None:
     (tmp_path / "home").write_text("a file")
-    tls.mark(tmp_path / "home", speaks_tls=True)
-    tls.mark(tmp_path / "home", speaks_tls=False)
+    tls.mark(tmp_path / "home", "https", "127.0.0.1", 8420)
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="a POSIX loop")

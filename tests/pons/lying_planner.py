@@ -13,7 +13,7 @@ class ConfirmsAnything(BaseHTTPRequestHandler):
 
     def do_POST(self) -> None:
         self.rfile.read(int(self.headers["Content-Length"]))
-        body = b'{"confirmed": true}'
+        body = b'{"confirmed": true, "accepted": true}'
         self.send_response(200)
         self.send_header("Content-Length", str(len(body)))
         self.end_headers()

@@ -30,6 +30,8 @@ class StandingBridge(threading.Thread):
         self._over = threading.Event()
         self.asked: list[str] = []
         """The path of each request, once for each id."""
+        self.sources: set[str] = set()
+        """Who asked, as they said."""
 
     @property
     def nonce(self) -> str:
@@ -48,6 +50,7 @@ class StandingBridge(threading.Thread):
                              "detail": ""}
                         )  # fmt: skip
                         self.asked.append(path)
+                        self.sources.add(item.source)
             newest = tuple(answers.values())[-4:]
             self._mouth.put(self._status.model_copy(update={"answers": newest}))
 

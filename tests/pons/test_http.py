@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.tls import MARK
+from planner.tls import MARK, mark
 from pons import operator, places
 from pons.authority import issue
 from pons.http import AUTHORITY, PlannerDown, call
@@ -94,10 +94,16 @@ def test_settings_follow_the_environment_and_then_the_planner(
 ) -> None:
     assert Path("run", "planner", MARK) == PLANNER_MARK
     monkeypatch.setenv("PONS_HOME", str(tmp_path))
-    assert (load().tls, load().url[:7]) == (False, "http://")
-    (tmp_path / "run" / "planner").mkdir(parents=True)
-    (tmp_path / PLANNER_MARK).touch()
-    assert (load().tls, load().url[:8]) == (True, "https://")
+    assert load().url == "http://127.0.0.1:8420"
+    mark(tmp_path, "https", "0.0.0.0", 8460)
+    assert (load().tls, load().url) == (True, "https://127.0.0.1:8460")
+    assert load(starts=True).url == "http://127.0.0.1:8420", "not where the last one answered"
+    for wrong in ("", "ftp r 1\n", "http r\n", "http r 0\n", "http r x\n", "é", "http r 1 2"):
+        (tmp_path / PLANNER_MARK).write_text(wrong, "utf-8")
+        assert load().url == "http://127.0.0.1:8420"
+    mark(tmp_path, "https", "127.0.0.1", 8460)
+    monkeypatch.setenv("PONS_PORT", "8461")
+    assert load().url == "https://127.0.0.1:8461"
     monkeypatch.setenv("PONS_TLS", "0")
     assert not load().tls
     monkeypatch.setenv("PONS_TLS", "yes")

@@ -271,7 +271,7 @@ def bridge_socket(home: Path) -> Path:
 
 
 def said_by_planner(why: str) -> str:
-    return SAID_BY_PLANNER.format(why=why)
+    return SAID_BY_PLANNER.format(word="stop", why=why)
 
 
 @pytest.mark.parametrize("lives", [True, False], ids=["a bridge that hangs", "a dead bridge"])
@@ -287,7 +287,7 @@ def test_a_planner_that_says_confirmed_is_not_believed_where_the_bridge_is_silen
         done = pons(home, "stop", port=liar)
     assert (done.returncode, done.stdout) == (1, "")
     sent, _, told = done.stderr.partition("\n")
-    assert sent == SENT
+    assert sent == SENT.format(word="stop")
     assert told.startswith("no_bridge: the bridge itself did not confirm the stop")
     assert "Planner: it says that the bridge confirmed, and is not believed. " in told
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from pons.supervisor import BEHIND, FIRST_PAUSE_S, TOKENS, Child
+from pons.supervisor import BEHIND, FIRST_PAUSE_S, HANG_S, TOKENS, Child
 from sim.camera.__main__ import NICE
 from tests.processes.nice_values import leads_its_session, stand_of
 
@@ -25,6 +25,12 @@ STUBBORN = (
 LOUD = "import time\nwhile True:\n    print('loud ' * 40, flush=True)\n    time.sleep(0.0001)\n"
 SHOWING = "import os\nprint(sorted(n for n in os.environ if n.endswith('_TOKEN')), flush=True)\n"
 FAILING = "import sys\nprint('my last words')\nsys.exit(7)\n"
+FED = (
+    "import os, socket, time\n"
+    "ears = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)\n"
+    "ears.connect(chr(0) + os.environ['NOTIFY_SOCKET'][1:])\n"
+    "ears.send(b'READY=1')\nprint('fed', flush=True)\ntime.sleep(60)\n"
+)
 PARENT = """
 import sys, time
 from pathlib import Path
@@ -39,7 +45,7 @@ time.sleep(60)
 @pytest.fixture
 def modules(tmp_path: Path) -> Path:
     bodies = {"sleeper": SLEEPER, "stubborn": STUBBORN, "failing": FAILING, "loud": LOUD,
-              "showing": SHOWING}  # fmt: skip
+              "fed": FED, "showing": SHOWING}  # fmt: skip
     for name, body in bodies.items():
         (tmp_path / f"{name}.py").write_text(body)
     return tmp_path
@@ -129,6 +135,29 @@ def test_the_session_of_a_camera_stands_behind_the_others(
     finally:
         child.stop(5.0)
     assert BEHIND == {"sim.camera": NICE}
+
+
+@pytest.mark.parametrize("child", ["fed"], indirect=True)
+def test_a_child_whose_loop_falls_silent_is_killed_and_due_again(child: Child) -> None:
+    child.is_watched = True
+    child.start(0.0)
+    assert child.process is not None
+    wait_for_word(child.log, "fed")
+    assert not child.kill_if_hung(100.0), "counted from what it said, however late that is read"
+    assert not child.kill_if_hung(100.0 + HANG_S)
+    child.process.send_signal(signal.SIGSTOP)
+    assert child.kill_if_hung(100.1 + HANG_S)
+    child.process.wait(10.0)
+    assert child.died(101.0 + HANG_S) == -signal.SIGKILL
+    assert child.due(101.0 + HANG_S + FIRST_PAUSE_S)
+
+
+@pytest.mark.parametrize("child", ["sleeper"], indirect=True)
+@pytest.mark.parametrize("is_watched", [True, False])
+def test_a_slow_start_and_an_unwatched_child_are_let_be(child: Child, is_watched: bool) -> None:
+    child.is_watched = is_watched
+    child.start(0.0)
+    assert not child.kill_if_hung(1e6)
 
 
 @pytest.mark.parametrize("child", ["stubborn"], indirect=True)

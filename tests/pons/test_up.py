@@ -12,6 +12,7 @@ import pytest
 from planner.brain import OfflineBrain, ThinkRequest
 from planner.plan import Means, StepPlan, Vocabulary
 from pons.launch_checks import CannotStart
+from pons.running import RunningNote
 from pons.settings import CHECKOUT, LaunchSettings
 from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, Supervisor, describe_base, what_to_try
 from tests.planner.api.serving import served
@@ -25,7 +26,8 @@ ROS2 = "ros2_diff_drive.toml"
 def supervisor(tmp_path: Path, port: int) -> Supervisor:
     site = CHECKOUT / "sites" / "two_room"
     settings = LaunchSettings(tmp_path, CHECKOUT / "robot.toml", site, "127.0.0.1", port)
-    return Supervisor(settings, RobotDescription(), planner=True)
+    note = RunningNote(settings, "r1")
+    return Supervisor(settings, RobotDescription(), note, planner=True)
 
 
 def test_a_robot_that_looks_for_its_place_is_told_of_once_and_waited_for(

@@ -95,9 +95,9 @@ def command(seq: int = 1, left: float = 1.0, right: float = 1.0) -> DriveCommand
     return DriveCommand(boot="boot1", seq=seq, left_radps=left, right_radps=right, enable=True)
 
 
-def opened(now_s: float = 10.0, **ros2: object) -> BaseLink:
+def opened(now_s: float = 10.0, relay_key: bytes = b"", **ros2: object) -> BaseLink:
     """Return a link whose graph has answered."""
-    link = BaseLink(robot(**ros2), "ros2-test")
+    link = BaseLink(robot(**ros2), "ros2-test", relay_key)
     link.open(now_s)
     link.due(now_s)
     for topic, kind in TYPES.items():
@@ -105,9 +105,9 @@ def opened(now_s: float = 10.0, **ros2: object) -> BaseLink:
     return link
 
 
-def driven(now_s: float = 10.0, **ros2: object) -> BaseLink:
+def driven(now_s: float = 10.0, relay_key: bytes = b"", **ros2: object) -> BaseLink:
     """Return a link that has subscribed and heard the relay."""
-    link = opened(now_s, **ros2)
+    link = opened(now_s, relay_key, **ros2)
     link.due(now_s)
     link.hear(on_topic("/pons/state", relay_state(now_s, 1)), now_s)
     return link

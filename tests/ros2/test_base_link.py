@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from math import sin
 from typing import Any
 
@@ -94,6 +95,17 @@ def test_a_command_goes_to_the_relay_that_spoke_with_the_time_that_it_said() -> 
     assert (said["relay"], said["seen"], said["ttl"]) == ("relay-1", 17.0, 0.2)
     assert (said["boot"], said["seq"]) == ("boot1", 5)
     assert (said["v"], said["w"]) == (pytest.approx(0.15), pytest.approx(0.2))
+
+
+def test_a_relay_with_a_key_gets_signed_commands_or_none() -> None:
+    without, with_key = driven(10.0), driven(10.0, b"0123456789abcdef")
+    for link in (without, with_key):
+        link.hear(on_topic(STATE, relay_state(10.01, 2, keyed=True)), 10.01)
+    assert without.encode(command(), 10.02) is None
+    assert code_of(without, 10.02) == "ros2_relay_key"
+    sent = with_key.encode(command(), 10.02)
+    assert sent is not None
+    assert re.search(r"} [0-9a-f]{64}$", str(sent.message["data"]))
 
 
 def test_odometry_makes_a_drive_state_with_the_echo_of_the_relay() -> None:

@@ -23,11 +23,11 @@ def code(watch: RelayWatch, now_s: float, kind: str = KIND) -> str | None:
 
 
 def test_without_a_relay_there_is_nothing_to_refuse() -> None:
-    assert RelayWatch("/cmd_vel", "/pons/state").refusal(KIND, 1.0) is None
+    assert RelayWatch("/cmd_vel", "/pons/state", has_key=False).refusal(KIND, 1.0) is None
 
 
 def test_a_relay_that_was_started_anew_is_the_relay() -> None:
-    watch = RelayWatch("/cmd_vel", "/pons/state")
+    watch = RelayWatch("/cmd_vel", "/pons/state", has_key=False)
     heard(watch, "relay-1", 7, 1.0)
     heard(watch, "relay-2", 1, 1.01)
     assert known(watch) == "relay-1", "it may still be there"
@@ -38,7 +38,7 @@ def test_a_relay_that_was_started_anew_is_the_relay() -> None:
 
 
 def test_two_relays_that_speak_by_turns_are_two_robots_until_one_is_silent() -> None:
-    watch = RelayWatch("/cmd_vel", "/pons/state")
+    watch = RelayWatch("/cmd_vel", "/pons/state", has_key=False)
     heard(watch, "relay-1", 1, 1.0)
     heard(watch, "relay-2", 1, 1.01)
     assert known(watch) == "relay-1", "the other is never driven"
@@ -56,7 +56,7 @@ def test_two_relays_that_speak_by_turns_are_two_robots_until_one_is_silent() -> 
 
 
 def test_what_was_overtaken_is_not_heard() -> None:
-    watch = RelayWatch("/cmd_vel", "/pons/state")
+    watch = RelayWatch("/cmd_vel", "/pons/state", has_key=False)
     heard(watch, "relay-1", 5, 1.0)
     heard(watch, "relay-1", 4, 1.01)
     assert watch.state is not None
@@ -64,7 +64,7 @@ def test_what_was_overtaken_is_not_heard() -> None:
 
 
 def test_a_type_that_was_not_asked_can_not_disagree() -> None:
-    watch = RelayWatch("/cmd_vel", "/pons/state")
+    watch = RelayWatch("/cmd_vel", "/pons/state", has_key=False)
     heard(watch, "relay-1", 1, 1.0)
     assert code(watch, 1.0, kind="") is None
     assert code(watch, 1.0, kind="geometry_msgs/msg/Twist") == "ros2_relay_disagrees"

@@ -204,18 +204,22 @@ def test_a_folder_in_which_others_could_replace_a_socket_is_refused(
 
 @ROOT_ONLY
 @pytest.mark.parametrize(
-    ("listener", "folder", "run", "believed"),
+    ("listener", "folder", "run", "mode", "believed"),
     [
-        (BRIDGE, BRIDGE, 0, True),
-        (SIM, BRIDGE, 0, False),
-        (0, BRIDGE, 0, True),
-        (OPERATOR, OPERATOR, OPERATOR, True),
-        (BRIDGE, BRIDGE, SIM, False),  # who owns run/ may have put any folder there
-        (SIM, SIM, SIM, False),
+        (BRIDGE, BRIDGE, 0, 0o755, True),
+        (SIM, BRIDGE, 0, 0o755, False),
+        (0, BRIDGE, 0, 0o755, True),
+        (OPERATOR, OPERATOR, OPERATOR, 0o755, True),
+        (BRIDGE, BRIDGE, SIM, 0o755, False),  # who owns run/ may have put any folder there
+        (SIM, SIM, SIM, 0o755, False),
+        (SIM, SIM, 0, 0o1777, False),  # sticky: who came first made the folder
+        (SIM, SIM, 0, 0o3770, False),
+        (OPERATOR, OPERATOR, 0, 0o1777, True),
+        (0, SIM, 0, 0o1777, True),
     ],
 )
 def test_a_listener_is_believed_where_it_owns_the_folder_that_nobody_could_replace(
-    home: Path, listener: int, folder: int, run: int, believed: bool
+    home: Path, listener: int, folder: int, run: int, mode: int, believed: bool
 ) -> None:
     path = Endpoints(home).socket(BRIDGE_DOOR)
     path.parent.mkdir(parents=True)
@@ -229,6 +233,8 @@ def test_a_listener_is_believed_where_it_owns_the_folder_that_nobody_could_repla
             path.chmod(0o777)
             listening.listen()
         path.parent.chmod(0o755)
+        os.chown(home / "run", run, OPERATOR)
+        (home / "run").chmod(mode)
         with acting_as(OPERATOR):
             trouble = misplaced_listener(home, BRIDGE_DOOR)
     assert (trouble is None) is believed

@@ -1,7 +1,9 @@
 """Keep the nonces that proofs are made for, the verdict of each request, and an asked-for fence.
 
-Requests by id (stops, operator requests) are settled once and for all; hello and grant are asked
-again on each status, so for them only the newest refusal is shown, and only for a while. Memory is
+Requests by id (stops, operator requests) are settled once. What makes the robot stand (stop, estop,
+disarm) is a repeat only for as long as senders repeat, and never across what let the robot go:
+senders whose ids come again must still be able to stop it. Hello and grant are asked again on each
+status, so for them only the newest refusal is shown, and only for a while. Memory is
 bounded by count; time alone would let a flood grow it. Nobody can foretell a nonce, so that no
 proof can be collected for later: it is made of the chance that the shell drew for the tick that
 first shows it.
@@ -24,12 +26,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from bridge.core.inbox import FenceArrival, FenceDone
+    from bridge.core.state_orders import Operator
     from bridge.core.tick_context import TickContext
 
 KEPT = 64
 SHOWN = 16
 """Newest verdicts in a status: several senders may be waiting, the message must stay small."""
 SHOWN_S = 10.0
+REPEATED_S = 5.0
+"""Senders repeat for 2 s. A stop that comes later under a known id is another person's."""
+STOPPING = frozenset({"stop", "estop", "disarm"})
 REFUSAL_S = 1.0
 """A refusal of hello or grant that is not repeated is over."""
 _REFUSALS = 8
@@ -37,18 +43,32 @@ _DETAIL = 400
 
 
 def verdict_on(tick: TickContext, kind: str, request_id: str) -> Answer | None:
-    """Return the verdict that this id already got for this kind of request."""
-    for answered in tick.s.operator.answers:
-        if answered.answer.id == request_id and answered.answer.kind == kind:
+    """Return the verdict of which this request is a repeat."""
+    return find_verdict(tick.s.operator, kind, request_id, tick.now_s)
+
+
+def find_verdict(operator: Operator, kind: str, request_id: str, now_s: float) -> Answer | None:
+    """Return the verdict that still counts for this kind of request under this id."""
+    for answered in operator.answers:
+        counts = kind not in STOPPING or now_s - answered.at_s <= REPEATED_S
+        if counts and _is_from(answered, kind, request_id):
             return answered.answer
     return None
+
+
+def forget_stops(tick: TickContext) -> None:
+    """Let each stop be new: the robot may move again, and no old id may keep it from stopping."""
+    operator = tick.s.operator
+    left = tuple(item for item in operator.answers if item.answer.kind not in STOPPING)
+    tick.s.operator = replace(operator, answers=left)
 
 
 def settle(tick: TickContext, kind: str, request_id: str, code: str, detail: str = "") -> None:
     """Give the verdict: ``ok``, or the reason why not."""
     answer = _answer(kind, request_id, code, detail)
     operator = tick.s.operator
-    answers = (*operator.answers[-(KEPT - 1) :], TimedAnswer(tick.now_s, answer))
+    others = tuple(item for item in operator.answers if not _is_from(item, kind, request_id))
+    answers = (*others[-(KEPT - 1) :], TimedAnswer(tick.now_s, answer))
     tick.s.operator = replace(operator, answers=answers)
     tick.say("answered", f"{kind} {request_id} {code}")
 

@@ -1,12 +1,15 @@
-"""Detect motion that does not fit the commands: stuck, running away, turning unlike the gyro."""
+"""Detect motion that fits no command, or that a command asks for blindly.
+
+Stuck, running away, turning unlike the gyro, into a sector from which the lidar hears nothing.
+"""
 
 from __future__ import annotations
 
-from math import hypot
+from math import degrees, hypot
 from typing import TYPE_CHECKING
 
 from bridge.core.state_senses import SentBounds
-from bridge.core.tick_context import fill, sensor_age_s
+from bridge.core.tick_context import STANDING_MPS, fill, sensor_age_s
 from wire import STILL, Mode, wrap
 
 if TYPE_CHECKING:
@@ -189,3 +192,23 @@ def yaw(tick: TickContext, dirty: Dirty) -> None:
     s.watch.yaw_s = fill(s.watch.yaw_s, tick.dt_s, YAW_S, dirty=bool(evidence))
     if evidence and s.watch.yaw_s >= YAW_S:
         dirty.append(("YAW_DISAGREE.0", evidence))
+
+
+def sector(tick: TickContext, dirty: Dirty) -> None:
+    """Judge whether the way asked for leads into a sector that returns nothing; turns may pass."""
+    s, watch = tick.s, tick.s.watch
+    sectors, asked_mps = s.lidar.sectors, s.motion.asked.v_mps
+    hidden = {1.0: sectors.ahead_rad, -1.0: sectors.behind_rad}
+    if watch.blind_way and not (
+        hidden[watch.blind_way] and watch.blind_mission == s.grants.mission
+    ):
+        watch.blind_way = 0.0
+    if tick.is_moving and abs(asked_mps) >= STANDING_MPS:
+        way = 1.0 if asked_mps > 0.0 else -1.0
+        watch.blind_way = way if hidden[way] else 0.0
+        watch.blind_mission = s.grants.mission
+    if watch.blind_way:
+        where = "ahead" if watch.blind_way > 0.0 else "behind"
+        evidence = f"{degrees(hidden[watch.blind_way]):.0f} degrees {where}"
+        dirty.append(("LIDAR_SECTOR.0", evidence))
+        dirty.append(("LIDAR_SECTOR.1", evidence))

@@ -182,6 +182,8 @@ def drive(tick: TickContext, dirty: Dirty) -> None:
     if memory.ahead > 0:
         evidence = f"it echoes a command {memory.ahead} ahead of the newest sent"
         dirty.append(("DRIVE_FOREIGN.0", evidence))
+    elif memory.echoes_other:
+        dirty.append(("DRIVE_FOREIGN.0", f"it echoes a command of {memory.echoes_other}"))
     if memory.reborn_s == tick.now_s:
         dirty.append(("DRIVE_REBOOT.0", f"now {newest.boot_id}"))
 
@@ -314,6 +316,7 @@ DETECTORS = (
     pose,
     zone,
     drive,
+    detect_motion.sector,
     detect_motion.runaway,
     detect_motion.progress,
     detect_motion.yaw,

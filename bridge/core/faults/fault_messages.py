@@ -41,6 +41,10 @@ WORDS: dict[str, tuple[str, str]] = {
         "The lidar sees almost nothing; the robot holds.",
         "激光雷达几乎看不到，机器人停住。",
     ),
+    "LIDAR_SECTOR": (
+        "A sector of the lidar sees nothing; the robot holds. Uncover it, or turn once by hand.",
+        "激光雷达有一个扇区没有回波，机器人停住。请移开遮挡，或手动原地转一圈。",
+    ),
     "NO_RANGE": (
         "Nothing watches for obstacles; the robot holds.",
         "没有障碍物传感器，机器人停住。",

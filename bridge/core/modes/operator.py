@@ -1,8 +1,8 @@
 """Obey people: stops, arm, disarm, estop, reset, resume. Stops are levels and never refused.
 
-One id gets one verdict; repeats change nothing. Arm, reset and resume need a proof whose HMAC fits
-(judged where the bytes were read) under a nonce that still counts
-(:mod:`bridge.core.authority.requests`). Objections to arming and to a reset are accepting
+One id gets one verdict; repeats change nothing until the robot is let go again. Arm, reset and
+resume need a proof whose HMAC fits (judged where the bytes were read) under a nonce that still
+counts (:mod:`bridge.core.authority.requests`). Objections to arming and to a reset are accepting
 conditions, all named.
 """
 
@@ -12,7 +12,14 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority.epoch import hold, new_epoch, release
 from bridge.core.authority.ownership import forget_arming, renew_budgets, void_hand_budget
-from bridge.core.authority.requests import bad_proof, settle, use_nonce, verdict_on, void_nonces
+from bridge.core.authority.requests import (
+    bad_proof,
+    forget_stops,
+    settle,
+    use_nonce,
+    verdict_on,
+    void_nonces,
+)
 from bridge.core.faults.fault_latch import clear_on_arm, clear_on_reset
 from bridge.core.faults.fault_table import ALL, STAGES, Clears
 from bridge.core.modes import selftest
@@ -81,6 +88,7 @@ def _against(tick: TickContext, op: OperatorArrival) -> Iterator[tuple[str, str]
 
 def _arm(tick: TickContext, request_id: str) -> None:
     use_nonce(tick, "arm", request_id)
+    forget_stops(tick)
     release(tick)
     clear_on_arm(tick)
     new_epoch(tick, "armed")
@@ -103,6 +111,7 @@ def _estop(tick: TickContext, _request_id: str) -> None:
 
 def _reset(tick: TickContext, request_id: str) -> None:
     use_nonce(tick, "reset", request_id)
+    forget_stops(tick)
     latch_order(tick, ordered=False)
     clear_on_reset(tick)
     if tick.s.selftest.passed:
@@ -113,6 +122,7 @@ def _reset(tick: TickContext, request_id: str) -> None:
 
 def _resume(tick: TickContext, request_id: str) -> None:
     use_nonce(tick, "resume", request_id)
+    forget_stops(tick)
     release(tick)
     renew_budgets(tick)
 

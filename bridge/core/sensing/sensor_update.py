@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from bridge.core.config import PERIOD_S
 from bridge.core.geometry.kinematics import advance
 from bridge.core.geometry.lidar_scan import ScanPicture
+from bridge.core.sensing.blind_sector import COARSE_RAD, coarse_words, watch_sectors
 from bridge.core.sensing.stop_inputs import hear_link
 from bridge.core.state_motion import AS_CONFIGURED, Braking
 from bridge.core.state_senses import Drift, PoseMemory
@@ -161,7 +162,10 @@ def _hear_drive(tick: TickContext, state: DriveState) -> None:
         drive.behind_base = s.command_seq  # it cannot echo what was said before it lived
     s.odometry = advance(s.odometry, state, tick.config.robot.base, rezero=reborn)
     drive.newest, drive.received_s = state, tick.now_s
-    echoed = state.echo_seq if state.echo_boot == tick.config.boot else 0
+    ours = state.echo_boot == tick.config.boot
+    echoed = state.echo_seq if ours else 0
+    drive.echoed_us = drive.echoed_us or ours
+    drive.echoes_other = "" if ours or not drive.echoed_us else state.echo_boot or ""
     drive.ahead = max(0, echoed - s.command_seq)
     drive.behind = max(0, s.command_seq - max(echoed, drive.behind_base))
     measured = s.odometry.measured
@@ -186,6 +190,9 @@ def _hear_scan(tick: TickContext, scan: Scan) -> None:
         if told not in {"", "again"}:
             tick.drop(f"scan_{told}")
             return
+    step_rad = scan.angle_increment_rad
+    if step_rad > COARSE_RAD and (last is None or last.angle_increment_rad != step_rad):
+        tick.say("scan_coarse", coarse_words(step_rad))
     equal = last is not None and last.ranges_m == scan.ranges_m
     taken_s = scan.stamp_s if tick.inbox.sensors_same_host else tick.now_s
     robot = tick.config.robot
@@ -203,6 +210,7 @@ def _hear_scan(tick: TickContext, scan: Scan) -> None:
         equal_from_m=lidar.equal_from_m if equal else s.odometry.travelled_m,
         baseline_scans=scans,
         baseline_returns=mean + (picture.returns - mean) / scans if learns else mean,
+        sectors=watch_sectors(lidar.sectors, picture, s.odometry.travelled_m, tick.now_s),
     )
 
 

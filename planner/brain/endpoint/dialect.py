@@ -28,6 +28,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
+from planner.brain.endpoint.completion import is_too_long
 from planner.brain.response_format import PLAN_FORM, ReplyForm
 from planner.brain.schema import Message
 from planner.settings import JsonMode, ModelSettings, TokensField
@@ -89,7 +90,6 @@ LADDER = tuple(JsonMode)
 """Strictest first."""
 
 Body = dict[str, Any]
-_TOO_LONG = re.compile(r"context (?:length|window|size)|maximum context|prompt is too long")
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +129,7 @@ class Dialect:
             complaint: the server's words, in small letters.
             quiet: the fields that switch thoughts off here.
         """
-        if _TOO_LONG.search(complaint):
+        if is_too_long(complaint):
             return  # a shorter way of asking would pass for once, and be remembered for all
         if self.temperature and "temperature" in complaint:
             yield replace(self, temperature=False)
@@ -143,6 +143,10 @@ class Dialect:
             yield replace(self, stream=False)
         if self.system and _about_system(complaint):
             yield replace(self, system=False)
+        yield from self.lower()
+
+    def lower(self) -> Iterator[Dialect]:
+        """Yield the rungs below, the strictest first; none where the owner chose the mode."""
         if not self.fixed:
             yield from (replace(self, mode=mode) for mode in LADDER[LADDER.index(self.mode) + 1 :])
 
@@ -248,6 +252,8 @@ MAX_BYTES = 256 * 1024
 MAX_KEPT = 50
 CLIMB_S = 86_400.0
 """After so long a server is asked from the first rung again: it may have been updated."""
+BARREN_CLIMB_S = 3_600.0
+"""The same, where a rung was taken and brought nothing: the model may have been at fault, once."""
 _SHAPE = TypeAdapter(Dialect)
 
 
@@ -277,13 +283,18 @@ class Dialects:
         fresh = 0.0 <= time.time() - self._climbed_unix_s < CLIMB_S
         return self.kept and lower and not self._now.fixed and not fresh
 
-    def keep(self, dialect: Dialect) -> None:
-        """Remember what the server took. A disk that refuses costs a call at the next start."""
-        climbed = not self.kept or self._may_climb()
+    def keep(self, dialect: Dialect, *, barren: bool = False) -> None:
+        """Remember what the server took. A disk that refuses costs a call at the next start.
+
+        Args:
+            dialect: what was taken.
+            barren: a stricter way was taken as well and brought nothing.
+        """
+        climbed = not self.kept or barren or self._may_climb()
         if dialect == self._now and not climbed:
             return
         if climbed:
-            self._climbed_unix_s = time.time()
+            self._climbed_unix_s = time.time() - (CLIMB_S - BARREN_CLIMB_S if barren else 0.0)
         self._now, self.kept = dialect, True
         kept = {k: v for k, v in self._load().items() if k != self._key}
         kept = dict([*kept.items()][-(MAX_KEPT - 1) :])

@@ -15,11 +15,12 @@ import logging
 import socket
 import sys
 import time
+from collections.abc import Callable
 from typing import Any
 
 import httpx
 
-from planner.brain.endpoint.completion import Assembly
+from planner.brain.endpoint.assembly import Assembly
 from planner.brain.endpoint.metering import MeteredTransport
 from planner.brain.endpoint.response import RetryableFailure, StreamBroken, Told, read
 from planner.brain.errors import BrainDown
@@ -30,6 +31,8 @@ from planner.settings import ModelSettings
 KEEPALIVE_S = 600.0
 """A connection is kept through idle minutes; one that the server has closed is noticed and opened
 anew, and one that a router on the way forgot is noticed by the probes."""
+LOADING_S, LONGEST_LOADING_S = 1.0, 10.0
+"""Between two questions to a server that says it is loading."""
 PROBES = tuple(
     (level, int(getattr(socket, name)), value)
     for level, name, value in (
@@ -83,7 +86,9 @@ def open_client(
         follow_redirects=False,
         trust_env=False,
         transport=inner if meter is None else MeteredTransport(inner, meter),
-        timeout=httpx.Timeout(settings.timeout_s, connect=settings.connect_timeout_s),
+        timeout=httpx.Timeout(
+            settings.timeout_s + settings.load_timeout_s, connect=settings.connect_timeout_s
+        ),
     )
 
 
@@ -119,6 +124,12 @@ class Client:
         self.secret = Secret(settings.key.get_secret_value() if settings.key is not None else "")
         self._names = TargetResolver(address)
         self._http = open_client(address, settings, self.secret.header, transport, meter)
+        self.patient = False
+        """A server that says it is loading is asked again until the caller's deadline."""
+        self.heard_s = float("-inf")
+        """When the server last said a word, on the monotonic clock; that it loads is none."""
+        self.listeners: set[Callable[[], None]] = set()
+        """Called, once each, at its next word."""
 
     async def close(self) -> None:
         """Give the connections back."""
@@ -147,6 +158,9 @@ class Client:
             got = await self._anywhere(raw, told)
             if not isinstance(got, RetryableFailure):
                 return got
+            if got.down.why == "loading" and self.patient:
+                await asyncio.sleep(max(LOADING_S, min(got.after_s, LONGEST_LOADING_S)))
+                continue
             tried = lost if got.lost else busy
             if tried or not got.after_s <= end_s - time.monotonic():
                 raise got.down
@@ -182,7 +196,7 @@ class Client:
                 headers=target.headers,
                 extensions=target.extensions,
             ) as response:
-                return await read(response, self.secret, assembly, told)
+                return await read(response, self.secret, assembly, told, self._hear)
         except (httpx.RemoteProtocolError, httpx.ReadError, httpx.WriteError) as error:
             if assembly.begun:
                 raise StreamBroken(type(error).__name__) from None
@@ -197,6 +211,11 @@ class Client:
         except (httpx.HTTPError, httpx.InvalidURL, ValueError, TypeError, AttributeError) as error:
             # Whatever a reply trips over here is the server's: the offline brain must answer.
             raise self._wrap_error("bad_reply", error) from None
+
+    def _hear(self) -> None:
+        self.heard_s = time.monotonic()
+        while self.listeners:
+            self.listeners.pop()()
 
     def _wrap_error(self, why: str, error: Exception) -> BrainDown:
         """Return a failure; the words of an error may quote what the server sent."""

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from planner.brain.endpoint.dialect import MAX_JPEG_BYTES, data_url
+from planner.brain.endpoint.line import Line
 from planner.brain.endpoint.plan_reply import Unusable, clean, says_nothing
 from planner.brain.endpoint.reply_object import NoObject, one_object
-from planner.brain.endpoint.session import Line
 from planner.brain.errors import BadPlan
 from planner.brain.image_prompts import (
     LOOK_SCHEMA,
@@ -312,7 +312,9 @@ class EndpointLooker:
         asked = messages
         for turn in (ReplyTurn.LOOK, ReplyTurn.REPAIR):
             form, schema = wanted
-            reply = await self._line.asker.ask(asked, schema, end_s, None, form=form, picture=url)
+            reply = await self._line.asker.ask(
+                asked, schema, end_s, None, form=form, picture=url, again=True
+            )
             if reply.refusal is not None:
                 self._keep(turn, reply.refusal, used=False)
                 raise BadPlan(f"the model declined: {clean(reply.refusal)[:200]}")

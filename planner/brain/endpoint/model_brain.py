@@ -11,18 +11,20 @@ from typing import TYPE_CHECKING
 
 from planner.brain.endpoint.completion import ModelReply, Tokens
 from planner.brain.endpoint.image_client import EndpointLooker, LayOut, Shrink
+from planner.brain.endpoint.line import Line
 from planner.brain.endpoint.plan_draft import Drafting
 from planner.brain.endpoint.plan_reply import Planned, Unusable, clean, judge
-from planner.brain.endpoint.session import Line
+from planner.brain.endpoint.reply_truth import find_untruth
 from planner.brain.errors import BadPlan
 from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.brain.model_replies import ReplyCollector, ReplyTurn
+from planner.brain.offline_brain import OfflineBrain
 from planner.brain.prompt import Prompt
-from planner.brain.schema import schema_of
-from planner.brain.streamed_draft import Hear
+from planner.brain.schema import Message, schema_of
+from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.usage_meter import Meter
 from planner.language.catalogue import message, say
-from planner.plan import PLAN, BrainTag, Clarify, Code, Refuse, Vocabulary, say_same
+from planner.plan import PLAN, BrainTag, Clarify, Code, Language, Refuse, Vocabulary, say_same
 from planner.settings import ModelSettings
 
 if TYPE_CHECKING:
@@ -78,6 +80,12 @@ class EndpointBrain:
         """Render the prompt of this closed world, so that the first goal need not wait for it."""
         self._prompt.messages(ThinkRequest(text="", vocabulary=vocabulary))
 
+    async def warm_up(self, request: ThinkRequest) -> None:
+        """Have a model on this machine loaded before anybody asks, where the owner wants that."""
+        if self._line.warms_up:
+            schema = schema_of(request.vocabulary, request.runnable)
+            await self._line.warm_up(self._prompt.messages(request), schema)
+
     def looker(self, shrink: Shrink | None = None, lay_out: LayOut | None = None) -> EndpointLooker:
         """Return the asker of the same model about pictures, over the same line.
 
@@ -88,7 +96,7 @@ class EndpointBrain:
 
     async def close(self) -> None:
         """Give the connections back."""
-        await self._client.close()
+        await self._line.close()
 
     async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the model's plan of a sentence; a listener hears it as it is written.
@@ -102,7 +110,12 @@ class EndpointBrain:
         async def talk(end_s: float) -> ThinkResult:
             return await self._talk(request, end_s, hear)
 
-        return await self._line.turn(request.goal, talk, "plan")
+        def tell_slow() -> None:
+            if hear is not None:
+                language = request.language or Language.EN
+                hear(Draft(text=say("model_error.slow").of(language)))
+
+        return await self._line.turn(request.goal, talk, "plan", tell_slow)
 
     async def _talk(self, request: ThinkRequest, end_s: float, hear: Hear | None) -> ThinkResult:
         messages = self._prompt.messages(request)
@@ -110,18 +123,38 @@ class EndpointBrain:
         told = None if hear is None else Drafting(request.vocabulary, request.runnable, hear)
         first = await self._asker.ask(messages, schema, end_s, told)
         plan = _without_vain_offers(self._plan_of(first, request), request)
+        begun = bool(request.observed or request.exchanges)
+        reading = None if begun else (await OfflineBrain().think(request)).plan
+        plan = self._held_to_truth(plan, reading, request, messages)
         self._keep(request, _turn_of(request), first, plan)
         if not isinstance(plan, Unusable):
             return self._make_result(plan, 1, first.tokens)
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
         again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
-        second = await self._asker.ask(again, schema, end_s, told)
-        mended = self._plan_of(second, request)
+        second = await self._asker.ask(again, schema, end_s, told, again=True)
+        mended = self._held_to_truth(
+            self._plan_of(second, request), reading, request, messages, mended=True
+        )
         self._keep(request, ReplyTurn.REPAIR, second, mended)
         if isinstance(mended, Unusable):
             cost = (first.tokens + second.tokens).total
-            raise BadPlan(f"asked twice: {mended}"[:400], calls=2, tokens=cost)
+            raise BadPlan(f"asked twice: {mended}"[:400], calls=2, tokens=cost, code=mended.code)
         return self._make_result(mended, 2, first.tokens + second.tokens)
+
+    def _held_to_truth(
+        self,
+        plan: Planned | Unusable,
+        reading: Planned | None,
+        request: ThinkRequest,
+        messages: list[Message],
+        *,
+        mended: bool = False,
+    ) -> Planned | Unusable:
+        """Return why a plan is not to be told or done, where it is one and there is a reason."""
+        if isinstance(plan, Unusable):
+            return plan
+        instructions = messages[0]["content"]
+        return find_untruth(plan, reading, request, instructions, mended=mended) or plan
 
     def _keep(
         self, request: ThinkRequest, turn: ReplyTurn, reply: ModelReply, plan: Planned | Unusable

@@ -39,9 +39,9 @@ MAX_OPTIONS = 8
 MAX_REASONS = 6
 _KEYS = {
     "plan": {"steps", "does", "pace"},
-    "answer": {"en", "zh"},
-    "clarify": {"code", "en", "zh", "options"},
-    "refuse": {"code", "en", "zh"},
+    "answer": {"text", "en", "zh"},
+    "clarify": {"code", "text", "en", "zh", "options"},
+    "refuse": {"code", "text", "en", "zh"},
 }
 _CODES = {"clarify": CLARIFY_CODES, "refuse": REFUSE_CODES}
 # Marks that turn or hide text, and what is no text at all, have no place in words for a person.
@@ -55,6 +55,8 @@ class Unusable:
     """Hold why a reply is no plan, for the repair turn."""
 
     reasons: tuple[str, ...]
+    code: str = "bad_plan"
+    """One of ``planner.brain.model_error_codes``."""
 
     def __str__(self) -> str:
         return "; ".join(self.reasons)
@@ -221,12 +223,14 @@ def says_nothing(text: str) -> bool:
 
 
 def _words(kind: str, filled: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | Unusable:
-    en, zh = filled.get("en") or filled.get("zh"), filled.get("zh") or filled.get("en")
+    # One language is asked for; the two of an older prompt are still taken.
+    one = filled.get("text") or filled.get("en") or filled.get("zh")
+    en, zh = filled.get("en", one), filled.get("zh", one)
     if not isinstance(en, str) or not isinstance(zh, str):
-        return Unusable((f"{kind} needs the texts en and zh",))
+        return Unusable((f"{kind} needs a text",))
     said = {"en": _short(en), "zh": _short(zh)}
     if says_nothing(said["en"]) or says_nothing(said["zh"]):
-        return Unusable((f"{kind} needs words of your own in en and zh",))
+        return Unusable((f"{kind} needs words of your own in text",))
     if kind == "answer":
         return {"kind": kind, "text": said}
     allowed = [code.value for code in _CODES[kind]]

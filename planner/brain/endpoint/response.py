@@ -16,19 +16,21 @@ from typing import Any
 
 import httpx
 
+from planner.brain.endpoint.assembly import Assembly, StreamFailure
 from planner.brain.endpoint.completion import (
-    Assembly,
-    StreamFailure,
     complaint_of,
     declined_by,
     generated_by,
+    is_loading,
     read_json,
+    why_down,
 )
 from planner.brain.endpoint.dialect import not_taken
 from planner.brain.errors import BrainDown
 from planner.outbound import Secret
 
 BUSY = frozenset({408, 409, 425, 429})
+LOADING_STATUS = 503
 PAUSE_S = 0.5
 """Before the second try, where the server names no time."""
 _MODES = re.compile(
@@ -72,24 +74,25 @@ def classify_status(response: httpx.Response, content: object, said: str) -> Ret
     status = response.status_code
     if 300 <= status < 400:
         raise BrainDown(f"status {status}; redirects are not followed", why="redirect")
+    server = said.partition(": ")[2]
     if status in (401, 403):
-        raise BrainDown(said, why="bad_key")
+        raise BrainDown(said, why="bad_key", server=server)
     if status in BUSY:
-        return RetryableFailure(BrainDown(said, why="rate_limited"), _wait_s(response))
+        down = BrainDown(said, why="rate_limited", server=server)
+        return RetryableFailure(down, _wait_s(response))
     words = said.lower()
     modes = _MODES.search(words) is not None or not_taken(words)
     if status in (400, 422) and _NO_MODEL.search(words) and not modes:
-        raise BrainDown(said, why="unknown_model")
+        raise BrainDown(said, why="unknown_model", server=server)
     if status in (400, 422) or modes:
         raise BadRequest(said, generated_by(content), declined_by(content))
     if status in (404, 405, 410):
-        raise BrainDown(said, why="unknown_model")
+        raise BrainDown(said, why="unknown_model", server=server)
     if status >= 500:
-        loads = status == 503 and "load" in said.lower()
-        return RetryableFailure(
-            BrainDown(said, why="loading" if loads else "server_error"), _wait_s(response)
-        )
-    raise BrainDown(said, why="bad_request")
+        loads = status == LOADING_STATUS and (is_loading(said) or "load" in words)
+        why = "loading" if loads else why_down(server)
+        return RetryableFailure(BrainDown(said, why=why, server=server), _wait_s(response))
+    raise BrainDown(said, why="bad_request", server=server)
 
 
 def words_of(status: int, content: object) -> str:
@@ -173,18 +176,37 @@ MAX_ERROR_BYTES = 64_000
 END_S = 0.02
 """For the end of a stream after its last event: only what was read whole is used again."""
 
+FINISHED_S = 0.5
+"""For what follows ``finish_reason``: the bill, and the last line, which some never send."""
+WHOLE_S = 2.0
+"""Of silence behind one closed object without a ``finish_reason``: a slow model writes a token in
+0.5 s."""
+
 Told = Callable[[Callable[[], str]], None]
 """Takes a way to read what the model has written so far, and reads it when it likes."""
 
 
 class StreamBroken(Exception):
-    """The stream ended before the reply did: a plain call may do better. Holds why."""
+    """The stream ended before the reply did: a plain call may do better. Holds why.
+
+    ``server``: what the server itself said of it.
+    """
+
+    def __init__(self, why: str, server: str = "") -> None:
+        super().__init__(why)
+        self.server = server
 
 
 async def read(
-    response: httpx.Response, secret: Secret, assembly: Assembly, told: Told | None
+    response: httpx.Response,
+    secret: Secret,
+    assembly: Assembly,
+    told: Told | None,
+    heard: Callable[[], None] = lambda: None,
 ) -> Any | RetryableFailure:
     """Return the JSON of a reply, put together where it is a stream; None where it is none.
+
+    ``heard`` is called at the server's first word.
 
     Raises:
         BadRequest, BrainDown: see ``status.judged``; ``too_large``, ``bad_reply``.
@@ -193,38 +215,92 @@ async def read(
     code = response.status_code
     if not 200 <= code < 300:
         content = read_json(secret.struck_bytes(await _body(response, MAX_ERROR_BYTES)))
+        if code != LOADING_STATUS:
+            heard()
         return classify_status(response, content, secret.redact(words_of(code, content)))
     if response.headers.get("content-type", "").lower().startswith("text/event-stream"):
-        return await _listen(response, secret, assembly, told)
-    return read_json(secret.struck_bytes(await _body(response, MAX_REPLY_BYTES)))
+        return await _listen(response, secret, assembly, told, heard)
+    raw = await _body(response, MAX_REPLY_BYTES)
+    heard()
+    return read_json(secret.struck_bytes(raw))
 
 
 async def _listen(
-    response: httpx.Response, secret: Secret, assembly: Assembly, told: Told | None
+    response: httpx.Response,
+    secret: Secret,
+    assembly: Assembly,
+    told: Told | None,
+    heard: Callable[[], None],
 ) -> dict[str, Any]:
     """Put a stream together and tell of it as it grows."""
     _refuse_packed(response)
     events, size, chunks = Events(), 0, response.aiter_raw()
+    silence = _Silence(assembly)
     try:
-        async for chunk in chunks:
-            size += len(chunk)
-            if size > MAX_STREAM_BYTES or assembly.size > MAX_REPLY_BYTES:
-                told_bytes = f"{MAX_REPLY_BYTES} bytes, {MAX_STREAM_BYTES} on the wire"
-                raise BrainDown(f"the stream is over {told_bytes}", why="too_large")
-            for event in events.feed(chunk):
+        async with silence:
+            async for chunk in chunks:
+                size += len(chunk)
+                if size > MAX_STREAM_BYTES or assembly.size > MAX_REPLY_BYTES:
+                    told_bytes = f"{MAX_REPLY_BYTES} bytes, {MAX_STREAM_BYTES} on the wire"
+                    raise BrainDown(f"the stream is over {told_bytes}", why="too_large")
+                for event in events.feed(chunk):
+                    heard()  # comments keep a connection awake while a model loads: not a word
+                    assembly.add(event)
+                if events.done:
+                    await _let_end(chunks)
+                    break
+                silence.set_limit()
+                if told is not None and assembly.begun:
+                    told(lambda: secret.struck_growing(assembly.text))
+            for event in events.end():
                 assembly.add(event)
-            if events.done:
-                await _let_end(chunks)
-                break
-            if told is not None and assembly.begun:
-                told(lambda: secret.struck_growing(assembly.text))
-        for event in events.end():
-            assembly.add(event)
     except StreamFailure as broken:
-        raise StreamBroken(secret.redact(str(broken))) from None
-    if assembly.finish is None and (not events.done or assembly.is_cut):
+        raise StreamBroken(secret.redact(str(broken)), secret.redact(broken.server)) from None
+    ended = events.done or silence.passed
+    if assembly.finish is None and (not ended or assembly.is_cut):
         raise StreamBroken("it ended before the reply did")
     return assembly.completion()
+
+
+class _Silence:
+    """End the wait for a stream that goes on although its reply is there.
+
+    Law: only behind ``finish_reason``, or behind one whole object, is silence an end; whatever else
+    still comes is waited for until the goal's own deadline.
+    """
+
+    def __init__(self, assembly: Assembly) -> None:
+        self._assembly = assembly
+        self._limit = asyncio.timeout(None)
+        self._size = -1
+        self.passed = False
+
+    async def __aenter__(self) -> None:
+        await self._limit.__aenter__()
+
+    async def __aexit__(self, *raised: Any) -> bool:
+        try:
+            await self._limit.__aexit__(*raised)
+        except TimeoutError:
+            self.passed = True
+        return self.passed
+
+    def set_limit(self) -> None:
+        """Set, move or lift the limit, by what has come so far; what brings nothing moves none."""
+        assembly, set_s = self._assembly, self._limit.when()
+        silent_s: float | None
+        if assembly.finish is not None:
+            silent_s = FINISHED_S
+        elif assembly.size == self._size:
+            return
+        else:
+            silent_s = WHOLE_S if assembly.is_whole else None
+        self._size = assembly.size
+        if silent_s is None:
+            self._limit.reschedule(None)
+            return
+        end_s = asyncio.get_running_loop().time() + silent_s
+        self._limit.reschedule(end_s if set_s is None else min(set_s, end_s))
 
 
 async def _let_end(chunks: AsyncIterator[bytes]) -> None:

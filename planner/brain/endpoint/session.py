@@ -1,4 +1,4 @@
-"""Own the line to one endpoint: consent, client, dialect, and the turns of its callers.
+"""Ask one endpoint in the way that it understands, and find that way by use.
 
 A body that is refused is made simpler and sent again; a stream that breaks is asked for plainly.
 Neither has any effect outside of the call: nothing moves before a whole reply was judged.
@@ -6,15 +6,12 @@ Neither has any effect outside of the call: nothing moves before a whole reply w
 
 from __future__ import annotations
 
-import asyncio
 import logging
 import time
-from collections.abc import Awaitable, Callable
 from dataclasses import replace
-from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
-from planner.brain.endpoint.completion import ModelReply, read_reply
+from planner.brain.endpoint.completion import ModelReply, is_too_long, read_reply, why_down
 from planner.brain.endpoint.dialect import (
     Body,
     Dialect,
@@ -30,13 +27,10 @@ from planner.brain.errors import BrainDown
 from planner.brain.image_questions import NotSent
 from planner.brain.response_format import PLAN_FORM, ReplyForm
 from planner.brain.schema import Message
-from planner.brain.usage_meter import Meter, thinking_about
-from planner.outbound import Address
 from planner.settings import ModelSettings
-from wire import ConfigError
 
 if TYPE_CHECKING:
-    import httpx
+    pass
 
 log = logging.getLogger(__name__)
 
@@ -70,22 +64,18 @@ class Asker:
         *,
         form: ReplyForm = PLAN_FORM,
         picture: str | None = None,
+        again: bool = False,
     ) -> ModelReply:
         """Return a reply to these messages.
 
-        Args:
-            messages: the prompt.
-            schema: of the reply.
-            end_s: when the goal's time is up, on the monotonic clock.
-            told: takes what is written so far; None: no stream is asked for.
-            form: what the reply is called.
-            picture: the data URL of a picture that goes with the words.
+        A way of asking that is taken and brings nothing is left for the next; what then brings
+        something is remembered. ``told`` takes what is written so far (None: no stream), until
+        ``end_s`` on the monotonic clock; ``form`` names the reply, ``picture`` is a data URL.
+        ``again``: the reply before it was no use, so the way of asking stays.
 
-        Raises:
-            BrainDown: there is none.
-            NotSent: the server takes no pictures, or not this one.
+        Raises BrainDown, or NotSent where no picture is taken, or not this one.
         """
-        dialect, refused = self._dialects.current, list[Body]()
+        dialect, refused, barren = self._dialects.current, list[Body](), list[ModelReply]()
         stream = told is not None and self._settings.stream and self._breaks < MAX_BREAKS
 
         def body(of: Dialect) -> Body:
@@ -107,17 +97,37 @@ class Asker:
                 refused.append(asked)
                 likely = dialect.simpler(str(no).lower(), self._quiet)
                 simpler = next((each for each in likely if body(each) not in refused), None)
-                if simpler is None or len(refused) >= MAX_REFUSED:
-                    if picture is not None and self._dialects.kept:
-                        self._sightless = True  # it took words before: what is new is the picture
-                        raise NotSent(str(no), why="no_pictures") from None
-                    raise BrainDown(str(no), why="bad_request") from None
-                dialect = simpler
+                if simpler is not None and len(refused) < MAX_REFUSED:
+                    dialect = simpler
+                elif barren:
+                    return barren[0]
+                else:
+                    raise self._given_up(no, with_picture=picture is not None) from None
             else:
                 self._breaks = 0 if stream else self._breaks
                 if picture is not None:
                     dialect = replace(dialect, pictures=True)
-                return self._read(content, dialect, form)
+                reply = self._read(content, form)
+                below = None if again or not reply.is_barren else next(dialect.lower(), None)
+                if below is None:
+                    self._keep(dialect, reply, barren)
+                    return _add_cost(reply, barren)
+                log.info("%s brought nothing by %s", self._settings.name, dialect.mode.value)
+                barren.append(reply)
+                dialect = below
+
+    def _given_up(self, no: BadRequest, *, with_picture: bool) -> BrainDown | NotSent:
+        """Return the failure of a body that no simpler one could take the place of."""
+        if with_picture and self._dialects.kept:
+            self._sightless = True  # it took words before: what is new is the picture
+            return NotSent(str(no), why="no_pictures")
+        why = "context_too_small" if is_too_long(str(no)) else "bad_request"
+        return BrainDown(str(no), why=why, server=str(no).partition(": ")[2])
+
+    def _keep(self, dialect: Dialect, reply: ModelReply, barren: list[ModelReply]) -> None:
+        """Remember a way of asking that brought something."""
+        if not reply.is_barren:
+            self._dialects.keep(dialect, barren=bool(barren))
 
     def _about_the_picture(self, no: BadRequest) -> None:
         """Raise where a refusal's words are about the picture.
@@ -137,7 +147,9 @@ class Asker:
     def _plainly(self, stream: bool, broken: StreamBroken) -> bool:
         """Return that no stream is asked for now; a stream that nobody asked for is no reply."""
         if not stream:
-            raise BrainDown(f"the stream broke: {broken}", why="bad_reply") from None
+            why = why_down(broken.server) if broken.server else "bad_reply"
+            told = f"the stream broke: {broken}"
+            raise BrainDown(told, why=why, server=broken.server) from None
         log.info("%s broke its stream (%s): asked plainly", self._settings.name, broken)
         self._breaks += 1
         return False
@@ -151,63 +163,16 @@ class Asker:
             return ModelReply(self._client.secret.redact(refused.generated), trouble=said)
         return None
 
-    def _read(self, content: object, dialect: Dialect, form: ReplyForm) -> ModelReply:
+    def _read(self, content: object, form: ReplyForm) -> ModelReply:
         struck = self._client.secret.redact
         try:
             reply = read_reply(content, form.name)
         except BrainDown as down:
-            raise BrainDown(struck(str(down)), why=down.why) from None
-        self._dialects.keep(dialect)
+            told = struck(str(down))
+            raise BrainDown(told, why=down.why, server=struck(down.server)) from None
         return replace(reply, text=struck(reply.text))
 
 
-T = TypeVar("T")
-
-
-class Line:
-    """Share one model's connection between the planning and the looking brain."""
-
-    def __init__(
-        self,
-        settings: ModelSettings,
-        home: Path,
-        transport: httpx.AsyncBaseTransport | None,
-        meter: Meter | None,
-    ) -> None:
-        """Judge the address; nothing is asked yet.
-
-        Raises:
-            ConfigError: ``model_url``, ``model_offhost``.
-        """
-        self.address = Address.parse(settings.url)
-        if not self.address.local and not settings.allow_offhost:
-            raise ConfigError(
-                "model_offhost",
-                f"what people say would be sent to {self.address.host}; if that is meant, set "
-                "allow_offhost = true in [model], or PONS_MODEL_ALLOW_OFFHOST=1",
-            )
-        self.settings = settings
-        self.client = Client(self.address, settings, transport, meter)
-        self.dialects = Dialects(home, settings, self.address.url)
-        self.asker = Asker(settings, self.client, self.dialects)
-        self._turns = asyncio.Semaphore(settings.parallel)
-
-    async def turn(self, goal: str, talk: Callable[[float], Awaitable[T]], wanted: str) -> T:
-        """Return a conversation's result, inside one deadline that spans waiting for a turn.
-
-        Args:
-            goal: whose budget pays.
-            talk: is told when its time is up, on the monotonic clock.
-            wanted: what is told that there is none of.
-
-        Raises:
-            BrainDown: ``timeout``; and whatever talking raises.
-        """
-        end_s = time.monotonic() + self.settings.timeout_s
-        try:
-            with thinking_about(goal):
-                async with asyncio.timeout(self.settings.timeout_s), self._turns:
-                    return await talk(end_s)
-        except TimeoutError:
-            told = f"no {wanted} within {self.settings.timeout_s:g} s"
-            raise BrainDown(told, why="timeout") from None
+def _add_cost(reply: ModelReply, before: list[ModelReply]) -> ModelReply:
+    """Return a reply with what those before it have cost, too."""
+    return replace(reply, tokens=sum((each.tokens for each in before), reply.tokens))

@@ -44,7 +44,7 @@ _SUBJECT = re.compile(
 )
 _ARTICLE = re.compile(r"^(?:the|my|our|your|his|her|their|a|an|some) ")
 _NO_ZH = (
-    r"(?:[哎哦噢啊诶欸唉呀]+|(?:我)?(?:讲|说|记|搞|弄)?错(?:了|啦)|不对|不是|等等|等一下"
+    r"(?:[哎哦噢啊诶欸唉呀]|(?:我)?(?:讲|说|记|搞|弄)?错(?:了|啦)|不对|不是|等等|等一下"
     r"|抱歉|不好意思|更正一下|[,。!])"
 )
 _ANAPHOR_ZH = re.compile(

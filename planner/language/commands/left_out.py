@@ -93,7 +93,7 @@ _DENIED = re.compile(
     rf" {_IN}?{_PLACE.format('b')}){_TAIL}{_REASON}"
 )
 _DENIED_ZH = re.compile(
-    rf"(?:{_LEAD_ZH}|不|不对|错了|等等|,)*(?:我(?:说|要|指|想要?去)的?)?(?:不是|没说|没让你)"
+    rf"(?:{_LEAD_ZH[:-1]}|不对|不(?!过|对)|错了)*(?:我(?:说|要|指|想要?去)的?)?(?:不是|没说|没让你)"
     rf"(?:去|到)?{_PLACE_ZH.format('a')}(?:呀|啊|吧|哦)*{_REASON_ZH}"
 )
 

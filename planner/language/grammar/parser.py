@@ -62,6 +62,7 @@ from planner.language.grammar.sentence_text import (
     mend,
     normalise,
     refuse_bad_text,
+    refuse_long_text,
     words_of,
 )
 from planner.language.grammar.unread_branch import tell_unread
@@ -99,6 +100,11 @@ def plan(
     text: str, vocabulary: Vocabulary, context: Context = NOWHERE
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Return the plan of a sentence. Same arguments, same plan; never raises on any text."""
+    refused = refuse_bad_text(text)
+    text = " ".join(text.split())
+    refused = refused or refuse_long_text(text)
+    if refused is not None:
+        return refused
     made = read_in_order_words(text, vocabulary, lambda said: _plan(said, vocabulary, context))
     if isinstance(made, Refuse):
         return tell_unread(made, text, lambda said: _plan(said, vocabulary, context))

@@ -14,16 +14,23 @@ from functools import lru_cache
 from rapidfuzz.distance import OSA
 
 from planner.language.catalogue import message, say
-from planner.language.folding import CHINESE, fold
+from planner.language.folding import CHINESE, count_chinese, fold
 from planner.plan import Bilingual, Code, Refuse
 
 MAX_CHARACTERS = 2000
+MOST_READ = 340
+"""Characters that the grammar reads, blanks in a row as one; a Chinese character counts twice, for
+it is a word."""
 EXAMPLE = say("grammar.example")
 
 # Control, surrogate, private use: never part of a sentence. Bidirectional overrides show a person
 # another sentence than the one that is read.
 _OVERRIDES = frozenset("\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
 _NO_TEXT = frozenset({"Cc", "Cs", "Co"})
+
+MOST_CLAUSES = 30
+"""Marks that end a clause; each clause is read in several ways."""
+_CLAUSE_MARK = re.compile(r"[,.;:!?，。；：！？、]")
 
 
 def refuse_bad_text(text: str) -> Refuse | None:
@@ -38,6 +45,20 @@ def refuse_bad_text(text: str) -> Refuse | None:
     if not any(char.isalnum() for char in text):
         return _no(Code.BAD_TEXT, found=text.strip()[:10])
     return None
+
+
+def refuse_long_text(text: str) -> Refuse | None:
+    """Return the refusal of a text that the grammar would think about too long, else None.
+
+    Its forms are tried one after the other, some at a price that grows with the square of the
+    length. A sentence that a person says at a stretch is far below; a model reads longer ones.
+    """
+    length = len(text) + count_chinese(text)
+    if length <= MOST_READ and len(_CLAUSE_MARK.findall(text)) <= MOST_CLAUSES:
+        return None
+    ends = [found.end() for found in _CLAUSE_MARK.finditer(text)]
+    limit = min(MOST_READ * len(text) // length, *ends[MOST_CLAUSES : MOST_CLAUSES + 1], len(text))
+    return _no(Code.TEXT_TOO_LONG, length=len(text), limit=limit)
 
 
 def _strange(char: str) -> bool:

@@ -188,7 +188,7 @@ _PEOPLE = re.compile(
     r"\b(?:person|people|persons|any ?(?:one|body)|some ?(?:one|body)|every ?(?:one|body)|who"
     r"|whom|m[ae]n|wom[ae]n|guests?|visitors?|child(?:ren)?|kids?|boys?|girls?|lady|ladies|guys?|mister|mr|mrs"
     r"|human|follow me|after me|behind me|with me|find me|meet|greet|welcome|introduce|him|her|them"
-    r"|(?:tell|inform|remind|call|wake) (?!me\b|us\b|you)[a-z]+|(?:to|for) (?:my|our|the) [a-z]+"
+    r"|(?:tell|inform|remind|call|wake) (?!me\b|us\b|you)[a-z]+|(?:to|for) (?:my|our) [a-z]+"
     r"|(?:say|talk|speak) [a-z ]{0,16}to (?!me\b|us\b|you))\b"
     r"|人|谁|大家|客人|孩子|小孩|男|女|老|先生|女士|他|她|我|妈|爸|爷|奶|叔|阿姨|接|迎|打招呼|告诉(?!我)"
 )

@@ -22,7 +22,10 @@ _SPEAK = (
     r"\b(?:say|saying|tell|announce|inform|shout|whisper|repeat|remind|ask|greet|read|answer|reply"
     r"|know)\b"
 )
-_THEN = r"(?=[.;!?]|,? (?:and )?then\b|(?:,| and) (?:come|go|return|drive|after)\b|$)"
+_THEN = (
+    r"(?=[.;!?]|,? (?:and )?then\b|(?:,| and) (?:come|go|return|drive|after)\b"
+    r"|, (?:he|she|they)(?:'s|'re| is| are) (?:in|at|on|by)\b|$)"
+)
 _SPEECH = re.compile(
     rf"{_SPEAK}[^.;!?\"“”「」『』]{{0,60}}?(?:[\"“「『][^\"”」』]*[\"”」』]?"
     rf"|(?:\bthat\b|\bwhether\b|\bif\b|: *[^ ]+).*?{_THEN}"
@@ -39,6 +42,7 @@ _SPEAKS = re.compile(rf"{_SPEAK}|[说喊问念叫]|告诉|转告|通知|提醒|�
 _NO_DENIAL_ZH = re.compile(
     r"特别|别墅|分别|级别|性别|识别|类别|差别|不错|差不多|不锈钢|不好意思|对不起|了不起|不客气"
     r"|休息|免费|多少|不对|不少|至少|([^\s,.])[不没]\1|是否|能否|可否"
+    r"|(?<=[^\s,，。;；!！你您千万请])别(?:动|走|停)(?=$|[,，。;；!！])"
 )
 _DENY_EN = re.compile(
     r"\b(?:do not|don't|dont|never|must not|mustn't|may not|should not|shouldn't|ought not"
@@ -69,7 +73,8 @@ _BARE_DENIAL = re.compile(
 )
 _NEXT_NAME = re.compile(r"[,;]?\s*(?:(?:or|nor|and|neither)\b|(?:the|my|our|your) [a-z]+ ?[a-z]*$)")
 _DENY_ZH = re.compile(
-    r"别|不要|不用|不必|不许|不准|不能|不可|不该|不得|禁止|严禁|切勿|勿|甭|莫|不去|不进|(?<![找看见听收想])不到|不是|不想"
+    r"别|不要|不用|不必|不许|不准|不能|不可|不该|不得|禁止|严禁|切勿|勿|甭|莫|不去|不进"
+    r"|(?<![找看见听收想])不到|不是|不想"
     r"|没必要|谁[让叫]|离.{1,8}远|不让|除|避开|绕开|绕过|跳过|排除|没有.{0,6}允许|唔好|唔使"
 )
 _CLAUSE_ZH = re.compile(r"([,，。；;！!？?]|而是|但是|但|然后|改去|改成|(?<!不)是(?=去))")
@@ -92,7 +97,8 @@ _CONDITION = re.compile(
     r"\b(?:if|unless|whenever|when|as soon as|in case|provided|only if|until|tomorrow|tonight"
     r"|every (?:day|morning|evening|night|hour|week)|at (?:\d|noon|midnight)|in \d+ minutes?|later"
     r"|next time)\b"
-    r"|如果|要是|假如|万一|只要|除非|一旦|每当|若(?!干)|的话|只有|明天|今晚|每天|每晚|等会儿?(?!儿?再见)"
+    r"|如果|要是|假如|万一|只要|除非|一旦|每当|若(?!干)|的话|只有|明天|今晚|每天|每晚"
+    r"|等会儿?(?!儿?再见)"
     r"|当.{1,12}时|等(?!.{0,6}[秒分]).{1,12}[了完好后]再"
 )
 _CLAUSE = re.compile(r"[,.;!?。；！？]")
@@ -219,7 +225,7 @@ def _cut_conditions(said: str) -> str:
     for found in _CONDITION.finditer(said):
         if any(start <= found.start() < end for start, end in polite):
             continue
-        before = [m.end() for m in _CONNECTS.finditer(said, 0, found.start())]
+        before = [m.end() for m in _CONNECTS.finditer(said) if m.end() <= found.start()]
         after = _CONNECTS.search(said, found.end())
         rest = said[after.end() :] if after is not None else ""
         return f"{said[: max(before, default=0)]}{_GAP}{_cut_conditions(rest)}"

@@ -12,7 +12,7 @@ from functools import lru_cache
 
 from planner.language.grammar.context import Context
 from planner.language.grammar.parser import plan as read_order
-from planner.language.motion_guard.mentioned_names import plain
+from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.plan import (
     EVERY_KIND,
     AnswerPlan,
@@ -108,7 +108,6 @@ VETOES = frozenset(
         Code.UNSAFE,
         Code.NO_CAPABILITY,
         Code.OUT_OF_SCOPE,
-        Code.UNKNOWN_PLACE,
         Code.AMBIGUOUS,
     }
 )
@@ -136,6 +135,10 @@ def read_grammar(
         own = (n.step for i, n in enumerate(row) if not hangs_on_more(row, i))
         return Counter(map(key_of_step, own)), Counter(key_of_step(n.step) for n in row), None
     vetoed = isinstance(read, Refuse | Clarify) and read.code in VETOES
+    if (
+        isinstance(read, Clarify) and vetoed and read.code is Code.AMBIGUOUS
+    ):  # a choice of drinks is no choice of ways
+        vetoed = len(set(places_named(text, vocabulary))) > 1
     return (
         Counter(),
         Counter(),

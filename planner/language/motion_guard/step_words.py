@@ -38,7 +38,9 @@ from planner.plan import (
     places_of,
 )
 
-_HOME = r"home|base|dock|charg|家|充电|基地|返航|回桩|回充"
+_HOME = (
+    r"home|base|dock|charg|\brest\b|\bsleep|\bnap\b|家|窝|充电|基地|返航|回桩|回充|休息|歇|睡|躺"
+)
 _BACK = r"back|return|here|where you (?:are|started)|回|返|过来|原"
 _FOLLOW = r"follow|after|behind|come with|跟|随|尾"
 _LEFT, _RIGHT = r"left|counter|anti|左|逆", r"right|(?<!counter)(?<!anti)clockwise|右|顺"
@@ -147,7 +149,22 @@ def _turn(angle_deg: float, said: str) -> str:
     return _number(abs(angle_deg), [*wanted, *usual])
 
 
+_WAY = re.compile(
+    r"\bin (?:my|our|the) way\b|\blet (?:me|us|\w+) (?:through|past|by)\b|\bmake (?:way|room)\b"
+    r"|\bmove over\b|\baside\b|让一?让|让开|让路|挡|借过"
+)
+_ASIDE_M = 1.0
+
+
+def makes_way(step: Step | ClockTime, said: str) -> bool:
+    """Tell whether a step makes room, as words ask for it without a number or a side."""
+    short = isinstance(step, MoveStraight) and abs(step.distance_m) <= _ASIDE_M
+    return short and _WAY.search(plain(said)) is not None
+
+
 def _move(distance_m: float, said: str) -> str:
+    if abs(distance_m) <= _ASIDE_M and _WAY.search(said):
+        return ""
     if not re.search(_MOVE, said):
         return "no word of moving"
     side, other = (_FORWARD, _BACKWARD) if distance_m > 0 else (_BACKWARD, _FORWARD)

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from planner.language.motion_guard.mentioned_names import (
     find_places,
     places_named,
+    plain,
     thing_named,
 )
 from planner.language.motion_guard.order_scope import read_scope
@@ -28,8 +29,8 @@ from planner.language.motion_guard.second_reader import (
     read_grammar,
     spare_clauses,
 )
-from planner.language.motion_guard.statements import only_states
-from planner.language.motion_guard.step_words import evidence, moves, unnamed_part
+from planner.language.motion_guard.statements import cut_statements, orders_anything
+from planner.language.motion_guard.step_words import evidence, makes_way, moves, unnamed_part
 from planner.language.questions import looks_round
 from planner.language.yes_no import consents
 from planner.plan import (
@@ -44,8 +45,10 @@ from planner.plan import (
     Step,
     StepNode,
     StepPlan,
+    StepRole,
     Vocabulary,
     list_nodes,
+    parent_of,
     parents_of,
     places_of,
 )
@@ -77,7 +80,8 @@ _FOLLOWS = re.compile(
     r"|跟(?!.{1,8}?(?:说|讲|聊|打.{0,2}招呼|告诉|道|问))"
 )
 _SEES = re.compile(
-    r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe|around|show)\b"
+    r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe"
+    r"|around|show)\b"
     r"|[看瞧查找吗呢]|什么|谁|有没有|哪"
 )
 _SEES_ROUND = re.compile(
@@ -147,9 +151,10 @@ def find_unasked(
         if can_move(step):
             upon = before or person.checked or step.kind in LOOKS or hangs_on_more(row, index)
             asked = asked_about(row, index)
+            judge.enter(row, index)
             why = (
                 judge.find_branch(row, index)
-                or judge.find_fault(step, upon=upon, asked=asked)
+                or judge.find_fault(step, upon=upon, asked=asked, when=node.role is StepRole.WHEN)
                 or judge.find_rounds(row, index)
             )
             found += [UnaskedStep(index, why)] if why else []
@@ -169,6 +174,7 @@ class _Judge:
     def __init__(self, person: PersonWords, vocabulary: Vocabulary) -> None:
         self._vocabulary, self._room = vocabulary, person.room
         self._scopes = tuple(read_scope(words) for words in person.words)
+        self._words = person.words
         newest = person.words[-1] if person.words else ""
         self._own, self._hung, self._veto = read_grammar(newest, vocabulary, person.room)
         self._branches = read_branches(newest, vocabulary, person.room)
@@ -179,10 +185,17 @@ class _Judge:
                 self._scopes = (*self._scopes[:-1], read_scope(spared))
         self._done: Counter[object] = Counter()
         self._at = ""
+        self._path: dict[int, StepRole] = {}
+        self._arrivals: list[tuple[str, dict[int, StepRole]]] = []
         self._repeats = any(_REPEATS.search(scope.upon) for scope in self._scopes)
 
     def find_fault(
-        self, step: Step | ClockTime, *, upon: bool, asked: Counter[str] | None = None
+        self,
+        step: Step | ClockTime,
+        *,
+        upon: bool,
+        asked: Counter[str] | None = None,
+        when: bool = False,
     ) -> str:
         """Return why a step is unasked; empty where it is asked.
 
@@ -190,11 +203,21 @@ class _Judge:
             step: what would be done.
             upon: what stands on a condition counts.
             asked: places that the conditions ask about on which the step hangs.
+            when: the step is itself a condition.
         """
         if self._veto is not None:
             return f"the order itself is {self._veto.value}"
         if not places_of(step):
             self._at = ""  # wherever it leads
+        whole = _GAP.join(self._words)
+        hangs = when and _CONDITION.search(plain(whole)) is not None
+        asks = step.kind in _QUIET
+        if not (
+            hangs
+            or makes_way(step, whole)
+            or orders_anything(self._words, self._vocabulary, by_question=asks)
+        ):
+            return f"{step.kind} for words that order no drive"
         key = key_of_step(step)
         self._done[key] += 1
         own = self._hung if upon else self._own
@@ -205,14 +228,22 @@ class _Judge:
         said = _GAP.join(self._texts(upon))
         if step.kind not in _QUIET and _ASKS.match(said) and not _ORDERS.search(said):
             return "a question orders no drive"
-        if places_of(step) and only_states(self._texts(upon), self._vocabulary):
-            return f"{step.kind} for a statement, which orders no drive"
         return (
-            self._why_places(step, said)
+            self._why_places(step, self._texts(upon))
             or self._why_condition(step, said, asked or Counter())
-            or self._why_kind(step, said)
+            or ("" if hangs and isinstance(step, Look) else self._why_kind(step, said))
             or self._why_often(step, key, said)
         )
+
+    def enter(self, row: tuple[StepNode, ...], index: int) -> None:
+        """Note in which branches the step stands that is judged next."""
+        self._path = {
+            parent: role
+            for at in (index, *parents_of(row, index))
+            if (parent := parent_of(row, at)) is not None
+            and (role := row[at].role) in (StepRole.THEN, StepRole.OTHERWISE)
+            and role is not None
+        }
 
     def find_branch(self, row: tuple[StepNode, ...], index: int) -> str:
         """Return why a step ends where the order sends the robot in the other branch, or in none.
@@ -237,16 +268,18 @@ class _Judge:
     def _texts(self, upon: bool) -> tuple[str, ...]:
         return tuple(scope.upon if upon else scope.ordered for scope in self._scopes)
 
-    def _why_places(self, step: Step | ClockTime, said: str) -> str:
+    def _why_places(self, step: Step | ClockTime, texts: tuple[str, ...]) -> str:
+        said = _GAP.join(cut_statements(text, self._vocabulary) for text in texts)
         named = Counter(places_named(said, self._vocabulary))
         named.update(dict.fromkeys(self._rooms_of_group(said), 1))
+        named.update(self._rooms_described(said))
         if self._room is not None and _HERE.search(said):
             named[self._room] += 1
         for place in places_of(step):
             if not named[place]:
                 return f"{step.kind} to {place}, which is not named"
             self._arrive(place)
-            if self._done["at", place] > named[place] and not self._repeats:
+            if self._count_before(place) >= named[place] and not self._repeats:
                 return f"{step.kind} to {place} more often than named"
         return ""
 
@@ -260,10 +293,31 @@ class _Judge:
         return f"{step.kind} to {place}, which only the condition names" if place else ""
 
     def _arrive(self, place: str) -> None:
-        """Count a drive to a place; who is there already drives no farther."""
+        """Note a drive to a place; who is there already drives no farther."""
         if place != self._at:
-            self._done["at", place] += 1
+            self._arrivals.append((place, self._path))
         self._at = place
+
+    def _count_before(self, place: str) -> int:
+        """Return how many drives to a place came before the newest that may all be walked.
+
+        Of two branches of one condition only one is.
+        """
+        return sum(
+            there == place and all(self._path.get(at, role) is role for at, role in path.items())
+            for there, path in self._arrivals[:-1]
+        )
+
+    def _rooms_described(self, said: str) -> Counter[str]:
+        """Return the rooms that are named by what stands in them: "the one with the bed"."""
+        found: Counter[str] = Counter()
+        for place in find_places(said, self._vocabulary):
+            room = self._vocabulary.by_id[place.id].room
+            if room is not None and (
+                _HOLDS.search(said, 0, place.start) or _HELD_ZH.match(said, place.end)
+            ):
+                found[room] = 1
+        return found
 
     def _rooms_of_group(self, said: str) -> frozenset[str]:
         """Return the rooms that "every room" means, without those that are left out."""
@@ -310,6 +364,12 @@ class _Judge:
 
 
 _GAP = " | "
+_CONDITION = re.compile(r"\b(?:if|when|whether|unless|should)\b|如果|要是|若|假如|的话|就|没")
+_HOLDS = re.compile(
+    r"\b(?:room|one|place) (?:that )?(?:with|has|having|where)\b[^,.;|]{0,24}$|(?:有|摆着?"
+    r"|放着?)[^,，。;|]{0,6}$"
+)
+_HELD_ZH = re.compile(r"(?:在的|所在的?)那?[个间]?")
 _SIDE_AFTER = re.compile(r"的?(?:正?前[面方]?|后[面方]?|背后)")
 _SIDE_BEFORE = re.compile(
     r"(?:in front of|before|behind|(?:front|back) of|away from) (?:(?:the|my|our|your) )?$"

@@ -42,7 +42,7 @@ _DAY = re.compile(
     r"(?:早上|上午|中午|下午|晚上|夜里)?"
 )
 _WHOLE = re.compile(
-    rf"(?:{_KIND}|{_DOES}|{_ASKS}|{_BIDS}|{_GAVE}|{_LITTLE})+(?:吗|呢|啊|呀|来着|没有)?"
+    rf"(?>{_KIND}|{_DOES}|{_ASKS}|{_BIDS}|{_GAVE}|{_LITTLE})+(?:吗|呢|啊|呀|来着|没有)?"
 )
 _NAMED = re.compile(rf"{_KIND}|{_DOES}|(?:给|让|叫|请|跟|替)你(?:设置?|定|安排)的?规矩")
 _WANTED = re.compile(rf"{_ASKS}|{_BIDS}|吗$")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _MORE = (
     r"(?: (?:any ?more|any longer|now|from now on|for good|please|after all|then|again|either))*"
 )
-_YOU = r"(?:(?:actually|you know what|oh|ah|well|no)[ ,]+)*(?:(?:you|we) (?:can|may|could|might as well|should) (?:just |now |also |actually )*|let's |just |please )*"
+_YOU = r"(?:(?:actually|you know what|oh|ah|well|no)[ ,]+)*(?:(?:you|we) (?:can|may|could|might as well|should) (?:now |also |actually )*|let's |just |please )*"
 _DROPS = (
     r"(?:forget(?: about)?|scrap|bin|ditch|lose|axe|kill|cancel|delete|remove|drop|stop|end|clear"
     r"|get rid of|take off|call off|switch off|turn off|undo|wipe)"

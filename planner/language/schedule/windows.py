@@ -79,7 +79,7 @@ def read_window(folded: str, reads: ReadsWhole, *, chinese: bool) -> KeepToHours
 
 _PART = r"(?P<part>morning|afternoon|evening)"
 _HALF = re.compile(
-    rf"(?:oh |no,? |the |in the |i meant? (?:in )?(?:the )?)+{_PART}(?: one)?(?:,? (?:of course|obviously|naturally|please|i meant?))?"
+    rf"(?:oh |no,? |the |in |i meant? )+{_PART}(?: one)?(?:,? (?:of course|obviously|naturally|please|i meant?))?"
     rf"|{_PART.replace('part', 'p2')},? (?:of course|obviously|naturally|i meant?)"
 )
 _HALF_ZH = re.compile(

@@ -346,5 +346,6 @@ SOFT = _compile_any(
     r"\bunder (?:the|your) wheels?\b|\bin (?:the|your|my) (?:way|path)\b|\bwrong way\b",
     r"\b(?:right now|right this|this (?:second|instant|minute|very)|immediately|at once|right away"
     r"|instantly|or else)\b",
+    r"(?:^|, )(?:(?:this|it|here|there) is )?(?:an? )?emergency(?=$| ,)",
 )
 """Warnings and urgency: they stop where no clause of the sentence orders something."""

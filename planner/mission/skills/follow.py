@@ -15,7 +15,7 @@ from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import message
+from planner.language.catalogue import message, say
 from planner.mission.skills.actions import (
     DriveLeg,
     Fail,
@@ -154,7 +154,7 @@ def _search_lost(scene: Scene[FollowPersonState], pose: Pose2, wanted: WantedObj
         state = state.but(stage=FollowStage.AFTER)
     gone_s = scene.spent_s - state.seen_s
     if gone_s > LOST_S:
-        return _give_up(gone_s)
+        return _give_up(gone_s, seen=at is not None)
     if at is None and _find_in_sight(scene, wanted):
         return Observe(FIRST_LOOKS, state=scene.state, then=scene.state, watch=True)
     if at is None and state.stage is not FollowStage.ROUND:  # nobody yet: they may well stand ahead
@@ -174,12 +174,14 @@ def _look_about(scene: Scene[FollowPersonState], pose: Pose2, gone_s: float) -> 
     at = (pose.x_m, pose.y_m)
     act = look_round(scene, pose, (Viewpoint(HERE, room_at(scene.facts, at), at),), None)
     if isinstance(act, FollowPersonState):
-        return _give_up(gone_s)
+        return _give_up(gone_s, seen=scene.state.at is not None)
     return replace(act, state=scene.state, watch=True)
 
 
-def _give_up(gone_s: float) -> Fail:
-    said = message(Code.LOST_PERSON, seconds=f"{gone_s:.0f}")
+def _give_up(gone_s: float, *, seen: bool) -> Fail:
+    seconds = f"{gone_s:.0f}"
+    lost = message(Code.LOST_PERSON, seconds=seconds)
+    said = lost if seen else say("step_failure.nobody_to_follow", seconds=seconds)
     return Fail(Code.LOST_PERSON, "lost_person", said)
 
 

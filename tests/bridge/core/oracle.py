@@ -30,6 +30,8 @@ TABLE: dict[str, tuple[str, str, float | None]] = {
     "LIDAR_STALE.1": ("STOP1", "WTX", None),
     "LIDAR_BLIND.0": ("HOLD2", "WTX", None),
     "LIDAR_BLIND.1": ("STOP1", "WTX", None),
+    "LIDAR_SECTOR.0": ("HOLD2", "WX", None),
+    "LIDAR_SECTOR.1": ("CAP", "T", 0.2),
     "NO_RANGE.0": ("HOLD2", "WX", None),
     "NO_RANGE.1": ("CAP", "T", 0.4),
     "SPEED_ZONE.0": ("CAP", "WX", 0.6),

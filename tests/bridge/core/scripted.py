@@ -48,6 +48,7 @@ from wire import (
     Twist2,
     Velocity,
     compose,
+    wrap,
 )
 
 ROBOT = RobotDescription()
@@ -80,6 +81,8 @@ class World:
     lidar_silent: bool = False
     lidar_frozen: bool = False
     lidar_blind: bool = False
+    hidden_rad: tuple[float, float] | None = None
+    """Middle and half of a sector of the lidar from which nothing comes."""
     localization_silent: bool = False
     gyro_silent: bool = False
     gyro_off_radps: float = 0.0
@@ -311,6 +314,8 @@ class World:
         self.frozen_at = here
         noise = 1e-6 * self.scans
         seen = (r + noise for r in ranges_m(here, self.obstacle_m))
+        angles = (index * tau / BEAMS - pi for index in range(BEAMS))
+        shows = [not self.lidar_blind and not self._hides(angle) for angle in angles]
         return Scan(
             boot_id="l0",
             seq=self.ticks,
@@ -319,8 +324,17 @@ class World:
             angle_increment_rad=tau / BEAMS,
             range_min_m=0.12,
             range_max_m=20.0,
-            ranges_m=tuple(r if r <= 20.0 and not self.lidar_blind else None for r in seen),
+            ranges_m=tuple(
+                r if r <= 20.0 and shown else None for r, shown in zip(seen, shows, strict=True)
+            ),
         )
+
+    def _hides(self, angle_rad: float) -> bool:
+        """Tell whether a beam lies in the hidden sector."""
+        if self.hidden_rad is None:
+            return False
+        middle_rad, half_rad = self.hidden_rad
+        return abs(wrap(angle_rad - middle_rad)) <= half_rad
 
 
 def _all_of(world: World) -> tuple[dict[str, object], ...]:

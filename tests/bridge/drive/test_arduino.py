@@ -135,16 +135,19 @@ def test_stops_beyond_what_may_be_asked_still_go_out() -> None:
             assert line.tick(0.0)
 
 
-@pytest.mark.parametrize("jump", [100_000, -100_000])
-def test_counts_that_jump_are_a_base_that_began_anew(
-    jump: int, caplog: pytest.LogCaptureFixture
+@pytest.mark.parametrize(
+    ("was", "now", "code"),
+    [(500, 100_500, "base_spoilt"), (500, -99_500, "base_spoilt"), (100_000, 3, "base_reset")],
+)
+def test_counts_that_jump_are_counted_anew_and_only_those_to_nought_are_a_reset(
+    was: int, now: int, code: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     line = Line()
-    before = line.state(500)
+    before = line.state(was)
     line.ask()
-    assert line.hear(answer(500 + jump)) == []
-    assert "base_reset" in caplog.text
-    after = line.state(500 + jump)
+    assert line.hear(answer(now)) == []
+    assert [code in caplog.text, "base_reset" in caplog.text] == [True, code == "base_reset"]
+    after = line.state(now)
     assert after.boot_id != before.boot_id
     assert after.left_rad == 0.0
 

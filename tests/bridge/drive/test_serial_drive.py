@@ -9,6 +9,7 @@ from typing import NoReturn, cast
 import pytest
 
 from bridge.drive import Drive, SerialDrive, open_serial_drive, require_brakes
+from bridge.drive.pons_mcu import PonsMcuProtocol
 from devices import LastingPort
 from devices.pons_mcu import McuCommand, McuReader
 from sim.twin import DriveTwin
@@ -181,3 +182,20 @@ def test_a_base_that_speaks_by_itself_is_asked_nothing(drive: SerialDrive, twin:
     for _ in range(4):
         drive.ask()
     assert twin.line.read() == b""
+
+
+def test_what_can_not_be_read_is_counted_and_said_every_ten_seconds(
+    twin: DriveTwin, line: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    clock = [100.0]
+    port = LastingPort(line, 115_200)
+    drive = SerialDrive(PonsMcuProtocol(robot(line).drive, "b1"), port, "b1", lambda: clock[0])
+    twin.report(BODY, 1.0)
+    assert len(drive.read()) == 1
+    for after_s, said in ((0.0, 1), (9.0, 1), (1.0, 2)):
+        clock[0] += after_s
+        twin.line.write(b"spoilt")
+        drive.read()
+        assert caplog.text.count("base_spoilt") == said
+    assert drive.spoilt == 18
+    drive.close()

@@ -165,6 +165,19 @@ def test_a_spoilt_way_is_left_out_and_a_lasting_one_is_a_reset(
     assert after.echo_boot is None
 
 
+def test_a_spoilt_line_that_was_believed_is_not_called_a_reset(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    protocol = begun()
+    one(protocol, report(900, 500), 1.0)
+    assert protocol.decode(report(500, 500), 1.05) == []
+    assert protocol.decode(report(500, 500), 1.1) == [], "counted anew"
+    assert "base_spoilt" in caplog.text
+    assert "base_reset" not in caplog.text
+    assert protocol.decode(b"{spoilt\n" * 3, 1.15) == []
+    assert protocol.spoilt == 3
+
+
 @pytest.mark.parametrize("spoilt", [{"L": 2.1}, {"R": 0.7}, {"L": -0.7}, {"L": 3.1, "R": 3.2}])
 @pytest.mark.parametrize("gap_s", [0.05, 1.0], ids=str)
 def test_a_spoilt_speed_is_left_out(spoilt: dict[str, float], gap_s: float) -> None:

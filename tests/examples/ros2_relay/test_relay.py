@@ -31,8 +31,8 @@ class Relay(Protocol):
 
 
 class Example:
-    def __init__(self) -> None:
-        self.made = RelayDeadMan("relay-1")
+    def __init__(self, key: bytes = b"") -> None:
+        self.made = RelayDeadMan("relay-1", key)
         self.boot = self.made.boot
 
     def hear(self, text: str, now_s: float) -> bool:
@@ -46,8 +46,8 @@ class Example:
 
 
 class Twin:
-    def __init__(self) -> None:
-        self.made = RelayFirmware(TWIST, "relay-1")
+    def __init__(self, key: bytes = b"") -> None:
+        self.made = RelayFirmware(TWIST, "relay-1", key)
         self.boot = self.made.boot
 
     def hear(self, text: str, now_s: float) -> bool:
@@ -172,6 +172,30 @@ def test_without_torque_it_stands_and_has_not_timed_out(made: type[Example | Twi
     relay = made()
     assert relay.hear(words(on=False), 10.0)
     assert relay.moves(10.1) == (0.0, 0.0, False)
+
+
+KEY = b"a key of both ends"
+
+
+@BOTH
+def test_with_a_key_only_what_is_signed_with_it_moves_the_base(
+    made: type[Example | Twin],
+) -> None:
+    """A stranger at rosbridge hears all that a command needs but the key."""
+    relay = made(KEY)
+    assert decode_state({"data": relay.says(9.0)}).keyed
+    drive = DriveCommand(boot="boot1", seq=5, left_radps=1.0, right_radps=1.0, enable=True)
+    command = RelayCommand(drive, "relay-1", 10.0, TTL_S, 0.3, 0.1)
+    plain, signed = (encode_command(command, key)["data"] for key in (b"", KEY))
+    other = encode_command(command, b"another key altogether")["data"]
+    spoilt = signed.replace('"v":0.3', '"v":0.9')
+    for text in (plain, other, spoilt, signed[:-1], f"{plain} ", f"{plain} \ud800", " " + signed):
+        assert not relay.hear(text, 10.01)
+    assert relay.moves(10.01) == (0.0, 0.0, True)
+    assert relay.hear(signed, 10.01)
+    assert relay.moves(10.02) == (0.3, 0.1, False)
+    assert not relay.hear(signed, 10.03), "nor does it count a second time"
+    assert not made().hear(signed, 10.01), "a relay without the key reads none of it"
 
 
 @given(st.lists(st.tuples(st.floats(0.0, 0.3), st.booleans(), st.integers(1, 40)), max_size=40))

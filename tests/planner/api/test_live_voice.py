@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
 from planner.api import live_voice
@@ -149,15 +149,45 @@ def test_who_says_nothing_is_not_waited_for(
         assert told(socket)["code"] == "voice_silent"
 
 
-def test_a_fifth_at_once_is_refused_and_a_seat_that_is_left_is_free(server: Served) -> None:
+def test_the_oldest_of_an_address_goes_for_a_new_one(server: Served) -> None:
     server.services.ears.listeners = [Played(None)]
     with contextlib.ExitStack() as stack:
-        for _ in range(live_voice.MOST_SOCKETS):
-            stack.enter_context(opened(server))
-        with pytest.raises(InvalidStatus) as refused, opened(server):
-            pass
-    assert refused.value.response.status_code == 503
+        held = [stack.enter_context(opened(server)) for _ in range(live_voice.MOST_OF_ADDRESS)]
+        newest = stack.enter_context(opened(server))
+        assert told(held[0])["code"] == "voice_seat_over"
+        for socket in (*held[1:], newest):
+            socket.send(RATE)
+            socket.send('{"end": true}')
+            assert ended(socket) == 1000
+
+
+def test_sound_that_trickles_holds_no_seat_for_ever(
+    server: Served, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live_voice, "MOST_CLOCK_S", 0.05)
+    server.services.ears.listeners = [Played(None)]
     with opened(server) as socket:
         socket.send(RATE)
-        socket.send('{"end": true}')
-        assert ended(socket) == 1000
+        assert told(socket)["code"] == "voice_seat_over"
+
+
+def test_a_seat_too_many_takes_the_oldest_of_all() -> None:
+    async def sit() -> list[int]:
+        seats, over = live_voice.Seats(), []
+
+        async def hold(number: int) -> None:
+            try:
+                async with asyncio.timeout(60.0) as limit, seats.taken(f"a{number}", limit):
+                    await asyncio.Event().wait()
+            except TimeoutError:
+                over.append(number)
+
+        holding = [asyncio.create_task(hold(n)) for n in range(live_voice.MOST_SOCKETS + 2)]
+        while len(over) < 2:
+            await asyncio.sleep(0)
+        for task in holding:
+            task.cancel()
+        await asyncio.gather(*holding, return_exceptions=True)
+        return over
+
+    assert asyncio.run(sit()) == [0, 1]

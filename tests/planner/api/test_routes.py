@@ -253,7 +253,7 @@ def test_the_api_signs_for_a_virtual_drive(
 ) -> None:
     assert client.post(f"/v1/{kind}", json={}).status_code == 200
     ((asked, request),) = services.robot.asked
-    assert (asked, request.source) == (kind, "api")
+    assert (asked, request.source) == (kind, "planner:api")
     assert authentic(VIRTUAL_KEY, asked, FREE.robot, request.proof, request.id)
 
 

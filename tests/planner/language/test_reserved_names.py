@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from planner.language.reserved_names import name_reads_as_order
+from planner.language.reserved_names import name_is_needed_elsewhere, name_reads_as_order
+from planner.memory.index_terms import _EMPTY_EN as EMPTY_WORDS
 from tests.planner.brain.conftest import HOME
 
 PLAIN = (
@@ -44,3 +45,47 @@ def test_a_plain_name_may_be_taught(name: str) -> None:
 @pytest.mark.parametrize("name", ORDERS)
 def test_words_of_orders_are_no_names(name: str) -> None:
     assert name_reads_as_order(name, HOME)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("the", "what", "where", "one", "time", "out", "every day", "battery", "emergency", "hey"),
+        *(
+            "look out",
+            "cup",
+            "person",
+            "two hours",
+            "房",
+            "厨",
+            "吃饭",
+            "睡觉",
+            "紧急",
+            "杯子",
+            "早上",
+        ),
+        *sorted(EMPTY_WORDS),
+    ],
+)
+def test_a_word_that_sentences_need_is_the_name_of_no_place(name: str) -> None:
+    assert name_is_needed_elsewhere(name)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "study",
+        "pantry",
+        "reading corner",
+        "sofa",
+        "bed",
+        "out house",
+        "书房",
+        "阳台",
+        "咖啡角",
+        "沙发",
+        "五号房",
+    ],
+)
+def test_a_place_may_have_a_name_of_its_own(name: str) -> None:
+    assert not name_is_needed_elsewhere(name)

@@ -143,6 +143,16 @@ def test_what_is_no_new_plan_ends_the_goal_and_a_failure_stays_the_failure(
     assert world.book.running is None
 
 
+def test_an_answer_to_a_failure_is_told_behind_it() -> None:
+    advice = AnswerPlan(text=Bilingual(en="Please open the door.", zh="请开门。"))
+    world = rethinking(go("kitchen"), advice, shut=True)
+    mission = world.goal(world.give(None))
+    assert mission.state is FAILED
+    assert mission.outcome is not None
+    assert mission.outcome.message.en.endswith("Please open the door.")
+    assert "no way to kitchen" in mission.outcome.message.en
+
+
 def test_a_question_under_way_is_asked_and_its_answer_thought_about() -> None:
     question = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which dock?", zh="哪个？"))
     world = rethinking(plan(DECIDE), question, go("dock"))

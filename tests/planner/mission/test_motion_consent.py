@@ -213,5 +213,5 @@ def test_a_yes_to_a_doubtful_stop_is_no_yes_to_motion_unheard(world: Lockstep) -
     mission = world.goal("g")
     assert mission.state is CONFIRMS
     assert mission.outcome is not None
-    assert "You did not ask for this" in mission.outcome.message.en
+    assert "All right?" in mission.outcome.message.en
     assert "Did you mean" in mission.outcome.message.en

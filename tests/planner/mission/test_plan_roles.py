@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from planner.mission.events import Pause, Planned, Submitted
+from planner.mission.events import Pause, Planned, Stopped, Submitted
 from planner.mission.plan_roles import takes_back
 from planner.plan import (
     Ask,
@@ -97,6 +97,15 @@ def test_cancel_with_nothing_to_end_says_so(world: Together) -> None:
     goal = say(world, "forget it all", PlanRole.CANCEL)
     assert world.goal(goal).state is SUCCEEDED
     assert "nothing to cancel" in told(world, goal)
+
+
+def test_cancel_ends_the_goal_that_was_paused_last_where_nothing_else_is_open(
+    world: Together,
+) -> None:
+    first = driving(world, "kitchen")
+    world.event(Stopped("test"))
+    second = say(world, "forget that", PlanRole.CANCEL)
+    assert (world.goal(first).state, world.goal(second).state) == (CANCELLED, SUCCEEDED)
 
 
 def asking(world: Together) -> str:

@@ -122,3 +122,16 @@ def test_what_was_seen_is_asked_once_a_look_is_over_and_never_before(said: str, 
     assert meaning_of(done, said, NOW_S) == means
     assert meaning_of(runs, said, NOW_S) == said
     assert meaning_of(book_after(GoTo(place="kitchen")), said, NOW_S) == said
+
+
+@pytest.mark.parametrize(
+    "said", ["who is there?", "is anybody there?", "did you see anybody there?"]
+)
+@pytest.mark.parametrize("state", [GoalState.AWAITING_CONFIRMATION, GoalState.CANCELLED])
+def test_a_plan_that_nobody_asked_for_names_no_place(said: str, state: GoalState) -> None:
+    book = book_after(GoTo(place="bathroom"), text="good morning")
+    [last] = book.missions.values()
+    kept = {last.id: last.model_copy(update={"state": state})}
+    assert meaning_of(replace(book, missions=kept), said, 0.0) == said
+    own = {last.id: kept[last.id].model_copy(update={"text": "go to the bathroom", "meant": ""})}
+    assert "bathroom" in meaning_of(replace(book, missions=own), said, 0.0)

@@ -100,7 +100,9 @@ class FakeMissions:
     def find(self, key: str) -> str | None:
         return self.keys.get(key)
 
-    async def consider(self, text: str, language: Language, goal_id: str) -> Planned:
+    async def consider(
+        self, text: str, language: Language, goal_id: str, standing: str = ""
+    ) -> Planned:
         means = Means(camera=True, detector=True)
         think = thinker(OfflineBrain(), vocabulary_of(self.site), None, means)
         return await think(AskBrain(goal_id, text, language, order=text))

@@ -13,7 +13,7 @@ import pytest
 
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import order_of_text
-from planner.orders.order import FiringState, StandingOrder
+from planner.orders.order import FiringState, StandingOrder, key_of
 from planner.orders.rule import next_due
 from planner.plan import Language
 from planner.state_database import StateDatabase, StateUnavailable
@@ -170,7 +170,7 @@ def test_a_pause_holds_from_the_moment_it_is_said(tmp_path: Path) -> None:
         assert kept.missions.given == []
         await kept.orders.intake.pause("o1", paused=False)
         await kept.run_s(3600.0, 10.0)
-        assert [key for *_, key, _ in kept.missions.given] == ["standing-order:o1:1"]
+        assert [key for *_, key, _ in kept.missions.given] == [key_of(paused, 1)]
 
     asyncio.run(story())
 

@@ -11,8 +11,11 @@ from pathlib import Path
 import pytest
 
 from planner.brain.scripted import Reply
+from planner.orders.errors import OrderRefusal
 from planner.orders.factory import StandingOrders, standing_orders_of
 from planner.orders.interfaces import OrderClocks
+from planner.orders.new_order import order_of_text
+from planner.orders.order import key_of
 from planner.plan import (
     AnswerPlan,
     Bilingual,
@@ -313,7 +316,7 @@ def test_stop_words_stop_first_and_then_mean_what_they_say(tmp_path: Path) -> No
 
 def test_a_word_that_may_mean_stop_stops_and_removes(tmp_path: Path) -> None:
     async def story() -> None:
-        async with home(tmp_path, HELLO, KITCHEN) as made:
+        async with home(tmp_path, KITCHEN) as made:
             await made.say("remind me in 20 minutes to call Tom")
             drive = await made.together.missions.submit("go to the kitchen")
             await made.together.reach(drive.id, GoalState.RUNNING)
@@ -344,7 +347,8 @@ def test_a_killed_planner_gives_no_goal_twice(tmp_path: Path) -> None:
             await made.say("every day at 12:10 go to the kitchen")
             await made.pass_s(601.0)
             [goal] = made.fired()
-            key = "standing-order:o1:1"
+            [order] = made.orders.keeper.book.orders.values()
+            key = key_of(order, 1)
             assert made.together.missions.standing.find(key) == goal.id
         async with home(tmp_path, KITCHEN, prefix="h") as again:
             again.unix_s = NOON_UNIX_S + 610.0
@@ -352,5 +356,50 @@ def test_a_killed_planner_gives_no_goal_twice(tmp_path: Path) -> None:
             await again.pass_s(1.0)
             assert [g.id for g in again.fired()] == [goal.id]
             await asyncio.sleep(0)
+
+    run(story())
+
+
+AS_SAID = AnswerPlan(text=Bilingual(en="Good to know.", zh="知道了。"))
+
+
+@pytest.mark.parametrize("text", [
+    "Tom comes home at six", "pizza tonight", "dinner at seven", "good game tonight", "六点开饭",
+    "nice weather today", "you did well today", "happy birthday tomorrow", "周末愉快", "今晚有客人",
+])  # fmt: skip
+def test_a_remark_that_holds_a_time_is_no_order_and_is_answered_as_said(
+    tmp_path: Path, text: str
+) -> None:
+    async def story() -> None:
+        async with home(tmp_path, AS_SAID, by_grammar=False) as made:
+            goal = await made.say(text)
+            assert told(goal) == "Good to know."
+            assert made.orders.keeper.book.orders == {}
+            assert made.together.brain.asked[-1].text == text
+
+    run(story())
+
+
+def test_no_remark_completes_an_unfinished_order(tmp_path: Path) -> None:
+    async def story() -> None:
+        waits = GoalState.NEEDS_CLARIFICATION
+        async with home(tmp_path, AS_SAID, by_grammar=False) as made:
+            await made.say("remind me to ring the doctor", waits)
+            await made.say("今晚有客人")
+            await made.say("pizza tonight")
+            assert made.orders.keeper.book.orders == {}
+            kept = await made.say("about ten tomorrow")
+            assert "ring the doctor" in told(kept)
+
+    run(story())
+
+
+def test_an_order_that_a_brain_only_answers_is_refused_by_the_api(tmp_path: Path) -> None:
+    async def story() -> None:
+        async with home(tmp_path, AS_SAID, by_grammar=False) as made:
+            new = order_of_text("every day at eight philosophise", None, "api")
+            with pytest.raises(OrderRefusal) as refused:
+                await made.orders.intake.give(new, "g")
+            assert refused.value.code == "order_no_deed"
 
     run(story())

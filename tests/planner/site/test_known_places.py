@@ -237,7 +237,7 @@ def test_no_more_than_so_many(tmp_path: Path) -> None:
     )
     TaughtPlaces.in_home(tmp_path).save(many)
     kept = memory(tmp_path)
-    assert refused(kept, "one more") == "places_full"
+    assert refused(kept, "balcony") == "places_full"
     assert teach(kept, "spot 3").id == "spot_3"  # moving one needs no room
 
 

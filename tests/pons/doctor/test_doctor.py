@@ -19,6 +19,7 @@ from pons.__main__ import main
 from pons.doctor import command, host_checks, jitter, model_checks, path_checks
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict
 from pons.robot_processes import free_port
+from pons.running import RunningNote
 from pons.settings import CHECKOUT, LaunchSettings
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
@@ -242,18 +243,19 @@ def test_sockets_too_long_dead_and_alive(tmp_path: Path) -> None:
     assert_says(path_checks.sockets(tmp_path), HealthVerdict.OK, "dead processes", "bridge")
 
 
-def test_a_taken_port_is_a_fault_unless_the_robot_has_it() -> None:
+def test_a_taken_port_is_a_fault_unless_a_robot_has_it(tmp_path: Path) -> None:
     with closing(socket.socket()) as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         number = int(taken.getsockname()[1])
-        assert_says(
-            path_checks.port("127.0.0.1", number, running=False), HealthVerdict.FAIL, str(number)
-        )
-        assert_says(
-            path_checks.port("127.0.0.1", number, running=True), HealthVerdict.OK, "running robot"
-        )
-    assert_says(path_checks.port("no.such.host.invalid", 1, running=False), HealthVerdict.FAIL)
+        here = replace(described(tmp_path), port=number)
+        assert_says(path_checks.port(here, running=False), HealthVerdict.FAIL, str(number))
+        assert_says(path_checks.port(here, running=True), HealthVerdict.OK, "running robot")
+        with RunningNote(replace(here, home=tmp_path / "elsewhere"), "r7"):
+            found = path_checks.port(here, running=False)
+            assert_says(found, HealthVerdict.WARN, f"r7 in {tmp_path}/elsewhere")
+    nowhere = replace(here, host="no.such.host.invalid")
+    assert_says(path_checks.port(nowhere, running=False), HealthVerdict.FAIL)
 
 
 def test_wrong_files_are_quoted(tmp_path: Path) -> None:

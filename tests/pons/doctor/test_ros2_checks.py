@@ -41,6 +41,29 @@ def base() -> Iterator[Base]:
     made.end()
 
 
+@pytest.mark.parametrize(
+    ("said", "is_open"),
+    [
+        ({"url": "ws://127.0.0.1:9090"}, False),
+        ({"url": "ws://localhost:9090"}, False),
+        ({"url": "ws://[::1]:9090"}, False),
+        ({"url": "ws://192.168.1.7:9090"}, True),
+        ({"url": "ws://robot.local:9090"}, True),
+        ({"transport": "dds", "url": None, "interface": "lo"}, False),
+        ({"transport": "dds", "url": None, "interface": "eth0"}, True),
+        ({"transport": "dds", "url": None}, True),
+        ({"transport": "zenoh", "url": None}, False),
+        ({"transport": "zenoh", "url": None, "router": "tcp/10.0.0.2:7447"}, True),
+    ],
+)
+def test_a_transport_that_others_reach_is_told(said: dict[str, Any], is_open: bool) -> None:
+    config = robot(**said).ros2
+    assert config is not None
+    assert ros2_checks.open_beyond_loopback(config) is is_open
+    verdict = HealthVerdict.WARN if is_open else HealthVerdict.OK
+    assert ros2_checks._describe(config, None, "").verdict is verdict
+
+
 def test_without_ros2_there_is_nothing_to_look_at(tmp_path: Path) -> None:
     assert ros2_checks.ros2(tmp_path, RobotDescription()).verdict is HealthVerdict.OK
 

@@ -54,7 +54,14 @@ def ask(
     hear: Hear | None = None,
     **more: Any,
 ) -> ThinkResult:
-    settings = {"url": mock.url, "name": "m", "key": KEY, "timeout_s": 5.0, **more}
+    settings = {
+        "url": mock.url,
+        "name": "m",
+        "key": KEY,
+        "timeout_s": 5.0,
+        "load_timeout_s": 0.0,
+        **more,
+    }
 
     return asyncio.run(thought(ModelSettings.model_validate(settings), home, text, hear))
 
@@ -128,7 +135,7 @@ def test_forced_tool_stream_and_models_are_served_too(mock: RunningMock) -> None
 def test_what_can_be_read_is_read_at_once(
     mock: RunningMock, fault: str, streamed: bool, tmp_path: Path
 ) -> None:
-    mock.set(fault=fault)
+    mock.set(fault=fault, load_s=0.1)
     thought = ask(mock, tmp_path, hear=ignore if streamed else None)
     assert (thought.plan, thought.calls) == (KITCHEN, 1)
 
@@ -150,12 +157,12 @@ def test_what_is_no_plan_is_repaired_once(
 ) -> None:
     hear = ignore if streamed else None
     mock.set(fault=fault, times=1)
-    thought = ask(mock, tmp_path, hear=hear)
+    thought = ask(mock, tmp_path, hear=hear, mode="prompt")  # no other way is left
     assert (thought.plan, thought.calls) == (KITCHEN, 2)
     mock.set(fault=fault)
     before = mock.report()["calls"]
     with pytest.raises(BadPlan):
-        ask(mock, tmp_path, hear=hear)
+        ask(mock, tmp_path, hear=hear, mode="prompt")
     assert mock.report()["calls"] == before + 2
 
 
@@ -164,6 +171,7 @@ DOWN = {
     "loading": "loading",
     "rate_limited": "rate_limited",
     "not_found": "unknown_model",
+    "small_context": "context_too_small",
     "redirect": "redirect",
     "hang": "timeout",
     "drip": "timeout",
@@ -203,7 +211,9 @@ def test_a_status_and_a_slow_server_end_typed_too(
     mock: RunningMock, switches: dict[str, Any], why: str, tmp_path: Path
 ) -> None:
     mock.set(**switches)
-    settings = ModelSettings(url=mock.url, name="m", key=SecretStr(KEY), timeout_s=0.5)
+    settings = ModelSettings(
+        url=mock.url, name="m", key=SecretStr(KEY), timeout_s=0.5, load_timeout_s=0.0
+    )
 
     async def both() -> list[ThinkResult | BaseException]:
         """Wait for both ways of asking at once: each may take the deadline's whole length."""

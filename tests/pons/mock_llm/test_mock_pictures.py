@@ -58,7 +58,7 @@ def looking(
     """Ask something of a looker, and close."""
 
     async def once() -> T:
-        given = {"url": mock.url, "name": "m", "timeout_s": 5.0, **more}
+        given = {"url": mock.url, "name": "m", "timeout_s": 5.0, "load_timeout_s": 0.0, **more}
         model = EndpointBrain(ModelSettings.model_validate(given), home)
         try:
             return await ask(model.looker(None, lay_out))

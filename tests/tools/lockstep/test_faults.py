@@ -17,6 +17,7 @@ NOTICED = {
     "lidar_off": "LIDAR_STALE.0",
     "lidar_stuck": "LIDAR_STALE.0",
     "lidar_blind": "LIDAR_BLIND.0",
+    "lidar_sector": "LIDAR_SECTOR.0",
     "lidar_garbage": "gate obstacle",
     "lidar_delayed": "LIDAR_STALE.0",
     "lidar_intermittent": "LIDAR_STALE.0",

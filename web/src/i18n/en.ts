@@ -536,6 +536,7 @@ export const en = {
   "event.answered": "An operator's order was answered.",
   "event.blocked": "The way is blocked.",
   "event.unblocked": "The way is free again.",
+  "event.scan_coarse": "The lidar's scans have few beams: narrow things slip between them.",
   "event.outside_fence": "A hand on the stick moves the robot outside its fence.",
   "event.pose_jump": "The position jumped.",
   "event.stop_failed": "The robot did not slow down as it should.",

@@ -527,6 +527,7 @@ export const zh: Record<Key, string> = {
   "event.answered": "操作员的指令已答复。",
   "event.blocked": "前方受阻。",
   "event.unblocked": "前方已畅通。",
+  "event.scan_coarse": "激光雷达的光束太少，细小物体可能漏测。",
   "event.outside_fence": "手动操作将机器人开到了围栏之外。",
   "event.pose_jump": "位置发生跳变。",
   "event.stop_failed": "机器人没有按预期减速。",

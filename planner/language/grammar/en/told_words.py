@@ -16,7 +16,7 @@ _LASTS = EN_DURATION.replace("?P<number>", "?:").replace("?P<unit>", "?:")
 _LEAD = (
     r"(?:(?:please|pls|robot|pons|hey|hi|ok|okay|well|and|just|so|now|go|come|(?:can|could|would"
     r"|will)"
-    r" you)[ ,]+(?:and |to )?)*"
+    r" you)[ ,]+(?:to )?)*"
 )
 _BEFORE = (
     r"(?:(?P<before>(?:(?!\b(?:tell|say|ask|remind|know|inform|warn|announce|shout)\b)[^\"“”])+?"

@@ -32,7 +32,7 @@ _NO_ARM = (
     r"放[松心慢假学弃]|开放|关[于心注系键节]|[相有机无]关|推[荐迟测理]|拉近|拿[手定]|端[正午]|送[行达]|带头|"
     r"举[例办行动]|装[修作]|[假安服包西]装|修[正改养]|取[决名得]|[争采]取|搬家|抓紧|提起|擦肩|扫[一视]|摆脱|拖延|盛大"
 )
-_WITH_ARM = rf"(?:{_NO_ARM}|(?!{_ARM}).)*(?!{_NO_ARM}){_ARM}"
+_WITH_ARM = rf"(?:{_NO_ARM}|(?!{_ARM}|{_NO_ARM}).)*(?!{_NO_ARM}){_ARM}"
 """A verb of an arm that is no part of another word: 放松 and 关于 grasp nothing."""
 _NO_LOOK = rf"(?!(?:{SEE}).*[着了]没有?$)"
 """看看门关了没 closes no door."""
@@ -119,7 +119,7 @@ CHINESE = Grammar(
         rf"|(?<={MARK})(?:和|与|跟(?!前)|及|以及|还有(?![^,。;]*吗)|后(?=[去到回再等说返找看数])|(?=然后))"
         rf"|(?<={MARK})(?:那里|那儿|里)?(?=(?:等待?|停留)[\d零一二三四五六七八九十两半]|说|打招呼)"
     ),
-    courtesy=re.compile(rf"^(?:{_COURTESY})+"),
+    courtesy=re.compile(rf"^(?:{_COURTESY})++"),
     thanks=re.compile(rf"(?:{_THANKS})$"),
     opening=re.compile(r"^(?:首先|先)"),
     closing=re.compile(r"^(?:最后|最终)"),

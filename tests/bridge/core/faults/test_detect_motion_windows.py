@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import radians
 
 import pytest
 
@@ -12,6 +13,7 @@ from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.scripted import World, config
 from tests.bridge.core.windows import raised, silent_for
 from wire import Mode, RobotDescription
+from wire.lidar_config import LidarConfig
 
 
 def mode_of(world: World) -> Mode:
@@ -157,6 +159,57 @@ class TestSight:
         world.run(2.0)
         assert raised(world, "NO_RANGE.0")
         assert raised(world, "NO_RANGE.1")
+
+
+def far_seeing() -> World:
+    """Return a world whose lidar reaches the corners of its room, with edges near enough."""
+    return World(core=config(RobotDescription(lidar=LidarConfig(range_max_m=12.0))))
+
+
+class TestSector:
+    """Hold LIDAR_SECTOR to the way asked for, and to silence where something must be."""
+
+    def test_a_sector_gone_silent_ahead_holds_within_half_a_second(self) -> None:
+        world = far_seeing().driving((5.0, 0.0))
+        world.hidden_rad = (0.0, radians(46))
+        world.run(0.4)
+        assert raised(world, "LIDAR_SECTOR.0"), "LIDAR_SECTOR"
+        assert world.is_in(Mode.STOPPING)
+        world.run(5.0)
+        assert world.is_in(Mode.HOLD)
+        world.hidden_rad = None
+        world.run(1.9)
+        assert raised(world, "LIDAR_SECTOR.0"), "it is trusted after 2 s"
+        world.until(Mode.ACTIVE, 0.5)
+
+    def test_nothing_drives_off_into_a_sector_that_never_returned(self) -> None:
+        world = far_seeing()
+        world.hidden_rad = (0.0, radians(31))
+        world.armed()
+        assert world.planner is not None
+        world.planner.mission, world.planner.goal_m = "m1", (5.0, 0.0)
+        world.until(Mode.ACTIVE)
+        world.run(1.0)
+        assert raised(world, "LIDAR_SECTOR.0")
+        assert world.here.x_m < 0.01
+
+    def test_what_is_hidden_aside_of_the_way_holds_nothing(self) -> None:
+        world = far_seeing().driving((5.0, 0.0))
+        world.hidden_rad = (2.5, radians(46))
+        world.run(1.0)
+        assert not raised(world, "LIDAR_SECTOR.0")
+        assert world.is_in(Mode.ACTIVE)
+
+    def test_a_hand_drives_slowly_into_a_silent_sector(self) -> None:
+        world = far_seeing().armed()
+        world.hidden_rad = (0.0, radians(46))
+        world.teleop(held=False)
+        for _ in range(60):
+            world.teleop(0.4, held=True)
+            world.tick()
+        assert raised(world, "LIDAR_SECTOR.1"), "LIDAR_SECTOR"
+        assert world.is_in(Mode.TELEOP)
+        assert 0.05 < world.sent.v_mps <= 0.1
 
 
 class TestPower:

@@ -22,6 +22,7 @@ from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World, config
 from tests.bridge.core.windows import bad_bytes, raised
 from wire import Pose2, RobotDescription
+from wire.lidar_config import LidarConfig
 
 Do = Callable[[World], object]
 
@@ -61,6 +62,14 @@ def no_horizon(world: World) -> None:
 def blind(world: World) -> None:
     """Cover the lidar just before a scan comes."""
     world.lidar_blind = True
+    while world.ticks % 10 != 2:
+        world.tick()
+
+
+def hide(world: World) -> None:
+    """Hide a quarter ahead just before a scan comes; the lidar reaches the room's corners."""
+    world.core = config(RobotDescription(lidar=LidarConfig(range_max_m=12.0)))
+    world.hidden_rad = (0.0, radians(46))
     while world.ticks % 10 != 2:
         world.tick()
 
@@ -130,6 +139,8 @@ EDGES = (
     Edge("NO_RANGE.1", 5.25, set_world(lidar_silent=True), scanned),
     Edge("LIDAR_BLIND.0", 0.3, blind),
     Edge("LIDAR_BLIND.1", 5.0, blind),
+    Edge("LIDAR_SECTOR.0", 0.2, hide),
+    Edge("LIDAR_SECTOR.1", 0.2, hide, None, keep_stick, "teleop"),
     Edge("POSE_LOST.0", 0.3, set_world(localization_silent=True), located),
     Edge("POSE_LOST.1", 0.3, set_world(localization_silent=True), located, keep_stick, "teleop"),
     Edge("STUCK.0", 1.0, set_drive(runs_on=True, speeds=(0.0, 0.0))),

@@ -11,6 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
+from bridge.core.authority.requests import REPEATED_S, STOPPING
 from bridge.core.codec import DECISION, INBOX, STATE
 from bridge.core.geometry.kinematics import fastest_rim, rim_speeds
 from bridge.core.modes.mode_table import LATCHED
@@ -165,7 +166,12 @@ def check_people(before: BridgeState, after: BridgeState) -> None:
     if after.mode is Mode.ACTIVE:
         assert after.held is None
         assert after.grants.mission is not None
+    let_go = accepted & {"arm", "reset", "resume"}
     for answered in before.operator.answers[-32:]:
+        if answered.answer.kind in STOPPING and (
+            let_go or after.now_s - answered.at_s > REPEATED_S
+        ):
+            continue  # said again, it stops again
         assert says.get(_name(answered)) == [answered], "one id, one verdict"
     assert len(says) == len(after.operator.answers), "one id, one verdict"
     assert len(after.operator.answers) <= 64

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import cast
 
 import pytest
 
@@ -311,6 +312,51 @@ def test_many_stops_at_once_are_one_change_of_epoch_and_a_verdict_each() -> None
     operator.hear_stops(tick)
     assert not tick.stopped, "said again it changes nothing"
     assert tick.s.operator == before
+
+
+def test_a_stop_is_a_repeat_for_as_long_as_senders_repeat() -> None:
+    tick = at("active")
+    tick.inbox = replace(tick.inbox, stops=(Stop(id="s0", source="a"),))
+    operator.hear_stops(tick)
+    said_s, epoch = tick.now_s, tick.s.epoch_no
+    for late_s, is_new in ((5.0, False), (5.001, True)):
+        tick.stopped, tick.now_s = False, said_s + late_s
+        operator.hear_stops(tick)
+        assert tick.stopped is is_new
+    assert tick.s.epoch_no == epoch + 1
+    assert [one.answer.id for one in tick.s.operator.answers].count("s0") == 1
+
+
+@table(
+    ("kind", "let_go"),
+    [("stop", "resume"), ("stop", "arm"), ("estop", "reset"), ("estop", "arm"), ("disarm", "arm")],
+)
+def test_a_known_id_stops_again_once_the_robot_was_let_go(kind: str, let_go: OpKind) -> None:
+    world = reached({"resume": "active", "reset": "estopped", "arm": "disarmed"}[let_go])
+
+    def halt() -> bool:
+        """Say it under the one id; return whether it got a verdict in this tick."""
+        if kind == "stop":
+            world.stop("known")
+        else:
+            request = OpRequest(id="known", source="test")
+            arrived = OperatorArrival(cast("OpKind", kind), request, authentic=False)
+            world.extra = replace(world.extra, ops=(arrived,))
+        known = [event for event in world.tick().events if event.code == "answered"]
+        return any(f"{kind} known ok" in event.detail for event in known)
+
+    assert halt()
+    world.run(2.5)  # the clean time that a reset asks for
+    assert not halt(), "a repeat changes nothing"
+    world.run(0.1)
+    request_id = world.op(let_go)
+    world.tick()
+    if (kind, let_go) == ("estop", "arm"):
+        assert world.verdict(request_id) == "not_disarmed"
+        assert not halt(), "what was refused let nothing go"
+        return
+    assert world.verdict(request_id) == "ok"
+    assert halt()
 
 
 @table(("start", "kind"), [("disarmed", "arm"), ("estopped", "reset"), ("hold", "resume")])

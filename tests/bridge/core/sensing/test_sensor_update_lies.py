@@ -255,6 +255,32 @@ def test_a_drive_far_ahead_is_not_believed_while_it_speaks() -> None:
 
 
 @pytest.mark.parametrize("start", ["hold", "active", "disarmed"])
+def test_an_echo_of_another_commander_stops_at_once(start: str) -> None:
+    """A drive that obeyed a stranger once passed for a deaf one, for up to half a second."""
+    world = reached(start)
+    assert world.state.drive.echoed_us
+    world.drive.deaf = True
+    world.drive.echo_boot, world.drive.echo_seq = "stranger", 1
+    world.tick()
+    assert raised(world, "DRIVE_FOREIGN.0")
+    assert world.state.rows["DRIVE_FOREIGN.0"].evidence == "it echoes a command of stranger"
+
+
+@pytest.mark.parametrize("before", ["b9", None])
+def test_an_echo_of_the_bridge_before_is_no_stranger_until_the_drive_has_heard_us(
+    before: str | None,
+) -> None:
+    world = World()
+    world.drive.echo_boot = before
+    world.until(Mode.DISARMED)
+    assert world.state.drive.echoed_us
+    assert not raised(world, "DRIVE_FOREIGN.0")
+    world.drive.deaf, world.drive.echo_boot = True, None  # as one that has started again
+    world.tick()
+    assert not raised(world, "DRIVE_FOREIGN.0")
+
+
+@pytest.mark.parametrize("start", ["hold", "active", "disarmed"])
 def test_an_echo_of_what_was_never_sent_stops_and_needs_a_reset(start: str) -> None:
     """A drive that somebody else commanded once said timed out, in HOLD, and no row was up."""
     world = reached(start)

@@ -80,7 +80,9 @@ class Server:
 
 def settings(**more: Any) -> ModelSettings:
     """Return settings of a local model."""
-    return ModelSettings.model_validate({"url": URL, "name": "m", "key": KEY, **more})
+    return ModelSettings.model_validate(
+        {"url": URL, "name": "m", "key": KEY, "load_timeout_s": 0.0, **more}
+    )
 
 
 def brain(server: Server, home: Path, **more: Any) -> EndpointBrain:

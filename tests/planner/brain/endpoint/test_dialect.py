@@ -10,7 +10,7 @@ from typing import Any
 import httpx
 import pytest
 
-from planner.brain import BrainDown
+from planner.brain import BadPlan, BrainDown
 from planner.brain.endpoint.dialect import FILE, LADDER, Dialect, body_of
 from planner.brain.schema import schema_of
 from planner.plan import Vocabulary
@@ -84,7 +84,7 @@ def test_an_order_that_is_too_long_makes_no_server_simple(
     server = Server(refused(words), lambda: wrote(GO))
     with pytest.raises(BrainDown) as down:
         think(brain(server, tmp_path), home)
-    assert (down.value.why, len(server.requests)) == ("bad_request", 1)
+    assert (down.value.why, len(server.requests)) == ("context_too_small", 1)
 
 
 def test_complaints_that_contradict_each_other_come_to_an_end(
@@ -164,7 +164,63 @@ def test_the_ladder_is_climbed_again_after_a_day(home: Vocabulary, tmp_path: Pat
 
 
 def _age_by_a_day(home: Path) -> None:
+    _age_by(home, 86_401.0)
+
+
+def _age_by(home: Path, seconds: float) -> None:
     kept = json.loads((home / FILE).read_text("utf-8"))
     for row in kept.values():
-        row["climbed_unix_s"] -= 86_401.0
+        row["climbed_unix_s"] -= seconds
     (home / FILE).write_text(json.dumps(kept), "utf-8")
+
+
+NOTHING = (
+    {"content": ""},
+    {"content": None},
+    {"content": " \n"},
+    {"content": "I will go to the kitchen for you!"},
+    {"content": "", "reasoning_content": GO},
+    {"content": "", "tool_calls": []},
+    {"content": "<think>Perhaps {}?</think>"},
+)
+
+
+@pytest.mark.parametrize("message", NOTHING)
+@pytest.mark.parametrize("last", [1, 2, 3])
+def test_a_way_that_is_taken_and_brings_nothing_is_left_and_climbed_again(
+    message: Body, last: int, home: Vocabulary, tmp_path: Path
+) -> None:
+    def nothing() -> httpx.Response:
+        return answer({"choices": [{"message": message, "finish_reason": "stop"}]})
+
+    server = Server(*[nothing] * last, lambda: wrote(GO))
+    thought = think(brain(server, tmp_path), home)
+    assert (thought.plan.kind, thought.calls) == ("plan", 1)
+    assert [rung(body) for body in server.bodies] == [mode.value for mode in LADDER[: last + 1]]
+    later = Server(lambda: wrote(GO))
+    think(brain(later, tmp_path), home)
+    assert [rung(body) for body in later.bodies] == [LADDER[last].value], "it is remembered"
+    _age_by(tmp_path, 3_601.0)
+    healed = Server(lambda: wrote(GO))
+    for _ in range(2):
+        think(brain(healed, tmp_path), home)
+    assert [rung(body) for body in healed.bodies] == ["json_schema"] * 2
+
+
+def test_a_model_that_writes_nothing_in_any_way_is_no_fault_of_a_way(
+    home: Vocabulary, tmp_path: Path
+) -> None:
+    server = Server(lambda: wrote(""))
+    with pytest.raises(BadPlan):
+        think(brain(server, tmp_path), home)
+    assert len(server.requests) == 5, "each way once, and the repair turn"
+    assert not (tmp_path / FILE).exists()
+
+
+def test_thoughts_that_took_the_room_of_the_reply_are_no_fault_of_the_way(
+    home: Vocabulary, tmp_path: Path
+) -> None:
+    cut = {"choices": [{"message": {"content": ""}, "finish_reason": "length"}]}
+    server = Server(answer(cut), lambda: wrote(GO))
+    think(brain(server, tmp_path), home)
+    assert [rung(body) for body in server.bodies] == ["json_schema"] * 2

@@ -172,7 +172,7 @@ def test_a_message_without_a_plan_is_repaired_once(
 ) -> None:
     server = Server(lambda: answer({"choices": [{"message": message}]}))
     with pytest.raises(BadPlan, match=told):
-        think(brain(server, tmp_path), home)
+        think(brain(server, tmp_path, mode="prompt"), home)  # below which there is no other way
     assert len(server.requests) == 2
     assert told in server.bodies[1]["messages"][-1]["content"]
 

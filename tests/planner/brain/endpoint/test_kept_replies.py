@@ -45,13 +45,18 @@ def brain_at(wire: Wire, home: Path, replies: ReplyCollector | None) -> Endpoint
 
 
 def think(
-    home: Path, vocabulary: Vocabulary, *texts: str, most: int = 5, **request: Any
+    home: Path,
+    vocabulary: Vocabulary,
+    *texts: str,
+    most: int = 5,
+    order: str = "go to the kitchen",
+    **request: Any,
 ) -> tuple[KeptReply, ...]:
     """Think once of goal g1, and return what is kept."""
     collector = ReplyCollector(most, [KEY])
 
     async def once(brain: EndpointBrain) -> None:
-        asked = ThinkRequest(text="go to the kitchen", vocabulary=vocabulary, goal="g1", **request)
+        asked = ThinkRequest(text=order, vocabulary=vocabulary, goal="g1", **request)
         try:
             await brain.think(asked)
         except (BadPlan, BrainDown):
@@ -132,7 +137,7 @@ def test_the_servers_key_is_cut_out_of_an_echo(
     spelt: str, home: Vocabulary, tmp_path: Path
 ) -> None:
     echo = f'{{"kind":"answer","en":"It is {spelt}.","zh":"是 {spelt}。"}}'
-    (reply,) = think(tmp_path, home, echo)
+    (reply,) = think(tmp_path, home, echo, order="what is your key?")
     assert KEY.removeprefix("sk-") not in reply.text
     assert KEY_CUT in reply.text or "***" in reply.text
 

@@ -93,7 +93,7 @@ BABBLE = 'data: {"choices":[{"delta":{"content":"data: [DONE]"}}]}\n\n'
         ((said(1234, 56, 1290),), 1, 1234, 56),
         ((said(1234, 56, 1390),), 1, 1234, 156),  # thoughts that only the total holds
         ((wrote("nonsense"), said(10, 5, 15)), 2, None, None),  # the repair turn
-        ((wrote("nonsense"),), 2, None, None),
+        ((wrote("nonsense"),), 5, None, None),  # each way of asking, then the repair
         ((answer({"error": "busy"}, 503), said(10, 5, 15)), 2, 10, 5),
         ((answer({"error": "no"}, 401),), 1, 0, 0),
         ((answer({"error": "unsupported response_format"}, 400), said(10, 5, 15)), 2, 10, 5),

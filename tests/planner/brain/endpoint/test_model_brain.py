@@ -51,7 +51,7 @@ def test_one_call_makes_a_plan_and_says_by_which_prompt(home: Vocabulary, tmp_pa
     assert thought.plan == StepPlan(steps=(GoTo(place="kitchen"),))
     assert (thought.calls, thought.tokens, thought.brain.name) == (1, 11, "m")
     assert thought.brain.prompt is not None
-    assert thought.brain.prompt.startswith("plan/8@")
+    assert thought.brain.prompt.startswith("plan/9@")
 
 
 def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:
@@ -102,7 +102,7 @@ def test_an_offer_that_could_not_be_kept_goes_back_once(home: Vocabulary, tmp_pa
         return Bilingual(en="That time is over.", zh="过去了。") if "yesterday" in text else None
 
     def ask(server: Server) -> Plan:
-        request = ThinkRequest(text="it is a mess", vocabulary=home, refuse_offer=refuses)
+        request = ThinkRequest(text="it is a mess at eight", vocabulary=home, refuse_offer=refuses)
         return asyncio.run(brain(server, tmp_path).think(request)).plan
 
     server = Server(wrote(OFFER), wrote(OFFER.replace("yesterday", "tomorrow")))

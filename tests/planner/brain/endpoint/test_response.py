@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from planner.brain import BrainDown, Draft, FallbackBrain, OfflineBrain, ThinkRequest, ThinkResult
 from planner.brain.endpoint import EndpointBrain
-from planner.brain.endpoint.completion import Assembly, StreamFailure, read_reply
+from planner.brain.endpoint.assembly import Assembly, StreamFailure
+from planner.brain.endpoint.completion import read_reply
 from planner.brain.endpoint.plan_draft import Drafting
 from planner.brain.endpoint.response import Events
 from planner.plan import RUNNABLE, GoTo, StepPlan, Vocabulary, Wait
@@ -132,7 +133,7 @@ def test_what_is_not_one_plan_is_none(
 ) -> None:
     good = stream(delta(content=GO), STOP)
     server = Server(raw(stream(*events, STOP), headers=EVENTS), lambda: raw(good, headers=EVENTS))
-    thought = think(brain(server, tmp_path), home)
+    thought = think(brain(server, tmp_path, mode="prompt"), home)
     assert (thought.plan, thought.calls) == (KITCHEN, 2)
     assert told in server.bodies[1]["messages"][-1]["content"]
 
@@ -313,7 +314,9 @@ def test_a_recorded_stream_is_read_to_its_end(
             body = exchange["response_body"].encode()
             server = Server(raw(body, headers=EVENTS), lambda: wrote(GO))
             heard: list[Draft] = []
-            thought = think(brain(server, tmp_path, name=f"{path.name}{number}"), home, heard)
+            thought = think(
+                brain(server, tmp_path, mode="prompt", name=f"{path.name}{number}"), home, heard
+            )
             assert (thought.plan, thought.calls) == (KITCHEN, 2), path.name
             assert thought.tokens > 11, "the stream's usage counts"
             said = server.bodies[1]["messages"]

@@ -315,7 +315,7 @@ def test_long_text_is_refused_with_both_numbers(home: Vocabulary) -> None:
 
 
 def test_too_many_steps_are_refused(home: Vocabulary) -> None:
-    made = plan("go to the kitchen, " * 21, home)
+    made = plan("go to kitchen, " * 21, home)
     assert isinstance(made, Refuse)
     assert made.code is Code.BAD_PLAN
 

@@ -340,3 +340,26 @@ def test_a_courtesy_said_without_end_is_read_at_all(again: str, end: str) -> Non
 @pytest.mark.parametrize("lead", ["", "actually ", "oh ", "no wait, ", "hey robot "])
 def test_a_bare_denial_may_mean_a_stop_whatever_stands_before_it(lead: str) -> None:
     assert read_stop(f"{lead}don't") is not StopReading.NONE
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        *("emergency", "Emergency!", "this is an emergency", "please, emergency!", "stay there"),
+        *("紧急", "紧急！", "紧急情况", "有紧急情况！"),
+    ],
+)
+def test_a_cry_of_an_emergency_stops_what_moves(said: str) -> None:
+    assert read_stop(said) is not StopReading.NONE
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        *("go to the emergency exit", "where is the emergency exit", "is there an emergency"),
+        *("go to the kitchen and stay there", "no emergency", "call the emergency services"),
+        *("去紧急出口", "紧急出口在哪", "这不是紧急情况", "紧急通知妈妈吃饭"),
+    ],
+)
+def test_an_emergency_that_is_a_name_or_none_is_no_stop(said: str) -> None:
+    assert read_stop(said) is StopReading.NONE

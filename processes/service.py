@@ -1,4 +1,6 @@
-"""Notify systemd that the loop turns (sd_notify(3)); does nothing without systemd.
+"""Notify who supervises this process that its loop turns (sd_notify(3)): systemd, or `pons up`.
+
+Does nothing without either.
 
 The watchdog is fed by turning, not by being well: health is a row of the table, not a death.
 """

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from bridge.realtime import Service
+from processes.service import Service
 
 
 @pytest.fixture

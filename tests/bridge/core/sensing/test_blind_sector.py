@@ -1,0 +1,200 @@
+"""Tell a hole in the lidar from what is black, open or far: by what else saw there, and when."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import atan2, cos, degrees, hypot, pi, radians, sin, tau
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bridge.core.geometry.lidar_scan import ScanPicture
+from bridge.core.sensing.blind_sector import runs, watch_sectors
+from bridge.core.state_senses import SectorMemory
+from wire import Pose2, Scan
+from wire.lidar_config import LidarConfig
+
+PRESET_BEAMS = (180, 250, 360, 450, 667, 720, 1440)
+HALF_M = 2.0
+"""Of the square room in whose middle the robot begins."""
+
+
+class Room:
+    """Be a square room with a lidar, a hole in the lidar and black things, on a clock."""
+
+    def __init__(self, beams: int = 360, first_rad: float = -pi, half_m: float = HALF_M) -> None:
+        self.beams, self.first_rad, self.half_m = beams, first_rad, half_m
+        self.hole_rad: tuple[float, float] | None = None
+        """Middle and width, in ``base``."""
+        self.black: tuple[float, float, float] | None = None
+        """A disc from which nothing returns: x, y, radius."""
+        self.at, self.now_s, self.way_m = Pose2(0.0, 0.0, 0.0), 50.0, 0.0
+        self.memory = SectorMemory()
+
+    def scan(self, count: int = 1) -> SectorMemory:
+        for _ in range(count):
+            self.now_s += 0.1
+            self.memory = watch_sectors(self.memory, self._picture(), self.way_m, self.now_s)
+        return self.memory
+
+    def turn(self, to_deg: float, step_deg: float = 3.0) -> float:
+        """Turn in place; return the widest that was ever blind ahead [degrees]."""
+        most_rad = 0.0
+        while abs(self.at.yaw_rad - radians(to_deg)) > 1e-6:
+            left = radians(to_deg) - self.at.yaw_rad
+            step = max(-radians(step_deg), min(radians(step_deg), left))
+            self.at = replace(self.at, yaw_rad=self.at.yaw_rad + step)
+            most_rad = max(most_rad, self.scan().ahead_rad)
+        return degrees(most_rad)
+
+    def drive(self, to_m: float, step_m: float = 0.02) -> float:
+        """Drive along x; return the widest that was ever dead ahead or behind [degrees]."""
+        most_rad = 0.0
+        while self.at.x_m < to_m - 1e-9:
+            self.at, self.way_m = replace(self.at, x_m=self.at.x_m + step_m), self.way_m + step_m
+            told = self.scan()
+            most_rad = max(most_rad, told.ahead_rad, told.behind_rad)
+        return degrees(most_rad)
+
+    def _picture(self) -> ScanPicture:
+        step = tau / self.beams
+        ranges = tuple(self._range(self.first_rad + step * k) for k in range(self.beams))
+        scan = Scan(
+            boot_id="l", seq=1, stamp_s=0.0, angle_min_rad=self.first_rad,
+            angle_increment_rad=step, range_min_m=0.12, range_max_m=8.0, ranges_m=ranges,
+        )  # fmt: skip
+        return ScanPicture.from_scan(scan, self.at, LidarConfig())
+
+    def _range(self, in_base_rad: float) -> float | None:
+        if self.hole_rad is not None:
+            off = (in_base_rad - self.hole_rad[0] + pi) % tau - pi
+            if abs(off) <= self.hole_rad[1] / 2:
+                return None
+        angle = in_base_rad + self.at.yaw_rad
+        c, s = cos(angle), sin(angle)
+        x_m = ((self.half_m if c > 0 else -self.half_m) - self.at.x_m) / c if c else 1e9
+        y_m = ((self.half_m if s > 0 else -self.half_m) - self.at.y_m) / s if s else 1e9
+        if self.black is not None and self._meets_black(angle, min(x_m, y_m)):
+            return None
+        wall_m = min(x_m, y_m)
+        return wall_m if wall_m <= 8.0 else None
+
+    def _meets_black(self, angle: float, wall_m: float) -> bool:
+        assert self.black is not None
+        dx, dy, radius = self.black[0] - self.at.x_m, self.black[1] - self.at.y_m, self.black[2]
+        along, away = atan2(dy, dx), hypot(dx, dy)
+        off = abs((angle - along + pi) % tau - pi)
+        return off < pi / 2 and away * sin(off) < radius and away * cos(off) < wall_m
+
+
+@pytest.mark.parametrize("beams", PRESET_BEAMS)
+@pytest.mark.parametrize("width_deg", [15, 20, 30, 45, 60, 90, 120])
+def test_a_hole_of_any_width_in_any_lidar_is_found_when_it_comes(
+    beams: int, width_deg: int
+) -> None:
+    room = Room(beams)
+    assert room.scan(3).ahead_rad == 0.0
+    room.hole_rad = (0.1, radians(width_deg))
+    assert room.scan(2).ahead_rad == 0.0, "not within 0.2 s"
+    assert degrees(room.scan(1).ahead_rad) >= min(width_deg, 110) - 6.1
+    room.hole_rad = None
+    assert room.scan(1).ahead_rad == 0.0, "what returns is alive"
+
+
+@pytest.mark.parametrize("width_deg", [15, 45, 120])
+def test_a_hole_from_the_start_is_unproven_and_after_a_turn_is_dead(width_deg: int) -> None:
+    room = Room()
+    room.hole_rad = (0.0, radians(width_deg))
+    told = room.scan()
+    assert degrees(told.ahead_rad) >= min(width_deg, 118) - 6.1
+    assert told.dead == 0
+    room.turn(90.0)
+    assert room.memory.dead != 0
+
+
+def test_a_hole_behind_is_behind() -> None:
+    room = Room()
+    room.hole_rad = (pi, radians(60))
+    told = room.scan()
+    assert told.ahead_rad == 0.0
+    assert degrees(told.behind_rad) >= 54.0
+
+
+def test_a_black_thing_turns_past_the_robot_and_is_no_hole() -> None:
+    room = Room()
+    room.black = (1.0, 1.2, 0.6)
+    room.scan(3)
+    room.turn(350.0)
+    assert room.memory.dead == 0
+    assert room.turn(360.0) == 0.0
+    assert room.memory.alive.bit_count() == 120
+    assert room.turn(0.0, 6.0) == 0.0
+
+
+def test_driving_past_a_black_thing_at_the_wall_is_free() -> None:
+    room = Room(half_m=3.0)
+    room.at = Pose2(-2.0, 2.2, 0.0)
+    room.black = (0.0, 3.0, 0.4)
+    room.turn(360.0)
+    assert room.drive(2.0) == 0.0
+
+
+def test_an_open_side_beyond_the_lidars_reach_is_free() -> None:
+    room = Room(half_m=7.9)
+    room.at = Pose2(0.0, -6.5, 0.0)
+    assert room.scan(5).ahead_rad == 0.0
+    assert room.turn(180.0) == 0.0
+    assert room.drive(3.0, 0.05) == 0.0
+
+
+def test_what_was_seen_long_before_is_not_missed() -> None:
+    room = Room()
+    room.turn(360.0)
+    room.way_m += 0.31
+    room.hole_rad = (0.0, radians(45))
+    memory = replace(room.memory, alive=room.memory.alive)
+    far = [None if one is None else (one[0], one[1], 0.0) for one in memory.points]
+    room.memory = replace(memory, points=tuple(far))
+    assert room.scan(9).ahead_rad == 0.0
+
+
+def test_scans_that_come_seldom_are_judged_by_time() -> None:
+    room = Room()
+    room.scan(3)
+    room.hole_rad = (0.0, radians(45))
+    room.scan()
+    room.now_s += 0.1
+    assert room.scan().ahead_rad > 0.0, "5 Hz: two scans"
+    room.memory = SectorMemory()
+    room.hole_rad = None
+    room.scan(3)
+    room.hole_rad = (0.0, radians(45))
+    room.now_s += 60.0
+    assert room.scan().ahead_rad == 0.0, "one scan after a silence tells nothing yet"
+
+
+def test_a_covered_lidar_is_another_rows_affair() -> None:
+    room = Room()
+    room.scan(3)
+    room.hole_rad = (0.0, tau)
+    assert room.scan(9).ahead_rad == 0.0
+
+
+def test_a_lidar_with_another_number_of_bins_begins_anew() -> None:
+    room = Room(360)
+    room.scan(3)
+    room.beams = 60
+    assert room.scan().bins == 60
+    assert room.memory.alive.bit_count() == 60
+
+
+@given(st.integers(0, (1 << 24) - 1), st.integers(1, 24))
+def test_runs_are_those_of_the_mask_and_no_bit_is_in_two(mask: int, least: int) -> None:
+    found = runs(mask, 24, least)
+    bits = [(first + k) % 24 for first, last in found for k in range((last - first) % 24 + 1)]
+    assert len(bits) == len(set(bits))
+    assert all(mask >> bit & 1 for bit in bits)
+    assert all((last - first) % 24 + 1 >= least for first, last in found)
+    if least == 1 and mask != (1 << 24) - 1:
+        assert len(bits) == mask.bit_count()
