@@ -74,10 +74,14 @@ def unknown_kind(
     """
     if not classes:
         return None
-    for what, certain, _ in read_question(question, place_names(facts)).asked:
-        if resolve(what, language, classes) is None and (
-            resolve(what, language) is not None
-            or (certain and find_mentioned(what, classes) is None)
+    for what, certain, _, may_refuse in read_question(question, place_names(facts)).asked:
+        if (
+            may_refuse
+            and resolve(what, language, classes) is None
+            and (
+                resolve(what, language) is not None
+                or (certain and find_mentioned(what, classes) is None)
+            )
         ):
             return what
     return None

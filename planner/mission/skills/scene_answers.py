@@ -75,6 +75,8 @@ def answer(scene: Scene[Any], question: str) -> SceneAnswer:
         return _tell_beside(
             sought.what, judged_so, _spot(sought.by, sought.relation, at), seen=there
         )
+    if sought.unclear and sought.what is not None and not fitting:
+        return SceneAnswer(_unseen("scene.state_unseen", sought.what, at))
     if sought.unclear and fitting:
         what = _name_things(fitting, sought.what)
         return SceneAnswer(say("scene.unclear", what=what, at=at, unclear=sought.unclear))
@@ -145,10 +147,14 @@ def _tell_without_judging(
     """
     found = _name_things(things, what)
     if has_model:
-        return say("scene.seen", found=found, at=at) if things else say("scene.nothing", at=at)
+        return say("scene.seen", found=found, at=at) if things else _unseen("scene.none", what, at)
     if things:
         return say("scene.state_untold", found=found, at=at)
-    return say("scene.state_unseen", name=name_object(what.label, what.color), at=at)
+    return _unseen("scene.state_unseen", what, at)
+
+
+def _unseen(code: str, what: WantedObject, at: Bilingual) -> Bilingual:
+    return say(code, name=name_object(what.label, what.color), at=at)
 
 
 def _plainly(what: WantedObject | None, things: Things, at: Bilingual) -> SceneAnswer:
@@ -159,8 +165,7 @@ def _plainly(what: WantedObject | None, things: Things, at: Bilingual) -> SceneA
         found = list_things(things)
         return SceneAnswer(say("scene.seen", found=found, at=at))
     if not things:
-        name = name_object(what.label, what.color)
-        return SceneAnswer(say("scene.no", name=name, at=at), False)  # fmt: skip
+        return SceneAnswer(_unseen("scene.no", what, at), False)
     found = _name_things(things, what)
     said = say("scene.yes", found=found, at=at)
     return SceneAnswer(said, True)
