@@ -32,9 +32,15 @@ _LEAD = (
     r"(?:请|麻烦)?[你您]?(?:帮我|给我|替我)?(?:去|到)?"
     r"(?:看一看|看一眼|看看|看一?下|瞧瞧|检查一?下?|查看一?下?|确认一?下?|观察一?下?|告诉我)?"
 )
+_HOW = r"(?:[上下][面边]?|底下|旁边?|边上)"
 _SEES = re.compile(
-    rf"[你您]?(?P<q>能不能|有没有|是否)?能?{_SEE}[了过]?{_NOUN}(?P<end>了?(?:吗|没有|没|么))?"
+    rf"[你您]?(?P<q>能不能|有没有|是否)?能?{_SEE}[了过]?(?:(?P<where>[^有]{{1,12}}?{_HOW})的)?{_NOUN}"
+    r"(?P<end>了?(?:吗|没有|没|么))?"
 )
+_HOLDS = re.compile(
+    rf"{_LEAD}(?!地)(?P<where>[^有]{{1,12}}?{_HOW})(?:现在|[还都])*[坐放摆]着{_NOUN}[吗么嘛]"
+)
+"""Who is on a chair sits there; who is on the floor may stand."""
 _THERE_IS = re.compile(
     rf"{_LEAD}(?:{_AT})?{_LEAD}[还都]?(?:现在)?"
     rf"(?:(?:有没有|是否有|是不是有|有无){_NOUN}(?:在(?P<where>.{{1,12}}))?{_ASKS}"
@@ -63,7 +69,6 @@ _OPEN = re.compile(
     r"(?:有|是|[放摆坐站躺停][着了])(?:些|点)?(?:什么|啥|谁|哪些|何).{0,4}"
     r"|谁(?:正?[坐站躺睡])?在(?P<where_2>.{1,12}?)[吗呢啊]?"
 )
-_HOW = r"(?:[上下][面边]?|底下|旁边?|边上)"
 _LOOSE = (
     re.compile(
         rf"{_LEAD}(?P<where>[^有]{{1,12}}?{_HOW})(?:现在|[还都])*"
@@ -101,8 +106,12 @@ def read_yes_no(text: str, names: PlaceNames) -> Iterator[ObjectQuestion]:
     if found is not None and (found["q"] or found["end"]):
         noun = found["noun"]
         certain = _is_noun(noun, found["unit"]) and not _NAME.fullmatch(noun)
-        yield ObjectQuestion(found["what"], certain)
+        where = found["where"] or ""
+        yield ObjectQuestion(found["what"], certain, where, may_refuse=not where)
         return
+    found = _HOLDS.fullmatch(text)
+    if found is not None:
+        yield ObjectQuestion(found["what"], where=found["where"], may_refuse=False)
     found = _THERE_IS.fullmatch(text)
     if found is not None and (not found["at"] or found["in"] or names.get(found["at"])):
         noun, unit = found["noun"] or found["noun_2"], found["unit"] or found["unit_2"]

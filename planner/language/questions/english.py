@@ -29,7 +29,15 @@ _THERE_IS = re.compile(
     r"(?:there (?:is|are) |(?P<may>you (?:can )?see )))"
     rf"(?P<a>{_A})?{_NOUN}{_WHERE}"
 )
-_IS_IT = re.compile(rf"(?:is|are) {_A}{_NOUN}(?: still| now)?(?= ){_WHERE}")
+_IF = r"(?:[a-z, ]{0,30}\b(?:check|see|look|tell me|tell us|know|find out|say) (?:if|whether) )"
+_SITS = r"(?: sitting(?= on (?!(?:the |your )?(?:floor|ground)\b)))?"
+"""Who is on a chair sits there; who is on the floor may stand."""
+_IS_IT = re.compile(rf"(?:is|are) {_A}{_NOUN}(?: still| now)?{_SITS}(?= ){_WHERE}")
+_IF_IT_IS = re.compile(rf"{_IF}{_A}{_NOUN} (?:is|are)(?: still| now)?{_SITS}(?= ){_WHERE}")
+_ANYBODY = re.compile(
+    rf"(?:(?:please|hey|and|so|ok|now)[ ,]+)*{_IF}?(?:(?:is|are) )?"
+    rf"(?P<what>(?:any|some)(?:body|one)|any [a-z'-]+(?: [a-z'-]+)?)(?: is| are)?{_SITS}{_WHERE}"
+)
 _NO_NOUN = re.compile(
     r"\b(?:about|and|as|at|but|by|for|from|in|into|it|like|not|of|off|on|or|out|over|than|that|the"
     r"|to|up|what|when|where|which|who|with|without|you|me|him|them|us|he|she|they|else|enough|lots?"
@@ -89,6 +97,9 @@ def read_yes_no(text: str, names: PlaceNames) -> Iterator[ObjectQuestion]:
     found = _IS_IT.fullmatch(text)
     if found is not None:
         yield ObjectQuestion(found["what"], where=found["where"] or "")
+    found = _IF_IT_IS.fullmatch(text) or _ANYBODY.fullmatch(text)
+    if found is not None:
+        yield ObjectQuestion(found["what"], where=found["where"] or "", may_refuse=False)
 
 
 def open_at(text: str) -> str | None:

@@ -49,6 +49,8 @@ class ObjectQuestion(NamedTuple):
     """It is a kind of thing though no table names it."""
     where: str = ""
     """Where it is to be: ``on the table``, ``桌子上``; empty: nowhere in particular."""
+    may_refuse: bool = True
+    """Eyes that don't know the kind refuse it; else they tell what they see."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -104,7 +104,17 @@ def _read_first(
     if inner is not None and not first.where:  # "do you see the cup on the table"
         what, relation, by = inner
         return QuestionReading(asked, what, Whereabouts(relation, by, first.what), is_sure=True)
-    return QuestionReading(asked, first.what, _whereabouts(first.where, names, place), is_sure=True)
+    where = _whereabouts(first.where, names, place)
+    sure = where is not None or _is_place_alone(first.where, names)
+    return QuestionReading(asked, first.what, where, is_sure=sure)
+
+
+def _is_place_alone(words: str, names: PlaceNames) -> bool:
+    """Return whether words say where to look and nothing else: "on in the kitchen" says a state."""
+    bare = _without_place(words, names).strip()
+    patterns = (english.WHEREABOUTS, chinese.WHEREABOUTS, english.HERE, chinese.HERE)
+    bare_name = re.sub(rf"^{english.THE}", "", bare)
+    return not bare or bare_name in names or any(each.fullmatch(bare) for each in patterns)
 
 
 def _whereabouts(words: str, names: PlaceNames, place: str | None) -> Whereabouts | None:

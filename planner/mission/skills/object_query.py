@@ -6,7 +6,7 @@ words, so that it can be said.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from planner.language.object_names import resolve, singles_out
@@ -34,6 +34,8 @@ class ObjectQuery:
     """What it is to stand so to: a kind that these eyes know, or the floor."""
     unclear: str = ""
     """Where it is to be, in words that no eye here can judge."""
+    is_presence: bool = True
+    """Whether the question is surely about being there: else no detector has a yes or no."""
 
 
 def sought_in(
@@ -49,8 +51,16 @@ def sought_in(
     """
     read = read_question(question, place_names(facts), place)
     sought = _make_query(read, classes)
-    by_chance = not read.is_sure and sought.by is None
-    return ObjectQuery(find_mentioned(question, classes)) if by_chance else sought
+    if not read.is_sure and sought.by is None:
+        mentioned = find_mentioned(question, classes)
+        return ObjectQuery(mentioned, is_presence=mentioned is None)
+    known = sought.what is None or _is_kind_alone(read.what, classes)
+    return replace(sought, is_presence=read.is_sure and known)
+
+
+def _is_kind_alone(what: str, classes: tuple[str, ...]) -> bool:
+    """Return whether words name a kind and colour and nothing else: "open door" says a state."""
+    return resolve(what, None, classes) is not None and not singles_out(what, classes)
 
 
 def unknown_kind(
@@ -64,10 +74,14 @@ def unknown_kind(
     """
     if not classes:
         return None
-    for what, certain, _ in read_question(question, place_names(facts)).asked:
-        if resolve(what, language, classes) is None and (
-            resolve(what, language) is not None
-            or (certain and find_mentioned(what, classes) is None)
+    for what, certain, _, may_refuse in read_question(question, place_names(facts)).asked:
+        if (
+            may_refuse
+            and resolve(what, language, classes) is None
+            and (
+                resolve(what, language) is not None
+                or (certain and find_mentioned(what, classes) is None)
+            )
         ):
             return what
     return None

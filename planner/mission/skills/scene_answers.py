@@ -64,6 +64,8 @@ def answer(scene: Scene[Any], question: str) -> SceneAnswer:
     seen = drop_doubles(t for t in list_confirmed(scene.sight, None, since_s) if inside(t))
     fitting = tuple(t for t in seen if fits(t, sought.what))
     at = _at(scene, sought.by)
+    if sought.what is not None and not sought.is_presence:
+        return SceneAnswer(_tell_without_judging(sought.what, fitting, at, scene.eyes.model))
     if sought.by is not None and sought.relation is not None:
         known = [t for t in scene.sight.things if inside(t) and sure(t) and fits(t, sought.by)]
         there = sought.by is FLOOR or any(t.seen_s >= since_s for t in known)
@@ -73,6 +75,8 @@ def answer(scene: Scene[Any], question: str) -> SceneAnswer:
         return _tell_beside(
             sought.what, judged_so, _spot(sought.by, sought.relation, at), seen=there
         )
+    if sought.unclear and sought.what is not None and not fitting:
+        return SceneAnswer(_unseen("scene.state_unseen", sought.what, at))
     if sought.unclear and fitting:
         what = _name_things(fitting, sought.what)
         return SceneAnswer(say("scene.unclear", what=what, at=at, unclear=sought.unclear))
@@ -134,6 +138,25 @@ def _without_neighbour(
     return say("scene.no_neighbour_but", found=found, by=by, at=at)  # fmt: skip
 
 
+def _tell_without_judging(
+    what: WantedObject, things: Things, at: Bilingual, has_model: bool
+) -> Bilingual:
+    """Tell the sights where more is asked than a detector knows, such as a state.
+
+    With a vision model its reading follows, and is the answer; else that it can't be told.
+    """
+    found = _name_things(things, what)
+    if has_model:
+        return say("scene.seen", found=found, at=at) if things else _unseen("scene.none", what, at)
+    if things:
+        return say("scene.state_untold", found=found, at=at)
+    return _unseen("scene.state_unseen", what, at)
+
+
+def _unseen(code: str, what: WantedObject, at: Bilingual) -> Bilingual:
+    return say(code, name=name_object(what.label, what.color), at=at)
+
+
 def _plainly(what: WantedObject | None, things: Things, at: Bilingual) -> SceneAnswer:
     """Tell the sights of the object, without any neighbour."""
     if what is None:
@@ -142,8 +165,7 @@ def _plainly(what: WantedObject | None, things: Things, at: Bilingual) -> SceneA
         found = list_things(things)
         return SceneAnswer(say("scene.seen", found=found, at=at))
     if not things:
-        name = name_object(what.label, what.color)
-        return SceneAnswer(say("scene.no", name=name, at=at), False)  # fmt: skip
+        return SceneAnswer(_unseen("scene.no", what, at), False)
     found = _name_things(things, what)
     said = say("scene.yes", found=found, at=at)
     return SceneAnswer(said, True)

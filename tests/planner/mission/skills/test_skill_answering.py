@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from planner.mission.skills import Eyesight, Fail, Finish, Observe, act_of
+from planner.mission.skills import Eyesight, Fail, Finish, ImageAnswer, Observe, act_of
 from planner.mission.skills.skill_state import LookStage, LookState
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
-from planner.plan import Bilingual, Code
+from planner.plan import Bilingual, Code, StepRole, say_same
 from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.skills.scenes import scene
@@ -40,8 +40,8 @@ def asked(question: str, *things: Thing, **more: Any) -> Any:
     sight = Sight(LookSnapshot(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
     fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight, "now_s": NOW_S}
     fields |= {"state": LookState(here=(0.0, 0.0), stage=LookStage.GAZED), "spent_s": 5.0}
-    place = more.pop("place", None)
-    return act_of(scene("look", step={"text": question, "place": place}, **{**fields, **more}))
+    step = {"text": question, "place": more.pop("place", None), "role": more.pop("role", None)}
+    return act_of(scene("look", step=step, **{**fields, **more}))
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_it_is_said_whether_a_thing_stands_there_or_that_it_cannot_be_told(
         ("is there a cup under the table", (TABLE, ON_IT, BELOW), "Yes, I see 1 cup under the t"),
         ("is there a cup next to the table", (TABLE, at("cup", 2.8, 0.1)), "Yes, I see 1 cup near"),
         ("is there a cup on the shelf", (ON_IT,), "I see 1 cup; whether “on the shelf”, I can't"),
-        ("is there a cup on the shelf", (), "No, I see no cup."),
+        ("is there a cup on the shelf", (), "I can't tell: I see no cup."),
         ("what is on the table?", (TABLE, CHAIR, ON_IT, AWAY), "I see 1 cup on the table."),
         ("what is on the table?", (TABLE, CHAIR), "I see nothing that I know on the table."),
         ("what is on the table?", (CHAIR,), "I can't tell: I see no table."),
@@ -178,3 +178,34 @@ def test_who_told_late_what_they_know_still_says_that_they_do_not_know_it() -> N
     assert isinstance(late, Finish)
     assert late.said is not None
     assert "“piano”" in late.said.en
+
+
+@pytest.mark.parametrize("things", [(), (ON_IT,)])
+@pytest.mark.parametrize("question", ["is there a cup in the garage", "is the cup empty"])
+def test_what_is_unclear_or_a_state_is_told_neither_yes_nor_no(
+    question: str, things: tuple[Thing, ...]
+) -> None:
+    said = asked(question, *things).said
+    assert "I can't tell" in said.en
+    assert "说不准" in said.zh or "看不出来" in said.zh
+    unsure = asked(question, *things, role=StepRole.WHEN)
+    assert (unsure.code, unsure.figures.get("holds")) == (Code.UNSURE, None)
+
+
+@pytest.mark.parametrize("things", [(), (ON_IT,)])
+@pytest.mark.parametrize("seen", [True, False])
+def test_the_branch_on_a_state_is_the_one_that_is_told(
+    seen: bool, things: tuple[Thing, ...]
+) -> None:
+    """A cup is there, and the model says of its state what the branch goes by."""
+    eyes = Eyesight(CameraConfig(), CLASSES, model=True)
+    word = "Yes" if seen else "No"
+    answer = ImageAnswer(say_same(f"{word}, it is."), seen)
+    state = LookState(here=(0.0, 0.0), stage=LookStage.ASKED, faced=(0.0,))
+    told = asked(
+        "is the cup empty", *things, eyes=eyes, answer=answer, state=state, role=StepRole.WHEN
+    )
+    assert told.figures["holds"] is seen
+    assert "cup" in told.said.en
+    assert not told.said.en.startswith(("Yes", "No,"))
+    assert f"{word}, it is." in told.read.en

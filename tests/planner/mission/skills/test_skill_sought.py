@@ -9,8 +9,8 @@ import pytest
 from planner.language.questions import Relation
 from planner.mission.skills import WantedObject
 from planner.mission.skills.object_matching import anybody_for
-from planner.mission.skills.object_query import FLOOR, ObjectQuery, sought_in
-from planner.plan import Bilingual
+from planner.mission.skills.object_query import FLOOR, ObjectQuery, sought_in, unknown_kind
+from planner.plan import Bilingual, Language
 from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import room
 from wire import Pose2
@@ -116,3 +116,37 @@ def test_a_name_is_searched_for_as_anybody(name: str) -> None:
 @pytest.mark.parametrize("thing", ["cup", "lego", "the red box", "杯子", ""])
 def test_a_thing_is_nobody(thing: str) -> None:
     assert anybody_for(thing, CLASSES) is None
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "is the cup empty", "is the fridge door open", "is the sofa on in the kitchen",
+        "is there an empty cup", "has somebody fallen?", "is anybody in the kitchen asleep?",
+        "有人摔倒了吗", "冰箱关着吗", "人在睡觉吗", "餐桌收拾了吗",
+    ],
+)  # fmt: skip
+def test_a_state_is_never_judged_by_presence(question: str) -> None:
+    sought = sought_in(question, HOME, None, CLASSES)
+    assert sought.what is None or not sought.is_presence or sought.unclear
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "is the man asleep on the sofa", "is anybody sitting on the floor", "is the man sitting",
+        "check if the man is asleep on the sofa", "check if the cup is empty", "地上坐着人吗",
+        "沙发上躺着人吗",
+    ],
+)  # fmt: skip
+def test_a_posture_is_judged_by_what_is_sat_on_alone(question: str) -> None:
+    assert not sought_in(question, HOME, None, CLASSES).is_presence
+
+
+@pytest.mark.parametrize(
+    "question",
+    ["any shoes in the hallway?", "check if the shoes are on the table", "桌子上放着鞋吗"],
+)
+def test_a_kind_that_is_merely_named_in_passing_refuses_nothing(question: str) -> None:
+    assert unknown_kind(question, HOME, Language.EN, CLASSES) is None
+    assert unknown_kind(question, HOME, Language.ZH, CLASSES) is None
