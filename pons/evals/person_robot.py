@@ -33,6 +33,7 @@ from planner.plan import (
     PlanRole,
     Refuse,
     StepPlan,
+    plan_record,
     say_same,
 )
 from planner.site.site_view import facts_of, vocabulary_of
@@ -81,6 +82,7 @@ class RobotEar:
         self._book = MissionState(facts, eyes=eyes, sight=Sight())
         self._pose = facts.targets[facts.home].pose
         self._plans: dict[str, StepPlan] = {}
+        self._sure: dict[str, StepPlan] = {}
         self._ids, self._now_s = count(), _NOW_S
         self._commands = PersonCommands(self._think, site, self)
         self._left: list[Effect] = []
@@ -140,6 +142,8 @@ class RobotEar:
         planned = await self._commands.think(effect)
         if isinstance(planned.plan, StepPlan):
             self._plans[effect.id] = planned.plan
+        if planned.sure is not None:
+            self._sure[effect.id] = planned.sure
         await self._on(planned)
         while self._left:
             await self._carry(self._left.pop(0))
@@ -152,6 +156,13 @@ class RobotEar:
         )
         return await think(ask)
 
+    def _plan_of(self, mission: Mission) -> StepPlan | None:
+        """Return a goal's plan; after a no to a model's, what the order says to the grammar."""
+        sure = self._sure.get(mission.id)
+        if sure is not None and mission.plan == plan_record(sure):
+            self._plans[mission.id] = sure  # a yes is to this one, whatever becomes of its record
+        return self._plans.get(mission.id)
+
     def _waiting(self) -> Mission | None:
         asking = (GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION)
         open_ = [m for m in self._book.missions.values() if m.state in asking]
@@ -163,7 +174,7 @@ class RobotEar:
             return RobotReply(Reaction.STOP)
         taken = next((m for m in self._book.missions.values() if self._is_taken(before, m)), None)
         if taken is not None:
-            plan = self._plans.get(taken.id)
+            plan = self._plan_of(taken)
             if plan is not None and plan.does in (PlanRole.CANCEL, PlanRole.ANSWER_TO):
                 return RobotReply(Reaction.CANCEL)
             runs = (GoalState.QUEUED, GoalState.RUNNING)
@@ -179,7 +190,7 @@ class RobotEar:
             )
             options = asking.plan.options if asking.plan is not None else ()
             offer = options[0].text if len(options) == 1 else ""
-            return RobotReply(reaction, self._plans.get(asking.id), asking.id, offer)
+            return RobotReply(reaction, self._plan_of(asking), asking.id, offer)
         dropped = [
             m.id for m in self._book.missions.values()
             if m.state is GoalState.CANCELLED and before.missions.get(m.id) not in (None, m)

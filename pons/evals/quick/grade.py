@@ -63,7 +63,7 @@ def _why_nothing(exam: Exam) -> BilingualWords:
             f"too slow: {exam.took_s:.0f} s went by before the first order was answered",
             f"太慢：{exam.took_s:.0f} 秒内没有答完第一条指令",
         )
-    if any(rung.why.startswith("timeout") for rung in exam.rungs):
+    if any(rung.why.startswith(("timeout", "loading")) for rung in exam.rungs):
         return BilingualWords(
             "it answered nothing in time: it hangs, or timeout_s in [model] is too short",
             "没有及时应答：模型没有反应，或 [model] 的 timeout_s 对它太短",

@@ -166,7 +166,8 @@ def test_a_spoken_stop_carries_no_act_that_clears_a_hold() -> None:
     ("data", "status", "stable"),
     [
         (b"", 400, "audio_empty"),
-        (SECOND[:44], 400, "wav_truncated"),
+        (SECOND[:20], 400, "wav_truncated"),
+        (SECOND[:44], 400, "audio_too_short"),
         (b"OggS" + bytes(99), 415, "not_wav"),
         (wav(bytes(32_000), width=1), 415, "wav_unsupported"),
         (wav(bytes(300_000), 8_000), 413, "audio_too_long"),

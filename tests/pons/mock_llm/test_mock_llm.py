@@ -270,7 +270,7 @@ def test_a_key_that_is_echoed_is_struck_out(mock: RunningMock, tmp_path: Path) -
     mock.set(fault="echo_key")
     heard: list[Draft] = []
     for hear in (None, heard.append):
-        told = ask(mock, tmp_path, hear=hear).model_dump_json()
+        told = ask(mock, tmp_path, "what is your key?", hear).model_dump_json()
         assert "the key is Bearer ***" in told
         assert KEY not in told
     assert heard

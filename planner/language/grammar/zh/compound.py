@@ -50,7 +50,7 @@ def _read_placed(plain: str) -> ConditionParts | None:
 
 _SEE = r"(?:看到|看见|见到|碰到|碰见|遇到|发现|瞧见|见)"
 _MET = rf"(?:{_SEE}|来|去|到|进|待|在)(?:过|了)"
-_PAST = rf"[^,，;；。]*?{_MET}[^,，;；。]*?"
+_PAST = rf"(?>[^,，;；。]*?{_MET})[^,，;；。]*?"
 
 
 def _read_memory(said: str) -> MemoryParts | None:
@@ -137,11 +137,11 @@ CHINESE_COMPOUND = CompoundForms(
             rf"(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
         ),
         re.compile(
-            rf"(?:请)?(?P<if>[^,，;；。]*?{_IF}{_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?)"
+            rf"(?:请)?(?P<if>(?>[^,，;；。]*?{_IF}){_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?)"
             rf"{_OTHERWISE}(?P<else>.+)"
         ),
         re.compile(
-            rf"(?:请)?(?P<if>[^,，;；。]*?{_IF}{_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
+            rf"(?:请)?(?P<if>(?>[^,，;；。]*?{_IF}){_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
         ),
         re.compile(rf"(?P<if>{_PAST})的话{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"),
         re.compile(rf"(?P<if>{_PAST})的话{_THEN}(?P<then>{_ORDER}.+)"),

@@ -17,6 +17,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from itertools import islice
 from re import _constants as kinds  # type: ignore[attr-defined]
 from re import _parser as parser  # type: ignore[attr-defined]
@@ -82,6 +83,7 @@ def alarm(what: str) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
+@cache
 def patterns() -> list[tuple[str, re.Pattern[str]]]:
     told = subprocess.run(
         [sys.executable, "-c", COLLECT], capture_output=True, check=True, cwd=ROOT, text=True
