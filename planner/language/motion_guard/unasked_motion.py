@@ -290,7 +290,9 @@ class _Judge:
         for place in find_places(said, self._vocabulary):
             room = self._vocabulary.by_id[place.id].room
             if room is not None and (
-                _HOLDS.search(said, 0, place.start) or _HELD_ZH.match(said, place.end)
+                _HOLDS.search(said, 0, place.start)
+                or _HELD_ZH.match(said, place.end)
+                or (_HOLDS_ZH.search(said, 0, place.start) and _HOLDING_ZH.match(said, place.end))
             ):
                 found[room] = 1
         return found
@@ -317,10 +319,9 @@ class _Judge:
 
 _GAP = " | "
 _CONDITION = re.compile(r"\b(?:if|when|whether|unless|should)\b|如果|要是|若|假如|的话|就|没")
-_HOLDS = re.compile(
-    r"\b(?:room|one|place) (?:that )?(?:with|has|having|where)\b[^,.;|]{0,24}$|(?:有|摆着?"
-    r"|放着?)[^,，。;|]{0,6}$"
-)
+_HOLDS = re.compile(r"\b(?:room|one|place) (?:that )?(?:with|has|having|where)\b[^,.;|]{0,24}$")
+_HOLDS_ZH = re.compile(r"(?:有|摆着?|放着?)[^,，。;|去到来回就]{0,4}$")
+_HOLDING_ZH = re.compile(r"的(?:那|房|屋|间|地方)")
 _HELD_ZH = re.compile(r"(?:在的|所在的?)那?[个间]?")
 _ORDERS = re.compile(
     r"\b(?:go|goes|drive|come|walk|run|head|move|look|see|check|find|search|count|turn|follow|wait"
