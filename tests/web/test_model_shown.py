@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from planner.brain.model_error_codes import reason
 from tests.e2e.robot import Robot
 from tests.pons.mock_llm.mocks import RunningMock
 from tests.web.conftest import OpenPage, anywhere, set_off
@@ -90,7 +91,9 @@ def test_the_offline_brain_is_seen_standing_in(
     mind = page.locator("#mind[data-breaker=open]")
     mind.wait_for()
     assert rests in mind.inner_text()
-    assert why in mind.inner_text()
+    plain = reason("server_error").of(language)
+    assert why.startswith(plain), "the server's own words stand behind it, at the goal alone"
+    assert plain in mind.inner_text()
     # Well again, it is tried, believed, and nothing is said any more.
     model.set()
     page.locator("#mind[data-breaker=on_trial]").wait_for()
