@@ -68,7 +68,7 @@ class Supervisor:
         set_up: bool = False,
         came_from_setup: bool = False,
     ) -> None:
-        self._is_patient = came_from_setup or set_up or robot.ros2 is not None
+        self._is_patient = came_from_setup or set_up or _is_of_ros2(settings, robot)
         """The page is all that this person has: it is not taken away for being slow."""
         self._said_late = self._said_search = self._said_unreached = False
         self.changes = False
@@ -149,6 +149,7 @@ class Supervisor:
                 self._said_ready = True
                 self._say_ready(now_s - began_s)
                 return
+            self._tell_unreached(now_s - began_s)
         if self._readiness is Readiness.SEARCHING:  # a person may tell it where it is
             self._searches_since_s = min(self._searches_since_s, now_s)
             self._searched_s = now_s
@@ -156,7 +157,6 @@ class Supervisor:
                 self._said_search = True
                 say(f"{self._settings.url}\n{SEARCHES}")
             return
-        self._tell_unreached(now_s - began_s)
         if now_s - max(began_s, self._searched_s) > READY_LIMIT_S:
             text = (
                 f"not_ready: the {'planner' if self._planner else 'bridge'} was not ready within "
@@ -172,13 +172,10 @@ class Supervisor:
         """Say once why the robot's ROS 2 computer is not reached; dialling goes on."""
         if self._said_unreached or after_s < UNREACHED_TOLD_S:
             return
-        child = next((each for each in self._children if each.name == "ros2"), None)
-        why = (
-            [line for line in child.last_words().splitlines() if _NO_ROS2 in line] if child else []
-        )
-        if why:
+        newest = next((each.last_words(1) for each in self._children if each.name == "ros2"), "")
+        if _NO_ROS2 in newest:
             self._said_unreached = True
-            cause = why[-1][why[-1].index(_NO_ROS2) :]
+            cause = newest[newest.index(_NO_ROS2) :]
             say(f"{self._settings.url}\nrobot_unreached: {cause}\n  {UNREACHED}")
 
     def _say_ready(self, after_s: float) -> None:
@@ -216,6 +213,10 @@ class Supervisor:
         for child in reversed(self._children):
             child.stop(PATIENCE_S)
             self._sockets.forget(child.name)
+
+
+def _is_of_ros2(settings: LaunchSettings, robot: RobotDescription) -> bool:
+    return robot.ros2 is not None and not settings.twin
 
 
 def describe_base(settings: LaunchSettings, robot: RobotDescription) -> str:

@@ -97,3 +97,12 @@ def rest_of(
     told = [_whole(seen) for seen in observed if seen.step != "decide"]
     told = told or [_NO_OTHER_WAY]
     return AnswerPlan(text=told[-1])
+
+
+async def read_untouched(
+    request: ThinkRequest,
+) -> StepPlan | AnswerPlan | Clarify | Refuse | None:
+    """Return the built-in brain's reading of an order; None where something of it was done."""
+    if request.observed or request.exchanges:
+        return None
+    return (await OfflineBrain().think(request)).plan

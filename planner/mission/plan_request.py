@@ -18,7 +18,7 @@ from typing import Any
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
 from planner.brain.model_error_codes import reason, tell_failure
-from planner.brain.offline_brain import OfflineBrain
+from planner.brain.offline_brain import read_untouched
 from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
@@ -181,11 +181,11 @@ def _tell_down(error: BrainDown) -> Bilingual:
 
 async def _read_surely(request: ThinkRequest) -> StepPlan | None:
     """Return the built-in brain's plan of an order of which nothing was done; None: it has none."""
-    if request.observed or request.exchanges:
+    plan = await read_untouched(request)
+    if not isinstance(plan, StepPlan):
         return None
-    plan = (await OfflineBrain().think(request)).plan
-    runs = check_plan(plan, request.vocabulary, request.runnable, request.blind) is None
-    return plan if isinstance(plan, StepPlan) and runs else None
+    rejection = check_plan(plan, request.vocabulary, request.runnable, request.blind)
+    return plan if rejection is None else None
 
 
 def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:

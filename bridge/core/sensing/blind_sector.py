@@ -79,17 +79,17 @@ def watch_sectors(
                 enclosed |= _bits(run, count)
     if not (bounded or had.dead):
         return SectorMemory(count, alive, 0, points)
-    missed = 0
-    if bounded:
-        first = middles[0]
-        missed = bounded & _expected_bins(points, lidar_in_odom, first, picture, travelled_m, count)
+    missed = bounded and bounded & _expected_bins(
+        points, lidar_in_odom, middles[0], picture, travelled_m, count
+    )
     recent = tuple(one for one in (*had.recent, (now_s, missed)) if now_s - one[0] <= RECENT_S)
     lasting = missed if now_s - recent[0][0] >= SEEN_S - 1e-6 else 0
     for _, mask in recent:
         lasting &= mask
+    dead = had.dead
     for run in runs(lasting, count, least):
-        had = SectorMemory(count, 0, had.dead | _bits(run, count))
-    dead = had.dead & silent
+        dead |= _bits(run, count)
+    dead &= silent
     blind = dead | (enclosed & ~alive)
     widths = [
         (blind & _toward(way_rad, middles)).bit_count() * tau / count for way_rad in (0.0, pi)

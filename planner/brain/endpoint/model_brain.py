@@ -14,11 +14,11 @@ from planner.brain.endpoint.image_client import EndpointLooker, LayOut, Shrink
 from planner.brain.endpoint.line import Line
 from planner.brain.endpoint.plan_draft import Drafting
 from planner.brain.endpoint.plan_reply import Planned, Unusable, clean, judge
-from planner.brain.endpoint.reply_truth import find_untruth
+from planner.brain.endpoint.reply_truth import find_untruth, only_talks
 from planner.brain.errors import BadPlan
 from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.brain.model_replies import ReplyCollector, ReplyTurn
-from planner.brain.offline_brain import OfflineBrain
+from planner.brain.offline_brain import read_untouched
 from planner.brain.prompt import Prompt
 from planner.brain.schema import Message, schema_of
 from planner.brain.streamed_draft import Draft, Hear
@@ -123,17 +123,15 @@ class EndpointBrain:
         told = None if hear is None else Drafting(request.vocabulary, request.runnable, hear)
         first = await self._asker.ask(messages, schema, end_s, told)
         plan = _without_vain_offers(self._plan_of(first, request), request)
-        begun = bool(request.observed or request.exchanges)
-        reading = None if begun else (await OfflineBrain().think(request)).plan
-        plan = self._held_to_truth(plan, reading, request, messages)
+        plan = await self._held_to_truth(plan, request, messages)
         self._keep(request, _turn_of(request), first, plan)
         if not isinstance(plan, Unusable):
             return self._make_result(plan, 1, first.tokens)
         log.info("%s wrote no plan, asked again: %s", self._tag.name, plan)
         again = [*messages, *self._prompt.repair(first.text, plan.reasons)]
         second = await self._asker.ask(again, schema, end_s, told, again=True)
-        mended = self._held_to_truth(
-            self._plan_of(second, request), reading, request, messages, mended=True
+        mended = await self._held_to_truth(
+            self._plan_of(second, request), request, messages, mended=True
         )
         self._keep(request, ReplyTurn.REPAIR, second, mended)
         if isinstance(mended, Unusable):
@@ -141,10 +139,9 @@ class EndpointBrain:
             raise BadPlan(f"asked twice: {mended}"[:400], calls=2, tokens=cost, code=mended.code)
         return self._make_result(mended, 2, first.tokens + second.tokens)
 
-    def _held_to_truth(
+    async def _held_to_truth(
         self,
         plan: Planned | Unusable,
-        reading: Planned | None,
         request: ThinkRequest,
         messages: list[Message],
         *,
@@ -153,6 +150,7 @@ class EndpointBrain:
         """Return why a plan is not to be told or done, where it is one and there is a reason."""
         if isinstance(plan, Unusable):
             return plan
+        reading = await read_untouched(request) if only_talks(plan) else None
         instructions = messages[0]["content"]
         return find_untruth(plan, reading, request, instructions, mended=mended) or plan
 

@@ -46,14 +46,15 @@ def find_untruth(
 
     Args:
         plan: what the model wrote.
-        grammar: the built-in brain's reading of the order, where nothing of it was done yet.
+        grammar: the built-in brain's reading of the order, where nothing of it was done yet;
+            asked for only of a reply that only talks.
         request: what the person said.
         instructions: what the model was told by us.
         mended: the model was told of a fault before. What it lets the robot say in another language
             is then what somebody may have asked for ("greet her in French").
     """
     language = request.language or language_of(request.order or request.text)
-    if _only_talks(plan) and (drives := _drives_of(grammar)):
+    if only_talks(plan) and (drives := _drives_of(grammar)):
         why = f"this order is to be done, and words move nothing: plan {', '.join(drives)}"
         return _unusable("only_words", why)
     for text in _texts(plan, language):
@@ -73,7 +74,8 @@ def _unusable(code: str, why: str) -> Unusable:
     return Unusable((why,), code)
 
 
-def _only_talks(plan: Planned) -> bool:
+def only_talks(plan: Planned) -> bool:
+    """Return whether a reply would have the robot say words and do nothing else."""
     steps = plan.steps if isinstance(plan, StepPlan) else ()
     return isinstance(plan, AnswerPlan) or (bool(steps) and all(s.kind == "say" for s in steps))
 

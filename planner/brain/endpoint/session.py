@@ -9,7 +9,6 @@ from __future__ import annotations
 import logging
 import time
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from planner.brain.endpoint.completion import ModelReply, is_too_long, read_reply, why_down
 from planner.brain.endpoint.dialect import (
@@ -28,9 +27,6 @@ from planner.brain.image_questions import NotSent
 from planner.brain.response_format import PLAN_FORM, ReplyForm
 from planner.brain.schema import Message
 from planner.settings import ModelSettings
-
-if TYPE_CHECKING:
-    pass
 
 log = logging.getLogger(__name__)
 
