@@ -13,7 +13,6 @@ from planner.language.commands.parser import intent_of
 from planner.language.folding import has_chinese
 from planner.language.grammar import plan
 from planner.language.grammar.sentence_text import normalise
-from planner.language.grammar.zh.asides import DOES
 from planner.language.object_classes import KINDS
 from planner.language.object_names import canonical
 from planner.language.stop import StopReading, is_stop, read_stop
@@ -50,8 +49,13 @@ last first s
 """
 _CLOSED = frozenset(_WORDS.split())
 """Words that a sentence needs for itself: its frame, its questions, its cries and its times."""
+_DOES = (
+    r"做饭|做菜|做作业|写|炒菜|煮|烧|切菜|吃饭|吃|喝|睡觉|睡|午睡|洗|打扫|扫地|拖地|擦|收拾|整理|忙|工作|[上下]班|加班|[上下]课|上学|上网|上厕所"
+    r"|开会|考试|学习|休息|玩|打电话|打游戏|打牌|练|弹琴|画画|看书|看片|追剧|直播|拍|化妆|换|出门|出差|出发|出去|起床|运动|健身|锻炼|赶|晒|浇"
+    r"|遛狗|买菜|接电话|搬|装修|哭|闹|聊天|听课|听歌|照顾"
+)
 _CLOSED_ZH = re.compile(
-    rf"(?:{DOES}|什么|哪[里儿个]?|谁|怎么样?|为什么|几|多少|几点|时间|电池|电量|每[天周月年]|[今明昨后][天晚]"
+    rf"(?:{_DOES}|什么|哪[里儿个]?|谁|怎么样?|为什么|几|多少|几点|时间|电池|电量|每[天周月年]|[今明昨后][天晚]"
     r"|早上|上午|中午|下午|晚上|夜里|现在|马上|所有|全部|大家|东西|地方|小心|危险|救命|[啊哎喂嘿哦嗯]"
     r"|[一二三四五六七八九十]|星期|周末|时候|外面)+"
 )

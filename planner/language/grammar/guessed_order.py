@@ -20,7 +20,7 @@ from planner.language.commands import intent_of
 from planner.language.grammar.checks import withholds_offers, without_compounds
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.plain_words import asks_whether
+from planner.language.grammar.questions_whether import asks_whether
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.intent.features import MOST_UNITS, units_of
 from planner.language.intent.intent_model import THING, WORDS, load_intent_model

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.asides import answer_praise
 from planner.language.grammar.branch_words import plain_branches
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
 from planner.language.grammar.clauses import (
@@ -27,7 +26,6 @@ from planner.language.grammar.clauses import (
 from planner.language.grammar.compound import read_compound
 from planner.language.grammar.compound_forms import PartReaders
 from planner.language.grammar.context import NOWHERE, Context
-from planner.language.grammar.each_room import say_in_each_room
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
@@ -49,14 +47,8 @@ from planner.language.grammar.parse_result import (
     TopicQuestion,
     read_by,
 )
-from planner.language.grammar.plain_words import (
-    asks_whether,
-    end_anyhow,
-    in_other_words,
-    read_in_order_words,
-    without_sending,
-)
 from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
+from planner.language.grammar.questions_whether import asks_whether
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
     mend,
@@ -105,35 +97,23 @@ def plan(
     refused = refused or refuse_long_text(text)
     if refused is not None:
         return refused
-    made = read_in_order_words(text, vocabulary, lambda said: _plan(said, vocabulary, context))
+    made = _read_sentence(text, vocabulary, context)
     if isinstance(made, Refuse):
-        return tell_unread(made, text, lambda said: _plan(said, vocabulary, context))
+        return tell_unread(made, text, lambda said: _read_sentence(said, vocabulary, context))
     return made
 
 
-def _plan(
+def _read_sentence(
     text: str, vocabulary: Vocabulary, context: Context
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
-    text = say_in_each_room(end_anyhow(text), vocabulary)
-    text = in_one_condition(text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context))
-    made = _plan_as_said(without_sending(text), vocabulary, context)
-    if isinstance(made, StepPlan | AnswerPlan) or made.code not in _READ_ANEW:
-        return made
-    second: StepPlan | AnswerPlan | Clarify | Refuse | None = None
-    asked: Clarify | None = None
-    for said in in_other_words(text, vocabulary, plainer=made.code in _READ_AGAIN):
-        second = _plan_as_said(said, vocabulary, context)
-        if isinstance(second, StepPlan):
-            break
-        if isinstance(second, Clarify) and second.code is Code.INCOMPLETE:
-            asked = asked or second  # of what is asked for, all else is read
-    if not isinstance(second, StepPlan):
-        guessed = _guess(made, text, vocabulary, context)
-        lost = isinstance(guessed, Clarify) and guessed.code is Code.NOT_UNDERSTOOD
-        offers = isinstance(guessed, Clarify) and guessed.options
-        return (answer_praise(text) or asked or guessed) if lost and not offers else guessed
-    missing = made.code is Code.INCOMPLETE  # what is asked for is not guessed, but "the rounds"
-    return made if missing and not _has_rounds_alone(second) else second
+    """Return the plan of a sentence, or what may be meant by it as one offer."""
+    joined = in_one_condition(
+        text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context)
+    )
+    made = _plan_as_said(joined, vocabulary, context)
+    return (
+        made if isinstance(made, StepPlan | AnswerPlan) else _guess(made, text, vocabulary, context)
+    )
 
 
 def _guess(
@@ -152,14 +132,6 @@ def _guess(
     )
 
 
-def _has_rounds_alone(plan: StepPlan) -> bool:
-    """Tell whether a plan does nothing but rounds, repeated or not."""
-    inner = [
-        s for step in plan.steps for s in (step.steps if isinstance(step, Repeat) else (step,))
-    ]
-    return all(isinstance(step, Patrol) for step in inner)
-
-
 def _is_round(plan: StepPlan) -> bool:
     """Tell whether a plan begins with steps that are done so many times."""
     return isinstance(plan.steps[0], Repeat)
@@ -168,17 +140,6 @@ def _is_round(plan: StepPlan) -> bool:
 def _has_patrol(plan: StepPlan) -> bool:
     """Tell whether a plan drives round by itself."""
     return any(isinstance(step, Patrol) for step in plan.steps)
-
-
-_READ_AGAIN = frozenset(
-    {
-        Code.NOT_UNDERSTOOD, Code.UNKNOWN_PLACE, Code.NO_CAPABILITY, Code.INCOMPLETE,
-        Code.CONDITIONAL, Code.AMBIGUOUS,
-    }
-)  # fmt: skip
-
-_READ_ANEW = _READ_AGAIN | {Code.NEGATED, Code.OUT_OF_SCOPE}
-"""Without what is said around the order: "I can't get up, go …" denies nothing of it."""
 
 
 def _plan_as_said(

@@ -109,17 +109,6 @@ def test_there_is_where_the_order_drives_to(home: Vocabulary) -> None:
 
 
 @pytest.mark.parametrize(
-    "stays",
-    ["go and wait in there", "go there and wait", "go in there and wait", "go in and stay",
-     "wait in there", "go there and wait there"],
-)  # fmt: skip
-def test_a_bare_wait_at_a_place_is_to_go_there_and_stay(home: Vocabulary, stays: str) -> None:
-    made = branch(f"if there's nobody in the study {stays}, otherwise dock", home)
-    assert made.otherwise == (GoTo(place="study"),)
-    assert made.then == (GoTo(place="charging_dock"),)
-
-
-@pytest.mark.parametrize(
     "state", ["somebody is sleeping", "Mum is asleep", "my son's still up", "I tell you otherwise"]
 )
 def test_a_state_that_no_eye_tells_is_refused(home: Vocabulary, state: str) -> None:

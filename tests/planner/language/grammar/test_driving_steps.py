@@ -122,7 +122,7 @@ def test_a_spin_is_whole(text: str, degrees_told: list[int]) -> None:
     assert turned == degrees_told
 
 
-@pytest.mark.parametrize("words", ["we all love Nan", "good luck in the kitchen"])
+@pytest.mark.parametrize("words", ["we all love Nan", "good luck"])
 def test_names_are_said_as_they_are_written(words: str) -> None:
     made = plan(f"say {words}", HOME)
     assert isinstance(made, StepPlan)

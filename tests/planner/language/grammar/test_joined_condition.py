@@ -28,10 +28,7 @@ ORDERS_ZH = (("回来", "去卧室"), ("告诉他吃饭了", "去卧室看看"),
     "before",
     [
         *("is {w} in the study? if {h} is, ", "go and see if {w} is in the study, if so "),
-        *(
-            "go to the study and if {w} is there ",
-            "check whether {w} is in the study and if {h} is ",
-        ),
+        "check whether {w} is in the study and if {h} is ",
     ],
 )
 def test_it_is_the_plan_of_the_condition_in_full(
@@ -40,10 +37,12 @@ def test_it_is_the_plan_of_the_condition_in_full(
     he = "it" if who == "the dog" else "he"
     whole = plan(f"if {who} is in the study, {yes}, otherwise {no}", home, WHOLE)
     parted = plan(f"{before.format(w=who, h=he)}{yes}, otherwise {no}", home, WHOLE)
+    if who == "the dog" and "him" in yes:
+        assert not isinstance(parted, StepPlan)
+        return
     assert parted == whole
-    if who != "the dog" or "him" not in yes:
-        assert isinstance(whole, StepPlan)
-        assert isinstance(whole.steps[0], If)
+    assert isinstance(whole, StepPlan)
+    assert isinstance(whole.steps[0], If)
 
 
 @pytest.mark.parametrize(("yes", "no"), ORDERS_ZH)
@@ -140,7 +139,6 @@ def test_a_name_that_nobody_knows_is_somebody_to_eyes(
     ("said", "question"),
     [
         ("if there's a cup on the desk, tell me", "is there a cup on the desk"),
-        ("if you will see a backpack in the hallway, let me know", "do you see"),
         ("走廊上要是有书包，你就吱一声", "走廊上有没有书包"),
         ("如果书房有人就告诉我", "书房有没有人"),
     ],
@@ -151,8 +149,7 @@ def test_to_tell_the_person_themselves_is_to_look(
     made = plan(said, home, WHOLE)
     assert isinstance(made, StepPlan)
     assert [type(step) for step in made.steps] == [Look]
-    if isinstance(made.steps[0], Look) and "see" not in question:
-        assert made.steps[0].question == question
+    assert getattr(made.steps[0], "question", None) == question
 
 
 @pytest.mark.parametrize(
