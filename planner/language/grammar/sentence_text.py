@@ -75,35 +75,51 @@ _CJK = rf"[{CHINESE}。、]"
 _CJK_GAP = re.compile(rf"(?<={_CJK})\s+|\s+(?={_CJK})")
 _IN_BRACKETS = re.compile(r"\(([^()\d]+)\)")
 _HYPHEN = re.compile(r"(?<=[a-z])[-_](?=[a-z])")
-_CONTRACTIONS = (
-    (re.compile(r"\bcan'?t\b"), "can not"),
-    (re.compile(r"\bwon'?t\b"), "will not"),
-    (re.compile(r"\b(do|does|did|is|are|would|could|should|must)n'?t\b"), r"\1 not"),
-    (re.compile(r"\b(what|where|who|how)'?s\b"), r"\1 is"),
-    (re.compile(r"\b(there|here|(?:no|some|any|every)(?:body|one))'s\b"), r"\1 is"),
-    (
-        re.compile(r"(?<=[a-z])'s (?=(?:in|at|on|not|there|here|asleep|awake|gone|home|ready)\b)"),
-        " is ",
-    ),
-    (re.compile(r"\b(they|we)'re\b"), r"\1 are"),
-    (re.compile(r"\blet's\b"), "let us"),
-    (re.compile(r"\bi'd\b"), "i would"),
-    (re.compile(r"\bi'm\b"), "i am"),
-    (re.compile(r"\byou're\b"), "you are"),
+_CONTRACTION = re.compile(
+    r"\b(?P<can>can'?t)\b|\b(?P<will>won'?t)\b|\b(?P<let>let's)\b"
+    r"|\b(?P<denied>do|does|did|is|are|would|could|should|must)n'?t\b"
+    r"|\b(?P<asked>what|where|who|how)'?s\b|\b(?P<there>there|here|(?:no|some|any|every)(?:body|one))'s\b"
+    r"|(?<=[a-z])(?P<stands>'s) (?=(?:in|at|on|not|there|here|asleep|awake|gone|home|ready)\b)"
+    r"|\b(?P<are>they|we|you)'re\b|\bi(?P<i>'d|'m)\b"
 )
+_WRITTEN_OUT = {
+    "can": "can not",
+    "will": "will not",
+    "let": "let us",
+    "denied": "{} not",
+    "asked": "{} is",
+    "there": "{} is",
+    "stands": " is ",
+    "are": "{} are",
+}
+
+
+def _write_out(found: re.Match[str]) -> str:
+    kind = found.lastgroup or ""
+    if kind == "i":
+        return "i would" if found["i"] == "'d" else "i am"
+    return _WRITTEN_OUT[kind].format(found[kind])
+
+
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "“": '"', "”": '"', "「": '"', "」": '"'})
 
 
 def normalise(text: str) -> str:
     """Return the sentence in one form of writing; the same words always give the same form."""
+    return _normalised(text) if len(text) <= MAX_CHARACTERS else _write_plainly(text)
+
+
+def _write_plainly(text: str) -> str:
     folded = fold(text).translate(_QUOTES)
     shown = "".join(char for char in folded if unicodedata.category(char) != "Cf")
-    plain = _HYPHEN.sub(" ", shown)
-    for pattern, words in _CONTRACTIONS:
-        plain = pattern.sub(words, plain)
+    plain = _CONTRACTION.sub(_write_out, _HYPHEN.sub(" ", shown))
     whole = " ".join(_CJK_GAP.sub("", plain).split())
     inside = _IN_BRACKETS.fullmatch(whole)
     return inside[1] if inside else whole
+
+
+_normalised = lru_cache(maxsize=1024)(_write_plainly)
+"""A sentence's readers and the names of a site ask for the same texts again and again."""
 
 
 def squash(name: str) -> str:

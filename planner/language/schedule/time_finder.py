@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
@@ -26,6 +27,7 @@ class FoundTime:
     at: int = 0
 
 
+@lru_cache(maxsize=512)
 def first_parts(folded: str, grammar: ModuleType) -> FoundTime:
     """Return the parts of a time that a text begins with."""
     parts: tuple[Part, ...] = ()
