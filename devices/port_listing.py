@@ -19,8 +19,8 @@ _PHANTOM_TYPE = "0"
 _GROUP_MAY = stat.S_IRGRP | stat.S_IWGRP
 _NO_DEVICE = ("rfcomm", "ttyprintk")
 PORT_TAKERS = ("brltty", "gpsd", "ModemManager")
-"""brltty takes adapters that braille displays use, too, and no port is left; gpsd opens what may be a
-receiver; ModemManager questions what may be a modem."""
+"""brltty takes adapters that braille displays use, too, and no port is left; gpsd opens what may be
+a receiver; ModemManager questions what may be a modem."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -78,7 +78,7 @@ CODES: Final[dict[str, tuple[str, str]]] = {
         "ModemManager 正在运行并会询问新端口：请安装 deploy/pi/70-pons.rules",
     ),
     "port_brltty": (
-        "brltty runs and takes CH340, CP210x and FTDI away: remove it, and plug the adapter in anew",
+        "brltty runs and takes CH340, CP210x and FTDI away: remove it, then plug in again",
         "brltty 正在运行，会占走 CH340、CP210x、FTDI 转接器，端口随之消失：请卸载它，然后重新插入",
     ),
     "port_gpsd": (
