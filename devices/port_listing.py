@@ -18,6 +18,9 @@ _PHANTOM_TYPE = "0"
 """Of a ttyS* that the 8250 driver keeps ready though no such chip is there."""
 _GROUP_MAY = stat.S_IRGRP | stat.S_IWGRP
 _NO_DEVICE = ("rfcomm", "ttyprintk")
+PORT_TAKERS = ("brltty", "gpsd", "ModemManager")
+"""brltty takes adapters that braille displays use, too, and no port is left; gpsd opens what may be
+a receiver; ModemManager questions what may be a modem."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,12 +117,10 @@ def find_holders(path: Path, root: Path = ROOT) -> tuple[PortHolder, ...]:
     return tuple(found)
 
 
-def find_modem_manager(root: Path = ROOT) -> PortHolder | None:
-    """Return the ModemManager that runs here: it opens and questions ports that are new."""
-    for folder in (root / "proc").glob("[0-9]*"):
-        if _text(folder / "comm") == "ModemManager":
-            return PortHolder(int(folder.name), "ModemManager")
-    return None
+def find_port_takers(root: Path = ROOT) -> tuple[str, ...]:
+    """Return which programs run here that take new ports for something else, by name."""
+    running = {_text(folder / "comm") for folder in (root / "proc").glob("[0-9]*")}
+    return tuple(name for name in PORT_TAKERS if name in running)
 
 
 def _entry(

@@ -10,7 +10,7 @@ import errno
 import re
 from dataclasses import dataclass
 from itertools import islice
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 from maps.errors import BilingualError, SiteError
 from maps.file_errors import system_reason_zh, too_long_zh
@@ -61,14 +61,28 @@ def read_image(path: Path) -> tuple[bytes, GreyImage]:
         if error.errno == errno.EFBIG:
             zh = f"{path}：{too_long_zh(MOST_IMAGE_BYTES)}"
             raise SiteError("map_image_too_large", f"{path}: {error.strerror}", zh) from error
-        there = sorted(p.name for p in path.parent.glob("*.p[gn][mg]") if p.is_file())
-        others = ", ".join(there)
         text = f"the map's image {path} cannot be read ({error.strerror})"
-        why = system_reason_zh(error)
-        zh = f"无法读取地图图像 {path}（{why}）；那里的图像：{others or '无'}"
-        text = f"{text}; images there: {others or 'none'}"
-        raise SiteError("map_image_missing", text, zh) from error
+        zh = f"无法读取地图图像 {path}（{system_reason_zh(error)}）"
+        folder = next((folder for folder in path.parents if folder.is_dir()), path.parent)
+        beside, beside_zh = images_in(folder, path.name)
+        raise SiteError("map_image_missing", f"{text}; {beside}", f"{zh}；{beside_zh}") from error
     return data, decode(data, path)
+
+
+def images_in(folder: Path, wanted: str) -> tuple[str, str]:
+    """Return which images lie in a folder, and which one is meant, in English and Chinese."""
+    there = sorted(
+        one.name
+        for one in folder.iterdir()
+        if one.suffix.lower() in {".pgm", ".png"} and one.is_file()
+    )
+    names = ", ".join(there)
+    en, zh = f"images in {folder}: {names or 'none'}", f"{folder} 中的图像：{names or '无'}"
+    wanted = PureWindowsPath(wanted).name.lower()  # which knows either slash
+    meant = next((name for name in there if name.lower() == wanted), None)
+    if meant is not None and not (folder / meant).is_symlink():  # a link may lead out of the folder
+        en, zh = f"{en}; write 'image: {meant}'", f"{zh}；请写作'image: {meant}'"
+    return en, zh
 
 
 def decode(data: bytes, where: Path) -> GreyImage:

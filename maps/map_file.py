@@ -21,7 +21,7 @@ from pydantic_core import PydanticCustomError
 
 from maps.errors import SiteError
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
-from maps.image import GreyImage, read_image
+from maps.image import GreyImage, images_in, read_image
 from maps.yaml_records import SiteRecord, parse_yaml, read_bytes, validate_record
 from wire.fingerprint import map_id
 from wire.site_map import MOST_MAP_BYTES, image_in, image_name
@@ -203,8 +203,10 @@ def _image_path(path: Path, text: bytes, record: MapRecord) -> Path:
     try:
         return image_in(path.parent, record.image)
     except ValueError as error:
-        detail = f"{path}: image {record.image!r}: {error}"
+        beside, beside_zh = images_in(path.parent, record.image)
+        detail = f"{path}: image {record.image!r}: {error}; {beside}"
         zh = f"{path}：图像 {record.image!r} 不在站点文件夹 {path.parent} 内，或文件名不可用"
+        zh = f"{zh}；{beside_zh}"
         raise SiteError("map_image_outside", detail, zh) from error
 
 

@@ -19,7 +19,7 @@ from maps.cell_array import cell_array
 from maps.errors import SiteError
 from maps.file_errors import unwritable
 from maps.grid import FREE, OCCUPIED, UNKNOWN, GridMap
-from maps.map_file import SAVED_UNKNOWN
+from maps.map_file import SAVED_UNKNOWN, LoadedMap
 from maps.room_proposals import ROOMS_JSON, RoomProposal, RoomProposals
 from maps.rooms import propose_rooms
 from maps.site_fence import draw_fence, floor_around
@@ -92,7 +92,7 @@ def new_site(
             ``map_too_ragged``.
     """
     grid = loaded.grid
-    home = _home(grid, radius_m, start)
+    home = _home(loaded, radius_m, start)
     floor = floor_around(grid, home.x_m, home.y_m)
     picture = map_picture(grid)
     text = map_yaml(grid)
@@ -117,7 +117,8 @@ def new_site(
     return NewSite(files, home, rooms)
 
 
-def _home(grid: GridMap, radius_m: float, start: Pose2 | None) -> Pose2:
+def _home(loaded: LoadedMap, radius_m: float, start: Pose2 | None) -> Pose2:
+    grid = loaded.grid
     padded = np.pad((cell_array(grid) == FREE).astype(np.uint8), 1)
     room = cv2.distanceTransform(padded, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)[1:-1, 1:-1]
     clearance_m = (np.asarray(room, np.float64) - 0.5) * grid.resolution_m
@@ -130,12 +131,13 @@ def _home(grid: GridMap, radius_m: float, start: Pose2 | None) -> Pose2:
             return Pose2(0.0, 0.0, 0.0)
     row, column = divmod(int(clearance_m.argmax()), grid.width)
     if not clearance_m[row, column] >= radius_m:
-        raise _no_floor(grid, radius_m)
+        raise _no_floor(loaded, radius_m)
     x_m, y_m = grid.centre_of(column, row)
     return Pose2(round(x_m, 3), round(y_m, 3), 0.0)
 
 
-def _no_floor(grid: GridMap, radius_m: float) -> SiteError:
+def _no_floor(loaded: LoadedMap, radius_m: float) -> SiteError:
+    grid = loaded.grid
     counts = np.bincount(cell_array(grid).reshape(-1), minlength=3)
     free, occupied, unknown = (100.0 * float(counts[k]) / counts.sum() for k in _GREYS)
     size = f"{grid.width} x {grid.height}"
@@ -146,11 +148,12 @@ def _no_floor(grid: GridMap, radius_m: float) -> SiteError:
     zh = (
         f"地图上没有半径 {radius_m} 米的空地：{size} 个栅格中空地 {free:.0f}%，障碍 {occupied:.0f}%"
     )
-    return SiteError(
-        "map_no_floor",
-        f"{text}; are resolution, negate and thresholds right? Transparent pixels are unknown",
-        f"{zh}，未知 {unknown:.0f}%；请检查 resolution、negate 和阈值；透明像素算作未知",
-    )
+    cure = "are resolution, negate and thresholds right? Transparent pixels are unknown"
+    cure_zh = "请检查 resolution、negate 和阈值；透明像素算作未知"
+    if loaded.record.mode == "raw":
+        cure = "by mode: raw greys are percents and over 100 unknown; a picture is mode: trinary"
+        cure_zh = "mode: raw 把灰度当作百分数，大于 100 为未知；一般图片应写 mode: trinary"
+    return SiteError("map_no_floor", f"{text}; {cure}", f"{zh}，未知 {unknown:.0f}%；{cure_zh}")
 
 
 def map_picture(grid: GridMap) -> bytes:

@@ -65,6 +65,12 @@ def describe_syntax(text: str, error: ValueError) -> str:
     return f"{said}{_key_of(line)}: not understood from {met} on"
 
 
+def find_broken_line(error: BaseException) -> str:
+    """Return where a text is no TOML, in brackets and without a word of it; '' where unknown."""
+    at = _PLACE.search(str(error))
+    return f" (line {at[1]})" if at else ""
+
+
 def show_value(value: object) -> str:
     """Return a value as it may be repeated: short, one line, no table's content, no password."""
     if isinstance(value, dict):

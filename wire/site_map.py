@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF8
 from typing import TYPE_CHECKING
 
 from wire.errors import ConfigError
@@ -22,7 +23,7 @@ _IMAGE = re.compile(rb"^image:[ \t]*['\"]?([^'\"#\r\n]+?)['\"]?[ \t]*(?:#.*)?\r?
 
 def image_name(text: bytes) -> str | None:
     """Return what the text of a map.yaml names as its image; None where it names nothing."""
-    named = _IMAGE.search(text)
+    named = _IMAGE.search(text.removeprefix(BOM_UTF8))  # Notepad's; YAML reads past it, too
     return None if named is None else named[1].decode("utf-8", "replace")
 
 

@@ -36,7 +36,7 @@ class SectorMemory:
     """Remember which directions of the lidar return something, in bins, each a bit of a mask."""
 
     bins: int = 0
-    """Of a turn, counted from the lidar's first beam."""
+    """Of a turn, counted in ``base``."""
     alive: int = 0
     """Those from which something has come since the start."""
     dead: int = 0

@@ -48,8 +48,8 @@ NOT_BUILT = """<!doctype html>
 <pre>pons say "go to the living room"
 pons say 去厨房
 pons stop</pre>
-<p><a href="/v1/robot">robot</a> · <a href="/v1/goals">goals</a> ·
-<a href="/v1/places">places</a> · <a href="/openapi.json">API</a></p>
+<p><a href="v1/robot">robot</a> · <a href="v1/goals">goals</a> ·
+<a href="v1/places">places</a> · <a href="openapi.json">API</a></p>
 </body></html>
 """
 

@@ -25,6 +25,7 @@ from planner.settings.presets import known_as
 from planner.settings.vision import VisionSettings, with_environment
 from planner.settings.voice import SpeechSettings, VoiceSettings
 from wire import ConfigError
+from wire.file_trouble import find_broken_line
 
 log = logging.getLogger(__name__)
 
@@ -143,10 +144,11 @@ def _tables(path: Path) -> dict[str, Any]:
     if len(raw) > MAX_BYTES:
         raise ConfigError("settings_malformed", f"{path} is over {MAX_BYTES} bytes")
     try:
-        return tomllib.loads(raw.decode())
-    except (ValueError, RecursionError):  # of a number of thousands of digits, too
-        # The parser's own words may quote the line that holds a key.
-        raise ConfigError("settings_malformed", f"{path} is no TOML in UTF-8") from None
+        return tomllib.loads(raw.decode("utf-8-sig"))
+    except (ValueError, RecursionError) as error:  # of a number of thousands of digits, too
+        # The parser's own words may quote the line that holds a key: its number alone is told.
+        place = find_broken_line(error)
+        raise ConfigError("settings_malformed", f"{path} is no TOML in UTF-8{place}") from None
 
 
 def _with_key(

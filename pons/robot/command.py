@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from devices.camera_listing import list_cameras
-from devices.port_listing import describe_port, find_modem_manager, list_ports
+from devices.port_listing import describe_port, find_port_takers, list_ports
 from pons.robot.port_finder import question_ports
 from pons_assets import RELAY
 from wire import load_robot
@@ -77,6 +77,14 @@ CODES: Final[dict[str, tuple[str, str]]] = {
         "ModemManager runs and questions new ports: deploy/pi/70-pons.rules keeps it away",
         "ModemManager 正在运行并会询问新端口：请安装 deploy/pi/70-pons.rules",
     ),
+    "port_brltty": (
+        "brltty runs and takes CH340, CP210x and FTDI away: remove it, then plug in again",
+        "brltty 正在运行，会占走 CH340、CP210x、FTDI 转接器，端口随之消失：请卸载它，然后重新插入",
+    ),
+    "port_gpsd": (
+        "gpsd runs and may open what is plugged in: sudo systemctl stop gpsd gpsd.socket",
+        "gpsd 正在运行，可能会打开新插入的设备：sudo systemctl stop gpsd gpsd.socket",
+    ),
     "camera_forbidden": (
         "you may not open it: sudo usermod -a -G video $USER, and log in anew",
         "无权打开：sudo usermod -a -G video $USER，然后重新登录",
@@ -87,6 +95,11 @@ CODES: Final[dict[str, tuple[str, str]]] = {
     ),
 }
 """What is said of a port, in English and Chinese; ``detail`` is the finding's."""
+_TAKERS: Final = {
+    "brltty": "port_brltty",
+    "gpsd": "port_gpsd",
+    "ModemManager": "port_modem_manager",
+}
 _FORBIDDEN_TO_ALL: Final = (
     "no group of users may open it: install deploy/pi/70-pons.rules; in a container add --device",
     "没有任何用户组有权打开：请安装 deploy/pi/70-pons.rules；在容器中请加 --device",
@@ -129,16 +142,16 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         print(f"listening at {names} …", file=sys.stderr, flush=True)
     found = question_ports(entries)
     cameras = [] if said.port else list_cameras()
-    has_modem_manager = bool(entries) and find_modem_manager() is not None
+    takers = find_port_takers()
     if said.json:
         content = {
             "ports": [_record(one) for one in found],
-            "modem_manager": has_modem_manager,
+            "port_takers": takers,
             "cameras": [_camera_record(one) for one in cameras],
         }
         print(json.dumps(content, ensure_ascii=False, indent=1))
     else:
-        lines = list(describe(found, has_modem_manager=has_modem_manager))
+        lines = list(describe(found, takers))
         lines += describe_cameras(cameras)
         parts = list(robot_part(found))
         head = [] if parts or not cameras else ["", HEAD]
@@ -146,7 +159,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
     return EXIT_FOUND if cameras or any(one.answer for one in found) else EXIT_NOTHING
 
 
-def describe(found: Sequence[PortFinding], *, has_modem_manager: bool = False) -> Iterator[str]:
+def describe(found: Sequence[PortFinding], takers: Sequence[str] = ()) -> Iterator[str]:
     """Yield the lines about ports, for a terminal."""
     if not found:
         yield from _explain("port_none")
@@ -158,8 +171,8 @@ def describe(found: Sequence[PortFinding], *, has_modem_manager: bool = False) -
             yield from _explain(one.code, one.detail)
         if one.entry.twins:
             yield from _explain("port_twins", ", ".join(map(str, one.entry.twins)))
-    if has_modem_manager:
-        yield from _explain("port_modem_manager")
+    for taker in takers:
+        yield from _explain(_TAKERS[taker])
 
 
 def robot_part(found: Sequence[PortFinding]) -> Iterator[str]:

@@ -60,6 +60,13 @@ def recipe(repository: Path, language: str) -> str:
     return str(found[0])
 
 
+def below_a_path(text: str, there: str, path_recipe: str) -> str:
+    """Return a recipe whose part from ``there`` to the end of its server is the one for a path."""
+    begin, end = text.index(there), text.rindex("}")
+    inner = "".join(f"    {line}\n" for line in path_recipe.splitlines())
+    return text[:begin] + inner.lstrip() + text[end:]
+
+
 def moved(text: str, home: Path, planner: int, port: int) -> str:
     """Return a recipe with this test's own ports, name and certificate; all else as it stands."""
     pair = home / "tls" / "planner.pem"
@@ -73,8 +80,11 @@ def moved(text: str, home: Path, planner: int, port: int) -> str:
     return text.replace("listen 443", f"listen 127.0.0.1:{port}").replace("robot.example", NAME)
 
 
-def nginx(repository: Path, home: Path, planner: int, port: int) -> list[str]:
-    inner = moved(recipe(repository, "nginx"), home, planner, port)
+def nginx(repository: Path, home: Path, planner: int, port: int, path: str) -> list[str]:
+    text = recipe(repository, "nginx")
+    if path:
+        text = below_a_path(text, "location /", recipe(repository, "nginx below"))
+    inner = moved(text, home, planner, port)
     places = "".join(
         f"{kind}_temp_path {home}/{kind};\n"
         for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
@@ -86,8 +96,11 @@ def nginx(repository: Path, home: Path, planner: int, port: int) -> list[str]:
     return ["nginx", "-p", str(home), "-e", str(home / "error.log"), "-c", str(file)]
 
 
-def caddy(repository: Path, home: Path, planner: int, port: int) -> list[str]:
-    text = moved(recipe(repository, "caddyfile"), home, planner, port)
+def caddy(repository: Path, home: Path, planner: int, port: int, path: str) -> list[str]:
+    text = recipe(repository, "caddyfile")
+    if path:
+        text = below_a_path(text, "reverse_proxy", recipe(repository, "caddyfile below"))
+    text = moved(text, home, planner, port)
     ours = f"{{\n    admin off\n    auto_https disable_redirects\n    https_port {port}\n"
     text = text.replace("{\n", ours, 1).replace(f"\n{NAME} {{", f"\n{NAME} {{\n    bind 127.0.0.1")
     file = home / "Caddyfile"
@@ -103,6 +116,8 @@ class Proxied:
     port: int
     trusted: ssl.SSLContext
     services: FakeServices
+    below: str
+    """The path below which the robot lies; empty: it has the whole name."""
 
     def ask(
         self, method: str, path: str, headers: dict[str, str] | None = None, body: bytes = b""
@@ -112,7 +127,9 @@ class Proxied:
         raw = socket.create_connection(("127.0.0.1", self.port), timeout=10.0)
         connection.sock = self.trusted.wrap_socket(raw, server_hostname=NAME)
         try:
-            connection.request(method, path, body or None, {"Host": NAME, **(headers or {})})
+            connection.request(
+                method, self.below + path, body or None, {"Host": NAME, **(headers or {})}
+            )
             answer = connection.getresponse()
             told = {key.lower(): value for key, value in answer.getheaders()}
             return answer.status, told, answer.read()
@@ -126,7 +143,7 @@ class Proxied:
         connection now and then, for the server's session tickets come just after the handshake.
         """
         return connect(
-            f"wss://{NAME}/v1/events",
+            f"wss://{NAME}{self.below}/v1/events",
             host="127.0.0.1",
             port=self.port,
             proxy=None,
@@ -138,14 +155,19 @@ class Proxied:
         )
 
 
-PROXIES: dict[str, Callable[[Path, Path, int, int], list[str]]] = {"nginx": nginx, "caddy": caddy}
+PROXIES: dict[str, Callable[[Path, Path, int, int, str], list[str]]] = {
+    "nginx": nginx,
+    "caddy": caddy,
+}
 
 
-@pytest.fixture(scope="module", params=sorted(PROXIES))
+@pytest.fixture(
+    scope="module", params=[(name, below) for name in PROXIES for below in ("", "/robot")]
+)
 def proxied(
     request: pytest.FixtureRequest, repository: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Proxied]:
-    name: str = request.param
+    name, below = request.param
     if shutil.which(name) is None:
         pytest.skip(f"no {name} here; docs/tls.md has its recipe")
     home = tmp_path_factory.mktemp(name)
@@ -154,7 +176,7 @@ def proxied(
     with ExitStack() as stack:
         planner = stack.enter_context(served(services))
         log = stack.enter_context((home / "proxy.log").open("wb"))
-        command = PROXIES[name](repository, home, planner, port)
+        command = PROXIES[name](repository, home, planner, port, below)
         environment = {"HOME": str(home), "PATH": "/usr/sbin:/usr/bin:/sbin:/bin"}
         process = subprocess.Popen(command, stdout=log, stderr=log, env=environment, cwd=home)
         try:
@@ -166,7 +188,7 @@ def proxied(
             )
             assert process.poll() is None, (home / "proxy.log").read_text()
             trusted = ssl.create_default_context(cafile=str(made.authority))
-            yield Proxied(name, port, trusted, services)
+            yield Proxied(name, port, trusted, services, below)
         finally:
             process.terminate()
             process.wait(10.0)
@@ -178,7 +200,9 @@ def listens(port: int) -> bool:
 
 
 def test_the_page_comes_and_an_order_needs_the_token(proxied: Proxied) -> None:
-    assert proxied.ask("GET", "/")[0] == 200
+    status, _, page = proxied.ask("GET", "/")
+    assert status == 200
+    assert not re.search(rb'(href|src)="/', page), "what the page names lies beside it"
     own = {"Origin": f"https://{NAME}"}
     order = json.dumps({"text": "go"}).encode()
     status, _, body = proxied.ask("POST", "/v1/goals", JSON, order)
@@ -236,7 +260,7 @@ def test_a_body_past_what_any_route_takes_ends_at_the_proxy(proxied: Proxied) ->
 def test_more_connections_than_a_person_opens_take_no_stop_away(proxied: Proxied) -> None:
     if proxied.name != "nginx":
         pytest.skip("Caddy caps no connections")
-    head = f"POST /v1/voice HTTP/1.1\r\nHost: {NAME}\r\nAuthorization: Bearer {TOKEN}\r\n"
+    head = f"POST {proxied.below}/v1/voice HTTP/1.1\r\nHost: {NAME}\r\nAuthorization: Bearer {TOKEN}\r\n"
     unfinished = f"{head}Content-Type: audio/wav\r\nContent-Length: 1000\r\n\r\n".encode()
     with ExitStack() as stack:
         for _ in range(60):

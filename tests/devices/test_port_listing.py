@@ -8,7 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from devices.port_listing import UsbIdentity, describe_port, find_modem_manager, list_ports
+from devices.port_listing import (
+    PORT_TAKERS,
+    UsbIdentity,
+    describe_port,
+    find_port_takers,
+    list_ports,
+)
 
 CP2102 = {"idVendor": "10c4", "idProduct": "ea60", "manufacturer": "Silicon Labs",
           "product": "CP2102", "serial": "0001"}  # fmt: skip
@@ -97,11 +103,10 @@ def test_who_holds_a_port_is_named(machine: Machine) -> None:
     (process / "fd/7").symlink_to(port)
     (found,) = list_ports(machine.root)
     assert [(one.pid, one.command) for one in found.holders] == [(812, "python -m bridge")]
-    assert find_modem_manager(machine.root) is None
-    (process / "comm").write_text("ModemManager\n")
-    modem = find_modem_manager(machine.root)
-    assert modem is not None
-    assert modem.pid == 812
+    assert find_port_takers(machine.root) == ()
+    for name in PORT_TAKERS:
+        (process / "comm").write_text(f"{name}\n")
+        assert find_port_takers(machine.root) == (name,)
 
 
 def test_a_port_named_by_a_person_is_described_though_the_kernel_tells_nothing(

@@ -382,8 +382,31 @@ def test_a_pixel_that_looks_like_a_comment_is_one(tmp_path: Path) -> None:
 def test_an_image_that_is_missing_is_told_with_those_that_are_there(tmp_path: Path) -> None:
     (tmp_path / "old.png").mkdir()
     error = refusal(write(tmp_path, {"image": "nowhere.pgm"}))
-    assert "images there: map.pgm" in error.message["en"]
-    assert "那里的图像：map.pgm" in error.message["zh"]
+    assert f"images in {tmp_path}: map.pgm" in error.message["en"]
+    assert f"{tmp_path} 中的图像：map.pgm" in error.message["zh"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["~/map.pgm", "sandbox/map.pgm", "/home/someone/maps/map.pgm", r"C:\maps\map.pgm", "MAP.pgm"],
+)
+def test_an_image_that_lies_beside_its_yaml_is_named_with_how_to_write_it(
+    tmp_path: Path, name: str
+) -> None:
+    there = "Map.PGM" if name == "MAP.pgm" else "map.pgm"
+    path = write(tmp_path, {"image": name})
+    (tmp_path / "map.pgm").rename(tmp_path / there)
+    error = refusal(path)
+    assert error.code in {"map_image_missing", "map_image_outside"}
+    assert f"images in {tmp_path}: {there}; write 'image: {there}'" in error.message["en"]
+    assert f"请写作'image: {there}'" in error.message["zh"]
+
+
+def test_a_byte_order_mark_before_the_yaml_is_read_past(tmp_path: Path) -> None:
+    path = write(tmp_path, {})
+    told = load_map(path).grid
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert load_map(path).grid == told
 
 
 def test_a_png_chunk_that_claims_two_gigabytes_is_refused_before_it_is_allotted(

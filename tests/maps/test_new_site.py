@@ -116,6 +116,14 @@ def test_what_a_map_without_room_holds_is_told(tmp_path: Path) -> None:
     told = refused.value.message
     assert "of 50 x 40 cells 1 % are free, 74 % occupied, 25 % unknown" in told["en"]
     assert "空地 1%，障碍 74%，未知 25%" in told["zh"]
+    assert "are resolution, negate and thresholds right?" in told["en"]
+    picture[picture == 0] = 254
+    yaml = written(tmp_path, picture)
+    yaml.write_text(f"{yaml.read_text()}mode: raw\n")
+    with pytest.raises(SiteError, match="map_no_floor") as refused:
+        new_site(load_map(yaml), RADIUS_M)
+    assert "a picture is mode: trinary" in refused.value.message["en"]
+    assert "mode: trinary" in refused.value.message["zh"]
 
 
 def test_a_persons_word_stands_in_the_pixels(tmp_path: Path) -> None:

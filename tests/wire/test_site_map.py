@@ -18,10 +18,12 @@ def test_it_is_the_wires_map_id(repository: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "line", ["image: a b.png", "image: 'a b.png' # north up", 'image: "a b.png"\r']
+    "line",
+    ["image: a b.png", "image: 'a b.png' # north up", 'image: "a b.png"\r', "\ufeffimage: a b.png"],
 )
 def test_quotes_and_comments_are_no_part_of_the_name(tmp_path: Path, line: str) -> None:
-    text = f"resolution: 0.05\n{line}\nnegate: 0\n".encode()
+    head = "" if line.startswith("\ufeff") else "resolution: 0.05\n"  # a mark begins the file
+    text = f"{head}{line}\nnegate: 0\n".encode()
     (tmp_path / "map.yaml").write_bytes(text)
     (tmp_path / "a b.png").write_bytes(b"picture")
     assert read_map_id(tmp_path) == map_id(text, b"picture")

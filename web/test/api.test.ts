@@ -37,6 +37,7 @@ describe("a refused token", () => {
 
   it("is asked for", async () => {
     vi.stubGlobal("sessionStorage", { setItem: () => undefined });
+    vi.stubGlobal("location", { pathname: "/" });
     setToken("wrong");
     answering(refused);
     expect(await code(fetchObjects())).toBe("token_needed");
@@ -45,6 +46,7 @@ describe("a refused token", () => {
 
   it("is not asked for again by an answer to what was sent before it was given", async () => {
     vi.stubGlobal("sessionStorage", { setItem: () => undefined });
+    vi.stubGlobal("location", { pathname: "/" });
     setToken("wrong");
     let answer: (late: Response) => void = () => undefined;
     vi.stubGlobal("fetch", () => new Promise<Response>((resolve) => (answer = resolve)));

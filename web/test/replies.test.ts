@@ -38,6 +38,7 @@ function answering(...made: (() => Response)[]): string[] {
 let asker = 0;
 beforeEach(() => {
   vi.stubGlobal("sessionStorage", { setItem: () => undefined });
+  vi.stubGlobal("location", { pathname: "/" });
   setToken(`token-${asker++}`); // each test is an asker whom nobody has turned away
 });
 afterEach(() => {
@@ -61,7 +62,7 @@ describe("what the model wrote", () => {
     const asked = answering(() => Response.json({ kept: 5, replies: [reply] }));
     expect(await fetchReplies("g 1")).toEqual([reply]);
     expect(await fetchReplies("g2")).toEqual([reply]);
-    expect(asked).toEqual(["/v1/goals/g%201/replies", "/v1/goals/g2/replies"]);
+    expect(asked).toEqual(["v1/goals/g%201/replies", "v1/goals/g2/replies"]);
   });
 
   it.each([

@@ -2,7 +2,8 @@
 
 Silence of some beams may be a black sofa, a mirror, an open door; those stay where they are while
 the robot turns and drives. A hole in the lidar turns with it. Two signs tell the two apart, both
-without a map, from bins of 3 degrees:
+without a map, from bins of 3 degrees, counted in ``base`` (a slow lidar's scans of its last 360
+degrees begin elsewhere each time):
 
 - what other beams, or the same a moment ago, saw returns nothing now, for 0.2 s: such a bin is
   dead until something comes back from it;
@@ -42,6 +43,9 @@ AHEAD_RAD = pi / 3
 COARSE_RAD = 0.045
 """Between two beams: 2.6 degrees, more than any lidar that Pons reads; told once."""
 
+CUTS = 8
+"""Places at which the scans of one lidar may begin in turn; more cost time, no truth."""
+
 Point = tuple[float, float, float]
 """x and y in ``odom`` [m], and the odometer's reading when it was seen [m]."""
 
@@ -62,10 +66,11 @@ def watch_sectors(
         return had
     if had.bins != count:
         had = SectorMemory(bins=count, points=(None,) * count)
-    far_m = _farthest(picture, count)
+    shift = round(picture.first_rad * count / tau) % count
+    far_m = _farthest(picture, count, shift)
     seen = sum(1 << index for index, far in enumerate(far_m) if far >= 0.0)
-    silent = _with_beams(picture.step_rad, picture.beams, count) & ~seen
-    middles = _middles(picture.first_rad, picture.step_rad, count)
+    silent = _with_beams(picture.step_rad, picture.beams, count, shift) & ~seen
+    middles = _middles(picture.first_rad, picture.step_rad, count, shift)
     lidar_in_odom = compose(picture.base_in_odom, Pose2(picture.lidar_x_m, picture.lidar_y_m, 0.0))
     points = _remember_points(had.points, far_m, middles, lidar_in_odom, travelled_m)
     alive = had.alive | seen
@@ -80,7 +85,7 @@ def watch_sectors(
     if not (bounded or had.dead):
         return SectorMemory(count, alive, 0, points)
     missed = bounded and bounded & _expected_bins(
-        points, lidar_in_odom, middles[0], picture, travelled_m, count
+        points, lidar_in_odom, middles, picture, travelled_m
     )
     recent = tuple(one for one in (*had.recent, (now_s, missed)) if now_s - one[0] <= RECENT_S)
     lasting = missed if now_s - recent[0][0] >= SEEN_S - 1e-6 else 0
@@ -129,12 +134,12 @@ def _bits(run: tuple[int, int], count: int) -> int:
     return sum(1 << (first + step) % count for step in range((last - first) % count + 1))
 
 
-def _farthest(picture: ScanPicture, count: int) -> list[float]:
+def _farthest(picture: ScanPicture, count: int, shift: int) -> list[float]:
     """Return the farthest return of each bin [m]; -1 where there is none."""
     far_m = [-1.0] * count
     high = picture.range_max_m
     for index, r in zip(
-        _bin_of(picture.step_rad, picture.beams, count), picture.ranges_m, strict=True
+        _bin_of(picture.step_rad, picture.beams, count, shift), picture.ranges_m, strict=True
     ):
         if r is not None and far_m[index] < r <= high:
             far_m[index] = r
@@ -162,13 +167,13 @@ def _remember_points(
 def _expected_bins(
     points: tuple[Point | None, ...],
     lidar_in_odom: Pose2,
-    first_rad: float,
+    middles: tuple[float, ...],
     picture: ScanPicture,
     travelled_m: float,
-    count: int,
 ) -> int:
     """Return the bins in which remembered points lie within reach, a bin to each side of each."""
     mask, nearest_m, farthest_m = 0, picture.range_min_m, 0.9 * picture.range_max_m
+    first_rad, count = middles[0], len(middles)
     for point in points:
         if point is None or travelled_m - point[2] > KEPT_M:
             continue
@@ -180,25 +185,30 @@ def _expected_bins(
     return mask
 
 
-@lru_cache(maxsize=8)
-def _bin_of(step_rad: float, beams: int, count: int) -> tuple[int, ...]:
-    """Return each beam's bin; bins begin half a step before beam 0."""
-    return tuple(floor((beam + 0.5) * step_rad * count / tau) % count for beam in range(beams))
+@lru_cache(maxsize=8 * CUTS)
+def _bin_of(step_rad: float, beams: int, count: int, shift: int) -> tuple[int, ...]:
+    """Return each beam's bin; ``shift`` is that of beam 0, half a step before which it begins."""
+    return tuple(
+        (shift + floor((beam + 0.5) * step_rad * count / tau)) % count for beam in range(beams)
+    )
 
 
-@lru_cache(maxsize=8)
-def _with_beams(step_rad: float, beams: int, count: int) -> int:
+@lru_cache(maxsize=8 * CUTS)
+def _with_beams(step_rad: float, beams: int, count: int, shift: int) -> int:
     """Return the bins in which the lidar has a beam."""
-    return sum(1 << index for index in set(_bin_of(step_rad, beams, count)))
+    return sum(1 << index for index in set(_bin_of(step_rad, beams, count, shift)))
 
 
-@lru_cache(maxsize=8)
-def _middles(first_rad: float, step_rad: float, count: int) -> tuple[float, ...]:
+@lru_cache(maxsize=8 * CUTS)
+def _middles(first_rad: float, step_rad: float, count: int, shift: int) -> tuple[float, ...]:
     """Return each bin's middle, in ``base``."""
-    return tuple(first_rad - step_rad / 2 + (index + 0.5) * tau / count for index in range(count))
+    first_rad -= step_rad / 2
+    return tuple(
+        first_rad + ((index - shift) % count + 0.5) * tau / count for index in range(count)
+    )
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=8 * CUTS)
 def _toward(way_rad: float, middles: tuple[float, ...]) -> int:
     """Return the bins near a way of the robot."""
     return sum(

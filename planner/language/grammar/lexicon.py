@@ -11,6 +11,7 @@ from collections import defaultdict
 from dataclasses import dataclass
 from functools import lru_cache
 
+from rapidfuzz import process
 from rapidfuzz.distance import OSA
 from rapidfuzz.fuzz import ratio
 
@@ -168,19 +169,16 @@ class Lexicon:
         key = squash(name)
         if len(key) > self._longest + 1 or not key.isascii() or not key.isalpha():
             return None
-        near = {
-            place
-            for spelling, places in self._ids.items()
-            for place in places
-            if OSA.distance(key, spelling, score_cutoff=_TYPO_ROOM) <= _TYPO_ROOM
-        }
-        sure = {
-            place
-            for spelling, places in self._ids.items()
-            for place in places
-            if place in near and _one_slip(name, self._spaced[spelling])
-        }
-        return next(iter(sure)) if len(sure) == 1 and near == sure else None
+        close = process.extract_iter(
+            key, self._ids.keys(), scorer=OSA.distance, score_cutoff=_TYPO_ROOM
+        )
+        near = {place for spelling, _, _ in close for place in self._ids[spelling]}
+        if len(near) != 1:  # of nearly every word of a sentence
+            return None
+        (only,) = near
+        spellings = (spelling for spelling, places in self._ids.items() if only in places)
+        slips = any(_one_slip(name, self._spaced[spelling]) for spelling in spellings)
+        return only if slips else None
 
     def own_name(self, entry: Entry) -> Bilingual:
         """Return a place's name, or its id in words where another place has the same name."""
@@ -197,14 +195,17 @@ class Lexicon:
         """Return the places whose names look most like an unknown one, for a person to choose."""
         key = squash(name[:80])
         scored: dict[str, float] = {}
+        letters = set(key)
+        alike = process.extract_iter(key, self._ids.keys(), scorer=ratio, score_cutoff=_NEAR)
+        close = {spelling: score for spelling, score, _ in alike}
         for spelling, places in self._ids.items():
-            score = ratio(key, spelling)
-            if not spelling.isascii() and set(key) & set(spelling):
-                score = max(score, _NEAR)  # one character of two is already near in Chinese
-            for place in places:
-                scored[place] = max(score, scored.get(place, 0.0))
-        best = sorted(scored, key=lambda place: -scored[place])
-        return tuple(place for place in best[:limit] if scored[place] >= _NEAR)
+            # One character of two is already near in Chinese.
+            shares = not spelling.isascii() and not letters.isdisjoint(spelling)
+            score = max(close.get(spelling, 0.0), _NEAR if shares else 0.0)
+            if score:
+                for place in places:
+                    scored[place] = max(score, scored.get(place, 0.0))
+        return tuple(sorted(scored, key=lambda place: -scored[place])[:limit])
 
 
 def _join(text: str, pieces: list[tuple[int, int]], at: int, after: int) -> str:

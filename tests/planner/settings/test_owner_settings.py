@@ -52,6 +52,10 @@ def test_a_model_by_file(tmp_path: Path) -> None:
     assert (found.allow_offhost, found.parallel) == (True, 1)
 
 
+def test_a_byte_order_mark_before_the_file_is_read_past(tmp_path: Path) -> None:
+    assert model(tmp_path, "\ufeff" + LOCAL) == model(tmp_path, LOCAL)
+
+
 def test_what_a_model_writes_is_kept_of_as_many_goals_as_are_set(tmp_path: Path) -> None:
     for more, goals in (("", 0), ("keep_replies = 1\n", 1), ("keep_replies = 200\n", 200)):
         found = model(tmp_path, LOCAL + more)
@@ -134,7 +138,8 @@ def test_a_key_stays_with_its_host(tmp_path: Path) -> None:
         (LOCAL + "keep_replies = -1\n", {}, "settings_malformed", "model.keep_replies"),
         (LOCAL + "keep_replies = true\n", {}, "settings_malformed", "model.keep_replies"),
         ("model = 3\n", {}, "settings_malformed", "table"),
-        ("[model\n", {}, "settings_malformed", "TOML"),
+        ("[model\n", {}, "settings_malformed", "TOML in UTF-8 (line 1)"),
+        (LOCAL + "key = “mine”\n", {}, "settings_malformed", "TOML in UTF-8 (line"),
         ("a = [" * 2000, {}, "settings_malformed", "TOML"),
         ("a = " + "9" * 5000, {}, "settings_malformed", "TOML"),
         ("# " + "x" * 70_000, {}, "settings_malformed", "bytes"),

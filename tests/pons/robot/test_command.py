@@ -11,7 +11,7 @@ from typing import cast
 import pytest
 
 from devices.camera_listing import CameraEntry
-from devices.port_listing import UsbIdentity
+from devices.port_listing import PORT_TAKERS, UsbIdentity
 from devices.port_probe import PortAnswer
 from pons.__main__ import main
 from pons.robot.command import CODES, camera_part, describe, describe_cameras, robot_part
@@ -83,13 +83,15 @@ def test_every_code_is_said_in_both_languages(code: str) -> None:
     assert any(ord(letter) > 0x2E80 for letter in chinese)
 
 
-def test_twins_and_modem_manager_are_told_and_nothing_moves_the_cursor() -> None:
+def test_twins_and_who_takes_ports_are_told_and_nothing_moves_the_cursor() -> None:
     usb = UsbIdentity("10c4", "ea60", "Ev\x1b[2Jil", "x", "1")
     one = PortFinding(entry(Path("/dev/x"), usb=usb, twins=(Path("/dev/y"),)), "port_silent")
-    said = "\n".join(describe([one], has_modem_manager=True))
+    said = "\n".join(describe([one], PORT_TAKERS))
     assert "port_twins" in said
     assert "/dev/y" in said
-    assert "port_modem_manager" in said
+    for code in ("port_modem_manager", "port_brltty", "port_gpsd"):
+        assert code in said
+        assert code in "\n".join(describe([], PORT_TAKERS)), "told where no port is left, too"
     assert "\x1b" not in said
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, cast
 from tools.bench import endpoint
 from tools.bench.measure import (
     base_frames,
+    blind_sector,
     brain_silent,
     brains_compared,
     chaos,
@@ -127,6 +128,7 @@ ALL: tuple[Measure, ...] = cast(
         costmap,
         memory_ticks,
         walls_and_people,
+        blind_sector,
         hostile_planner,
         tick_stress,
         flood,

@@ -1,4 +1,7 @@
-/** Ask the planner over HTTP. Every failure is an ApiError with a code; nothing is thrown raw. */
+/**
+ * Ask the planner over HTTP. Every failure is an ApiError with a code; nothing is thrown raw. Paths are
+ * relative to the page, which a proxy may serve below a path of its own.
+ */
 import type {
   Bilingual,
   Firing,
@@ -87,7 +90,7 @@ export async function giveGoal(
 ): Promise<Goal> {
   const body = { text, ...(replace ? { replace } : {}), ...withProof(operator) };
   const key = { "idempotency-key": newId("page") };
-  return (await call("POST", "/v1/goals", body, key)) as Goal;
+  return (await call("POST", "v1/goals", body, key)) as Goal;
 }
 
 export type Spoken = {
@@ -99,7 +102,7 @@ export type Spoken = {
 /** Give a goal by a recording; none where no order was heard surely enough. */
 export async function giveSpoken(wav: ArrayBuffer, confirm = false): Promise<Spoken> {
   const headers = { "content-type": "audio/wav", "idempotency-key": newId("page") };
-  const path = confirm ? "/v1/voice?confirm=true" : "/v1/voice";
+  const path = confirm ? "v1/voice?confirm=true" : "v1/voice";
   const heard = (await call("POST", path, wav, headers, HEARD_MS)) as {
     goal: Goal | null;
     outcome: { message: Bilingual | null };
@@ -114,12 +117,12 @@ export type Voice = {
 };
 
 export async function fetchVoice(): Promise<Voice> {
-  return (await call("GET", "/v1/voice")) as Voice;
+  return (await call("GET", "v1/voice")) as Voice;
 }
 
 /** Break off what the robot itself is saying. */
 export async function hushRobot(): Promise<void> {
-  await call("POST", "/v1/voice/hush");
+  await call("POST", "v1/voice/hush");
 }
 
 export type GoalVerb = "cancel" | "pause" | "resume" | "confirm";
@@ -131,7 +134,7 @@ export async function actOnGoal(
 ): Promise<Goal> {
   return (await call(
     "POST",
-    `/v1/goals/${encodeURIComponent(id)}/${verb}`,
+    `v1/goals/${encodeURIComponent(id)}/${verb}`,
     withProof(operator),
   )) as Goal;
 }
@@ -142,17 +145,17 @@ export async function answerGoal(
   operator: OperatorProof | null,
 ): Promise<Goal> {
   const body = { text, ...withProof(operator) };
-  return (await call("POST", `/v1/goals/${encodeURIComponent(id)}/answer`, body)) as Goal;
+  return (await call("POST", `v1/goals/${encodeURIComponent(id)}/answer`, body)) as Goal;
 }
 
 export async function moveGoal(id: string, before: string | null): Promise<Goal> {
-  return (await call("POST", `/v1/goals/${encodeURIComponent(id)}/move`, { before })) as Goal;
+  return (await call("POST", `v1/goals/${encodeURIComponent(id)}/move`, { before })) as Goal;
 }
 
 export type Act = "arm" | "disarm" | "reset" | "resume" | "estop";
 
 export async function operate(kind: Act, operator: OperatorProof | null): Promise<void> {
-  await call("POST", `/v1/${kind}`, { source: "page", ...withProof(operator) });
+  await call("POST", `v1/${kind}`, { source: "page", ...withProof(operator) });
 }
 
 export type TrialAct = "watch" | "begin" | "find" | "leave";
@@ -164,16 +167,16 @@ export async function askTrial(
   answered: number,
   proof: OperatorProof["proof"] | null = null,
 ): Promise<void> {
-  await call("POST", "/v1/trial", { act, id, source: "page", answered, proof });
+  await call("POST", "v1/trial", { act, id, source: "page", answered, proof });
 }
 
 /** Put set-up in the bridge's place. */
 export async function enterSetup(): Promise<void> {
-  await call("POST", "/v1/setup", { source: "page" });
+  await call("POST", "v1/setup", { source: "page" });
 }
 
 export async function fetchPlaces(): Promise<Known> {
-  return (await call("GET", "/v1/places")) as Known;
+  return (await call("GET", "v1/places")) as Known;
 }
 
 export type Names = { readonly en?: string; readonly zh?: string };
@@ -186,24 +189,24 @@ export async function teachPlace(
   room: string | null = null,
 ): Promise<Taught> {
   const body = { name, source: "page", ...(point ? { point } : {}), ...(room ? { room } : {}) };
-  return (await call("POST", "/v1/places", body)) as Taught;
+  return (await call("POST", "v1/places", body)) as Taught;
 }
 
 /** Tell localization where the robot is: at a point of the map, or in a place. */
 export async function hintPose(where: { point: Point } | { place: string }): Promise<void> {
-  await call("POST", "/v1/localization/hint", { source: "page", ...where });
+  await call("POST", "v1/localization/hint", { source: "page", ...where });
 }
 
 export async function forgetPlace(id: string): Promise<void> {
-  await call("DELETE", `/v1/places/${encodeURIComponent(id)}`);
+  await call("DELETE", `v1/places/${encodeURIComponent(id)}`);
 }
 
 export async function fetchOrders(): Promise<StandingOrders> {
-  return (await call("GET", "/v1/orders")) as StandingOrders;
+  return (await call("GET", "v1/orders")) as StandingOrders;
 }
 
 export async function fetchHistory(id: string): Promise<readonly Firing[]> {
-  const shown = (await call("GET", `/v1/orders/${encodeURIComponent(id)}`)) as {
+  const shown = (await call("GET", `v1/orders/${encodeURIComponent(id)}`)) as {
     readonly history: readonly Firing[];
   };
   return shown.history;
@@ -211,35 +214,35 @@ export async function fetchHistory(id: string): Promise<readonly Firing[]> {
 
 /** Give a standing order as a sentence; return what the robot will do, in both languages. */
 export async function giveOrder(text: string): Promise<Bilingual> {
-  const kept = await call("POST", "/v1/orders", { text, source: "page" });
+  const kept = await call("POST", "v1/orders", { text, source: "page" });
   return (kept as { readonly told: Bilingual }).told;
 }
 
 export async function changeOrder(id: string, verb: "pause" | "resume"): Promise<void> {
-  await call("POST", `/v1/orders/${encodeURIComponent(id)}/${verb}`, {});
+  await call("POST", `v1/orders/${encodeURIComponent(id)}/${verb}`, {});
 }
 
 export async function removeOrder(id: string): Promise<void> {
-  await call("DELETE", `/v1/orders/${encodeURIComponent(id)}`);
+  await call("DELETE", `v1/orders/${encodeURIComponent(id)}`);
 }
 
 export async function fetchGrid(): Promise<Grid> {
-  return (await call("GET", "/v1/map")) as Grid;
+  return (await call("GET", "v1/map")) as Grid;
 }
 
 export async function fetchObjects(): Promise<Objects> {
-  return (await call("GET", "/v1/objects")) as Objects;
+  return (await call("GET", "v1/objects")) as Objects;
 }
 
 export async function forgetObject(id: string): Promise<void> {
-  await call("DELETE", `/v1/objects/${encodeURIComponent(id)}`);
+  await call("DELETE", `v1/objects/${encodeURIComponent(id)}`);
 }
 
 /** Fetch the camera's newest picture. */
-export const fetchPicture = (): Promise<Blob> => fetchBlob("/v1/camera.jpg");
+export const fetchPicture = (): Promise<Blob> => fetchBlob("v1/camera.jpg");
 
 /** Fetch a picture that a patrol kept. */
-export const fetchKeptPicture = (id: number): Promise<Blob> => fetchBlob(`/v1/pictures/${id}`);
+export const fetchKeptPicture = (id: number): Promise<Blob> => fetchBlob(`v1/pictures/${id}`);
 
 async function fetchBlob(path: string): Promise<Blob> {
   const signal = AbortSignal.timeout(TIMEOUT_MS);
@@ -251,33 +254,33 @@ async function fetchBlob(path: string): Promise<Blob> {
 
 /** Return the pictures that a goal's patrols kept. */
 export async function listPictures(goal: string): Promise<readonly KeptPicture[]> {
-  const shown = await call("GET", `/v1/pictures?${new URLSearchParams({ goal })}`);
+  const shown = await call("GET", `v1/pictures?${new URLSearchParams({ goal })}`);
   return (shown as { readonly pictures: readonly KeptPicture[] }).pictures;
 }
 
 /** Return what the model wrote about a goal, as far as it is kept. */
 export async function listReplies(goal: string): Promise<GoalReplies> {
-  return (await call("GET", `/v1/goals/${encodeURIComponent(goal)}/replies`)) as GoalReplies;
+  return (await call("GET", `v1/goals/${encodeURIComponent(goal)}/replies`)) as GoalReplies;
 }
 
 export async function forgetPicture(id: number): Promise<void> {
-  await call("DELETE", `/v1/pictures/${id}`);
+  await call("DELETE", `v1/pictures/${id}`);
 }
 
 /** Return what is remembered, the newest first; of a search what fits, or what comes nearest. */
 export async function listMemories(words: string, limit: number): Promise<Memories> {
   const asked = new URLSearchParams({ limit: String(limit), ...(words ? { q: words } : {}) });
-  return (await call("GET", `/v1/memory?${asked}`)) as Memories;
+  return (await call("GET", `v1/memory?${asked}`)) as Memories;
 }
 
 export async function teachFact(text: string): Promise<void> {
-  await call("POST", "/v1/memory/facts", { text, source: "page" });
+  await call("POST", "v1/memory/facts", { text, source: "page" });
 }
 
 export async function forgetMemory(id: number): Promise<number> {
-  return ((await call("DELETE", `/v1/memory/${id}`)) as { forgotten: number }).forgotten;
+  return ((await call("DELETE", `v1/memory/${id}`)) as { forgotten: number }).forgotten;
 }
 
 export async function forgetMemories(): Promise<number> {
-  return ((await call("DELETE", "/v1/memory")) as { forgotten: number }).forgotten;
+  return ((await call("DELETE", "v1/memory")) as { forgotten: number }).forgotten;
 }

@@ -14,6 +14,13 @@ export type Ears = {
   readonly heard: (data: unknown) => void;
 };
 
+/** Open a WebSocket at a path beside the page's own. */
+export function dial(path: string): WebSocket {
+  const address = new URL(path, location.href);
+  address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+  return new WebSocket(address.href, subprotocols());
+}
+
 export class EventSocket {
   private socket: WebSocket | null = null;
   private tries = 0;
@@ -28,8 +35,7 @@ export class EventSocket {
   /** Dial now, unless a socket is there. */
   connect(): void {
     if (this.socket !== null) return;
-    const scheme = location.protocol === "https:" ? "wss" : "ws";
-    const socket = new WebSocket(`${scheme}://${location.host}/v1/events`, subprotocols());
+    const socket = dial("v1/events");
     this.socket = socket;
     this.heardMs = performance.now();
     socket.onopen = () => {

@@ -4,7 +4,8 @@
  */
 import { signal } from "@preact/signals";
 
-const SLOT = "pons.token";
+/** One origin may serve several robots, each below a path of its own and with a token of its own. */
+const slot = (): string => `pons.token ${location.pathname}`;
 
 export const tokenNeeded = signal(false);
 let token = "";
@@ -15,13 +16,13 @@ export function startToken(): void {
     setToken(given);
     window.history.replaceState(null, "", location.pathname + location.search);
   } else {
-    token = sessionStorage.getItem(SLOT) ?? "";
+    token = sessionStorage.getItem(slot()) ?? "";
   }
 }
 
 export function setToken(given: string): void {
   token = given.trim();
-  sessionStorage.setItem(SLOT, token);
+  sessionStorage.setItem(slot(), token);
   tokenNeeded.value = false;
 }
 

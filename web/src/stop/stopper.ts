@@ -50,7 +50,7 @@ async function overPost(): Promise<void> {
   posting?.abort(); // of those that hang, only the newest may keep a connection
   posting = new AbortController();
   try {
-    const answer = await fetch("/v1/stop", {
+    const answer = await fetch("v1/stop", {
       method: "POST",
       headers: { "content-type": "application/json", ...authorization() },
       body: '{"source":"page"}',

@@ -2,7 +2,7 @@
  * Let the planner hear a recording while it is being spoken, for a stop alone. Whatever fails here,
  * the recording itself goes on and is heard whole at its end.
  */
-import { subprotocols } from "../net/token";
+import { dial } from "../net/socket";
 import samples from "./samples.worklet.js?url&no-inline";
 
 const MOST_WAITING = 100; // frames of 43 ms until the socket is open
@@ -39,8 +39,7 @@ function open(
   rateHz: number,
   stopped: () => void,
 ): { send: (frame: ArrayBuffer) => void; end: () => void } {
-  const scheme = location.protocol === "https:" ? "wss" : "ws";
-  const socket = new WebSocket(`${scheme}://${location.host}/v1/voice/live`, subprotocols());
+  const socket = dial("v1/voice/live");
   const waiting: ArrayBuffer[] = [];
   socket.onopen = () => {
     socket.send(JSON.stringify({ rate_hz: rateHz }));

@@ -172,5 +172,8 @@ def _classes(kind: Kind, facts: Facts) -> tuple[str, ...]:
         rivals = [other.NAME for other in BY_CLASSES if other is not kind and _fits(other, facts)]
         unless = f"; if it is a {rivals[0]}, set that as [vision] decoder" if rivals else ""
         text = f"as {kind.NAME} it has {count} classes, {len(names)} names{unless}"
+        if not names[0] and len(names) == count + 1:
+            text = f"as {kind.NAME} it has {count} classes, and none of its names has the number 0"
+            text = f"{text}; expected 0 to {count - 1}, not 1 to {count}: give [vision] labels"
         raise VisionFailure("model_names_wrong", text)
     return names + ("",) * (count - len(names))

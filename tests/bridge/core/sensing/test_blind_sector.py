@@ -23,8 +23,16 @@ HALF_M = 2.0
 class Room:
     """Be a square room with a lidar, a hole in the lidar and black things, on a clock."""
 
-    def __init__(self, beams: int = 360, first_rad: float = -pi, half_m: float = HALF_M) -> None:
+    def __init__(
+        self,
+        beams: int = 360,
+        first_rad: float = -pi,
+        half_m: float = HALF_M,
+        turns_rad: float = 0.0,
+    ) -> None:
         self.beams, self.first_rad, self.half_m = beams, first_rad, half_m
+        self.turns_rad = turns_rad
+        """From one scan's first beam to the next one's."""
         self.hole_rad: tuple[float, float] | None = None
         """Middle and width, in ``base``."""
         self.black: tuple[float, float, float] | None = None
@@ -35,6 +43,7 @@ class Room:
     def scan(self, count: int = 1) -> SectorMemory:
         for _ in range(count):
             self.now_s += 0.1
+            self.first_rad = (self.first_rad + self.turns_rad + pi) % tau - pi
             self.memory = watch_sectors(self.memory, self._picture(), self.way_m, self.now_s)
         return self.memory
 
@@ -100,6 +109,25 @@ def test_a_hole_of_any_width_in_any_lidar_is_found_when_it_comes(
     assert degrees(room.scan(1).ahead_rad) >= min(width_deg, 110) - 6.1
     room.hole_rad = None
     assert room.scan(1).ahead_rad == 0.0, "what returns is alive"
+
+
+@pytest.mark.parametrize("cuts", [2, 3, 5, 8])
+@pytest.mark.parametrize("beams", PRESET_BEAMS)
+@pytest.mark.parametrize("middle_rad", [0.1, pi])
+def test_a_hole_is_found_where_each_scan_begins_at_another_beam(
+    middle_rad: float, beams: int, cuts: int
+) -> None:
+    """A slow lidar gives its last 360 degrees several times a turn."""
+    room = Room(beams, turns_rad=tau / cuts)
+    room.hole_rad = (middle_rad, radians(40))
+    first = room.scan(12)
+    assert degrees(max(first.ahead_rad, first.behind_rad)) >= 40 - 8.1, "from the start"
+    room.hole_rad = None
+    room.scan(12)
+    assert room.memory.ahead_rad == room.memory.behind_rad == 0.0
+    room.hole_rad = (middle_rad, radians(40))
+    later = room.scan(3)
+    assert degrees(max(later.ahead_rad, later.behind_rad)) >= 40 - 8.1, "in mid-drive"
 
 
 @pytest.mark.parametrize("width_deg", [15, 45, 120])

@@ -81,6 +81,8 @@ def test_who_names_a_decoder_is_followed_where_it_fits() -> None:
         (facts((1, 3, 80, 80, 85)), None, "model_layout_unknown", "1x3x80x80x85"),
         (facts((1, 3478, 85), size=(413, 413)), None, "model_input_odd", "413 x 413"),
         (facts((1, 84, 8400), names=COCO[:3]), None, "model_names_wrong", "80 classes, 3 names"),
+        (facts((1, 7, 8400), names=("", *COCO[:3])), None, "model_names_wrong",
+         "expected 0 to 2, not 1 to 3"),
         (facts((1, 8400, 85), names=()), None, "model_names_missing", "it has 80"),
         (facts((1, 300, 6), names=("", "")), None, "model_names_missing", "[vision] labels"),
         (facts((1, 300, 4), (1, 300, 91), called=("dets", "labels")), None, "model_names_wrong",
