@@ -14,6 +14,7 @@ from planner.budget.totals import cost
 from planner.language.catalogue import list_names, say
 from planner.language.object_names import name_object
 from planner.mission.skills.perception import PictureCost, PictureLimits
+from planner.mission.skills.search_bounds import MOST_PICTURES
 from planner.perception import VisionFailure, VisionWorker
 from planner.perception.dependencies import PerceptionParts
 from planner.perception.failure import REFUSALS
@@ -134,15 +135,21 @@ def looker_of(
 def picture_limits(settings: Settings) -> PictureLimits:
     """Return the bound of one search by the vision model, and what a picture of it costs.
 
-    No more pictures than the goal's calls allow beside the one that planned it; each is priced at a
-    picture, its prompt and a short reply, rather too high.
+    No more pictures than the goal's calls allow beside the one that planned it; where the owner has
+    set no number, the site's rooms bound them besides. Each is priced at a picture, its prompt and
+    a short reply, rather too high.
     """
-    goal, price = settings.budget.goal, settings.budget.price
-    most = min(settings.vision.search_pictures, max(0, goal.calls - 1))
+    goal, price, chosen = (
+        settings.budget.goal,
+        settings.budget.price,
+        settings.vision.search_pictures,
+    )
+    most = min(MOST_PICTURES if chosen is None else chosen, max(0, goal.calls - 1))
     most = min(most, goal.prompt_tokens // SEEK_TOKENS)
     money = cost(price, SEEK_TOKENS, REPLY_TOKENS)
     each = PictureCost(SEEK_TOKENS + REPLY_TOKENS, money)
-    return PictureLimits(most, each, price.currency if price is not None else None)
+    currency = price.currency if price is not None else None
+    return PictureLimits(most, each, currency, by_site=chosen is None)
 
 
 def spent_by(purse: Purse) -> Spent:

@@ -25,7 +25,7 @@ def on_arrival(turn: Transaction) -> bool:
     if mission is None or driving is None or status is None or driving.leg is None:
         return False
     leg, pose = status.leg, status.base_in_map
-    if leg is None or (leg.mission, leg.leg) != (mission.id, driving.leg):
+    if leg is None or (leg.mission, leg.leg) != (mission.grant_name, driving.leg):
         return False
     if not (leg.reached and standing(status)) or pose is None:
         return False

@@ -127,7 +127,7 @@ class Engine:
         self._used = status.seq
         self._wish = wanted = motion_request(self.book)
         self._owner, messages = on_status(
-            self._identity, self._owner, status, Course(wanted.mission), self._used, now_s
+            self._identity, self._owner, status, Course(wanted.grant), self._used, now_s
         )
         said = pilot.speak(status, wanted, self._speed_share(), now_s)
         return Output((*messages, *said), effects)
@@ -230,7 +230,7 @@ class Engine:
         if status is None or wanted == self._wish:
             return ()
         if self._pilot is not None:
-            self._wish, course = wanted, Course(wanted.mission)
+            self._wish, course = wanted, Course(wanted.grant)
             self._owner, messages = on_course(self._identity, self._owner, status, course, now_s)
             said = self._pilot.speak(status, wanted, self._speed_share(), now_s)
             return (*messages, *said)
@@ -279,8 +279,8 @@ class Engine:
             wanted.leg,
         )
         if wanted.leg is None or not ours or horizon is None or not horizon.points:
-            return Course(wanted.mission)
-        return Course(wanted.mission, wanted.leg, horizon.points, horizon.final)
+            return Course(wanted.grant)
+        return Course(wanted.grant, wanted.leg, horizon.points, horizon.final)
 
 
 def _bearing(end: RoutePoint, faces: tuple[float, float]) -> float:

@@ -93,7 +93,7 @@ def new_leg(turn: Transaction, mission: Mission) -> None:
     """Number the leg above every one that bridge or journal know: reached is latched by leg."""
     status = turn.book.status
     known = status.leg if status is not None else None
-    floor = known.leg if known is not None and known.mission == mission.id else 0
+    floor = known.leg if known is not None and known.mission == mission.grant_name else 0
     leg = max(mission.leg, floor) + 1
     turn.put(mission, leg=leg)
     turn.change(leg=leg, refused_since_s=None, idle_since_s=None, jumped=False)

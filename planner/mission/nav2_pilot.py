@@ -106,7 +106,7 @@ class Nav2Pilot:
         refusal = self._refusal(aim, state, status, now_s, is_there=is_there)
         done = state is not None and state.phase == "succeeded"
         return LegReport(
-            mission=aim.mission,
+            mission=wanted.grant or aim.mission,
             leg=aim.leg,
             following=state is not None and state.phase in ("sent", "driving"),
             reached=done and is_there,
@@ -140,7 +140,7 @@ class Nav2Pilot:
         aim = self._aim_of(wanted)
         state = self._ours(aim, now_s) if aim is not None else None
         drives = state is not None and state.phase == "driving"
-        if state is None or not drives or status.grant.mission != wanted.mission:
+        if state is None or not drives or status.grant.mission != wanted.grant:
             if status.mode is not Mode.ACTIVE:
                 return ()
             return (self._velocity(status, 0.0, 0.0, now_s),)

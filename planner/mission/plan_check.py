@@ -10,9 +10,11 @@ from __future__ import annotations
 from functools import partial
 
 from planner.language.catalogue import list_names, message, say, say_or_quote
+from planner.language.questions import find_elsewhere
+from planner.language.room_names import sorts_of_room
 from planner.mission.skills import SKILLS
 from planner.mission.skills.object_matching import anybody_for, picks_out, read_object
-from planner.mission.skills.object_query import unknown_kind
+from planner.mission.skills.object_query import place_names, unknown_kind
 from planner.mission.skills.result_text import unknown_name, unknown_words
 from planner.mission.state import Mission, MissionState
 from planner.plan import (
@@ -24,6 +26,7 @@ from planner.plan import (
     Outcome,
     StepRecord,
     check_plan,
+    places_of,
 )
 
 NO_STEPS = say("plan.no_steps")
@@ -43,17 +46,40 @@ def unwalkable(
         partial(_unknown_object, book, mission.language),
     )
     if rejection is None:
-        return None
+        elsewhere = _find_unknown_place(book, mission, steps)
+        return _unknown_place(book, elsewhere) if elsewhere is not None else None
     first = rejection.first
     match first.code:
         case Code.BAD_PLAN:
             said = message(first.code, why=say("plan.flaw", what=first.what) if steps else NO_STEPS)
         case Code.UNKNOWN_PLACE:
-            known = list_names(target.name for target in book.facts.targets.values())
-            said = message(first.code, name=first.what, near="", known=known)
+            return _unknown_place(book, first.what)
         case _:
             said = first.said or message(first.code, part=say_or_quote("step_kind", first.what))
     return Outcome(code=first.code, message=said)
+
+
+def _unknown_place(book: MissionState, name: str) -> Outcome:
+    """Return that a place is unknown, with those that are known."""
+    known = list_names(target.name for target in book.facts.targets.values())
+    said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
+    return Outcome(code=Code.UNKNOWN_PLACE, message=said)
+
+
+def _find_unknown_place(
+    book: MissionState, mission: Mission, steps: tuple[StepRecord, ...]
+) -> str | None:
+    """Return the unknown place about which a look from here would answer; None: it answers of here.
+
+    A brain may have dropped the place from its question, so the order itself counts where no step
+    names any. To a vision model that is asked about a picture only a sort of room is elsewhere.
+    """
+    here = [step.text or "" for step in steps if step.kind == "look" and step.place is None]
+    if here and not any(map(places_of, steps)):
+        here.append(mission.words)
+    names = place_names(book.facts)
+    found = (name for text in here if (name := find_elsewhere(text, names)) is not None)
+    return next((n for n in found if not book.eyes.model or sorts_of_room((n,))), None)
 
 
 def _unknown_object(book: MissionState, language: Language, step: StepRecord) -> Bilingual | None:

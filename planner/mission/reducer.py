@@ -94,7 +94,9 @@ def motion_request(book: MissionState) -> MotionRequest:
     activity = book.activity
     driven = isinstance(activity, Driving) and book.safe >= activity.record
     return MotionRequest(
-        mission.id, activity.leg if isinstance(activity, Driving) and driven else None
+        mission.id,
+        activity.leg if isinstance(activity, Driving) and driven else None,
+        mission.grant_name,
     )
 
 

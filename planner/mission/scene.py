@@ -13,13 +13,27 @@ from planner.brain.interface import OFFLINE
 from planner.language.catalogue import CATALOGUE, say
 from planner.language.object_classes import KINDS
 from planner.language.object_names import name_object
+from planner.mission.account import BACK
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
+from planner.mission.plan_walk import catch
 from planner.mission.queue import skill_state_now
 from planner.mission.skills import ImageAnswer, Scene, begin_state
-from planner.mission.state import Mission
+from planner.mission.skills.search_bounds import GRANT_M
+from planner.mission.state import ORDER_SOURCE, Mission
 from planner.mission.transaction import Transaction
-from planner.plan import JUDGED, Bilingual, StepRecord, say_same
+from planner.plan import (
+    JUDGED,
+    Bilingual,
+    StepRecord,
+    StepRole,
+    StepState,
+    end_of,
+    parent_of,
+    parents_of,
+    places_of,
+    say_same,
+)
 from wire import Pose2
 
 if TYPE_CHECKING:
@@ -61,7 +75,65 @@ def scene_of(
         local_offset_s=turn.book.local_offset_s,
         upon=upon_yes(turn.book.facts, mission),
         thinks=can_think(turn.book.rules, mission),
+        left_m=GRANT_M - (mission.metres - mission.step_m - mission.granted_at_m),
+        afterwards=_ways_after(turn.book.facts, mission),
+        offers=_may_offer(turn, mission),
+        has_else=_has_else(mission),
     )
+
+
+MOST_GRANTS = 4
+"""Longer searches that one goal may offer, one after the other."""
+
+
+def _has_else(mission: Mission) -> bool:
+    """Tell whether the current step is a condition, with steps for where it does not hold."""
+    return any(s.role is StepRole.OTHERWISE for s in _beside(mission))
+
+
+def _beside(mission: Mission) -> tuple[StepRecord, ...]:
+    """Return the steps of the ``if`` whose condition is the current step."""
+    parent, row = parent_of(mission.steps, mission.step), mission.steps
+    if parent is None or row[mission.step].role is not StepRole.WHEN:
+        return ()
+    return row[mission.step + 1 : end_of(row, parent)]
+
+
+def _may_offer(turn: Transaction, mission: Mission) -> bool:
+    """Tell whether a person may be asked for a longer search.
+
+    Not where somebody waits for the robot, where nobody gave the order just now, where the plan
+    says what comes next, or in a round of many.
+    """
+    row, at = mission.steps, mission.step
+    alone = not turn.book.queue and not mission.source.startswith(ORDER_SOURCE)
+    planned = _has_else(mission) or row[at].role is StepRole.UNTIL
+    caught = catch(row, at, 0.0) is not None
+    rounds = any(row[parent].kind == "repeat" for parent in parents_of(row, at))
+    returns = any(step.kind in BACK for step in row[at + 1 :])
+    return alone and mission.grants < MOST_GRANTS and not (planned or caught or rounds or returns)
+
+
+def _ways_after(facts: SiteView, mission: Mission) -> tuple[tuple[tuple[float, float], ...], ...]:
+    """Return where the steps after the current one drive, once for each branch that it chooses."""
+    row, at, beside = mission.steps, mission.step, len(_beside(mission))
+    branches = [
+        [s for s in row[at + 1 : at + 1 + beside] if s.role is not other]
+        for other in (StepRole.THEN, StepRole.OTHERWISE)
+    ]
+    after = [s for s in row[at + 1 + beside :] if s.state is StepState.PENDING]
+    ends = ([p for s in (*one, *after) for p in _ends(facts, mission, s)] for one in branches)
+    return tuple(tuple(points) for points in ends if points)
+
+
+def _ends(facts: SiteView, mission: Mission, step: StepRecord) -> tuple[tuple[float, float], ...]:
+    """Return the points that a step drives to, as far as its record names them [m]."""
+    accepted = accepted_at(mission)
+    if step.kind == "come_back":
+        return () if accepted is None else ((accepted.x_m, accepted.y_m),)
+    named = (facts.home,) if step.kind == "return_home" else places_of(step)
+    targets = (facts.targets[place] for place in named if place in facts.targets)
+    return tuple((t.pose.x_m, t.pose.y_m) for t in targets) if moves(step) else ()
 
 
 def pose_now(turn: Transaction) -> Pose2 | None:

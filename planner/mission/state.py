@@ -117,6 +117,10 @@ class Mission(Frozen):
     speed_share: float = Field(default=1.0, ge=0.0, le=1.0)
     """Of the planned speeds' cap: a person said "slow down" while it ran."""
     metres: float = 0.0
+    grants: int = Field(default=0, ge=0)
+    """Longer searches that a person said yes to: each is a grant of the bridge's of its own."""
+    granted_at_m: float = 0.0
+    """What was driven for the goal before the grant that holds now."""
     limited: dict[str, int] = Field(default_factory=dict)
     """Statuses during which the bridge's limit of that name was the nearest one."""
     created_unix_s: float
@@ -148,6 +152,11 @@ class Mission(Frozen):
     def order_text(self) -> str:
         """Return the order in words that lean on no other goal."""
         return self.meant or self.text
+
+    @property
+    def grant_name(self) -> str:
+        """Return the name under which the bridge meters what the goal drives now."""
+        return self.id if self.grants == 0 else f"{self.id}.{self.grants}"
 
     @property
     def current_step(self) -> StepRecord | None:

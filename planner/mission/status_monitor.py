@@ -148,8 +148,8 @@ def _end_spent(turn: Transaction, status: Status) -> bool:
     if mission is None:
         return False
     # Rows outlive the mission they were about; only a row seen on our own leg is ours.
-    ours = status.leg is not None and status.leg.mission == mission.id
-    code = refused_grant(status, mission.id) if status.grant is None else None
+    ours = status.leg is not None and status.leg.mission == mission.grant_name
+    code = refused_grant(status, mission.grant_name) if status.grant is None else None
     if not (status.operator_metres > 0.0 and status.operator_seconds > 0.0):
         if code == "operator_budget" or (ours and shows(status, "BUDGET")):
             pause_running(turn, PauseReason.BUDGET.value)  # goes on once a person has acted
@@ -243,7 +243,7 @@ def _route_standing(turn: Transaction, status: Status) -> None:
 def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     """Follow the leg that is streamed: blocked, refused, or forgotten by the bridge."""
     mission, leg = turn.running, status.leg
-    ours = leg is not None and mission is not None and leg.mission == mission.id
+    ours = leg is not None and mission is not None and leg.mission == mission.grant_name
     ours = ours and leg is not None and leg.leg == driving.leg
     refused = ours and leg is not None and leg.refusal is not None
     quiet = not (ours and leg is not None and leg.following)

@@ -71,7 +71,8 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
     if before is None and cannot.code in CAUGHT and _take_other_way(turn, mission):
         return
     mission = turn.put(mission, failure=why)
-    mendable = cannot.code in MENDABLE and before is None
+    declined = getattr(mission.skill_state, "offered", False)  # nobody wants to look on
+    mendable = cannot.code in MENDABLE and before is None and not declined
     if mendable and mission.replans < turn.book.rules.replans:
         think(turn, turn.put(mission, replans=mission.replans + 1))
         return

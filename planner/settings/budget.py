@@ -30,8 +30,9 @@ class Price(_Table):
 class GoalLimits(_Table):
     """Limit one goal's expense, from its first thought to its end."""
 
-    calls: Count = 30
-    prompt_tokens: Count = 60_000
+    calls: Count = 100
+    """Beside its thoughts: a picture for each direction of every room that a search looks in."""
+    prompt_tokens: Count = 210_000
     reply_tokens: Count = 60_000
     seconds: Amount = 300.0
     """Of waiting for the model."""

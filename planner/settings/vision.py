@@ -46,9 +46,10 @@ class VisionSettings(BaseModel):
     of them: slower eyes would fail it, and let a thing that is followed walk off."""
     min_score: Annotated[float, Field(ge=0.05, le=0.95)] | None = None
     """What scores less is not reported; None: what the model's file says of each class, or 0.4."""
-    search_pictures: Annotated[int, Field(ge=0, le=200)] = 24
+    search_pictures: Annotated[int | None, Field(ge=0, le=200)] = None
     """Pictures that one ``find`` or ``count`` may show a vision model, for what the detector does
-    not know; 0: it is not asked to search."""
+    not know; 0: it is not asked to search; None: as many as the rooms have directions, 24 at least
+    and 96 at most."""
     input_px: Annotated[int, Field(ge=32, le=2048, multiple_of=32)] | None = None
     """Width and height of the input of a model that leaves them open."""
 

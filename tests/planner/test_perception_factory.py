@@ -13,6 +13,7 @@ from planner.app import _brain, _model
 from planner.brain.usage_meter import thinking_about
 from planner.budget import purse_of
 from planner.mission.skills.perception import PictureCost
+from planner.mission.skills.search_bounds import MOST_PICTURES
 from planner.perception import Detection, VisionFailure, VisionWorker
 from planner.perception_factory import (
     REFUSED_WITHIN_S,
@@ -84,16 +85,21 @@ def test_the_owners_model_is_asked_about_pictures_and_none_without_one(tmp_path:
 
 def test_a_search_is_bounded_by_the_owner_and_priced(tmp_path: Path) -> None:
     for text, most, money in (
-        ("", 24, None),
+        ("", MOST_PICTURES, None),
         ("[vision]\nsearch_pictures = 7\n", 7, None),
         ("[vision]\nsearch_pictures = 0\n", 0, None),
         ("[budget.goal]\ncalls = 5\n", 4, None),
         ("[budget.goal]\nprompt_tokens = 6300\n", 3, None),
-        ("[budget.price]\nprompt_per_million = 0.4\nreply_per_million = 1.6\n", 24, 0.000936),
+        (
+            "[budget.price]\nprompt_per_million = 0.4\nreply_per_million = 1.6\n",
+            MOST_PICTURES,
+            0.000936,
+        ),
     ):
         (tmp_path / "settings.toml").write_text(text, "utf-8")
         limits = picture_limits(load_settings(tmp_path, {}))
         assert limits.most == most, text
+        assert limits.by_site is ("search_pictures" not in text)
         assert (limits.currency is None) is (money is None)
         if money is not None:
             assert limits.each.money == pytest.approx(money)

@@ -22,6 +22,7 @@ from dataclasses import dataclass, replace
 from re import Pattern
 
 from planner.language.catalogue import say
+from planner.language.grammar.elsewhere_asked import tell_elsewhere
 from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.noun_phrases import go_to
 from planner.language.grammar.parse_result import (
@@ -80,7 +81,7 @@ class Grammar:
             text = self.plain(self.opening.sub("", text))
         if clause.last:
             text = self.plain(self.closing.sub("", text))
-        return read_by(self.rules, text, reading)
+        return tell_elsewhere(text, read_by(self.rules, text, reading), reading)
 
 
 _WORDS = re.compile(

@@ -1,5 +1,6 @@
 """Read a question about what is there, by its words: what it asks for, and where that is to be."""
 
+from planner.language.questions.elsewhere import find_elsewhere
 from planner.language.questions.question import (
     ObjectQuestion,
     PlaceNames,
@@ -22,6 +23,7 @@ __all__ = [
     "QuestionReading",
     "Relation",
     "Whereabouts",
+    "find_elsewhere",
     "fold_names",
     "has_several_neighbours",
     "looks_round",

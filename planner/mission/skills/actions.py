@@ -84,6 +84,14 @@ class Scene(Generic[S_co]):
     """What moves next upon a yes to the question that the step asks; None: nothing does."""
     thinks: bool = False
     """The brain may read an answer that is neither yes nor no, and plan anew."""
+    left_m: float = 60.0
+    """What the bridge still let the goal drive when this step began."""
+    afterwards: tuple[tuple[tuple[float, float], ...], ...] = ()
+    """Where the steps after this one drive, in ``map`` [m], for each branch that may come."""
+    offers: bool = False
+    """A person may be asked whether a search is to go on that its bounds have ended."""
+    has_else: bool = False
+    """The step is a condition, and the person said what to do where it does not hold."""
 
     def but(self, state: S) -> Scene[S]:
         """Return the scene with another state."""

@@ -5,7 +5,7 @@ things told by a neighbour ("cups on the table") are counted in one room, the fi
 turns out to have such a neighbour; in the home where several are meant or none is seen. Verdict:
 things that are sure, stand apart from each other and were seen during this step; what moves from
 room to room may be counted twice, and is not when it stays one thing to the memory. None is a
-result, too.
+result, too, where all was looked at.
 """
 
 from __future__ import annotations
@@ -13,10 +13,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import say
+from planner.language.catalogue import message, say
+from planner.language.object_names import name_object
 from planner.language.questions import has_several_neighbours
-from planner.mission.skills.actions import Finish, Retry, Scene, SkillAction
+from planner.mission.skills.actions import DriveLeg, Finish, Question, Retry, Scene, SkillAction
 from planner.mission.skills.find import unknown
+from planner.mission.skills.longer_search import offer_more, tell_looked
 from planner.mission.skills.look_around import look_round
 from planner.mission.skills.model_search import seek, tell_count
 from planner.mission.skills.object_matching import (
@@ -26,8 +28,17 @@ from planner.mission.skills.object_matching import (
     sure,
     wanted_of,
 )
-from planner.mission.skills.result_text import by_neighbour, looked_in, name_count, room_name
-from planner.mission.skills.search import affords, begin, find_spent_budget, make_filter, spots
+from planner.mission.skills.result_text import by_neighbour, name_count, room_name
+from planner.mission.skills.search import (
+    affords,
+    begin,
+    find_spent_budget,
+    make_filter,
+    ran_out,
+    spots,
+    stop_short,
+    within,
+)
 from planner.mission.skills.skill_state import CountState
 from planner.mission.skills.viewpoints import NEAR, room_at
 from planner.plan import Bilingual, Code
@@ -53,17 +64,15 @@ def count(scene: Scene[CountState]) -> SkillAction:
         return by_model
     scene = begin(scene, pose, wanted)
     inside = _narrow(scene, pose, wanted)
+    if find_spent_budget(scene) is not None:
+        return _tell_count(inside, wanted)
     next_ = look_round(scene, pose, spots(inside, pose), None)
     if isinstance(next_, CountState):
         changed = next_ != scene.state  # another room may be meant, where this one was shut
         return count(scene.but(next_)) if changed else _tell_count(inside, wanted)
-    if not affords(scene, pose, next_):
-        return _tell_count(inside.but(inside.state.but(out_of_metres=True)), wanted)
-    return (
-        replace(next_, state=scene.state)
-        if find_spent_budget(scene) is None
-        else _tell_count(inside, wanted)
-    )
+    if isinstance(next_, DriveLeg) and not affords(scene, pose, next_):
+        return _tell_count(inside.but(stop_short(inside, next_)), wanted)
+    return replace(within(scene, next_), state=scene.state)
 
 
 def _narrow(scene: Scene[CountState], pose: Pose2, wanted: WantedObject) -> Scene[CountState]:
@@ -90,8 +99,11 @@ def _neighbours(scene: Scene[CountState], wanted: WantedObject) -> list[Thing]:
     return [t for t in scene.sight.things if sure(t) and fits(t, wanted.by)]
 
 
-def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish:
-    """Tell the number; where there is no such neighbour, that there is none."""
+def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish | Question:
+    """Tell the number; where there is no such neighbour, that there is none.
+
+    None seen in a part of what was to be looked at is no number.
+    """
     state, inside = scene.state, make_filter(scene)
     seen = list_confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
     number = len(drop_doubles(filter(inside, seen)))
@@ -99,14 +111,17 @@ def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish:
     if number == 0 and wanted.by is not None and not any(map(inside, _neighbours(scene, wanted))):
         what = _space_number(name_count(0, wanted.by.label, wanted.by.color))
     place = room_name(scene.facts, scene.step.place)
-    shut = tuple(room for room in state.shut if room not in state.rooms)
-    where = looked_in(scene.facts, state.rooms, shut, find_spent_budget(scene))
-    said = (
-        say("object_step.saw_in", what=what, place=place)
-        if place
-        else say("object_step.saw", what=what, looked=where)
-    )
-    return Finish({"count": number, "rooms": state.rooms}, Code.COUNTED, said)
+    where = tell_looked(scene)
+    known = number > 0 or not ran_out(scene)
+    if not known:
+        name = by_neighbour(name_object(wanted.label, wanted.color), wanted)
+        said = message(Code.NOT_FOUND, thing=name, looked=where)
+    elif place and not ran_out(scene):
+        said = say("object_step.saw_in", what=what, place=place)
+    else:
+        said = say("object_step.saw", what=what, looked=where)
+    figures = {"count": number if known else None, "rooms": state.rooms}
+    return offer_more(scene, said) or Finish(figures, Code.COUNTED, said)
 
 
 def _space_number(what: Bilingual) -> Bilingual:

@@ -14,7 +14,7 @@ from math import pi
 
 from planner.language.catalogue import message
 from planner.mission.skills.actions import DriveLeg, Finish, Retry, Scene, SkillAction, Way
-from planner.mission.skills.search import LAST_M, MAX_M, MAX_S
+from planner.mission.skills.search_bounds import LEAST_M, LEAST_S, MOST_M
 from planner.mission.skills.skill_state import ExploreState
 from planner.plan import Bilingual, Code
 from wire import Pose2, wrap
@@ -30,7 +30,7 @@ def explore(scene: Scene[ExploreState]) -> SkillAction:
     state = scene.state
     if state.explored:
         return _finish(scene, Code.EXPLORED)
-    if state.shut_ways >= MOST_SHUT or scene.spent_m >= MAX_M or scene.spent_s >= MAX_S:
+    if state.shut_ways >= MOST_SHUT or scene.spent_m >= LEAST_M or scene.spent_s >= LEAST_S:
         return _finish(scene, Code.PARTLY_EXPLORED)
     if scene.pose is None:
         return Retry()
@@ -42,7 +42,7 @@ def explore(scene: Scene[ExploreState]) -> SkillAction:
         scene.pose,
         heading=False,
         way=Way.EXPLORE,
-        limit_m=LAST_M - scene.spent_m,
+        limit_m=MOST_M - scene.spent_m,
         state=state,
         then=state.but(arrived=True, shut_ways=0, looks=state.looks + 1),
         otherwise=state.but(shut_ways=state.shut_ways + 1, turns=TURNS),

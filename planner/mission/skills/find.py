@@ -3,7 +3,8 @@
 Precondition: the detector knows what is meant; else a vision model is asked, direction by direction
 (model_search.py). Verdict: found is what two pictures at least agree
 on, standing, in the colour that was asked for. Not found is told with the rooms that were looked
-in. Budget: 55 m and 540 s a step; the rooms of the site, or the one place that is named.
+in and with those that were not. Budget: search_bounds.py; the rooms of the site, or the one place
+that is named.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ from typing import Any
 
 from planner.language.catalogue import message
 from planner.language.object_names import name_object
-from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
+from planner.mission.skills.actions import Fail, Finish, Question, Retry, Scene, SkillAction
 from planner.mission.skills.conditions import HOLDS, with_answer
+from planner.mission.skills.longer_search import offer_more, takes_else, tell_else, tell_looked
 from planner.mission.skills.model_search import seek, tell_found
 from planner.mission.skills.object_matching import anybody_for, found, wanted_of
 from planner.mission.skills.perception import WantedObject
-from planner.mission.skills.result_text import by_neighbour, found_at, looked_in, unknown_words
-from planner.mission.skills.search import alike, find_spent_budget, search
+from planner.mission.skills.result_text import by_neighbour, found_at, unknown_words
+from planner.mission.skills.search import alike, ran_out, search
 from planner.mission.skills.skill_state import FindState, SearchState
 from planner.perception.snapshot import Thing
 from planner.plan import JUDGED, Code
@@ -49,17 +51,21 @@ def _found(scene: Scene[FindState], thing: Thing, wanted: WantedObject) -> Finis
     return with_answer(ended, True) if scene.step.role in JUDGED else ended
 
 
-def not_found(scene: Scene[SearchState], wanted: WantedObject) -> Fail:
-    """Say that it was not seen, and where was looked."""
-    state = scene.state
-    shut = tuple(room for room in state.shut if room not in state.rooms)
-    spent, others = find_spent_budget(scene), alike(scene, wanted)
-    looked = looked_in(scene.facts, state.rooms, shut, spent, others)
+def not_found(scene: Scene[SearchState], wanted: WantedObject) -> Fail | Question:
+    """Say that it was not seen, and where was looked, or ask whether to look on."""
+    others = alike(scene, wanted)
     name = by_neighbour(name_object(wanted.label, wanted.color), wanted)
-    said = message(Code.NOT_FOUND, thing=name, looked=looked)
-    figures: dict[str, Any] = {"rooms": state.rooms}
-    if scene.step.role in JUDGED:  # what was not looked at is not known to be empty
-        figures[HOLDS] = None if shut or spent is not None or others else False
+    said = message(Code.NOT_FOUND, thing=name, looked=tell_looked(scene, others))
+    asked = offer_more(scene, said)
+    if asked is not None:
+        return asked
+    figures: dict[str, Any] = {"rooms": scene.state.rooms}
+    if scene.step.role not in JUDGED:
+        return Fail(Code.NOT_FOUND, "not_found", said, figures)
+    if not others:  # else it may be there, in another light
+        said = tell_else(scene, said)
+    unsure = others or (ran_out(scene) and not takes_else(scene))
+    figures[HOLDS] = None if unsure else False
     return Fail(Code.NOT_FOUND, "not_found", said, figures)
 
 

@@ -224,7 +224,7 @@ def _arrive(scene: Scene[ApproachState], pose: Pose2, wanted: WantedObject | Non
     return Finish(figures, Code.ARRIVED, said)
 
 
-def _fail(scene: Scene[GoToObjectState], wanted: WantedObject) -> Fail:
+def _fail(scene: Scene[GoToObjectState], wanted: WantedObject) -> SkillAction:
     return _fail_moved(scene) if scene.state.again > 0 else not_found(scene, wanted)
 
 

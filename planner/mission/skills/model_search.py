@@ -24,14 +24,26 @@ from planner.mission.skills.actions import (
     Fail,
     Finish,
     Observe,
+    Question,
     Scene,
     SkillAction,
 )
 from planner.mission.skills.conditions import HOLDS, with_answer
 from planner.mission.skills.image_errors import reason_of
+from planner.mission.skills.longer_search import offer_more, takes_else, tell_else, tell_looked
 from planner.mission.skills.look_around import look_round
-from planner.mission.skills.result_text import looked_in, room_name
-from planner.mission.skills.search import affords, begin, find_spent_budget, spots
+from planner.mission.skills.result_text import NOWHERE, room_name
+from planner.mission.skills.search import (
+    affords,
+    begin,
+    find_spent_budget,
+    list_unseen,
+    ran_out,
+    spots,
+    stop_short,
+    within,
+)
+from planner.mission.skills.search_bounds import bound_pictures
 from planner.mission.skills.skill_state import DirectionSeen, ModelSearchState
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
 from planner.plan import JUDGED, Bilingual, Code, PictureBill, say_same
@@ -77,7 +89,7 @@ def seek(scene: Scene[Seeking], pose: Pose2, *, all_of_it: bool) -> SkillAction 
     if state.asking and not _stands_there(state, pose):  # paused, and driven or turned meanwhile
         state = state.but(asking=False, views=state.views[:-1])
         scene = scene.but(state)
-    if find_spent_budget(scene) is not None or state.shown >= scene.eyes.pictures.most:
+    if find_spent_budget(scene) is not None or state.shown >= bound_pictures(scene):
         return state
     if state.asking:
         words = scene.step.object or ""
@@ -94,8 +106,8 @@ def _look_on(scene: Scene[Seeking], pose: Pose2) -> SkillAction | Seeking:
         return replace(next_, looks=LOOKS, state=scene.state, then=then, bill=bill(scene))
     if isinstance(next_, DriveLeg):
         if not affords(scene, pose, next_):
-            return scene.state.but(out_of_metres=True)
-        return replace(next_, state=scene.state, bill=bill(scene))
+            return stop_short(scene, next_)
+        return replace(within(scene, next_), state=scene.state, bill=bill(scene))
     return next_
 
 
@@ -153,15 +165,15 @@ def _perhaps(state: ModelSearchState) -> bool:
 
 def bill(scene: Scene[Any]) -> PictureBill:
     """Return what the search has cost, and may cost at most."""
-    state, pictures = scene.state, scene.eyes.pictures
+    state, pictures, most = scene.state, scene.eyes.pictures, bound_pictures(scene)
     money = pictures.currency is not None
     return PictureBill(
         pictures=state.shown,
-        pictures_most=pictures.most,
+        pictures_most=most,
         tokens=state.tokens,
-        tokens_most=pictures.most * pictures.each.tokens,
+        tokens_most=most * pictures.each.tokens,
         money=round(state.money, 6) if money else None,
-        money_most=round(pictures.most * pictures.each.money, 6) if money else None,
+        money_most=round(most * pictures.each.money, 6) if money else None,
         currency=pictures.currency if money else None,
     )
 
@@ -169,7 +181,7 @@ def bill(scene: Scene[Any]) -> PictureBill:
 # What it comes to -------------------------------------------------------------------------------
 
 
-def tell_found(scene: Scene[Any]) -> Finish | Fail:
+def tell_found(scene: Scene[Any]) -> Finish | Fail | Question:
     """Return the end of a ``find``: that the model saw it, or why nobody can say so."""
     state = scene.state
     seen = seen_surely(state)
@@ -177,19 +189,27 @@ def tell_found(scene: Scene[Any]) -> Finish | Fail:
     if seen:
         ended = Finish(figures, Code.FOUND, _tell_pictures(scene), _read_found(scene, seen[-1]))
         return with_answer(ended, True) if scene.step.role in JUDGED else ended
-    if scene.step.role in JUDGED:
-        figures[HOLDS] = False if _looked_at_all(scene) else None
     looked = join((say("seek.none"), _tell_pictures(scene), *_why_not_all(scene)))
     said = message(Code.NOT_FOUND, thing=say_same(scene.step.object or ""), looked=looked)
     if state.silent is not None and not state.seen:  # nothing was looked at: no room is empty
         code = Code.OUT_OF_BUDGET if state.silent == "out_of_budget" else Code.MODEL_UNAVAILABLE
         said = join((say("seek.not_begun", words=scene.step.object or ""), *_why_not_all(scene)))
         return Fail(code, state.silent, said, {"bill": bill(scene)})
+    asked = offer_more(scene, said) if _answered_all(scene) else None
+    if asked is not None:
+        return asked
+    if scene.step.role in JUDGED:
+        no = _looked_at_all(scene) or (_answered_all(scene) and takes_else(scene))
+        figures[HOLDS] = False if no else None
+        said = tell_else(scene, said) if no else said
     return Fail(Code.NOT_FOUND, state.silent or "not_found", said, figures)
 
 
-def tell_count(scene: Scene[Any]) -> Finish | Fail:
-    """Return the end of a ``count``: how many the model saw, room by room."""
+def tell_count(scene: Scene[Any]) -> Finish | Fail | Question:
+    """Return the end of a ``count``: how many the model saw, room by room.
+
+    None seen in a part of what was to be looked at is no number.
+    """
     state = scene.state
     if state.silent is not None and not state.seen:
         return tell_found(scene)
@@ -206,11 +226,15 @@ def tell_count(scene: Scene[Any]) -> Finish | Fail:
         if len(parts) > 1
         else say("seek.counts", words=words, number=number)
     )
+    known = high > 0 or _looked_at_all(scene)
+    if not known:
+        read = say("seek.counts_none", words=words)
     if _perhaps(state):
         read = join((read, say("seek.unsure")))
     said = join((_tell_pictures(scene), *_why_not_all(scene)))
-    figures = {"count": low, "rooms": state.rooms, "bill": bill(scene)}
-    return Finish(figures, Code.COUNTED, said, read)
+    asked = offer_more(scene, join((said, read))) if _answered_all(scene) else None
+    figures = {"count": low if known else None, "rooms": state.rooms, "bill": bill(scene)}
+    return asked or Finish(figures, Code.COUNTED, said, read)
 
 
 def count_between(
@@ -267,12 +291,14 @@ def _tell_pictures(scene: Scene[Any]) -> Bilingual:
     return join(told)
 
 
-def _looked_at_all(scene: Scene[Any]) -> bool:
+def _answered_all(scene: Scene[Any]) -> bool:
+    """Tell whether the model said of each picture whether it is there, and was sure."""
     state = scene.state
-    shut = any(room not in state.rooms for room in state.shut)
-    whole = state.silent is None and not state.unanswered and not _perhaps(state)
-    bounded = state.shown >= scene.eyes.pictures.most or find_spent_budget(scene) is not None
-    return whole and not shut and not bounded
+    return state.silent is None and not state.unanswered and not _perhaps(state)
+
+
+def _looked_at_all(scene: Scene[Any]) -> bool:
+    return _answered_all(scene) and not ran_out(scene)
 
 
 def _why_not_all(scene: Scene[Any]) -> list[Bilingual]:
@@ -280,14 +306,13 @@ def _why_not_all(scene: Scene[Any]) -> list[Bilingual]:
     state, told = scene.state, []
     if state.silent is not None:
         told.append(reason_of(state.silent) or REASONS["unavailable"])
-    elif state.shown >= scene.eyes.pictures.most:
-        told.append(say("seek.bound", most=scene.eyes.pictures.most))
+    elif state.shown >= bound_pictures(scene):
+        told.append(say("seek.bound", most=bound_pictures(scene)))
     elif state.unanswered:
         told.append(say("seek.missed", count=state.unanswered))
-    shut = tuple(room for room in state.shut if room not in state.rooms)
-    spent = find_spent_budget(scene)
-    if shut or spent is not None:
-        told.append(looked_in(scene.facts, (), shut, spent))
+    if state.seen and (list_unseen(scene) or ran_out(scene)):
+        where = tell_looked(scene, rooms=False)
+        told += [where] if where != NOWHERE else []
     if _perhaps(state) and not seen_surely(state):
         told.append(say("seek.unsure"))
     return told

@@ -47,6 +47,8 @@ class PictureLimits:
     """What one costs, at a guess that is rather too high."""
     currency: str | None = None
     """None: no price is set."""
+    by_site: bool = False
+    """The site's size bounds them, too: the owner has set no number."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -84,21 +84,30 @@ def found_at(facts: SiteView, label: str, color: str | None, room: str | None, a
 
 
 def looked_in(facts: SiteView, rooms: Iterable[str], shut: Iterable[str], spent: str | None,
-              alike: Sequence[Thing] = ()) -> Bilingual:  # fmt: skip
-    """Tell the rooms looked through, those out of reach, and the budget that ran out.
+              alike: Sequence[Thing] = (), unseen: Iterable[str] = ()) -> Bilingual:  # fmt: skip
+    """Tell the rooms looked through, those out of reach, the budget that ran out, and the rest.
 
     Of things that are ``alike``, it is said that light may have changed their colour.
     """
-    seen = [room_name(facts, r) or say_same(r) for r in rooms]
-    closed = [room_name(facts, r) or say_same(r) for r in shut]
-    told = [say("result.looked_in", rooms=list_names(seen, "joint.and"))] if seen else []
-    if closed:
-        told.append(say("result.no_way_to", rooms=list_names(closed, "joint.and")))
+    told = [
+        say(f"result.{how}", rooms=list_rooms(facts, which))
+        for how, which in (
+            ("looked_in", tuple(rooms)),
+            ("no_way_to", tuple(shut)),
+            ("not_looked_in", tuple(unseen)),
+        )
+        if which
+    ]
     if spent is not None:
-        told.append(say("result.spent"))
+        told.append(say("result.spent" if unseen or not rooms else "result.corners"))
     if alike:
         told.append(say("result.alike", others=list_things(alike)))
     return join(told) if told else NOWHERE
+
+
+def list_rooms(facts: SiteView, rooms: Iterable[str]) -> Bilingual:
+    """Name rooms in a row."""
+    return list_names([room_name(facts, r) or say_same(r) for r in rooms], "joint.and")
 
 
 def list_things(things: Iterable[Thing]) -> Bilingual:

@@ -11,7 +11,7 @@ from math import cos, sin
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner.language.color_names import may_be
-from planner.mission.skills.actions import DriveLeg, Observe, Scene
+from planner.mission.skills.actions import DriveLeg, Observe, Scene, Way
 from planner.mission.skills.look_around import FACING_RAD, LOOKS, leg_to, look_round, spin
 from planner.mission.skills.object_matching import (
     WORTH,
@@ -23,6 +23,14 @@ from planner.mission.skills.object_matching import (
     may_fit,
     spot_of,
     turn_to,
+)
+from planner.mission.skills.search_bounds import (
+    FROM_ROOM_TO_ROOM,
+    ROUND_ABOUT,
+    bound_pictures,
+    bound_search,
+    way_after_m,
+    way_m,
 )
 from planner.mission.skills.skill_state import (
     AimStage,
@@ -43,6 +51,7 @@ from planner.perception.snapshot import Thing
 
 if TYPE_CHECKING:
     from planner.mission.skills.perception import WantedObject
+    from planner.mission.skills.search_bounds import SearchBounds
     from wire import Pose2
 
 Search = TypeVar("Search", bound=SearchState)
@@ -53,12 +62,6 @@ NEAR_M = 2.6
 """Nearer than this, in the same room, it is looked at from where the robot stands."""
 WORTH_S = 3600.0
 """What was seen longer ago tells which room to begin with, and no more."""
-MAX_M, MAX_S = 55.0, 540.0
-"""For one step; a grant is 60 m and 600 s."""
-LAST_M = 59.0
-"""By then the last way must be over: where a grant ends under way, nobody tells what was seen."""
-ROUND_ABOUT = 1.5
-"""So much longer than straight a way through a home may be."""
 AWAY = 2.5
 """A thing may be told by its room alone: how far beyond a place it still belongs to it [m]."""
 
@@ -69,10 +72,10 @@ def search(
     """Return the next act, or the thing that was found, or the state when it was not."""
     scene = begin(scene, pose, wanted, first=True)
     next_ = _next(scene, pose, wanted)
-    if not affords(scene, pose, next_):
-        return scene.state.but(out_of_metres=True)
+    if isinstance(next_, DriveLeg) and not affords(scene, pose, next_):
+        return stop_short(scene, next_)
     if isinstance(next_, (DriveLeg, Observe)):  # the order holds from its first act on
-        return replace(next_, state=scene.state)
+        return replace(within(scene, next_), state=scene.state)
     return next_
 
 
@@ -86,31 +89,78 @@ def _next(
     if find_spent_budget(scene) is not None:
         return scene.state
     known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.state.tried]
-    if not known:
+    near = [t for t in known if _reaches(scene, pose, (t.x_m, t.y_m))]
+    if not near:
         next_ = look_round(scene, pose, spots(scene, pose), wanted)
         if not isinstance(next_, SearchState):
             return next_
+        if known:
+            return next_.but(out_of_metres=True)
         scene = scene.but(next_)  # all was looked at: light or distance may have changed a colour
         known = [t for t in alike(scene, wanted) if t.id not in next_.tried]
         if not known:
             return next_
-    nearest = min(known, key=lambda t: (not fits(t, wanted), away_m(pose, (t.x_m, t.y_m))))
+    nearest = min(near or known, key=lambda t: (not fits(t, wanted), away_m(pose, (t.x_m, t.y_m))))
     return _look_again(scene, pose, nearest, wanted)
 
 
-def affords(scene: Scene[Any], pose: Pose2, next_: object) -> bool:
-    """Return whether the metres left are likely to last for the next act."""
-    if not isinstance(next_, DriveLeg):
+def affords(scene: Scene[Any], pose: Pose2, next_: DriveLeg | Observe) -> bool:
+    """Return whether the metres left are likely to last for the next act and the plan's rest."""
+    if not isinstance(next_, DriveLeg) or next_.way is Way.SPIN:
         return True
-    way_m = ROUND_ABOUT * away_m(pose, (next_.goal.x_m, next_.goal.y_m))
-    return scene.spent_m + way_m <= LAST_M
+    return _reaches(scene, pose, (next_.goal.x_m, next_.goal.y_m))
+
+
+def _reaches(scene: Scene[Any], pose: Pose2, at: tuple[float, float]) -> bool:
+    ahead_m = ROUND_ABOUT * away_m(pose, at) + way_after_m(at, scene.afterwards)
+    return scene.spent_m + ahead_m <= _bounds(scene).end_m
+
+
+def stop_short(scene: Scene[Tour], leg: DriveLeg) -> Tour:
+    """Return the state of a search without its next leg, with all that was looked at before it."""
+    state: Tour = leg.otherwise or scene.state  # type: ignore[assignment]  # of the same skill
+    return state.but(missed=None, out_of_metres=True)
+
+
+def within(scene: Scene[Any], act: DriveLeg | Observe) -> DriveLeg | Observe:
+    """Return an act of a search that ends with the search's own metres."""
+    if not isinstance(act, DriveLeg) or act.way is Way.SPIN:
+        return act
+    left_m = max(0.0, _bounds(scene).end_m - scene.spent_m)
+    return replace(act, limit_m=left_m if act.limit_m is None else min(act.limit_m, left_m))
 
 
 def find_spent_budget(scene: Scene[SearchState] | Scene[ModelSearchState]) -> str | None:
     """Return the budget that a search has used up, or None."""
-    if scene.state.out_of_metres or not scene.spent_m <= MAX_M:
+    bounds = _bounds(scene)
+    if scene.state.out_of_metres or not scene.spent_m <= bounds.begin_m:
         return "metres"
-    return None if scene.spent_s <= MAX_S else "seconds"
+    return None if scene.spent_s <= bounds.seconds else "seconds"
+
+
+def _bounds(scene: Scene[Any]) -> SearchBounds:
+    return bound_search(scene.facts, scene.left_m)
+
+
+def list_unseen(scene: Scene[Any]) -> tuple[str, ...]:
+    """Return the rooms of a search that were not looked in, in its order; shut ones are apart."""
+    state = scene.state
+    return tuple(r for r in state.order if r not in state.rooms and r not in state.shut)
+
+
+def ran_out(scene: Scene[Any]) -> bool:
+    """Tell whether a search ended before all was looked at: for want of a way, time or pictures.
+
+    A search that its eyes could not carry out has not run out: nothing is known.
+    """
+    state = scene.state
+    return any(room not in state.rooms for room in state.shut) or may_go_on(scene)
+
+
+def may_go_on(scene: Scene[Any]) -> bool:
+    """Tell whether nothing but its own bounds ended a search."""
+    shown = getattr(scene.state, "shown", 0)
+    return (shown > 0 and shown >= bound_pictures(scene)) or find_spent_budget(scene) is not None
 
 
 def make_filter(scene: Scene[Any]) -> PlaceFilter:
@@ -136,7 +186,11 @@ class PlaceFilter:
 
 
 def spots(scene: Scene[RoomTourState], pose: Pose2) -> tuple[Viewpoint, ...]:
-    """Return all spots to look round from, in order; the same at each time of asking."""
+    """Return all spots to look round from, in order.
+
+    A room is looked through from all its spots before the next, as long as the metres last for the
+    other rooms; else those come first, and what was passed over is looked at with what is left.
+    """
     facts, target = scene.facts, scene.facts.targets.get(scene.step.place or "")
     if target is not None and not target.room:
         at = (target.pose.x_m, target.pose.y_m)
@@ -144,15 +198,43 @@ def spots(scene: Scene[RoomTourState], pose: Pose2) -> tuple[Viewpoint, ...]:
     first = scene.state.here or (pose.x_m, pose.y_m)
     room, order = room_at(facts, first), scene.state.order
     rooms = [facts.targets[r] for r in order if r != room and r in facts.targets]
-    found: list[Viewpoint] = []
+    groups: list[tuple[Viewpoint, ...]] = []
     if room in order:
-        found += [Viewpoint(HERE, room, first), *spots_in(facts.targets[room], first)[1:]]
+        groups.append((Viewpoint(HERE, room, first), *spots_in(facts.targets[room], first)[1:]))
     elif room is None and target is None:
-        found.append(Viewpoint(HERE, None, first))
-    found += [spot for target in rooms for spot in spots_in(target)]
-    if room in order:  # what lay before the feet comes last: it is seldom there
-        found += near_spot(facts.targets[room], first)
-    return (*found, *(spot for target in rooms for spot in near_spot(target)))
+        groups.append((Viewpoint(HERE, None, first),))
+    groups += [spots_in(target) for target in rooms]
+    near = [*near_spot(facts.targets[room], first)] if room in order else []
+    # what lay before the feet comes last: it is seldom there
+    near += [spot for target in rooms for spot in near_spot(target)]
+    return (*_rooms_first(scene, pose, groups), *near)
+
+
+def _rooms_first(
+    scene: Scene[RoomTourState], pose: Pose2, groups: list[tuple[Viewpoint, ...]]
+) -> list[Viewpoint]:
+    """Put off the further spots of rooms where the metres would not last for the other rooms."""
+    state, at = scene.state, (pose.x_m, pose.y_m)
+    over = (spot for spot in (state.missed, state.spot) if spot is not None)
+    done = (*state.spots, *over)  # the spot that is looked round from is about to be
+    ahead = tuple(group[0].at for group in groups if group[0].key not in done)
+    now: list[Viewpoint] = []
+    later: list[Viewpoint] = []
+    for group in groups:
+        inside = bool(done) and done[-1] in {spot.key for spot in group}
+        if group[0].key not in done:
+            now += group
+        elif inside and ahead and all(_lasts(scene, (at, s.at, *ahead)) for s in group[1:]):
+            now = [*group, *now]
+        else:
+            later = [*group, *later]
+    return [*now, *later]
+
+
+def _lasts(scene: Scene[Any], way: tuple[tuple[float, float], ...]) -> bool:
+    """Tell whether the metres are likely to last for a way through rooms, and the plan's rest."""
+    ahead_m = FROM_ROOM_TO_ROOM * way_m(way) + way_after_m(way[-1], scene.afterwards)
+    return scene.spent_m + ahead_m <= _bounds(scene).begin_m
 
 
 def begin(

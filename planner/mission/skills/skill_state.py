@@ -91,6 +91,10 @@ class ModelSearchState(RoomTourState):
 
     out_of_metres: bool = False
     """The metres that were left did not last for the next way."""
+    offered: bool = False
+    """A person was asked whether to go on where the bounds had ended it."""
+    longer: int = 0
+    """Times that a person let it go on."""
     asking: bool = False
     """The direction gazed in last is to be asked about."""
     stood: tuple[float, float, float] | None = None
@@ -128,6 +132,10 @@ class SearchState(RoomTourState):
 
     out_of_metres: bool = False
     """The metres that were left did not last for the next way."""
+    offered: bool = False
+    """A person was asked whether to go on where the bounds had ended it."""
+    longer: int = 0
+    """Times that a person let it go on."""
     aim: str | None = None
     """The thing that is looked at again."""
     aim_stage: AimStage = AimStage.CHOSEN
