@@ -38,10 +38,12 @@ def only_reply(body: dict[str, Any]) -> dict[str, Any] | None:
 
     The mock's model is none that a schema could hold, but for one that leaves nothing to it.
     """
-    form = body.get("response_format")
-    schemas = [form.get("json_schema", {}).get("schema")] if isinstance(form, dict) else []
-    schemas += [tool.get("function", {}).get("parameters") for tool in _dicts(body.get("tools"))]
-    schema = next((each for each in schemas if isinstance(each, dict)), {})
+    form, tools = body.get("response_format"), _dicts(body.get("tools"))
+    schema = form.get("json_schema", {}).get("schema") if isinstance(form, dict) else None
+    if schema is None and tools:
+        schema = tools[0].get("function", {}).get("parameters")
+    if not isinstance(schema, dict):
+        return None
     fields, required = schema.get("properties"), schema.get("required")
     if not isinstance(fields, dict) or not isinstance(required, list):
         return None

@@ -33,7 +33,7 @@ from pons.evals.quick.exam import (
     ModeResult,
     PictureResult,
     Result,
-    WritingSpeed,
+    ServerPace,
 )
 from pons.evals.quick.eyes import examine_eyes
 from pons.evals.quick.questions import QUESTIONS, WORLD, ExamQuestion
@@ -139,9 +139,9 @@ async def examine(
     return Exam(model.name, host, tuple(rungs), marked, eyes, speed, cost, took_s, here)
 
 
-async def _measure_speed(room: _Room, slow: Callable[[], None]) -> WritingSpeed:
+async def _measure_speed(room: _Room, slow: Callable[[], None]) -> ServerPace:
     if room.left_s <= 0.0:
-        return WritingSpeed()
+        return ServerPace()
     async with room.line(None) as line:
         return await measure_speed(line, room.goal, room.clock, slow)
 

@@ -53,7 +53,7 @@ class PictureResult:
 
 
 @dataclass(frozen=True, slots=True)
-class WritingSpeed:
+class ServerPace:
     """Measure how soon a server writes its first word, and how fast it goes on."""
 
     first_call_s: float | None = None
@@ -73,7 +73,7 @@ class Exam:
     rungs: tuple[ModeResult, ...] = ()
     marked: tuple[MarkedAnswer, ...] = ()
     eyes: PictureResult = PictureResult()
-    speed: WritingSpeed = WritingSpeed()
+    speed: ServerPace = ServerPace()
     cost: Spending = field(default_factory=Spending)
     took_s: float = 0.0
     """By the clock on the wall."""

@@ -19,7 +19,7 @@ from planner.brain.prompt_tokens import count_tokens
 from planner.brain.response_format import ReplyForm
 from planner.brain.schema import Message, schema_of
 from planner.plan import EVERY_KIND
-from pons.evals.quick.exam import WritingSpeed
+from pons.evals.quick.exam import ServerPace
 from pons.evals.quick.questions import QUESTIONS, WORLD
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def _is_word(text: str, word: str) -> bool:
 
 async def measure_speed(
     line: Line, goal: str, clock: Callable[[], float], slow: Callable[[], None]
-) -> WritingSpeed:
+) -> ServerPace:
     """Return the server's pace over two orders; the first waits for a model to be loaded.
 
     Args:
@@ -89,7 +89,7 @@ async def measure_speed(
         request = ThinkRequest(
             text=question.text, vocabulary=WORLD, language=question.language, runnable=EVERY_KIND
         )
-        call = _Timed(clock)
+        call = _CallTimer(clock)
         try:
             await _wait_for(line, goal, prompt.messages(request), schema, call, slow)
         except (BadPlan, BrainDown):
@@ -98,7 +98,7 @@ async def measure_speed(
     written, took_s = sum(call.tokens for call in calls), sum(call.writing_s for call in calls)
     fair = written >= FEWEST_TOKENS and took_s >= SHORTEST_S
     first_words = [call.first_word_s for call in calls] + [None, None]
-    return WritingSpeed(first_words[0], first_words[1], written / took_s if fair else None)
+    return ServerPace(first_words[0], first_words[1], written / took_s if fair else None)
 
 
 async def _wait_for(
@@ -106,7 +106,7 @@ async def _wait_for(
     goal: str,
     messages: list[Message],
     schema: dict[str, Any],
-    call: _Timed,
+    call: _CallTimer,
     slow: Callable[[], None],
 ) -> None:
     async def talk(end_s: float) -> ModelReply:
@@ -118,7 +118,7 @@ async def _wait_for(
         call.end(await loading.later())
 
 
-class _Timed:
+class _CallTimer:
     """Time one call: its first word, and what was written after it."""
 
     def __init__(self, clock: Callable[[], float]) -> None:

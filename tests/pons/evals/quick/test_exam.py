@@ -39,7 +39,7 @@ from pons.evals.matchers import read_expectation
 from pons.evals.model_access import choose_model
 from pons.evals.quick import command, show
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
-from pons.evals.quick.exam import Exam, MarkedAnswer, ModeResult, Result, WritingSpeed
+from pons.evals.quick.exam import Exam, MarkedAnswer, ModeResult, Result, ServerPace
 from pons.evals.quick.eyes import DISC, PICTURE, examine_eyes
 from pons.evals.quick.grade import grade
 from pons.evals.quick.questions import QUESTIONS, WORLD, ExamPart
@@ -385,23 +385,23 @@ def test_the_first_word_is_timed_cold_and_warm_and_a_load_takes_no_time_from_the
 def test_a_server_that_never_says_a_word_is_not_measured(mock: RunningMock, tmp_path: Path) -> None:
     mock.set(fault="hang")
     exam = taken(mock, tmp_path, Caps(seconds=0.6))
-    assert exam.speed == WritingSpeed()
+    assert exam.speed == ServerPace()
     assert "speed      not measured" in show.table(exam, grade(exam), None)
 
 
 @pytest.mark.parametrize(
     ("speed", "told"),
     [
-        (WritingSpeed(60.0, 0.3, 40.0), ["cold: the first call waited 60 s"]),
-        (WritingSpeed(9.0, 8.5, 40.0), ["prefix cache"]),
-        (WritingSpeed(1.0, 0.5, 6.0), ["6.0 tokens a second"]),
-        (WritingSpeed(1.0, 0.5, 40.0), []),
-        (WritingSpeed(1.0, 0.5, None), []),
-        (WritingSpeed(), []),
+        (ServerPace(60.0, 0.3, 40.0), ["cold: the first call waited 60 s"]),
+        (ServerPace(9.0, 8.5, 40.0), ["prefix cache"]),
+        (ServerPace(1.0, 0.5, 6.0), ["6.0 tokens a second"]),
+        (ServerPace(1.0, 0.5, 40.0), []),
+        (ServerPace(1.0, 0.5, None), []),
+        (ServerPace(), []),
     ],
 )
 def test_a_slow_server_is_told_with_a_cure_and_graded_by_its_orders(
-    speed: WritingSpeed, told: list[str]
+    speed: ServerPace, told: list[str]
 ) -> None:
     found = grade(replace(exam_of(), speed=speed))
     assert found.letter == "A"
