@@ -55,8 +55,9 @@ def _only_value(shape: object) -> object:
     if not isinstance(shape, dict):
         return None
     words = shape.get("enum")
-    only = isinstance(words, list) and len(words) == 1
-    return words[0] if only else False if shape.get("type") == "boolean" else None
+    if isinstance(words, list) and len(words) == 1:
+        return words[0]
+    return False if shape.get("type") == "boolean" else None
 
 
 def _think_request(
