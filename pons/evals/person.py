@@ -17,7 +17,6 @@ from pons.evals.cases import HELD_OUT, TUNED
 
 if TYPE_CHECKING:
     from planner.brain import Brain
-    from planner.site.site import Site
 
 from planner.language.motion_guard.step_words import moves
 from pons.evals.person_robot import RobotEar, RobotReply, ScriptedModel
@@ -70,21 +69,19 @@ class _Mood(StrEnum):
     GIVES_UP = "gives_up"
 
 
-async def converse(script: Script, brain: Brain, site: Site) -> Conversation:
-    """Return how a conversation went.
+async def converse(script: Script, brain: Brain, robot: RobotEar) -> Conversation:
+    """Return how a conversation with a robot went that nobody has talked to yet.
 
     A person gives up at the first turn that goes wrong; in a trial, whose goals are counted one by
     one, they go on with the next.
     """
-    talk = _Talk(script, brain, site)
+    talk = _Talk(script, brain, robot)
     faults, scores, wrong = list[str](), dict[str, GoalScore](), False
     for number, turn in enumerate(script.turns, 1):
         before = talk.yeses
-        heard = await talk.take(turn)
-        if heard is not None:
-            faults.append(f"turn {number}: {_tell(heard)}")
-            wrong |= heard.reaction in PLANS and _moves(heard)
-        fault = faults[-1] if heard is not None else ""
+        heard, fault = await talk.take(turn)
+        wrong |= bool(fault) and heard.reaction in PLANS and _moves(heard)
+        faults += [f"turn {number}: {fault}"] if fault else []
         if turn.goal:
             score = GoalScore(turn.goal, fault, talk.yeses - before)
             scores[turn.goal] = scores.get(turn.goal, GoalScore(turn.goal)) + score
@@ -97,15 +94,16 @@ async def converse(script: Script, brain: Brain, site: Site) -> Conversation:
 class _Talk:
     """Be the person of one script, with a robot that hears."""
 
-    def __init__(self, script: Script, brain: Brain, site: Site) -> None:
-        self._robot, self._brain = RobotEar(brain, site), brain
+    def __init__(self, script: Script, brain: Brain, robot: RobotEar) -> None:
+        self._robot, self._brain = robot, brain
         self._yes = "yes" if script.language == "en" else "好的"
         self._patience = PATIENCE
         self.said: list[str] = []
         self.yeses = 0
 
-    async def take(self, turn: ScriptTurn) -> RobotReply | None:
-        """Say one turn until it is understood; return what was heard where it never was."""
+    async def take(self, turn: ScriptTurn) -> tuple[RobotReply, str]:
+        """Say one turn until it is understood; return what was heard last and what is wrong."""
+        self._robot.expect(turn)
         if isinstance(self._brain, ScriptedModel):
             self._brain.expect(turn)
         words, mood = iter(turn.says), _Mood.SAYS
@@ -120,9 +118,11 @@ class _Talk:
                 heard, mood = await self._answer(heard, turn), _Mood.HEARS
             else:
                 mood, self._patience = _judge(heard, turn, self._patience)
+        fits = mood is _Mood.GOES_ON
         if heard.reaction in PLANS:
-            self._robot.settle(heard.goal, stays=turn.stays and mood is _Mood.GOES_ON)
-        return heard if mood is _Mood.GIVES_UP else None
+            self._robot.settle(heard.goal, stays=turn.stays and fits)
+        fault = self._robot.fault_of(heard.goal, turn) if fits and heard.goal else ""
+        return heard, fault if fits else _tell(heard)
 
     async def _answer(self, heard: RobotReply, turn: ScriptTurn) -> RobotReply:
         yes = _is_meant(heard, turn)

@@ -106,6 +106,14 @@ class RobotEar:
             self._left += effects
         return error
 
+    def expect(self, turn: ScriptTurn) -> None:
+        """Be told what the next turn notes; what is not driven needs nothing of it."""
+
+    def fault_of(self, goal: str, turn: ScriptTurn) -> str:
+        """Return what is wrong with a goal's end; what is not driven has none."""
+        del goal, turn
+        return ""
+
     async def hear(self, text: str, *, typed: bool = False) -> RobotReply:
         """Return what a sentence comes to."""
         self._now_s += _TURN_S

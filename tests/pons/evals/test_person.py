@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from planner.brain import OfflineBrain
+from planner.brain import Brain, OfflineBrain
 from planner.brain.scripted import ScriptedBrain
 from planner.plan import GoTo, StepPlan
 from planner.site import Site
@@ -16,7 +16,7 @@ from pons.evals import person_scripts
 from pons.evals.cases import HELD_OUT
 from pons.evals.matchers import BadMatcher
 from pons.evals.person import PATIENCE, Conversation, GoalScore, converse, show_conversations
-from pons.evals.person_robot import ScriptedModel
+from pons.evals.person_robot import RobotEar, ScriptedModel
 from pons.evals.person_scripts import FEWEST, MOST, Script, ScriptSet, read_scripts
 from tests.conftest import ROOT
 
@@ -29,8 +29,9 @@ def script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *lines: str) -> Scri
     return read_scripts("en")[0]
 
 
-def held(one: Script, brain: object = None) -> Conversation:
-    return asyncio.run(converse(one, brain or OfflineBrain(), SITE))  # type: ignore[arg-type]
+def held(one: Script, brain: Brain | None = None) -> Conversation:
+    brain = brain or OfflineBrain()
+    return asyncio.run(converse(one, brain, RobotEar(brain, SITE)))
 
 
 def test_there_are_enough_of_them_and_each_has_three_to_eight_turns() -> None:
@@ -126,10 +127,7 @@ def test_most_conversations_go_as_a_person_means() -> None:
 
 
 def hold_trials(language: str, model: ScriptedModel) -> list[Conversation]:
-    async def hold() -> list[Conversation]:
-        return [await converse(one, model, SITE) for one in read_scripts(language, ScriptSet.TRIAL)]
-
-    return asyncio.run(hold())
+    return [held(one, model) for one in read_scripts(language, ScriptSet.TRIAL)]
 
 
 MOST_YESES = 6
@@ -137,8 +135,9 @@ MOST_YESES = 6
 
 
 def test_a_strong_models_replies_do_nearly_all_that_was_wanted_and_few_are_asked_about() -> None:
-    held = [each for lang in ("en", "zh") for each in hold_trials(lang, ScriptedModel(whims=False))]
-    goals = [goal for each in held for goal in each.goals]
+    model = ScriptedModel(whims=False)
+    done = [each for lang in ("en", "zh") for each in hold_trials(lang, model)]
+    goals = [goal for each in done for goal in each.goals]
     numbers = [goal.number for goal in goals]
     first, others = {f"{n}" for n in range(1, 49)}, {f"{c}{n}" for c in "NZ" for n in range(1, 17)}
     assert sorted(numbers) == sorted(first | others), "eighty goals, each once"
