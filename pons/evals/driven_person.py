@@ -1,4 +1,4 @@
-"""Hold a trial's conversations with a robot that drives: real planner, real bridge core, in lockstep.
+"""Hold a trial's conversations with a robot that drives in lockstep: real planner, real bridge.
 
 Understanding alone says nothing of a search that runs out or of an answer that nobody can use. Here
 each goal is driven to its end on a simulated clock, seen by the simulator's truth with a detector's
@@ -14,14 +14,17 @@ from typing import TYPE_CHECKING, TypeVar
 
 from planner.brain.image_questions import ImageDescription, ImageSighting, NotThere
 from planner.language.utterance import parse
-from planner.memory import MemoryStore, Recollection
+from planner.memory import MemoryStore, Recollection, SightingRecorder
 from planner.mission.events import Submitted
 from planner.mission.reception import receive
+from planner.mission.skills.spatial_relations import support_of
 from planner.plan import BrainTag, GoalState, StepPlan, say_same
 from planner.state_database import StateDatabase
 from pons.evals.person_commands import OrderDouble
 from pons.evals.person_robot import RobotEar, RobotReply
+from pons.evals.person_scripts import PLANS, Reaction
 from tools.lockstep import LockstepWorld, TooLong
+from tools.lockstep.planner_process import WALL_OFFSET_S
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,11 +95,21 @@ class DrivenRobot(RobotEar):
         self.world = LockstepWorld(site=folder, seed=seed, brain=keeper)
         super().__init__(brain, self.world.scene.site)
         self._plans, self._noted = keeper.plans, _NotedEyes()
-        self.world.open_eyes(looker=self._noted)
+        self._eyes = self.world.open_eyes(looker=self._noted)
         self._folder = TemporaryDirectory(prefix="pons-trial-")
         missions = self.world.planner.missions
         store = MemoryStore(StateDatabase(Path(self._folder.name) / "state.db"))
-        missions.remember_by(Recollection(store, run=_inline))
+        recollection = Recollection(store, wall=self._wall_s, run=_inline)
+        self._recorder = SightingRecorder(
+            recollection,
+            self.world.scene.site.map_id,
+            support=support_of,
+            step=lambda: "look",
+            clock=lambda: self.world.now_s,
+            wall=self._wall_s,
+        )
+        recollection.flush_by(self._recorder.flush)
+        missions.remember_by(recollection)
         missions.commands.desk = OrderDouble()
         self._turn: ScriptTurn | None = None
 
@@ -112,8 +125,11 @@ class DrivenRobot(RobotEar):
             return self._settled(before, waiting.id, stopped=False)
         said = parse(text)
         given = Submitted("asked", text, said.language)
-        stopped = receive(before, said, given, self.world.now_s).stops
-        return self._settled(before, self.world.say(text).id, stopped=stopped)
+        stops = receive(before, said, given, self.world.now_s).stops
+        goal = self.world.say(text).id
+        told = self._settled(before, goal, stopped=False)
+        plain = stops and self._book.missions[goal].state is GoalState.SUCCEEDED
+        return RobotReply(Reaction.STOP) if plain and told.reaction not in PLANS else told
 
     async def confirm(self, goal: str, *, yes: bool) -> RobotReply:
         """Return what a yes or no to a plan comes to."""
@@ -121,7 +137,11 @@ class DrivenRobot(RobotEar):
         self.world.answer(self.world.goal(goal), "yes" if yes else "no")
         return self._settled(before, goal, stopped=False)
 
+    def _wall_s(self) -> float:
+        return self.world.now_s + WALL_OFFSET_S
+
     def _look(self) -> MissionState:
+        self._recorder.take(self._eyes.sight)
         self._book = self.world.planner.book
         return self._book
 
@@ -146,6 +166,7 @@ class DrivenRobot(RobotEar):
         answers = iter(self._turn.notes.hears if self._turn is not None else ())
 
         def ended(world: LockstepWorld) -> bool:
+            self._recorder.take(self._eyes.sight)
             book = world.planner.book
             waiting = next((m for m in book.missions.values() if m.state in _ASKING), None)
             if waiting is not None and (words := next(answers, None)) is not None:
