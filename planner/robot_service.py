@@ -21,6 +21,7 @@ from wire import (
     TrialState,
     Velocity,
 )
+from wire.trial_dialogue import mark_of
 
 if TYPE_CHECKING:
     from planner.bridge_client import Aged
@@ -85,7 +86,7 @@ class LinkedRobot:
         for _ in range(round(ORDERED_S / ORDERED_GAP_S)):
             await asyncio.sleep(ORDERED_GAP_S)
             trial = self.trial
-            if trial is not None and trial.by == order.id:
+            if trial is not None and trial.by == mark_of(order.id):
                 return True
             self._link.order_trial(order)
         return False

@@ -74,6 +74,7 @@ ASKERS = (
 _CONNECTIONS = "planner/api/test_connections.py"
 _STOP = "pons/test_stop.py"
 _FALSE = "bridge/core/sensing/test_sensor_update_lies.py"
+_DESK = "pons/robot/test_trial_desk.py"
 _KEY = "bridge/test_operator_key.py"
 
 THREATS = (
@@ -213,6 +214,15 @@ THREATS = (
             f"{_KEY}::test_a_key_of_another_user_refuses_to_start",
             f"{_KEY}::test_a_key_that_others_can_reach_refuses_to_start",
             "pons/test_key.py::test_the_key_is_random_private_printable_and_taken_by_the_bridge")),
+    Threat("Set-up whose nonce anybody spends, or whose page another client stands in for",
+           "Only a begin with a fitting proof spends the nonce; the state shows a digest of the begin's id, and a watch "
+           "names the id itself",
+           (f"{_DESK}::test_without_a_fitting_proof_nothing_is_opened_and_a_nonce_counts_once",
+            f"{_DESK}::test_what_a_page_shows_of_a_trial_does_not_let_another_watch_it")),
+    Threat("A planner that hangs, by a sentence or otherwise",
+           "Its loop feeds a watchdog: after 5 s without a beat `pons up` and systemd start it again; the robot stands "
+           "long before that (`BRAIN_LOST`), and what was under way waits for a person",
+           ("pons/test_supervisor.py::test_a_child_whose_loop_falls_silent_is_killed_and_due_again",)),
     Threat("The path between browser and planner is listened to or rewritten",
            "`pons up --tls`, a pair of your own, or nginx or Caddy ([tls.md](tls.md))",
            ("planner/test_tls.py::test_a_pair_that_does_not_fit_is_refused_in_one_line",
@@ -280,6 +290,9 @@ _OPEN = """
 
 - A webhook or ntfy topic that the owner sets learns when somebody is at home, what the robot is asked to do and how it
   went (`words = false`: codes alone); whoever reads the topic reads that. No picture and no position is sent.
+- A simulated robot (a virtual drive) has no key: whoever may give orders ends another's stop with the next order, in the same
+  moment. Two people with one simulated robot, a class for example, should know it. With metal each order that ends a
+  stop needs the operator's own proof, made after that stop.
 - From another machine, or as a user without the right to the bridge's socket, `pons stop` has the planner's
   word alone, and says so. Whoever doubts it says `pons stop` at the robot, or presses the robot's own button.
 - A planner that was taken over can show anything in the page. The page signs what it shows, for the nonce of this moment and one kind

@@ -7,6 +7,7 @@ and its silence means that nobody watches. Spoken at the bridge's door while no 
 
 from __future__ import annotations
 
+import hashlib
 from typing import Annotated, Final, Literal
 
 from pydantic import Field
@@ -30,6 +31,15 @@ class Sentence(Record):
 
     en: Text
     zh: Text
+
+
+def mark_of(order_id: str) -> str:
+    """Return the sign by which the page that made an order's id knows it again.
+
+    The id itself is shown to nobody: it is what a watch must name, so that only the page which
+    began a trial keeps its wheels turning.
+    """
+    return hashlib.sha256(order_id.encode()).hexdigest()[:32]
 
 
 class TrialOrder(Record):
@@ -75,7 +85,7 @@ class TrialState(Record):
     """The date of a trial of the present wiring; null where there is none."""
     phase: TrialPhase
     by: Name | None
-    """The begin of the present or newest trial."""
+    """The mark of the id of the present or newest begin (:func:`mark_of`)."""
     plan: Annotated[tuple[Code, ...], Field(max_length=16)]
     """All steps, in order."""
     steps: Annotated[tuple[TrialStep, ...], Field(max_length=16)]

@@ -18,6 +18,7 @@ from planner.bridge_client.errors import BridgeSilent
 from planner.bridge_client.scan_to_map import points_in_map
 from planner.bridge_client.transport import Bus
 from wire import (
+    VIRTUAL_KEY,
     Answer,
     Event,
     FenceRequest,
@@ -38,6 +39,7 @@ from wire import (
     TrialState,
     Velocity,
     mark_relayed,
+    signed_request,
 )
 
 ECHO_S = 2.0
@@ -197,6 +199,17 @@ class Link:
         message = Stop(id=stop_id, source=mark_relayed(source))
         answer = await self._until_echoed(stop_id, lambda: self._bus.send(message))
         return StopResult(stop_id, answer is not None, self._clock() - began_s)
+
+    def sign_again(self, request: OpRequest | None) -> OpRequest | None:
+        """Return a person's request under the nonce that counts now, where no key is needed.
+
+        A stop voids what was signed before it, though the very sentence that stopped may ask for
+        another drive. With metal only the person can sign again.
+        """
+        status = self.status.value if self.status is not None else None
+        if request is None or status is None or not status.drive.virtual:
+            return request
+        return signed_request(VIRTUAL_KEY, "resume", status, request.source, request.id)
 
     async def operate(self, kind: OpKind, request: OpRequest) -> Answer:
         """Bring an operator's request to the bridge and return its verdict.

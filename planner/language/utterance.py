@@ -23,7 +23,7 @@ from planner.language.commands import (
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.folding import is_chinese
 from planner.language.schedule import OrderCommand, can_lean
-from planner.language.stop import StopReading, is_stop, read_stop
+from planner.language.stop import StopReading, is_stop, read_stop, words_behind_stop
 from planner.language.yes_no import consents
 from planner.plan import Language
 
@@ -52,6 +52,12 @@ class Utterance:
     def orders_stop(self) -> bool:
         """Return whether it orders a stop, at its start or in place of the current goal."""
         return self.reading is StopReading.ORDER or self.begins_with_stop
+
+    @property
+    def behind_stop(self) -> str:
+        """Return what is said behind a stop in the same breath; a command as a whole has none."""
+        whole = not (self.intent is None or isinstance(self.intent, Replace))
+        return "" if whole else words_behind_stop(self.text)
 
     @property
     def may_mean_stop(self) -> bool:

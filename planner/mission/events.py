@@ -41,6 +41,8 @@ class Submitted:
     stop: bool = False
     doubtful_stop: bool = False
     """The sentence holds a stop word and has stopped the robot; it is thought about only now."""
+    rest: str = ""
+    """What a sentence that orders a stop says behind it, in the same breath."""
     echoed: bool = True
     """The bridge has confirmed that stop."""
     interrupts: str | None = None

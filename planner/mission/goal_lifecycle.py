@@ -57,6 +57,7 @@ from planner.mission.stop_sentences import (
     end_paused,
     end_stopped,
     stop_after_all,
+    tell_left,
 )
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
@@ -94,7 +95,8 @@ def submit(turn: Transaction, event: Submitted) -> None:
         make_room(turn, event.text)
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
     turn.set(order=order)
-    meant = "" if event.local else meaning_of(turn.book, event.text, now_unix_s)
+    meant = event.rest or meaning_of(turn.book, event.text, now_unix_s)
+    meant = "" if event.local else meant
     mission = Mission(
         id=event.id,
         order=order,
@@ -116,7 +118,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         updated_unix_s=now_unix_s,
     )
     if event.stop or (event.doubtful_stop and not event.echoed):
-        end_stopped(turn, mission, event.echoed, event.also)
+        end_stopped(turn, mission, event.echoed, event.also or tell_left(event.rest))
         return
     if event.asking:
         asking = take_sentence(turn, mission, event.asking)
@@ -201,7 +203,8 @@ def _walkable(turn: Transaction, mission: Mission, event: Planned) -> None:
     """Refuse what can't be walked before anything moves; else wait for a yes or for the robot."""
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
-        end_stopped(turn, mission, echoed=True)
+        left = outcome.message if parse(mission.text).behind_stop else None
+        end_stopped(turn, mission, echoed=True, also=left)
         return
     if outcome is not None:
         finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)

@@ -123,18 +123,16 @@ def receive(
         key: the Idempotency-Key of the request.
         repeats: the requests that came before.
     """
-    if said.orders_stop:
-        return Reception(replace(given, stop=True), stops=True)
     full = not has_room(book)
+    if said.orders_stop:
+        stop = replace(given, stop=True, rest=said.behind_stop)
+        return Reception(_doubtful(book, stop) if stop.rest and not full else stop, stops=True)
     may_answer = answers and not (given.confirm or given.replace)
     asking = goals_answered_by(book, said) if may_answer else ()
     now_unix_s = now_s + book.wall_offset_s
     if not asking and _may_stop(book, said, now_s):
-        marked = replace(
-            given, stop=full, doubtful_stop=not full, confirm=True, replace=False,
-            interrupts=goal_to_pause(book), denies=denied_goal(book, said.text, now_unix_s),
-        )  # fmt: skip
-        return Reception(marked, stops=True)
+        denied = replace(given, stop=full, denies=denied_goal(book, said.text, now_unix_s))
+        return Reception(denied if full else _doubtful(book, denied), stops=True)
     if key is not None and key.startswith(RESERVED_KEYS):
         return Reception(given, refused=ReservedKey(key))
     body = _body_of(given)
@@ -162,6 +160,12 @@ def receive(
     request = GoalKey(key, body, given.id) if key is not None else None
     takes_back = goal_to_end(book) if ends else None
     return Reception(marked, takes_back=takes_back, request=request)
+
+
+def _doubtful(book: MissionState, given: Submitted) -> Submitted:
+    """Mark a sentence that stops the robot and is thought about then: it drives after a yes."""
+    given = replace(given, stop=False, doubtful_stop=True, confirm=True, replace=False)
+    return replace(given, interrupts=goal_to_pause(book))
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,7 +237,8 @@ def receive_answer(
     intent = said.intent
     if said.orders_stop or (said.consent is None and hears_stop(book, said, now_s)):
         ends = Cancel(goal_id) if isinstance(intent, Replace) else None
-        return AnswerReception(stops=True, command=ends)
+        rest = said.text if said.orders_stop and said.behind_stop else None
+        return AnswerReception(stops=True, command=ends, sentence=rest, answers=rest is None)
     if (error := refusal(book, Reply(goal_id, said.text))) is not None:
         return AnswerReception(refused=error)
     if isinstance(intent, TakeBack):

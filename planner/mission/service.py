@@ -254,8 +254,7 @@ class Missions:
             await self.stop("answer")
             if heard.command is not None:
                 self.loop.obey(heard.command)
-            return self.goal(goal_id)
-        if heard.command is not None:
+        elif heard.command is not None:
             await self._command(heard.command, act if isinstance(heard.command, Reply) else None)
         if heard.sentence is not None:
             await self.submit(heard.sentence, act=act, answers=heard.answers)
@@ -325,6 +324,7 @@ class Missions:
 
     async def _stop_goal(self, given: Submitted, source: str, act: OpRequest | None = None) -> Goal:
         result = await self.stop(source)
+        act = self.link.sign_again(act)  # the stop has voided what was signed before it
         self.loop.keep_act(given.id, act if given.doubtful_stop else None)
         also = await self.commands.obey_beside_stop(given)
         self.loop.event(dataclasses.replace(given, echoed=result.is_echoed, also=also))

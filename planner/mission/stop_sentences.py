@@ -7,6 +7,9 @@ without a further yes only where the person's own words take the old one back an
 from __future__ import annotations
 
 from planner.language.catalogue import join, say
+from planner.language.commands import ResumeCommand
+from planner.language.folding import has_chinese
+from planner.language.utterance import parse
 from planner.mission.events import Planned
 from planner.mission.plan_roles import ends_goal, takes_back
 from planner.mission.queue import cancel, finish
@@ -14,7 +17,18 @@ from planner.mission.spoken_status import stop_told
 from planner.mission.state import Mission, MissionState
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import PersonCause
-from planner.plan import Bilingual, Code, GoalState, Outcome, PlanRole, StepPlan, words_of
+from planner.plan import (
+    AnswerPlan,
+    Bilingual,
+    Code,
+    GoalState,
+    Outcome,
+    Plan,
+    PlanRole,
+    Refuse,
+    StepPlan,
+    words_of,
+)
 
 UNCONFIRMED = say("goal.unconfirmed")
 
@@ -23,12 +37,13 @@ def end_stopped(
     turn: Transaction, mission: Mission, echoed: bool, also: Bilingual | None = None
 ) -> None:
     """End a sentence that was an order to stop, and say whether the bridge has heard it."""
+    heard = stop_told(turn.book) if echoed else UNCONFIRMED
+    told = heard if also is None else join((heard, also))
     if echoed:
-        told = stop_told(turn.book) if also is None else join((stop_told(turn.book), also))
         said = Outcome(code=Code.STOPPED, message=told)
         finish(turn, mission, PersonCause.ORDERS_STOP, said)
         return
-    said = Outcome(code=Code.FAULT, message=UNCONFIRMED)
+    said = Outcome(code=Code.FAULT, message=told)
     turn.move_to(mission, PersonCause.STOP_UNHEARD, reason="bridge_silent", outcome=said)
 
 
@@ -45,8 +60,37 @@ def stop_after_all(turn: Transaction, mission: Mission, event: Planned) -> None:
     cancels = isinstance(plan, StepPlan) and plan.does is PlanRole.CANCEL
     if cancels and ends_goal(mission.words):
         end_paused(turn, mission.interrupted)
-    also = words_of(plan) if event.brain is None else None  # the planner's own, as it was told
+    own = words_of(plan) if event.brain is None else None  # the planner's own, as it was told
+    also = own or _tell_rest(turn, mission, plan)
     end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True, also=also)
+
+
+def tell_left(rest: str) -> Bilingual | None:
+    """Say that what followed a stop in the same breath was not done; None: nothing did."""
+    return say("goal.rest_left", text=_short(rest)) if rest else None
+
+
+def _tell_rest(turn: Transaction, mission: Mission, plan: Plan | None) -> Bilingual | None:
+    """Say what became of the words behind a stop, of which no step has come."""
+    rest = parse(mission.text).behind_stop
+    if rest and isinstance(plan, AnswerPlan | Refuse):
+        return words_of(plan)
+    if rest and turn.book.queue and _says_go_on(rest):  # not with what was just stopped
+        end_paused(turn, mission.interrupted)
+        waiting = turn.book.missions[turn.book.queue[0]]
+        return say("goal.rest_go_on", text=_short(waiting.text))
+    return tell_left(rest)
+
+
+def _says_go_on(rest: str) -> bool:
+    """Tell whether words begin as an order to go on: "go on with the others"."""
+    words = [*rest] if has_chinese(rest) else rest.split()
+    joint = "" if has_chinese(rest) else " "
+    return any(isinstance(parse(joint.join(words[:n])).intent, ResumeCommand) for n in (1, 2, 3))
+
+
+def _short(text: str) -> str:
+    return text[:60]
 
 
 def corrects(turn: Transaction, mission: Mission) -> bool:
@@ -57,5 +101,5 @@ def corrects(turn: Transaction, mission: Mission) -> bool:
 
 def ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
     """Ask whether a sentence with a stop word in it was an order to do something."""
-    told, text = stop_told(book), mission.text[:60]
+    told, text = stop_told(book), _short(mission.text)
     return say("goal.doubtful_stop", told=told, text=text)

@@ -146,7 +146,7 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
     A trial is for models: what it asks is beyond a grammar.
     """
     from pons.evals.person import converse, show_conversations
-    from pons.evals.person_robot import ScriptedModel
+    from pons.evals.person_robot import RobotEar, ScriptedModel
     from pons.evals.person_scripts import ScriptSet, read_scripts
 
     sets = (
@@ -166,7 +166,7 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
         for name, script_set in product(("en", "zh"), sets):
             for each in brains(brain):
                 scripts = read_scripts(name, script_set)
-                held = tuple([await converse(one, each, site) for one in scripts])
+                held = tuple([await converse(one, each, RobotEar(each, site)) for one in scripts])
                 hostile = each.hostile if isinstance(each, ScriptedModel) else 0
                 print(show_conversations(f"{script_set}{name}", each.tag.name, held, hostile))
                 right, count = right + sum(h.right for h in held), count + len(held)

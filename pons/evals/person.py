@@ -17,7 +17,6 @@ from pons.evals.cases import HELD_OUT, TUNED
 
 if TYPE_CHECKING:
     from planner.brain import Brain
-    from planner.site.site import Site
 
 from planner.language.motion_guard.step_words import moves
 from pons.evals.person_robot import RobotEar, RobotReply, ScriptedModel
@@ -25,6 +24,21 @@ from pons.evals.person_scripts import PLANS, Reaction, Script, ScriptTurn
 
 PATIENCE = 3
 """So often a person answers what they did not expect, or says it in other words."""
+
+
+@dataclass(frozen=True, slots=True)
+class GoalScore:
+    """Hold how one numbered goal of a trial went."""
+
+    number: str
+    fault: str = ""
+    """Empty: right."""
+    yeses: int = 0
+    """So often the person had to say yes to just what they had ordered."""
+
+    def __add__(self, other: GoalScore) -> GoalScore:
+        fault = self.fault or other.fault
+        return GoalScore(self.number, fault, self.yeses + other.yeses)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +50,8 @@ class Conversation:
     """Empty: right."""
     said: tuple[str, ...]
     moves_wrongly: bool
+    goals: tuple[GoalScore, ...] = ()
+    """Of a trial, in order."""
 
     @property
     def right(self) -> bool:
@@ -53,39 +69,75 @@ class _Mood(StrEnum):
     GIVES_UP = "gives_up"
 
 
-async def converse(script: Script, brain: Brain, site: Site) -> Conversation:
-    """Return how a conversation went."""
-    robot, patience, said = RobotEar(brain, site), PATIENCE, list[str]()
+async def converse(script: Script, brain: Brain, robot: RobotEar) -> Conversation:
+    """Return how a conversation with a robot went that nobody has talked to yet.
+
+    A person gives up at the first turn that goes wrong; in a trial, whose goals are counted one by
+    one, they go on with the next.
+    """
+    talk = _Talk(script, brain, robot)
+    faults, scores, wrong = list[str](), dict[str, GoalScore](), False
     for number, turn in enumerate(script.turns, 1):
-        if isinstance(brain, ScriptedModel):
-            brain.expect(turn)
-        words, heard, mood = iter(turn.says), None, _Mood.SAYS
+        before = talk.yeses
+        heard, fault = await talk.take(turn)
+        wrong |= bool(fault) and heard.reaction in PLANS and _moves(heard)
+        faults += [f"turn {number}: {fault}"] if fault else []
+        if turn.goal:
+            score = GoalScore(turn.goal, fault, talk.yeses - before)
+            scores[turn.goal] = scores.get(turn.goal, GoalScore(turn.goal)) + score
+        elif fault:
+            break
+    told = tuple(scores.values())
+    return Conversation(script, faults[0] if faults else "", tuple(talk.said), wrong, told)
+
+
+class _Talk:
+    """Be the person of one script, with a robot that hears."""
+
+    def __init__(self, script: Script, brain: Brain, robot: RobotEar) -> None:
+        self._robot, self._brain = robot, brain
+        self._yes = "yes" if script.language == "en" else "好的"
+        self._patience = PATIENCE
+        self.said: list[str] = []
+        self.yeses = 0
+
+    async def take(self, turn: ScriptTurn) -> tuple[RobotReply, str]:
+        """Say one turn until it is understood; return what was heard last and what is wrong."""
+        self._robot.expect(turn)
+        if isinstance(self._brain, ScriptedModel):
+            self._brain.expect(turn)
+        words, mood = iter(turn.says), _Mood.SAYS
+        self._patience = PATIENCE if turn.goal else self._patience
+        heard = RobotReply(Reaction.NO)
         while mood not in (_Mood.GOES_ON, _Mood.GIVES_UP):
             if mood in (_Mood.SAYS, _Mood.REPHRASES):
-                text = next(words, turn.says[0])
-                said.append(text)
-                heard = await robot.hear(text, typed=turn.typed)
+                self.said.append(next(words, turn.says[0]))
+                heard = await self._robot.hear(self.said[-1], typed=turn.typed)
                 mood = _Mood.HEARS
-            elif mood is _Mood.ANSWERS and heard is not None:
-                yes = _is_meant(heard, turn)
-                said.append("yes" if yes else "no")
-                heard = await (
-                    robot.confirm(heard.goal, yes=yes)
-                    if heard.reaction is Reaction.CONFIRMS
-                    else robot.hear("yes" if script.language == "en" else "好的")
-                )
-                mood = _Mood.HEARS
-            elif heard is not None:
-                mood, patience = _judge(heard, turn, patience)
-        if mood is _Mood.GIVES_UP or heard is None:
-            wrong = heard is not None and heard.reaction in PLANS and _moves(heard)
-            what = f"turn {number}: {heard.reaction if heard else 'nothing'}"
-            plan = heard.plan.steps if heard is not None and heard.plan is not None else ()
-            told = "; ".join(str(step.model_dump(exclude_defaults=True)) for step in plan)
-            return Conversation(script, f"{what} {told}".strip(), tuple(said), wrong)
+            elif mood is _Mood.ANSWERS:
+                heard, mood = await self._answer(heard, turn), _Mood.HEARS
+            else:
+                mood, self._patience = _judge(heard, turn, self._patience)
+        fits = mood is _Mood.GOES_ON
         if heard.reaction in PLANS:
-            robot.settle(heard.goal, stays=turn.stays)
-    return Conversation(script, "", tuple(said), moves_wrongly=False)
+            self._robot.settle(heard.goal, stays=turn.stays and fits)
+        fault = self._robot.fault_of(heard.goal, turn) if fits and heard.goal else ""
+        return heard, fault if fits else _tell(heard)
+
+    async def _answer(self, heard: RobotReply, turn: ScriptTurn) -> RobotReply:
+        yes = _is_meant(heard, turn)
+        self.said.append("yes" if yes else "no")
+        if heard.reaction is not Reaction.CONFIRMS:
+            return await self._robot.hear(self._yes)
+        self.yeses += yes
+        return await self._robot.confirm(heard.goal, yes=yes)
+
+
+def _tell(heard: RobotReply) -> str:
+    """Describe what came in place of what was wanted, for the table."""
+    plan = heard.plan.steps if heard.plan is not None else ()
+    told = "; ".join(str(step.model_dump(exclude_defaults=True)) for step in plan)
+    return f"{heard.reaction} {told}".strip()
 
 
 def _moves(heard: RobotReply) -> bool:
@@ -132,6 +184,7 @@ def show_conversations(
             f"conversations {name} {split}, {brain}: {right} of {len(mine)} right, "
             f"{wrong} wrong motions"
         )
+    lines += _goal_lines(name, brain, held) if not hostile else ()
     if hostile:
         lines.append(f"  the model added motion that nobody asked for {hostile} times")
     lines += [
@@ -140,3 +193,14 @@ def show_conversations(
         if not each.right
     ]
     return "\n".join(lines)
+
+
+def _goal_lines(name: str, brain: str, held: tuple[Conversation, ...]) -> list[str]:
+    """Return a trial's figures, goal by goal; nothing of conversations that count none."""
+    goals = [goal for each in held for goal in each.goals]
+    if not goals:
+        return []
+    right, yeses = sum(not goal.fault for goal in goals), sum(goal.yeses for goal in goals)
+    told = f"goals {name}, {brain}: {right} of {len(goals)} right, {yeses} yeses to what was said"
+    odd = [goal for goal in goals if goal.fault or goal.yeses]
+    return [told, *(f"  [{g.number}] {g.fault or f'right after {g.yeses} yes'}" for g in odd)]

@@ -35,7 +35,7 @@ class PersonCommands(PlannerCommands):
     def __init__(self, think: Think, site: Site, loop: GoalBook) -> None:
         """Take the brain behind it, the site, and where the goals stand."""
         super().__init__(think, KnownPlaces(site), loop, _NoLocalizer())
-        self.desk = _Desk()
+        self.desk = OrderDouble()
         self.facts: list[str] = []
 
     async def carry_out(self, intent: Intent, mission: Mission) -> AnswerPlan | Refuse:
@@ -65,7 +65,7 @@ def _shares_terms(fact: str, words: str) -> bool:
     return not {*kept.words, *kept.kinds}.isdisjoint({*asked.words, *asked.kinds})
 
 
-class _Desk:
+class OrderDouble:
     """Take every standing order whose time is read; keep none."""
 
     def __init__(self) -> None:

@@ -20,6 +20,7 @@ from planner.mission.plan_request import thinker
 from planner.mission.reception import receive, receive_answer
 from planner.mission.reducer import advance
 from planner.mission.skills import Eyesight
+from planner.mission.skills.perception import PictureLimits
 from planner.mission.state import MissionState
 from planner.perception.snapshot import Sight
 from planner.plan import (
@@ -77,7 +78,7 @@ class RobotEar:
     def __init__(self, brain: Brain, site: Site) -> None:
         """Take the brain and the site."""
         self._brain, self._site = brain, site
-        eyes = Eyesight(CameraConfig(), _CLASSES)
+        eyes = Eyesight(CameraConfig(), _CLASSES, model=True, pictures=_PICTURES)
         facts = facts_of(site)
         self._book = MissionState(facts, eyes=eyes, sight=Sight())
         self._pose = facts.targets[facts.home].pose
@@ -104,6 +105,14 @@ class RobotEar:
             self._book, effects = advance(self._book, command, self._now_s)
             self._left += effects
         return error
+
+    def expect(self, turn: ScriptTurn) -> None:
+        """Be told what the next turn notes; what is not driven needs nothing of it."""
+
+    def fault_of(self, goal: str, turn: ScriptTurn) -> str:
+        """Return what is wrong with a goal's end; what is not driven has none."""
+        del goal, turn
+        return ""
 
     async def hear(self, text: str, *, typed: bool = False) -> RobotReply:
         """Return what a sentence comes to."""
@@ -149,7 +158,7 @@ class RobotEar:
             await self._carry(self._left.pop(0))
 
     async def _think(self, ask: AskBrain) -> Planned:
-        means = Means(camera=True, detector=True)
+        means = Means(camera=True, detector=True, model=True)
         remember = self._commands.remember
         think = thinker(
             self._brain, vocabulary_of(self._site), None, means, _CLASSES, remember=remember
@@ -244,6 +253,7 @@ class RobotEar:
         return self._tell(before, goal, stopped=False)
 
 
+_PICTURES = PictureLimits(24)
 _CLASSES = ("person", "cup", "bottle", "chair", "cat", "dog", "book", "backpack", "ball")
 
 
@@ -257,6 +267,7 @@ class ScriptedModel:
         """Choose whether it has whims."""
         self._turn: ScriptTurn | None = None
         self._plans, self._whims, self.hostile = 0, whims, 0
+        self._thoughts = 0
 
     @property
     def tag(self) -> BrainTag:
@@ -265,7 +276,7 @@ class ScriptedModel:
 
     def expect(self, turn: ScriptTurn) -> None:
         """Be told what the person of the script wants next."""
-        self._turn = turn
+        self._turn, self._thoughts = turn, 0
 
     async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the reply to the turn that is expected."""
@@ -277,7 +288,10 @@ class ScriptedModel:
         wanted = turn.wanted if turn is not None else frozenset()
         made = None
         if turn is not None and turn.plan is not None and wanted & PLANS:
-            made = expected_plan(Case(request.text, "", wanted=turn.plan))
+            replies = turn.notes.model or (turn.plan,)
+            self._thoughts += bool(request.observed)
+            reply = replies[min(self._thoughts, len(replies) - 1)]
+            made = expected_plan(Case(request.text, "", wanted=reply))
         if made is None:
             return self._talk(wanted)
         role = PlanRole.AFTER if Reaction.AFTER in wanted else PlanRole.NEW

@@ -37,6 +37,10 @@ _BLANKS = {
 }  # fmt: skip
 
 
+_NOTE = "\t"
+"""Comes before each note of a turn."""
+
+
 class ScriptSet(StrEnum):
     """Name conversations that were written together, as their files' names begin."""
 
@@ -69,6 +73,20 @@ PLANS = frozenset({Reaction.NEW, Reaction.INSTEAD, Reaction.AFTER})
 
 
 @dataclass(frozen=True, slots=True)
+class TrialNotes:
+    """Hold what stands below a trial's turn: ``NAME: words``, parts behind semicolons."""
+
+    model: tuple[Expectation, ...] = ()
+    """What a model once replied, thought by thought, where that is not simply the plan."""
+    sees: str = ""
+    """What a vision model says of each picture, behind yes or no."""
+    hears: tuple[str, ...] = ()
+    """What the person answers on the way."""
+    told: tuple[str, ...] = ()
+    """A code of the goal's end, then words of which each stands in what was told."""
+
+
+@dataclass(frozen=True, slots=True)
 class ScriptTurn:
     """Hold one turn of a script."""
 
@@ -80,6 +98,9 @@ class ScriptTurn:
     """It is written into the answer box of the question that waits."""
     stays: bool = False
     """What it set going is still under way when the person goes on."""
+    goal: str = ""
+    """The number of the trial's goal that it belongs to."""
+    notes: TrialNotes = TrialNotes()
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +134,7 @@ def _read_block(block: str, language: str) -> Iterator[Script]:
     if split not in ("tuned", "held"):
         raise BadMatcher(f"{head!r}: expected tuned or held, and a name")
     kept = [line for line in lines if line.strip() and not line.startswith("#")]
+    kept = "\n".join(kept).replace("\n  ", _NOTE).split("\n")
     if not FEWEST <= len(kept) <= MOST:
         raise BadMatcher(f"{name!r}: {len(kept)} turns; expected {FEWEST} to {MOST}")
     blanks = "{" in block
@@ -134,9 +156,11 @@ def _fill(line: str, language: str, variant: int) -> str:
 
 
 def _read_turn(line: str) -> ScriptTurn:
+    line, *notes = line.split(_NOTE)
     said, bar, wanted = line.partition(" | ")
     stays, wanted = wanted.startswith("~ "), wanted.removeprefix("~ ")
     typed, said = said.startswith("> "), said.removeprefix("> ")
+    goal, said = said[1:].split("] ", 1) if said.startswith("[") else ("", said)
     reactions, plans = set[Reaction](), list[str]()
     for way in wanted.split(" | "):
         names, _, plan = way.removeprefix("~ ").partition(":")
@@ -148,4 +172,17 @@ def _read_turn(line: str) -> ScriptTurn:
     if not bar or (reactions & PLANS and not plans):
         raise BadMatcher(f"{line!r}: expected a sentence, a bar, and what it comes to")
     expected = read_expectation(" | ".join(plans)) if plans else None
-    return ScriptTurn(tuple(said.split(" // ")), frozenset(reactions), expected, typed, stays)
+    says, wants = tuple(said.split(" // ")), frozenset(reactions)
+    return ScriptTurn(says, wants, expected, typed, stays, goal, _read_notes(notes))
+
+
+def _read_notes(lines: list[str]) -> TrialNotes:
+    notes = {name: words for name, _, words in (line.partition(": ") for line in lines)}
+    if not notes.keys() <= {"model", "sees", "hears", "told"}:
+        raise BadMatcher(f"{lines}: expected model, sees, hears or told, and words")
+    parts = {
+        name: tuple(part.strip() for part in notes.get(name, "").split(";") if part.strip())
+        for name in ("model", "hears", "told")
+    }
+    model = tuple(read_expectation(part) for part in parts["model"])
+    return TrialNotes(model, notes.get("sees", ""), parts["hears"], parts["told"])

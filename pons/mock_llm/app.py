@@ -20,7 +20,7 @@ from pons.mock_llm.completion import bytes_of, completion
 from pons.mock_llm.error_replies import BARREN, LOOK_S, error, instead_of_a_reply
 from pons.mock_llm.fault_switches import Switches
 from pons.mock_llm.replies import GARBAGE, hallucinate, hostile, reply_of, shape_reply
-from pons.mock_llm.request_parser import request_of
+from pons.mock_llm.request_parser import only_reply, request_of
 
 MAX_BODY = 4_000_000
 KEPT = 1000
@@ -120,7 +120,9 @@ def build(switches: Switches | None = None) -> FastAPI:
             return await _answer(fault, completion(body, said, fault), body, mock)
         if fault == "obeys_pictures":
             asked = await obeying(brain, asked, pictures.words_read(body))
-        good = json.dumps(reply_of((await brain.think(asked)).plan), ensure_ascii=False)
+        held = only_reply(body) if fault != "schema_ignored" else None
+        reply = held or reply_of((await brain.think(asked)).plan)
+        good = json.dumps(reply, ensure_ascii=False)
         known = next(iter(asked.vocabulary.by_id), "kitchen")
         text = _reply_text(fault, good, mock, known, request)
         if fault in BARREN and BARREN[fault](body):

@@ -30,6 +30,7 @@ from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_run import load_triable, plan_steps, record_lines, refusal_of, try_robot
 from pons.robot.trial_words import PROMPTS, REFUSALS
 from wire import ConfigError, PortReport, Sentence, TrialOrder, TrialState, authentic
+from wire.trial_dialogue import mark_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -125,7 +126,7 @@ class TrialDesk:
             port=str(self.robot.drive.port)[:MOST_CHARACTERS],
             tried=self._tried,
             phase=self._phase,
-            by=self._by,
+            by=mark_of(self._by) if self._by is not None else None,
             plan=plan_steps(self.robot),
             steps=person.steps if person is not None else (),
             ask=person.asked if person is not None and asks is not None else 0,
@@ -145,11 +146,11 @@ class TrialDesk:
             and secrets.compare_digest(proof.nonce, self.nonce)
             and authentic(self._key, "trial", self.robot.id, proof, order.id)
         )
-        self.nonce = secrets.token_hex(8)
         self._by, self._wrote, self._person = order.id, (), None
-        if not fits:
+        if not fits:  # the nonce stays: else anybody's bad begin would keep the owner out
             self._refuse(TrialRefusal("trial_untold"))
             return
+        self.nonce = secrets.token_hex(8)
         self._person = PagePerson(self._clock)
         self._person.tell(FIRST)
         self._phase, self._refusal = "trying", None

@@ -1,6 +1,6 @@
 import { utf8ToBytes } from "@noble/hashes/utils.js";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import { forgetKey, hasKey, mac, prove, proveGoal, setKey } from "../src/net/proof";
+import { forgetKey, hasKey, mac, markOf, prove, proveGoal, setKey } from "../src/net/proof";
 import { status } from "./examples";
 
 const METAL = { ...status, drive: { ...status.drive, virtual: false, kind: "serial" } };
@@ -10,6 +10,13 @@ beforeEach(() => vi.stubGlobal("isSecureContext", true));
 afterEach(() => {
   forgetKey();
   vi.unstubAllGlobals();
+});
+
+describe("markOf", () => {
+  // Made by wire/trial_dialogue.py: mark_of("page-0011"); tests/pons/robot holds Python to it.
+  it("equals set-up's", () => {
+    expect(markOf("page-0011")).toBe("10907a7983adcea612788bdde4905ac4");
+  });
 });
 
 describe("mac", () => {

@@ -42,6 +42,13 @@ class StopReading(Enum):
 
 MOST_CALLED = 6
 """Words, or Chinese characters, behind the robot's name: "robot, will you please just stop"."""
+_MOST_CUTS = 12
+_JOIN = re.compile(r"[.,;:!?，。；！？…~]+ ?| and then | and | then | but |然后|接着")
+_AND = " and "
+_THING = re.compile(r"(?:the|an?|my|your|his|her|our|their|this|that|those|all|any) |\S+$")
+"""Behind "and" it is one more of what is to be stopped: "stop looking for the cup and the ball"."""
+"""Between the clauses of a sentence."""
+_LEADS = re.compile(r"^(?:(?:and|then|but|so) |然后|接着|再|并)+")
 _FIRST = re.compile(r"\S+\s*")
 _MARKS = " ,.!:;~…。、"
 _HELPERS = (
@@ -111,6 +118,30 @@ def read_stop(text: str) -> StopReading:
 def is_stop(text: str) -> bool:
     """Return whether the whole first clause of a sentence orders a stop."""
     return _is_order(_see(text[:MAX_READ]))
+
+
+def words_behind_stop(text: str) -> str:
+    """Return what a sentence that stops says behind its stop, in the same breath; empty: nothing.
+
+    "Stop following me, go to the kitchen" holds an order that a person may still want. What may
+    itself mean a stop is none, nor are thanks.
+    """
+    plain = " ".join(text[:MAX_READ].split())
+    for cut in list(_JOIN.finditer(plain))[:_MOST_CUTS]:
+        head = plain[: cut.start()]
+        rest = _LEADS.sub("", plain[cut.end() :]).strip(_MARKS + "，！")
+        goes_on = cut[0] == _AND and head.count(" ") > 1 and _THING.match(rest)
+        if rest and not goes_on and not _is_courtesy(rest):
+            stops = read_stop(head) is not StopReading.NONE
+            if stops and read_stop(rest) is StopReading.NONE:
+                return rest
+    return ""
+
+
+def _is_courtesy(words: str) -> bool:
+    plain = " ".join(_GAP.sub(" ", words.lower()).split()) if words.isascii() else words
+    pattern = orders.ONLY_COURTESY if words.isascii() else zh.ONLY_COURTESY
+    return pattern.fullmatch(plain) is not None
 
 
 def calls_stop(text: str) -> bool:

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
+from planner.brain.endpoint.line import Line
 from planner.brain.prompt import Prompt
 from planner.brain.prompt_tokens import tokens
 from planner.budget import Purse
@@ -24,9 +26,18 @@ from planner.site.site_view import vocabulary_of
 from pons.evals.cases import Case
 from pons.evals.matchers import read_expectation
 from pons.evals.model_access import open_purse, spending_of
-from pons.evals.quick.exam import Exam, MarkedAnswer, ModeResult, PictureResult, Result
+from pons.evals.quick.exam import (
+    WITH_SCHEMA,
+    Exam,
+    MarkedAnswer,
+    ModeResult,
+    PictureResult,
+    Result,
+    ServerPace,
+)
 from pons.evals.quick.eyes import examine_eyes
 from pons.evals.quick.questions import QUESTIONS, WORLD, ExamQuestion
+from pons.evals.quick.server_probe import holds_schema, measure_speed
 from pons.evals.score import judge
 from pons.evals.world import EvalWorld
 
@@ -64,10 +75,22 @@ class _Room:
 
     def brain(self, mode: JsonMode | None) -> EndpointBrain:
         """Return a brain that asks in one way, patient to the end of the exam at most."""
+        return EndpointBrain(self._asked_by(mode), self.home, meter=self.purse)
+
+    @asynccontextmanager
+    async def line(self, mode: JsonMode | None) -> AsyncIterator[Line]:
+        """Lend a line that asks in one way, for what is asked of the server itself."""
+        line = Line(self._asked_by(mode), self.home, None, self.purse)
+        try:
+            yield line
+        finally:
+            await line.close()
+
+    def _asked_by(self, mode: JsonMode | None) -> ModelSettings:
         timeout_s = max(0.5, min(self.model.timeout_s, self.left_s))
         changes = {"mode": mode, "timeout_s": timeout_s, "allow_offhost": True}
         changes["allow_pictures_offhost"] = True  # the exam's own
-        return EndpointBrain(self.model.model_copy(update=changes), self.home, meter=self.purse)
+        return self.model.model_copy(update=changes)
 
 
 async def examine(
@@ -77,6 +100,7 @@ async def examine(
     site: Path | None,
     caps: Caps,
     clock: Callable[[], float] = time.monotonic,
+    slow: Callable[[], None] = lambda: None,
 ) -> Exam:
     """Return the exam's results.
 
@@ -87,6 +111,7 @@ async def examine(
         site: whose places tell what a prompt costs here; None where none can be read.
         caps: where the exam ends, finished or not.
         clock: seconds that only rise.
+        slow: is called where the first word takes long, for a person who waits.
 
     Raises:
         ConfigError: the address may not be asked at all, or the budget can't be read.
@@ -95,18 +120,41 @@ async def examine(
         calls=caps.calls,
         prompt_tokens=caps.calls * PROMPT_TOKENS,
         reply_tokens=caps.calls * model.max_tokens,
-        seconds=caps.seconds,
+        seconds=caps.seconds + model.load_timeout_s,
     )
     began_s, goal = clock(), f"{GOAL}-{time.time_ns()}"
     with open_purse(settings, model, home, limits) as (purse, folder):
         room = _Room(purse, model, folder, goal, began_s + caps.seconds, clock)
-        rungs = await _try_modes(room, began_s + RUNGS_SHARE * caps.seconds)
+        speed = await _measure_speed(room, slow)
+        held = await _find_binding(room) if speed.second_call_s is not None else {}
+        room.end_s = clock() + caps.seconds  # what loading and the server's proof took is not lost
+        rungs = await _try_modes(room, clock() + RUNGS_SHARE * caps.seconds)
+        rungs = [replace(rung, held=held.get(rung.mode)) for rung in rungs]
         marked = await _answers(room, _best(rungs))
         eyes = await _eyes(room, _best(rungs))
         cost = spending_of(purse, goal)
     took_s = round(clock() - began_s, 2)
     host = Address.parse(model.url).host
-    return Exam(model.name, host, tuple(rungs), marked, eyes, cost, took_s, prompt_tokens(site))
+    here = prompt_tokens(site)
+    return Exam(model.name, host, tuple(rungs), marked, eyes, speed, cost, took_s, here)
+
+
+async def _measure_speed(room: _Room, slow: Callable[[], None]) -> ServerPace:
+    if room.left_s <= 0.0:
+        return ServerPace()
+    async with room.line(None) as line:
+        return await measure_speed(line, room.goal, room.clock, slow)
+
+
+async def _find_binding(room: _Room) -> dict[str, bool | None]:
+    """Return by way of asking whether a schema binds, strictest first, until one is found."""
+    found = dict[str, bool | None]()
+    for mode in (mode for mode in JsonMode if mode.value in WITH_SCHEMA):
+        async with room.line(mode) as line:
+            found[mode.value] = await holds_schema(line, room.goal)
+        if found[mode.value]:
+            break
+    return found
 
 
 def _best(rungs: list[ModeResult]) -> JsonMode | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
+import time
 from typing import TYPE_CHECKING
 
 from planner.budget.totals import cost
@@ -50,7 +51,9 @@ def run(
         if not address.local and not agree_on(_bill(settings, model, address.host, caps), yes=yes):
             return REFUSED
         site = where.site if where.site.is_dir() else None
-        exam = asyncio.run(examine(settings, model, where.home, site, caps))
+        exam = asyncio.run(
+            examine(settings, model, where.home, site, caps, time.monotonic, _tell_waiting)
+        )
     except ConfigError as wrong:
         print(f"{called}: {wrong}", file=sys.stderr)
         return REFUSED
@@ -58,6 +61,11 @@ def run(
     currency = settings.budget.price.currency if settings.budget.price is not None else None
     print(content(exam, found, currency) if as_json else table(exam, found, currency))
     return EXIT[found.letter]
+
+
+def _tell_waiting() -> None:
+    print("waiting for its first word: the model may be loading / 正在等待，模型可能还在加载",
+          file=sys.stderr)  # fmt: skip
 
 
 def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> str:

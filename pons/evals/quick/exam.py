@@ -12,6 +12,10 @@ Result = Literal["right", "wrong", "unsafe", "no_plan", "no_answer", "not_asked"
 """``unsafe``: it would have moved wrongly. ``no_plan``: asked twice, and still none."""
 
 
+WITH_SCHEMA = frozenset({"json_schema", "tool"})
+"""The ways of asking that give the server a schema."""
+
+
 @dataclass(frozen=True, slots=True)
 class ModeResult:
     """Say how a server takes one way of asking."""
@@ -22,6 +26,9 @@ class ModeResult:
     why: str = ""
     asked: bool = True
     """False: it was not tried, or the exam's time was up before it answered."""
+    held: bool | None = None
+    """The server kept the model to a schema whose words the prompt does not tell; None: not found
+    out."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +53,18 @@ class PictureResult:
 
 
 @dataclass(frozen=True, slots=True)
+class ServerPace:
+    """Measure how soon a server writes its first word, and how fast it goes on."""
+
+    first_call_s: float | None = None
+    """To the first word of this machine's first call: a model may be loaded and the prompt read."""
+    second_call_s: float | None = None
+    """The same for another order at once after it."""
+    tokens_per_s: float | None = None
+    """Of both replies' writing; None: they came too fast, or not as a stream."""
+
+
+@dataclass(frozen=True, slots=True)
 class Exam:
     """Hold a whole exam."""
 
@@ -54,6 +73,7 @@ class Exam:
     rungs: tuple[ModeResult, ...] = ()
     marked: tuple[MarkedAnswer, ...] = ()
     eyes: PictureResult = PictureResult()
+    speed: ServerPace = ServerPace()
     cost: Spending = field(default_factory=Spending)
     took_s: float = 0.0
     """By the clock on the wall."""

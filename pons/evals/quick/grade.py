@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import ceil
 
 from pons.doctor.finding import BilingualWords
-from pons.evals.quick.exam import Exam
+from pons.evals.quick.exam import WITH_SCHEMA, Exam
 from pons.evals.quick.questions import ExamPart
 
 GRADES = "ABCDF"
@@ -21,7 +21,12 @@ _NAMES = {
     ExamPart.REFUSAL: ("orders to decline", "应拒绝的指令"),
     ExamPart.INJECTION: ("words that try to command", "注入式文字"),
 }
-_STRICT = frozenset({"json_schema", "tool", "json_object"})
+_STRICT = WITH_SCHEMA | {"json_object"}
+SLOW_FIRST_S = 5.0
+"""What people wait gladly; longer means that the model was being loaded."""
+SLOW_WORD_S = 3.0
+SLOW_RATE = 15.0
+"""Tokens a second with which a plan of 60 tokens still takes 4 s."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +54,7 @@ def grade(exam: Exam) -> Grade:
         *_parts(exam),
         *_ladder(exam),
         *_latency(exam),
+        *_speed(exam),
         *_repairs(exam),
         *_whole(exam),
     ]
@@ -97,12 +103,67 @@ def _parts(exam: Exam) -> Iterator[GradeReason]:
 
 
 def _ladder(exam: Exam) -> Iterator[GradeReason]:
+    loose = any(rung.held is False for rung in exam.rungs)
+    if loose and not any(rung.held for rung in exam.rungs):
+        yield GradeReason(
+            "B",
+            BilingualWords(
+                "the server takes a JSON schema and does not hold the model to it: a word that "
+                "only the schema told did not come back -> update the server; with Ollama also "
+                "try thinking = true in [model] or another model; llama-server and vLLM hold it",
+                "服务器接受 JSON schema，却没有用它约束模型：只写在 schema 里的词没有返回 -> "
+                "请更新服务器；使用 Ollama 时可在 [model] 中设 thinking = true 或换一个模型；"
+                "llama-server 和 vLLM 会遵守",
+            ),
+        )
     if exam.rungs and not any(rung.right and rung.mode in _STRICT for rung in exam.rungs):
         yield GradeReason(
             "B",
             BilingualWords(
                 "the server holds the model to no JSON: only the prompt asks for it",
                 "服务器无法约束模型输出 JSON，只能靠提示词",
+            ),
+        )
+
+
+def _speed(exam: Exam) -> Iterator[GradeReason]:
+    """Tell what an owner can mend about the first word and the pace; orders alone are graded."""
+    first_s, second_s = exam.speed.first_call_s, exam.speed.second_call_s
+    if first_s is None or second_s is None:
+        return
+    if first_s > SLOW_FIRST_S and first_s > 2.0 * second_s:
+        yield GradeReason(
+            "A",
+            BilingualWords(
+                f"cold: the first call waited {first_s:.0f} s for its first word, the second "
+                f"{second_s:.1f} s -> have the server keep the model loaded (Ollama: "
+                "OLLAMA_KEEP_ALIVE=-1), or set warm_up = true in [model]",
+                f"冷启动：第一次调用等了 {first_s:.0f} 秒才有第一个词，第二次 {second_s:.1f} 秒 -> "
+                "请让服务器保持模型已加载（Ollama：OLLAMA_KEEP_ALIVE=-1），"
+                "或在 [model] 中设 warm_up = true",
+            ),
+        )
+    elif second_s > SLOW_WORD_S:
+        yield GradeReason(
+            "A",
+            BilingualWords(
+                f"the second call waited {second_s:.1f} s for its first word, although most of "
+                "what it read was read before -> turn on the server's prefix cache (vLLM: "
+                "--enable-prefix-caching), and thoughts off (thinking = false)",
+                f"第二次调用等了 {second_s:.1f} 秒才有第一个词，而内容大多已读过 -> "
+                "请打开服务器的前缀缓存（vLLM：--enable-prefix-caching），并关闭思考"
+                "（thinking = false）",
+            ),
+        )
+    rate = exam.speed.tokens_per_s
+    if rate is not None and rate < SLOW_RATE:
+        yield GradeReason(
+            "A",
+            BilingualWords(
+                f"it writes {rate:.1f} tokens a second, so a plan of 60 takes "
+                f"{60.0 / rate:.0f} s -> a smaller model, a stronger quantisation, or a GPU",
+                f"每秒写 {rate:.1f} 个 token，60 个 token 的计划要 {60.0 / rate:.0f} 秒 -> "
+                "请换更小的模型、更强的量化，或使用 GPU",
             ),
         )
 

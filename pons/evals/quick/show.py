@@ -20,6 +20,8 @@ def table(exam: Exam, found: Grade, currency: str | None) -> str:
         rows.append((part.value, f"{right} of {len(asked)} right" if asked else "not asked"))
     rows += [
         ("pictures", _eyes(exam)),
+        ("schema", _schema(exam)),
+        ("speed", _speed(exam)),
         ("latency", _latency(exam)),
         ("tokens", _tokens(exam)),
         ("cost", _cost(exam, currency)),
@@ -53,6 +55,7 @@ def content(exam: Exam, found: Grade, currency: str | None) -> str:
             for part in ExamPart
         },
         "pictures": asdict(exam.eyes),
+        "speed": asdict(exam.speed),
         "latency_s": {
             "n": len(latencies),
             "p50": percentile(latencies, 0.50) if latencies else None,
@@ -85,6 +88,23 @@ def _mode(rung: ModeResult) -> str:
         return "yes" if rung.right else "not asked"
     why = rung.why[:60]
     return f"taken, but {why}" if rung.taken else f"no ({why})"
+
+
+def _schema(exam: Exam) -> str:
+    """Tell whether a word that only the schema knew came back, by which way of asking."""
+    found = {True: "binds", False: "taken and not held to", None: "not found out"}
+    told = [f"{rung.mode} {found[rung.held]}" for rung in exam.rungs if rung.held is not None]
+    return " · ".join(told) or found[None]
+
+
+def _speed(exam: Exam) -> str:
+    first_s, second_s = exam.speed.first_call_s, exam.speed.second_call_s
+    if first_s is None:
+        return "not measured"
+    second = "" if second_s is None else f", the second {second_s:.2f} s"
+    rate = exam.speed.tokens_per_s
+    pace = "pace not measured: no stream" if rate is None else f"then {rate:.0f} tokens a second"
+    return f"first word after {first_s:.2f} s at the first call{second}; {pace}"
 
 
 def _eyes(exam: Exam) -> str:

@@ -23,7 +23,7 @@ from tests.pons.robot.stand import START_S, TICK_S, Stand
 from wire import CameraConfig, Proof, TrialOrder, TrialState, load_robot, sign
 from wire.imu_config import ImuConfig
 from wire.keys import TRIAL_STATE
-from wire.trial_dialogue import UNWATCHED_S
+from wire.trial_dialogue import UNWATCHED_S, mark_of
 
 KEY = b"k" * 32
 TEXT = (ROOT / "robots" / "pons_mcu_ld19.toml").read_text("utf-8")
@@ -126,8 +126,10 @@ def test_without_a_fitting_proof_nothing_is_opened_and_a_nonce_counts_once(tmp_p
     with desk_at(tmp_path) as desk:
         first = desk.nonce
         assert begin(desk, "a", key=b"x" * 32).code == "trial_untold"
+        assert desk.nonce == first, "a bad begin keeps nobody out"
+        assert begin(desk, "b", nonce=first).code == "trial_port", "the owner's own is taken"
         assert desk.nonce != first
-        assert begin(desk, "b", nonce=first).code == "trial_untold"
+        assert begin(desk, "e", nonce=first).code == "trial_untold", "and counts once"
         desk.take(TrialOrder(id="c", source="t", act="begin"))
         assert desk.state().code == "trial_untold"
         forged = Proof(nonce=desk.nonce, mac="0" * 64)
@@ -136,10 +138,22 @@ def test_without_a_fitting_proof_nothing_is_opened_and_a_nonce_counts_once(tmp_p
         assert not desk.may_turn
 
 
+def test_what_a_page_shows_of_a_trial_does_not_let_another_watch_it(tmp_path: Path) -> None:
+    with desk_at(tmp_path) as desk:
+        shown = begin(desk, "page-5f1c").model_dump_json()
+        assert "page-5f1c" not in shown
+        assert mark_of("page-5f1c") in shown
+    assert mark_of("page-0011") == "10907a7983adcea612788bdde4905ac4", "as web/test/proof.test.ts"
+
+
 def test_a_port_that_is_not_there_is_named_with_its_cure(tmp_path: Path) -> None:
     with desk_at(tmp_path) as desk:
         state = begin(desk, "a")
-        assert (state.phase, state.code, state.by) == ("refused", "trial_port", "a")
+        assert (state.phase, state.code, state.by) == (
+            "refused",
+            "trial_port",
+            mark_of("a"),
+        )
         assert state.detail.startswith("port_missing")
         assert state.cure is not None
         assert TRIAL_STATE.max_bytes > len(state.model_dump_json())

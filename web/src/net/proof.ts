@@ -50,6 +50,9 @@ export function mac(secret: Uint8Array, ...parts: readonly string[]): string {
   return bytesToHex(hmac(sha256, secret, concatBytes(...body)));
 }
 
+/** What set-up shows of the id of a begin, so that only the page that made it knows it (wire/trial_dialogue.py). */
+export const markOf = (id: string): string => bytesToHex(sha256(utf8ToBytes(id))).slice(0, 32);
+
 /** Say whether this robot moves metal, so that a person's key must sign. */
 export const needsKey = (status: Status | null): boolean =>
   status !== null && !status.drive.virtual;

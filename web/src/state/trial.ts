@@ -6,7 +6,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import { t } from "../i18n";
 import { askTrial, enterSetup, newId } from "../net/api";
-import { prove } from "../net/proof";
+import { markOf, prove } from "../net/proof";
 import type { Trial } from "../wire/types";
 import { explain, tell } from "./acts";
 import { setup, status } from "./store";
@@ -22,7 +22,7 @@ export const inSetup = steady(() => trial.value !== null);
 export const isTrying = computed(() => trial.value?.phase === "trying");
 /** The begin of this page; null where it has begun none. */
 export const mine = signal<string | null>(null);
-export const isMine = computed(() => mine.value !== null && trial.value?.by === mine.value);
+export const isMine = computed(() => mine.value !== null && trial.value?.by === markOf(mine.value));
 export const busy = signal(false);
 
 let answered = 0;

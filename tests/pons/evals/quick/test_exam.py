@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 from typing import cast
 
@@ -39,7 +39,7 @@ from pons.evals.matchers import read_expectation
 from pons.evals.model_access import choose_model
 from pons.evals.quick import command, show
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
-from pons.evals.quick.exam import Exam, MarkedAnswer, ModeResult, Result
+from pons.evals.quick.exam import Exam, MarkedAnswer, ModeResult, Result, ServerPace
 from pons.evals.quick.eyes import DISC, PICTURE, examine_eyes
 from pons.evals.quick.grade import grade
 from pons.evals.quick.questions import QUESTIONS, WORLD, ExamPart
@@ -57,7 +57,7 @@ def mock() -> Iterator[RunningMock]:
 
 def taken(mock: RunningMock, home: Path, caps: Caps | None = None, **day: int) -> Exam:
     """Let the mock take the exam."""
-    model = ModelSettings(url=mock.url, name="mock", timeout_s=1.0)
+    model = ModelSettings(url=mock.url, name="mock", timeout_s=1.0, load_timeout_s=0.0)
     settings = Settings(model=model, budget=BudgetSettings(day=DayLimits(**day)))
     return asyncio.run(examine(settings, model, home, None, caps or Caps()))
 
@@ -109,7 +109,7 @@ def test_a_model_that_is_too_slow_is_told_from_one_that_is_gone(
     told = []
     for switches in ({"fault": "hang"}, {"fault": "status", "status": 500}):
         mock.set(**switches)
-        model = ModelSettings(url=mock.url, name="mock", timeout_s=0.5)
+        model = ModelSettings(url=mock.url, name="mock", timeout_s=0.5, load_timeout_s=0.0)
         exam = asyncio.run(examine(Settings(model=model), model, tmp_path, None, Caps()))
         told.append(grade(exam).reasons[0].words.en)
     assert "timeout_s in [model]" in told[0]
@@ -344,3 +344,68 @@ def test_without_any_model_the_choice_says_what_to_give(tmp_path: Path) -> None:
         with pytest.raises(ConfigError, match=r"NAME@URL") as wrong:
             choose_model(word, tmp_path, {})
         assert wrong.value.code == "model_not_set"
+
+
+@pytest.mark.parametrize(
+    ("fault", "held", "told"),
+    [
+        (None, {"json_schema": True}, "json_schema binds"),
+        ("schema_ignored", {"json_schema": False, "tool": False}, "tool taken and not held to"),
+        ("no_json_schema", {"tool": True}, "tool binds"),
+        ("no_schema", {}, "not found out"),
+        ("fenced", {"json_schema": False, "tool": False}, "json_schema taken and not held to"),
+    ],
+)
+def test_whether_a_schema_binds_is_proved_by_a_word_that_the_prompt_does_not_tell(
+    mock: RunningMock, fault: str | None, held: dict[str, bool], told: str, tmp_path: Path
+) -> None:
+    mock.set(fault=fault)
+    exam = taken(mock, tmp_path)
+    assert {rung.mode: rung.held for rung in exam.rungs if rung.held is not None} == held
+    found = grade(exam)
+    assert told in show.table(exam, found, None)
+    loose = [reason.words for reason in found.reasons if "does not hold" in reason.words.en]
+    assert bool(loose) == (False in held.values())
+    assert all("->" in words.en and "->" in words.zh for words in loose)
+
+
+def test_the_first_word_is_timed_cold_and_warm_and_a_load_takes_no_time_from_the_orders(
+    mock: RunningMock, tmp_path: Path
+) -> None:
+    mock.set(fault="cold", load_s=1.0, tokens_per_s=200.0)
+    model = ModelSettings(url=mock.url, name="mock", timeout_s=5.0, load_timeout_s=20.0)
+    caps = Caps(calls=4, seconds=60.0)
+    exam = asyncio.run(examine(Settings(model=model), model, tmp_path, None, caps))
+    first_s, second_s, rate = astuple(exam.speed)
+    assert first_s >= 1.0 > second_s
+    assert 0.0 < rate <= 250.0
+    assert f"at the first call, the second {second_s:.2f} s" in show.table(exam, grade(exam), None)
+
+
+def test_a_server_that_never_says_a_word_is_not_measured(mock: RunningMock, tmp_path: Path) -> None:
+    mock.set(fault="hang")
+    exam = taken(mock, tmp_path, Caps(seconds=0.6))
+    assert exam.speed == ServerPace()
+    assert "speed      not measured" in show.table(exam, grade(exam), None)
+
+
+@pytest.mark.parametrize(
+    ("speed", "told"),
+    [
+        (ServerPace(60.0, 0.3, 40.0), ["cold: the first call waited 60 s"]),
+        (ServerPace(9.0, 8.5, 40.0), ["prefix cache"]),
+        (ServerPace(1.0, 0.5, 6.0), ["6.0 tokens a second"]),
+        (ServerPace(1.0, 0.5, 40.0), []),
+        (ServerPace(1.0, 0.5, None), []),
+        (ServerPace(), []),
+    ],
+)
+def test_a_slow_server_is_told_with_a_cure_and_graded_by_its_orders(
+    speed: ServerPace, told: list[str]
+) -> None:
+    found = grade(replace(exam_of(), speed=speed))
+    assert found.letter == "A"
+    assert len(found.reasons) == len(told)
+    for words, reason in zip(told, found.reasons, strict=True):
+        assert words in reason.words.en
+        assert "->" in reason.words.en and "->" in reason.words.zh  # noqa: PT018  # both at once
