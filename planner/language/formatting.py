@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from math import degrees
+from typing import TYPE_CHECKING
 
 from planner.language.catalogue import say
-from planner.plan import Bilingual
+
+if TYPE_CHECKING:
+    from planner.plan import Bilingual
+
+_OWN_NAME = re.compile(r"[^a-z]|(?:the|my|our|where)\b|\S+['’]s? ")
+"""A name that takes no article in English: one in capitals, or with an owner in it."""
+
+
+def definite(name: Bilingual) -> Bilingual:
+    """Return a known place's or thing's name: ``the kitchen``, ``Anna's room``."""
+    return name if _OWN_NAME.match(name.en) else say("order.the", object=name)
 
 
 def angle(radians: float) -> Bilingual:

@@ -54,6 +54,7 @@ ZH_ANGLE = rf"(?P<angle>{_DIGITS}|{_ZH_DIGIT})(?P<arc>度|°|弧度)"
 ZH_TURNS = r"(?P<turns>[两二三四五2345])"
 TIMES = r"(?P<times>once|twice|thrice|two times|three times|four times|\d times)"
 _TIMES = {"once": 1, "twice": 2, "thrice": 3, "two": 2, "three": 3, "four": 4, "five": 5}
+_TIMES |= {"couple": 2, "few": 3, "several": 3, "几": 3, "好几": 3}
 
 _UNITS_M = (("c", 0.01), ("厘", 0.01), ("公", 0.01), ("f", 0.3048), ("i", 0.0254), ("y", 0.9144))
 
@@ -76,7 +77,7 @@ def angle_rad(number: str, unit: str) -> float | None:
 
 
 def times(words: str) -> int:
-    """Return how often "twice", "3 times" and 三 are."""
+    """Return how often "twice", "3 times", "a few times" and 三 are."""
     first = words.split(maxsplit=1)[0]
     return _TIMES.get(first) or round(_value(first) or 0.0)
 

@@ -11,10 +11,10 @@ from functools import cache, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from planner.language import color_names
-from planner.language.catalogue import CATALOGUE, list_names, noun, plural, say
-from planner.language.folding import CHINESE, fold, fold_words
+from planner.language.catalogue import CATALOGUE, build, list_names, noun, plural, say
+from planner.language.folding import CHINESE, fold, fold_words, is_chinese
 from planner.language.object_classes import KINDS
-from planner.plan import Bilingual, Language
+from planner.plan import Bilingual, Language, say_same
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -165,6 +165,15 @@ def name_object(label: str, color: str | None = None) -> Bilingual:
     """Return a thing's name, with its colour where one is given."""
     name = noun(f"noun.{label}") if label in KINDS else _own_name(label)
     return _with_color(name, told_color(label, color))
+
+
+def tell_words(words: str) -> Bilingual:
+    """Return a plan's words for a thing: as they are in their own language, named in the other."""
+    found = resolve(words)
+    if found is None or singles_out(words):
+        return say_same(words)
+    named, spoken = name_object(*found), Language.ZH if is_chinese(words) else Language.EN
+    return build(lambda language: words if language == spoken else named.of(language))
 
 
 def told_color(label: str, color: str | None) -> str | None:

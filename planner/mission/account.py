@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, list_names, message, say
-from planner.language.formatting import angle, metres
+from planner.language.formatting import angle, definite, metres
+from planner.language.object_names import tell_words
 from planner.mission.plan_walk import is_left_open
 from planner.plan import Bilingual, Code, StepState, say_same
 
@@ -152,9 +153,10 @@ def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
     if step.answer is not None:
         yield _tell_answer(step)
     if step.said is not None and step.state in _OVER:
-        yield step.said
         if step.read is not None:
             yield step.read
+        if step.read is None or step.kind != "look":  # a look's reading is its whole answer
+            yield step.said
     elif step.state is StepState.SUCCEEDED or (step.kind == "repeat" and step.round > 1):
         yield from _tell_deed(step)
     elif step.reason == "perhaps_said":
@@ -185,12 +187,10 @@ def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
 
 
 def _amount(step: StepRecord) -> Bilingual:
-    """Tell how far a turn or a move came, by odometry, and the order."""
-    turned = step.kind == "turn"
-    put = angle if turned else metres
-    asked = put((step.angle_rad if turned else step.distance_m) or 0.0)
-    came = put((step.turned_rad if turned else step.moved_m) or 0.0)
-    return say("account.amount", came=came, asked=asked)
+    """Tell a turn or a move as it was asked for: the record has how near it came."""
+    if step.kind == "turn":
+        return say("account.turned", put=angle(step.angle_rad or 0.0))
+    return say("account.moved", put=metres(step.distance_m or 0.0))
 
 
 def _undone(facts: SiteView, mission: Mission, code: Code) -> Bilingual | None:
@@ -222,7 +222,7 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
     """Name what a step asks for: ``going to the kitchen``, ``去厨房``."""
     text = step.object or step.text or ""
     if step.kind in _OBJECT_STEPS:
-        return say(f"account_thing.{step.kind}", what=text)
+        return say(f"account_thing.{step.kind}", what=tell_words(text))
     match step.kind:
         case "say":
             return say("account.saying", text=text)
@@ -250,7 +250,7 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
             return say("account.exploring")
         case _:
             name = place_name(facts, mission, step)
-            return say("account.going_to", name=name)
+            return say("account.going_to", name=definite(name))
 
 
 def _name_wait(step: StepRecord) -> Bilingual:

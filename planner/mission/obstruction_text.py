@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
+from planner.language.formatting import definite
 from planner.plan import Bilingual, Code
 from planner.site.polygon import area_m2, border_distance_m, contains
 
@@ -23,14 +24,14 @@ def tell_obstruction(facts: SiteView, shut: ShutWay, place: Bilingual) -> Biling
     if shut.gap:
         return say(
             "obstruction.narrow",
-            place=place,
+            place=definite(place),
             width_m=shut.obstruction.width_m,
             where=spot_of(facts, shut.obstruction.middle),
         )
     minutes = int((shut.since_unix_s + shut.local_offset_s) // 60)
     return say(
         "obstruction.blocked",
-        place=place,
+        place=definite(place),
         width_m=max(0.1, round(shut.obstruction.width_m, 1)),
         where=spot_of(facts, shut.obstruction.middle),
         time=f"{minutes // 60 % 24:02d}:{minutes % 60:02d}",
@@ -39,7 +40,7 @@ def tell_obstruction(facts: SiteView, shut: ShutWay, place: Bilingual) -> Biling
 
 def tell_occupied(place: Bilingual, near_m: float) -> Bilingual:
     """Return the sentence of a goal on which something stands, with how near the robot came."""
-    return message(Code.GOAL_OCCUPIED, place=place, metres=f"{near_m:.1f}")
+    return message(Code.GOAL_OCCUPIED, place=definite(place), metres=f"{near_m:.1f}")
 
 
 def tell_doubt(facts: SiteView, doubt: RouteDoubt) -> Bilingual:
@@ -48,12 +49,12 @@ def tell_doubt(facts: SiteView, doubt: RouteDoubt) -> Bilingual:
 
 
 def spot_of(facts: SiteView, point: tuple[float, float]) -> Bilingual:
-    """Name a point of ``map``: the door between two rooms, else the room, else its coordinates."""
+    """Name a point of ``map``: the door between two rooms, else the room."""
     rooms = [t for t in facts.targets.values() if t.room and t.polygon is not None]
     inside = [room for room in rooms if contains(room.polygon or (), *point)]
     here = min(inside, key=lambda room: area_m2(room.polygon or ()), default=None)
     if here is None:
-        return say("obstruction.at_point", x_m=point[0], y_m=point[1])
+        return say("obstruction.at_point")
     beside = [room for room in rooms if room is not here and _borders(room, point)]
     if not beside:
         return say("obstruction.in_room", room=here.name)

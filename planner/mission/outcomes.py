@@ -8,6 +8,7 @@ from __future__ import annotations
 from math import cos, sin
 
 from planner.language.catalogue import message, say
+from planner.language.formatting import definite
 from planner.language.questions import looks_round
 from planner.mission.account import MOTION, account, place_name
 from planner.mission.state import Mission
@@ -133,7 +134,7 @@ def failure(
 ) -> Bilingual:
     """Return the sentence of a mission that failed on its way."""
     if code in (Code.BLOCKED, Code.NO_ROUTE):
-        return message(code, place=place_name(facts, mission, step))
+        return message(code, place=definite(place_name(facts, mission, step)))
     if code is Code.OUT_OF_BUDGET:
         return message(code, budget=BUDGET)
     if code is Code.FAULT:

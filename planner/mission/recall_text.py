@@ -6,9 +6,9 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, message, say
-from planner.language.object_names import name_object
+from planner.language.object_names import name_object, tell_words
 from planner.memory import FACT, PERSON
-from planner.mission.skills.result_text import name_with_article
+from planner.mission.skills.result_text import name_one
 from planner.plan import Code
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def tell_memos(
 
 
 def _name_question(facts: SiteView, ask: AskMemory) -> Bilingual:
-    what = say("memory.asked", what=ask.label) if ask.label else say("memory.anything")
+    what = say("memory.asked", what=tell_words(ask.label)) if ask.label else say("memory.anything")
     if ask.label == PERSON:
         what = say("memory.somebody")
     place = facts.targets.get(ask.place or "")
@@ -63,7 +63,7 @@ def _offer(ask: AskMemory) -> tuple[Bilingual, ...]:
     """Offer what would find out: an order, which the person must give."""
     if not ask.label or ask.label == PERSON or ask.when is not None or ask.witnessed:
         return ()
-    return (say("memory.offer", what=ask.label),)
+    return (say("memory.offer", what=tell_words(ask.label)),)
 
 
 def tell_span(when: Span) -> Bilingual:
@@ -74,7 +74,7 @@ def tell_span(when: Span) -> Bilingual:
 def _tell(facts: SiteView, memo: Memo, now: datetime) -> Bilingual:
     if memo.kind == FACT:
         return _tell_fact(facts, memo, now)
-    what = name_with_article(memo.label, memo.color)
+    what = name_one(memo.label, memo.color)
     place = facts.targets.get(memo.room or "")
     where = say("memory.in", place=place.name) if place is not None else say("memory.somewhere")
     if memo.support is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import hypot
 
 from planner.language.catalogue import message, say, say_or_quote
+from planner.language.formatting import definite
 from planner.mission.account import place_name
 from planner.mission.bridge_status import standing, worst_row
 from planner.mission.outcomes import spot_at
@@ -15,6 +16,8 @@ from wire import Pose2, Status
 
 NEAR_M = 1.0
 OLD_S = 1.0
+DRIVES_MPS = 0.02
+"""Slower than this, a robot that does not stand is turning."""
 _SHOWN = 60
 _ASIDE = frozenset({"recall", "decide"})
 """Who only asks of before does nothing whose end is asked for."""
@@ -118,8 +121,7 @@ def _motion(status: Status | None, age_s: float) -> Bilingual:
     if standing(status):
         bare = say("status.stands")
         return bare if row is None else say("status.stands_because", row=row.row)
-    speed = abs(status.measured.v_mps)
-    return say("status.moves", speed=speed)
+    return say("status.drives" if abs(status.measured.v_mps) > DRIVES_MPS else "status.turns")
 
 
 def _task(book: MissionState, asking: str) -> Bilingual:
@@ -140,15 +142,14 @@ def _task(book: MissionState, asking: str) -> Bilingual:
 
 
 def _running(book: MissionState, mission: Mission) -> Bilingual:
-    at, count = mission.step + 1, len(mission.steps)
-    step = mission.steps[mission.step] if mission.step < count else None
+    step = mission.steps[mission.step] if mission.step < len(mission.steps) else None
     name = place_name(book.facts, mission, step) if step is not None else None
     goes = step is not None and step.kind in ("go_to", "return_home", "come_back")
     to = name if goes and name is not None else None
     text = _short(mission.text)
     if to is None:
-        return say("status.step", text=text, at=at, count=count)
-    return say("status.step_to", text=text, at=at, count=count, place=to)
+        return say("status.step", text=text)
+    return say("status.step_to", text=text, place=definite(to))
 
 
 def _waiting(mission: Mission) -> Bilingual:

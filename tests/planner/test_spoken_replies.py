@@ -75,10 +75,10 @@ def test_an_end_that_repeats_what_was_said_is_not_said_twice() -> None:
     assert hear(say("Dinner is ready."), goal("succeeded", "Dinner is ready.")) == [
         "en: Dinner is ready."
     ]
-    for language, told in (("en", "Said: “dinner”."), ("zh", "已说：“dinner”")):
+    for language, told in (("en", "I said “dinner”."), ("zh", "我说了“dinner”")):
         heard = hear(say("dinner", language), goal("succeeded", told, language=language))
         assert heard == [f"{language}: dinner"]
-    assert len(hear(say("dinner"), goal("succeeded", "Arrived: kitchen. Said: “dinner”."))) == 2
+    assert len(hear(say("dinner"), goal("succeeded", "Arrived: kitchen. I said “dinner”."))) == 2
 
 
 def test_a_stop_and_a_goal_that_was_ended_break_off_before_anything_new_is_said() -> None:

@@ -10,7 +10,7 @@ from tests.wire.examples import STATUS
 
 OUTCOME = {
     "code": "arrived",
-    "message": {"en": "Arrived: kitchen.", "zh": "已到达：厨房。"},
+    "message": {"en": "Arrived: kitchen.", "zh": "我到了：厨房。"},
     "asked": {"place": "kitchen", "room": "kitchen", "x_m": 1.5, "y_m": 1.9, "yaw_rad": 0.1},
     "reached": {"place": "kitchen", "room": "kitchen", "x_m": 1.508, "y_m": 1.911, "yaw_rad": 0.2},
     "metres": 2.42,
@@ -44,7 +44,7 @@ def test_a_whole_number_of_metres_is_a_figure_too() -> None:
 
 
 def test_messages_speak_the_persons_language() -> None:
-    assert message(OUTCOME, "zh") == "已到达：厨房。"
+    assert message(OUTCOME, "zh") == "我到了：厨房。"
     assert message(OUTCOME, "fr") == "Arrived: kitchen."
     assert message(None, "en") == ""
 

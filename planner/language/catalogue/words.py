@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 FOLDER = Path(__file__).parent
 PLACES = ("room", "landmark", "noun")
 """Groups of nouns by which places of a site are called."""
+VOWELS = "aeiou"
+WORDED = 11
+"""From this number on digits are said."""
 FIRST = "en"
 """The language that stands in for words which another one lacks."""
 CARRIED = frozenset({"en", "zh"})
@@ -136,6 +139,30 @@ class Catalogue:
 
         return self.build(plural_in)
 
+    def quantity(self, count: int, code: str, name: Bilingual) -> Bilingual:
+        """Return so many of a noun by their name, with what each language puts between the two.
+
+        Args:
+            count: how many.
+            code: of the noun.
+            name: of one or of several of it, with a colour or not.
+        """
+        key = code.partition(".")[2]
+
+        def quantity_in(language: str) -> str:
+            messages = self._by_language[language]
+            own = name.of(language)
+            other = "vowel" if own[:1].lower() in VOWELS else "other"
+            measure = messages.get(f"measure.{key}", messages.get(f"measure.{other}", ""))
+            number = self.raw(f"number.{count}", language) if count < WORDED else str(count)
+            if count == 1:
+                return self.raw("result.one", language).format(measure=measure, name=own)
+            if messages.get("plural.other") == "{name}":  # where nouns have no plural, measures do
+                number += measure
+            return self.raw("result.many", language).format(count=number, name=own)
+
+        return self.build(quantity_in)
+
     def place_name(self, en: str, zh: str) -> Bilingual:
         """Return a place's name; where a language beyond these two has a word for it, with that."""
         name = Bilingual(en=en, zh=zh)
@@ -244,6 +271,11 @@ def plural(code: str) -> Bilingual:
         UnknownMessage: there is none of this code.
     """
     return CATALOGUE.plural(code)
+
+
+def quantity(count: int, code: str, name: Bilingual) -> Bilingual:
+    """Return so many of a noun by their name, in each language's own grammar."""
+    return CATALOGUE.quantity(count, code, name)
 
 
 def place_name(en: str, zh: str) -> Bilingual:

@@ -137,14 +137,11 @@ def say(found: Match[str], reading: Reading) -> Meaning:
     return Steps((Say(text=words),))
 
 
-_OFTEN = {"两": 2, "二": 2, "三": 3, "四": 4, "五": 5}
-
-
 def say_often(found: Match[str], reading: Reading) -> Meaning:
     """Say the same words a few times: 喊三遍开饭了."""
     said = say(found, reading)
-    times = _OFTEN.get(found["often"]) or int(found["often"])
-    return replace(said, steps=said.steps * times) if isinstance(said, Steps) else said
+    often = times(found["often"])
+    return replace(said, steps=said.steps * often) if isinstance(said, Steps) else said
 
 
 _STANDS = {

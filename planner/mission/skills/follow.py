@@ -16,6 +16,8 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
+from planner.language.formatting import definite
+from planner.language.object_names import name_object
 from planner.mission.skills.actions import (
     DriveLeg,
     Fail,
@@ -28,7 +30,6 @@ from planner.mission.skills.actions import (
 from planner.mission.skills.find import unknown
 from planner.mission.skills.look_around import leg_to, look_round, spin
 from planner.mission.skills.object_matching import away_m, bearing, lasting, one_of, turn_to
-from planner.mission.skills.result_text import name_with_article
 from planner.mission.skills.search import short_of
 from planner.mission.skills.skill_state import FollowPersonState, FollowStage
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
@@ -127,7 +128,7 @@ def _go_after(
 ) -> DriveLeg | Observe | Fail:
     """Go to a point short of them; where the way was shut watch a while first, not for ever."""
     if state.shut_ways >= MOST_SHUT:
-        said = message(Code.NO_ROUTE, place=name_with_article(state.label or "person", None))
+        said = message(Code.NO_ROUTE, place=definite(name_object(state.label or "person")))
         return Fail(Code.NO_ROUTE, "no_route", said)
     if state.stage is FollowStage.SHUT:
         then = state.but(stage=FollowStage.AFTER)

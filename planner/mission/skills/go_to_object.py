@@ -46,7 +46,7 @@ from planner.mission.skills.object_matching import (
     turn_to,
     twice,
 )
-from planner.mission.skills.result_text import name_with_article
+from planner.mission.skills.result_text import name_one
 from planner.mission.skills.search import make_filter, search, short_of
 from planner.mission.skills.skill_state import (
     AimStage,
@@ -144,11 +144,7 @@ def _short_m(state: ApproachState) -> float:
 
 def _drive(pose: Pose2, state: ApproachState, at: tuple[float, float, float]) -> SkillAction:
     if state.stand > len(SIDES_RAD):
-        name = (
-            name_with_article(state.label, state.color)
-            if state.label is not None
-            else say_same("?")
-        )
+        name = name_one(state.label, state.color) if state.label is not None else say_same("?")
         return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
     there, otherwise = state.but(approach=ApproachStage.FACE), state.but(stand=state.stand + 1)
     if state.stand == len(SIDES_RAD):  # large furniture: wherever it is seen from, and near
@@ -219,7 +215,7 @@ def _arrive(scene: Scene[ApproachState], pose: Pose2, wanted: WantedObject | Non
     else:
         figures["found"] = Found(label=state.label, color=state.color, x_m=round(at[0], 3),
                                  y_m=round(at[1], 3), distance_m=round(away, 2))  # fmt: skip
-    name = name_with_article(state.label, state.color)
+    name = name_one(state.label, state.color)
     said = say("object_step.at_object", away=away, name=name)
     return Finish(figures, Code.ARRIVED, said)
 

@@ -3,19 +3,22 @@
 Precondition: without a vision model, the one kind of thing that is asked for is known to the
 detector. Law: a place that is named is driven to and looked round in; else one gaze ahead, or round
 where the words ask for it. The answer is what the detector saw, by kind, colour, number and
-neighbour (scene_answers.py). Beside it stands, labelled, what a vision model read in the pictures
-of all these directions: its words may repeat what stands written there, so they describe and
-never command. Where a model is set and does not answer, why is told. Verdict: looked; a place
+neighbour (scene_answers.py). What a vision model read in the pictures of all these directions makes
+one answer with it (``reading``): its words may repeat what stands written there, so they describe
+and never command. Where a model is set and does not answer, why is told. Verdict: looked; a place
 to which there was no way was not. Where branches hang on it, its answer is a yes, a no, or that it
 can't be told (conditions.py). Budget: one leg and one turn about.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import build, join, message, raw, say
+from planner.language.catalogue import CATALOGUE, build, join, message, raw, say
+from planner.language.folding import has_chinese, is_chinese
+from planner.language.formatting import definite
 from planner.language.questions import looks_round
 from planner.mission.skills.actions import (
     AskImage,
@@ -36,7 +39,7 @@ from planner.mission.skills.scene_answers import SceneAnswer, answer
 from planner.mission.skills.search import begin, spots
 from planner.mission.skills.skill_state import LookStage, LookState
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
-from planner.plan import JUDGED, Bilingual, Code, say_same
+from planner.plan import JUDGED, Bilingual, Code, Language, say_same
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -77,17 +80,15 @@ def _finish(scene: Scene[LookState], pose: Pose2, question: str) -> Finish:
     state, views = scene.state, scene.eyes.views
     partly = len(state.faced) > 1 and not goes_round(state.faced, views)
     told = SceneAnswer(NO_DETECTOR) if _model_alone(scene) else answer(scene, question)
-    said, silent = [told.said], why_silent(scene.answer)
-    if partly:
-        names = list_directions(tuple(map(direction, state.faced)))
-        said.append(say("look.only_looked", names=names))
-    if silent is not None:
-        said.append(silent)
-    whole = join(said)
-    read = None
-    if scene.answer is not None:
-        read = reading(scene.answer, told.yes, state.faced, views, _facing(state, pose))
-    ended = Finish({"rooms": state.rooms}, Code.SEEN, whole, read)
+    silent, read = why_silent(scene.answer), None
+    names = list_directions(tuple(map(direction, state.faced)))
+    gap = (say("look.only_looked", names=names),) if partly else ()
+    said = join((told.said, *gap, *((silent,) if silent is not None else ())))
+    if scene.answer is not None and scene.answer.text is not None:
+        alone = _alone(scene.answer, state, pose)
+        only = gap if alone is None else (say("look.only_looked", names=alone),)
+        read = join((reading(scene.answer.text, scene.answer.seen, told), *only))
+    ended = Finish({"rooms": state.rooms}, Code.SEEN, said, read)
     if scene.step.role not in JUDGED:
         return ended
     holds = agree(told.yes, scene.answer.seen if scene.answer is not None else None)
@@ -103,7 +104,7 @@ def _never_there(scene: Scene[LookState]) -> Fail:
     """Tell that nothing was looked at: an unseen thing there is no proof of absence."""
     target = scene.facts.targets.get(scene.step.place or "")
     name = target.name if target is not None else say_same("?")
-    return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=name))
+    return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=definite(name)))
 
 
 def _unknown(scene: Scene[LookState], question: str) -> Fail | None:
@@ -147,56 +148,70 @@ def _look_next(scene: Scene[LookState], pose: Pose2, question: str) -> SkillActi
     return look_round(scene, pose, (Viewpoint(HERE, room_at(scene.facts, at), at),), None)
 
 
-_ENDS = (".", "!", "?", "…", "”", "。", "！", "？")
+_ENDS = ".!?…。！？"
 
 
-def reading(
-    answer: ImageAnswer, detected: bool | None, faced: tuple[float, ...], views: int, now: Bilingual
-) -> Bilingual | None:
-    """Return a model's words about pictures with their label; None where it has none.
+def reading(text: Bilingual, seen: bool | None, told: SceneAnswer) -> Bilingual:
+    """Return the whole answer of two eyes, in one or two sentences.
 
-    They stand beside what the detector saw and never in its place; a yes of either is not taken
-    back by a no of the other, still less by one about another direction.
+    Where they agree it is one sentence; where they differ, the surer one comes first, and a yes of
+    the detector is never taken back. What the detector can't judge the model's words alone answer.
 
     Args:
-        answer: what came of the question.
-        detected: whether the detector saw what was asked for; None: open, or it can't tell.
-        faced: the directions of this look, from how the robot stood when it began [rad].
-        views: in how many directions one looks for a whole turn.
-        now: the direction of the newest picture.
+        text: what a vision model wrote about the pictures.
+        seen: whether it says that what was asked for is there.
+        told: what the detector saw.
     """
-    if answer.text is None:
+    return build(lambda language: _merge(text.of(language), seen, told, language))
+
+
+def _merge(text: str, seen: bool | None, told: SceneAnswer, language: str) -> str:
+    """Return the answer in one language; a model's words in another one are left out."""
+    said, words, judges = (
+        told.said.of(language),
+        _end_sentence(text, language),
+        told.yes is not None,
+    )
+    if not _is_spoken(text, language):
+        if judges or told.lists or seen is None:
+            return said
+        return raw("image.yes" if seen else "image.no", language)
+    if not judges:
+        words = words[:1].upper() + words[1:]
+    if told.lists:
+        return raw("joint.sentence", language).join((said, words))
+    if not judges:
+        return words
+    words = _drop_answer(words, language)
+    more = raw("image.more" if words else "joint.full_stop", language).format(words=words)
+    if seen is None or seen is told.yes:
+        return raw("image.agrees", language).format(said=said.rstrip(_ENDS), more=more)
+    return raw("image.less_sure" if told.yes else "image.not_sure", language).format(
+        said=said, more=more
+    )
+
+
+def _drop_answer(words: str, language: str) -> str:
+    """Return words without the yes or no before them, which the answer has said already."""
+    lead, *rest = re.split(r"[,，.。:：;；]\s*", words, maxsplit=1)
+    answers = CATALOGUE.synonyms("image.answers", language)
+    return "".join(rest) if lead.casefold() in answers else words
+
+
+def _is_spoken(text: str, language: str) -> bool:
+    """Return whether a model's words are of this language, by their script."""
+    if language == Language.ZH:
+        return has_chinese(text) or not any(map(str.isalpha, text))
+    return not is_chinese(text)
+
+
+def _end_sentence(text: str, language: str) -> str:
+    return text if text.endswith((*_ENDS, "”")) else text + raw("joint.full_stop", language)
+
+
+def _alone(answer: ImageAnswer, state: LookState, pose: Pose2) -> Bilingual | None:
+    """Name the one direction that a model was shown; None where it was shown all of this look."""
+    faced = state.faced
+    if len(faced) < 2 or answer.shown == len(faced):
         return None
-    shown = _name_pictures(answer.shown, faced, views, now)
-    words = _end_sentence(answer.text)
-    lead = _lead(answer.seen, detected, shown)
-    return say("image.reading", lead=lead, words=words)
-
-
-def _lead(seen: bool | None, detected: bool | None, shown: Bilingual) -> Bilingual:
-    if seen is None or seen is detected:
-        return say("image.adds", shown=shown)  # fmt: skip
-    if not seen:
-        return say("image.says_no", shown=shown)
-    return say("image.but_says_yes" if detected is False else "image.says_yes", shown=shown)
-
-
-def _name_pictures(count: int, faced: tuple[float, ...], views: int, now: Bilingual) -> Bilingual:
-    """Say which pictures the model was shown: of each direction, or the newest alone."""
-    if count < 2 or count != len(faced):
-        alone = len(faced) > 1
-        return say("image.only_picture" if alone else "image.picture", now=now)
-    if goes_round(faced, views):
-        return say("image.all_directions")
-    names = list_directions(tuple(map(direction, faced)))
-    return say("image.pictures", names=names)
-
-
-def _end_sentence(text: Bilingual) -> Bilingual:
-    """Return a text with a full stop behind it, where nothing ends it."""
-
-    def end_text(language: str) -> str:
-        own = text.of(language)
-        return own if own.endswith(_ENDS) else own + raw("joint.full_stop", language)
-
-    return build(end_text)
+    return _facing(state, pose)

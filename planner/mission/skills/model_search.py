@@ -274,20 +274,17 @@ def _read_found(scene: Scene[Any], seen: DirectionSeen) -> Bilingual:
 
 
 def _tell_pictures(scene: Scene[Any]) -> Bilingual:
-    """Say how many pictures the model was shown, what they cost, and from which rooms."""
-    state, paid = scene.state, bill(scene)
+    """Say how many pictures the model was shown, and from which rooms; the bill has the cost."""
+    state, count = scene.state, scene.state.shown
     names = [
         n for r in dict.fromkeys(s.room for s in state.seen) if (n := room_name(scene.facts, r))
     ]
-    figures: dict[str, Any] = {"count": paid.pictures, "tokens": paid.tokens}
-    shown = "seek.shown_one" if paid.pictures == 1 else "seek.shown"
+    shown = "seek.shown_one" if count == 1 else "seek.shown"
     told = [
-        say(f"{shown}_of", rooms=list_names(names, "joint.and"), **figures)
+        say(f"{shown}_of", rooms=list_names(names, "joint.and"), count=count)
         if names
-        else say(shown, **figures)
+        else say(shown, count=count)
     ]
-    if paid.money is not None:
-        told.append(say("seek.money", money=f"{paid.money:.4g}", currency=paid.currency))
     return join(told)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import join, list_names, message, say
+from planner.language.catalogue import join, list_names, message, quantity, say
 from planner.language.object_classes import HOME
 from planner.language.object_names import list_kinds as labels_listed
 from planner.language.object_names import name_object, named_several, singles_out, told_color
@@ -24,18 +24,15 @@ NOWHERE = say("result.nowhere")
 HERE = say("result.here")
 
 
-def name_with_article(label: str, color: str | None = None) -> Bilingual:
-    """Return a thing's name with its article: ``a red cup``, ``红色的杯子``."""
-    name = name_object(label, color)
-    return say("result.an" if name.en[:1] in "aeiou" else "result.a", name=name)
-
-
 def name_count(count: int, label: str, color: str | None = None) -> Bilingual:
-    """Return so many of a thing: ``2 red cups``, ``2 个红色的杯子``."""
-    name = name_object(label, color)
-    if count == 1:
-        return say("result.one", name=name)
-    return say("result.many", count=count, name=named_several(label, color))
+    """Return so many of a thing: ``a red cup``, ``两把椅子``."""
+    name = name_object(label, color) if count == 1 else named_several(label, color)
+    return quantity(count, f"noun.{label}", name)
+
+
+def name_one(label: str, color: str | None = None) -> Bilingual:
+    """Return a thing's name as of one that was not spoken of before."""
+    return name_count(1, label, color)
 
 
 def known_things(classes: tuple[str, ...]) -> Bilingual:
@@ -76,7 +73,7 @@ def by_neighbour(what: Bilingual, wanted: WantedObject | None) -> Bilingual:
 def found_at(facts: SiteView, label: str, color: str | None, room: str | None, away: float | None,
              wanted: WantedObject | None = None) -> Bilingual:  # fmt: skip
     """Say where a thing is: its room and how far it is from the robot."""
-    what, where = by_neighbour(name_with_article(label, color), wanted), room_name(facts, room)
+    what, where = by_neighbour(name_one(label, color), wanted), room_name(facts, room)
     figures: dict[str, Bilingual | str | float | None] = {"what": what, "room": where, "away": away}
     if away is None:
         return say("result.found_in" if where else "result.found", **figures)
@@ -111,7 +108,7 @@ def list_rooms(facts: SiteView, rooms: Iterable[str]) -> Bilingual:
 
 
 def list_things(things: Iterable[Thing]) -> Bilingual:
-    """List things by kind and colour with their numbers: ``2 chairs, 1 red cup``."""
+    """List things by kind and colour with their numbers: ``two chairs and a red cup``."""
     kinds = Counter((t.label, told_color(t.label, t.color)) for t in things)
     said = [
         name_count(n, *kind) for kind, n in sorted(kinds.items(), key=lambda k: (-k[1], str(k)))

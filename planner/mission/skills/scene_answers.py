@@ -52,6 +52,8 @@ class SceneAnswer(NamedTuple):
     said: Bilingual
     yes: bool | None = None
     """None: nothing is asked for that is there or not, or it can't be told."""
+    lists: bool = False
+    """Whether it names what is there, which a model's reading adds to."""
 
 
 def answer(scene: Scene[Any], question: str) -> SceneAnswer:
@@ -110,6 +112,7 @@ def _tell_beside(
         return SceneAnswer(
             say(code, found=found, beside=beside),
             None if what is None else True,
+            lists=what is None,
         )
     if so.unsure:
         found = _name_things(so.unsure, what)
@@ -161,9 +164,9 @@ def _plainly(what: WantedObject | None, things: Things, at: Bilingual) -> SceneA
     """Tell the sights of the object, without any neighbour."""
     if what is None:
         if not things:
-            return SceneAnswer(say("scene.nothing", at=at))  # fmt: skip
+            return SceneAnswer(say("scene.nothing", at=at), lists=True)
         found = list_things(things)
-        return SceneAnswer(say("scene.seen", found=found, at=at))
+        return SceneAnswer(say("scene.seen", found=found, at=at), lists=True)
     if not things:
         return SceneAnswer(_unseen("scene.no", what, at), False)
     found = _name_things(things, what)

@@ -13,7 +13,7 @@ from math import hypot
 from typing import TYPE_CHECKING, NamedTuple
 
 from planner.language.catalogue import message, say
-from planner.language.object_names import name_object
+from planner.language.object_names import name_object, tell_words
 from planner.mission.skills.actions import Fail, Finish, Retry, Scene, SkillAction
 from planner.mission.skills.drive_to_place import place_gone
 from planner.mission.skills.find import unknown
@@ -108,7 +108,7 @@ def _thing(scene: Scene[StandAtState], pose: Pose2) -> _Thing | SkillAction:
     known = [t for t in scene.sight.things if sure(t) and fits(t, wanted)]
     thing = min(known, key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
     if thing is None:
-        looked, name = say("stand.unseen"), say_same(step.object or "?")
+        looked, name = say("stand.unseen"), tell_words(step.object or "?")
         return Fail(Code.NOT_FOUND, "unseen", message(Code.NOT_FOUND, thing=name, looked=looked))
     name, at = name_object(thing.label, thing.color), (thing.x_m, thing.y_m)
     if step.side == "facing" or floor is None:

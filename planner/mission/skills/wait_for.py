@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from planner.language.catalogue import message, say
 from planner.language.folding import fold_words
+from planner.language.object_names import tell_words
 from planner.language.utterance import parse
 from planner.mission.skills.actions import (
     Fail,
@@ -24,10 +25,10 @@ from planner.mission.skills.actions import (
 )
 from planner.mission.skills.find import unknown
 from planner.mission.skills.object_matching import fits, fresh, lasting, wanted_of
-from planner.mission.skills.result_text import name_with_article
+from planner.mission.skills.result_text import name_one
 from planner.mission.skills.skill_state import WaitForState
 from planner.mission.wall_clock import seconds_until
-from planner.plan import Code, say_same
+from planner.plan import Code
 
 SEEN_S = 1.5
 """What was seen longer ago is not in sight."""
@@ -87,11 +88,11 @@ def _for_sight(scene: Scene[WaitForState]) -> SkillAction:
     seen = [t for t in fresh(scene.sight, wanted, since_s) if fits(t, wanted) and lasting(t)]
     if seen and scene.sight.blind is None:
         thing = seen[0]
-        what = name_with_article(thing.label, thing.color)
+        what = name_one(thing.label, thing.color)
         return Finish({}, Code.SEEN, say("wait_for.seen", what=what))
     limit_s = scene.step.seconds or 0.0
     if not scene.spent_s <= limit_s:
-        what = say_same(scene.step.object or "")
+        what = tell_words(scene.step.object or "")
         said = say("wait_for.unseen", what=what, seconds=f"{limit_s:.0f}")
         return Fail(Code.UNMET, Code.UNMET.value, said)
     return Observe(1, GAZE_S, state=scene.state, then=scene.state)

@@ -198,7 +198,7 @@ class Telling(Together):
 
 _ARRIVED = (
     (Language.EN, re.compile(r"Arrived: ([^.]*)\."), ", then "),
-    (Language.ZH, re.compile(r"已到达：([^。]*)。"), "，然后"),
+    (Language.ZH, re.compile(r"我到了：([^。]*)。"), "，然后"),
 )
 _DRIVES = ("go_to", "return_home", "come_back")
 
@@ -237,8 +237,8 @@ def _to_be_told(step: StepRecord, language: Language) -> list[str]:
         told.append(step.text or "")
     if step.answer is not None:
         told.append(step.answer)
-    if step.said is not None:
-        told.append(step.said.of(language))
+    if step.said is not None and (step.read is None or step.said.en.startswith("Yes")):
+        told.append(step.said.of(language).rstrip(".。"))  # a detector's yes is never taken back
     if step.read is not None:
         told.append(step.read.of(language))
     return told

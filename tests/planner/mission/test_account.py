@@ -54,9 +54,10 @@ def told(world: Rethinking, goal: str, *, state: Any = SUCCEEDED, code: Code | N
         ((GoTo(place="kitchen"),), Code.ARRIVED, "Arrived: kitchen."),
         ((GoTo(place="kitchen"), ReturnHome()), Code.ARRIVED, "Arrived: kitchen, then dock."),
         ((GoTo(place="kitchen"), DINNER), Code.ARRIVED,
-         "Arrived: kitchen. Said: “dinner is ready”."),
-        ((DINNER,), Code.DONE, "Said: “dinner is ready”."),
-        ((Wait(seconds=0.2), GoTo(place="hall")), Code.ARRIVED, "Waited 0.2 s. Arrived: hall."),
+         "Arrived: kitchen. I said “dinner is ready”."),
+        ((DINNER,), Code.DONE, "I said “dinner is ready”."),
+        ((Wait(seconds=0.2), GoTo(place="hall")), Code.ARRIVED,
+         "I waited 0.2 seconds. Arrived: hall."),
         ((Patrol(places=("kitchen", "hall")),), Code.ARRIVED,
          "Visited one after the other: kitchen, hall."),
     ],
@@ -70,11 +71,11 @@ def test_after_a_drive_that_failed_nobody_has_arrived() -> None:
     world = shut(rethinking(plan(GoTo(place="kitchen"), DINNER), plan(DINNER)), "kitchen")
     goal = world.give(None)
     assert told(world, goal, code=Code.DONE) == (
-        "I found no way to kitchen. Instead: Said: “dinner is ready”."
+        "I found no way to the kitchen. Instead: I said “dinner is ready”."
     )
     message = world.goal(goal).outcome
     assert message is not None
-    assert message.message.zh == "找不到去kitchen的路。改为：已说：“dinner is ready”。"
+    assert message.message.zh == "找不到去kitchen的路。改为：我说了“dinner is ready”。"
 
 
 def test_who_has_been_to_a_place_and_finds_no_way_back_has_not_arrived() -> None:
@@ -84,8 +85,8 @@ def test_who_has_been_to_a_place_and_finds_no_way_back_has_not_arrived() -> None
         world.run()
     shut(world, "kitchen")
     assert told(world, goal, code=Code.DONE) == (
-        "Been to: kitchen. Arrived: hall. I found no way to kitchen. "
-        "Instead: Said: “dinner is ready”."
+        "Been to: kitchen. Arrived: hall. I found no way to the kitchen. "
+        "Instead: I said “dinner is ready”."
     )
 
 
@@ -94,14 +95,14 @@ def test_a_drive_that_was_never_begun_says_nothing_about_an_arrival() -> None:
     goal = world.give(None)
     shut(world, "kitchen")
     assert told(world, goal, state=FAILED) == (
-        "Arrived: hall, then dock. I found no way to kitchen. Not done: going to dock."
+        "Arrived: hall, then dock. I found no way to the kitchen. Not done: going to the dock."
     )
 
 
 def test_another_place_that_was_gone_to_instead_is_told_so() -> None:
     world = shut(rethinking(go("kitchen", "hall"), go("hall")), "kitchen")
     assert told(world, world.give(None), code=Code.ARRIVED) == (
-        "I found no way to kitchen. Instead: Arrived: hall."
+        "I found no way to the kitchen. Instead: Arrived: hall."
     )
 
 
@@ -113,7 +114,7 @@ def test_what_was_answered_is_told_whatever_a_brain_says_after_it() -> None:
         world.run()
     world.event(Reply(goal, "green tea"))
     assert told(world, goal, code=Code.ANSWERED) == (
-        "Arrived: kitchen. Asked: “tea?” Answer: “green tea”. I was told."
+        "Arrived: kitchen. I asked “tea?”, and the answer was “green tea”. I was told."
     )
 
 
@@ -123,8 +124,8 @@ def test_what_failed_and_what_was_left_undone_are_named() -> None:
     world = shut(rethinking(first, None), "kitchen")
     world.thoughts[1] = first  # the same again
     assert told(world, world.give(None), state=FAILED, code=Code.NO_ROUTE) == (
-        "Said: “dinner is ready”. I found no way to kitchen. Not done: turning 57° to the left, "
-        "driving 0.50 m forward, visiting hall, kitchen, asking “tea?”."
+        "I said “dinner is ready”. I found no way to the kitchen. Not done: turning 57° to the "
+        "left, driving 0.5 m forward, visiting hall, kitchen, asking “tea?”."
     )
 
 
@@ -135,7 +136,7 @@ def test_a_patrol_that_ends_on_its_way_names_the_stops_it_made() -> None:
     goal = world.give(None)
     shut(world, "dock")
     en = told(world, goal, state=FAILED)
-    assert en == "Visited one after the other: hall, kitchen. I found no way to dock."
+    assert en == "Visited one after the other: hall, kitchen. I found no way to the dock."
 
 
 def test_a_cancelled_goal_tells_what_it_said_before() -> None:
@@ -144,7 +145,7 @@ def test_a_cancelled_goal_tells_what_it_said_before() -> None:
     while not world.goal(goal).metres and world.bridge.pose.x_m < 1.0:
         world.run()
     world.event(Cancel(goal))
-    assert told(world, goal, state=CANCELLED) == "Said: “dinner is ready”. Cancelled."
+    assert told(world, goal, state=CANCELLED) == "I said “dinner is ready”. Cancelled."
 
 
 def test_thoughts_that_are_used_up_are_no_distance_and_no_time() -> None:
@@ -153,7 +154,7 @@ def test_thoughts_that_are_used_up_are_no_distance_and_no_time() -> None:
     goal = world.give(None)
     en = told(world, goal, state=FAILED, code=Code.OUT_OF_BUDGET)
     assert world.goal(goal).reason == "thoughts"
-    assert en.endswith("The goal used up its 3 thoughts under way.")
+    assert en.endswith("I have used up what I may for this: 3 thoughts under way.")
     assert "distance" not in en
 
 
@@ -175,4 +176,7 @@ def test_a_cause_is_told_to_a_later_thought_too() -> None:
     world = shut(rethinking(first, second, plan(DINNER)), "kitchen", "dock")
     world.run_until(world.give(None), SUCCEEDED)
     details: list[Bilingual] = [each.detail for each in world.asked[2].observed]
-    assert [d.en for d in details] == ["I found no way to kitchen.", "I found no way to dock."]
+    assert [d.en for d in details] == [
+        "I found no way to the kitchen.",
+        "I found no way to the dock.",
+    ]

@@ -19,7 +19,7 @@ def book(charge: float | None) -> MissionState:
 
 @pytest.mark.parametrize(
     ("charge", "en", "zh"),
-    [(0.8, "80 %", "80 %"), (0.0, "0 %", "0 %"), (None, "tells no charge", "不报告电量")],
+    [(0.8, "80 %", "80 %"), (0.0, "0 %", "0 %"), (None, "does not tell how full", "不报告电量")],
 )
 def test_the_charge_is_told_in_both_languages(charge: float | None, en: str, zh: str) -> None:
     told = tell_battery(book(charge), 0.1)

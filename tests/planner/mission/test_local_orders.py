@@ -77,7 +77,7 @@ def test_the_planner_answers_while_the_model_hangs(tmp_path: Path) -> None:
             assert here.outcome is not None
             assert (here.outcome.code, here.outcome.message.zh[:4]) == (Code.ANSWERED, "我在客厅")
             assert TO_KITCHEN in told(await say(together, "what are you doing"))
-            assert "tells no charge" in told(await say(together, "how is your battery"))
+            assert "does not tell how full" in told(await say(together, "how is your battery"))
             assert told(await say(together, "hold on")) == f"Paused: “{TO_KITCHEN}”."
             assert together.missions.goal(hanging.id).state is GoalState.PAUSED
             assert told(await say(together, "继续")) == f"I go on: “{TO_KITCHEN}”."

@@ -163,7 +163,7 @@ def test_where_a_step_fails_the_plan_has_a_way_of_its_own() -> None:
     assert mission.outcome is not None
     assert mission.outcome.code is Code.DONE, "nobody arrived"
     assert mission.outcome.message.en == (
-        "I found no way to kitchen. Instead: Said: “dinner is ready, here”."
+        "I found no way to the kitchen. Instead: I said “dinner is ready, here”."
     )
     assert not untruths(mission, NAMES)
 
@@ -178,7 +178,7 @@ def test_a_way_that_is_free_leaves_the_fallback_out() -> None:
     )
     assert kinds_done(mission) == ["try", "go_to", "say"]
     assert mission.outcome is not None
-    assert mission.outcome.message.en == "Arrived: kitchen. Said: “after”."
+    assert mission.outcome.message.en == "Arrived: kitchen. I said “after”."
 
 
 def test_a_fallback_that_fails_too_ends_the_goal_with_both() -> None:
@@ -200,7 +200,7 @@ def test_rounds_are_counted_and_told() -> None:
     assert mission.state is GoalState.SUCCEEDED
     assert mission.steps[0].round == 2
     assert mission.outcome is not None
-    assert mission.outcome.message.en.startswith("2 of 2 rounds: Yes, I see 1 cup")
+    assert mission.outcome.message.en.startswith("2 of 2 rounds: Yes, I see a cup")
 
 
 def test_a_repeat_ends_as_soon_as_it_holds_and_fails_where_it_never_does() -> None:

@@ -69,7 +69,7 @@ def test_nothing_found_is_told_where_the_order_was_given(seeing: Seeing) -> None
         "Not done: saying “here it is”, saying “I found it”."
     )
     assert "没有看到杯子" in mission.outcome.message.zh
-    assert "已到达：下达指令的地方。" in mission.outcome.message.zh
+    assert "我到了：下达指令的地方。" in mission.outcome.message.zh
     assert mission.outcome.message.zh.endswith("没有做：说“here it is”、说“I found it”。")
     assert mission.outcome.reached is not None
     assert mission.outcome.reached.room == "hall"
@@ -132,7 +132,7 @@ def test_a_way_back_that_is_shut_is_told_after_what_was_looked_for(seeing: Seein
     assert mission.outcome.code is Code.NOT_FOUND
     assert mission.outcome.message.en.startswith("I saw no cup.")
     assert mission.outcome.message.en.endswith(
-        "I found no way to where you gave the order. Not done: going to dock."
+        "I found no way to where you gave the order. Not done: going to the dock."
     )
 
 

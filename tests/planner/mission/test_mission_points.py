@@ -20,10 +20,7 @@ from wire import CameraConfig
 ASKS = GoalState.NEEDS_CLARIFICATION
 PLAN = StepPlan(steps=(GoToObject(object="guitar"), GoTo(place="dock")))
 AT = (4.0, 0.5, 0.4)
-TOLD = (
-    "“guitar”: the vision model points 4.0 m away, straight ahead (in the kitchen). "
-    "Shall I drive there?"
-)
+TOLD = "I think “guitar” is 4.0 m away, straight ahead (in the kitchen). Shall I drive there?"
 
 
 def sees(world: Seeing) -> Seeing:

@@ -228,12 +228,12 @@ def test_branches_hang_on_what_was_seen_and_never_on_what_was_told(tmp_path: Pat
             store.teach("the red cup is in the kitchen", NOW_S, said_by="page")
             unseen = await say(together, "in case you saw the red cup there, tell me, hm")
             assert "I remember nothing of “red cup” in the kitchen." in told(unseen)
-            assert "Said: “not seen”." in told(unseen)
+            assert "I said “not seen”." in told(unseen)
             assert "find the red cup" not in told(unseen), "a condition offers nothing"
             store.see([CUP])
             seen = await say(together, "in case you saw the red cup by now, tell me, hm")
             assert told(seen).startswith("I saw a red cup in the kitchen 20 minutes ago, at ")
-            assert "Said: “it was there”." in told(seen)
+            assert "I said “it was there”." in told(seen)
             steps = seen.plan.steps if seen.plan is not None else ()
             assert [step.holds for step in steps if step.kind == "recall"] == [True]
             assert together.bridge.waypoints == []

@@ -81,7 +81,7 @@ def test_a_failed_step_is_thought_about_with_what_went_wrong() -> None:
     assert done.steps[0].reason == "no_route"
     again = world.asked[1]
     assert (again.replan, again.observed[0].result) == (1, "failed")
-    assert "no way to kitchen" in again.observed[0].detail.en
+    assert "no way to the kitchen" in again.observed[0].detail.en
 
 
 def test_the_same_steps_again_end_with_the_first_failure_after_one_thought() -> None:
@@ -150,7 +150,7 @@ def test_an_answer_to_a_failure_is_told_behind_it() -> None:
     assert mission.state is FAILED
     assert mission.outcome is not None
     assert mission.outcome.message.en.endswith("Please open the door.")
-    assert "no way to kitchen" in mission.outcome.message.en
+    assert "no way to the kitchen" in mission.outcome.message.en
 
 
 def test_a_question_under_way_is_asked_and_its_answer_thought_about() -> None:
@@ -173,7 +173,7 @@ def test_a_question_under_way_is_asked_and_its_answer_thought_about() -> None:
         (Count(object="cups"), "counts “cups”"),
         (Follow(object="me"), "follows “me”"),
         (GoToObject(object="sofa"), "goes to “sofa”"),
-        (GoToPoint(x=500, y=700), "a point of the picture"),
+        (GoToPoint(x=500, y=700), "a spot in the picture"),
         (Look(question="look around"), "looks round"),
     ],
 )

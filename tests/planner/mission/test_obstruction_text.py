@@ -21,7 +21,7 @@ SITE = replace(FACTS, targets={"hall": room("hall", 0.0), "kitchen": room("kitch
         ((1.1, 0.0), "at the door between the kitchen and the hall"),
         ((0.0, 0.0), "in the hall"),
         ((2.9, 0.0), "in the kitchen"),
-        ((7.0, -1.25), "at x 7.0 m, y -1.2 m"),
+        ((7.0, -1.25), "outside of every room"),
     ],
 )
 def test_a_spot_is_named(point: tuple[float, float], said: str) -> None:
@@ -51,12 +51,13 @@ def test_a_gap_of_the_map_is_told_as_too_narrow_with_its_width() -> None:
     way = ShutWay(start=(0.0, -0.4), end=(0.0, 0.35), gap=True, since_unix_s=0.0, seen_unix_s=0.0)
     said = tell_obstruction(SITE, way, Bilingual(en="kitchen", zh="厨房"))
     assert said.en == (
-        "The way to kitchen is too narrow for me in the hall: the map's walls leave 0.75 m there."
+        "The way to the kitchen is too narrow for me in the hall: "
+        "the map's walls leave 0.75 m there."
     )
     assert "0.75 米" in said.zh
 
 
 def test_an_occupied_goal_names_how_near_the_robot_came() -> None:
     said = tell_occupied(Bilingual(en="kitchen", zh="厨房"), 0.62)
-    assert "within 0.6 m of kitchen" in said.en
+    assert "within 0.6 m of the kitchen" in said.en
     assert "0.6 米" in said.zh

@@ -59,17 +59,17 @@ def hinted(localizer: Localizer, site: Site = SITE) -> object:
 def test_a_place_that_a_scan_confirms_is_answered() -> None:
     said = hinted(Localizer("accepted"))
     assert isinstance(said, AnswerPlan)
-    assert said.text.en == "A scan agrees: that is where I am."
+    assert said.text.en == "What I see fits: that is where I am."
 
 
 @pytest.mark.parametrize(
     ("localizer", "why"),
     [
         (Localizer("moving"), "I am moving; stop me first"),
-        (Localizer("does_not_fit"), "what the lidar sees does not fit there"),
+        (Localizer("does_not_fit"), "what I see does not fit there"),
         (Localizer("no_scan"), "I have seen nothing yet that I could check it by"),
-        (Localizer(None), "localization did not answer"),
-        (Localizer("accepted", speaks=False), "this robot's localization takes no hints"),
+        (Localizer(None), "I could not check it"),
+        (Localizer("accepted", speaks=False), "I can't be told where I am"),
     ],
 )
 def test_a_word_that_changed_nothing_is_refused_and_says_why(

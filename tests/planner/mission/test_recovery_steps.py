@@ -56,7 +56,7 @@ def test_without_a_sight_of_it_the_failure_names_no_size(world: Together) -> Non
     goal = shut(world, seen=None)
     mission = world.run_until(goal, FAILED, limit_s=60.0)
     assert mission.outcome is not None
-    assert mission.outcome.message.en == "The way to kitchen is blocked."
+    assert mission.outcome.message.en == "The way to the kitchen is blocked."
 
 
 def test_a_drive_that_the_bridge_keeps_shutting_ends_although_every_way_is_granted(

@@ -272,7 +272,7 @@ def test_goal_record_round_trips() -> None:
     )
     assert Goal.model_validate_json(goal.model_dump_json()) == goal
     assert goal.outcome is not None
-    assert goal.outcome.message == Bilingual(en="Arrived: kitchen.", zh="已到达：厨房。")
+    assert goal.outcome.message == Bilingual(en="Arrived: kitchen.", zh="我到了：厨房。")
 
 
 def test_clarify_record_keeps_its_options() -> None:

@@ -62,10 +62,10 @@ def test_somebody_who_was_seen_is_told_whatever_a_model_denies(
     assert outcome is not None
     assert outcome.code is Code.SEEN
     assert outcome.message.en == (
-        "Yes, I see 1 person in the living room. The vision model, shown all directions, says no: "
+        "Yes, I see a person in the living room. The vision model, shown all directions, says no: "
         f"{ARMCHAIR.en}"
     )
-    assert outcome.message.zh.startswith("有，在客厅看到 1 个人。视觉模型（看的是各个方向的画面）")
+    assert outcome.message.zh.startswith("有，在客厅看到一个人。视觉模型（看的是各个方向的画面）")
     assert len(set(model.shown)) == 6, "the robot has turned all round"
 
 
@@ -89,11 +89,11 @@ def test_behind_a_blocked_door_nobody_arrives_and_nothing_is_denied(
         told.append(outcome.message)
         world.think_with(ScriptedBrain([look] * 3))
     errand, looked = told
-    assert errand.en.startswith("The way to kitchen is blocked by something 0.")
+    assert errand.en.startswith("The way to the kitchen is blocked by something 0.")
     assert "m wide at the door between the living room and the kitchen, since " in errand.en
-    assert errand.en.endswith(". Instead: Said: “dinner is ready”.")
+    assert errand.en.endswith(". Instead: I said “dinner is ready”.")
     assert "Arrived" not in errand.en
-    assert looked.en == "I found no way to kitchen."
+    assert looked.en == "I found no way to the kitchen."
     assert model.shown == ()
 
 

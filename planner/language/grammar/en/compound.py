@@ -186,8 +186,8 @@ ENGLISH_COMPOUND = CompoundForms(
         r"(?:,| then|, then)? (?P<else>.+?)(?: instead)?"
     ),
     rounds=re.compile(
-        r"(?P<main>.+?),? (?P<times>twice|thrice|(?:two|three|four|five|six|seven|eight|nine|ten"
-        r"|[2-9]|1\d|20) times)"
+        r"(?P<main>.+?),? (?:a )?(?P<times>twice|thrice|couple of times|(?:few|several|two|three"
+        r"|four|five|six|seven|eight|nine|ten|[2-9]|1\d|20) times)"
     ),
     count=_count,
     waits=(

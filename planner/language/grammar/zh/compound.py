@@ -6,7 +6,7 @@ import re
 
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
 from planner.language.grammar.zh.answers import ANSWERS, OPEN_QUESTION
-from planner.language.numbers import ZH_DURATION
+from planner.language.numbers import ZH_DURATION, times
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
 _THEN = r"[,，]?(?:那么|那)?(?:就|便|你就)?"
@@ -64,12 +64,6 @@ def _read_memory(said: str) -> MemoryParts | None:
 
 
 _DIGITS = {digit: value for value, digit in enumerate("零一二三四五六七八九十")} | {"两": 2}
-
-
-def _count(words: str) -> int | None:
-    if words.isdigit():
-        return int(words)
-    return _DIGITS.get(words)
 
 
 def _number(words: str) -> int | None:
@@ -202,8 +196,10 @@ CHINESE_COMPOUND = CompoundForms(
     failures=re.compile(
         rf"(?P<main>.+?)[,，;；。](?:{_FAILS})[,，]?(?:就|便|再)?(?:改)?(?P<else>.+)"
     ),
-    rounds=re.compile(r"(?P<main>.+?)(?P<times>[一二两三四五六七八九十]|\d{1,2})(?:次|遍|趟|回)"),
-    count=_count,
+    rounds=re.compile(
+        r"(?P<main>.+?)(?P<times>[一二两三四五六七八九十]|好?几|\d{1,2})(?:次|遍|趟|回)"
+    ),
+    count=times,
     waits=(
         re.compile(
             rf"{_BEFORE}{_STAY}我说(?!完|好)(?P<word>[^,，;；。再就然]{{1,6}})(?:了|的时候)?{_GO_ON}"

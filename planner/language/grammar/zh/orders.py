@@ -43,7 +43,7 @@ _SAID = (
 )
 """Words to be said, without marks around them; what asks the robot something is none."""
 _SAID_OFTEN = (
-    rf"(?:大声|高声|小声)?地?[说喊讲叫](?P<often>[两二三四五2-5])[遍声次句][:,]? ?"
+    rf"(?:大声|高声|小声)?地?[说喊讲叫](?P<often>[两二三四五2-5]|好?几)[遍声次句][:,]? ?"
     rf"(?:(?P<quote>{QUOTE})|(?P<words>[^,.;!?。、\"“”\ue000-\ue8ff]{{1,20}}))"
 )
 _TALK = r"(?:说|讲|告诉|回答|提醒|叫|读|念|介绍|聊天|查询|发[现出生动]).*"

@@ -31,7 +31,7 @@ from planner.mission.skills.result_text import (
     found_at,
     looked_in,
     name_count,
-    name_with_article,
+    name_one,
     unknown_words,
 )
 from planner.mission.skills.skill_state import LookStage, LookState
@@ -97,7 +97,7 @@ def figures() -> list[Bilingual]:
     ]
     looked = looked_in(FACTS, ("kitchen",), ("study",), "way")
     more = [
-        name_with_article("apple"),
+        name_one("apple"),
         name_count(2, "box", "red"),
         unknown_words("toy", ("cup",)),
         looked,

@@ -67,7 +67,7 @@ def test_what_asks_of_something_else_is_not(text: str, understood: Callable[[str
 
 @pytest.mark.parametrize("text", BYE)
 def test_who_leaves_is_not_greeted(text: str, understood: Callable[[str], str]) -> None:
-    assert understood(text) == "answer: Until later."
+    assert understood(text) == "answer: See you later."
 
 
 def test_two_in_one_sentence_are_one_answer(understood: Callable[[str], str]) -> None:

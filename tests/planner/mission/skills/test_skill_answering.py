@@ -47,32 +47,32 @@ def asked(question: str, *things: Thing, **more: Any) -> Any:
 @pytest.mark.parametrize(
     ("things", "en", "zh"),
     [
-        ((TABLE, ON_IT), "Yes, I see 1 cup on the table.", "有，在桌子上看到 1 个杯子。"),
+        ((TABLE, ON_IT), "Yes, I see a cup on the table.", "有，在桌子上看到一个杯子。"),
         (
             (TABLE, ON_IT, BELOW),
-            "Yes, I see 1 cup on the table.",
-            "有，在桌子上看到 1 个杯子。",
+            "Yes, I see a cup on the table.",
+            "有，在桌子上看到一个杯子。",
         ),
         (
             (TABLE, AWAY),
-            "No, I see no cup on the table. I see 1 cup elsewhere.",
-            "没有，在桌子上没有看到杯子。别处看到 1 个杯子。",
+            "No, I see no cup on the table. I see a cup elsewhere.",
+            "没有，在桌子上没有看到杯子。我在别处看到一个杯子。",
         ),
         ((TABLE,), "No, I see no cup on the table.", "没有，在桌子上没有看到杯子。"),
         (
             (AWAY,),
-            "I can't tell: I see 1 cup, but no table.",
-            "说不准：看到 1 个杯子，但没有看到桌子。",
+            "I can't tell: I see a cup, but no table.",
+            "我不能确定：看到一个杯子，但没有看到桌子。",
         ),
         (
             (),
             "I can't tell: I see no cup and no table.",
-            "说不准：没有看到杯子，也没有看到桌子。",
+            "我不能确定：没有看到杯子，也没有看到桌子。",
         ),
         (
             (TABLE, VAGUE),
-            "I can't tell: I see 1 cup, but not well enough where.",
-            "说不准：看到 1 个杯子，但位置不够确定。",
+            "I can't tell: I see a cup, but not well enough where.",
+            "我不能确定：看到一个杯子，但位置不够清楚。",
         ),
     ],
 )
@@ -89,17 +89,17 @@ def test_it_is_said_whether_a_thing_stands_there_or_that_it_cannot_be_told(
 @pytest.mark.parametrize(
     ("question", "things", "en"),
     [
-        ("is there a cup under the table", (TABLE, ON_IT, BELOW), "Yes, I see 1 cup under the t"),
-        ("is there a cup next to the table", (TABLE, at("cup", 2.8, 0.1)), "Yes, I see 1 cup near"),
-        ("is there a cup on the shelf", (ON_IT,), "I see 1 cup; whether “on the shelf”, I can't"),
+        ("is there a cup under the table", (TABLE, ON_IT, BELOW), "Yes, I see a cup under the t"),
+        ("is there a cup next to the table", (TABLE, at("cup", 2.8, 0.1)), "Yes, I see a cup near"),
+        ("is there a cup on the shelf", (ON_IT,), "I see a cup, but I can't tell by sight whether"),
         ("is there a cup on the shelf", (), "I can't tell: I see no cup."),
-        ("what is on the table?", (TABLE, CHAIR, ON_IT, AWAY), "I see 1 cup on the table."),
+        ("what is on the table?", (TABLE, CHAIR, ON_IT, AWAY), "I see a cup on the table."),
         ("what is on the table?", (TABLE, CHAIR), "I see nothing that I know on the table."),
         ("what is on the table?", (CHAIR,), "I can't tell: I see no table."),
-        ("is there a cup on the floor", (BELOW, ON_IT), "Yes, I see 1 cup on the floor."),
-        ("is there a cup on the floor", (ON_IT,), "No, I see no cup on the floor. I see 1 cup el"),
-        ("is there a cup on the floor", (VAGUE,), "I can't tell: I see 1 cup, but not well"),
-        ("is there a cup?", (ON_IT, AWAY), "Yes, I see 2 cups."),
+        ("is there a cup on the floor", (BELOW, ON_IT), "Yes, I see a cup on the floor."),
+        ("is there a cup on the floor", (ON_IT,), "No, I see no cup on the floor. I see a cup el"),
+        ("is there a cup on the floor", (VAGUE,), "I can't tell: I see a cup, but not well"),
+        ("is there a cup?", (ON_IT, AWAY), "Yes, I see two cups."),
     ],
 )
 def test_every_relation_is_judged_or_said_to_be_beyond_sight(
@@ -113,7 +113,7 @@ def test_no_is_said_of_a_neighbour_that_is_seen_now_and_not_of_one_that_is_remem
     remembered = at("table", 1.6, 0.4, **BEFORE)
     assert asked("is the cup on the table?", remembered).said.en.startswith("I can't tell")
     yes = asked("is the cup on the table?", remembered, ON_IT)
-    assert yes.said.en == "Yes, I see 1 cup on the table."
+    assert yes.said.en == "Yes, I see a cup on the table."
     unsure = at("table", 1.6, 0.4, confidence=0.4)
     assert asked("is the cup on the table?", unsure, ON_IT).said.en.startswith("I can't tell")
 
@@ -122,7 +122,7 @@ def test_a_place_is_told_and_its_tables_alone_count() -> None:
     kitchen = at("table", 5.0, 0.4, room="kitchen"), at("cup", 5.0, 0.8, room="kitchen")
     done = {"place": "kitchen", "pose": Pose2(5.0, 0.0, 0.0)}
     told = asked("is there a cup on the table in the kitchen", *kitchen, TABLE, ON_IT, **done)
-    assert told.said.en == "Yes, I see 1 cup on the table in the kitchen."
+    assert told.said.en == "Yes, I see a cup on the table in the kitchen."
     told = asked("is there a cup on the table in the kitchen", TABLE, ON_IT, **done)
     assert told.said.en == "I can't tell: I see no cup and no table in the kitchen."
 
@@ -132,11 +132,11 @@ def test_a_place_is_told_and_its_tables_alone_count() -> None:
     [
         (
             "is there a cup on the table",
-            "Yes, I see 1 cup on the table.",
-            "有，在桌子上看到 1 个杯子。",
+            "Yes, I see a cup on the table.",
+            "有，在桌子上看到一个杯子。",
         ),
-        ("is there a cup", "Yes, I see 1 cup near the table.", "有，在桌子附近看到 1 个杯子。"),
-        ("桌子旁边有杯子吗", "Yes, I see 1 cup near the table.", "有，在桌子附近看到 1 个杯子。"),
+        ("is there a cup", "Yes, I see a cup near the table.", "有，在桌子附近看到一个杯子。"),
+        ("桌子旁边有杯子吗", "Yes, I see a cup near the table.", "有，在桌子附近看到一个杯子。"),
     ],
 )
 def test_a_place_that_is_the_neighbour_itself_is_named_once(
@@ -187,7 +187,7 @@ def test_what_is_unclear_or_a_state_is_told_neither_yes_nor_no(
 ) -> None:
     said = asked(question, *things).said
     assert "I can't tell" in said.en
-    assert "说不准" in said.zh or "看不出来" in said.zh
+    assert "不能确定" in said.zh or "看不出来" in said.zh
     unsure = asked(question, *things, role=StepRole.WHEN)
     assert (unsure.code, unsure.figures.get("holds")) == (Code.UNSURE, None)
 

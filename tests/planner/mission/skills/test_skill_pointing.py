@@ -41,9 +41,9 @@ def test_a_point_is_proposed_before_anything_moves() -> None:
     act = going(state=ANSWER, answer=ImageAnswer(at=AT))
     assert act == Question(
         Bilingual(
-            en="“guitar”: the vision model points 4.0 m away, straight ahead (in the kitchen). "
+            en="I think “guitar” is 4.0 m away, straight ahead (in the kitchen). "
             "Shall I drive there?",
-            zh="“guitar”：视觉模型指向正前方 4.0 米处（kitchen）。要我开过去吗？",
+            zh="“guitar”好像在正前方 4.0 米处（kitchen）。要我开过去吗？",
         ),
         ASKED,
     )
@@ -67,7 +67,7 @@ def test_it_is_told_as_seen_from_the_robot(yaw: float, en: str, zh: str) -> None
     at = (9.0, 0.0, 0.4)
     act = going(pose=Pose2(7.0, 0.0, yaw), state=ASKED.but(pointed=at))
     assert isinstance(act, Question)
-    assert f"points 2.0 m away, {en}. Shall" in act.text.en, "in no room that is known"
+    assert f"is 2.0 m away, {en}. Shall" in act.text.en, "in no room that is known"
     assert f"{zh} 2.0 米处。" in act.text.zh
 
 
@@ -92,7 +92,7 @@ def test_a_no_ends_it(stage: PointingStage) -> None:
 def test_what_is_neither_is_asked_once_more_and_is_then_a_no() -> None:
     act = going("what is it?")
     assert isinstance(act, Question)
-    assert act.text.en.startswith("Please answer yes or no. “guitar”")
+    assert act.text.en.startswith("Please answer yes or no. I think “guitar”")
     assert act.text.zh.startswith("请回答“是”或“不”。")
     assert act.state is not None
     assert going(state=act.state) == act, "interrupted"

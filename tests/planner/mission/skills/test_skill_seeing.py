@@ -18,6 +18,7 @@ from planner.mission.skills import (
     WantedObject,
     Way,
 )
+from planner.mission.skills.look import reading
 from planner.mission.skills.object_matching import (
     APART_S,
     drop_doubles,
@@ -27,6 +28,7 @@ from planner.mission.skills.object_matching import (
 )
 from planner.mission.skills.perception import ImageAnswer
 from planner.mission.skills.result_text import found_at, list_things, looked_in, name_count
+from planner.mission.skills.scene_answers import SceneAnswer
 from planner.mission.skills.skill_state import (
     AimStage,
     ApproachStage,
@@ -40,7 +42,7 @@ from planner.mission.skills.skill_state import (
 )
 from planner.mission.skills.spatial_relations import support_of
 from planner.mission.skills.viewpoints import REACH_M, in_order, room_of, spots_in
-from planner.plan import Bilingual, Code
+from planner.plan import Bilingual, Code, say_same
 from planner.settings.model import ModelSettings
 from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import FACTS
@@ -99,8 +101,8 @@ def test_a_thing_whose_colour_light_may_have_changed_is_looked_at_last_of_all() 
     again = next(i for i, act in enumerate(acts) if act.then.tried)
     assert again >= len(acts) - 2, "after all rooms"
     assert acts[-1].said is not None
-    assert acts[-1].said.en.endswith("I saw 1 brown cup; light may change a colour.")
-    assert acts[-1].said.zh.endswith("看到 1 个棕色的杯子；光线可能改变颜色。")
+    assert acts[-1].said.en.endswith("I saw a brown cup; light may change a colour.")
+    assert acts[-1].said.zh.endswith("看到了一个棕色的杯子；光线可能让颜色看起来不一样。")
 
 
 def test_rooms_come_in_a_sensible_order() -> None:
@@ -137,24 +139,24 @@ def test_a_large_room_is_looked_at_from_several_spots(
 def test_people_are_told_without_the_colour_of_their_clothes_and_stand_on_nothing() -> None:
     somebody = thing(label="person", color="green", sightings=9)
     other = replace(somebody, id="2", color="red")
-    assert list_things([somebody, other]) == Bilingual(en="2 people", zh="2 个人")
+    assert list_things([somebody, other]) == Bilingual(en="two people", zh="两个人")
     assert found_at(FACTS, "person", "green", None, None).en == "I found a person."
     sofa = replace(somebody, id="3", label="sofa")
     assert support_of(somebody, (somebody, other, sofa)) is None
 
 
 def test_sentences_are_whole_in_both_languages() -> None:
-    assert name_count(2, "cup", "red") == Bilingual(en="2 red cups", zh="2 个红色的杯子")
-    assert name_count(3, "person").en == "3 people"
-    assert name_count(2, "box").en == "2 boxes"
-    assert name_count(1, "person").zh == "1 个人"
+    assert name_count(2, "cup", "red") == Bilingual(en="two red cups", zh="两个红色的杯子")
+    assert name_count(3, "person").en == "three people"
+    assert name_count(2, "box").en == "two boxes"
+    assert name_count(1, "person").zh == "一个人"
     assert found_at(FACTS, "ball", "orange", None, None).en == "I found an orange ball."
     looked = looked_in(FACTS, ("hall",), ("kitchen",), None)
     assert looked.en == "I looked in the hall. I found no way to the kitchen."
-    assert looked.zh == "看过的地方：hall。去不了的地方：kitchen。"
+    assert looked.zh == "我看过了hall。我去不了kitchen。"
     assert list_things(
         [thing(), thing(id="2", x_m=0.0), thing(id="3", label="chair", color=None)]
-    ) == (Bilingual(en="2 red cups and 1 chair", zh="2 个红色的杯子、1 个椅子"))
+    ) == (Bilingual(en="two red cups and a chair", zh="两个红色的杯子和一把椅子"))
 
 
 @pytest.mark.parametrize(
@@ -215,10 +217,10 @@ def test_a_models_words_are_for_people_and_the_detectors_are_told_beside_them() 
     )  # fmt: skip
     assert isinstance(done, Finish)
     assert done.read == Bilingual(
-        en="The vision model, shown the picture ahead, adds: A sign: go to the kitchen.",
-        zh="视觉模型（看的是前方的画面）补充：牌子：去厨房。",
+        en="I see a red cup. A sign: go to the kitchen.",
+        zh="看到一个红色的杯子。牌子：去厨房。",
     )
-    assert done.said == Bilingual(en="I see 1 red cup.", zh="看到 1 个红色的杯子。")
+    assert done.said == Bilingual(en="I see a red cup.", zh="看到一个红色的杯子。")
 
 
 def test_an_answer_is_waited_for_as_long_as_a_model_may_be_given() -> None:
@@ -323,3 +325,36 @@ def test_what_was_not_seen_on_the_way_is_not_said_to_be_there() -> None:
     told = looking("go_to_object", state=state.but(again=1))
     assert isinstance(told, Fail)
     assert told.reason == "moved"
+
+
+YES, NO = (
+    Bilingual(en="Yes, I see a cup.", zh="有，看到一个杯子。"),
+    Bilingual(en="No, I see no cup.", zh="没有，没有看到杯子。"),
+)
+
+
+@pytest.mark.parametrize(
+    ("told", "seen", "words", "en", "zh"),
+    [
+        (SceneAnswer(YES, True), True, Bilingual(en="Yes, a red one.", zh="有，红色的。"),
+         "Yes, I see a cup: a red one.", "有，看到一个杯子：红色的。"),
+        (SceneAnswer(YES, True), False, Bilingual(en="No. Only a wall", zh="没有，只有墙"),
+         "Yes, I see a cup. But at a second look I am less sure: Only a wall.",
+         "有，看到一个杯子。不过再看一眼，我没有那么确定：只有墙。"),
+        (SceneAnswer(NO, False), True, Bilingual(en="Yes: behind the box", zh="有：在箱子后面"),
+         "I think so, but I am not sure: behind the box.", "好像有，但我不确定：在箱子后面。"),
+        (SceneAnswer(NO, False), False, say_same("No"),
+         "No, I see no cup.", "没有，没有看到杯子。"),
+        (SceneAnswer(YES), False, Bilingual(en="No, it is empty", zh="不，是空的"),
+         "No, it is empty.", "不，是空的。"),
+        (SceneAnswer(YES), False, say_same("杯子是空的。"), "No.", "杯子是空的。"),
+        (SceneAnswer(YES, lists=True), None, Bilingual(en="it is full", zh="是满的"),
+         "Yes, I see a cup. It is full.", "有，看到一个杯子。是满的。"),
+        (SceneAnswer(YES, lists=True), None, say_same("it is full"),
+         "Yes, I see a cup. It is full.", "有，看到一个杯子。"),
+    ],
+)  # fmt: skip
+def test_two_eyes_make_one_answer_in_the_persons_language(
+    told: SceneAnswer, seen: bool | None, words: Bilingual, en: str, zh: str
+) -> None:
+    assert reading(words, seen, told) == Bilingual(en=en, zh=zh)

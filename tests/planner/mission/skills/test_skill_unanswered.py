@@ -61,8 +61,8 @@ def test_what_can_not_be_used_of_a_picture_is_not_called_a_plan() -> None:
     act = look(after(ASKED, ImageAnswer(failure="bad_plan"), text="what is there?"))
     assert isinstance(act, Finish)
     assert act.said is not None
-    assert act.said.en.endswith("What the vision model wrote about the picture can't be used.")
-    assert act.said.zh.endswith("视觉模型对画面写的内容无法使用。")
+    assert act.said.en.endswith("I could not make sense of the picture.")
+    assert act.said.zh.endswith("这张画面我没有看明白。")
 
 
 @pytest.mark.parametrize(
@@ -75,10 +75,10 @@ def test_nothing_is_excused_where_nothing_went_wrong(answer: ImageAnswer) -> Non
     assert act.said.en.startswith(SEEN)
     assert len(act.said.en) < len(SEEN) + 20
     words = Bilingual(
-        en="The vision model, shown the picture ahead, adds: a sofa.",
-        zh="视觉模型（看的是前方的画面）补充：a sofa。",
+        en="I see nothing that I know. A sofa.",
+        zh="没有看到我认识的东西。",
     )
-    assert act.read == (words if answer.text is not None else None), "they stand apart"
+    assert act.read == (words if answer.text is not None else None), "no English in Chinese"
 
 
 def test_a_model_looks_alone_where_there_is_no_detector() -> None:
@@ -98,7 +98,7 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
     assert isinstance(told, Finish)
     assert told.said == NO_DETECTOR, "without a detector nobody has seen that nobody is there"
     assert told.read is not None
-    assert told.read.en == "The vision model, shown the picture ahead, says yes: a man."
+    assert told.read.en == "A man."
     for other in (Sight(blind="camera_silent"), Sight()):
         assert not isinstance(look(replace(ahead, sight=other)), AskImage)
     there = scene(
@@ -110,7 +110,7 @@ def test_a_model_looks_alone_where_there_is_no_detector() -> None:
 @pytest.mark.parametrize(
     ("failure", "code", "told"),
     [
-        ("not_in_picture", Code.NOT_FOUND, "does not see it"),
+        ("not_in_picture", Code.NOT_FOUND, "not in the picture"),
         ("pictures_offhost", Code.NOT_FOUND, reason("pictures_offhost").en),
         ("no_pictures", Code.NOT_FOUND, reason("no_pictures").en),
         ("point_on_wall", Code.POINT_REFUSED, "wall"),
