@@ -23,7 +23,7 @@ from planner.mission.queue import clear_hold, enqueue, finish, note_step, releas
 from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, tell_declined
-from planner.mission.skills.skill_state import ModelSearchState, SearchState
+from planner.mission.skills.skill_state import BoundedSearchState
 from planner.mission.state import MAX_OPEN, Mission, MissionState
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact, PersonCause
@@ -142,7 +142,7 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
         clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
     mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
     state = mission.skill_state
-    if agreed and isinstance(state, SearchState | ModelSearchState) and state.offered:
+    if agreed and isinstance(state, BoundedSearchState) and state.offered:
         mission = _search_on(turn, mission, state)
     release_answered(turn)
     if mission.current_step is not None and mission.current_step.kind == "ask":
@@ -153,9 +153,7 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
     enqueue(turn, turn.put(mission, outcome=None), PersonCause.AGREES, first=True)
 
 
-def _search_on(
-    turn: Transaction, mission: Mission, state: SearchState | ModelSearchState
-) -> Mission:
+def _search_on(turn: Transaction, mission: Mission, state: BoundedSearchState) -> Mission:
     """Give a search the bounds and the grant of another one, in the rooms that are left."""
     more = {"offered": False, "out_of_metres": False, "longer": state.longer + 1}
     return turn.put(

@@ -88,10 +88,10 @@ MOST_GRANTS = 4
 
 def _has_else(mission: Mission) -> bool:
     """Tell whether the current step is a condition, with steps for where it does not hold."""
-    return any(s.role is StepRole.OTHERWISE for s in _beside(mission))
+    return any(s.role is StepRole.OTHERWISE for s in _list_branches(mission))
 
 
-def _beside(mission: Mission) -> tuple[StepRecord, ...]:
+def _list_branches(mission: Mission) -> tuple[StepRecord, ...]:
     """Return the steps of the ``if`` whose condition is the current step."""
     parent, row = parent_of(mission.steps, mission.step), mission.steps
     if parent is None or row[mission.step].role is not StepRole.WHEN:
@@ -116,7 +116,7 @@ def _may_offer(turn: Transaction, mission: Mission) -> bool:
 
 def _ways_after(facts: SiteView, mission: Mission) -> tuple[tuple[tuple[float, float], ...], ...]:
     """Return where the steps after the current one drive, once for each branch that it chooses."""
-    row, at, beside = mission.steps, mission.step, len(_beside(mission))
+    row, at, beside = mission.steps, mission.step, len(_list_branches(mission))
     branches = [
         [s for s in row[at + 1 : at + 1 + beside] if s.role is not other]
         for other in (StepRole.THEN, StepRole.OTHERWISE)

@@ -32,12 +32,12 @@ from planner.mission.skills.result_text import by_neighbour, name_count, room_na
 from planner.mission.skills.search import (
     affords,
     begin,
+    cap_leg,
     find_spent_budget,
     make_filter,
     ran_out,
     spots,
     stop_short,
-    within,
 )
 from planner.mission.skills.skill_state import CountState
 from planner.mission.skills.viewpoints import NEAR, room_at
@@ -72,7 +72,7 @@ def count(scene: Scene[CountState]) -> SkillAction:
         return count(scene.but(next_)) if changed else _tell_count(inside, wanted)
     if isinstance(next_, DriveLeg) and not affords(scene, pose, next_):
         return _tell_count(inside.but(stop_short(inside, next_)), wanted)
-    return replace(within(scene, next_), state=scene.state)
+    return replace(cap_leg(scene, next_), state=scene.state)
 
 
 def _narrow(scene: Scene[CountState], pose: Pose2, wanted: WantedObject) -> Scene[CountState]:

@@ -36,12 +36,12 @@ from planner.mission.skills.result_text import NOWHERE, room_name
 from planner.mission.skills.search import (
     affords,
     begin,
+    cap_leg,
     find_spent_budget,
     list_unseen,
     ran_out,
     spots,
     stop_short,
-    within,
 )
 from planner.mission.skills.search_bounds import bound_pictures
 from planner.mission.skills.skill_state import DirectionSeen, ModelSearchState
@@ -107,7 +107,7 @@ def _look_on(scene: Scene[Seeking], pose: Pose2) -> SkillAction | Seeking:
     if isinstance(next_, DriveLeg):
         if not affords(scene, pose, next_):
             return stop_short(scene, next_)
-        return replace(within(scene, next_), state=scene.state, bill=bill(scene))
+        return replace(cap_leg(scene, next_), state=scene.state, bill=bill(scene))
     return next_
 
 

@@ -75,7 +75,7 @@ def search(
     if isinstance(next_, DriveLeg) and not affords(scene, pose, next_):
         return stop_short(scene, next_)
     if isinstance(next_, (DriveLeg, Observe)):  # the order holds from its first act on
-        return replace(within(scene, next_), state=scene.state)
+        return replace(cap_leg(scene, next_), state=scene.state)
     return next_
 
 
@@ -122,7 +122,7 @@ def stop_short(scene: Scene[Tour], leg: DriveLeg) -> Tour:
     return state.but(missed=None, out_of_metres=True)
 
 
-def within(scene: Scene[Any], act: DriveLeg | Observe) -> DriveLeg | Observe:
+def cap_leg(scene: Scene[Any], act: DriveLeg | Observe) -> DriveLeg | Observe:
     """Return an act of a search that ends with the search's own metres."""
     if not isinstance(act, DriveLeg) or act.way is Way.SPIN:
         return act

@@ -86,8 +86,8 @@ class DirectionSeen(Frozen):
         return self.left + self.middle + self.right
 
 
-class ModelSearchState(RoomTourState):
-    """Remember the directions that a vision model was shown, and what that cost."""
+class BoundedSearchState(RoomTourState):
+    """Remember that its bounds have ended a search, and whether a person lets it go on."""
 
     out_of_metres: bool = False
     """The metres that were left did not last for the next way."""
@@ -95,6 +95,11 @@ class ModelSearchState(RoomTourState):
     """A person was asked whether to go on where the bounds had ended it."""
     longer: int = 0
     """Times that a person let it go on."""
+
+
+class ModelSearchState(BoundedSearchState):
+    """Remember the directions that a vision model was shown, and what that cost."""
+
     asking: bool = False
     """The direction gazed in last is to be asked about."""
     stood: tuple[float, float, float] | None = None
@@ -127,15 +132,9 @@ class AimStage(StrEnum):
     FACING = "facing"
 
 
-class SearchState(RoomTourState):
+class SearchState(BoundedSearchState):
     """Remember the things that a search looks at again."""
 
-    out_of_metres: bool = False
-    """The metres that were left did not last for the next way."""
-    offered: bool = False
-    """A person was asked whether to go on where the bounds had ended it."""
-    longer: int = 0
-    """Times that a person let it go on."""
     aim: str | None = None
     """The thing that is looked at again."""
     aim_stage: AimStage = AimStage.CHOSEN
