@@ -309,8 +309,8 @@ def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingua
             names = join((name_of(place) for place in step.places), "joint.and_the")
             return say("order.patrol", names=names)
         case _:
-            place = name_of(step.place) if isinstance(step, Look) and step.place else None
-            return _other_said(step, place)
+            room = name_of(step.place) if isinstance(step, Look) and step.place else None
+            return _other_said(step, room)
 
 
 def _other_said(step: Step, place: Bilingual | None) -> Bilingual:
