@@ -14,11 +14,12 @@ from dataclasses import dataclass
 from datetime import datetime
 from math import degrees
 
-from planner.language.catalogue import join, list_names, message, say
+from planner.language.catalogue import join, list_names, message, say, say_or_quote
 from planner.language.grammar.checks import Veto
 from planner.language.grammar.lexicon import Lexicon, MarkedText
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Steps, TopicQuestion
 from planner.language.grammar.small_talk import Topic, answer_topic
+from planner.language.object_names import tell_words
 from planner.language.place_lists import known_places
 from planner.plan import (
     DRIVES,
@@ -34,6 +35,7 @@ from planner.plan import (
     Follow,
     GoTo,
     Language,
+    Look,
     MoveStraight,
     Option,
     Patrol,
@@ -307,7 +309,14 @@ def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingua
             names = join((name_of(place) for place in step.places), "joint.and_the")
             return say("order.patrol", names=names)
         case _:
-            return say_same(step.kind)
+            room = name_of(step.place) if isinstance(step, Look) and step.place else None
+            return _other_said(step, room)
+
+
+def _other_said(step: Step, place: Bilingual | None) -> Bilingual:
+    if place is not None:
+        return say("order.look_in", place=place)
+    return say("order.look") if isinstance(step, Look) else say_or_quote("step_kind", step.kind)
 
 
 def _seen_said(step: Find | Count, place: Bilingual | None) -> Bilingual:
@@ -324,5 +333,6 @@ def _turn_said(angle_deg: int) -> Bilingual:
 
 def _with_article(label: str) -> Bilingual:
     """Put the article before a thing, where the language has one; a name has none."""
-    bare = label[:1].isupper() or not label.isascii()
-    return say_same(label) if bare else say("order.the", object=label)
+    if label[:1].isupper() or not label.isascii():
+        return tell_words(label)
+    return say("order.the", object=tell_words(label))

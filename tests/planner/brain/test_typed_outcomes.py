@@ -129,8 +129,8 @@ def test_a_model_that_is_down_is_told_in_both_languages(home: Vocabulary) -> Non
     planned = asyncio.run(story())
     assert planned.failure is not None
     assert planned.failure.code is Code.MODEL_UNAVAILABLE
-    assert planned.failure.message.en.startswith("The planning model does not answer")
-    assert planned.failure.message.zh.startswith("规划模型没有应答")
+    assert planned.failure.message.en.startswith("I can't think that through now")
+    assert planned.failure.message.zh.startswith("帮我思考的模型没有应答")
 
 
 def test_a_robot_that_is_not_armed_is_told_in_both_languages() -> None:
@@ -139,8 +139,8 @@ def test_a_robot_that_is_not_armed_is_told_in_both_languages() -> None:
     told = world.goal(goal).outcome
     assert told is not None
     assert told.code is Code.NOT_ARMED
-    assert told.message.en == "The robot is not armed. Arm it, then resume the goal."
-    assert told.message.zh == "机器人未解锁。请先解锁，再继续任务。"
+    assert told.message.en == "I may not drive yet. Arm me, then say “go on”."
+    assert told.message.zh == "我还不能行驶。请先解锁，再说“继续”。"
 
 
 def seen(step: str, result: str) -> Observation:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from planner.language import color_names
+from planner.language.formatting import definite
 from planner.language.object_classes import KINDS
 from planner.language.object_names import (
     canonical,
@@ -18,8 +19,10 @@ from planner.language.object_names import (
     resolve,
     singles_out,
     synonyms,
+    tell_words,
 )
-from planner.plan import Bilingual, Language
+from planner.mission.skills.result_text import name_count
+from planner.plan import Bilingual, Language, say_same
 from tests.conftest import ROOT
 
 MEANT = {
@@ -163,3 +166,26 @@ def test_names_of_another_detector_take_their_place(owners: tuple[str, ...]) -> 
     name_kinds({"umbrella_stand": ("umbrella stand", "伞桶")})
     assert resolve("雨伞架", None, owners) is None
     assert resolve("伞桶", None, owners) == ("umbrella_stand", None)
+
+
+def test_things_are_counted_in_the_grammar_of_each_language() -> None:
+    asked = ((1, "apple"), (2, "chair"), (3, "book"), (1, "scissors"), (0, "cup"), (12, "cat"))
+    said = [name_count(*each) for each in asked]
+    assert [each.en for each in said] == [
+        "an apple", "two chairs", "three books", "a pair of scissors", "no cups", "12 cats",
+    ]  # fmt: skip
+    assert [each.zh for each in said] == [
+        "一个苹果", "两把椅子", "三本书", "一把剪刀", "零个杯子", "12只猫",
+    ]  # fmt: skip
+
+
+def test_a_plans_words_for_a_thing_are_told_in_each_language() -> None:
+    assert tell_words("red cup") == Bilingual(en="red cup", zh="红色的杯子")
+    assert tell_words("手机") == Bilingual(en="cell phone", zh="手机")
+    assert tell_words("guitar") == say_same("guitar")
+
+
+def test_known_places_have_an_article_and_own_names_have_none() -> None:
+    names = ("kitchen", "Room 5", "mom's room", "my desk", "the den")
+    said = [definite(Bilingual(en=name, zh="房间")).en for name in names]
+    assert said == ["the kitchen", "Room 5", "mom's room", "my desk", "the den"]

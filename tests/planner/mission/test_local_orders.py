@@ -311,7 +311,7 @@ def test_faster_tells_that_it_never_drives_faster_than_planned(tmp_path: Path) -
             assert "50 %" in told(await say(together, "slow down"))
             for _ in range(2):
                 heard = await say(together, "faster")
-                assert "as fast as planned" in told(heard)
+                assert "at full speed" in told(heard)
                 assert "%" not in told(heard)
 
     run(story())

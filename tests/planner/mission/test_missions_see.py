@@ -190,7 +190,7 @@ def test_what_the_detector_does_not_know_the_vision_model_is_asked_for(
         step = goal.plan.steps[0]
         assert (step.code, step.found) == (Code.FOUND, None)
         assert step.read is not None
-        assert "on the right (2; 90 % sure)" in step.read.en
+        assert "on the right (2)" in step.read.en
         assert step.bill is not None
         assert (step.bill.pictures, step.bill.pictures_most) == (1, 8)
         assert looker.asked == [("umbrella stand", goal_id)]

@@ -165,7 +165,7 @@ def test_the_question_names_every_deed_and_none_twice() -> None:
     ).steps  # fmt: skip
     said = ask_for_motion(FACTS, (), steps, (0, 2, 3, 4, 5, 6))
     assert said is not None
-    for deed in ("kitchen", "57", "2.00 m", "dock", "“me”"):
+    for deed in ("kitchen", "57", "2 m", "dock", "“me”"):
         assert deed in said.message.en, deed
     assert said.message.en.count("kitchen") == 1
 

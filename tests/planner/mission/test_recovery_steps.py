@@ -152,7 +152,7 @@ def test_an_occupied_goal_is_waited_for_then_given_up_with_how_near_the_robot_ca
     assert OCCUPIED_S <= world.now_s - began_s <= 20.0
     assert mission.outcome is not None
     assert mission.outcome.code is Code.GOAL_OCCUPIED
-    assert "0.8 m of kitchen" in mission.outcome.message.en
+    assert "0.8 m of the kitchen" in mission.outcome.message.en
 
 
 def test_who_leaves_the_goal_in_time_lets_it_be_reached(world: Together) -> None:

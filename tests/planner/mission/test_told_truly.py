@@ -251,7 +251,7 @@ def test_a_brain_s_denial_stands_beside_what_the_detector_saw() -> None:
     _, mission = played(Goal("denied", thoughts, kitchen().truth), "honest")
     assert mission.outcome is not None
     assert mission.outcome.code is Code.ANSWERED
-    assert told(mission).en.startswith("Yes, I see a person in the kitchen.")
+    assert told(mission).en.startswith("Yes, I see a person in the kitchen: ")
     assert told(mission).en.endswith("Nobody is there.")
 
 
@@ -271,7 +271,7 @@ def test_after_a_crash_the_directions_before_it_are_missing_and_it_is_said(gone_
         world.see(0.2)
     (asked,) = world.model.asked
     assert asked.views == ()
-    assert "shown only the picture" in told(world.goal(goal)).en
+    assert "less sure" in told(world.goal(goal)).en
 
 
 places = st.sampled_from([*sorted(ROOMS), "dock"])

@@ -126,7 +126,7 @@ def test_what_is_not_there_is_told_with_where_was_looked(world_with: World) -> N
     assert (goal.state, step.reason, step.rooms) == (GoalState.FAILED, "not_found", ("kitchen",))
     assert told(goal)[1:] == (
         "I saw no green cup. I looked in the kitchen. I saw a blue cup; light may change a colour.",
-        "没有看到绿色的杯子。看过的地方：厨房。看到一个蓝色的杯子；光线可能改变颜色。",
+        "没有看到绿色的杯子。我看过了厨房。我看到了一个蓝色的杯子；光线可能让颜色看起来不一样。",
     )
     assert world.room == "kitchen", "the order named one room"
 
