@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
-from planner.language.object_names import name_object
+from planner.language.object_names import name_object, named_several
 from planner.language.questions import has_several_neighbours
 from planner.mission.skills.actions import DriveLeg, Finish, Question, Retry, Scene, SkillAction
 from planner.mission.skills.find import unknown
@@ -107,9 +107,9 @@ def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish | Ques
     state, inside = scene.state, make_filter(scene)
     seen = list_confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
     number = len(drop_doubles(filter(inside, seen)))
-    what = by_neighbour(_space_number(name_count(number, wanted.label, wanted.color)), wanted)
+    what = by_neighbour(_name_so_many(number, wanted.label, wanted.color), wanted)
     if number == 0 and wanted.by is not None and not any(map(inside, _neighbours(scene, wanted))):
-        what = _space_number(name_count(0, wanted.by.label, wanted.by.color))
+        what = _name_so_many(0, wanted.by.label, wanted.by.color)
     place = room_name(scene.facts, scene.step.place)
     where = tell_looked(scene)
     known = number > 0 or not ran_out(scene)
@@ -117,13 +117,15 @@ def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish | Ques
         name = by_neighbour(name_object(wanted.label, wanted.color), wanted)
         said = message(Code.NOT_FOUND, thing=name, looked=where)
     elif place and not ran_out(scene):
-        said = say("object_step.saw_in", what=what, place=place)
+        words = "object_step.saw_in" if number else "object_step.saw_none_in"
+        said = say(words, what=what, place=place)
     else:
-        said = say("object_step.saw", what=what, looked=where)
+        words = "object_step.saw" if number else "object_step.saw_none"
+        said = say(words, what=what, looked=where)
     figures = {"count": number if known else None, "rooms": state.rooms}
     return offer_more(scene, said) or Finish(figures, Code.COUNTED, said)
 
 
-def _space_number(what: Bilingual) -> Bilingual:
-    """Part a number from the Chinese words before it."""
-    return say("object_step.part", what=what)
+def _name_so_many(count: int, label: str, color: str | None) -> Bilingual:
+    """Return so many of a thing; of none the bare name, for its sentence says "no" itself."""
+    return name_count(count, label, color) if count else named_several(label, color)

@@ -181,7 +181,7 @@ def test_the_table_is_the_first_one_that_is_come_by(
 def test_a_number_is_said_with_its_measure_word() -> None:
     said = [counted("bottles on the table", *things).said for things in (KITCHEN, ON_IT)]
     told = [s.zh.partition("。")[0] for s in said if s]
-    assert told == ["在kitchen看到桌子上的两个瓶子", "看到零张桌子"]
+    assert told == ["在kitchen看到桌子上的两个瓶子", "没有看到桌子"]
 
 
 def test_a_table_to_which_there_is_no_way_is_told_of_as_such() -> None:

@@ -130,7 +130,7 @@ def test_rooms_that_were_not_looked_in_are_named_and_offered(kind: str) -> None:
     assert isinstance(asked, Question)
     assert told.said.en in asked.text.en
     assert asked.text.en.endswith("Shall I look in the room 1 and room 2, too? Say yes or no.")
-    assert asked.text.zh.endswith("要我接着看房间1、房间2吗？请回答是或否。")
+    assert asked.text.zh.endswith("要我接着看房间1和房间2吗？请回答是或否。")
     assert asked.state is not None
     again = ended(kind, offers=True, state=asked.state)
     assert again == told, "nobody is asked twice"
