@@ -145,9 +145,10 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
     A trial is for models: what it asks is beyond a grammar.
     """
-    from pons.evals.person import converse, show_conversations
+    from pons.evals.journal.command import LockstepMissing, require_lockstep
+    from pons.evals.person import Conversation, converse, show_conversations
     from pons.evals.person_robot import RobotEar, ScriptedModel
-    from pons.evals.person_scripts import ScriptSet, read_scripts
+    from pons.evals.person_scripts import Script, ScriptSet, read_scripts
 
     sets = (
         (ScriptSet.TRIAL,)
@@ -158,15 +159,23 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
     def brains(brain: Brain) -> tuple[Brain, ...]:
         if said.model is not None:
             return (brain,)
-        scripted = (ScriptedModel(whims=False), ScriptedModel())
-        return scripted if said.suite == TRIAL else (brain, scripted[1])
+        scripted = (ScriptedModel(whims=False), ScriptedModel())[: 1 if said.drive else 2]
+        return scripted if said.suite == TRIAL else (brain, scripted[-1])
+
+    async def hold(script: Script, brain: Brain, site: Site) -> Conversation:
+        if not said.drive:
+            return await converse(script, brain, RobotEar(brain, site))
+        from pons.evals.driven_person import driven_robot
+
+        with driven_robot(brain, said.site) as robot:
+            return await converse(script, brain, robot)
 
     async def score(brain: Brain) -> int:
         site, right, count = Site.load(said.site), 0, 0
         for name, script_set in product(("en", "zh"), sets):
             for each in brains(brain):
                 scripts = read_scripts(name, script_set)
-                held = tuple([await converse(one, each, RobotEar(each, site)) for one in scripts])
+                held = tuple([await hold(one, each, site) for one in scripts])
                 hostile = each.hostile if isinstance(each, ScriptedModel) else 0
                 print(show_conversations(f"{script_set}{name}", each.tag.name, held, hostile))
                 right, count = right + sum(h.right for h in held), count + len(held)
@@ -175,8 +184,10 @@ def _person(settings: LaunchSettings, said: argparse.Namespace) -> int:
         return REACHED if right >= PERSON_GOAL * count else MISSED
 
     try:
+        if said.drive:
+            require_lockstep()
         return asyncio.run(with_brain(settings, said.model, score, yes=said.yes))
-    except (BadMatcher, SiteError, ConfigError) as wrong:
+    except (BadMatcher, SiteError, ConfigError, LockstepMissing) as wrong:
         print(f"pons eval: {wrong}", file=sys.stderr)
         return REFUSED
 
@@ -212,6 +223,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--yes", action="store_true", help="a model elsewhere may be asked")
     parser.add_argument("--most", type=int, default=50, metavar="N", help="the newest sentences")
     parser.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
+    parser.add_argument("--drive", action="store_true", help="person, trial: drive in lockstep")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--data", type=Path, default=DATA, help="folder of the orders of others")
     parser.add_argument("--site", type=Path, default=HOME_SITE, help="whose names ours use")

@@ -7,6 +7,7 @@ misses, and what is told at the end is judged as well. Part of a checkout: `tool
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -27,7 +28,7 @@ from tools.lockstep import LockstepWorld, TooLong
 from tools.lockstep.planner_process import WALL_OFFSET_S
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from planner.brain import Brain
     from planner.brain.image_questions import ImageQuestion
@@ -89,16 +90,15 @@ async def _inline(work: Callable[[], T], /) -> T:
 class DrivenRobot(RobotEar):
     """Take sentences in as the planner does, and drive."""
 
-    def __init__(self, brain: Brain, folder: Path, seed: int = 1) -> None:
-        """Put a robot into a site's folder, ready at its dock."""
+    def __init__(self, brain: Brain, folder: Path, memory: Path, seed: int = 1) -> None:
+        """Put a robot into a site's folder, ready at its dock; ``memory`` is an empty folder."""
         keeper = _PlanKeeper(brain, {})
         self.world = LockstepWorld(site=folder, seed=seed, brain=keeper)
         super().__init__(brain, self.world.scene.site)
         self._plans, self._noted = keeper.plans, _NotedEyes()
         self._eyes = self.world.open_eyes(looker=self._noted)
-        self._folder = TemporaryDirectory(prefix="pons-trial-")
         missions = self.world.planner.missions
-        store = MemoryStore(StateDatabase(Path(self._folder.name) / "state.db"))
+        store = MemoryStore(StateDatabase(memory / "state.db"))
         recollection = Recollection(store, wall=self._wall_s, run=_inline)
         self._recorder = SightingRecorder(
             recollection,
@@ -149,8 +149,8 @@ class DrivenRobot(RobotEar):
         """Return what the person hears once no thought is under way any more."""
 
         def thought(world: LockstepWorld) -> bool:
-            made = world.planner.book.missions.values()
-            return all(mission.state is not GoalState.PLANNING for mission in made)
+            made = world.planner.book.missions  # after a stop it comes when the bridge has echoed
+            return goal in made and all(m.state is not GoalState.PLANNING for m in made.values())
 
         self.world.run(0.1)
         self.world.run_until(thought, THOUGHT_LIMIT_S)
@@ -196,6 +196,9 @@ class DrivenRobot(RobotEar):
             return ""
         return f"ends {outcome.code.value}: {outcome.message.en}"
 
-    def close(self) -> None:
-        """Leave nothing on the disk."""
-        self._folder.cleanup()
+
+@contextmanager
+def driven_robot(brain: Brain, folder: Path) -> Iterator[DrivenRobot]:
+    """Lend a robot at its dock in a site's folder, with a memory that goes with it."""
+    with TemporaryDirectory(prefix="pons-trial-") as memory:
+        yield DrivenRobot(brain, folder, Path(memory))

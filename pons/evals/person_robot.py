@@ -209,7 +209,7 @@ class RobotEar:
             no = declined is not None and declined.code is Code.DECLINED
             return RobotReply(Reaction.DROPS if no else Reaction.CANCEL)
         if mission is not None and mission.state is GoalState.SUCCEEDED:
-            return RobotReply(Reaction.ANSWER)
+            return RobotReply(Reaction.ANSWER, goal=goal)
         return RobotReply(Reaction.NO)
 
     def _is_taken(self, before: MissionState, mission: Mission) -> bool:

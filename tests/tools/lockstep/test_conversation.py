@@ -7,7 +7,7 @@ from math import hypot
 import pytest
 
 from planner.brain.scripted import ScriptedBrain
-from planner.plan import GoTo, Patrol, Say, StepPlan
+from planner.plan import GoTo, Patrol, PlanRole, Say, StepPlan
 from tools.lockstep import LockstepWorld
 from wire import Pose2
 
@@ -40,6 +40,19 @@ def test_a_correction_under_way_ends_the_drive_and_goes_where_it_was_meant(
     assert outcome is not None
     assert outcome.reached is not None
     assert outcome.reached.place == "sofa"
+
+
+def test_what_takes_a_drive_back_by_a_stop_word_drives_on_its_own_signature() -> None:
+    """The sentence's own stop voids what came signed with it."""
+    sofa = StepPlan(steps=(GoTo(place="sofa"),), does=PlanRole.INSTEAD)
+    kitchen = StepPlan(steps=(GoTo(place="kitchen"),))
+    world = world_of(ScriptedBrain([kitchen, sofa], by_grammar=False))
+    first = world.say("go to the kitchen")
+    world.run(2.0)
+    second = world.say("forget that, go to the sofa instead")
+    world.run(1.0)
+    world.run_until(lambda _: second.has_ended, limit_s=60.0)
+    assert (first.state, second.state) == ("cancelled", "succeeded")
 
 
 def test_one_more_waits_for_what_runs_and_again_drives_it_once_more() -> None:
