@@ -1,4 +1,4 @@
-"""A run of the bench in which a lidar that turns slowly has a hole tells of it and touches nothing."""
+"""A run of the bench in which a slow lidar has a hole tells of it and touches nothing."""
 
 from __future__ import annotations
 
