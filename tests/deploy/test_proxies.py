@@ -260,7 +260,8 @@ def test_a_body_past_what_any_route_takes_ends_at_the_proxy(proxied: Proxied) ->
 def test_more_connections_than_a_person_opens_take_no_stop_away(proxied: Proxied) -> None:
     if proxied.name != "nginx":
         pytest.skip("Caddy caps no connections")
-    head = f"POST {proxied.below}/v1/voice HTTP/1.1\r\nHost: {NAME}\r\nAuthorization: Bearer {TOKEN}\r\n"
+    head = f"POST {proxied.below}/v1/voice HTTP/1.1\r\n"
+    head = f"{head}Host: {NAME}\r\nAuthorization: Bearer {TOKEN}\r\n"
     unfinished = f"{head}Content-Type: audio/wav\r\nContent-Length: 1000\r\n\r\n".encode()
     with ExitStack() as stack:
         for _ in range(60):

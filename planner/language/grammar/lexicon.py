@@ -38,6 +38,8 @@ _SLIPS = (
     re.compile(r"(?<![a-z'])[a-z]{3,} [a-z]{3,}(?![a-z'])"),
     re.compile(r"(?<![a-z'])[a-z]{5,}(?![a-z'])"),
 )
+KEPT_NAMES = 64
+"""Unknown names of the newest sentence: it is read up to sixteen times over."""
 _NEAR = 66.0  # of 100; below it two names only share letters
 _TYPO_ROOM = 3  # no other place may be this near
 
@@ -104,6 +106,8 @@ class Lexicon:
             if any(_DOOR_NAME.fullmatch(spelling.casefold()) for spelling in entry.spellings)
         }
         self._only_door = doors.pop() if len(doors) == 1 else None
+        self.near = lru_cache(maxsize=KEPT_NAMES)(self._near)
+        """Return the places whose names look most like an unknown one, for a person to choose."""
 
     def mark(self, text: str) -> MarkedText:
         """Replace each place name of a normalised sentence, the longest first."""
@@ -191,8 +195,7 @@ class Lexicon:
     def _only(self, name: str) -> bool:
         return len(self._ids.get(squash(name), ())) == 1
 
-    def near(self, name: str, limit: int = 3) -> tuple[str, ...]:
-        """Return the places whose names look most like an unknown one, for a person to choose."""
+    def _near(self, name: str, limit: int = 3) -> tuple[str, ...]:
         key = squash(name[:80])
         scored: dict[str, float] = {}
         letters = set(key)
