@@ -31,6 +31,7 @@ from planner.plan import (
     StepPlan,
     Turn,
     Wait,
+    list_nodes,
 )
 from tests.planner.brain.conftest import HOME
 
@@ -76,8 +77,15 @@ ORDERS = (
 
 
 def unasked(text: str, *steps: Step, checked: bool = False) -> tuple[int, ...]:
+    """Return what is unasked where each step quotes the whole sentence."""
+    return quoting(text, text, *steps, checked=checked)
+
+
+def quoting(words: str, text: str, *steps: Step, checked: bool = False) -> tuple[int, ...]:
+    """Return what is unasked where each step quotes these words of the sentence."""
     person = PersonWords((text,), room="study", checked=checked)
-    return tuple(each.index for each in find_unasked(StepPlan(steps=steps), person, HOME))
+    made = StepPlan(steps=steps, asked_by=(words,) * len(list_nodes(steps)))
+    return tuple(each.index for each in find_unasked(made, person, HOME))
 
 
 @pytest.mark.parametrize("step", MOTIONS, ids=lambda step: step.kind)
@@ -264,7 +272,7 @@ def test_a_plain_yes_makes_the_question_ones_own() -> None:
     assert said_words("go there", pairs) == ("go there", "Do you mean the kitchen?")
     assert said_words("go there", (("The kitchen?", "no, wait"),)) == ("go there", "no, wait")
     person = PersonWords(said_words("go there", pairs))
-    assert find_unasked(StepPlan(steps=(KITCHEN,)), person, HOME) == ()
+    assert find_unasked(StepPlan(steps=(KITCHEN,), asked_by=("the kitchen",)), person, HOME) == ()
 
 
 @given(st.text(max_size=700), st.sampled_from(MOTIONS))
