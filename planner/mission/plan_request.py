@@ -26,6 +26,7 @@ from planner.language.catalogue import join, message, say
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
+from planner.language.yes_no import consents
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.tasks import Think
@@ -200,7 +201,8 @@ def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:
     pairs = tuple((each.asked, each.answer) for each in request.exchanges)
     order = request.order if pairs else request.text
     checked = any(seen.step in CHECKS or seen.result == "failed" for seen in request.observed)
-    person = PersonWords(said_words(order, pairs), request.room, checked)
+    agreed = tuple(asked for asked, answer in pairs if consents(answer) is True)
+    person = PersonWords(said_words(order, pairs), request.room, agreed, checked)
     found = find_unasked(plan, person, request.vocabulary)
     for each in found:
         log.info("goal %s: step %d was not asked for: %s", request.goal, each.index + 1, each.why)

@@ -120,7 +120,7 @@ def build(switches: Switches | None = None) -> FastAPI:
             return await _answer(fault, completion(body, said, fault), body, mock)
         if fault == "obeys_pictures":
             asked = await obeying(brain, asked, pictures.words_read(body))
-        good = json.dumps(reply_of((await brain.think(asked)).plan), ensure_ascii=False)
+        good = json.dumps(reply_of((await brain.think(asked)).plan, asked.text), ensure_ascii=False)
         known = next(iter(asked.vocabulary.by_id), "kitchen")
         text = _reply_text(fault, good, mock, known, request)
         if fault in BARREN and BARREN[fault](body):

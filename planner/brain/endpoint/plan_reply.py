@@ -16,7 +16,7 @@ from typing import Any, TypeGuard
 from pydantic import ValidationError
 
 from planner.brain.endpoint.reply_object import NoObject, read_reply
-from planner.brain.schema import CLARIFY_CODES, KINDS, MOST_DEG, REFUSE_CODES
+from planner.brain.schema import CLARIFY_CODES, EVIDENCE, KINDS, MOST_DEG, REFUSE_CODES
 from planner.language.folding import fold_words
 from planner.language.yes_no import consents
 from planner.plan import (
@@ -130,11 +130,10 @@ def _steps(steps: object, does: object) -> dict[str, Any] | Unusable:
     blank = next(_blanks(trimmed), None)
     if blank is not None:  # the prompt's own "…", copied
         return Unusable((f"{blank} needs words of your own",))
-    return {"kind": "plan", "does": does, "steps": trimmed, "asked_by": asked_by}
+    shaped = {"kind": "plan", "does": does, "steps": trimmed}
+    return shaped | ({"asked_by": asked_by} if any(asked_by) else {})
 
 
-EVIDENCE = "because"
-"""Under this name a model quotes the words of the person that ask for a step."""
 _HELD = ("when", "then", "otherwise", "steps", "on_failure", "until")
 """Fields that hold steps, in the order of ``planner.plan.tree``."""
 

@@ -32,7 +32,7 @@ _CONSEQUENCE = re.compile(
     r"\b(?:please|go|come|drive|say|tell|ask|look|check|find|return|turn|follow|wait|stay|head"
     r"|patrol|count|stop|move)\b"
 )
-_JUST_ZH = re.compile(rf"^(.{{1,16}}?)你?[就便则](?=你|{CHINESE.orders.pattern})")
+_JUST_ZH = re.compile(rf"^(.{{1,16}}?)你?(?:[就便]|(?<!否)则)(?=你|{CHINESE.orders.pattern})")
 _SEQUEL_ZH = re.compile(r"(?![看找听][见到])[去到进看做转巡走找数等待拿](?!.*[没不有])")
 
 

@@ -100,6 +100,7 @@ def read_english(words: str, rest: str, asks: bool, vocabulary: Vocabulary, befo
 def read_chinese(words: str, rest: str, asks: bool, vocabulary: Vocabulary, before: Before) -> Mood:
     """Return what a Chinese clause does; ``rest``: without courtesy, ``asks``: by its mark."""
     table = CHINESE
+    rest = strip_openers(rest, ENGLISH.to_you)
     if table.supposes.search(words):
         return Mood.FACT
     if _is_call(rest, table, vocabulary, before):

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -46,6 +46,8 @@ if TYPE_CHECKING:
 _GAP = " | "
 _QUIET = frozenset({"look", "find", "count", "go_to_object"})
 """Steps by which a question is answered."""
+_LEARNS = frozenset({"look", "find", "count"})
+"""Steps that learn whether a condition holds."""
 _WAITS = frozenset({"ask", "wait_for"})
 """Behind them a condition of the words has come true, or somebody was asked."""
 _UPON = frozenset(
@@ -74,6 +76,8 @@ _OWN_WAY = re.compile(
     r"|我们?(?:先|要|去|得|马上|一会|正|自己)"
 )
 _DENIES = re.compile(r"\b(?:no|nobody|none|not|never|without|empty|unless)\b|n't|没|无|不|空")
+_ELSE = re.compile(r"\bif (?:not|no)\b|要?不然|否则|没有|没在|不在")
+"""Words that open the other branch and deny nothing."""
 _USED = {
     "kitchen": re.compile(
         r"\b(?:oven|stove|hob|cooker|kettle|dishwasher|washing.up)\b|灶|烤箱|炉子|水壶|洗碗"
@@ -95,6 +99,8 @@ class PersonWords:
     """The order and the answers about it, oldest first; also the order that it continues."""
     room: str | None = None
     """Where the robot is."""
+    agreed: tuple[str, ...] = ()
+    """Of the words, a brain's questions that got a plain yes: what they ask is ordered."""
     checked: bool = False
     """This goal has looked or asked already: what stood on a condition may be done."""
 
@@ -156,7 +162,8 @@ class _Judge:
     def __init__(self, person: PersonWords, vocabulary: Vocabulary) -> None:
         self._vocabulary, self._room = vocabulary, person.room
         self._texts = tuple(
-            (plain(words), read_clauses(words, vocabulary)) for words in person.words
+            (plain(words), _as_ordered(words, person, read_clauses(words, vocabulary)))
+            for words in person.words
         )
         every = [clause for _, clauses in self._texts for clause in clauses]
         self._every = every
@@ -189,15 +196,15 @@ class _Judge:
             return ""
         looked = _is_looked_next(row, index)
         usable, why = self._select(touched, step, roles, upon=upon, looked=looked)
+        usable = self._of_branch(usable, roles)
         if not usable:
-            return why
+            return why or "the words given stand in the other branch"
         if not places_of(step):
             self._at = ""  # wherever it leads
         said = _join(usable)
         hung = roles & {StepRole.WHEN, StepRole.UNTIL}
         return (
-            self._why_branch(usable, roles)
-            or self._why_places(step, usable, _path(row, index))
+            self._why_places(step, usable, _path(row, index))
             or ("" if hung and isinstance(step, Look) else self._why_kind(step, said))
             or self._why_often(row, index, said)
         )
@@ -229,8 +236,8 @@ class _Judge:
             moods.add(Mood.QUESTION)
         if StepRole.WHEN in roles or StepRole.UNTIL in roles:
             moods |= {Mood.CONDITION, Mood.QUESTION}
-        if looked is Mood.CONDITION:
-            moods.add(looked)
+        if looked is Mood.CONDITION or step.kind in _LEARNS:
+            moods.add(Mood.CONDITION)
         right = [c for c in touched if c.mood in moods]
         if not right:
             told = {c.mood.name.lower() for c in touched}
@@ -239,16 +246,14 @@ class _Judge:
         free = [c for c in right if hangs or not c.hung]
         return free, "" if free else "the words given stand on a condition"
 
-    def _why_branch(self, usable: list[Clause], roles: set[StepRole | None]) -> str:
-        """Return why a step stands in the other branch; a denied condition may be put both ways."""
+    def _of_branch(self, usable: list[Clause], roles: set[StepRole | None]) -> list[Clause]:
+        """Return the clauses of a step's own branch; a denied condition may be put both ways."""
         when = _join(c for c in self._every if c.mood is Mood.CONDITION)
         branch = {StepRole.THEN, StepRole.OTHERWISE} & roles
-        if len(branch) != 1 or not any(c.otherwise for c in self._every) or _DENIES.search(when):
-            return ""
+        if len(branch) != 1 or not when or _DENIES.search(_ELSE.sub("", when)):
+            return usable
         other = StepRole.OTHERWISE in branch
-        hung = [c for c in usable if c.hung]
-        wrong = hung and all(c.otherwise is not other for c in hung)
-        return "the words given stand in the other branch" if wrong else ""
+        return [c for c in usable if not c.hung or c.otherwise is other]
 
     def _why_places(
         self,
@@ -350,6 +355,12 @@ class _Judge:
             return ""
         most = max(1, evidence(step, said))
         return "" if self._done[key] <= most else f"{step.kind} more often than said"
+
+
+def _as_ordered(words: str, person: PersonWords, clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
+    """Return the clauses of a person's words; what a plain yes was said to is an order."""
+    asks = {Mood.QUESTION, Mood.FACT} if words in person.agreed else set()
+    return tuple(replace(c, mood=Mood.ORDER) if c.mood in asks else c for c in clauses)
 
 
 def _is_looked_next(row: tuple[StepNode, ...], index: int) -> Mood | None:

@@ -271,7 +271,8 @@ def test_a_plain_yes_makes_the_question_ones_own() -> None:
     pairs = (("Do you mean the kitchen?", "yes"),)
     assert said_words("go there", pairs) == ("go there", "Do you mean the kitchen?")
     assert said_words("go there", (("The kitchen?", "no, wait"),)) == ("go there", "no, wait")
-    person = PersonWords(said_words("go there", pairs))
+    said = said_words("go there", pairs)
+    person = PersonWords(said, agreed=said[1:])
     assert find_unasked(StepPlan(steps=(KITCHEN,), asked_by=("the kitchen",)), person, HOME) == ()
 
 
