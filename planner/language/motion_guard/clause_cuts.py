@@ -28,10 +28,12 @@ _ASKED_IF = re.compile(
     r"|appreciate it|be \w+|grateful|as)\s*$"
 )
 _CONSEQUENCE = re.compile(
-    r"(?<!to )(?<!you )(?<!i )(?<!we )(?<!they )(?<!can )(?<!never )(?<!n't )(?<!not )(?<!and )"
+    r"(?<!to )(?<!you )(?<!i )(?<!we )(?<!they )(?<!can )(?<!never )(?<!don't )(?<!can't )"
+    r"(?<!kids )(?<!people )(?<!children )(?<!not )(?<!and )"
     r"\b(?:please|go|come|drive|say|tell|ask|look|check|find|return|turn|follow|wait|stay|head"
     r"|patrol|count|stop|move)\b"
 )
+_SUBJECT = re.compile(r"\b(?:you|we|they|i|he|she|it) [a-z]+")
 _JUST_ZH = re.compile(rf"^(.{{1,16}}?)你?(?:[就便]|(?<!否)则)(?=你|{CHINESE.orders.pattern})")
 _SEQUEL_ZH = re.compile(r"(?![看找听][见到])[去到进看做转巡走找数等待拿](?!.*[没不有])")
 
@@ -89,10 +91,9 @@ def _cut_part(said: str, part: Part, vocabulary: Vocabulary) -> list[Part]:
         and table.hangs.match(words.strip())
         and not table.polite.match(words.strip())
     ):
-        finite = FINITE.search(words)
-        verbs = list(_CONSEQUENCE.finditer(words, finite.end() if finite else 0))
-        at = verbs[0].start() if verbs and (finite or len(verbs) > 1) else None
-        at = verbs[1].start() if verbs and not finite and len(verbs) > 1 else at
+        finite = FINITE.search(words) or _SUBJECT.search(words)
+        verb = _CONSEQUENCE.search(words, finite.end() if finite else 0)
+        at = verb.start() if verb is not None else None
     elif table is CHINESE:
         just = _JUST_ZH.match(words)
         left = strip_openers(just[1], table.opens) if just is not None else ""

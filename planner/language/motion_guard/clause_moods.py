@@ -81,7 +81,7 @@ def read_english(words: str, rest: str, asks: bool, vocabulary: Vocabulary, befo
         return Mood.QUESTION
     if is_bare(verb, vocabulary):
         stated = asked is None and before.states
-        return Mood.QUESTION if asks else Mood.FACT if stated else Mood.ORDER
+        return Mood.FACT if stated else Mood.QUESTION if asks else Mood.ORDER
     if asked is None and table.others.match(rest):
         return Mood.QUESTION if asks else Mood.FACT
     if _STATIC.match(verb):

@@ -132,7 +132,8 @@ ENGLISH = ClauseWords.of(
     r"|(?:when|once|as soon as) (?:you(?:'re| are)? (?:done|ready|get|arrive|reach|have|there"
     r"|come|back|been)"
     r"|done|finished|there)\b",
-    otherwise=rf"(?:otherwise|or else|else|failing that)\b|if not(?:\W*$| (?=(?:{_GO})\b))",
+    otherwise=rf"(?:otherwise|or else|else|failing that)\b|if no\W*$|if not(?:\W*$| (?="
+    rf"(?:{_GO})\b))",
     later=r"\b(?:tomorrow|tonight|later|next time|at (?:\d|noon|midnight)|in \d+ (?:minute|hour)s?"
     r"|every (?:day|morning|evening|night))\b",
     past=r"(?:did|was|were|had|have you|has|haven't|thanks? (?:you )?for|you(?:'ve|'re|'d| have"
@@ -143,7 +144,8 @@ ENGLISH = ClauseWords.of(
     r"|earlier|ago)\b",
     others=rf"(?:(?:my|our|your|the|a|an|his|her|their|too many|most|some|both|no|one) )*{_ACTOR}"
     r"\b(?!\W*$)|(?:my|our|his|her|their|your|the|a|an|these|those|its) (?!room\b)",
-    supposes=r"\b(?:imagine|suppose|pretend|would you (?:rather|be|ever|like it|prefer|go if)"
+    supposes=r"\b(?:imagine|suppose|pretend|your favou?rite|you like best|would you (?:rather|be"
+    r"|ever|like it|prefer|go if)"
     r"|what would|if i were|if i fell|i wish|maybe|perhaps|shall (?:we|i)|should (?:we|i)"
     r"|could we|are you able|by yourself|do you know how|might|what if)\b",
     asks=r"(?:what|who|whose|which|where|how|is|are|isn't|aren't|do|does|has|have|any|anyone"
@@ -171,7 +173,7 @@ CHINESE = ClauseWords.of(
     splits=r"[,，。；;！!？?：:|…~～]+|、|(?:然后|接着|随后|但是|但|不过|而是|因为)"
     r"|(?<=的话)(?!就)|(?<![别不])(?=再(?!见|说|次|也))|(?=否则|不然|要不然)"
     r"|(?=最后)|改去",
-    opens=r"(?:那个|要不(?=[你您])|[能可]不[能可](?:以)?|快[点些]|慢?一[点些下]|慢[点些]"
+    opens=r"(?:那个|[这那][里儿边]|要不(?=[你您])|[能可]不[能可](?:以)?|快[点些]|慢?一[点些下]|慢[点些]"
     r"|[嗯哦啊喂嘿哎唉那请你您快先再"
     r"又也就都还得该\s]|那个|好[的了嘞](?!好)|不对|不是|是|对了|麻烦|拜托|劳驾|机器人|小家伙"
     r"|帮我?个?忙?"
@@ -204,7 +206,7 @@ CHINESE = ClauseWords.of(
     r"|从前"
     r"|去了?[的了]$|[往在]?哪|怎么?走|跑进|了[我你他她])",
     others=rf"(?:{NAMES_ZH}|孩子们?|宝宝们?|大家|同学们|妈妈?|爸爸?|[^\W\d]{{1,3}}们|人家|客人|护士"
-    r"|医生|我|他|她|它|谁|有人|这|那(?!里|边|儿|个房间)|(?:[^你您]{1,4})(?=[你您](?:给我|快|去|来"
+    r"|医生|我|他|她|它|谁|有人|这(?![里边儿个间])|那(?!里|边|儿|个房间)|(?:[^你您]{1,4})(?=[你您](?:给我|快|去|来"
     r"|帮|先|到|过|绕))|[^\W\d]{1,3}(?:大爷|奶奶|阿姨|叔叔|老师|先生|太太|女士))",
     supposes=r"想象|假装|假设|我要是|要是我|如果我|也许|可能|或许|说不定|要不要|好不好|我们去"
     r"|^你会|有.{0,2}本事|会不会|要不是|就好了|更(?:喜欢|爱)|要不(?!然|要|你)|俗话|不如",

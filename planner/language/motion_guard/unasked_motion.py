@@ -76,7 +76,7 @@ _OWN_WAY = re.compile(
     r"|我们?(?:先|要|去|得|马上|一会|正|自己)"
 )
 _DENIES = re.compile(r"\b(?:no|nobody|none|not|never|without|empty|unless)\b|n't|没|无|不|空")
-_ELSE = re.compile(r"\bif (?:not|no)\b|要?不然|否则|没有|没在|不在")
+_ELSE = re.compile(r"\bif (?:not|no)\b|要?不然|否则|[没不][有在](?=[的就,，去回到|]|$)")
 """Words that open the other branch and deny nothing."""
 _USED = {
     "kitchen": re.compile(
@@ -196,6 +196,8 @@ class _Judge:
             return ""
         looked = _is_looked_next(row, index)
         usable, why = self._select(touched, step, roles, upon=upon, looked=looked)
+        if quoted is None and usable:
+            return self._why_elsewhere(step)
         usable = self._of_branch(usable, roles)
         if not usable:
             return why or "the words given stand in the other branch"
@@ -333,6 +335,17 @@ class _Judge:
         denied = _join(c for c in self._every if c.mood is Mood.DENIED)
         out = frozenset(places_named(denied, self._vocabulary))
         return frozenset(e.id for e in self._vocabulary.entries if e.kind == "room") - out
+
+    def _why_elsewhere(self, step: Step | ClockTime) -> str:
+        """Return why a step leads where only words lead that order nothing.
+
+        Whoever has read every word may have read a name that no plain search finds.
+        """
+        orders = (Mood.ORDER, Mood.QUESTION, Mood.CONDITION)
+        meant = self._named([c for c in self._every if c.mood in orders])
+        named = places_named(_join(self._every), self._vocabulary)
+        wrong = next((p for p in places_of(step) if p in named and not meant[p]), None)
+        return f"{step.kind} to {wrong}, which no order names" if wrong else ""
 
     def _why_kind(self, step: Step | ClockTime, said: str) -> str:
         """Return what no word asks for of a step's kind; a look may be said beside its place."""
