@@ -45,6 +45,8 @@ REFUSE_CODES = (
     Code.OUT_OF_SCOPE,
     Code.NOT_UNDERSTOOD,
 )
+EVIDENCE = "because"
+"""Under this name a model quotes the words of the person that ask for a step."""
 Message = dict[Literal["role", "content"], str]
 _PLACES = frozenset({"place", "places"})
 _HOLDS_STEPS = frozenset({"then", "otherwise", "steps", "on_failure"})
@@ -114,7 +116,7 @@ def _step_object(
         for name, shape in _fields(model).items():
             one = parts[name] if name in parts else _plain(name, shape, ids)
             step.setdefault(_name_for_model(name), one)
-    return _object(step)
+    return _object(step | {EVIDENCE: {"type": "string"}})
 
 
 def _object(properties: dict[str, Any]) -> dict[str, Any]:

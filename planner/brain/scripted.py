@@ -15,7 +15,7 @@ from pydantic import ValidationError
 from planner.brain.errors import BadPlan, BrainConfigError
 from planner.brain.interface import ThinkRequest, ThinkResult
 from planner.brain.streamed_draft import Draft, Hear
-from planner.plan import PLAN, AnswerPlan, BrainTag, Clarify, Refuse, StepPlan
+from planner.plan import PLAN, AnswerPlan, BrainTag, Clarify, Refuse, StepPlan, list_nodes
 
 Reply = StepPlan | AnswerPlan | Clarify | Refuse | str | Exception
 
@@ -26,7 +26,7 @@ class ScriptedBrain:
 
     `delay_s` passes before each reply; `hangs` never replies at all. `drafts` are told to who
     listens, before anything else. With `by_grammar` False its plans are held to the order's words,
-    as a model's are.
+    as a model's are; a plan without evidence quotes the whole of them, as a fair model may.
     """
 
     replies: Sequence[Reply]
@@ -63,6 +63,9 @@ class ScriptedBrain:
         if isinstance(reply, Exception):
             raise reply
         plan = _parse_reply(reply) if isinstance(reply, str) else reply
+        if isinstance(plan, StepPlan) and not plan.asked_by and not self.by_grammar:
+            row = list_nodes(plan.steps)
+            plan = plan.model_copy(update={"asked_by": (request.text,) * len(row)})
         return ThinkResult(plan=plan, brain=self.tag, calls=1, by_grammar=self.by_grammar)
 
 

@@ -20,8 +20,9 @@ from planner.language.commands import (
     read_left_out,
 )
 from planner.language.folding import has_chinese
+from planner.language.motion_guard.clause_moods import Mood
+from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import find_places, place_alone
-from planner.language.motion_guard.order_scope import read_scope
 from planner.language.object_names import resolve
 from planner.language.person_names import is_given_name
 from planner.mission.place_words import name_place, names_of, room_of, write_drive
@@ -104,7 +105,9 @@ def is_destination_denied(text: str, last: Mission, facts: SiteView) -> bool:
 
 def excludes_way(text: str, last: Mission, facts: SiteView) -> bool:
     """Tell whether a place that an order still goes to stands in what a sentence denies."""
-    places = find_places(read_scope(text).excluded, names_of(facts))
+    names = names_of(facts)
+    denied = (c.text for c in read_clauses(text, names) if c.mood is Mood.DENIED)
+    places = find_places(" | ".join(denied), names)
     return not _places_ahead(last).isdisjoint(each.id for each in places)
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import list_names, message, say
 from planner.language.formatting import angle, metres
 from planner.mission.scene import name_deed, name_sought
-from planner.plan import Bilingual, Code, Outcome, StepRecord, say_same
+from planner.plan import DRIVES, Bilingual, Code, Outcome, StepRecord, say_same
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -43,6 +43,9 @@ def ask_for_motion(
     if not found:
         return None
     deeds = dict.fromkeys(_tell(facts, step) for step in found)
+    drives = [step for step in steps if step.kind in DRIVES or step.place or step.places]
+    if len(deeds) == 1 and len(drives) > 1 and drives[0] is found[0]:  # and then elsewhere
+        deeds = {say("deed.first", deed=deed): None for deed in deeds}
     why = say("confirmation.unasked", deeds=list_names(deeds, "joint.and"))
     return Outcome(code=Code.CONFIRM, message=message(Code.ASKED, text=why))
 

@@ -26,6 +26,7 @@ from planner.language.catalogue import join, message, say
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
+from planner.language.yes_no import consents
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.tasks import Think
@@ -189,19 +190,21 @@ async def _read_surely(request: ThinkRequest) -> StepPlan | None:
 
 
 def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:
-    """Return the steps of a model's plan that move the robot though nobody asked for it.
+    """Return the steps of a plan that move the robot though nobody asked for it.
 
-    The grammar is spared: it plans nothing but what it has read. What people answered to an ``ask``
-    on the way, what was seen and what a model wrote is nobody's order.
+    One guard for all brains: a model names the words for each step, the grammar has read them all.
+    What people answered to an ``ask`` on the way, what was seen and what a model wrote is nobody's
+    order.
     """
     plan = thought.plan
-    if not isinstance(plan, StepPlan) or thought.by_grammar:
+    if not isinstance(plan, StepPlan):
         return ()
     pairs = tuple((each.asked, each.answer) for each in request.exchanges)
     order = request.order if pairs else request.text
     checked = any(seen.step in CHECKS or seen.result == "failed" for seen in request.observed)
-    person = PersonWords(said_words(order, pairs), request.room, checked)
-    found = find_unasked(plan, person, request.vocabulary)
+    agreed = tuple(asked for asked, answer in pairs if consents(answer) is True)
+    person = PersonWords(said_words(order, pairs), request.room, agreed, checked)
+    found = find_unasked(plan, person, request.vocabulary, by_all_words=thought.by_grammar)
     for each in found:
         log.info("goal %s: step %d was not asked for: %s", request.goal, each.index + 1, each.why)
     return tuple(each.index for each in found)

@@ -12,7 +12,8 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
-from planner.language.motion_guard.order_scope import read_scope
+from planner.language.motion_guard.clause_moods import Mood
+from planner.language.motion_guard.clauses import read_clauses
 from planner.mission.open_questions import WAITS, take_sentence
 from planner.mission.queue import cancel, finish
 from planner.mission.state import newest_paused
@@ -25,6 +26,7 @@ from planner.plan import (
     Option,
     Outcome,
     PlanRole,
+    Vocabulary,
     plan_record,
     say_same,
 )
@@ -74,8 +76,10 @@ def ends_goal(text: str) -> bool:
 
 def _unconditional(text: str) -> str:
     """Return what a sentence says outside of conditions and quotes, denials included."""
-    scope = read_scope(text)
-    return f"{scope.ordered} | {scope.excluded}" if scope.ordered == scope.upon else scope.ordered
+    clauses = read_clauses(text, Vocabulary())
+    hangs = any(each.hung or each.mood is Mood.CONDITION for each in clauses)
+    out = {Mood.CONDITION, Mood.DENIED} if hangs else set()
+    return " | ".join(each.text for each in clauses if each.mood not in out and not each.hung)
 
 
 def assume_role(turn: Transaction, mission: Mission, role: PlanRole) -> Mission:

@@ -38,6 +38,8 @@ class StepPlan(Frozen):
     steps: tuple[Step, ...]
     does: PlanRole = PlanRole.NEW
     pace: Literal["slow"] | None = None  # half the planned speeds; never faster than planned
+    asked_by: tuple[str, ...] = ()
+    """The person's words that ask for each step, in the row of ``list_nodes``; empty: none."""
 
 
 class AnswerPlan(Frozen):

@@ -15,6 +15,7 @@ from planner.language.motion_guard.mentioned_names import places_named
 from planner.language.motion_guard.unasked_motion import can_move
 from planner.plan import EVERY_KIND, StepPlan, list_nodes
 from pons.evals.cases import Case, Suite
+from pons.evals.evidence import forge_evidence, give_evidence
 from pons.evals.hostile_plans import expected_plan, hostile_plans, is_allowed, named_places
 from pons.evals.world import EvalWorld
 
@@ -79,9 +80,11 @@ def _judge(case: Case, world: EvalWorld, right: StepPlan | None) -> list[GuardCa
     person = PersonWords((case.text,), room=world.room)
 
     def word(name: str, made: StepPlan, *, hostile: bool) -> GuardCase:
-        return GuardCase(
-            case, name, made, hostile, bool(find_unasked(made, person, world.vocabulary))
-        )
+        given = forge_evidence if hostile else give_evidence
+        told = given(made, case.text, world.vocabulary)
+        tries = (told,) if isinstance(told, StepPlan) else told
+        asked = all(find_unasked(each, person, world.vocabulary) for each in tries)
+        return GuardCase(case, name, made, hostile, asked)
 
     found = []
     if right is not None and any(can_move(node.step) for node in list_nodes(right.steps)):

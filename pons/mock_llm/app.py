@@ -121,7 +121,7 @@ def build(switches: Switches | None = None) -> FastAPI:
         if fault == "obeys_pictures":
             asked = await obeying(brain, asked, pictures.words_read(body))
         held = only_reply(body) if fault != "schema_ignored" else None
-        reply = held or reply_of((await brain.think(asked)).plan)
+        reply = held or reply_of((await brain.think(asked)).plan, asked.text)
         good = json.dumps(reply, ensure_ascii=False)
         known = next(iter(asked.vocabulary.by_id), "kitchen")
         text = _reply_text(fault, good, mock, known, request)

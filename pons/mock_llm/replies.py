@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from planner.brain.schema import CLARIFY_CODES, REFUSE_CODES
+from planner.brain.schema import CLARIFY_CODES, EVIDENCE, REFUSE_CODES
 from planner.plan import AnswerPlan, Clarify, Code, Refuse, StepPlan
 
 NOWHERE = ("wine_cellar", "helipad", "nuclear_reactor")
@@ -20,11 +20,12 @@ GARBAGE = (
 )
 
 
-def reply_of(plan: StepPlan | AnswerPlan | Clarify | Refuse) -> dict[str, Any]:
-    """Return a plan in the flat shape that the prompt asks for."""
+def reply_of(plan: StepPlan | AnswerPlan | Clarify | Refuse, order: str = "") -> dict[str, Any]:
+    """Return a plan in the flat shape that the prompt asks for; each step quotes the order."""
     match plan:
         case StepPlan():
-            steps = [step.model_dump(mode="json", exclude_none=True) for step in plan.steps]
+            dumped = [step.model_dump(mode="json", exclude_none=True) for step in plan.steps]
+            steps = _quote(dumped, order) if order else dumped
             return {"kind": "plan", "steps": steps} | ({"pace": plan.pace} if plan.pace else {})
         case AnswerPlan():
             return {"kind": "answer", **plan.text.model_dump()}
@@ -36,6 +37,15 @@ def reply_of(plan: StepPlan | AnswerPlan | Clarify | Refuse) -> dict[str, Any]:
         case Refuse():
             code = _one_of(plan.code, REFUSE_CODES)
             return {"kind": "refuse", "code": code, **plan.reason.model_dump()}
+
+
+def _quote(value: Any, order: str) -> Any:
+    """Return steps, and those that they hold, each with the whole order as its evidence."""
+    if isinstance(value, list):
+        return [_quote(each, order) for each in value]
+    if not isinstance(value, dict):
+        return value
+    return {k: _quote(v, order) for k, v in value.items()} | {EVIDENCE: order}
 
 
 def _one_of(code: Code, codes: tuple[Code, ...]) -> str:

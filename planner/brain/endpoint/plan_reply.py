@@ -16,7 +16,7 @@ from typing import Any, TypeGuard
 from pydantic import ValidationError
 
 from planner.brain.endpoint.reply_object import NoObject, read_reply
-from planner.brain.schema import CLARIFY_CODES, KINDS, MOST_DEG, REFUSE_CODES
+from planner.brain.schema import CLARIFY_CODES, EVIDENCE, KINDS, MOST_DEG, REFUSE_CODES
 from planner.language.folding import fold_words
 from planner.language.yes_no import consents
 from planner.plan import (
@@ -123,13 +123,32 @@ def _steps(steps: object, does: object) -> dict[str, Any] | Unusable:
         return Unusable(("steps must be a list of 1 or more objects",))
     if len(steps) > MAX_STEPS:
         return Unusable((f"{len(steps)} steps; at most {MAX_STEPS}",))
+    asked_by = tuple(_evidence(steps))
     trimmed = [trim_step(step) for step in steps]
     if any(not abs(deg) <= MOST_DEG for deg in _degrees_left(trimmed)):
         return Unusable((f"angle_deg must be from -{MOST_DEG} to {MOST_DEG}",))
     blank = next(_blanks(trimmed), None)
     if blank is not None:  # the prompt's own "…", copied
         return Unusable((f"{blank} needs words of your own",))
-    return {"kind": "plan", "does": does, "steps": trimmed}
+    shaped = {"kind": "plan", "does": does, "steps": trimmed}
+    return shaped | ({"asked_by": asked_by} if any(asked_by) else {})
+
+
+_HELD = ("when", "then", "otherwise", "steps", "on_failure", "until")
+"""Fields that hold steps, in the order of ``planner.plan.tree``."""
+
+
+def _evidence(steps: list[Any], deep: int = 0) -> Iterator[str]:
+    """Yield the words that are quoted for each step, by the row of ``list_nodes``."""
+    for step in steps if deep <= MAX_DEPTH else ():
+        named = {_NAMES.get(k, k): v for k, v in step.items()} if isinstance(step, dict) else {}
+        quoted = named.get(EVIDENCE)
+        yield clean(quoted) if isinstance(quoted, str) else ""
+        for name in _HELD:
+            held = named.get(name)
+            yield from _evidence(
+                held if isinstance(held, list) else [held] if held else [], deep + 1
+            )
 
 
 _NAMES = {"else": "otherwise", "else_": "otherwise", "do": "steps"}
@@ -138,7 +157,8 @@ _NAMES = {"else": "otherwise", "else_": "otherwise", "do": "steps"}
 
 def trim_step(step: dict[str, Any], deep: int = 0) -> dict[str, Any]:
     """Drop fields that a grammar made the model fill with nothing; clean its words."""
-    named = {_NAMES.get(k, k): v for k, v in step.items() if v not in (None, "", [], {})}
+    filled = {k: v for k, v in step.items() if k != EVIDENCE and v not in (None, "", [], {})}
+    named = {_NAMES.get(k, k): v for k, v in filled.items()}
     return {k: _trim(k, v, deep) for k, v in _in_radians(named).items()}
 
 

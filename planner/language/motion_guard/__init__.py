@@ -1,9 +1,9 @@
-"""Judge by a person's words alone which steps of a plan move the robot though nobody asked for it.
+"""Judge by a person's own words which steps of a plan move the robot though nobody asked for it.
 
-Pure text search: it shares no code with a model, and asks the grammar only as a second reader.
+Each step names the words that ask for it; the clause around them is judged. Shares no code with any
+brain, and asks none.
 """
 
-from planner.language.motion_guard.order_scope import OrderScope, read_scope
 from planner.language.motion_guard.unasked_motion import (
     PersonWords,
     UnaskedStep,
@@ -11,11 +11,4 @@ from planner.language.motion_guard.unasked_motion import (
     said_words,
 )
 
-__all__ = [
-    "OrderScope",
-    "PersonWords",
-    "UnaskedStep",
-    "find_unasked",
-    "read_scope",
-    "said_words",
-]
+__all__ = ["PersonWords", "UnaskedStep", "find_unasked", "said_words"]

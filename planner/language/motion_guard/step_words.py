@@ -11,10 +11,12 @@ import re
 from math import degrees
 
 from planner.language.motion_guard.mentioned_names import (
+    find_places,
     label_named,
     numbers_named,
     places_named,
     plain,
+    thing_named,
 )
 from planner.plan import (
     DRIVES,
@@ -27,7 +29,9 @@ from planner.plan import (
     Follow,
     GoToObject,
     GoToPoint,
+    Look,
     MoveStraight,
+    Patrol,
     ReturnHome,
     StandAt,
     Step,
@@ -44,14 +48,14 @@ _HOME = (
 _BACK = r"back|return|here|where you (?:are|started)|回|返|过来|原"
 _FOLLOW = r"follow|after|behind|come with|跟|随|尾"
 _LEFT, _RIGHT = r"left|counter|anti|左|逆", r"right|(?<!counter)(?<!anti)clockwise|右|顺"
-_TURN = r"turn|spin|rotat|face|around|degree|radian|circle|转|掉头|调头|偏|方向|圈|朝"
+_TURN = r"turn|spin|rotat|face|around|degree|radian|circle|转|掉个?头|调头|偏|方向|圈|朝"
 _FORWARD = r"forward|ahead|straight|front|front|前|直"
 _BACKWARD = r"back|reverse|(?<![然之以最])后|退|倒"
 _EXPLORE = r"explor|map|survey|探索|探查|勘探|地图|建图"
 _MOVE = rf"move|go|drive|walk|come|step|roll|走|移|进|行|开|{_FORWARD}|{_BACKWARD}"
 _USUAL_DEG = {
     90.0: r"left|right|左|右",
-    180.0: r"around|u-turn|about|half (?:a )?(?:turn|circle)|半圈|掉头|调头|转身|向后|后转",
+    180.0: r"around|u-turn|about|half (?:a )?(?:turn|circle)|半圈|掉个?头|调头|转过?身|向后|后转",
     360.0: r"circle|spin|full|圈|360",
 }
 _DEGREES = re.compile(r"degree|\bdeg\b|°|度|radian|弧")
@@ -184,3 +188,68 @@ def _length(metres: float, said: str) -> str:
 def _number(value: float, said: list[float]) -> str:
     near = any(abs(value - number) <= _CLOSE * max(number, 0.05) for number in said)
     return "" if near else f"{value:g} is no number of the sentence"
+
+
+_GAP = " | "
+_PATROLS = re.compile(r"\bpatrol|\brounds?\b|\btour\b|巡")
+_FOLLOWS = re.compile(
+    r"\bfollow|\b(?:go|goes|come|walk|drive|run|stay|keep) (?:along )?(?:after|behind|with)\b"
+    r"|\b(?:track|trail|chase|tag along)\b|随|尾|陪"
+    r"|跟(?!.{1,8}?(?:说|讲|聊|打.{0,2}招呼|告诉|道|问))"
+)
+_SEES = re.compile(
+    r"\?|\b(?:look\w*|see|watch|check\w*|inspect\w*|what|who|where|is|are|any|find|describe"
+    r"|around|show|tell)\b"
+    r"|[看瞧查找吗呢]|什么|谁|有没有|哪"
+)
+_SEES_ROUND = re.compile(
+    r"\b(?:look\w*|see|seen|watch|check\w*|inspect\w*|around|there|describe)\b|\bany(?:one|body)\b"
+    r"|[看瞧]|环顾|周围|四周|附近|有没有|有什么|有谁"
+)
+_WATCHES = re.compile(rf"{_PATROLS.pattern}|{_SEES.pattern}")
+_NEARS = re.compile(
+    r"\b(?:go|goes|approach|up to|walk|drive|come|near|next to|closer|meet|greet|tell|ask|say|bring"
+    r"|guide|lead|take|deliver|move|head|to|follow|join|visit|reach|welcome|introduce)\b"
+    r"|靠近|走|去|到|过|开|近|面前|跟前|旁|边|给|问|告诉|招呼|跟|找|接|带"
+)
+_SIDE_AFTER = re.compile(r"的?(?:正?前[面方]?|后[面方]?|背后)")
+_SIDE_BEFORE = re.compile(
+    r"(?:in front of|before|behind|(?:front|back) of|away from) (?:(?:the|my|our|your) )?$"
+)
+
+
+def unsaid_kind(step: Step | ClockTime, said: str, things: str, vocabulary: Vocabulary) -> str:
+    """Return what no word asks for of the kind of step, or of the thing that it is about.
+
+    Args:
+        step: what would be done.
+        said: what is ordered.
+        things: what is spoken of beside it, where a thing may be named.
+        vocabulary: the places whose sides are no way of the robot's own.
+    """
+    if isinstance(step, Look):
+        looks = _SEES if step.place is not None else _SEES_ROUND
+        return "" if looks.search(said) else "no word of looking"
+    if isinstance(step, Patrol) and step.look and not _WATCHES.search(said):
+        return "no word of looking on the way"
+    label = getattr(step, "object", None)
+    if label is None or isinstance(step, StandAt):
+        bare = _without_sides(said, vocabulary) if isinstance(step, MoveStraight) else said
+        return unnamed_part(step, bare)
+    if not thing_named(label, things):
+        return f"{label!r} is not named"
+    if step.kind == "go_to_object" and not _NEARS.search(things):
+        return "no word of going there"
+    follows = step.kind != "follow" or _FOLLOWS.search(said)
+    return "" if follows else "no word of following"
+
+
+def _without_sides(said: str, vocabulary: Vocabulary) -> str:
+    """Cut the sides of places: "before the sofa", 沙发前 say nothing of the robot's own way."""
+    for place in reversed(find_places(said, vocabulary)):
+        after = _SIDE_AFTER.match(said, place.end)
+        before = _SIDE_BEFORE.search(said, 0, place.start)
+        start = before.start() if before is not None else place.start
+        end = after.end() if after is not None else place.end
+        said = f"{said[:start]}{_GAP}{said[end:]}"
+    return said

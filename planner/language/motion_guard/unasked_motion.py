@@ -1,43 +1,34 @@
-"""Find what a plan would move that a person's own words do not ask for.
+"""Find what a plan would move that the words given as evidence for it do not ask for.
 
-Laws: only what a person said counts, never what a brain asked, reported or read (a plain yes alone
-makes the question that it answers the person's own). What is denied, past, told to others or on a
-condition that nobody has looked at names nothing. Where the grammar reads harm, an arm's work, a
-choice or an unknown place, everything that moves is unasked; what it reads as the very same step is
-asked, however it was spelt. In doubt a step is unasked: a person is then asked, and nothing else.
+Laws: each step that moves names the words of the person that ask for it, and the clause around them
+is judged, never the words alone. It must be an order to the robot that is not denied, past,
+supposed or somebody else's; it names the place, or leads to the one place that the words name; what
+stands on a condition is done in a branch. Only what a person said counts, never what a brain asked
+(a plain yes makes the question that it answers the person's own). In doubt a step is unasked: a
+person is then asked, and nothing else.
 """
 
 from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
 
-from planner.language.motion_guard.kind_words import ROUNDS, unsaid_kind
-from planner.language.motion_guard.mentioned_names import (
-    find_places,
-    places_named,
-    plain,
-)
-from planner.language.motion_guard.order_scope import read_scope
-from planner.language.motion_guard.second_reader import (
-    asked_about,
-    branch_of,
-    hangs_on_more,
-    key_of_step,
-    read_branches,
-    read_grammar,
-    spare_clauses,
-)
-from planner.language.motion_guard.statements import cut_statements, orders_anything
-from planner.language.motion_guard.step_words import evidence, makes_way, moves
+from planner.language.motion_guard.clause_moods import Mood
+from planner.language.motion_guard.clauses import Clause, read_clauses
+from planner.language.motion_guard.mentioned_names import find_places, places_named, plain
+from planner.language.motion_guard.step_words import evidence, makes_way, moves, unsaid_kind
 from planner.language.questions import looks_round
+from planner.language.room_names import sorts_of_room
 from planner.language.yes_no import consents
 from planner.plan import (
     ClockTime,
-    Code,
     Count,
+    If,
     Look,
+    Patrol,
     Repeat,
     Step,
     StepNode,
@@ -45,36 +36,59 @@ from planner.plan import (
     StepRole,
     Vocabulary,
     list_nodes,
-    parent_of,
     parents_of,
     places_of,
 )
 
-LOOKS = frozenset({"look", "find", "count"})
-"""May be done to learn whether a condition holds."""
-_LEARNS = LOOKS | {"ask"}
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_GAP = " | "
+_QUIET = frozenset({"look", "find", "count", "go_to_object"})
+"""Steps by which a question is answered."""
+_LEARNS = frozenset({"look", "find", "count"})
+"""Steps that learn whether a condition holds."""
+_WAITS = frozenset({"ask", "wait_for"})
+"""Behind them a condition of the words has come true, or somebody was asked."""
+_UPON = frozenset(
+    {StepRole.WHEN, StepRole.THEN, StepRole.OTHERWISE, StepRole.ON_FAILURE, StepRole.UNTIL}
+)
 _ALL_ROOMS = re.compile(
     r"\b(?:every|each|all|other|whole|entire|rest of)\b[a-z' ]{0,12}\b"
     r"(?:rooms?|house|home|flat|apartment|places?)\b|\beverywhere\b|\bwhole place\b"
-    r"|\b(?:around|through) the (?:house|home|flat|apartment)\b"
+    r"|\b(?:around|round|through) the (?:house|home|flat|apartment)\b"
     r"|(?:所有|每个|每间|各个|各|全部)的?(?:房间|屋子|屋)|全屋|整个(?:家|屋|房)|到处|四处|全家"
 )
-_HERE = re.compile(
-    r"\b(?:here|this room|in this|around|the room)\b|这里|这儿|这个房间|这间|周围|四周|屋里"
-)
+_ROUNDS = re.compile(r"\bpatrol|\brounds?\b|\btour\b|巡")
+_HERE = re.compile(r"\b(?:here|this room|around|the room)\b|这里|这儿|这个房间|这间|周围|四周|屋里")
 _REPEATS = re.compile(
     r"\b(?:twice|thrice|times|again|repeat|loop|keep|over and over|back and forth|laps?)\b"
-    r"|[二两三四五六七八九十几\d]\s*[次遍趟圈]|来回|反复|一直|轮流|不断|循环|往返"
+    r"|[二两三四五六七八九十几\d]\s*[次遍趟圈回]|来回|反复|一直|轮流|不断|循环|往返"
 )
 _ROUNDS_SAID = re.compile(
     rf"{_REPEATS.pattern}|\b(?:until|till|while|as long as|every|for [a-z0-9]+ (?:minutes?|hours?"
     r"|seconds?)|rounds?)\b|直到|等到|为止|每|分钟|小时|秒|轮"
 )
-_ENDS_THERE = frozenset({"go_to", "patrol", "stand_at"})
-_THERE = re.compile(
-    r"\b(?:go|get|drive|move|head|stay|wait|come|back|over|return|walk|in) there\b"
-    r"|那里|那儿|那边|过去|进去"
+_BACK = re.compile(r"\bback\b|回[来去]|[带领送]回")
+_THERE = re.compile(r"\b(?:there|it|that|one|in)\b|那里|那儿|那边|那间|过去|进去|它|的话$|再$|就$")
+_OWN_WAY = re.compile(
+    r"(?:i|we)(?:'m|'re|'ll| am| are| will| need| have to| must| might| may| want to| got)\b"
+    r"|我们?(?:先|要|去|得|马上|一会|正|自己)"
 )
+_DENIES = re.compile(r"\b(?:no|nobody|none|not|never|without|empty|unless)\b|n't|没|无|不|空")
+_ELSE = re.compile(r"\bif (?:not|no)\b|要?不然|否则|[没不][有在](?=[的就,，去回到|]|$)")
+"""Words that open the other branch and deny nothing."""
+_USED = {
+    "kitchen": re.compile(
+        r"\b(?:oven|stove|hob|cooker|kettle|dishwasher|washing.up)\b|灶|烤箱|炉子|水壶|洗碗"
+    ),
+    "bathroom": re.compile(r"\b(?:shower|bath ?tub|washbasin)\b|洗澡|淋浴|浴缸|马桶"),
+}
+"""What stands in one sort of room alone."""
+_HOLDS = re.compile(r"\b(?:room|one|place) (?:that )?(?:with|has|having|where)\b[^,.;|]{0,24}$")
+_HOLDS_ZH = re.compile(r"(?:有|摆着?|放着?)[^,，。;|去到来回就]{0,4}$")
+_HOLDING_ZH = re.compile(r"的(?:那|房|屋|间|地方)")
+_HELD_ZH = re.compile(r"(?:在的|所在的?)那?[个间]?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,9 +96,11 @@ class PersonWords:
     """Hold what a person said about one goal, and the facts that the words lean on."""
 
     words: tuple[str, ...]
-    """The order and the answers about it, oldest first."""
+    """The order and the answers about it, oldest first; also the order that it continues."""
     room: str | None = None
     """Where the robot is."""
+    agreed: tuple[str, ...] = ()
+    """Of the words, a brain's questions that got a plain yes: what they ask is ordered."""
     checked: bool = False
     """This goal has looked or asked already: what stood on a condition may be done."""
 
@@ -110,38 +126,34 @@ def said_words(order: str, exchanges: tuple[tuple[str, str], ...]) -> tuple[str,
     return tuple(each for each in said if each)
 
 
-def find_unasked(
-    made: StepPlan, person: PersonWords, vocabulary: Vocabulary
-) -> tuple[UnaskedStep, ...]:
-    """Return the steps that move the robot and that nobody asked for. Never raises.
-
-    Their index is that of the row of all steps (``list_nodes``). A branch is held to the words on
-    a condition, since it looks or asks first; so is what is done where something else fails. What
-    comes again in rounds must have been ordered so.
-    """
-    judge = _Judge(person, vocabulary)
-    row = list_nodes(made.steps)
-    found, before = [], False
-    for index, node in enumerate(row):
-        step = node.step
-        if can_move(step):
-            upon = before or person.checked or step.kind in LOOKS or hangs_on_more(row, index)
-            asked = asked_about(row, index)
-            judge.enter(row, index)
-            why = (
-                judge.find_branch(row, index)
-                or judge.find_fault(step, upon=upon, asked=asked, when=node.role is StepRole.WHEN)
-                or judge.find_rounds(row, index)
-            )
-            found += [UnaskedStep(index, why)] if why else []
-        before = before or step.kind == "ask"
-    return tuple(found)
-
-
 def can_move(step: Step | ClockTime) -> bool:
     """Tell whether a step moves the robot, turning about to look included."""
     turns_about = isinstance(step, Look) and looks_round(step.question)
     return moves(step) or isinstance(step, Count) or turns_about
+
+
+def find_unasked(
+    made: StepPlan, person: PersonWords, vocabulary: Vocabulary, *, by_all_words: bool = False
+) -> tuple[UnaskedStep, ...]:
+    """Return the steps that move the robot and that nobody asked for. Never raises.
+
+    Args:
+        made: the plan; its ``asked_by`` holds the evidence of each step of its row.
+        person: whose words count.
+        vocabulary: the names of places.
+        by_all_words: every word is evidence: the plan's reader has read them all.
+    """
+    judge = _Judge(person, vocabulary)
+    row = list_nodes(made.steps)
+    given = made.asked_by if len(made.asked_by) == len(row) else ("",) * len(row)
+    found, waited = [], person.checked
+    for index, node in enumerate(row):
+        if can_move(node.step):
+            quoted = None if by_all_words else given[index]
+            why = judge.find_fault(row, index, quoted, upon=waited)
+            found += [UnaskedStep(index, why)] if why else []
+        waited = waited or node.step.kind in _WAITS
+    return tuple(found)
 
 
 class _Judge:
@@ -149,140 +161,151 @@ class _Judge:
 
     def __init__(self, person: PersonWords, vocabulary: Vocabulary) -> None:
         self._vocabulary, self._room = vocabulary, person.room
-        self._scopes = tuple(read_scope(words) for words in person.words)
-        self._words = person.words
-        newest = person.words[-1] if person.words else ""
-        self._own, self._hung, self._veto = read_grammar(newest, vocabulary, person.room)
-        self._branches = read_branches(newest, vocabulary, person.room)
-        if self._veto is not None and self._veto is not Code.UNSAFE:
-            spared = spare_clauses(newest, vocabulary, person.room)
-            if spared is not None:  # "somebody knocks at the door, go and look"
-                self._veto = None
-                self._scopes = (*self._scopes[:-1], read_scope(spared))
+        self._texts = tuple(
+            (plain(words), _as_ordered(words, person, read_clauses(words, vocabulary)))
+            for words in person.words
+        )
+        every = [clause for _, clauses in self._texts for clause in clauses]
+        self._every = every
+        self._things = _GAP.join(f"{c.text}{c.speech}" for c in every if c.mood is not Mood.DENIED)
+        self._ordered = _join(c for c in every if c.mood is Mood.ORDER)
+        self._repeats = _REPEATS.search(self._ordered)
         self._done: Counter[object] = Counter()
+        self._arrivals: list[tuple[str, tuple[tuple[int, StepRole | None], ...]]] = []
         self._at = ""
-        self._path: dict[int, StepRole] = {}
-        self._arrivals: list[tuple[str, dict[int, StepRole]]] = []
-        self._repeats = any(_REPEATS.search(scope.upon) for scope in self._scopes)
 
     def find_fault(
-        self,
-        step: Step | ClockTime,
-        *,
-        upon: bool,
-        asked: Counter[str] | None = None,
-        when: bool = False,
+        self, row: tuple[StepNode, ...], index: int, quoted: str | None, *, upon: bool
     ) -> str:
         """Return why a step is unasked; empty where it is asked.
 
         Args:
-            step: what would be done.
-            upon: what stands on a condition counts.
-            asked: places that the conditions ask about on which the step hangs.
-            when: the step is itself a condition.
+            row: all steps of the plan.
+            index: which of them is judged.
+            quoted: the words that are said to ask for it; None: all of them.
+            upon: what stands on a condition may be done.
         """
-        if self._veto is not None:
-            return f"the order itself is {self._veto.value}"
+        step = row[index].step
+        if any(c.beyond for c in self._every):
+            return "the order itself is beyond the robot"
+        roles = {row[i].role for i in (index, *parents_of(row, index))}
+        touched = self._find_clauses(quoted)
+        if not touched:
+            return "no words of the person are named for it"
+        if makes_way(step, _join(touched)):
+            return ""
+        looked = _is_looked_next(row, index)
+        usable, why = self._select(touched, step, roles, upon=upon, looked=looked)
+        if quoted is None and usable:
+            return self._why_elsewhere(step)
+        usable = self._of_branch(usable, roles)
+        if not usable:
+            return why or "the words given stand in the other branch"
         if not places_of(step):
             self._at = ""  # wherever it leads
-        whole = _GAP.join(self._words)
-        hangs = when and _CONDITION.search(plain(whole)) is not None
-        asks = step.kind in _QUIET
-        if not (
-            hangs
-            or makes_way(step, whole)
-            or orders_anything(self._words, self._vocabulary, by_question=asks)
-        ):
-            return f"{step.kind} for words that order no drive"
-        key = key_of_step(step)
-        self._done[key] += 1
-        own = self._hung if upon else self._own
-        if key in own and self._done[key] <= own[key]:
-            for place in places_of(step):
-                self._arrive(place)
-            return ""
-        said = _GAP.join(self._texts(upon))
-        if step.kind not in _QUIET and _ASKS.match(said) and not _ORDERS.search(said):
-            return "a question orders no drive"
+        said = _join(usable)
+        hung = roles & {StepRole.WHEN, StepRole.UNTIL}
         return (
-            self._why_places(step, self._texts(upon))
-            or self._why_condition(step, said, asked or Counter())
-            or ("" if hangs and isinstance(step, Look) else self._why_kind(step, said))
-            or self._why_often(step, key, said)
+            self._why_places(step, usable, _path(row, index))
+            or ("" if hung and isinstance(step, Look) else self._why_kind(step, said))
+            or self._why_often(row, index, said)
         )
 
-    def enter(self, row: tuple[StepNode, ...], index: int) -> None:
-        """Note in which branches the step stands that is judged next."""
-        self._path = {
-            parent: role
-            for at in (index, *parents_of(row, index))
-            if (parent := parent_of(row, at)) is not None
-            and (role := row[at].role) in (StepRole.THEN, StepRole.OTHERWISE)
-            and role is not None
-        }
+    def _find_clauses(self, quoted: str | None) -> list[Clause]:
+        """Return the clauses that the evidence touches, of the newest words that hold it."""
+        if quoted is None:
+            return self._every
+        span = plain(quoted).strip(" .,;!?。，！？；\"'")
+        for said, clauses in reversed(self._texts):
+            at = _find(said, span)
+            if at is not None:
+                end = at + len(span)
+                return [c for c in clauses if c.start < end and at < c.end]
+        return []
 
-    def find_branch(self, row: tuple[StepNode, ...], index: int) -> str:
-        """Return why a step ends where the order sends the robot in the other branch, or in none.
+    def _select(
+        self,
+        touched: list[Clause],
+        step: Step | ClockTime,
+        roles: set[StepRole | None],
+        *,
+        upon: bool,
+        looked: Mood | None,
+    ) -> tuple[list[Clause], str]:
+        """Return the clauses that ask for a step of this kind, or why none does."""
+        moods = {Mood.ORDER}
+        if step.kind in _QUIET or looked is not None:
+            moods.add(Mood.QUESTION)
+        if StepRole.WHEN in roles or StepRole.UNTIL in roles:
+            moods |= {Mood.CONDITION, Mood.QUESTION}
+        if looked is Mood.CONDITION or step.kind in _LEARNS:
+            moods.add(Mood.CONDITION)
+        right = [c for c in touched if c.mood in moods]
+        if not right:
+            told = {c.mood.name.lower() for c in touched}
+            return [], f"the words given order no {step.kind}: {', '.join(sorted(told))}"
+        hangs = upon or bool(roles & _UPON) or step.kind in _QUIET
+        free = [c for c in right if hangs or not c.hung]
+        return free, "" if free else "the words given stand on a condition"
 
-        Judged where the grammar has read the order whole, and no denial lets it be put both ways.
-        """
-        step, role = row[index].step, branch_of(row, index)
-        if self._branches is None or role is None or step.kind not in _ENDS_THERE:
-            return ""
-        wrong = next((p for p in places_of(step) if p not in self._branches[role]), None)
-        return f"{step.kind} to {wrong}, which this branch does not say" if wrong else ""
+    def _of_branch(self, usable: list[Clause], roles: set[StepRole | None]) -> list[Clause]:
+        """Return the clauses of a step's own branch; a denied condition may be put both ways."""
+        when = _join(c for c in self._every if c.mood is Mood.CONDITION)
+        branch = {StepRole.THEN, StepRole.OTHERWISE} & roles
+        if len(branch) != 1 or not when or _DENIES.search(_ELSE.sub("", when)):
+            return usable
+        other = StepRole.OTHERWISE in branch
+        return [c for c in usable if not c.hung or c.otherwise is other]
 
-    def find_rounds(self, row: tuple[StepNode, ...], index: int) -> str:
-        """Return why a step is done again and again though nobody ordered that."""
-        about = (row[i].step for i in parents_of(row, index))
-        again = any(isinstance(step, Repeat) and step.times > 1 for step in about)
-        said = _GAP.join(f"{scope.upon} {scope.things}" for scope in self._scopes)
-        if not again or _ROUNDS_SAID.search(said):
-            return ""
-        return f"{row[index].step.kind} again and again, which is not said"
+    def _why_places(
+        self,
+        step: Step | ClockTime,
+        usable: list[Clause],
+        path: tuple[tuple[int, StepRole | None], ...],
+    ) -> str:
+        named = self._named(usable)
+        for place in places_of(step):
+            if not named[place]:
+                return f"{step.kind} to {place}, which the words given do not name"
+            if place != self._at:
+                self._arrivals.append((place, path))
+            self._at = place
+            before = sum(
+                there == place and _may_both(path, other) for there, other in self._arrivals[:-1]
+            )
+            most = named[place] + (1 if _BACK.search(self._ordered) else 0)
+            if before >= most and not self._repeats:
+                return f"{step.kind} to {place} more often than named"
+        return ""
 
-    def _texts(self, upon: bool) -> tuple[str, ...]:
-        return tuple(scope.upon if upon else scope.ordered for scope in self._scopes)
-
-    def _why_places(self, step: Step | ClockTime, texts: tuple[str, ...]) -> str:
-        said = _GAP.join(cut_statements(text, self._vocabulary) for text in texts)
+    def _named(self, usable: list[Clause]) -> Counter[str]:
+        """Return the places that clauses send to, each as often as they do."""
+        leads = [c for c in usable if not c.stays]
+        said = _join(usable)
         named = Counter(places_named(said, self._vocabulary))
         named.update(dict.fromkeys(self._rooms_of_group(said), 1))
         named.update(self._rooms_described(said))
         if self._room is not None and _HERE.search(said):
             named[self._room] += 1
-        for place in places_of(step):
-            if not named[place]:
-                return f"{step.kind} to {place}, which is not named"
-            self._arrive(place)
-            if self._count_before(place) >= named[place] and not self._repeats:
-                return f"{step.kind} to {place} more often than named"
-        return ""
+        named.update(self._rooms_by_use(said) if not named else ())
+        if not named and leads:  # "grandma is in the bedroom, go and see"
+            named.update(self._leant_on(usable, said))
+        return named
 
-    def _why_condition(self, step: Step | ClockTime, said: str, asked: Counter[str]) -> str:
-        """Return why a branch drives to a place that its condition alone names."""
-        if step.kind not in _ENDS_THERE or not asked or _THERE.search(said):
-            return ""
-        named = Counter(places_named(said, self._vocabulary))
-        once = (p for p in places_of(step) if asked[p] and named[p] <= asked[p])
-        place = next(once, None)
-        return f"{step.kind} to {place}, which only the condition names" if place else ""
-
-    def _arrive(self, place: str) -> None:
-        """Note a drive to a place; who is there already drives no farther."""
-        if place != self._at:
-            self._arrivals.append((place, self._path))
-        self._at = place
-
-    def _count_before(self, place: str) -> int:
-        """Return how many drives to a place came before the newest that may all be walked.
-
-        Of two branches of one condition only one is.
-        """
-        return sum(
-            there == place and all(self._path.get(at, role) is role for at, role in path.items())
-            for there, path in self._arrivals[:-1]
-        )
+    def _leant_on(self, usable: list[Clause], said: str) -> Counter[str]:
+        """Return the one place of the other clauses, where an order names none."""
+        spoken = any(c.hung for c in usable)
+        others = [
+            f"{c.text}{c.speech if spoken else ''}"
+            for c in self._every
+            if c.mood not in (Mood.DENIED, Mood.CALL)
+            and not _OWN_WAY.match(c.text)
+            and (c.mood is not Mood.CONDITION or _THERE.search(said))
+        ]
+        found = Counter(places_named(_GAP.join(others), self._vocabulary))
+        found.update(self._rooms_described(_GAP.join(others)))
+        found.update(self._rooms_by_use(_GAP.join(others)) if not found else ())
+        return Counter(dict.fromkeys(found, 1)) if len(found) == 1 else Counter()
 
     def _rooms_described(self, said: str) -> Counter[str]:
         """Return the rooms that are named by what stands in them: "the one with the bed"."""
@@ -297,41 +320,99 @@ class _Judge:
                 found[room] = 1
         return found
 
+    def _rooms_by_use(self, said: str) -> dict[str, int]:
+        """Return the rooms that are meant by what only such a room has, where there is one."""
+        sorts = {sort for sort, words in _USED.items() if words.search(said)}
+        rooms = [e for e in self._vocabulary.entries if e.kind == "room"]
+        found = {s: [e.id for e in rooms if s in sorts_of_room(e.spellings)] for s in sorts}
+        return {ids[0]: 1 for ids in found.values() if len(ids) == 1}
+
     def _rooms_of_group(self, said: str) -> frozenset[str]:
         """Return the rooms that "every room" means, without those that are left out."""
-        rounds = ROUNDS.search(said) and not places_named(said, self._vocabulary)
+        rounds = _ROUNDS.search(said) and not places_named(said, self._vocabulary)
         if not (_ALL_ROOMS.search(said) or rounds):
             return frozenset()
-        out = {p for scope in self._scopes for p in places_named(scope.excluded, self._vocabulary)}
-        rooms = (entry.id for entry in self._vocabulary.entries if entry.kind == "room")
-        return frozenset(rooms) - out
+        denied = _join(c for c in self._every if c.mood is Mood.DENIED)
+        out = frozenset(places_named(denied, self._vocabulary))
+        return frozenset(e.id for e in self._vocabulary.entries if e.kind == "room") - out
+
+    def _why_elsewhere(self, step: Step | ClockTime) -> str:
+        """Return why a step leads where only words lead that order nothing.
+
+        Whoever has read every word may have read a name that no plain search finds.
+        """
+        orders = (Mood.ORDER, Mood.QUESTION, Mood.CONDITION)
+        meant = self._named([c for c in self._every if c.mood in orders])
+        named = places_named(_join(self._every), self._vocabulary)
+        wrong = next((p for p in places_of(step) if p in named and not meant[p]), None)
+        return f"{step.kind} to {wrong}, which no order names" if wrong else ""
 
     def _why_kind(self, step: Step | ClockTime, said: str) -> str:
-        things = _GAP.join(scope.things for scope in self._scopes)
-        return unsaid_kind(step, said, things, self._vocabulary)
+        """Return what no word asks for of a step's kind; a look may be said beside its place."""
+        if step.kind in _QUIET:
+            moods = (Mood.ORDER, Mood.QUESTION, Mood.CONDITION)
+            said = _join(c for c in self._every if c.mood in moods)
+        texts = (said, self._ordered) if step.kind in ("turn", "move") else (said,)
+        whys = (unsaid_kind(step, text, self._things, self._vocabulary) for text in texts)
+        return next(filter(None, whys), "")
 
-    def _why_often(self, step: Step | ClockTime, key: object, said: str) -> str:
-        if self._repeats or places_of(step):
+    def _why_often(self, row: tuple[StepNode, ...], index: int, said: str) -> str:
+        step = row[index].step
+        about = (row[i].step for i in parents_of(row, index))
+        again = any(isinstance(each, Repeat) and each.times > 1 for each in about)
+        if again and not _ROUNDS_SAID.search(self._things):
+            return f"{step.kind} again and again, which is not said"
+        key = step.model_dump_json(exclude={"look", "question"})
+        self._done[key] += 1
+        if self._repeats or places_of(step) or isinstance(step, Patrol):
             return ""
         most = max(1, evidence(step, said))
         return "" if self._done[key] <= most else f"{step.kind} more often than said"
 
 
-_GAP = " | "
-_CONDITION = re.compile(r"\b(?:if|when|whether|unless|should)\b|如果|要是|若|假如|的话|就|没")
-_HOLDS = re.compile(r"\b(?:room|one|place) (?:that )?(?:with|has|having|where)\b[^,.;|]{0,24}$")
-_HOLDS_ZH = re.compile(r"(?:有|摆着?|放着?)[^,，。;|去到来回就]{0,4}$")
-_HOLDING_ZH = re.compile(r"的(?:那|房|屋|间|地方)")
-_HELD_ZH = re.compile(r"(?:在的|所在的?)那?[个间]?")
-_ORDERS = re.compile(
-    r"\b(?:go|goes|drive|come|walk|run|head|move|look|see|check|find|search|count|turn|follow|wait"
-    r"|visit|swing|stop by|return|take|bring|tell|ask|patrol|rounds?|back)\b"
-    r"|[去到来回看找数查转跟开走巡]"
-)
-_ASKS = re.compile(
-    r"\s*(?:how|what|which|who|whose|why|when (?:is|are|do|does|did|will)|is|are|was|were|does"
-    r"|do (?:you|i|we)|has|have|did)\b|.*\?\s*$"
-    r"|.*(?:多远|多大|多少|几个|哪个|什么|为什么|怎么|吗|呢|没有$)"
-)
-_QUIET = frozenset({"look", "find", "count", "go_to_object"})
-"""Steps by which a question is answered."""
+def _as_ordered(words: str, person: PersonWords, clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
+    """Return the clauses of a person's words; what a plain yes was said to is an order."""
+    asks = {Mood.QUESTION, Mood.FACT} if words in person.agreed else set()
+    return tuple(replace(c, mood=Mood.ORDER) if c.mood in asks else c for c in clauses)
+
+
+def _is_looked_next(row: tuple[StepNode, ...], index: int) -> Mood | None:
+    """Return by which mood of words a drive is asked for that leads to where is looked next."""
+    at = index + 1
+    upon = at + 1 < len(row) and isinstance(row[at].step, If)
+    looks = row[at + 1 if upon else at].step if at < len(row) else None
+    if looks is None or row[index].step.kind != "go_to" or looks.kind not in _QUIET:
+        return None
+    there = places_of(looks) in ((), places_of(row[index].step))
+    return (Mood.CONDITION if upon else Mood.QUESTION) if there else None
+
+
+def _join(clauses: Iterable[Clause]) -> str:
+    return _GAP.join(each.text for each in clauses)
+
+
+def _find(said: str, span: str) -> int | None:
+    """Return where words stand in a text, as whole words where they are Latin."""
+    if not span:
+        return None
+    edge = r"[a-z0-9]" if span.isascii() else r"(?!)"
+    found = re.search(
+        rf"(?<!{edge}){re.escape(span)}(?!{edge})" if span.isascii() else re.escape(span), said
+    )
+    return found.start() if found is not None else None
+
+
+def _path(row: tuple[StepNode, ...], index: int) -> tuple[tuple[int, StepRole | None], ...]:
+    """Return in which branches a step stands: the holder of each, and which of its two."""
+    about = (index, *parents_of(row, index))
+    branch = (StepRole.THEN, StepRole.OTHERWISE)
+    pairs = pairwise(about)
+    return tuple((holder, row[at].role) for at, holder in pairs if row[at].role in branch)
+
+
+def _may_both(
+    one: tuple[tuple[int, StepRole | None], ...], other: tuple[tuple[int, StepRole | None], ...]
+) -> bool:
+    """Tell whether two steps may both be walked: of two branches of one condition one is."""
+    roles = dict(one)
+    return all(roles.get(holder, role) is role for holder, role in other)

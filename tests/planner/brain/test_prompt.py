@@ -25,7 +25,7 @@ from wire import ConfigError
 
 HASHES = {1: "6cd21f03e432", 2: "2d9e19648d6c", 3: "feca617e9515", 4: "b6c285b8b629",
           5: "99fc17120e18", 6: "c067bf6f42bc", 7: "a27ba84b3338", 8: "0381a9e2dccc",
-          9: "fcddd90c23cf"}  # fmt: skip
+          9: "fcddd90c23cf", 10: "1fa17580576f"}  # fmt: skip
 """A changed prompt needs a new version, so that a goal's record says what was asked."""
 
 

@@ -170,6 +170,15 @@ def test_the_question_names_every_deed_and_none_twice() -> None:
     assert said.message.en.count("kitchen") == 1
 
 
+def test_where_more_drives_follow_the_question_says_first() -> None:
+    steps = plan_record(StepPlan(steps=(GoTo(place="kitchen"), GoTo(place="sofa")))).steps
+    first, both = (ask_for_motion(FACTS, (), steps, each) for each in ((0,), (0, 1)))
+    alone = ask_for_motion(FACTS, (), steps[:1], (0,))
+    assert first is not None and both is not None and alone is not None
+    assert "first" in first.message.en and "先" in first.message.zh
+    assert "first" not in both.message.en + alone.message.en
+
+
 def test_a_kind_of_thing_is_named_in_both_languages() -> None:
     sought = (Follow(object="person"), Find(object="cup", place="kitchen"))
     steps = plan_record(StepPlan(steps=sought))

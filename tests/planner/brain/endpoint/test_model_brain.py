@@ -51,7 +51,7 @@ def test_one_call_makes_a_plan_and_says_by_which_prompt(home: Vocabulary, tmp_pa
     assert thought.plan == StepPlan(steps=(GoTo(place="kitchen"),))
     assert (thought.calls, thought.tokens, thought.brain.name) == (1, 11, "m")
     assert thought.brain.prompt is not None
-    assert thought.brain.prompt.startswith("plan/9@")
+    assert thought.brain.prompt.startswith("plan/10@")
 
 
 def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:

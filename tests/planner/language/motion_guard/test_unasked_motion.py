@@ -31,6 +31,7 @@ from planner.plan import (
     StepPlan,
     Turn,
     Wait,
+    list_nodes,
 )
 from tests.planner.brain.conftest import HOME
 
@@ -76,8 +77,15 @@ ORDERS = (
 
 
 def unasked(text: str, *steps: Step, checked: bool = False) -> tuple[int, ...]:
+    """Return what is unasked where each step quotes the whole sentence."""
+    return quoting(text, text, *steps, checked=checked)
+
+
+def quoting(words: str, text: str, *steps: Step, checked: bool = False) -> tuple[int, ...]:
+    """Return what is unasked where each step quotes these words of the sentence."""
     person = PersonWords((text,), room="study", checked=checked)
-    return tuple(each.index for each in find_unasked(StepPlan(steps=steps), person, HOME))
+    made = StepPlan(steps=steps, asked_by=(words,) * len(list_nodes(steps)))
+    return tuple(each.index for each in find_unasked(made, person, HOME))
 
 
 @pytest.mark.parametrize("step", MOTIONS, ids=lambda step: step.kind)
@@ -263,8 +271,9 @@ def test_a_plain_yes_makes_the_question_ones_own() -> None:
     pairs = (("Do you mean the kitchen?", "yes"),)
     assert said_words("go there", pairs) == ("go there", "Do you mean the kitchen?")
     assert said_words("go there", (("The kitchen?", "no, wait"),)) == ("go there", "no, wait")
-    person = PersonWords(said_words("go there", pairs))
-    assert find_unasked(StepPlan(steps=(KITCHEN,)), person, HOME) == ()
+    said = said_words("go there", pairs)
+    person = PersonWords(said, agreed=said[1:])
+    assert find_unasked(StepPlan(steps=(KITCHEN,), asked_by=("the kitchen",)), person, HOME) == ()
 
 
 @given(st.text(max_size=700), st.sampled_from(MOTIONS))
@@ -278,3 +287,82 @@ def test_what_never_moves_is_never_asked_about(text: str) -> None:
     still = (Say(text="hello"), Wait(seconds=5.0), Look(question="what is ahead?"))
     assert not any(can_move(step) for step in still)
     assert unasked(text, *still) == ()
+
+
+@pytest.mark.parametrize(("text", "step"), ORDERS)
+def test_without_evidence_a_person_is_asked(text: str, step: Step) -> None:
+    assert quoting("", text, step) == (0,)
+    assert quoting("because I say so", text, step) == (0,), "words that nobody said"
+
+
+@pytest.mark.parametrize(
+    ("text", "quoted"),
+    [
+        ("don't go into the kitchen, wait here", "the kitchen"),
+        ("don't go into the kitchen, wait here", "go into the kitchen"),
+        ("my wife is in the kitchen, go to the study", "in the kitchen"),
+        ("find my phone. I am off to the kitchen", "to the kitchen"),
+        ("if it rains, go to the kitchen", "go to the kitchen"),
+        ("say “go to the kitchen”", "go to the kitchen"),
+        ("别去厨房，在这儿等", "去厨房"),
+        ("我老婆在厨房，去书房", "厨房"),
+        ("如果下雨就去厨房", "去厨房"),
+    ],
+)
+def test_the_clause_around_the_words_is_judged_and_not_the_words(text: str, quoted: str) -> None:
+    assert quoting(quoted, text, KITCHEN) == (0,)
+
+
+@pytest.mark.parametrize(
+    ("text", "quoted"),
+    [
+        ("my wife is in the study, go to the kitchen", "go to the kitchen"),
+        ("grandma is in the kitchen, go and see", "grandma is in the kitchen, go and see"),
+        ("pootle over to the kitchen", "over to the kitchen"),
+        ("先别管书房，去厨房", "去厨房"),
+        ("GO to the Kitchen!", "go to the kitchen"),
+    ],
+)
+def test_the_words_that_order_it_are_enough(text: str, quoted: str) -> None:
+    assert quoting(quoted, text, KITCHEN) == ()
+
+
+def test_a_step_of_one_branch_may_not_quote_the_other() -> None:
+    order = "if somebody is in the kitchen go to the study, otherwise go to the bathroom"
+    hung = If(when=Look(question="is anybody there?", place="kitchen"), then=(BATH,))
+    assert 2 in quoting("go to the bathroom", order, hung)
+
+
+@pytest.mark.parametrize("denial", ["don't ", "never ", "please do not "])
+@pytest.mark.parametrize(("text", "step"), [each for each in ORDERS if each[0].isascii()])
+def test_a_denial_in_front_always_asks(denial: str, text: str, step: Step) -> None:
+    assert unasked(f"{denial}{text}", step) == (0,)
+
+
+@pytest.mark.parametrize("denial", ["别", "不要", "千万别"])
+@pytest.mark.parametrize(("text", "step"), [each for each in ORDERS if not each[0].isascii()])
+def test_a_denial_in_front_always_asks_in_chinese(denial: str, text: str, step: Step) -> None:
+    assert unasked(f"{denial}{text}", step) == (0,)
+
+
+@pytest.mark.parametrize(
+    ("en", "zh"),
+    [
+        ("go to the kitchen", "去厨房"),
+        ("don't go to the kitchen", "别去厨房"),
+        ("Mum is going to the kitchen", "妈妈要去厨房"),
+        ("if it rains go to the kitchen", "如果下雨就去厨房"),
+        ("you were in the kitchen yesterday", "你昨天在厨房"),
+        ("not the study, the kitchen", "不是书房，是厨房"),
+        ("go to the kitchen tomorrow", "明天去厨房"),
+    ],
+)
+def test_both_languages_get_one_verdict(en: str, zh: str) -> None:
+    assert unasked(en, KITCHEN) == unasked(zh, KITCHEN)
+
+
+def test_who_has_read_every_word_needs_no_quotes() -> None:
+    made = StepPlan(steps=(KITCHEN,))
+    for text, asked in (("go to the kichen", False), ("maybe go to the kitchen", True)):
+        found = find_unasked(made, PersonWords((text,)), HOME, by_all_words=True)
+        assert bool(found) is asked, text

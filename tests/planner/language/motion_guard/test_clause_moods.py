@@ -16,10 +16,12 @@ HOME = site_world(DEFAULT_SITE).vocabulary
 def is_asked(*words: str) -> bool:
     """Return whether a drive to the first place that is named would wait for a yes."""
     place = places_named(" ".join(words), HOME)[0]
-    plans = (StepPlan(steps=(GoTo(place=place),)), StepPlan(steps=(Patrol(places=(place,)),)))
-    found = {bool(find_unasked(made, PersonWords(words, "hallway"), HOME)) for made in plans}
-    assert len(found) == 1
-    return found.pop()
+    found = {
+        bool(find_unasked(StepPlan(steps=(step,), asked_by=(quoted,)), PersonWords(words), HOME))
+        for step in (GoTo(place=place), Patrol(places=(place,)))
+        for quoted in words
+    }
+    return found == {True}
 
 
 @pytest.mark.parametrize(
@@ -37,10 +39,27 @@ def is_asked(*words: str) -> bool:
         "我刚才在书房开会",
         "客厅的沙发是新买的",
         "我在书房",
+        "maybe go to the kitchen",
+        "shall we go to the kitchen",
+        "Alexa, go to the kitchen",
+        "kids, into the bathroom and brush your teeth",
+        "my sister went out and left the bedroom",
+        "if I were you I'd go to the kitchen",
+        "tell Mum the cat is in the kitchen",
+        "go to your bedroom, Tommy",
+        "go to the kitchen or the study",
+        "go to the kitchen and bring me the cup",
+        "孩子们，去卧室",
+        "天猫精灵，去厨房",
+        "老公你去看看厨房",
+        "要不是膝盖疼，我就去厨房了",
+        "转告小红我去了厨房",
+        "去厨房还是书房",
+        "去厨房拿杯子给我",
     ],
 )
 def test_a_statement_orders_no_drive(text: str) -> None:
-    """A real model planned `go_to study` for the first, and the guard let it pass."""
+    """A real model planned `go_to study` for the first, and it was walked."""
     assert is_asked(text)
 
 
@@ -51,7 +70,7 @@ def test_a_statement_orders_no_drive(text: str) -> None:
         ("the kitchen, please",),
         ("厨房吧",),
         ("to the study",),
-        ("clean up", "the kitchen"),
+        ("come over", "the kitchen"),
         ("scurry to the kitchen",),
         ("you are needed in the kitchen",),
         ("I want you in the bedroom",),
@@ -60,6 +79,4 @@ def test_a_statement_orders_no_drive(text: str) -> None:
     ],
 )
 def test_an_order_and_a_bare_name_still_are(words: tuple[str, ...]) -> None:
-    place = places_named(" ".join(words), HOME)[0]
-    made = StepPlan(steps=(GoTo(place=place),))
-    assert not find_unasked(made, PersonWords(words, "hallway"), HOME)
+    assert not is_asked(*words)

@@ -1,0 +1,228 @@
+"""Part a person's words into clauses and tell what each does: order, ask, state, deny, suppose.
+
+Only an order sends the robot anywhere, and it opens with its verb once courtesy is set aside; who
+stands before the verb, what is past, imagined, denied or said to somebody else orders nothing. The
+words for that are closed rows of `clause_words`. In doubt a clause states: a person is then asked,
+and nothing else. Pure, never raises, linear up to ``MAX_READ`` characters.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import pairwise
+
+from planner.language.motion_guard.clause_cuts import (
+    HARD,
+    Part,
+    cut,
+    find_denial,
+    mask_quotes,
+    strip_openers,
+    table_of,
+)
+from planner.language.motion_guard.clause_moods import (
+    MY_ASK,
+    Before,
+    Mood,
+    is_bare,
+    read_chinese,
+    read_english,
+)
+from planner.language.motion_guard.clause_words import CHINESE, ENGLISH, ClauseWords
+from planner.language.motion_guard.mentioned_names import find_places, plain
+from planner.plan import Vocabulary
+
+MAX_READ = 400
+"""Characters; what stands behind them asks for nothing."""
+
+_ASKED = frozenset({Mood.ORDER, Mood.QUESTION})
+_SAID = re.compile(
+    r"\b(?:that|whether|if|i|we|he|she|it|they|you|is|are|was|were|will|can|has|have|needs?|go"
+    r"|come|drive|follow|move|turn|run|stop)\b|'(?:s|re|m|ll)\b"
+)
+_AT = re.compile(r"\b(?:in|at|on|by|to|near)(?: (?:the|my|our))? $")
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """Hold one clause, from ``start`` to ``end`` of the plain text."""
+
+    start: int
+    end: int
+    text: str
+    """Without what is said to somebody."""
+    mood: Mood
+    speech: str = ""
+    """What is said to somebody."""
+    hung: bool = False
+    """On a condition, or on a time that is not now."""
+    otherwise: bool = False
+    """In the other branch of its condition."""
+    stays: bool = False
+    """Orders something by which nothing moves."""
+    beyond: bool = False
+    """Orders what no robot here does."""
+
+
+@lru_cache(maxsize=64)
+def read_clauses(text: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
+    """Return the clauses of a text, in its order."""
+    said = plain(text)[:MAX_READ]
+    said = mask_quotes(said)
+    found: list[Clause] = []
+    speaks = called = False
+    for part in cut(said, vocabulary):
+        words = said[part.start : part.end]
+        if part.mark == ":" or (speaks and not HARD.search(part.mark) and not words.strip()):
+            speaks = speaks or table_of(words).speaks.search(words) is not None
+        clause = _judge(said, part, vocabulary, found)
+        if (speaks and part.mark[:1] in (":", "：")) or called:
+            clause = replace(clause, mood=Mood.FACT)
+        called = called or clause.mood is Mood.CALL
+        speaks = clause.mood is Mood.ORDER and table_of(words).speaks.search(words) is not None
+        found.append(clause)
+    found = _spare_lists(_take_back(found, vocabulary), vocabulary)
+    return _hang(said, found)
+
+
+def _judge(said: str, part: Part, vocabulary: Vocabulary, before: list[Clause]) -> Clause:
+    whole = said[part.start : part.end]
+    words = whole.strip(" '\"“”")
+    table = table_of(words)
+    words, speech = _cut_speech(words, table, vocabulary)
+    last = before[-1].mood if before else Mood.NOTHING
+    rest = strip_openers(words, table.opens)
+    asks = said[part.end : part.end + 1] in ("?", "？")
+    denial = find_denial(words, table)
+    if part.upon:
+        mood = Mood.CONDITION
+    elif denial is not None:
+        mood = Mood.DENIED
+    elif last is Mood.FACT and part.mark.strip() == "and":
+        mood = Mood.FACT  # the same who stands before its verb
+    elif last is Mood.DENIED and _goes_on(part, rest, before[-1], table, vocabulary):
+        mood = Mood.DENIED
+    elif not rest:
+        mood = Mood.NOTHING
+    elif (
+        (other := table.otherwise.match(rest)) is not None and not rest[other.end() :].strip()
+    ) or (other is None and table.hangs.match(rest) and not table.polite.match(rest)):
+        mood = Mood.CONDITION
+    else:
+        rest = strip_openers(rest, table.otherwise).strip()
+        read = read_chinese if table is CHINESE else read_english
+        mood = read(words, rest, asks, vocabulary, Before(tuple(each.mood for each in before)))
+    if mood is Mood.ORDER and _is_choice(words, table, vocabulary):
+        mood = Mood.QUESTION
+    return Clause(
+        part.start,
+        part.end,
+        words,
+        mood,
+        speech,
+        hung=table.later.search(words) is not None,
+        otherwise=table.otherwise.match(words) is not None,
+        beyond=mood in (Mood.ORDER, Mood.FACT, Mood.QUESTION)
+        and _is_beyond(words, rest, table, vocabulary),
+        stays=table.stays.match(strip_openers(rest, table.to_you)) is not None,
+    )
+
+
+def _is_beyond(words: str, rest: str, table: ClauseWords, vocabulary: Vocabulary) -> bool:
+    """Tell whether a clause orders an arm's work, harm or haste, anywhere behind a place."""
+    verb = strip_openers(strip_openers(rest, table.to_you), table.opens)
+    places = find_places(words, vocabulary)
+    tails = (words[p.end :].lstrip(" 里上并和后再") for p in places)
+    parts = (re.sub(r"[\s·]+", " ", _blot(each, vocabulary)) for each in (words, verb, *tails))
+    return any(table.beyond.match(each) for each in parts)
+
+
+def _blot(words: str, vocabulary: Vocabulary) -> str:
+    """Blot out the names of places, in which letters of other words stand."""
+    for place in find_places(words, vocabulary):
+        words = f"{words[: place.start]}{'·' * (place.end - place.start)}{words[place.end :]}"
+    return words
+
+
+def _cut_speech(words: str, table: ClauseWords, vocabulary: Vocabulary) -> tuple[str, str]:
+    """Part a clause before what is said to somebody; who stands where is spoken to may name it."""
+    spoken = table.speaks.search(words)
+    if spoken is None or (table is ENGLISH and MY_ASK.match(words, spoken.start())):
+        return words, ""
+    at = spoken.end()
+    if table is ENGLISH:
+        content = _SAID.search(words, at)
+        end = content.start() if content is not None else len(words)
+        where = [p.end for p in find_places(words, vocabulary) if at <= p.start < end]
+        heard = [p.end for p in find_places(words, vocabulary) if _AT.search(words[: p.start])]
+        at = max([at, *(each for each in where if each in heard)])
+    else:
+        near = re.compile(r"(?:一下|一声|在)?").match(words, at)
+        here = (p.end for p in find_places(words, vocabulary) if near and p.start == near.end())
+        at = next((end for end in here if words[end : end + 2].lstrip("里")[:1] == "的"), at)
+    return words[:at], words[at:]
+
+
+def _goes_on(
+    part: Part, rest: str, denied: Clause, table: ClauseWords, vocabulary: Vocabulary
+) -> bool:
+    """Tell whether a denial goes on: "don't go to the kitchen and look", "…, the study"."""
+    excepted = table.excepts.search(denied.text) is not None
+    bare = is_bare(rest, vocabulary)
+    if excepted:
+        return part.mark.strip() == "and" and bare
+    return bare if "," in part.mark or "，" in part.mark else part.mark.strip() == "and"
+
+
+def _is_choice(words: str, table: ClauseWords, vocabulary: Vocabulary) -> bool:
+    places = find_places(words, vocabulary)
+    between = (words[a.end : b.start] for a, b in pairwise(places))
+    return len({p.id for p in places}) > 1 and any(map(table.chooses.search, between))
+
+
+def _spare_lists(clauses: list[Clause], vocabulary: Vocabulary) -> list[Clause]:
+    """Let bare names be no order beside what is merely stated: "desk, dock, so many words"."""
+    orders = [each for each in clauses if each.mood is Mood.ORDER]
+    bare = all(is_bare(each.text, vocabulary) for each in orders)
+    if not bare or not any(each.mood is Mood.FACT for each in clauses):
+        return clauses
+    return [replace(each, mood=Mood.FACT) if each in orders else each for each in clauses]
+
+
+def _take_back(clauses: list[Clause], vocabulary: Vocabulary) -> list[Clause]:
+    """Deny what stands before a correction that names a place."""
+    for index in range(len(clauses) - 1, 0, -1):
+        words = clauses[index].text
+        named = any(find_places(each.text, vocabulary) for each in clauses[index:])
+        if named and table_of(words).corrects.match(words):
+            denied = [replace(each, mood=Mood.DENIED) for each in clauses[:index]]
+            return [*denied, *clauses[index:]]
+    return clauses
+
+
+def _hang(said: str, clauses: list[Clause]) -> tuple[Clause, ...]:
+    """Hang orders on their conditions: those behind one, or before one that nothing follows."""
+    found = list(clauses)
+    edges = [0, *(each.end() for each in HARD.finditer(said)), len(said) + 1]
+    for start, end in pairwise(edges):
+        row = [i for i, each in enumerate(found) if start <= each.start < end]
+        if any(found[i].hung for i in row):  # a time that is not now
+            found[row[0] : row[-1] + 1] = [replace(found[i], hung=True) for i in row]
+        for at in row:
+            here = found[at]
+            behind = [i for i in row if i > at and found[i].mood is not Mood.NOTHING]
+            if here.mood is Mood.CONDITION:
+                hung = behind or [i for i in row if i < at and found[i].mood in _ASKED]
+            elif here.otherwise:
+                hung = [at, *behind]
+            else:
+                awaits = here.mood is Mood.ORDER and table_of(here.text).awaits.match(here.text)
+                hung = behind if awaits else []
+            unreal = table_of(here.text).supposes.search(here.text) is not None
+            for i in hung:
+                mood = Mood.FACT if unreal else found[i].mood
+                other = here.otherwise or found[i].otherwise
+                found[i] = replace(found[i], hung=True, otherwise=other, mood=mood)
+    return tuple(found)
