@@ -128,7 +128,8 @@ ENGLISH = ClauseWords.of(
     r"|he's|she's|that's|they're|there's) (?:not|don't|do not|can't|cannot|never)\b",
     hangs=r"(?:(?:only )?(?:if|unless|when(?:ever)?|once|as soon as|in case|provided))\b",
     awaits=r".*\b(?:until|till)\b",
-    polite=r"if (?:possible|you please|you (?:would|could|can|like|want|don't mind|do not mind))\b"
+    polite=r"if (?:possible|you please|you (?:would|could|can|like|want|don't mind"
+    r"|do not mind))\b(?!')"
     r"|(?:when|once|as soon as) (?:you(?:'re| are)? (?:done|ready|get|arrive|reach|have|there"
     r"|come|back|been)"
     r"|done|finished|there)\b",
