@@ -101,6 +101,8 @@ def compose(meanings: Sequence[Meaning], text: str, setting: Setting) -> Plan:
     if problems:
         worst = min(problems, key=lambda problem: _RANK.index(problem.code))
         return _explain(worst, problems, meanings, setting)
+    greetings = [each for each in meanings if each == TopicQuestion(Topic.HELLO)]
+    meanings = [each for each in meanings if each not in greetings] or greetings[:1]
     if len(meanings) == 1 and isinstance(meanings[0], TopicQuestion):
         return _answer(meanings[0].topic, setting)
     meanings = [_aloud(meaning, setting) for meaning in meanings]

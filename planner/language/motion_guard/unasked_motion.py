@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING
 
 from planner.language.motion_guard.clause_moods import Mood
 from planner.language.motion_guard.clauses import Clause, read_clauses
-from planner.language.motion_guard.mentioned_names import find_places, places_named, plain
+from planner.language.motion_guard.meant_places import GAP, MeantPlaces, join_clauses
+from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.language.motion_guard.step_words import evidence, makes_way, moves, unsaid_kind
 from planner.language.questions import looks_round
-from planner.language.room_names import sorts_of_room
 from planner.language.yes_no import consents
 from planner.plan import (
     ClockTime,
@@ -41,9 +41,8 @@ from planner.plan import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    pass
 
-_GAP = " | "
 _QUIET = frozenset({"look", "find", "count", "go_to_object"})
 """Steps by which a question is answered."""
 _LEARNS = frozenset({"look", "find", "count"})
@@ -53,14 +52,6 @@ _WAITS = frozenset({"ask", "wait_for"})
 _UPON = frozenset(
     {StepRole.WHEN, StepRole.THEN, StepRole.OTHERWISE, StepRole.ON_FAILURE, StepRole.UNTIL}
 )
-_ALL_ROOMS = re.compile(
-    r"\b(?:every|each|all|other|whole|entire|rest of)\b[a-z' ]{0,12}\b"
-    r"(?:rooms?|house|home|flat|apartment|places?)\b|\beverywhere\b|\bwhole place\b"
-    r"|\b(?:around|round|through) the (?:house|home|flat|apartment)\b"
-    r"|(?:所有|每个|每间|各个|各|全部)的?(?:房间|屋子|屋)|全屋|整个(?:家|屋|房)|到处|四处|全家"
-)
-_ROUNDS = re.compile(r"\bpatrol|\brounds?\b|\btour\b|巡")
-_HERE = re.compile(r"\b(?:here|this room|around|the room)\b|这里|这儿|这个房间|这间|周围|四周|屋里")
 _REPEATS = re.compile(
     r"\b(?:twice|thrice|times|again|repeat|loop|keep|over and over|back and forth|laps?)\b"
     r"|[二两三四五六七八九十几\d]\s*[次遍趟圈回]|来回|反复|一直|轮流|不断|循环|往返"
@@ -70,25 +61,9 @@ _ROUNDS_SAID = re.compile(
     r"|seconds?)|rounds?)\b|直到|等到|为止|每|分钟|小时|秒|轮"
 )
 _BACK = re.compile(r"\bback\b|回[来去]|[带领送]回")
-_THERE = re.compile(r"\b(?:there|it|that|one|in)\b|那里|那儿|那边|那间|过去|进去|它|的话$|再$|就$")
-_OWN_WAY = re.compile(
-    r"(?:i|we)(?:'m|'re|'ll| am| are| will| need| have to| must| might| may| want to| got)\b"
-    r"|我们?(?:先|要|去|得|马上|一会|正|自己)"
-)
 _DENIES = re.compile(r"\b(?:no|nobody|none|not|never|without|empty|unless)\b|n't|没|无|不|空")
 _ELSE = re.compile(r"\bif (?:not|no)\b|要?不然|否则|[没不][有在](?=[的就,，去回到|]|$)")
 """Words that open the other branch and deny nothing."""
-_USED = {
-    "kitchen": re.compile(
-        r"\b(?:oven|stove|hob|cooker|kettle|dishwasher|washing.up)\b|灶|烤箱|炉子|水壶|洗碗"
-    ),
-    "bathroom": re.compile(r"\b(?:shower|bath ?tub|washbasin)\b|洗澡|淋浴|浴缸|马桶"),
-}
-"""What stands in one sort of room alone."""
-_HOLDS = re.compile(r"\b(?:room|one|place) (?:that )?(?:with|has|having|where)\b[^,.;|]{0,24}$")
-_HOLDS_ZH = re.compile(r"(?:有|摆着?|放着?)[^,，。;|去到来回就]{0,4}$")
-_HOLDING_ZH = re.compile(r"的(?:那|房|屋|间|地方)")
-_HELD_ZH = re.compile(r"(?:在的|所在的?)那?[个间]?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,8 +142,9 @@ class _Judge:
         )
         every = [clause for _, clauses in self._texts for clause in clauses]
         self._every = every
-        self._things = _GAP.join(f"{c.text}{c.speech}" for c in every if c.mood is not Mood.DENIED)
-        self._ordered = _join(c for c in every if c.mood is Mood.ORDER)
+        self._meant = MeantPlaces(tuple(every), person.room, vocabulary)
+        self._things = GAP.join(f"{c.text}{c.speech}" for c in every if c.mood is not Mood.DENIED)
+        self._ordered = join_clauses(c for c in every if c.mood is Mood.ORDER)
         self._repeats = _REPEATS.search(self._ordered)
         self._done: Counter[object] = Counter()
         self._arrivals: list[tuple[str, tuple[tuple[int, StepRole | None], ...]]] = []
@@ -192,7 +168,7 @@ class _Judge:
         touched = self._find_clauses(quoted)
         if not touched:
             return "no words of the person are named for it"
-        if makes_way(step, _join(touched)):
+        if makes_way(step, join_clauses(touched)):
             return ""
         looked = _is_looked_next(row, index)
         usable, why = self._select(touched, step, roles, upon=upon, looked=looked)
@@ -203,7 +179,7 @@ class _Judge:
             return why or "the words given stand in the other branch"
         if not places_of(step):
             self._at = ""  # wherever it leads
-        said = _join(usable)
+        said = join_clauses(usable)
         hung = roles & {StepRole.WHEN, StepRole.UNTIL}
         return (
             self._why_places(step, usable, _path(row, index))
@@ -250,7 +226,7 @@ class _Judge:
 
     def _of_branch(self, usable: list[Clause], roles: set[StepRole | None]) -> list[Clause]:
         """Return the clauses of a step's own branch; a denied condition may be put both ways."""
-        when = _join(c for c in self._every if c.mood is Mood.CONDITION)
+        when = join_clauses(c for c in self._every if c.mood is Mood.CONDITION)
         branch = {StepRole.THEN, StepRole.OTHERWISE} & roles
         if len(branch) != 1 or not when or _DENIES.search(_ELSE.sub("", when)):
             return usable
@@ -263,7 +239,7 @@ class _Judge:
         usable: list[Clause],
         path: tuple[tuple[int, StepRole | None], ...],
     ) -> str:
-        named = self._named(usable)
+        named = self._meant.count_named(usable)
         for place in places_of(step):
             if not named[place]:
                 return f"{step.kind} to {place}, which the words given do not name"
@@ -278,72 +254,14 @@ class _Judge:
                 return f"{step.kind} to {place} more often than named"
         return ""
 
-    def _named(self, usable: list[Clause]) -> Counter[str]:
-        """Return the places that clauses send to, each as often as they do."""
-        leads = [c for c in usable if not c.stays]
-        said = _join(usable)
-        named = Counter(places_named(said, self._vocabulary))
-        named.update(dict.fromkeys(self._rooms_of_group(said), 1))
-        named.update(self._rooms_described(said))
-        if self._room is not None and _HERE.search(said):
-            named[self._room] += 1
-        named.update(self._rooms_by_use(said) if not named else ())
-        if not named and leads:  # "grandma is in the bedroom, go and see"
-            named.update(self._leant_on(usable, said))
-        return named
-
-    def _leant_on(self, usable: list[Clause], said: str) -> Counter[str]:
-        """Return the one place of the other clauses, where an order names none."""
-        spoken = any(c.hung for c in usable)
-        others = [
-            f"{c.text}{c.speech if spoken else ''}"
-            for c in self._every
-            if c.mood not in (Mood.DENIED, Mood.CALL)
-            and not _OWN_WAY.match(c.text)
-            and (c.mood is not Mood.CONDITION or _THERE.search(said))
-        ]
-        found = Counter(places_named(_GAP.join(others), self._vocabulary))
-        found.update(self._rooms_described(_GAP.join(others)))
-        found.update(self._rooms_by_use(_GAP.join(others)) if not found else ())
-        return Counter(dict.fromkeys(found, 1)) if len(found) == 1 else Counter()
-
-    def _rooms_described(self, said: str) -> Counter[str]:
-        """Return the rooms that are named by what stands in them: "the one with the bed"."""
-        found: Counter[str] = Counter()
-        for place in find_places(said, self._vocabulary):
-            room = self._vocabulary.by_id[place.id].room
-            if room is not None and (
-                _HOLDS.search(said, 0, place.start)
-                or _HELD_ZH.match(said, place.end)
-                or (_HOLDS_ZH.search(said, 0, place.start) and _HOLDING_ZH.match(said, place.end))
-            ):
-                found[room] = 1
-        return found
-
-    def _rooms_by_use(self, said: str) -> dict[str, int]:
-        """Return the rooms that are meant by what only such a room has, where there is one."""
-        sorts = {sort for sort, words in _USED.items() if words.search(said)}
-        rooms = [e for e in self._vocabulary.entries if e.kind == "room"]
-        found = {s: [e.id for e in rooms if s in sorts_of_room(e.spellings)] for s in sorts}
-        return {ids[0]: 1 for ids in found.values() if len(ids) == 1}
-
-    def _rooms_of_group(self, said: str) -> frozenset[str]:
-        """Return the rooms that "every room" means, without those that are left out."""
-        rounds = _ROUNDS.search(said) and not places_named(said, self._vocabulary)
-        if not (_ALL_ROOMS.search(said) or rounds):
-            return frozenset()
-        denied = _join(c for c in self._every if c.mood is Mood.DENIED)
-        out = frozenset(places_named(denied, self._vocabulary))
-        return frozenset(e.id for e in self._vocabulary.entries if e.kind == "room") - out
-
     def _why_elsewhere(self, step: Step | ClockTime) -> str:
         """Return why a step leads where only words lead that order nothing.
 
         Whoever has read every word may have read a name that no plain search finds.
         """
         orders = (Mood.ORDER, Mood.QUESTION, Mood.CONDITION)
-        meant = self._named([c for c in self._every if c.mood in orders])
-        named = places_named(_join(self._every), self._vocabulary)
+        meant = self._meant.count_named([c for c in self._every if c.mood in orders])
+        named = places_named(join_clauses(self._every), self._vocabulary)
         wrong = next((p for p in places_of(step) if p in named and not meant[p]), None)
         return f"{step.kind} to {wrong}, which no order names" if wrong else ""
 
@@ -351,7 +269,7 @@ class _Judge:
         """Return what no word asks for of a step's kind; a look may be said beside its place."""
         if step.kind in _QUIET:
             moods = (Mood.ORDER, Mood.QUESTION, Mood.CONDITION)
-            said = _join(c for c in self._every if c.mood in moods)
+            said = join_clauses(c for c in self._every if c.mood in moods)
         texts = (said, self._ordered) if step.kind in ("turn", "move") else (said,)
         whys = (unsaid_kind(step, text, self._things, self._vocabulary) for text in texts)
         return next(filter(None, whys), "")
@@ -385,10 +303,6 @@ def _is_looked_next(row: tuple[StepNode, ...], index: int) -> Mood | None:
         return None
     there = places_of(looks) in ((), places_of(row[index].step))
     return (Mood.CONDITION if upon else Mood.QUESTION) if there else None
-
-
-def _join(clauses: Iterable[Clause]) -> str:
-    return _GAP.join(each.text for each in clauses)
 
 
 def _find(said: str, span: str) -> int | None:

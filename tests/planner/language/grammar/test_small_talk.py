@@ -35,6 +35,17 @@ def test_a_greeting_is_greeted(text: str, understood: Callable[[str], str]) -> N
     assert understood(text) == "answer: Hello. Tell me where to go."
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["good morning robot, go to the kitchen please", "good evening. go to the kitchen",
+     "hello, go to the kitchen", "早上好，去厨房", "你好，请去厨房"],
+)  # fmt: skip
+def test_a_greeting_before_an_order_is_no_part_of_it(
+    text: str, understood: Callable[[str], str]
+) -> None:
+    assert understood(text) == "kitchen"
+
+
 @pytest.mark.parametrize("text", THANKS)
 def test_thanks_and_praise_are_taken(text: str, understood: Callable[[str], str]) -> None:
     assert understood(text) == "answer: You are welcome."
