@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from wire import ConfigError, load_robot
-from wire.file_trouble import LONGEST, describe_syntax, show_value
+from wire.file_trouble import LONGEST, describe_syntax, find_broken_line, show_value
 
 SECRET = "hunter2"
 STREAM = f'[camera]\nkind = "stream"\nurl = "rtsp://me:{SECRET}@cam/1"\n'
@@ -108,3 +108,10 @@ def test_a_cut_file_names_the_copy_from_before(tmp_path: Path) -> None:
 
 def test_long_values_are_shortened() -> None:
     assert len(show_value("x" * 5_000)) == LONGEST + 1
+
+
+def test_the_broken_line_is_told_without_a_word_of_it() -> None:
+    with pytest.raises(ValueError, match="line 2") as broken:
+        tomllib.loads(f"a = 1\nkey = “{SECRET}”\n")
+    assert find_broken_line(broken.value) == " (line 2)"
+    assert find_broken_line(ValueError(SECRET)) == ""

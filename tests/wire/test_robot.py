@@ -144,3 +144,10 @@ def test_a_gyro_is_the_bases_own_or_a_chip_on_i2c() -> None:
             drive=DriveConfig.model_construct(**drive), imu=ImuConfig.model_validate(imu)
         )
         assert robot.has_gyro is expected
+
+
+@pytest.mark.parametrize("separation_m", [0.29, 3.0])
+def test_wheels_that_skid_turn_the_robot_less_and_never_more(separation_m: float) -> None:
+    base = {"wheels_apart_m": 0.3, "wheel_separation_m": separation_m}
+    with pytest.raises(ValueError, match="times wheels_apart_m"):
+        RobotDescription.model_validate({"base": base})

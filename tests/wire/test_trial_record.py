@@ -53,3 +53,8 @@ def test_a_trial_of_another_wiring_does_not(drive: dict[str, Any], lidar: dict[s
 
 def test_it_is_no_part_of_the_robots_fingerprint() -> None:
     assert robot(trial=record(robot())).hash == robot().hash
+
+
+def test_a_gyro_on_a_bus_of_its_own_is_part_of_the_wiring() -> None:
+    made = record(robot())
+    assert robot(trial=made, imu={"kind": "mpu6050", "bus": 1}).valid_trial is None
