@@ -39,6 +39,7 @@ from planner.plan import (
 )
 from planner.site.site_view import facts_of, vocabulary_of
 from pons.evals.cases import Case
+from pons.evals.evidence import give_evidence
 from pons.evals.hostile_plans import expected_plan
 from wire import CameraConfig
 
@@ -299,8 +300,9 @@ class ScriptedModel:
         self._plans += 1
         if self._whims and self._plans % 3 == 0:
             self.hostile += 1
-            return made.model_copy(update={"steps": (*made.steps, _WHIM), "does": role})
-        return made.model_copy(update={"does": role})
+            made = made.model_copy(update={"steps": (*made.steps, _WHIM)})
+        quoted = give_evidence(made, request.text, request.vocabulary)
+        return quoted.model_copy(update={"does": role})
 
     @staticmethod
     def _talk(wanted: frozenset[Reaction]) -> AnswerPlan | Clarify | Refuse | StepPlan:

@@ -11,7 +11,7 @@ person is then asked, and nothing else.
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import defaultdict
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -64,6 +64,10 @@ _BACK = re.compile(r"\bback\b|回[来去]|[带领送]回")
 _DENIES = re.compile(r"\b(?:no|nobody|none|not|never|without|empty|unless)\b|n't|没|无|不|空")
 _ELSE = re.compile(r"\bif (?:not|no)\b|要?不然|否则|[没不][有在](?=[的就,，去回到|]|$)")
 """Words that open the other branch and deny nothing."""
+
+
+_Path = tuple[tuple[int, StepRole | None], ...]
+"""In which branches a step stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,8 +150,8 @@ class _Judge:
         self._things = GAP.join(f"{c.text}{c.speech}" for c in every if c.mood is not Mood.DENIED)
         self._ordered = join_clauses(c for c in every if c.mood is Mood.ORDER)
         self._repeats = _REPEATS.search(self._ordered)
-        self._done: Counter[object] = Counter()
-        self._arrivals: list[tuple[str, tuple[tuple[int, StepRole | None], ...]]] = []
+        self._done: defaultdict[str, list[_Path]] = defaultdict(list)
+        self._arrivals: list[tuple[str, _Path]] = []
         self._at = ""
 
     def find_fault(
@@ -237,7 +241,7 @@ class _Judge:
         self,
         step: Step | ClockTime,
         usable: list[Clause],
-        path: tuple[tuple[int, StepRole | None], ...],
+        path: _Path,
     ) -> str:
         named = self._meant.count_named(usable)
         for place in places_of(step):
@@ -281,11 +285,13 @@ class _Judge:
         if again and not _ROUNDS_SAID.search(self._things):
             return f"{step.kind} again and again, which is not said"
         key = step.model_dump_json(exclude={"look", "question"})
-        self._done[key] += 1
+        path = _path(row, index)
+        before = sum(_may_both(path, other) for other in self._done[key])
+        self._done[key].append(path)
         if self._repeats or places_of(step) or isinstance(step, Patrol):
             return ""
         most = max(1, evidence(step, said))
-        return "" if self._done[key] <= most else f"{step.kind} more often than said"
+        return "" if before < most else f"{step.kind} more often than said"
 
 
 def _as_ordered(words: str, person: PersonWords, clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
@@ -316,7 +322,7 @@ def _find(said: str, span: str) -> int | None:
     return found.start() if found is not None else None
 
 
-def _path(row: tuple[StepNode, ...], index: int) -> tuple[tuple[int, StepRole | None], ...]:
+def _path(row: tuple[StepNode, ...], index: int) -> _Path:
     """Return in which branches a step stands: the holder of each, and which of its two."""
     about = (index, *parents_of(row, index))
     branch = (StepRole.THEN, StepRole.OTHERWISE)
@@ -324,9 +330,7 @@ def _path(row: tuple[StepNode, ...], index: int) -> tuple[tuple[int, StepRole | 
     return tuple((holder, row[at].role) for at, holder in pairs if row[at].role in branch)
 
 
-def _may_both(
-    one: tuple[tuple[int, StepRole | None], ...], other: tuple[tuple[int, StepRole | None], ...]
-) -> bool:
+def _may_both(one: _Path, other: _Path) -> bool:
     """Tell whether two steps may both be walked: of two branches of one condition one is."""
     roles = dict(one)
     return all(roles.get(holder, role) is role for holder, role in other)
