@@ -1,6 +1,6 @@
 """Give the sentences of ``tools/train_intent`` plans: each has one intent and its slots.
 
-What an intent leaves open (which words are the time, several steps at once) is left out of training.
+What an intent leaves open (which words are the time, several steps at once) isn't learnt from.
 """
 
 from __future__ import annotations

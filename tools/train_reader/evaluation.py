@@ -17,12 +17,15 @@ if TYPE_CHECKING:
     from tools.train_reader.examples import Example
 
 DRIVES = frozenset(
-    "go approach stand back home turn move patrol inspect explore look count follow find check "
-    "resume again more less other skip also also_thing change_place change_thing faster".split()
+    {"go", "approach", "stand", "back", "home", "turn", "move", "patrol", "inspect", "explore"}
+    | {"look", "count", "follow", "find", "check", "resume", "again", "more", "less", "other"}
+    | {"skip", "also", "also_thing", "change_place", "change_thing", "faster"}
 )
 """Forms that may set wheels in motion."""
-STANDS_STILL = frozenset({"none", "refuse", "stop", "cancel", "pause", "fact", "forget"})
-_PLAIN = "the a an my our your his her their this that some any 的 那个 这个 我的 那只 那".split()
+_PLAIN = frozenset(
+    {"the", "a", "an", "my", "our", "your", "his", "her", "their", "this", "that", "some", "any"}
+)
+_WHOLE_SLOTS = frozenset({"go", "patrol", "inspect", "turn", "move"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,11 +68,7 @@ def motions(plan: LabelledPlan) -> Iterator[tuple[object, ...]]:
     """Yield what drives in a plan, with where and under which condition."""
     for node in plan:
         if node.form in DRIVES:
-            words = (
-                node.slots
-                if node.form in ("go", "patrol", "inspect", "turn", "move")
-                else node.slots[1:2]
-            )
+            words = node.slots if node.form in _WHOLE_SLOTS else node.slots[1:2]
             yield node.form, words
         elif node.condition or node.blocks:
             yield node.form, tuple(part.form for part in node.condition), bool(node.blocks)
@@ -109,8 +108,8 @@ def report(verdicts: Sequence[Verdict], tell: Callable[[str], None]) -> None:
     for least in (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99):
         acted = [v for v in verdicts if v.confidence >= least and any(motions(v.read))]
         wrong = sum(not v.same_motion for v in acted)
-        exact = sum(v.is_exact for v in acted)
-        tell(f"  {least:4}: {len(acted)}, {exact}, {wrong} ({100 * wrong / len(verdicts):.2f} %)")
+        right = sum(v.is_exact for v in acted)
+        tell(f"  {least:4}: {len(acted)}, {right}, {wrong} ({100 * wrong / len(verdicts):.2f} %)")
     confused = Counter(
         (v.example.plan[0].form, v.read[0].form if v.read else "")
         for v in verdicts

@@ -1,4 +1,4 @@
-"""Fit the network: batches by seed, AdamW, a rate that rises and falls, the mean of late weights."""
+"""Fit the network: batches by seed, a rate that rises and falls, the mean of late weights."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from random import Random
 from typing import TYPE_CHECKING
 
 import torch
-
 
 from planner.language.semantic_parser.features import sentence_features
 from planner.language.semantic_parser.linear_plan import TOKENS
@@ -19,21 +18,23 @@ if TYPE_CHECKING:
 
     from tools.train_reader.examples import Example
 
-BATCH = 48
-RATE = 2e-3
+BATCH = 96
+RATE = 3e-3
 WARM_UP = 0.05
 LOST = 0.1
 """So many features of a sentence aren't seen, so that none is relied on alone."""
 SMOOTHED = 0.05
-KEPT = 0.998
-"""Of the running mean of weights a step."""
+KEPT, MEAN_EVERY = 0.98, 5
+"""Of the running mean of weights, each so many steps."""
 
 
 def make_batch(examples: Sequence[Example], features: Sequence[list[list[int]]]) -> Batch:
     """Return examples with their units' features as tensors."""
     units = max(len(example.said.units) for example in examples)
     length = max(len(example.actions) for example in examples)
-    buckets, starts, unit_at = [], [], []
+    buckets: list[int] = []
+    starts: list[int] = []
+    unit_at: list[int] = []
     mask = torch.zeros(len(examples), units, dtype=torch.bool)
     written = torch.zeros(len(examples), length, dtype=torch.long)
     wanted = torch.full((len(examples), length), -100)
@@ -47,10 +48,11 @@ def make_batch(examples: Sequence[Example], features: Sequence[list[list[int]]])
         for at, (action, (tokens, pointed)) in enumerate(
             zip(example.actions, example.allowed, strict=True)
         ):
-            is_token = isinstance(action, str)
-            wanted[row, at] = NUMBER[action] if is_token else len(TOKENS) + action
+            token = NUMBER[action] if isinstance(action, str) else None
+            unit = action if isinstance(action, int) else 0
+            wanted[row, at] = len(TOKENS) + unit if token is None else token
             if at + 1 < length:
-                written[row, at + 1] = NUMBER[action] + 1 if is_token else -1 - action
+                written[row, at + 1] = -1 - unit if token is None else token + 1
             allowed[row, at, tokens + [len(TOKENS) + unit for unit in pointed]] = True
         allowed[row, len(example.actions) :, 0] = True
     tensors = (torch.tensor(buckets), torch.tensor(starts), torch.tensor(unit_at))
@@ -82,7 +84,7 @@ def fit(
     random = Random(seed)
     network = PointerNetwork()
     mean = {name: weight.detach().clone() for name, weight in network.state_dict().items()}
-    optimizer = torch.optim.AdamW(network.parameters(), RATE, weight_decay=0.02)
+    optimizer = torch.optim.AdamW(network.parameters(), RATE, weight_decay=0.02, fused=True)
     features = [sentence_features(example.said.units) for example in examples]
     steps = epochs * math.ceil(len(examples) / BATCH)
     rate = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda step: _rate(step / steps))
@@ -98,20 +100,23 @@ def fit(
             seen = [_lose(features[i], random) for i in block]
             batch = make_batch([examples[i] for i in block], seen)
             loss = _loss(network(batch), batch)
+            total += loss.item()
             optimizer.zero_grad()
             loss.backward()
             torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
             optimizer.step()
             rate.step()
             step += 1
-            kept = min(KEPT, step / (step + 10))
+            if step % MEAN_EVERY:
+                continue
+            kept = min(KEPT, step / (step + 50))
             with torch.no_grad():
                 for name, weight in network.state_dict().items():
                     mean[name].lerp_(weight, 1.0 - kept)
-            total += loss.item()
         tell(f"epoch {epoch + 1} of {epochs}: loss {total / len(blocks):.3f}")
     network.load_state_dict(mean)
-    return network.eval()
+    network.eval()
+    return network
 
 
 def _rate(share: float) -> float:

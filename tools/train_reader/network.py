@@ -97,7 +97,7 @@ class PointerNetwork(nn.Module):
         return self.norm(states)
 
     def forward(self, batch: Batch) -> Tensor:
-        """Return the logits of (sentences, actions, tokens + units), what is not allowed at -inf."""
+        """Return logits (sentences, actions, tokens + units); what isn't allowed has -1e9."""
         states = self.encode(batch)
         mask = batch.mask[:, :, None].float()
         hidden = torch.tanh(self.begin((states * mask).sum(1) / mask.sum(1)))

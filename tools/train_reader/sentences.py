@@ -52,10 +52,12 @@ class WrittenSentence:
 def read_sentences(path: Path) -> tuple[WrittenSentence, ...]:
     """Return the rows of a file; rows that are not of seven fields are left out."""
     rows = (line.split("\t") for line in path.read_text("utf-8").splitlines())
+    found = (row for row in rows if len(row) == len(COLUMNS) and row[0] != COLUMNS[0])
     return tuple(
-        WrittenSentence(*row[:4], tuple(row[4].split(" | ")), row[5], row[6].strip())
-        for row in rows
-        if len(row) == len(COLUMNS) and row[0] != COLUMNS[0]
+        WrittenSentence(
+            id_, language, persona, situation, tuple(home.split(" | ")), label, words.strip()
+        )
+        for id_, language, persona, situation, home, label, words in found
     )
 
 

@@ -35,7 +35,7 @@ _UNITS: dict[str, tuple[SlotKind, float]] = {
     r"feet|foot|ft": (SlotKind.LENGTH, 0.3048),
     r"inch(?:es)?|in": (SlotKind.LENGTH, 0.0254),
     r"degrees?|deg|°": (SlotKind.ANGLE, 1.0),
-    r"times?": (SlotKind.TIMES, 1.0),
+    r"(?:more )?times?|x": (SlotKind.TIMES, 1.0),
 }
 _UNITS_ZH: dict[str, tuple[SlotKind, float]] = {
     r"秒钟?": (SlotKind.DURATION, 1.0),

@@ -1,4 +1,4 @@
-"""Let the network write a plan, held to the grammar at each action: greedily, with its confidence."""
+"""Let the network write a plan greedily, each action held to the grammar and to the sentence."""
 
 from __future__ import annotations
 
@@ -41,10 +41,9 @@ def allowed_units(expected: Expected, said: SentenceUnits) -> list[int]:
     kind, units = expected.points_at, said.units
     if kind is None:
         return []
-    if expected.is_last:
-        return list(range(expected.first, min(expected.first + MAX_SPAN, len(units))))
     if kind in QUOTED:
-        return list(range(len(units)))
+        after = min(expected.first + MAX_SPAN, len(units)) if expected.is_last else len(units)
+        return [at for at in range(expected.first, after) if units[at].key[-1].isalnum()]
     seen: set[object] = set()
     found = []
     for at, unit in enumerate(units):

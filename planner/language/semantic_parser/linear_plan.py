@@ -81,8 +81,8 @@ class _Pending:
 
 
 @cache
-def _forms(part: str, depth: int) -> frozenset[str]:
-    """Return the forms that may begin here; at the greatest depth none that holds others."""
+def _forms(part: str, depth: int, room: int) -> frozenset[str]:
+    """Return the forms that may begin here: none that holds more than there is room for."""
     if part == "when":
         return frozenset(CONDITIONS) | {NEGATION}
     if part == "denied":
@@ -90,7 +90,8 @@ def _forms(part: str, depth: int) -> frozenset[str]:
     steps = frozenset(
         name
         for name, form in STEPS.items()
-        if depth + 1 <= MAX_DEPTH or not (form.blocks or form.has_condition)
+        if 1 + form.has_condition + bool(form.blocks) <= room
+        and (depth < MAX_DEPTH or not (form.blocks or form.has_condition))
     )
     return steps | frozenset(ALONE) | frozenset(WRAPPERS) if part == "top" else steps
 
@@ -121,8 +122,8 @@ class GrammarWalk:
         """Return what may come next."""
         next_ = self._pending[-1]
         if next_.slot is None:
-            full = self._nodes >= MAX_NODES and next_.is_open
-            forms = frozenset() if full else _forms(next_.part, next_.depth)
+            owed = sum(part.slot is None and not part.is_open for part in self._pending[:-1])
+            forms = _forms(next_.part, next_.depth, MAX_NODES - self._nodes - owed)
             return Expected(forms | ({END} if next_.is_open else frozenset()))
         kind = next_.slot.kind
         if next_.part == "last":

@@ -1,4 +1,4 @@
-"""Read and write the network's file: 8-bit weights, a header that says for which grammar, a checksum.
+"""Read and write the network's file: 8-bit weights, the grammar they are for, a checksum.
 
 A file that is missing, torn or made for another grammar is told with its reason; the caller goes on
 without the learned reader.

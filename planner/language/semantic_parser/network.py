@@ -7,7 +7,7 @@ whole numbers with a scale a row; those of the units' buckets stay so in memory.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +21,11 @@ if TYPE_CHECKING:
 HEADS = 4
 
 
+def as_floats(values: NDArray[Any]) -> Floats:
+    """Return numbers in 32 bits; they mostly are, and are then not copied."""
+    return values.astype(np.float32, copy=False)
+
+
 @dataclass(frozen=True, slots=True)
 class Quantised:
     """Hold a matrix of weights as 8-bit whole numbers, and the scale of each row."""
@@ -31,11 +36,11 @@ class Quantised:
     def rows(self, numbers: Sequence[int]) -> Floats:
         """Return some rows as they are meant."""
         picked = list(numbers)
-        return self.values[picked].astype(np.float32) * self.scales[picked][:, None]
+        return as_floats(self.values[picked] * self.scales[picked][:, None])
 
     def whole(self) -> Floats:
         """Return all rows as they are meant."""
-        return self.values.astype(np.float32) * self.scales[:, None]
+        return as_floats(self.values * self.scales[:, None])
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,18 +66,16 @@ class DecoderState:
 def _norm(values: Floats, gain: Floats, shift: Floats) -> Floats:
     centred = values - values.mean(axis=-1, keepdims=True)
     spread = np.sqrt((centred * centred).mean(axis=-1, keepdims=True) + 1e-5)
-    return centred / spread * gain + shift
+    return as_floats(centred / spread * gain + shift)
 
 
 def _softmax(scores: Floats) -> Floats:
     shifted = np.exp(scores - scores.max(axis=-1, keepdims=True))
-    result: Floats = shifted / shifted.sum(axis=-1, keepdims=True)
-    return result
+    return as_floats(shifted / shifted.sum(axis=-1, keepdims=True))
 
 
 def _sigmoid(values: Floats) -> Floats:
-    result: Floats = 1.0 / (1.0 + np.exp(-values))
-    return result
+    return as_floats(1.0 / (1.0 + np.exp(-values)))
 
 
 class PointerNetwork:
@@ -100,27 +103,26 @@ class PointerNetwork:
         starts = np.cumsum([0, *map(len, features[:-1])])
         sums = np.add.reduceat(self._buckets.rows(flat), starts, axis=0)
         lengths = np.array([[len(unit)] for unit in features], np.float32)
-        states = sums / lengths + self._m["positions.weight"].T[: len(features)]
+        states = as_floats(sums / lengths + self._m["positions.weight"].T[: len(features)])
         for number in range(self._layers):
             states = self._layer(f"layers.{number}", states)
         states = _norm(states, self._v["norm.weight"], self._v["norm.bias"])
         return Encoded(states, states @ self._m["keys.weight"], states @ self._m["taken.weight"])
 
     def _linear(self, name: str, values: Floats) -> Floats:
-        result: Floats = values @ self._m[f"{name}.weight"] + self._v[f"{name}.bias"]
-        return result
+        return as_floats(values @ self._m[f"{name}.weight"] + self._v[f"{name}.bias"])
 
     def _layer(self, name: str, states: Floats) -> Floats:
         count, width = states.shape
         normed = _norm(states, self._v[f"{name}.norm1.weight"], self._v[f"{name}.norm1.bias"])
         mixed = self._linear(f"{name}.mix", normed).reshape(count, 3, HEADS, width // HEADS)
         query, key, value = mixed.transpose(1, 2, 0, 3)
-        weights = _softmax(query @ key.transpose(0, 2, 1) / np.float32((width // HEADS) ** 0.5))
+        weights = _softmax(as_floats(query @ key.transpose(0, 2, 1) / (width // HEADS) ** 0.5))
         joined = (weights @ value).transpose(1, 0, 2).reshape(count, width)
-        states = states + self._linear(f"{name}.join", joined)
+        states = as_floats(states + self._linear(f"{name}.join", joined))
         normed = _norm(states, self._v[f"{name}.norm2.weight"], self._v[f"{name}.norm2.bias"])
         wide = np.maximum(self._linear(f"{name}.wide", normed), 0.0)
-        return states + self._linear(f"{name}.narrow", wide)
+        return as_floats(states + self._linear(f"{name}.narrow", as_floats(wide)))
 
     def begin(self, encoded: Encoded) -> DecoderState:
         """Return the decoder's state before its first action."""
@@ -129,7 +131,7 @@ class PointerNetwork:
 
     def token(self, number: int) -> Floats:
         """Return what the decoder takes in after it has written a token; 0: nothing was written."""
-        return self._m["tokens.weight"].T[number]
+        return as_floats(self._m["tokens.weight"].T[number])
 
     def step(
         self, encoded: Encoded, state: DecoderState, written: Floats
@@ -141,10 +143,10 @@ class PointerNetwork:
         width = len(hidden)
         reset, update = np.split(_sigmoid(gates_in[: 2 * width] + gates[: 2 * width]), 2)
         fresh = np.tanh(gates_in[2 * width :] + reset * gates[2 * width :])
-        hidden = (1.0 - update) * fresh + update * hidden
+        hidden = as_floats((1.0 - update) * fresh + update * hidden)
         looked = encoded.states @ (hidden @ self._m["look.weight"])
-        context = _softmax(looked) @ encoded.states
-        out = np.tanh(self._linear("out", np.concatenate((hidden, context))))
+        context = as_floats(_softmax(looked) @ encoded.states)
+        out = as_floats(np.tanh(self._linear("out", np.concatenate((hidden, context)))))
         scores = self._linear("scores", out)
-        units = encoded.pointed @ (out @ self._m["point.weight"]) / np.float32(width**0.5)
+        units = as_floats(encoded.pointed @ (out @ self._m["point.weight"]) / width**0.5)
         return DecoderState(hidden, context), scores, units

@@ -313,7 +313,7 @@ def _read_value(kind: SlotKind, quoted: str | None, plain: str) -> Value | None:
     if kind in (SlotKind.WORDS, SlotKind.THING):
         if quoted is not None:
             # Spaces at the ends would point at no other words, and not come back from them.
-            return (quoted,) if quoted == quoted.strip() and quoted != "it" else None
+            return (quoted,) if quoted == quoted.strip() else None
         return (plain,) if plain == POINTED_BEFORE.get(kind) else None
     if quoted is not None:
         return None

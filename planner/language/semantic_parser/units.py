@@ -21,7 +21,12 @@ if TYPE_CHECKING:
 
 MAX_UNITS = 80
 """A longer sentence is a story, and is not read."""
-_PIECE = re.compile(rf"[{CHINESE}]|[^\W\d_{CHINESE}]+|\d+|['’‘][^\W\d_{CHINESE}]+|[^\s\w]")
+_CLITICS = "s|t|m|d|re|ve|ll|em|clock"
+_WORD = rf"[^\W\d_{CHINESE}]+"
+_PIECE = re.compile(
+    rf"[{CHINESE}]|{_WORD}|\d+|['’‘](?:{_CLITICS})(?![^\W_])|[^\s\w'’‘]", re.IGNORECASE
+)
+"""An apostrophe belongs to a piece where it begins a word's own end: "it's", not "t'hall"."""
 _APOSTROPHES = str.maketrans("’‘", "''")
 
 
