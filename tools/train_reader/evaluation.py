@@ -73,7 +73,8 @@ def motions(plan: LabelledPlan) -> Iterator[tuple[object, ...]]:
         elif node.condition or node.blocks:
             yield node.form, tuple(part.form for part in node.condition), bool(node.blocks)
         yield from motions(node.condition)
-        for block in node.blocks:
+        for number, block in enumerate(node.blocks):
+            yield from [("else",)] * number
             yield from motions(block)
 
 

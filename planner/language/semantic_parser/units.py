@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from planner.language.semantic_parser.plan_grammar import SlotKind
 
-MAX_UNITS = 80
+MAX_UNITS = 96
 """A longer sentence is a story, and is not read."""
 _CLITICS = "s|t|m|d|re|ve|ll|em|clock"
 _WORD = rf"[^\W\d_{CHINESE}]+"

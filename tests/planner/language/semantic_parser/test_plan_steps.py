@@ -113,4 +113,4 @@ def test_what_has_no_steps_gives_none(label: str) -> None:
 def test_any_drawn_plan_gives_steps_or_none() -> None:
     random, maker = Random(2), StepMaker(SITE, Language.EN, _hour)
     made = [maker.plan(parse_plan(draw_assignment(random, "en")[4])) for _ in range(300)]
-    assert sum(plan is not None for plan in made) > 100
+    assert sum(plan is not None for plan in made) > 60
