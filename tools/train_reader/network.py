@@ -15,7 +15,7 @@ from planner.language.semantic_parser.units import MAX_UNITS
 
 WIDTH = 128
 LAYERS = 2
-DROPPED = 0.2
+DROPPED = 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ class PointerNetwork(nn.Module):
         self.scores = nn.Linear(WIDTH, len(TOKENS))
         self.point = nn.Linear(WIDTH, WIDTH, bias=False)
         self.dropout = nn.Dropout(DROPPED)
-        nn.init.normal_(self.embedding.weight, std=0.5)
+        nn.init.normal_(self.embedding.weight, std=0.1)
         nn.init.normal_(self.positions.weight, std=0.1)
         nn.init.normal_(self.tokens.weight, std=0.3)
 
