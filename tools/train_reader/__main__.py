@@ -15,7 +15,7 @@ import torch
 from planner.language.semantic_parser.model_file import MODEL, read_model, write_model
 from tools.train_reader.earlier_sentences import earlier_examples
 from tools.train_reader.evaluation import judge, report
-from tools.train_reader.examples import Example, written_examples
+from tools.train_reader.examples import PlanExample, written_examples
 from tools.train_reader.fitting import fit
 
 SENTENCES = Path(__file__).parent / "sentences"
@@ -33,7 +33,7 @@ def _number_of(writer: str) -> int:
     return int(writer.strip("_enzh"))
 
 
-def all_examples(folder: Path) -> list[Example]:
+def all_examples(folder: Path) -> list[PlanExample]:
     """Return what can be learnt from: the earlier sentences, and the files of a folder."""
     found = list(earlier_examples())
     for path in sorted(folder.glob("*_[0-9][0-9].tsv")):

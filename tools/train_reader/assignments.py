@@ -30,31 +30,31 @@ def _several_or_simple(draw: PlanDraw) -> str:
     return draw_simple(draw) if draw.often(0.6) else draw_several(draw)
 
 
-def _hinted(hint: str, make: Callable[[PlanDraw], str]) -> Callable[[PlanDraw], str]:
+def _add_hint(hint: str, make: Callable[[PlanDraw], str]) -> Callable[[PlanDraw], str]:
     """Return a draw with a hint; ``{other}`` in it is a place or a thing, as the label has."""
 
-    def drawn(draw: PlanDraw) -> str:
+    def make_one(draw: PlanDraw) -> str:
         label = make(draw)
         others = ((draw.place, "in "), (draw.place, "go("), (lambda: draw.one("things"), 'find("'))
         other = next((other for other, mark in others if mark in label), None)
         if other is None and "{other}" in hint:
-            return drawn(draw)
+            return make_one(draw)
         text = hint.replace("{other}", other()) if other else hint
         draw.hint = text.replace("{p}", draw.place()) if "{p}" in text else text
         return label
 
-    return drawn
+    return make_one
 
 
 def _ordering_nothing(section: str) -> Callable[[PlanDraw], str]:
-    def drawn(draw: PlanDraw) -> str:
+    def make_one(draw: PlanDraw) -> str:
         draw.hint = f"orders nothing: {draw.fill(section)}"
         return "none"
 
-    return drawn
+    return make_one
 
 
-def _refused(draw: PlanDraw) -> str:
+def _draw_refusal(draw: PlanDraw) -> str:
     place = f", {draw.place()} is named" if draw.often(0.6) else ""
     draw.hint = f"asks for what wheels and a camera can't do: {draw.fill('beyond')}{place}"
     return "refuse"
@@ -70,7 +70,7 @@ def _standing(draw: PlanDraw) -> str:
     return f'at("{when}") {{ {steps} }}'
 
 
-def _managed(draw: PlanDraw) -> str:
+def _draw_order_change(draw: PlanDraw) -> str:
     which = f'"{draw.one("order names")}"'
     day = f'when "{draw.one("order days")}"'
     return draw.pick(
@@ -109,17 +109,17 @@ def _follow_up(draw: PlanDraw) -> str:
         "less",
         "other",
         "go(there)",
-        f"find(it{draw.within(0.7)})",
+        f"find(it{draw.in_place(0.7)})",
         "check(it, in there)",
     )
 
 
-def _remembered(draw: PlanDraw) -> str:
+def _draw_memory(draw: PlanDraw) -> str:
     when = f', when "{draw.one("past")}"' if draw.often(0.35) else ""
     chance = draw.random.random()
     if chance < 0.75:
         what = draw.thing() if draw.often(0.6) else draw.somebody()
-        return f"recall({what}{draw.within(0.3)}{when})"
+        return f"recall({what}{draw.in_place(0.3)}{when})"
     return draw.pick(f"deeds({when[2:]})" if when else "deeds", f"recall(in {draw.place()}{when})")
 
 
@@ -140,23 +140,23 @@ def _command(draw: PlanDraw) -> str:
 
 CATEGORIES: tuple[tuple[str, float, Callable[[PlanDraw], str]], ...] = (
     ("plain", 11, draw_simple),
-    ("indirect", 6, _hinted("says it indirectly: as a wish, a worry or a question", draw_simple)),
+    ("indirect", 6, _add_hint("says it indirectly: as a wish, a worry or a question", draw_simple)),
     ("several", 17, draw_several),
     ("condition", 15, draw_condition),
     ("denial", 6, _ordering_nothing("denials")),
-    ("mixed denial", 4, _hinted("says as well that it shall NOT go to {p}", _several_or_simple)),
-    ("correction", 6, _hinted("says {other} first, then corrects himself", _several_or_simple)),
-    ("which", 3, _hinted("says which of two: not {other}, but the label's", _several_or_simple)),
+    ("mixed denial", 4, _add_hint("says as well that it shall NOT go to {p}", _several_or_simple)),
+    ("correction", 6, _add_hint("says {other} first, then corrects himself", _several_or_simple)),
+    ("which", 3, _add_hint("says which of two: not {other}, but the label's", _several_or_simple)),
     ("first person", 4, _ordering_nothing("first person")),
-    ("first person", 3, _hinted("says as well that he himself goes to {p}", _several_or_simple)),
+    ("first person", 3, _add_hint("says as well that he himself goes to {p}", _several_or_simple)),
     ("talk", 6, _ordering_nothing("talk")),
-    ("beside talk", 4, _hinted("tells something about {p} beside the order", _several_or_simple)),
+    ("beside talk", 4, _add_hint("tells something about {p} beside the order", _several_or_simple)),
     ("standing", 8, _standing),
-    ("managed", 2, _managed),
+    ("managed", 2, _draw_order_change),
     ("follow-up", 6, _follow_up),
-    ("memory", 4, _remembered),
+    ("memory", 4, _draw_memory),
     ("fact", 2, _fact),
-    ("refuse", 3, _refused),
+    ("refuse", 3, _draw_refusal),
     ("command", 2, _command),
 )  # fmt: skip
 _SITUATIONS = (

@@ -72,7 +72,7 @@ class PlanDraw:
         """Return a person, or anyone, in quotes."""
         return f'"{self.one("people" if self.random.random() < 0.7 else "anyone")}"'
 
-    def seen(self) -> str:
+    def sight(self) -> str:
         """Return what a look may ask for, in quotes."""
         chance = self.random.random()
         if chance < 0.3:
@@ -87,7 +87,7 @@ class PlanDraw:
         """Return one of these."""
         return self.random.choice(texts)
 
-    def within(self, share: float) -> str:
+    def in_place(self, share: float) -> str:
         """Return ``, in kitchen`` in this share of draws."""
         return f", in {self.place()}" if self.often(share) else ""
 
@@ -163,15 +163,15 @@ def _look(draw: PlanDraw) -> str:
 
 def _find(draw: PlanDraw) -> str:
     what = draw.thing() if draw.often(0.75) else draw.somebody()
-    return f"find({what}{draw.within(0.6)})"
+    return f"find({what}{draw.in_place(0.6)})"
 
 
 def _check(draw: PlanDraw) -> str:
-    return f"check({draw.seen()}{draw.within(0.85)})"
+    return f"check({draw.sight()}{draw.in_place(0.85)})"
 
 
 def _count(draw: PlanDraw) -> str:
-    return f'count("{draw.one("countables")}"{draw.within(0.75)})'
+    return f'count("{draw.one("countables")}"{draw.in_place(0.75)})'
 
 
 SIMPLE: tuple[tuple[float, Callable[[PlanDraw], str]], ...] = (
@@ -187,7 +187,7 @@ SIMPLE: tuple[tuple[float, Callable[[PlanDraw], str]], ...] = (
     (5, _follow),
     (4, _round),
     (4, _stand),
-    (4, lambda draw: f"approach({draw.thing()}{draw.within(0.3)})"),
+    (4, lambda draw: f"approach({draw.thing()}{draw.in_place(0.3)})"),
     (3, _say),
     (2, _ask),
     (3, _wait),
@@ -263,7 +263,7 @@ def _condition(draw: PlanDraw) -> str:
     if chance < 0.84:
         return _ask(draw)
     if chance < 0.9:
-        return f"recall({draw.somebody()}{draw.within(0.5)})"
+        return f"recall({draw.somebody()}{draw.in_place(0.5)})"
     return f'{draw.pick("later", "earlier")}("{draw.one("clock")}")'
 
 

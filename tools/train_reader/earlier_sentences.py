@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 from planner.language.semantic_parser.amounts import write_amount
 from planner.language.semantic_parser.plan_grammar import NotationError, SlotKind
-from planner.language.semantic_parser.units import PlaceNames, SentenceUnits, cut_units
+from planner.language.semantic_parser.units import Gazetteer, SentenceUnits, cut_units
 from planner.site.site import Site
 from planner.site.site_view import vocabulary_of
-from tools.train_reader.examples import Example, make_example
+from tools.train_reader.examples import PlanExample, make_example
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -67,10 +67,10 @@ _LACKING = re.compile(r", (?:to |in )?\{\w+\}|; wait\(\{duration\}\)")
 
 
 @cache
-def home_names() -> PlaceNames:
+def home_names() -> Gazetteer:
     """Return the names of the home that the writers had before them."""
     entries = vocabulary_of(Site.load(ROOT / "sites" / "home")).entries
-    return PlaceNames({word: entry.id for entry in entries for word in entry.spellings})
+    return Gazetteer({word: entry.id for entry in entries for word in entry.spellings})
 
 
 def _slots(written: str) -> dict[str, str]:
@@ -118,7 +118,7 @@ def label_of(intent: str, said: SentenceUnits, slots: Mapping[str, str]) -> str 
     return None if re.search(r"\{\w", form) else form
 
 
-def earlier_examples() -> Iterator[Example]:
+def earlier_examples() -> Iterator[PlanExample]:
     """Yield what can be learnt from the sentences of both languages."""
     for language in ("en", "zh"):
         lines = (PHRASES / f"people_{language}.tsv").read_text("utf-8").splitlines()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from planner.language.semantic_parser.network import PointerNetwork
-    from tools.train_reader.examples import Example
+    from tools.train_reader.examples import PlanExample
 
 DRIVES = frozenset(
     {"go", "approach", "stand", "back", "home", "turn", "move", "patrol", "inspect", "explore"}
@@ -32,7 +32,7 @@ _WHOLE_SLOTS = frozenset({"go", "patrol", "inspect", "turn", "move"})
 class Verdict:
     """Hold what was read of an example."""
 
-    example: Example
+    example: PlanExample
     read: LabelledPlan
     confidence: float
 
@@ -78,7 +78,7 @@ def motions(plan: LabelledPlan) -> Iterator[tuple[object, ...]]:
             yield from motions(block)
 
 
-def judge(network: PointerNetwork, examples: Sequence[Example]) -> list[Verdict]:
+def judge(network: PointerNetwork, examples: Sequence[PlanExample]) -> list[Verdict]:
     """Return what the network reads of each example."""
     verdicts = []
     for example in examples:

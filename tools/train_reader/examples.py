@@ -17,7 +17,7 @@ from planner.language.semantic_parser.linear_plan import (
 )
 from planner.language.semantic_parser.normal_plan import normalise_plan
 from planner.language.semantic_parser.plan_grammar import NotationError, parse_plan
-from planner.language.semantic_parser.units import MAX_UNITS, PlaceNames, SentenceUnits, cut_units
+from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, SentenceUnits, cut_units
 from tools.train_reader.sentences import fault_of, read_sentences
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ NUMBER = {token: number for number, token in enumerate(TOKENS)}
 
 
 @dataclass(frozen=True, slots=True)
-class Example:
+class PlanExample:
     """Hold one sentence with its plan."""
 
     writer: str
@@ -41,7 +41,7 @@ class Example:
     """At each action the tokens and the units that the grammar and the sentence allow."""
 
 
-def make_example(writer: str, category: str, said: SentenceUnits, label: str) -> Example | None:
+def make_example(writer: str, category: str, said: SentenceUnits, label: str) -> PlanExample | None:
     """Return an example; None where the sentence is too long or lacks what its label names.
 
     Raises:
@@ -56,21 +56,21 @@ def make_example(writer: str, category: str, said: SentenceUnits, label: str) ->
         return None
     walk, allowed = GrammarWalk(), []
     for action in actions:
-        tokens, units = allowed_actions(walk.expected(), said)
+        tokens, units = allowed_actions(walk.next_actions(), said)
         if (NUMBER[action] not in tokens) if isinstance(action, str) else (action not in units):
             return None
         allowed.append((tokens, units))
         walk.take(action)
     meant = normalise_plan(read_actions(actions, said))
-    return Example(writer, category, said, meant, actions, tuple(allowed))
+    return PlanExample(writer, category, said, meant, actions, tuple(allowed))
 
 
-def written_examples(path: Path) -> Iterator[Example]:
+def written_examples(path: Path) -> Iterator[PlanExample]:
     """Yield the examples of a writer's file; faulty rows are left out."""
     for row in read_sentences(path):
         if fault_of(row):
             continue
-        said = cut_units(row.words, PlaceNames({place: place for place in row.home}))
+        said = cut_units(row.words, Gazetteer({place: place for place in row.home}))
         try:
             example = make_example(path.stem, row.category, said, row.label)
         except NotationError:

@@ -11,12 +11,12 @@ import torch
 from planner.language.semantic_parser.features import sentence_features
 from planner.language.semantic_parser.linear_plan import TOKENS
 from tools.train_reader.examples import NUMBER
-from tools.train_reader.network import Batch, PointerNetwork
+from tools.train_reader.network import ExampleBatch, TrainableNetwork
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from tools.train_reader.examples import Example
+    from tools.train_reader.examples import PlanExample
 
 BATCH = 32
 RATE, BUCKET_RATE = 2e-3, 1.2e-2
@@ -29,7 +29,9 @@ KEPT, MEAN_EVERY = 0.98, 5
 """Of the running mean of weights, each so many steps."""
 
 
-def make_batch(examples: Sequence[Example], features: Sequence[list[list[int]]]) -> Batch:
+def make_batch(
+    examples: Sequence[PlanExample], features: Sequence[list[list[int]]]
+) -> ExampleBatch:
     """Return examples with their units' features as tensors."""
     units = max(len(example.said.units) for example in examples)
     length = max(len(example.actions) for example in examples)
@@ -57,10 +59,10 @@ def make_batch(examples: Sequence[Example], features: Sequence[list[list[int]]])
             allowed[row, at, tokens + [len(TOKENS) + unit for unit in pointed]] = True
         allowed[row, len(example.actions) :, 0] = True
     tensors = (torch.tensor(buckets), torch.tensor(starts), torch.tensor(unit_at))
-    return Batch(*tensors, mask, written, wanted, allowed)
+    return ExampleBatch(*tensors, mask, written, wanted, allowed)
 
 
-def _loss(logits: torch.Tensor, batch: Batch) -> torch.Tensor:
+def _loss(logits: torch.Tensor, batch: ExampleBatch) -> torch.Tensor:
     """Return the cross entropy; what is smoothed goes to what is allowed."""
     log_shares = logits.log_softmax(2)
     is_action = batch.wanted >= 0
@@ -70,7 +72,7 @@ def _loss(logits: torch.Tensor, batch: Batch) -> torch.Tensor:
     return -(smoothed * is_action).sum() / is_action.sum()
 
 
-def make_optimizer(network: PointerNetwork) -> torch.optim.Optimizer:
+def make_optimizer(network: TrainableNetwork) -> torch.optim.Optimizer:
     """Return what fits a network: its buckets faster than all else."""
     buckets = [network.embedding.weight]
     others = [each for name, each in network.named_parameters() if name != "embedding.weight"]
@@ -82,8 +84,8 @@ def make_optimizer(network: PointerNetwork) -> torch.optim.Optimizer:
 
 
 def fit(
-    examples: Sequence[Example], epochs: int, seed: int, tell: Callable[[str], None]
-) -> PointerNetwork:
+    examples: Sequence[PlanExample], epochs: int, seed: int, tell: Callable[[str], None]
+) -> TrainableNetwork:
     """Return a network that was fitted to examples.
 
     Args:
@@ -94,7 +96,7 @@ def fit(
     """
     torch.manual_seed(seed)
     random = Random(seed)
-    network = PointerNetwork()
+    network = TrainableNetwork()
     mean = {name: weight.detach().clone() for name, weight in network.state_dict().items()}
     optimizer = make_optimizer(network)
     features = [sentence_features(example.said.units) for example in examples]

@@ -19,7 +19,7 @@ DROPPED = 0.1
 
 
 @dataclass(frozen=True, slots=True)
-class Batch:
+class ExampleBatch:
     """Hold several examples as tensors."""
 
     buckets: Tensor
@@ -61,7 +61,7 @@ class EncoderLayer(nn.Module):
         return states + self.dropout(self.narrow(self.dropout(wide)))
 
 
-class PointerNetwork(nn.Module):
+class TrainableNetwork(nn.Module):
     """Score the actions that write a sentence's plan."""
 
     def __init__(self) -> None:
@@ -85,7 +85,7 @@ class PointerNetwork(nn.Module):
         nn.init.normal_(self.positions.weight, std=0.1)
         nn.init.normal_(self.tokens.weight, std=0.3)
 
-    def encode(self, batch: Batch) -> Tensor:
+    def encode(self, batch: ExampleBatch) -> Tensor:
         """Return the states of (sentences, units, width)."""
         count, units = batch.mask.shape
         states = self.positions.weight[:units].expand(count, -1, -1).reshape(-1, WIDTH)
@@ -96,7 +96,7 @@ class PointerNetwork(nn.Module):
             states = layer(states, batch.mask)
         return self.norm(states)
 
-    def forward(self, batch: Batch) -> Tensor:
+    def forward(self, batch: ExampleBatch) -> Tensor:
         """Return logits (sentences, actions, tokens + units); what isn't allowed has -1e9."""
         states = self.encode(batch)
         mask = batch.mask[:, :, None].float()

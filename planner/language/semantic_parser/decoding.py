@@ -14,8 +14,8 @@ from planner.language.semantic_parser.linear_plan import (
     QUOTED,
     TOKENS,
     Action,
-    Expected,
     GrammarWalk,
+    NextActions,
     read_actions,
 )
 from planner.language.semantic_parser.plan_grammar import LabelledPlan, SlotKind
@@ -36,7 +36,7 @@ class ParsedPlan:
     """The probability that it gives all actions together."""
 
 
-def allowed_units(expected: Expected, said: SentenceUnits) -> list[int]:
+def allowed_units(expected: NextActions, said: SentenceUnits) -> list[int]:
     """Return which units may be pointed at: each place and amount where it is named first."""
     kind, units = expected.points_at, said.units
     if kind is None:
@@ -57,7 +57,7 @@ def allowed_units(expected: Expected, said: SentenceUnits) -> list[int]:
     return found
 
 
-def allowed_actions(expected: Expected, said: SentenceUnits) -> tuple[list[int], list[int]]:
+def allowed_actions(expected: NextActions, said: SentenceUnits) -> tuple[list[int], list[int]]:
     """Return the numbers of the tokens and of the units that may come next."""
     units = allowed_units(expected, said)
     tokens = sorted(_NUMBER[token] for token in expected.tokens)
@@ -73,7 +73,7 @@ def decode_plan(network: PointerNetwork, said: SentenceUnits) -> ParsedPlan | No
         if len(actions) >= MAX_ACTIONS:
             return None
         state, scores, unit_scores = network.step(encoded, state, written)
-        tokens, units = allowed_actions(walk.expected(), said)
+        tokens, units = allowed_actions(walk.next_actions(), said)
         if not tokens and not units:
             return None
         joint = np.concatenate((scores[tokens], unit_scores[units]))

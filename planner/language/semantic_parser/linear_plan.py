@@ -27,9 +27,9 @@ from planner.language.semantic_parser.plan_grammar import (
     STEPS,
     VAGUE,
     WRAPPERS,
+    FormSlot,
     LabelledPlan,
     PlanNode,
-    Slot,
     SlotKind,
     Value,
     is_optional,
@@ -56,7 +56,7 @@ TOKENS: tuple[str, ...] = tuple(
 
 
 @dataclass(frozen=True, slots=True)
-class Expected:
+class NextActions:
     """Say what may come next: one of these tokens, or a unit from ``first`` on of this kind."""
 
     tokens: frozenset[str]
@@ -74,7 +74,7 @@ class _Pending:
     part: str
     """``top``, ``row``, ``slot``, ``more`` places, ``last`` of words, ``when`` or ``denied``."""
     depth: int = 0
-    slot: Slot | None = None
+    slot: FormSlot | None = None
     is_open: bool = False
     """Of a row: it may end here."""
     first: int = 0
@@ -97,7 +97,7 @@ def _forms(part: str, depth: int, room: int) -> frozenset[str]:
 
 
 @cache
-def _of_slot(slot: Slot) -> frozenset[str]:
+def _of_slot(slot: FormSlot) -> frozenset[str]:
     kind = slot.kind
     tokens = set(CHOICES.get(kind, ()))
     tokens |= {POINTED_BEFORE[kind]} if kind in POINTED_BEFORE else set()
@@ -118,20 +118,20 @@ class GrammarWalk:
         """Return whether the plan is whole."""
         return not self._pending
 
-    def expected(self) -> Expected:
+    def next_actions(self) -> NextActions:
         """Return what may come next."""
         next_ = self._pending[-1]
         if next_.slot is None:
             owed = sum(part.slot is None and not part.is_open for part in self._pending[:-1])
             forms = _forms(next_.part, next_.depth, MAX_NODES - self._nodes - owed)
-            return Expected(forms | ({END} if next_.is_open else frozenset()))
+            return NextActions(forms | ({END} if next_.is_open else frozenset()))
         kind = next_.slot.kind
         if next_.part == "last":
-            return Expected(frozenset(), kind, next_.first, is_last=True)
+            return NextActions(frozenset(), kind, next_.first, is_last=True)
         if next_.part == "more":
-            return Expected(frozenset({ABSENT}), ONE_PLACE)
+            return NextActions(frozenset({ABSENT}), ONE_PLACE)
         points = None if kind in CHOICES else ONE_PLACE if kind in PLACES else kind
-        return Expected(_of_slot(next_.slot), points)
+        return NextActions(_of_slot(next_.slot), points)
 
     def take(self, action: Action) -> None:
         """Take an allowed action."""
@@ -145,7 +145,7 @@ class GrammarWalk:
                 self._pending.append(_Pending("row", now.depth, is_open=True))
             self._open(str(action), now.depth)
 
-    def _take_value(self, now: _Pending, slot: Slot, action: Action) -> None:
+    def _take_value(self, now: _Pending, slot: FormSlot, action: Action) -> None:
         if isinstance(action, int) and slot.kind in QUOTED and now.part == "slot":
             self._pending.append(_Pending("last", slot=slot, first=action))
         elif isinstance(action, int) and slot.kind in PLACES:
@@ -262,7 +262,7 @@ class _ActionReader:
             return () if action == ABSENT else (action,)
         if kind in QUOTED:
             last = self._actions.pop()
-            return (self._said.said(action, int(last)).replace('"', "'"),)
+            return (self._said.words_between(action, int(last)).replace('"', "'"),)
         unit = self._said.units[action]
         if kind in AMOUNT_UNITS and unit.amount is not None:
             return (write_amount(*unit.amount),)

@@ -16,7 +16,7 @@ import numpy as np
 
 from planner.language.semantic_parser.features import BUCKETS
 from planner.language.semantic_parser.linear_plan import TOKENS
-from planner.language.semantic_parser.network import PointerNetwork, Quantised
+from planner.language.semantic_parser.network import Int8Matrix, PointerNetwork
 from planner.language.semantic_parser.units import MAX_UNITS
 
 if TYPE_CHECKING:
@@ -39,11 +39,11 @@ def grammar_version() -> int:
     return crc32("\n".join((*TOKENS, str(BUCKETS), str(MAX_UNITS))).encode())
 
 
-def quantise(weights: NDArray[np.float32]) -> Quantised:
+def quantise(weights: NDArray[np.float32]) -> Int8Matrix:
     """Return a matrix in 8-bit whole numbers, each row by its greatest weight."""
     greatest = np.abs(weights).max(axis=1)
     scales = np.where(greatest > 0.0, greatest / 127.0, 1.0).astype(np.float32)
-    return Quantised(np.rint(weights / scales[:, None]).astype(np.int8), scales)
+    return Int8Matrix(np.rint(weights / scales[:, None]).astype(np.int8), scales)
 
 
 def write_model(weights: Mapping[str, NDArray[np.float32]], path: Path) -> None:
@@ -86,7 +86,7 @@ def read_model(path: Path = MODEL) -> PointerNetwork:
 
 
 def _network_of(shapes: Mapping[str, list[int]], body: bytes) -> PointerNetwork:
-    matrices: dict[str, Quantised] = {}
+    matrices: dict[str, Int8Matrix] = {}
     vectors: dict[str, NDArray[np.float32]] = {}
     at = 0
     for name, shape in shapes.items():
@@ -97,5 +97,5 @@ def _network_of(shapes: Mapping[str, list[int]], body: bytes) -> PointerNetwork:
             continue
         values = np.frombuffer(body, np.int8, prod(shape), at).reshape(shape)
         at += prod(shape)
-        matrices[name] = Quantised(values, floats)
+        matrices[name] = Int8Matrix(values, floats)
     return PointerNetwork(matrices, vectors)

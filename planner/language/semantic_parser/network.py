@@ -27,7 +27,7 @@ def as_floats(values: NDArray[Any]) -> Floats:
 
 
 @dataclass(frozen=True, slots=True)
-class Quantised:
+class Int8Matrix:
     """Hold a matrix of weights as 8-bit whole numbers, and the scale of each row."""
 
     values: NDArray[np.int8]
@@ -44,7 +44,7 @@ class Quantised:
 
 
 @dataclass(frozen=True, slots=True)
-class Encoded:
+class SentenceStates:
     """Hold what the encoder made of a sentence."""
 
     states: Floats
@@ -86,7 +86,7 @@ class PointerNetwork:
         vectors: shifts and gains by name.
     """
 
-    def __init__(self, matrices: Mapping[str, Quantised], vectors: Mapping[str, Floats]) -> None:
+    def __init__(self, matrices: Mapping[str, Int8Matrix], vectors: Mapping[str, Floats]) -> None:
         self._buckets = matrices["embedding.weight"]
         self._m = {
             name: np.ascontiguousarray(matrix.whole().T)
@@ -97,7 +97,7 @@ class PointerNetwork:
         names = {name.split(".")[1] for name in self._m if name.startswith("layers.")}
         self._layers = len(names)
 
-    def encode(self, features: Sequence[Sequence[int]]) -> Encoded:
+    def encode(self, features: Sequence[Sequence[int]]) -> SentenceStates:
         """Return the states of a sentence's units."""
         flat = [bucket for unit in features for bucket in unit]
         starts = np.cumsum([0, *map(len, features[:-1])])
@@ -107,7 +107,9 @@ class PointerNetwork:
         for number in range(self._layers):
             states = self._layer(f"layers.{number}", states)
         states = _norm(states, self._v["norm.weight"], self._v["norm.bias"])
-        return Encoded(states, states @ self._m["keys.weight"], states @ self._m["taken.weight"])
+        return SentenceStates(
+            states, states @ self._m["keys.weight"], states @ self._m["taken.weight"]
+        )
 
     def _linear(self, name: str, values: Floats) -> Floats:
         return as_floats(values @ self._m[f"{name}.weight"] + self._v[f"{name}.bias"])
@@ -124,7 +126,7 @@ class PointerNetwork:
         wide = np.maximum(self._linear(f"{name}.wide", normed), 0.0)
         return as_floats(states + self._linear(f"{name}.narrow", as_floats(wide)))
 
-    def begin(self, encoded: Encoded) -> DecoderState:
+    def begin(self, encoded: SentenceStates) -> DecoderState:
         """Return the decoder's state before its first action."""
         mean = encoded.states.mean(axis=0)
         return DecoderState(np.tanh(self._linear("begin", mean)), np.zeros_like(mean))
@@ -134,7 +136,7 @@ class PointerNetwork:
         return as_floats(self._m["tokens.weight"].T[number])
 
     def step(
-        self, encoded: Encoded, state: DecoderState, written: Floats
+        self, encoded: SentenceStates, state: DecoderState, written: Floats
     ) -> tuple[DecoderState, Floats, Floats]:
         """Return the next state, the tokens' scores and the units' scores."""
         hidden = state.hidden

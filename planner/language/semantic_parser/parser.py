@@ -12,7 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from planner.language.semantic_parser.units import MAX_UNITS, PlaceNames, cut_units
+from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, cut_units
 
 if TYPE_CHECKING:
     from planner.language.semantic_parser.decoding import ParsedPlan
@@ -36,13 +36,13 @@ def load_network(path: Path = MODEL) -> PointerNetwork | None:
 
 
 @lru_cache(maxsize=4)
-def names_of(vocabulary: Vocabulary) -> PlaceNames:
+def names_of(vocabulary: Vocabulary) -> Gazetteer:
     """Return a site's spellings and the place that each means; what two places share means none."""
     found: dict[str, set[str]] = {}
     for entry in vocabulary.entries:
         for spelling in entry.spellings:
             found.setdefault(spelling, set()).add(entry.id)
-    return PlaceNames({word: ids.pop() for word, ids in found.items() if len(ids) == 1})
+    return Gazetteer({word: ids.pop() for word, ids in found.items() if len(ids) == 1})
 
 
 def parse(sentence: str, vocabulary: Vocabulary, path: Path = MODEL) -> ParsedPlan | None:

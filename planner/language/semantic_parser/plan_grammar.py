@@ -51,7 +51,7 @@ ALL, VAGUE = "all", "a bit"
 
 
 @dataclass(frozen=True, slots=True)
-class Slot:
+class FormSlot:
     """Name what a form may hold; a slot with a marker is written behind it."""
 
     kind: SlotKind
@@ -63,17 +63,17 @@ class Slot:
 class Form:
     """Hold what a node of this name is made of."""
 
-    slots: tuple[Slot, ...] = ()
+    slots: tuple[FormSlot, ...] = ()
     has_condition: bool = False
     blocks: int = 0
     """How many rows of steps it holds; the second is written behind ``else`` and may be empty."""
 
 
-_PLACE, _THING = Slot(SlotKind.PLACE), Slot(SlotKind.THING)
-_WORDS, _IN = Slot(SlotKind.WORDS), Slot(SlotKind.PLACE, "in")
-_TO, _WHEN = Slot(SlotKind.WORDS, "to"), Slot(SlotKind.WORDS, "when")
-_SOME_WORDS, _SOMETHING = Slot(SlotKind.WORDS, "", True), Slot(SlotKind.THING, "", True)
-_FOR, _SO_OFTEN = Slot(SlotKind.DURATION, "for"), Slot(SlotKind.TIMES, "", True)
+_PLACE, _THING = FormSlot(SlotKind.PLACE), FormSlot(SlotKind.THING)
+_WORDS, _IN = FormSlot(SlotKind.WORDS), FormSlot(SlotKind.PLACE, "in")
+_TO, _WHEN = FormSlot(SlotKind.WORDS, "to"), FormSlot(SlotKind.WORDS, "when")
+_SOME_WORDS, _SOMETHING = FormSlot(SlotKind.WORDS, "", True), FormSlot(SlotKind.THING, "", True)
+_FOR, _SO_OFTEN = FormSlot(SlotKind.DURATION, "for"), FormSlot(SlotKind.TIMES, "", True)
 
 CONDITIONS: dict[str, Form] = {
     "check": Form((_THING, _IN)),
@@ -87,19 +87,21 @@ CONDITIONS: dict[str, Form] = {
 STEPS: dict[str, Form] = {
     "go": Form((_PLACE,)),
     "approach": Form((_THING, _IN)),
-    "stand": Form((Slot(SlotKind.SIDE), Slot(SlotKind.PLACE, "at"), Slot(SlotKind.THING, "by"))),
+    "stand": Form(
+        (FormSlot(SlotKind.SIDE), FormSlot(SlotKind.PLACE, "at"), FormSlot(SlotKind.THING, "by"))
+    ),
     "back": Form(),
     "home": Form(),
-    "turn": Form((Slot(SlotKind.TURN), Slot(SlotKind.ANGLE, "", True))),
-    "move": Form((Slot(SlotKind.WAY), Slot(SlotKind.LENGTH, "", True))),
-    "patrol": Form((Slot(SlotKind.ROUND), Slot(SlotKind.PLACES, "except"))),
-    "inspect": Form((Slot(SlotKind.ROUND), Slot(SlotKind.PLACES, "except"))),
+    "turn": Form((FormSlot(SlotKind.TURN), FormSlot(SlotKind.ANGLE, "", True))),
+    "move": Form((FormSlot(SlotKind.WAY), FormSlot(SlotKind.LENGTH, "", True))),
+    "patrol": Form((FormSlot(SlotKind.ROUND), FormSlot(SlotKind.PLACES, "except"))),
+    "inspect": Form((FormSlot(SlotKind.ROUND), FormSlot(SlotKind.PLACES, "except"))),
     "explore": Form(),
     "look": Form((_IN,)),
     "count": Form((_THING, _IN)),
     "follow": Form((_SOMETHING, _FOR)),
     "say": Form((_WORDS, _TO)),
-    "wait": Form((Slot(SlotKind.DURATION, "", True),)),
+    "wait": Form((FormSlot(SlotKind.DURATION, "", True),)),
     "wait_for": Form((_THING,)),
     "wait_word": Form((_WORDS,)),
     "wait_until": Form((_WORDS,)),
@@ -173,7 +175,7 @@ class NotationError(ValueError):
     """Tell where a text is not a plan of the grammar."""
 
 
-def is_optional(slot: Slot) -> bool:
+def is_optional(slot: FormSlot) -> bool:
     """Return whether a slot may be left out."""
     return bool(slot.marker) or slot.may_lack
 
@@ -209,7 +211,7 @@ _VALUE = re.compile(r'\s*(?:"(?P<quoted>[^"\n\t]+)"|(?P<plain>[^"(){};,\n\t]+))\
 _AMOUNT = re.compile(r"(?P<number>\d{1,5}(?:\.\d{1,3})?) (?P<unit>[a-z]+)")
 
 
-class _Reader:
+class _NotationReader:
     """Read one text from left to right."""
 
     def __init__(self, text: str) -> None:
@@ -336,7 +338,7 @@ def parse_plan(text: str) -> LabelledPlan:
     Raises:
         NotationError: it is not one of the grammar.
     """
-    reader = _Reader(text)
+    reader = _NotationReader(text)
     first = reader.peek()
     if first in ALONE or first in WRAPPERS:
         plan: LabelledPlan = (reader.node(frozenset({first}), 0),)

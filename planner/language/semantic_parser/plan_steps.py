@@ -226,7 +226,7 @@ def _follow(_: StepMaker, slots: _Slots) -> tuple[Step, ...]:
     return (Find(object=person), Follow(object=person, seconds=slots.amount(1)))
 
 
-def _addressed(slots: _Slots) -> str:
+def _words_to(slots: _Slots) -> str:
     words, person = slots.need(0), slots.text(1)
     return words if person is None else f"{person}, {words}"
 
@@ -269,8 +269,8 @@ _MAKERS: dict[str, Callable[[StepMaker, _Slots], tuple[Step, ...]]] = {
     "count": _count,
     "find": lambda _, slots: (Find(object=slots.need(0), place=slots.text(1)),),
     "follow": _follow,
-    "say": lambda _, slots: (Say(text=_addressed(slots)),),
-    "ask": lambda _, slots: (Ask(question=_addressed(slots)),),
+    "say": lambda _, slots: (Say(text=_words_to(slots)),),
+    "ask": lambda _, slots: (Ask(question=_words_to(slots)),),
     "wait": lambda _, s: (Wait(seconds=s.amount(0) or _LITTLE[SlotKind.DURATION]),),
     "wait_for": lambda _, slots: (WaitFor(object=slots.need(0)),),
     "wait_word": lambda _, slots: (WaitFor(word=slots.need(0)),),

@@ -50,12 +50,12 @@ class SentenceUnits:
     text: str
     units: tuple[Unit, ...]
 
-    def said(self, first: int, last: int) -> str:
+    def words_between(self, first: int, last: int) -> str:
         """Return the words from one unit to another as they were said."""
         return self.text[self.units[first].start : self.units[last].end]
 
 
-class PlaceNames:
+class Gazetteer:
     """Find a site's names in sentences.
 
     Args:
@@ -89,7 +89,7 @@ def _pieces(text: str) -> Iterable[tuple[str, int, int]]:
             yield key, found.start(), found.end()
 
 
-def cut_units(text: str, names: PlaceNames) -> SentenceUnits:
+def cut_units(text: str, names: Gazetteer) -> SentenceUnits:
     """Return a sentence's units."""
     pieces = [Unit(key, start, end) for key, start, end in _pieces(text)]
     units = _join_amounts(text, pieces)

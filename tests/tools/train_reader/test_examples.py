@@ -9,13 +9,13 @@ import pytest
 
 from planner.language.semantic_parser.linear_plan import TOKENS
 from planner.language.semantic_parser.plan_grammar import parse_plan, render_plan
-from planner.language.semantic_parser.units import PlaceNames, cut_units
+from planner.language.semantic_parser.units import Gazetteer, cut_units
 from tools.train_reader.earlier_sentences import earlier_examples, home_names, label_of
 from tools.train_reader.evaluation import Verdict, bare, motions
 from tools.train_reader.examples import make_example, written_examples
 from tools.train_reader.sentences import COLUMNS
 
-NAMES = PlaceNames({"hall": "hall", "kitchen": "kitchen"})
+NAMES = Gazetteer({"hall": "hall", "kitchen": "kitchen"})
 
 
 @pytest.mark.parametrize(

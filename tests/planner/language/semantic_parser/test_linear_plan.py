@@ -20,10 +20,10 @@ from planner.language.semantic_parser.linear_plan import (
 from planner.language.semantic_parser.model_file import quantise
 from planner.language.semantic_parser.network import PointerNetwork
 from planner.language.semantic_parser.plan_grammar import parse_plan, render_plan
-from planner.language.semantic_parser.units import MAX_UNITS, PlaceNames, cut_units
+from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, cut_units
 from tests.planner.language.semantic_parser.drawn_network import draw_weights
 
-NAMES = PlaceNames({"kitchen": "kitchen", "hall": "hall", "厨房": "kitchen"})
+NAMES = Gazetteer({"kitchen": "kitchen", "hall": "hall", "厨房": "kitchen"})
 SENTENCE = "go to the hall, wait five minutes, then tell Dad it's late in the kitchen"
 
 
@@ -45,7 +45,7 @@ def test_a_plan_comes_back_from_its_actions(label: str) -> None:
     actions = write_actions(parse_plan(label), said)
     walk = GrammarWalk()
     for action in actions:
-        tokens, units = allowed_actions(walk.expected(), said)
+        tokens, units = allowed_actions(walk.next_actions(), said)
         if isinstance(action, str):
             assert TOKENS.index(action) in tokens
         else:
@@ -86,7 +86,7 @@ def test_random_walks_through_the_grammar_end_in_plans() -> None:
     for _ in range(300):
         walk, actions = GrammarWalk(), list[Action]()
         while not walk.is_done:
-            tokens, units = allowed_actions(walk.expected(), said)
+            tokens, units = allowed_actions(walk.next_actions(), said)
             written: list[Action] = [TOKENS[token] for token in tokens]
             choice = random.choice(written + list[Action](units))
             # Rows end early often enough that the walk is short.

@@ -10,10 +10,10 @@ import pytest
 from planner.language.semantic_parser.decoding import decode_plan
 from planner.language.semantic_parser.model_file import ModelFileError, read_model, write_model
 from planner.language.semantic_parser.parser import load_network
-from planner.language.semantic_parser.units import PlaceNames, cut_units
+from planner.language.semantic_parser.units import Gazetteer, cut_units
 from tests.planner.language.semantic_parser.drawn_network import draw_weights
 
-SAID = cut_units("go to the kitchen twice", PlaceNames({"kitchen": "kitchen"}))
+SAID = cut_units("go to the kitchen twice", Gazetteer({"kitchen": "kitchen"}))
 
 
 @pytest.fixture

@@ -6,9 +6,9 @@ import pytest
 
 from planner.language.semantic_parser.amounts import amount_value, find_amounts, write_amount
 from planner.language.semantic_parser.plan_grammar import SlotKind
-from planner.language.semantic_parser.units import PlaceNames, cut_units
+from planner.language.semantic_parser.units import Gazetteer, cut_units
 
-NAMES = PlaceNames(
+NAMES = Gazetteer(
     {"kitchen": "kitchen", "kids' room": "kids", "linen store": "linen", "七号病房": "seven"}
 )
 
@@ -72,8 +72,8 @@ def test_an_amount_is_written_so_that_it_is_read_again(kind: SlotKind, value: fl
 
 def test_units_tell_the_sentence_as_it_was_said() -> None:
     said = cut_units("Tell Dad  I'm LATE, 厨房!", NAMES)
-    assert said.said(2, 4) == "I'm LATE"
-    assert said.said(0, len(said.units) - 1) == "Tell Dad  I'm LATE, 厨房!"
+    assert said.words_between(2, 4) == "I'm LATE"
+    assert said.words_between(0, len(said.units) - 1) == "Tell Dad  I'm LATE, 厨房!"
 
 
 @pytest.mark.parametrize("sentence", ["", "   ", "\u200b", "'", "🙂🙂", "\ud800"])
