@@ -1,0 +1,88 @@
+"""Let the network write a plan greedily, each action held to the grammar and to the sentence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from planner.language.semantic_parser.features import sentence_features
+from planner.language.semantic_parser.linear_plan import (
+    MAX_ACTIONS,
+    MAX_SPAN,
+    QUOTED,
+    TOKENS,
+    Action,
+    GrammarWalk,
+    NextActions,
+    read_actions,
+)
+from planner.language.semantic_parser.plan_grammar import LabelledPlan, SlotKind
+
+if TYPE_CHECKING:
+    from planner.language.semantic_parser.network import PointerNetwork
+    from planner.language.semantic_parser.units import SentenceUnits
+
+_NUMBER = {token: number for number, token in enumerate(TOKENS)}
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedPlan:
+    """Hold the plan that the network reads, and how sure it is."""
+
+    plan: LabelledPlan
+    confidence: float
+    """The probability that it gives all actions together."""
+
+
+def allowed_units(expected: NextActions, said: SentenceUnits) -> list[int]:
+    """Return which units may be pointed at: each place and amount where it is named first."""
+    kind, units = expected.points_at, said.units
+    if kind is None:
+        return []
+    if kind in QUOTED:
+        after = min(expected.first + MAX_SPAN, len(units)) if expected.is_last else len(units)
+        return [at for at in range(expected.first, after) if units[at].key[-1].isalnum()]
+    seen: set[object] = set()
+    found = []
+    for at, unit in enumerate(units):
+        fits = (
+            kind is SlotKind.PLACE if unit.place else bool(unit.amount and unit.amount[0] is kind)
+        )
+        named = unit.place or unit.amount
+        if fits and named not in seen:
+            seen.add(named)
+            found.append(at)
+    return found
+
+
+def allowed_actions(expected: NextActions, said: SentenceUnits) -> tuple[list[int], list[int]]:
+    """Return the numbers of the tokens and of the units that may come next."""
+    units = allowed_units(expected, said)
+    tokens = sorted(_NUMBER[token] for token in expected.tokens)
+    return tokens, units
+
+
+def decode_plan(network: PointerNetwork, said: SentenceUnits) -> ParsedPlan | None:
+    """Return the plan that the network reads in a sentence; None where it finds no end."""
+    encoded = network.encode(sentence_features(said.units))
+    state, written = network.begin(encoded), network.token(0)
+    walk, actions, log_probability = GrammarWalk(), list[Action](), 0.0
+    while not walk.is_done:
+        if len(actions) >= MAX_ACTIONS:
+            return None
+        state, scores, unit_scores = network.step(encoded, state, written)
+        tokens, units = allowed_actions(walk.next_actions(), said)
+        if not tokens and not units:
+            return None
+        joint = np.concatenate((scores[tokens], unit_scores[units]))
+        best = int(joint.argmax())
+        log_probability -= float(np.log(np.exp(joint - joint[best]).sum()))
+        is_token = best < len(tokens)
+        number = tokens[best] if is_token else units[best - len(tokens)]
+        action: Action = TOKENS[number] if is_token else number
+        written = network.token(number + 1) if is_token else encoded.taken[number]
+        walk.take(action)
+        actions.append(action)
+    return ParsedPlan(read_actions(actions, said), float(np.exp(log_probability)))

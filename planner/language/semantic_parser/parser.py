@@ -1,0 +1,60 @@
+"""Read a sentence by the learned reader: its plan and how sure it is; the door of this folder.
+
+It offers and never acts: what a sentence denies, hangs on or says of others' doings is judged by
+whoever asks, for the network's confidence knows nothing of it. numpy is loaded with the first
+sentence, not before. Where the model can't be used the reason is told once, and nothing is read.
+"""
+
+from __future__ import annotations
+
+import logging
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, cut_units
+
+if TYPE_CHECKING:
+    from planner.language.semantic_parser.decoding import ParsedPlan
+    from planner.language.semantic_parser.network import PointerNetwork
+    from planner.plan import Vocabulary
+
+LOG = logging.getLogger(__name__)
+MODEL = Path(__file__).with_name("reader_model.bin")
+
+
+@lru_cache(maxsize=2)
+def load_network(path: Path = MODEL) -> PointerNetwork | None:
+    """Return the network of a file; None, told in the log, where it can't be used."""
+    from planner.language.semantic_parser.model_file import ModelFileError, read_model
+
+    try:
+        return read_model(path)
+    except ModelFileError as error:
+        LOG.warning("the learned reader is off: %s; templates read on", error)
+        return None
+
+
+@lru_cache(maxsize=4)
+def names_of(vocabulary: Vocabulary) -> Gazetteer:
+    """Return a site's spellings and the place that each means; what two places share means none."""
+    found: dict[str, set[str]] = {}
+    for entry in vocabulary.entries:
+        for spelling in entry.spellings:
+            found.setdefault(spelling, set()).add(entry.id)
+    return Gazetteer({word: ids.pop() for word, ids in found.items() if len(ids) == 1})
+
+
+def parse(sentence: str, vocabulary: Vocabulary, path: Path = MODEL) -> ParsedPlan | None:
+    """Return the plan that a sentence may mean; None where it is not read.
+
+    Args:
+        sentence: as it was said.
+        vocabulary: of the site; a plan names its places by their ids.
+        path: of the model.
+    """
+    from planner.language.semantic_parser.decoding import decode_plan
+
+    said = cut_units(sentence, names_of(vocabulary))
+    network = load_network(path) if 0 < len(said.units) <= MAX_UNITS else None
+    return decode_plan(network, said) if network is not None else None

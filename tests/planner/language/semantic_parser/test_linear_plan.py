@@ -1,0 +1,98 @@
+"""Actions write plans one to one, and a walk allows each action of a plan and no other's."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from planner.language.semantic_parser.decoding import allowed_actions, decode_plan
+from planner.language.semantic_parser.linear_plan import (
+    TOKENS,
+    Action,
+    GrammarWalk,
+    UnknownWords,
+    read_actions,
+    write_actions,
+)
+from planner.language.semantic_parser.model_file import quantise
+from planner.language.semantic_parser.network import PointerNetwork
+from planner.language.semantic_parser.plan_grammar import parse_plan, render_plan
+from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, cut_units
+from tests.planner.language.semantic_parser.drawn_network import draw_weights
+
+NAMES = Gazetteer({"kitchen": "kitchen", "hall": "hall", "厨房": "kitchen"})
+SENTENCE = "go to the hall, wait five minutes, then tell Dad it's late in the kitchen"
+
+
+@pytest.mark.parametrize(
+    "label",
+    [
+        'go(hall); wait(5 min); say("it\'s late", to "Dad")',
+        'if not check("Dad", in kitchen) { back } else { home }',
+        'if later("late") { go(there) }',
+        "patrol(hall + kitchen, except hall)",
+        'at("late") { inspect(all) }',
+        "none",
+        "repeat(for 5 min) { find(it) }",
+        'try { go(hall) } else { say("late") }',
+    ],
+)
+def test_a_plan_comes_back_from_its_actions(label: str) -> None:
+    said = cut_units(SENTENCE, NAMES)
+    actions = write_actions(parse_plan(label), said)
+    walk = GrammarWalk()
+    for action in actions:
+        tokens, units = allowed_actions(walk.next_actions(), said)
+        if isinstance(action, str):
+            assert TOKENS.index(action) in tokens
+        else:
+            assert action in units
+        walk.take(action)
+    assert walk.is_done
+    assert render_plan(read_actions(actions, said)) == label
+
+
+@pytest.mark.parametrize("label", ["go(attic)", 'find("cup")', "wait(6 min)", "turn(left, 5 deg)"])
+def test_a_plan_of_what_the_sentence_lacks_is_refused(label: str) -> None:
+    with pytest.raises(UnknownWords):
+        write_actions(parse_plan(label), cut_units(SENTENCE, NAMES))
+
+
+_WORDS = ("kitchen", "the hall", "厨房", "five minutes", "90 degrees", "twice", "“now”", '"', "2 m")
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 99), st.lists(st.sampled_from(_WORDS), min_size=1, max_size=12))
+def test_any_weights_write_a_plan_of_what_the_sentence_holds(seed: int, words: list[str]) -> None:
+    weights = draw_weights(seed)
+    network = PointerNetwork(
+        {name: quantise(each) for name, each in weights.items() if each.ndim > 1},
+        {name: each for name, each in weights.items() if each.ndim == 1},
+    )
+    said = cut_units(" ".join(words), NAMES)
+    parsed = decode_plan(network, said)
+    if parsed is not None:
+        assert 0.0 <= parsed.confidence <= 1.0
+        assert parse_plan(render_plan(parsed.plan)) == parsed.plan
+        write_actions(parsed.plan, said)
+
+
+def test_random_walks_through_the_grammar_end_in_plans() -> None:
+    said, random = cut_units(SENTENCE, NAMES), Random(3)
+    assert len(said.units) <= MAX_UNITS
+    for _ in range(300):
+        walk, actions = GrammarWalk(), list[Action]()
+        while not walk.is_done:
+            tokens, units = allowed_actions(walk.next_actions(), said)
+            written: list[Action] = [TOKENS[token] for token in tokens]
+            choice = random.choice(written + list[Action](units))
+            # Rows end early often enough that the walk is short.
+            if "}" in written and random.random() < 0.5:
+                choice = "}"
+            walk.take(choice)
+            actions.append(choice)
+        plan = read_actions(actions, said)
+        assert parse_plan(render_plan(plan)) == plan

@@ -1,0 +1,36 @@
+"""Learn a little, where PyTorch is: numpy scores alike, and the same seed gives the same file."""
+
+from __future__ import annotations
+
+from itertools import islice
+from pathlib import Path
+
+import pytest
+
+torch = pytest.importorskip(
+    "torch", reason="PyTorch lives in an environment of its own: tools/train_reader/"
+)
+
+from planner.language.semantic_parser.features import sentence_features  # noqa: E402
+from planner.language.semantic_parser.model_file import read_model, write_model  # noqa: E402
+from tools.train_reader.earlier_sentences import earlier_examples  # noqa: E402
+from tools.train_reader.fitting import fit, make_batch  # noqa: E402
+
+
+def test_the_fitted_network_scores_alike_in_numpy_and_is_fitted_alike_again(tmp_path: Path) -> None:
+    torch.set_num_threads(1)
+    examples = list(islice(earlier_examples(), 60))
+    networks = [fit(examples, 2, 1, lambda _: None) for _ in range(2)]
+    for name, network in zip(("one", "other"), networks, strict=True):
+        weights = {name: each.numpy() for name, each in network.state_dict().items()}
+        write_model(weights, tmp_path / name)
+    assert (tmp_path / "one").read_bytes() == (tmp_path / "other").read_bytes()
+    example = examples[0]
+    features = sentence_features(example.said.units)
+    with torch.no_grad():
+        logits = networks[0](make_batch([example], [features]))[0, 0]
+    reader = read_model(tmp_path / "one")
+    encoded = reader.encode(features)
+    _, scores, _ = reader.step(encoded, reader.begin(encoded), reader.token(0))
+    tokens = example.allowed[0][0]
+    assert scores[tokens] == pytest.approx(logits[tokens].numpy(), abs=0.1)

@@ -1,0 +1,1 @@
+"""Teach the learned reader: assignments for writers, their sentences, the network's fit."""

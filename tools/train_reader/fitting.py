@@ -1,0 +1,142 @@
+"""Fit the network: batches by seed, a rate that rises and falls, the mean of late weights."""
+
+from __future__ import annotations
+
+import math
+from random import Random
+from typing import TYPE_CHECKING
+
+import torch
+
+from planner.language.semantic_parser.features import sentence_features
+from planner.language.semantic_parser.linear_plan import TOKENS
+from tools.train_reader.examples import NUMBER
+from tools.train_reader.network import ExampleBatch, TrainableNetwork
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from tools.train_reader.examples import PlanExample
+
+BATCH = 32
+RATE, BUCKET_RATE = 2e-3, 1.2e-2
+"""A bucket is seen seldom, so that it must learn more of each time."""
+WARM_UP = 0.05
+LOST = 0.1
+"""So many features of a sentence aren't seen, so that none is relied on alone."""
+SMOOTHED = 0.05
+KEPT, MEAN_EVERY = 0.98, 5
+"""Of the running mean of weights, each so many steps."""
+
+
+def make_batch(
+    examples: Sequence[PlanExample], features: Sequence[list[list[int]]]
+) -> ExampleBatch:
+    """Return examples with their units' features as tensors."""
+    units = max(len(example.said.units) for example in examples)
+    length = max(len(example.actions) for example in examples)
+    buckets: list[int] = []
+    starts: list[int] = []
+    unit_at: list[int] = []
+    mask = torch.zeros(len(examples), units, dtype=torch.bool)
+    written = torch.zeros(len(examples), length, dtype=torch.long)
+    wanted = torch.full((len(examples), length), -100)
+    allowed = torch.zeros(len(examples), length, len(TOKENS) + units, dtype=torch.bool)
+    for row, (example, of_units) in enumerate(zip(examples, features, strict=True)):
+        mask[row, : len(of_units)] = True
+        for at, of_unit in enumerate(of_units):
+            starts.append(len(buckets))
+            buckets += of_unit
+            unit_at.append(row * units + at)
+        for at, (action, (tokens, pointed)) in enumerate(
+            zip(example.actions, example.allowed, strict=True)
+        ):
+            token = NUMBER[action] if isinstance(action, str) else None
+            unit = action if isinstance(action, int) else 0
+            wanted[row, at] = len(TOKENS) + unit if token is None else token
+            if at + 1 < length:
+                written[row, at + 1] = -1 - unit if token is None else token + 1
+            allowed[row, at, tokens + [len(TOKENS) + unit for unit in pointed]] = True
+        allowed[row, len(example.actions) :, 0] = True
+    tensors = (torch.tensor(buckets), torch.tensor(starts), torch.tensor(unit_at))
+    return ExampleBatch(*tensors, mask, written, wanted, allowed)
+
+
+def _loss(logits: torch.Tensor, batch: ExampleBatch) -> torch.Tensor:
+    """Return the cross entropy; what is smoothed goes to what is allowed."""
+    log_shares = logits.log_softmax(2)
+    is_action = batch.wanted >= 0
+    picked = log_shares.gather(2, batch.wanted.clamp(min=0)[:, :, None])[:, :, 0]
+    mean = log_shares.masked_fill(~batch.allowed, 0.0).sum(2) / batch.allowed.sum(2).clamp(min=1)
+    smoothed = (1.0 - SMOOTHED) * picked + SMOOTHED * mean
+    return -(smoothed * is_action).sum() / is_action.sum()
+
+
+def make_optimizer(network: TrainableNetwork) -> torch.optim.Optimizer:
+    """Return what fits a network: its buckets faster than all else."""
+    buckets = [network.embedding.weight]
+    others = [each for name, each in network.named_parameters() if name != "embedding.weight"]
+    groups = [
+        {"params": buckets, "lr": BUCKET_RATE, "weight_decay": 0.0},
+        {"params": others, "lr": RATE},
+    ]
+    return torch.optim.AdamW(groups, RATE, weight_decay=0.02, fused=True)
+
+
+def fit(
+    examples: Sequence[PlanExample], epochs: int, seed: int, tell: Callable[[str], None]
+) -> TrainableNetwork:
+    """Return a network that was fitted to examples.
+
+    Args:
+        examples: to learn from.
+        epochs: so often each is shown.
+        seed: of first weights and order.
+        tell: is told how it goes.
+    """
+    torch.manual_seed(seed)
+    random = Random(seed)
+    network = TrainableNetwork()
+    mean = {name: weight.detach().clone() for name, weight in network.state_dict().items()}
+    optimizer = make_optimizer(network)
+    features = [sentence_features(example.said.units) for example in examples]
+    steps = epochs * math.ceil(len(examples) / BATCH)
+    rate = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda step: _rate(step / steps))
+    step = 0
+    for epoch in range(epochs):
+        order = sorted(
+            range(len(examples)), key=lambda i: len(examples[i].actions) + random.random() * 4
+        )
+        blocks = [order[at : at + BATCH] for at in range(0, len(order), BATCH)]
+        random.shuffle(blocks)
+        total = 0.0
+        for block in blocks:
+            seen = [_lose(features[i], random) for i in block]
+            batch = make_batch([examples[i] for i in block], seen)
+            loss = _loss(network(batch), batch)
+            total += loss.item()
+            optimizer.zero_grad()
+            loss.backward()
+            torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
+            optimizer.step()
+            rate.step()
+            step += 1
+            if step % MEAN_EVERY:
+                continue
+            kept = min(KEPT, step / (step + 50))
+            with torch.no_grad():
+                for name, weight in network.state_dict().items():
+                    mean[name].lerp_(weight, 1.0 - kept)
+        tell(f"epoch {epoch + 1} of {epochs}: loss {total / len(blocks):.3f}")
+    network.load_state_dict(mean)
+    network.eval()
+    return network
+
+
+def _rate(share: float) -> float:
+    return share / WARM_UP if share < WARM_UP else 0.5 + 0.5 * math.cos(math.pi * min(share, 1.0))
+
+
+def _lose(features: list[list[int]], random: Random) -> list[list[int]]:
+    """Return a sentence's features, some of them lost; each unit keeps one."""
+    return [[bucket for bucket in unit if random.random() > LOST] or unit[:1] for unit in features]
