@@ -11,6 +11,7 @@ ask about. What comes of it is an order like any other, and every guard reads it
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
 
@@ -42,11 +43,12 @@ from planner.mission.place_words import (
 )
 from planner.mission.pronouns import name_pronouns
 from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
-from planner.mission.state import ORDER_SOURCE
+from planner.mission.state import ORDER_SOURCE, goal_to_end
 from planner.mission.whereabouts import search_of_place
-from planner.plan import Code, GoalState
+from planner.plan import ChangedOrder, Code, GoalState
 
 if TYPE_CHECKING:
+    from planner.language.utterance import Utterance
     from planner.mission.state import Mission, MissionState
     from planner.site.site_view import SiteView
 
@@ -212,12 +214,50 @@ def denied_goal(book: MissionState, text: str, now_unix_s: float) -> str | None:
     return next(denied, None)
 
 
-def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:
-    """Tell whether a sentence leans on a goal before it, and what it means is beyond doubt."""
-    corrects = isinstance(intent, Replace) and intent.corrects
-    if not (corrects or isinstance(intent, LeaningCommand)):
-        return False
-    return meaning_of(book, text, now_unix_s) != text
+@dataclass(frozen=True, slots=True)
+class Lean:
+    """Hold how a sentence leans on the goals before it, as its reception found."""
+
+    changed: ChangedOrder
+    """What it makes of the newest order."""
+    ends: bool = False
+    """It ends what runs."""
+    first: bool = False
+    """It is done right after what runs, or in its place."""
+    replaces: bool = False
+    """It ends what runs once it is understood."""
+    corrects: bool = False
+    """It puts something else in the place of what was ordered or asked."""
+
+
+def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | None:
+    """Return how a sentence leans on the goals before it; None: on none, or in doubt."""
+    text, intent = said.text, said.intent
+    short = find_short_follow_up(book, text, now_unix_s)
+    if short is not None:
+        ends = short.ends and _is_under_way(book, now_unix_s)
+        return Lean(ChangedOrder(words=short.order), ends, first=ends or short.joins)
+    if not (intent is None or isinstance(intent, LeaningCommand | Replace)):
+        return None
+    meant = meaning_of(book, text, now_unix_s)
+    if meant == text:
+        return None
+    ends = isinstance(intent, OtherPlaceCommand | LeaveOutCommand) or (
+        isinstance(intent, Replace) and intent.now
+    )
+    return Lean(
+        ChangedOrder(words=meant),
+        ends,
+        first=ends or isinstance(intent, AppendCommand),
+        replaces=isinstance(intent, Replace) and not ends,
+        corrects=isinstance(intent, Replace | OtherPlaceCommand),
+    )
+
+
+def _is_under_way(book: MissionState, now_unix_s: float) -> bool:
+    """Tell whether the goal that would be ended is the newest order itself."""
+    last = last_order(book, now_unix_s)
+    return last is not None and not last.has_ended and goal_to_end(book) == last.id
 
 
 def last_order(book: MissionState, now_unix_s: float) -> Mission | None:

@@ -131,6 +131,7 @@ def thinker(
         remembered = await remember(ask, vocabulary)
         request = ThinkRequest(
             text=ask.text,
+            changed=ask.changed,
             vocabulary=vocabulary,
             room=ask.room,
             language=ask.language,
@@ -169,6 +170,7 @@ def thinker(
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
         unasked = unasked_of(thought, request)
         sure = await _read_surely(request) if unasked else None
+        unasked = _leave_changed(unasked, thought, request, sure)
         return Planned(ask.id, thought.plan, None, thought.brain, unasked, sure)
 
     return think
@@ -177,6 +179,18 @@ def thinker(
 def _tell_down(error: BrainDown) -> Bilingual:
     told = message(Code.MODEL_UNAVAILABLE)
     return join((told, tell_failure(error.why, error.server))) if error.server else told
+
+
+def _leave_changed(
+    unasked: tuple[int, ...], thought: ThinkResult, request: ThinkRequest, sure: StepPlan | None
+) -> tuple[int, ...]:
+    """Return the steps that nobody asked for, also where the order before is changed.
+
+    "Again" names nothing: what it does to the order before is asked for, step for step.
+    """
+    if request.changed is None or sure is None or not isinstance(thought.plan, StepPlan):
+        return unasked
+    return tuple(index for index in unasked if thought.plan.steps[index] not in sure.steps)
 
 
 async def _read_surely(request: ThinkRequest) -> StepPlan | None:

@@ -35,9 +35,10 @@ from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
-from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
+from planner.mission.reception import goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
+from planner.mission.state import goal_to_end
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse, Say, StepPlan
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
@@ -101,7 +102,9 @@ class PlannerCommands:
         if self.desk is not None and mission is not None and is_of_order(mission):
             return await self._think_of_order(self.desk, ask, mission)
         intent = (
-            parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
+            parse(ask.own_words).intent
+            if mission is not None and _by_person(mission, ask)
+            else None
         )
         if mission is not None and (taken := await self._ask_desk(intent, ask, mission)):
             return taken
@@ -118,7 +121,9 @@ class PlannerCommands:
         if isinstance(intent, ForgetFacts) and self._place(intent.about) is not None:
             intent = None  # "forget about the kitchen": a drive may be meant
         if intent is None and mission is not None and not (mission.replies or mission.steps):
-            intent = None if self._facts.answers_question(mission) else read_statement(ask.text)
+            intent = (
+                None if self._facts.answers_question(mission) else read_statement(ask.own_words)
+            )
         if isinstance(intent, Replace | LeaningCommand):
             intent = None  # it leans on nothing that is known: a brain reads it
         if intent is None or mission is None or mission.steps:
@@ -146,7 +151,7 @@ class PlannerCommands:
             standing = parse(mission.order_text).intent  # its question is answered
         if self.desk is None or not isinstance(standing, OrderCommand):
             return None
-        return await self.desk.take(standing, ask, mission)
+        return await self.desk.take(standing, replace(ask, text=ask.own_words), mission)
 
     async def obey_beside_stop(self, given: Submitted) -> Bilingual | None:
         """Remove or pause the standing orders that an order to stop names, too; say which.

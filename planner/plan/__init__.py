@@ -1,6 +1,7 @@
 """Define the planning vocabulary: plans, steps, outcomes, places and goals. Closed."""
 
 from planner.plan.base import Bilingual, Frozen, Language, say_same
+from planner.plan.change import ChangedOrder
 from planner.plan.check import (
     BARE,
     MAX_DEPTH,
@@ -117,6 +118,7 @@ __all__ = [
     "Attempt",
     "Bilingual",
     "BrainTag",
+    "ChangedOrder",
     "Clarify",
     "ClockTime",
     "Code",

@@ -16,6 +16,7 @@ from planner.mission.skills import Eyesight
 from planner.mission.state import Mission, MissionState
 from planner.perception.snapshot import Sight
 from planner.plan import (
+    ChangedOrder,
     Clarify,
     Code,
     Count,
@@ -172,11 +173,13 @@ def test_a_correction_ends_what_runs_and_an_addition_waits_for_it(text: str, end
 
 
 def test_the_goal_keeps_both_what_was_said_and_what_it_means() -> None:
-    book, effects = advance(BEDROOM, Submitted("g9", "again", Language.EN), NOW_S)
+    given = receive(BEDROOM, parse("again"), Submitted("g9", "again", Language.EN), NOW_S).given
+    book, effects = advance(BEDROOM, given, NOW_S)
     kept: Mission = book.missions["g9"]
-    assert (kept.text, kept.words) == ("again", "go to the bedroom")
+    assert (kept.text, kept.words) == ("again", "again")
     asks: list[Any] = [each for each in effects if type(each).__name__ == "AskBrain"]
-    assert [each.text for each in asks] == ["go to the bedroom"]
+    assert [(each.text, each.changed) for each in asks] == [("again", given.changed)]
+    assert given.changed == ChangedOrder(words="go to the bedroom")
 
 
 def rounds() -> MissionState:
