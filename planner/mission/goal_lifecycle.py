@@ -7,9 +7,9 @@ from planner.language.utterance import parse
 from planner.mission.activity import Thinking
 from planner.mission.answered_order import complete_order
 from planner.mission.conversation import situation_of
+from planner.mission.departure import departure_of, find_robot, way_back_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
-from planner.mission.follow_up import departure_of, find_robot, way_back_of
 from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (

@@ -19,7 +19,6 @@ from planner.language.commands import (
     ForgetFacts,
     HereCommand,
     Intent,
-    LeaningCommand,
     OutcomeCommand,
     PauseCommand,
     Remember,
@@ -112,7 +111,7 @@ class PlannerCommands:
             intent = None
         if mission is not None and not (mission.replies or mission.steps):
             intent = self._facts.read_correction(mission.text, mission, intent) or intent
-        if isinstance(intent, Replace) and not intent.corrects:
+        if isinstance(intent, Replace):
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:
             intent = None  # "you are in the way": nothing of ours
@@ -124,8 +123,6 @@ class PlannerCommands:
             intent = (
                 None if self._facts.answers_question(mission) else read_statement(ask.own_words)
             )
-        if isinstance(intent, Replace | LeaningCommand):
-            intent = None  # it leans on nothing that is known: a brain reads it
         if intent is None or mission is None or mission.steps:
             return take_back_offers(await self._brain(ask), self.refuse_offer)
         return Planned(ask.id, await self.carry_out(intent, mission))

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from planner.language.commands import CancelCommand as TakeBack
-from planner.language.commands import LeaningCommand, Replace
+from planner.language.commands import Replace
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
@@ -27,7 +27,6 @@ from planner.mission.errors import IdempotencyConflict, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import (
     Lean,
-    change_round,
     denied_goal,
     denies_way,
     lean_of,
@@ -121,7 +120,7 @@ def receive(
     asking = goals_answered_by(book, said) if may_answer else ()
     now_unix_s, intent = now_s + book.wall_offset_s, said.intent
     lean = leaning if asking or leaning is not None else lean_of(book, said, now_unix_s)
-    if not asking and _may_stop(book, said, now_s):
+    if not asking and _may_stop(book, said, now_s, lean):
         changed = lean.changed if lean is not None else None
         order = changed.words if changed is not None else said.text
         marked = replace(
@@ -137,7 +136,7 @@ def receive(
         return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
     if before is not None:
         return Reception(given, repeats=before.goal)
-    local = bool(asking) or not (intent is None or isinstance(intent, LeaningCommand | Replace))
+    local = bool(asking) or not (intent is None or lean is not None)
     marked = replace(
         given,
         replace=lean.replaces if lean is not None else given.replace,
@@ -210,20 +209,20 @@ def receive_answer(
 
 def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
     """Return whether these words would stop the robot now, with any other meaning besides."""
-    return said.orders_stop or _may_stop(book, said, now_s)
+    lean = lean_of(book, said, now_s + book.wall_offset_s)
+    return said.orders_stop or _may_stop(book, said, now_s, lean)
 
 
-def _may_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
+def _may_stop(book: MissionState, said: Utterance, now_s: float, lean: Lean | None) -> bool:
     """Return whether words that may mean a stop are to be taken for one now.
 
     卧室别进去 leaves one room out of the round that runs, and the rest of it goes on.
     """
-    now_unix_s = now_s + book.wall_offset_s
-    if not is_active(book, now_s) or not (
-        said.may_mean_stop or denies_way(book, said.text, now_unix_s)
-    ):
+    if not is_active(book, now_s) or (lean is not None and lean.keeps_round):
         return False
-    return change_round(book, said.text, now_unix_s) is None
+    leans = lean is not None and bool(lean.changed.steps)
+    may_mean = said.may_mean_stop and not leans
+    return may_mean or denies_way(book, said.text, now_s + book.wall_offset_s)
 
 
 def awaits_answer(book: MissionState) -> bool:
