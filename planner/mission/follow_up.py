@@ -30,10 +30,10 @@ from planner.mission.place_words import names_of
 from planner.mission.state import goal_to_end
 from planner.mission.whereabouts import complete_person
 from planner.plan import (
-    Act,
     Change,
     ChangedOrder,
     Code,
+    Edit,
     GoalState,
     LastOrder,
     Patrol,
@@ -48,8 +48,8 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
 
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
-_ROUNDS = frozenset({Act.LEAVE_OUT, Act.FIRST})
-_CORRECTS = frozenset({Act.INSTEAD, Act.OTHER})
+_ROUNDS = frozenset({Edit.LEAVE_OUT, Edit.FIRST})
+_CORRECTS = frozenset({Edit.INSTEAD, Edit.OTHER})
 _CLAUSE_END = re.compile(r"[,，;；.。!！](?!$)")
 _ARTICLE = re.compile(r"^(?:the|my|our|your|an?|some|any) ", re.IGNORECASE)
 
@@ -103,8 +103,8 @@ def _take_back(book: MissionState, intent: Replace, orders: tuple[Mission, ...],
         if lean is not None:
             return lean
     for each in read_changes(intent.rest, names):
-        there = Change(Act.INSTEAD, each.place, each.inner) if each.act is Act.WHERE else each
-        lean = _lean(book, there, orders, intent.rest) if there.act is Act.INSTEAD else None
+        there = Change(Edit.INSTEAD, each.place, each.inner) if each.act is Edit.WHERE else each
+        lean = _lean(book, there, orders, intent.rest) if there.act is Edit.INSTEAD else None
         changed = changed or (lean.changed if lean is not None else None)
     named = name_antecedents(intent.rest, orders, book.facts, names) or intent.rest
     changed = changed or ChangedOrder(words=named)
@@ -128,20 +128,20 @@ def _lean(
     order = _last_order(book, last)
     if change.act in _ROUNDS and not _may_change_round(book, change, last):
         return None
-    completes = change.act is Act.WHERE and last is not None and not last.steps
+    completes = change.act is Edit.WHERE and last is not None and not last.steps
     words = complete_person(change, last, book.facts) if completes and last is not None else None
     steps = apply(order, change) if words is None else ()
     if not steps and words is None:
         return None
     thinks = last is not None and last.state is GoalState.PLANNING and not last.steps
     changed = ChangedOrder(words=text) if thinks else ChangedOrder(steps=steps, words=words or "")
-    if change.act is Act.ALSO:
+    if change.act is Edit.ALSO:
         wider = change.place is not None and isinstance(steps[0], Patrol)
         ends = wider and _is_under_way(book, last)
         return Lean(changed, ends=ends, first=True)
     place = corrects and change.place is not None and not change.who
-    ends = place or change.act is Act.OTHER or (
-        change.act in _ROUNDS | {Act.INSTEAD, Act.WHERE, Act.OTHER_SIDE}
+    ends = place or change.act is Edit.OTHER or (
+        change.act in _ROUNDS | {Edit.INSTEAD, Edit.WHERE, Edit.OTHER_SIDE}
         and _is_under_way(book, last)
     )  # fmt: skip
     rounds = change.act in _ROUNDS
@@ -159,7 +159,7 @@ def _is_over_there(book: MissionState, change: Change, last: Mission | None) -> 
 
     "When you're done in the kitchen, …" waits for what is done there, and for nothing else.
     """
-    if change.act is not Act.ALSO or change.denied is None:
+    if change.act is not Edit.ALSO or change.denied is None:
         return True
     steps = last.steps if last is not None else ()
     gone = {place for step in steps for place in places_of(step)}
@@ -254,9 +254,9 @@ def denies_way(book: MissionState, text: str, now_unix_s: float) -> bool:
     names = names_of(book.facts)
     whole = read_changes(text, names)
     first = _CLAUSE_END.split(text.strip(), maxsplit=1)[0]
-    denied = {each.place for each in whole if each.act is Act.LEAVE_OUT and each.denied}
-    if not denied and first != text and not any(each.act is Act.INSTEAD for each in whole):
-        denied = {each.place for each in read_changes(first, names) if each.act is Act.LEAVE_OUT}
+    denied = {each.place for each in whole if each.act is Edit.LEAVE_OUT and each.denied}
+    if not denied and first != text and not any(each.act is Edit.INSTEAD for each in whole):
+        denied = {each.place for each in read_changes(first, names) if each.act is Edit.LEAVE_OUT}
     return not _places_ahead(last).isdisjoint(denied)
 
 

@@ -1,7 +1,7 @@
 """Define the planning vocabulary: plans, steps, outcomes, places and goals. Closed."""
 
 from planner.plan.base import Bilingual, Frozen, Language, say_same
-from planner.plan.change import Act, Change, ChangedOrder, LastOrder
+from planner.plan.change import Change, ChangedOrder, Edit, LastOrder
 from planner.plan.changed_steps import apply
 from planner.plan.check import (
     BARE,
@@ -115,7 +115,6 @@ __all__ = [
     "RUNNABLE",
     "STANDS",
     "STEPLESS",
-    "Act",
     "AnswerPlan",
     "Ask",
     "Attempt",
@@ -130,6 +129,7 @@ __all__ = [
     "Condition",
     "Count",
     "Decide",
+    "Edit",
     "Entry",
     "Explore",
     "Find",

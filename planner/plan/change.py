@@ -11,7 +11,7 @@ from planner.plan.steps import Step
 from planner.plan.vocabulary import Vocabulary
 
 
-class Act(StrEnum):
+class Edit(StrEnum):
     """Name what a sentence does with the newest order."""
 
     AGAIN = "again"
@@ -44,7 +44,7 @@ class Act(StrEnum):
 class Change:
     """Hold what a sentence says about the newest order, each slot as far as it names one."""
 
-    act: Act
+    act: Edit
     place: str | None = None
     inner: str | None = None
     """What stands in the place: "the living room, on the sofa"."""

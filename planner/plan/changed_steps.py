@@ -11,16 +11,18 @@ from collections.abc import Callable
 from math import pi, radians
 from types import MappingProxyType
 
-from planner.plan.change import Act, Change, LastOrder
+from planner.plan.change import Change, Edit, LastOrder
 from planner.plan.goal import places_of
 from planner.plan.slots import (
-    inside,
+    SEEKS,
     names_place,
     places_in,
+    places_inside,
     put_person,
     put_place,
     put_words,
     room_of,
+    sought_thing,
 )
 from planner.plan.steps import (
     Count,
@@ -41,7 +43,6 @@ BIT_RAD, BIT_M = radians(30.0), 0.2
 """Of "a bit more" of a turn and of a straight drive, as for "turn left a bit"."""
 LOOKS = frozenset({"count", "find", "look"})
 _DRIVES = frozenset({"go_to", "come_back", "return_home", "turn", "move", "wait", "stand_at"})
-_SEEKS = frozenset({"find", "go_to", "patrol"})
 _SPEAKS = frozenset({"say", "ask"})
 _FACES = frozenset({"go_to_object", "stand_at"})
 """After these the robot faces what it came for, so that "closer" is straight ahead."""
@@ -54,14 +55,7 @@ def apply(last: LastOrder, change: Change) -> Steps:
     return _ACTS[change.act](last, change) or ()
 
 
-def sought_thing(last: LastOrder) -> str | None:
-    """Return the one thing that an order does nothing but search for; None where it does more."""
-    things = {step.object for step in last.steps if isinstance(step, Find)}
-    only = len(things) == 1 and all(step.kind in _SEEKS for step in last.steps)
-    return things.pop() if only else None
-
-
-def _again(last: LastOrder, change: Change) -> Steps | None:
+def _repeat(last: LastOrder, change: Change) -> Steps | None:
     steps = last.steps
     kinds = {node.step.kind for node in list_nodes(steps)}
     match change.kind:
@@ -110,8 +104,8 @@ def _instead(last: LastOrder, change: Change) -> Steps | None:
     if change.place is None:
         return _put_person_or_words(last, change)
     if change.who:
-        return _moved(last, change)
-    if change.inner is not None and change.inner not in inside(last.names, change.place):
+        return _correct_whereabouts(last, change)
+    if change.inner is not None and change.inner not in places_inside(last.names, change.place):
         return None
     put = _put_place(last, change.place, change.inner)
     if put is None and not all(step.kind in _DRIVES for step in last.steps):
@@ -119,14 +113,15 @@ def _instead(last: LastOrder, change: Change) -> Steps | None:
     return put or (GoTo(place=change.inner or change.place),)
 
 
-def _moved(last: LastOrder, change: Change) -> Steps | None:
+def _correct_whereabouts(last: LastOrder, change: Change) -> Steps | None:
     """Return the order at the place where its person or thing is said to be instead."""
     before = places_in(last.steps)
-    seeks_thing = change.who == "it" and last.person is None and sought_thing(last) is not None
+    seeks_thing = (
+        change.who == "it" and last.person is None and sought_thing(last.steps) is not None
+    )
     place = change.place
-    if place is None or place in before or len(before) > 1:
-        return None
-    if not (seeks_thing or (change.who != "it" and last.person is not None)):
+    known = seeks_thing or (change.who != "it" and last.person is not None)
+    if place is None or place in before or len(before) > 1 or not known:
         return None
     if change.denied is not None and before and change.denied not in before:
         return None
@@ -136,19 +131,19 @@ def _moved(last: LastOrder, change: Change) -> Steps | None:
     return _narrow(last, place) or ((*called, *last.steps) if last.person else None)
 
 
-def _other(last: LastOrder, change: Change) -> Steps | None:
+def _take_other_place(last: LastOrder, change: Change) -> Steps | None:
     left = last.spoken - places_in(last.steps)
     return _put_place(last, next(iter(left))) if len(left) == 1 == len(last.spoken) - 1 else None
 
 
-def _where(last: LastOrder, change: Change) -> Steps | None:
+def _narrow_search(last: LastOrder, change: Change) -> Steps | None:
     """Return the search of the place that is said, or of all; None where no search is open."""
     seeks = [step for step in last.steps if isinstance(step, Find)]
     placed = any(places_of(step) for step in last.steps)
     missed = change.missed or not (last.ended and last.found)
     if last.person is not None and seeks and not placed and not last.ended:
         return _narrow(last, change.place) if change.place and change.who != "it" else None
-    thing = sought_thing(last)
+    thing = sought_thing(last.steps)
     if thing is None or (change.who not in ("", "it") and last.person is None):
         return None
     if change.place is None:
@@ -158,7 +153,7 @@ def _where(last: LastOrder, change: Change) -> Steps | None:
     if not (change.tries or change.tells) and placed:
         return None
     place = change.inner or change.place
-    if change.inner is not None and change.inner not in inside(last.names, change.place):
+    if change.inner is not None and change.inner not in places_inside(last.names, change.place):
         return None
     return (GoTo(place=place), Find(object=thing, place=place))
 
@@ -167,7 +162,7 @@ def _narrow(last: LastOrder, place: str | None) -> Steps | None:
     """Return the order with its search at one place."""
     if place is None or not any(isinstance(step, Find) for step in last.steps):
         return None
-    if len({node.step.kind for node in list_nodes(last.steps)} - _SPEAKS - _SEEKS) > 0:
+    if len({node.step.kind for node in list_nodes(last.steps)} - _SPEAKS - SEEKS) > 0:
         return None
     found: list[Step] = []
     for step in last.steps:
@@ -184,7 +179,7 @@ def _leave_out(last: LastOrder, change: Change) -> Steps | None:
     if place is None or whole is None:
         return None
     looked = any(step.kind in LOOKS for _, steps in whole for step in steps)
-    gone = {place, *inside(last.names, place)}
+    gone = {place, *places_inside(last.names, place)}
     left = [(stop, steps) for stop, steps in whole if stop not in gone]
     if not left or len(left) == len(whole) or (change.tells and not looked):
         return None
@@ -203,8 +198,8 @@ _Stops = list[tuple[str, Steps]]
 
 
 def _way_home(last: LastOrder) -> Steps:
-    ends = len(last.ahead) > 1 and last.ahead[-1].kind in ("come_back", "return_home")
-    return last.ahead[-1:] if ends else ()
+    ends = last.ahead[-1].kind if len(last.ahead) > 1 else ""
+    return last.ahead[-1:] if ends in ("come_back", "return_home") else ()
 
 
 def _round_of(last: LastOrder) -> _Stops | None:
@@ -246,7 +241,7 @@ def _join(last: LastOrder, stops: _Stops) -> Steps:
     return (*steps, *_way_home(last))
 
 
-def _more(last: LastOrder, change: Change) -> Steps | None:
+def _go_on_a_bit(last: LastOrder, change: Change) -> Steps | None:
     step = last.steps[-1] if last.steps else None
     if change.kind == "closer" and step is not None and step.kind in _FACES:
         return (MoveStraight(distance_m=BIT_M),)
@@ -275,7 +270,7 @@ def _other_side(last: LastOrder, change: Change) -> Steps | None:
     return (Turn(angle_rad=side * (wanted + come if wanted < pi else wanted)),)
 
 
-def _seen(last: LastOrder, change: Change) -> Steps | None:
+def _ask_what_was_seen(last: LastOrder, change: Change) -> Steps | None:
     kinds = {node.step.kind for node in list_nodes(last.steps)}
     looked = bool(kinds & (LOOKS | {"patrol", "follow"}))
     if change.words is not None:  # "see anyone?"
@@ -287,29 +282,29 @@ def _seen(last: LastOrder, change: Change) -> Steps | None:
 
 
 def _like(last: LastOrder, change: Change) -> Steps | None:
-    thing = sought_thing(last)
+    thing = sought_thing(last.steps)
     return (Look(question=(change.words or "").format(thing)),) if thing else None
 
 
 def _the_one(last: LastOrder, change: Change) -> Steps | None:
-    thing = sought_thing(last)
+    thing = sought_thing(last.steps)
     return (GoToObject(object=thing, place=change.place),) if thing else None
 
 
-_ACTS: MappingProxyType[Act, Callable[[LastOrder, Change], Steps | None]] = MappingProxyType(
+_ACTS: MappingProxyType[Edit, Callable[[LastOrder, Change], Steps | None]] = MappingProxyType(
     {
-        Act.AGAIN: _again,
-        Act.ALSO: _also,
-        Act.INSTEAD: _instead,
-        Act.OTHER: _other,
-        Act.WHERE: _where,
-        Act.LEAVE_OUT: _leave_out,
-        Act.FIRST: _first,
-        Act.MORE: _more,
-        Act.OTHER_SIDE: _other_side,
-        Act.SEEN: _seen,
-        Act.LIKE: _like,
-        Act.THE_ONE: _the_one,
+        Edit.AGAIN: _repeat,
+        Edit.ALSO: _also,
+        Edit.INSTEAD: _instead,
+        Edit.OTHER: _take_other_place,
+        Edit.WHERE: _narrow_search,
+        Edit.LEAVE_OUT: _leave_out,
+        Edit.FIRST: _first,
+        Edit.MORE: _go_on_a_bit,
+        Edit.OTHER_SIDE: _other_side,
+        Edit.SEEN: _ask_what_was_seen,
+        Edit.LIKE: _like,
+        Edit.THE_ONE: _the_one,
     }
 )
 

@@ -9,7 +9,7 @@ from typing import Any
 from planner.plan.base import Bilingual
 from planner.plan.goal import StepRecord, places_of
 from planner.plan.responses import StepPlan
-from planner.plan.steps import Attempt, If, Look, Patrol, Repeat, Say, Step
+from planner.plan.steps import Attempt, Find, If, Look, Patrol, Repeat, Say, Step
 from planner.plan.tree import StepRole, children_of, list_nodes
 from planner.plan.vocabulary import Vocabulary
 
@@ -18,6 +18,7 @@ _HOLDS = {
     "try": {"steps": StepRole.BODY, "on_failure": StepRole.ON_FAILURE},
     "repeat": {"steps": StepRole.BODY, "until": StepRole.UNTIL},
 }
+SEEKS = frozenset({"find", "go_to", "patrol"})
 _SHOWN = set(
     {"kind", "place", "places", "object", "text", "question", "seconds", "angle_rad", "distance_m"}
     | {"span", "deeds", "look", "x", "y", "times", "side", "word", "time", "after", "before"}
@@ -48,13 +49,20 @@ def places_in(steps: Sequence[Step]) -> set[str]:
     return {place for node in list_nodes(steps) for place in places_of(node.step)}
 
 
+def sought_thing(steps: Sequence[Step]) -> str | None:
+    """Return the one thing that steps do nothing but search for; None where they do more."""
+    things = {step.object for step in steps if isinstance(step, Find)}
+    only = len(things) == 1 and all(step.kind in SEEKS for step in steps)
+    return things.pop() if only else None
+
+
 def room_of(names: Vocabulary, place: str) -> str | None:
     """Return the room in which a place stands; None of a room, and of what stands in none."""
     entry = names.by_id.get(place)
     return entry.room if entry is not None else None
 
 
-def inside(names: Vocabulary, place: str | None) -> set[str]:
+def places_inside(names: Vocabulary, place: str | None) -> set[str]:
     """Return the places that stand in a room."""
     return {each.id for each in names.entries if place is not None and each.room == place}
 
@@ -77,7 +85,7 @@ def put_place(steps: Sequence[Step], names: Vocabulary, put: dict[str, str]) -> 
             changes["question"] = _rename(names, step.question, put)
         return step.model_copy(update=changes)
 
-    return tuple(_each(step, change) for step in steps)
+    return tuple(_change_each(step, change) for step in steps)
 
 
 def _rename(names: Vocabulary, words: str, put: dict[str, str]) -> str:
@@ -116,7 +124,7 @@ def put_person(steps: Sequence[Step], old: str | None, new: str) -> tuple[Step, 
             update={each: name.sub(lambda _: new, getattr(step, each)) for each in fields}
         )
 
-    return tuple(_each(step, change) for step in steps)
+    return tuple(_change_each(step, change) for step in steps)
 
 
 def put_words(steps: Sequence[Step], person: str | None, words: str) -> tuple[Step, ...] | None:
@@ -129,14 +137,14 @@ def put_words(steps: Sequence[Step], person: str | None, words: str) -> tuple[St
     return tuple(Say(text=text) if isinstance(step, Say) else step for step in steps)
 
 
-def _each(step: Step, change: Callable[[Step], Any]) -> Step:
+def _change_each(step: Step, change: Callable[[Step], Any]) -> Step:
     """Return a step, and those that it holds, changed."""
     held: dict[str, object] = {}
     if isinstance(step, If | Attempt | Repeat):
         for name in _HOLDS[step.kind]:
             part = getattr(step, name)
             if isinstance(part, tuple):
-                held[name] = tuple(_each(each, change) for each in part)
+                held[name] = tuple(_change_each(each, change) for each in part)
             elif part is not None:
                 held[name] = change(part)
     changed: Step = change(step)

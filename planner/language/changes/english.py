@@ -7,7 +7,7 @@ where ``REASON`` says so, are taken off before.
 from __future__ import annotations
 
 from planner.language.changes.row import Row
-from planner.plan import Act
+from planner.plan import Edit
 
 DET = r"(?:(?:the|my|our|your|his|her|their|a|an|some|any) )?"
 AT = (
@@ -105,120 +105,123 @@ _LOUDER = r"(?:(?:a )?(?:bit |little |lot |much )?(?:louder|slower|more slowly|c
 
 ROWS: tuple[Row, ...] = (
     # act, whole sentence, slots that its words fill by themselves
-    Row(Act.WHERE, rf"(?:{_MISSED})?(?:{_HE}{_IS} )(?:{HEDGE} )*(?:{_BUSY} )?{P}"
+    Row(Edit.WHERE, rf"(?:{_MISSED})?(?:{_HE}{_IS} )(?:{HEDGE} )*(?:{_BUSY} )?{P}"
      rf"(?:,? {_BUSY})?", "tells"),
-    Row(Act.WHERE, r"(?:i|we)(?:'ve| have)?(?: (?:may|might|must|could) have)?(?: just| last)*"
+    Row(Edit.WHERE, r"(?:i|we)(?:'ve| have)?(?: (?:may|might|must|could) have)?(?: just| last)*"
      rf" (?:left|put|saw|seen|had|forgot|dropped|used) (?P<who>it|them) {P}", "tells"),
-    Row(Act.WHERE, rf"(?:{_MISSED})?{_TRY} {P}", "tries"),
-    Row(Act.WHERE, rf"then {P}", "tries kind=then"),
-    Row(Act.WHERE, rf"(?:{_MISSED})?{_CHECK} {P}(?: instead)?", "tells tries"),
-    Row(Act.WHERE, rf"(?:{_MISSED})?{P}(?:,? {_BUSY})?"),
-    Row(Act.WHERE, rf"(?:{_MISSED})?(?:(?:{_TRY}|{_CHECK}) )?{_EVERYWHERE}", "tries"),
-    Row(Act.AGAIN, r"(?:do |try |go |run )?(?:(?:it|that|this|the same(?: thing)?) )?"
+    Row(Edit.WHERE, rf"(?:{_MISSED})?{_TRY} {P}", "tries"),
+    Row(Edit.WHERE, rf"then {P}", "tries kind=then"),
+    Row(Edit.WHERE, rf"(?:{_MISSED})?{_CHECK} {P}(?: instead)?", "tells tries"),
+    Row(Edit.WHERE, rf"(?:{_MISSED})?{P}(?:,? {_BUSY})?"),
+    Row(Edit.WHERE, rf"(?:{_MISSED})?(?:(?:{_TRY}|{_CHECK}) )?{_EVERYWHERE}", "tries"),
+    Row(Edit.AGAIN, r"(?:do |try |go |run )?(?:(?:it|that|this|the same(?: thing)?) )?"
      rf"{_ONCE_MORE}|(?:repeat|redo) (?:it|that|this)(?: again)?|(?:the )?same (?:thing )?again"
      r"|repeat(?: the)?(?: last)? (?:goal|order|task|drive)"),
-    Row(Act.AGAIN, r"(?:do |go |try )?(?:(?:it|that|this|the same) )?(?:again )?"
+    Row(Edit.AGAIN, r"(?:do |go |try )?(?:(?:it|that|this|the same) )?(?:again )?"
      r"(?P<times>twice|thrice|(?:two|three|four|five|[2-9]) times)(?: more| again)?"),
-    Row(Act.AGAIN, r"(?:do )?(?:(?:it|that|this) )?(?P<times>two|three|four|five|[2-9]) more"
+    Row(Edit.AGAIN, r"(?:do )?(?:(?:it|that|this) )?(?P<times>two|three|four|five|[2-9]) more"
      r"(?: times)?"),
-    Row(Act.AGAIN, rf"(?:(?:go (?:and |back and )?|just )?(?P<kind>count|look)(?:{_THEM}"
+    Row(Edit.AGAIN, rf"(?:(?:go (?:and |back and )?|just )?(?P<kind>count|look)(?:{_THEM}"
      rf"(?: properly| carefully)?) {_ONCE_MORE})(?:,? (?:i (?:think|bet) )?"
      r"(?:there (?:must|should) be more|you missed [a-z ]+))?"),
-    Row(Act.AGAIN, rf"(?:go (?:and |back and )?)?(?:check|search){_THEM} {_ONCE_MORE}"
+    Row(Edit.AGAIN, rf"(?:go (?:and |back and )?)?(?:check|search){_THEM} {_ONCE_MORE}"
      rf"|double[- ]check{_THEM}|(?:have|take) another (?:look|go)(?: (?:in )?there)?"
      r"(?:,? (?:i (?:think|bet) )?you missed [a-z ]+)?", "kind=look"),
-    Row(Act.AGAIN, rf"recount{_THEM}|(?:have|take) another count", "kind=count"),
-    Row(Act.AGAIN, r"(?:(?:she|he|they|nobody) (?:didn't|couldn't) (?:hear|understand|catch)"
+    Row(Edit.AGAIN, rf"recount{_THEM}|(?:have|take) another count", "kind=count"),
+    Row(Edit.AGAIN, r"(?:(?:she|he|they|nobody) (?:didn't|couldn't) (?:hear|understand|catch)"
      r"(?: (?:you|it|that))*[ ,]+)?(?:so )?(?:say|repeat|shout) (?:it|that|this)"
      rf"(?: to (?:her|him|them))?(?: (?:{_ONCE_MORE}|(?P<times>twice|two times)(?: more)?))?"
      rf"(?:[ ,]*(?:but )?{_LOUDER})?", "kind=say"),
-    Row(Act.AGAIN, rf"(?:and )?(?:{_ONCE_MORE}[ ,]*(?:but )?)?{_LOUDER}", "kind=say"),
-    Row(Act.AGAIN, r"(?:(?:and|no|then|go back and) ?,? ?)*(?:tell|ask|remind|warn|greet|call)"
+    Row(Edit.AGAIN, rf"(?:and )?(?:{_ONCE_MORE}[ ,]*(?:but )?)?{_LOUDER}", "kind=say"),
+    Row(Edit.AGAIN, r"(?:(?:and|no|then|go back and) ?,? ?)*(?:tell|ask|remind|warn|greet|call)"
      rf" (?P<who>him|her|them) {_ONCE_MORE}(?:,? louder)?", "kind=tell"),
-    Row(Act.OTHER, rf"{_NO}*(?:i meant? |i said |go to |to )?(?:the|that) other(?: one| room"
+    Row(Edit.OTHER, rf"{_NO}*(?:i meant? |i said |go to |to )?(?:the|that) other(?: one| room"
      r"| place)?"),
-    Row(Act.LEAVE_OUT, rf"(?:{_NO}|but[ ,]+|and[ ,]+)*(?P<denied>not |i (?:didn't|did not|never)"
+    Row(Edit.LEAVE_OUT, rf"(?:{_NO}|but[ ,]+|and[ ,]+)*(?P<denied>not |i (?:didn't|did not|never)"
      rf" (?:say|said|mean|meant|want|wanted|ask for|asked for) ){P}"),
-    Row(Act.LEAVE_OUT, rf"(?:{_NO}|but[ ,]+|and[ ,]+|also[ ,]+)*(?:(?:you (?:can|could|may|might)"
+    Row(Edit.LEAVE_OUT, rf"(?:{_NO}|but[ ,]+|and[ ,]+|also[ ,]+)*(?:(?:you (?:can|could|may|might)"
      r"(?: as well)? )?(?:skip|omit|ignore|leave out|miss out|pass over|stay out of"
      rf"|(?:keep|stay) (?:away from|clear of)) {P}|(?:you (?:can|could|may) )?leave"
      r" (?:(?:the|my|our) )?(?P<p2>§+) out(?: of it)?|(?:all |everywhere )?(?:but not"
      r"|except(?: for)?|apart from|without|not including) (?:(?:the|my|our) )?(?P<p3>§+))",
      "kind=skip"),
-    Row(Act.LEAVE_OUT, rf"(?:{_NO}|but[ ,]+|and[ ,]+)*(?:(?:don't|do not)(?: bother)?"
+    Row(Edit.LEAVE_OUT, rf"(?:{_NO}|but[ ,]+|and[ ,]+)*(?:(?:don't|do not)(?: bother)?"
      rf" (?:with|about|{_VISITS})|(?:you (?:don't|do not) (?:need|have) to|you needn't"
      rf"|(?:there(?:'s| is) )?no (?:need to|point(?: in)?)) {_VISITS}"
      rf"|never ?mind(?: about)?) {P}"),
-    Row(Act.LEAVE_OUT, rf"{_NO}*(?:i (?:know|think) )?(?:it|he|she|they)(?:'s not|'re not| is not"
+    Row(Edit.LEAVE_OUT, rf"{_NO}*(?:i (?:know|think) )?(?:it|he|she|they)(?:'s not|'re not| is not"
      rf"| are not| isn't| aren't) {P}(?: either)?", "tells"),
-    Row(Act.FIRST, rf"(?:{_NO}|but )*(?:(?:(?:go|drive|head) to|do|check|visit|try|look in"
+    Row(Edit.FIRST, rf"(?:{_NO}|but )*(?:(?:(?:go|drive|head) to|do|check|visit|try|look in"
      rf"|take) {P}"
      r" first|(?:start|begin) (?:with|in|at) (?:(?:the|my|our) )?(?P<p2>§+)"
      r"|(?:(?:the|my|our) )?(?P<p3>§+) first)"),
-    Row(Act.INSTEAD, rf"{_NO}*(?:not {Q}[ ,]+)(?:but )?(?:rather )?(?:i (?:want|need) you"
+    Row(Edit.INSTEAD, rf"{_NO}*(?:not {Q}[ ,]+)(?:but )?(?:rather )?(?:i (?:want|need) you"
      rf" (?:to (?:go|come|be) )?)?(?:it(?:'s| is) )?{P}"),
-    Row(Act.INSTEAD, rf"{_NO}+{_HE}(?:'s|'re| is| are)(?: (?:now|actually|really|just|back))* {P}"
+    Row(Edit.INSTEAD, rf"{_NO}+{_HE}(?:'s|'re| is| are)(?: (?:now|actually|really|just|back))* {P}"
      rf"(?: (?:now|today|instead))?(?:,? not {Q}(?: any ?more)?)?"),
-    Row(Act.INSTEAD, rf"{_NO}*{_HE}(?:'s|'re| is| are)(?:n't| not) {Q}[ ,]+(?:but )?(?:(?:he|she"
+    Row(Edit.INSTEAD, rf"{_NO}*{_HE}(?:'s|'re| is| are)(?:n't| not) {Q}[ ,]+(?:but )?(?:(?:he|she"
      rf"|they|it)(?:'s|'re| is| are) )?(?:now )?{P}"),
-    Row(Act.INSTEAD, rf"{_NO}*(?:{_DENY}{_NO}*(?:{_MEANT} )?|{_MEANT} )(?:rather |try |better "
+    Row(Edit.INSTEAD, rf"{_NO}*(?:{_DENY}{_NO}*(?:{_MEANT} )?|{_MEANT} )(?:rather |try |better "
      rf"|instead )?{P}"
      r"(?: first| instead| rather| i meant?)?(?:[ ,]+(?:so )?(?:go|drive|come) (?:over )?there"
      r"(?: instead)?)?"),
-    Row(Act.INSTEAD, rf"{_NO}*{P},? i meant?"),
-    Row(Act.INSTEAD, rf"(?:{_TAKE}+(?:i meant? |i said )?(?:(?:tell|ask|call|get) )?|i meant? "
+    Row(Edit.INSTEAD, rf"{_NO}*{P},? i meant?"),
+    Row(Edit.INSTEAD, rf"(?:{_TAKE}+(?:i meant? |i said )?(?:(?:tell|ask|call|get) )?|i meant? "
      rf"){WHO}(?: instead)?(?:,? not (?:my )?[a-z]+)?"),
-    Row(Act.INSTEAD, rf"(?:tell|ask|call) {WHO} instead"),
-    Row(Act.INSTEAD, rf"{_TAKE}+say (?P<words>[^,]{{2,60}})|{_NO}*say (?P<words2>[^,]{{2,60}}?),?"
+    Row(Edit.INSTEAD, rf"(?:tell|ask|call) {WHO} instead"),
+    Row(Edit.INSTEAD, rf"{_TAKE}+say (?P<words>[^,]{{2,60}})|{_NO}*say (?P<words2>[^,]{{2,60}}?),?"
      r" instead"),
-    Row(Act.OTHER_SIDE, rf"{_NO}*(?:i (?:meant|said) )?(?:turn |go )?(?:to )?(?:the|your|my) other"
+    Row(Edit.OTHER_SIDE, rf"{_NO}*(?:i (?:meant|said) )?(?:turn |go )?(?:to )?(?:the|your"
+     rf"|my) other"
      r" (?:way|side|direction|left|right)(?:,? (?:i (?:meant|said) )?(?P<side>left|right))?"),
-    Row(Act.OTHER_SIDE, rf"(?:{_NO}+|i (?:meant|said) )(?:(?:turn|go) )?(?:to )?(?:the |your "
+    Row(Edit.OTHER_SIDE, rf"(?:{_NO}+|i (?:meant|said) )(?:(?:turn|go) )?(?:to )?(?:the |your "
      rf"|my )?"
      r"(?P<side>left|right)(?: i (?:meant|mean|said))?(?:,? not (?:left|right))?"),
-    Row(Act.OTHER_SIDE, r"(?P<side>left|right)[ ,]+(?:i (?:meant|mean|said)|not (?:left|right))"),
-    Row(Act.OTHER_SIDE, r"(?:no,? )?(?:that's |that is )?(?:the )?wrong (?:way|direction|side)"
+    Row(Edit.OTHER_SIDE, r"(?P<side>left|right)[ ,]+(?:i (?:meant|mean|said)|not (?:left|right))"),
+    Row(Edit.OTHER_SIDE, r"(?:no,? )?(?:that's |that is )?(?:the )?wrong (?:way|direction|side)"
      r"(?:,? (?:dear,? )?(?:turn |go )?(?:to )?(?:the )?(?P<side>left|right))?"),
-    Row(Act.MORE, rf"(?:and |nearly,? |almost,? |still )?(?:(?:go|move|drive|turn) )?(?:{_BIT} )?"
+    Row(Edit.MORE, rf"(?:and |nearly,? |almost,? |still )?(?:(?:go|move|drive|turn) )?(?:{_BIT} )?"
      rf"{_MORE}(?: (?:to )?(?:the |your )?(?P<side>left|right|forwards?|ahead|backwards?|back))?"
      rf"(?:,? (?:{_BIT} )?more)?|keep going {_BIT}(?: more)?|{_BIT} more"),
-    Row(Act.MORE, r"(?:and )?(?:go |move |turn )?another (?P<amount>(?:\d{1,3}(?:\.\d)? ?|(?:a|one"
+    Row(Edit.MORE, r"(?:and )?(?:go |move |turn )?another (?P<amount>(?:\d{1,3}(?:\.\d)? ?|(?:a"
+     r"|one"
      r"|two|half an?|half|ten|twenty|thirty|fifty) )?)(?P<unit>metres?|meters?|m|cm"
      r"|centimet(?:er|re)s?|degrees?)"),
-    Row(Act.MORE, rf"(?:{_BIT} )?(?:closer|nearer)", "kind=closer"),
-    Row(Act.MORE, r"(?:(?:that(?:'s| is| was)? )?(?:too (?:far|much)|much too far|over)[ ,]+)?"
+    Row(Edit.MORE, rf"(?:{_BIT} )?(?:closer|nearer)", "kind=closer"),
+    Row(Edit.MORE, r"(?:(?:that(?:'s| is| was)? )?(?:too (?:far|much)|much too far|over)[ ,]+)?"
      rf"(?:now |so )*(?:(?:go|come|turn|move|drive) )?(?:back {_BIT}|{_BIT} back(?:wards)?)",
      "back"),
-    Row(Act.MORE, r"(?:that(?:'s| is| was)? )?(?:too (?:far|much)|much too far)[ ,]+(?:now |so )*"
+    Row(Edit.MORE, r"(?:that(?:'s| is| was)? )?(?:too (?:far|much)|much too far)[ ,]+(?:now |so )*"
      rf"(?:(?:go|come|move|drive) )?(?:forwards? {_BIT}|{_BIT} forwards?)", "back kind=forth"),
-    Row(Act.LIKE, r"(?:what|which) colou?r(?:(?: is| are|'s)(?: (?:it|that|they))?)?"
+    Row(Edit.LIKE, r"(?:what|which) colou?r(?:(?: is| are|'s)(?: (?:it|that|they))?)?"
      r"|what(?:'s| is) (?:its|the) colou?r", "words=what colour is the {}"),
-    Row(Act.LIKE, r"what does (?:it|that) look like", "words=what does the {} look like"),
-    Row(Act.THE_ONE, rf"(?:go|drive|come|move|head)(?: over| back| on)? to the one {P}"),
-    Row(Act.SEEN, rf"(?:and )?(?:was|were) (?:it|they|he|she|that) {P}"),
-    Row(Act.SEEN, r"(?:and )?(?:see|seen|saw|spot|spotted|notice|noticed|meet|met|find|found)"
+    Row(Edit.LIKE, r"what does (?:it|that) look like", "words=what does the {} look like"),
+    Row(Edit.THE_ONE, rf"(?:go|drive|come|move|head)(?: over| back| on)? to the one {P}"),
+    Row(Edit.SEEN, rf"(?:and )?(?:was|were) (?:it|they|he|she|that) {P}"),
+    Row(Edit.SEEN, r"(?:and )?(?:see|seen|saw|spot|spotted|notice|noticed|meet|met|find|found)"
      r" (?P<seen>(?:any|some)(?:one|body|thing)(?: [a-z]+){0,2}|any [a-z]+(?: [a-z]+)?)"),
-    Row(Act.INSTEAD, rf"{_NO}*(?:{_DENY}{_NO}*|{_MEANT} )(?P<rest>{_VERB}.+)"),
-    Row(Act.ALSO, r"(?:and )?(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done"
+    Row(Edit.INSTEAD, rf"{_NO}*(?:{_DENY}{_NO}*|{_MEANT} )(?P<rest>{_VERB}.+)"),
+    Row(Edit.ALSO, r"(?:and )?(?:when|once|after|as soon as) (?:you(?:'re| are) (?:all )?(?:done"
      rf"|finished)(?: with (?:that|it|this)| there| here)?(?: {Q})?|you(?: have|'ve)?"
      r" finish(?:ed)?(?: (?:that|it|this))?(?: (?:in )?(?:(?:the|my|our) )?(?P<q2>§+))?"
      rf"|that(?:'s| is) (?:done|finished))[ ,]+(?:then )?(?:{P}|(?P<rest>{_VERB}.+))"),
-    Row(Act.ALSO, rf"(?:(?:and )?(?:what|how) about |(?:now )?(?:do )?(?:the )?same(?: thing)?"
+    Row(Edit.ALSO, rf"(?:(?:and )?(?:what|how) about |(?:now )?(?:do )?(?:the )?same(?: thing)?"
      rf"(?: again)? (?:in|at|for|with) |and (?:now )?){P}{_TOO}?", "asks"),
-    Row(Act.ALSO, rf"{_JOIN}+{P}{_TOO}?|(?:do |take in |include |throw in |add )?{AT}(?:(?:the|my"
+    Row(Edit.ALSO, rf"{_JOIN}+{P}{_TOO}?|(?:do |take in |include |throw in |add )?{AT}(?:(?:the|my"
      rf"|our) )?(?P<p2>§+){_TOO}+|(?:do|take in|include|throw in|add) (?:(?:the|my|our) )?"
      r"(?P<p3>§+)(?: to (?:it|that|the|your) ?(?:round|patrol|tour|list)?s?)?"),
-    Row(Act.ALSO, rf"{_MARK}{_JOIN}*(?:see|check|look)(?: and see)? (?:if|whether) (?:there(?:'s"
+    Row(Edit.ALSO, rf"{_MARK}{_JOIN}*(?:see|check|look)(?: and see)? (?:if|whether) (?:there(?:'s"
      rf"| is| are)"
      rf"|you (?:can )?(?:see|find)) {THING}{_TOO}*", "kind=look"),
-    Row(Act.ALSO, rf"{_MARK}{_JOIN}*(?:look for|find|search for) {THING}{_TOO}*(?: in there"
+    Row(Edit.ALSO, rf"{_MARK}{_JOIN}*(?:look for|find|search for) {THING}{_TOO}*(?: in there"
      rf"| there)?{_TOO}*",
      "kind=find"),
-    Row(Act.ALSO, rf"{_MARK}{_JOIN}*(?:count|how many) {THING}{_TOO}*", "kind=count"),
-    Row(Act.ALSO, rf"(?:and (?:then|also|after that)|also|after that|afterwards|and afterwards"
+    Row(Edit.ALSO, rf"{_MARK}{_JOIN}*(?:count|how many) {THING}{_TOO}*", "kind=count"),
+    Row(Edit.ALSO, rf"(?:and (?:then|also|after that)|also|after that|afterwards|and afterwards"
      rf"|and then also),? (?P<rest>{_VERB}.+?){_TOO}?|(?P<rest2>{_VERB}.+?){_TOO}"),
-    Row(Act.ALSO, rf"{_JOIN}*(?:(?:tell|ask|call|get|invite) )?{WHO}{_TOO}|and (?:(?:tell|ask|call"
+    Row(Edit.ALSO, rf"{_JOIN}*(?:(?:tell|ask|call|get|invite) )?{WHO}{_TOO}|and (?:(?:tell|ask"
+     rf"|call"
      r"|get|invite) )?(?P<person2>(?:(?:my|our) )?[a-z][a-z'-]{1,15})"),
-    Row(Act.ALSO, rf"(?:(?:oh|and|also|what about|how about|plus),? )+{THING}{_TOO}?"
+    Row(Edit.ALSO, rf"(?:(?:oh|and|also|what about|how about|plus),? )+{THING}{_TOO}?"
      rf"|{DET}(?P<thing2>[a-z][a-z -]{{1,24}}?){_TOO}"),
 )  # fmt: skip

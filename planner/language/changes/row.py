@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from planner.plan import Act
+from planner.plan import Edit
 
 
 class Row(NamedTuple):
     """Say which whole sentence is which act; named groups fill the slots of its ``Change``."""
 
-    act: Act
+    act: Edit
     sentence: str
     fills: str = ""
     """Slots that the sentence fills by itself: marks, ``kind=count``, at the end ``words=…``."""

@@ -19,7 +19,7 @@ from planner.language.numbers import angle_rad, chinese_number, metres, times
 from planner.language.object_names import resolve
 from planner.language.person_names import is_given_name
 from planner.language.yes_no import consents
-from planner.plan import Act, Change
+from planner.plan import Change, Edit
 
 Spot = tuple[str, int, int]
 """A place, and where its name begins and ends."""
@@ -32,7 +32,7 @@ _OPEN_END = re.compile(
     r"|\b(?:unless|whenever|until|otherwise|or)\b|如果|要是|假如|除非|的话|否则|(?<=[^,])还是"
 )
 """With these a sentence is more than one word in a conversation."""
-_ASKS = frozenset({Act.SEEN, Act.LIKE, Act.ALSO, Act.AGAIN, Act.WHERE})
+_ASKS = frozenset({Edit.SEEN, Edit.LIKE, Edit.ALSO, Edit.AGAIN, Edit.WHERE})
 _PRONOUNS = MappingProxyType(
     {"him": "he", "her": "she", "them": "they", "that": "it", "他": "he", "她": "she", "它": "it"}
 )
@@ -42,7 +42,7 @@ _ARTICLE = re.compile(r"^(?:the|my|our|your|an?|some|any) ")
 
 
 @lru_cache(maxsize=1)
-def _rows() -> dict[bool, tuple[tuple[Act, re.Pattern[str], str], ...]]:
+def _rows() -> dict[bool, tuple[tuple[Edit, re.Pattern[str], str], ...]]:
     """Return the rows of Chinese and of English, compiled when the first sentence comes."""
     return {
         module is chinese: tuple((act, re.compile(row), fills) for act, row, fills in module.ROWS)
@@ -77,10 +77,10 @@ def read_rows(text: str, spots: tuple[Spot, ...]) -> tuple[Change, ...]:
     if _OPEN_END.search(bare):
         return ()
     wide = fold_width("".join(text.split()) if in_chinese else " ".join(text.split()))
-    whole = _Sentence(bare, wide if len(wide) == len(said) else said, spots, in_chinese)
+    whole = _MaskedSentence(bare, wide if len(wide) == len(said) else said, spots, in_chinese)
     plain, guessed = whole.cuts()
     found = [change for each in plain for change in each.read()]
-    guesses = [change for each in guessed for change in each.read() if change.act is Act.WHERE]
+    guesses = [change for each in guessed for change in each.read() if change.act is Edit.WHERE]
     asks = bare.rstrip(" ,").endswith("?")
     says_yes_or_no = consents(text) is not None and not spots
     return tuple(
@@ -88,12 +88,12 @@ def read_rows(text: str, spots: tuple[Spot, ...]) -> tuple[Change, ...]:
             each
             for each in (*guesses, *found)
             if (not asks or each.act in _ASKS)
-            and (not says_yes_or_no or each.act is Act.OTHER_SIDE)  # "no, right!"
+            and (not says_yes_or_no or each.act is Edit.OTHER_SIDE)  # "no, right!"
         )
     )
 
 
-class _Sentence:
+class _MaskedSentence:
     """Hold a sentence, or the part of it that is read, with its names masked."""
 
     def __init__(self, bare: str, written: str, spots: tuple[Spot, ...], in_chinese: bool) -> None:
@@ -101,7 +101,7 @@ class _Sentence:
         self._zh = in_chinese
         self._words = chinese if in_chinese else english
 
-    def cuts(self) -> tuple[list[_Sentence], list[_Sentence]]:
+    def cuts(self) -> tuple[list[_MaskedSentence], list[_MaskedSentence]]:
         """Return the sentence without courtesy and reason, and without a guess's hedges, too."""
         lead = re.compile(rf"{self._words.LEAD}|[, ]+")
         tail = re.compile(rf"(?:{self._words.TAIL}|[,? ]+)$")
@@ -114,15 +114,15 @@ class _Sentence:
         plain = [part for each in wholes for part in (each.strip(lead, tail), each)]
         return plain, [each.strip(hedged, behind) for each in wholes]
 
-    def _part(self, start: int, end: int) -> _Sentence:
+    def _part(self, start: int, end: int) -> _MaskedSentence:
         spots = tuple(
             (place, first - start, last - start)
             for place, first, last in self._spots
             if start <= first and last <= end
         )
-        return _Sentence(self._bare[start:end], self._written[start:end], spots, self._zh)
+        return _MaskedSentence(self._bare[start:end], self._written[start:end], spots, self._zh)
 
-    def strip(self, lead: re.Pattern[str], tail: re.Pattern[str]) -> _Sentence:
+    def strip(self, lead: re.Pattern[str], tail: re.Pattern[str]) -> _MaskedSentence:
         """Take courtesy off both ends."""
         start, end = 0, len(self._bare)
         while (found := lead.match(self._bare, start, end)) is not None and found.end() > start:
@@ -146,7 +146,7 @@ class _Sentence:
     def _place(self, at: int) -> str | None:
         return next((place for place, first, _ in self._spots if first == at), None)
 
-    def _fill(self, act: Act, match: re.Match[str], fills: str) -> Change | None:
+    def _fill(self, act: Edit, match: re.Match[str], fills: str) -> Change | None:
         """Return a change with the slots of its row; None where a slot's words are none."""
         marks, _, words = fills.partition("words=")
         slots: dict[str, Any] = {"act": act} | ({"words": words} if words else {})

@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.plan import (
-    Act,
     Bilingual,
     Change,
     ComeBack,
     Count,
+    Edit,
     Entry,
     Find,
     GoTo,
@@ -56,7 +56,7 @@ flat: st.SearchStrategy[Any] = st.one_of(
 orders = st.lists(flat, min_size=0, max_size=5).map(tuple)
 changes = st.builds(
     Change,
-    act=st.sampled_from(Act),
+    act=st.sampled_from(Edit),
     place=st.none() | places,
     denied=st.none() | places,
     thing=st.none() | st.just("bottle"),
@@ -95,9 +95,9 @@ def test_a_change_is_pure_and_makes_valid_steps(
 @given(orders)
 def test_again_is_the_same_and_twice_is_the_same_twice(steps: tuple[Step, ...]) -> None:
     last = last_of(steps)
-    assert apply(last, Change(Act.AGAIN)) == steps
+    assert apply(last, Change(Edit.AGAIN)) == steps
     twice = (Repeat(steps=steps, times=2),) if steps else ()
-    assert apply(last, Change(Act.AGAIN, times=2)) == twice
+    assert apply(last, Change(Edit.AGAIN, times=2)) == twice
 
 
 @given(st.lists(flat, min_size=1, max_size=5).map(tuple), places)
@@ -105,7 +105,7 @@ def test_another_place_changes_places_alone(steps: tuple[Step, ...], place: str)
     """Law: where an order names one place, the same steps come out, at the other place."""
     named = {each for step in steps for each in (getattr(step, "place", None),
                                                  *getattr(step, "places", ())) if each}  # fmt: skip
-    made = apply(last_of(steps), Change(Act.INSTEAD, place=place))
+    made = apply(last_of(steps), Change(Edit.INSTEAD, place=place))
     if len(named) != 1 or place in named:
         return
     assert [without_places(each) for each in made] == [without_places(each) for each in steps]
@@ -120,15 +120,15 @@ def test_a_round_loses_one_place_and_keeps_the_order_of_the_rest(
         (Patrol(places=stops),) if patrols else tuple(GoTo(place=each) for each in stops)
     )
     left = tuple(each for each in stops if each != place)
-    made = apply(last_of(steps), Change(Act.LEAVE_OUT, place=place))
-    first = apply(last_of(steps), Change(Act.FIRST, place=place))
+    made = apply(last_of(steps), Change(Edit.LEAVE_OUT, place=place))
+    first = apply(last_of(steps), Change(Edit.FIRST, place=place))
     if place not in stops:
         assert (made, first) == ((), ())
         return
     assert places_of_round(made) == left
     if place != stops[0]:
         assert places_of_round(first) == (place, *left)
-    assert apply(last_of(steps, ended=True), Change(Act.LEAVE_OUT, place=place)) == ()
+    assert apply(last_of(steps, ended=True), Change(Edit.LEAVE_OUT, place=place)) == ()
 
 
 def places_of_round(steps: tuple[Step, ...]) -> tuple[str, ...]:
@@ -141,15 +141,15 @@ def places_of_round(steps: tuple[Step, ...]) -> tuple[str, ...]:
 @given(st.floats(0.1, 3.0), st.sampled_from([1.0, -1.0]), st.sampled_from([1.0, -1.0]), metres)
 def test_a_motion_goes_on_the_way_it_went(much: float, on: float, way: float, more: float) -> None:
     drive = last_of((MoveStraight(distance_m=on * much),))
-    [made] = apply(drive, Change(Act.MORE, way=way, amount=more, turns=False))
+    [made] = apply(drive, Change(Edit.MORE, way=way, amount=more, turns=False))
     assert made == MoveStraight(distance_m=on * way * more)
-    assert apply(drive, Change(Act.MORE, amount=more, turns=True)) == ()
-    assert apply(drive, Change(Act.OTHER_SIDE)) == ()
+    assert apply(drive, Change(Edit.MORE, amount=more, turns=True)) == ()
+    assert apply(drive, Change(Edit.OTHER_SIDE)) == ()
 
 
 @given(orders)
 def test_nothing_of_a_finished_round_is_changed(steps: tuple[Step, ...]) -> None:
-    for act in (Act.LEAVE_OUT, Act.FIRST):
+    for act in (Edit.LEAVE_OUT, Edit.FIRST):
         assert apply(last_of(steps, ended=True), Change(act, place="study")) == ()
 
 
@@ -159,6 +159,6 @@ def test_steps_are_read_back_from_their_records(steps: tuple[Step, ...]) -> None
     assert steps_of(plan_record(made).steps) == made.steps
 
 
-@pytest.mark.parametrize("act", Act)
-def test_an_order_without_steps_has_no_slot(act: Act) -> None:
+@pytest.mark.parametrize("act", Edit)
+def test_an_order_without_steps_has_no_slot(act: Edit) -> None:
     assert apply(last_of(()), Change(act)) == ()

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from planner.language.changes.reader import read_changes
 from planner.language.changes.rows import read_rest
-from planner.plan import Act, Change
+from planner.plan import Change, Edit
 from tests.planner.mission.leaning import NAMES
 
 LEAVES = (
@@ -18,7 +18,7 @@ LEAVES = (
 LEAVES_ZH = ("{}就别进了", "{}别进去", "别去{}了", "{}不用看了", "跳过{}", "{}就算了", "不用去{}")
 
 
-def acts(text: str) -> list[tuple[Act, str | None]]:
+def acts(text: str) -> list[tuple[Edit, str | None]]:
     """Return each act that a sentence may be, with its place."""
     return [(each.act, each.place) for each in read_changes(text, NAMES)]
 
@@ -30,14 +30,14 @@ def acts(text: str) -> list[tuple[Act, str | None]]:
 def test_a_place_is_left_out_however_it_is_said(
     form: str, lead: str, tail: str, said: str, place: str
 ) -> None:
-    assert (Act.LEAVE_OUT, place) in acts(f"{lead}{form.format(said)}{tail}")
+    assert (Edit.LEAVE_OUT, place) in acts(f"{lead}{form.format(said)}{tail}")
 
 
 @pytest.mark.parametrize("form", LEAVES_ZH)
 @pytest.mark.parametrize("tail", ["", "，门关着呢", "，孩子他爸睡着呢。", "，我刚看过"])
 @pytest.mark.parametrize(("said", "place"), [("卫生间", "bathroom"), ("书房", "study")])
 def test_so_it_is_in_chinese(form: str, tail: str, said: str, place: str) -> None:
-    assert (Act.LEAVE_OUT, place) in acts(form.format(said) + tail)
+    assert (Edit.LEAVE_OUT, place) in acts(form.format(said) + tail)
 
 
 @pytest.mark.parametrize(
@@ -50,7 +50,7 @@ def test_so_it_is_in_chinese(form: str, tail: str, said: str, place: str) -> Non
     ],
 )  # fmt: skip
 def test_what_says_more_leaves_nothing_out(text: str) -> None:
-    assert Act.LEAVE_OUT not in {act for act, _ in acts(text)}
+    assert Edit.LEAVE_OUT not in {act for act, _ in acts(text)}
 
 
 PAIRS = (
