@@ -9,7 +9,7 @@ older than ``LEANS_S``, and where it is in doubt what is meant, nothing is chang
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -100,8 +100,10 @@ def _take_back(book: MissionState, intent: Replace, orders: tuple[Mission, ...],
     changed: ChangedOrder | None = None
     for each in read_changes(text, names):
         lean = _lean(book, each, orders, text) if not each.rest else None
-        if lean is not None:
+        if lean is not None and intent.now:
             return lean
+        if lean is not None:  # "… instead" ends what runs once it is understood
+            return replace(lean, ends=False, first=False, replaces=True)
     for each in read_changes(intent.rest, names):
         there = Change(Edit.INSTEAD, each.place, each.inner) if each.act is Edit.WHERE else each
         lean = _lean(book, there, orders, intent.rest) if there.act is Edit.INSTEAD else None
@@ -256,7 +258,8 @@ def denies_way(book: MissionState, text: str, now_unix_s: float) -> bool:
     first = _CLAUSE_END.split(text.strip(), maxsplit=1)[0]
     denied = {each.place for each in whole if each.act is Edit.LEAVE_OUT and each.denied}
     if not denied and first != text and not any(each.act is Edit.INSTEAD for each in whole):
-        denied = {each.place for each in read_changes(first, names) if each.act is Edit.LEAVE_OUT}
+        parts = read_changes(first, names)
+        denied = {each.place for each in parts if each.act is Edit.LEAVE_OUT and not each.tells}
     return not _places_ahead(last).isdisjoint(denied)
 
 

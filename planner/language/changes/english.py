@@ -217,7 +217,8 @@ ROWS: tuple[Row, ...] = (
      rf"| there)?{_TOO}*",
      "kind=find"),
     Row(Edit.ALSO, rf"{_MARK}{_JOIN}*(?:count|how many) {THING}{_TOO}*", "kind=count"),
-    Row(Edit.ALSO, rf"(?:and (?:then|also|after that)|also|after that|afterwards|and afterwards"
+    Row(Edit.ALSO, rf"(?:and(?: then| also| after that| now)?|also|after that|afterwards"
+     rf"|and afterwards"
      rf"|and then also),? (?P<rest>{_VERB}.+?){_TOO}?|(?P<rest2>{_VERB}.+?){_TOO}"),
     Row(Edit.ALSO, rf"{_JOIN}*(?:(?:tell|ask|call|get|invite) )?{WHO}{_TOO}|and (?:(?:tell|ask"
      rf"|call"
