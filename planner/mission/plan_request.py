@@ -168,9 +168,7 @@ def thinker(
         rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
         if rejection is not None:
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
-        unasked = unasked_of(thought, request)
-        sure = await _read_surely(request) if unasked else None
-        unasked = _leave_changed(unasked, thought, request, sure)
+        unasked, sure = await _hold_to_words(thought, request)
         return Planned(ask.id, thought.plan, None, thought.brain, unasked, sure)
 
     return think
@@ -181,16 +179,18 @@ def _tell_down(error: BrainDown) -> Bilingual:
     return join((told, tell_failure(error.why, error.server))) if error.server else told
 
 
-def _leave_changed(
-    unasked: tuple[int, ...], thought: ThinkResult, request: ThinkRequest, sure: StepPlan | None
-) -> tuple[int, ...]:
-    """Return the steps that nobody asked for, also where the order before is changed.
+async def _hold_to_words(
+    thought: ThinkResult, request: ThinkRequest
+) -> tuple[tuple[int, ...], StepPlan | None]:
+    """Return the steps that nobody asked for, and the built-in brain's plan where there are any.
 
-    "Again" names nothing: what it does to the order before is asked for, step for step.
+    "Again" names nothing: what it makes of the order before is asked for, step for step.
     """
-    if request.changed is None or sure is None or not isinstance(thought.plan, StepPlan):
-        return unasked
-    return tuple(index for index in unasked if thought.plan.steps[index] not in sure.steps)
+    unasked, plan = unasked_of(thought, request), thought.plan
+    sure = await _read_surely(request) if unasked else None
+    if request.changed is not None and sure is not None and isinstance(plan, StepPlan):
+        unasked = tuple(index for index in unasked if plan.steps[index] not in sure.steps)
+    return unasked, sure
 
 
 async def _read_surely(request: ThinkRequest) -> StepPlan | None:

@@ -120,8 +120,8 @@ def receive(
     asking = goals_answered_by(book, said) if may_answer else ()
     now_unix_s, intent = now_s + book.wall_offset_s, said.intent
     lean = leaning if asking or leaning is not None else lean_of(book, said, now_unix_s)
+    changed = lean.changed if lean is not None else None
     if not asking and _may_stop(book, said, now_s, lean):
-        changed = lean.changed if lean is not None else None
         order = changed.words if changed is not None else said.text
         marked = replace(
             given, stop=full, doubtful_stop=not full, confirm=True, replace=False, changed=changed,
@@ -130,8 +130,7 @@ def receive(
         return Reception(marked, stops=True)
     if key is not None and key.startswith(RESERVED_KEYS):
         return Reception(given, refused=ReservedKey(key))
-    body = _body_of(given)
-    before = repeats.find(key) if repeats is not None else None
+    body, before = _body_of(given), repeats.find(key) if repeats is not None else None
     if before is not None and before.body != body:
         return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
     if before is not None:
@@ -139,20 +138,20 @@ def receive(
     local = bool(asking) or not (intent is None or lean is not None)
     marked = replace(
         given,
-        replace=lean.replaces if lean is not None else given.replace,
+        replace=given.replace or (lean is not None and lean.replaces),
         first=lean is not None and lean.first,
         resumes=isinstance(intent, GoOn) and not asking,
         asking=asking,
         local=local,
-        changed=lean.changed if lean is not None else None,
+        changed=changed,
     )
     if full and not local:
         return Reception(
             marked, refused=QueueFull(sum(not m.has_ended for m in book.missions.values()))
         )
     request = GoalKey(key, body, given.id) if key is not None else None
-    takes_back = goal_to_end(book) if lean is not None and lean.ends else None
-    return Reception(marked, takes_back=takes_back, request=request)
+    ends = goal_to_end(book) if lean is not None and lean.ends else None
+    return Reception(marked, takes_back=ends, request=request)
 
 
 def _body_of(given: Submitted) -> str:
