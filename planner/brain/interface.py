@@ -12,7 +12,17 @@ from pydantic import BeforeValidator, Field
 
 from planner.brain.situation import Situation
 from planner.brain.streamed_draft import Hear
-from planner.plan import RUNNABLE, Bilingual, BrainTag, Code, Frozen, Language, Plan, Vocabulary
+from planner.plan import (
+    RUNNABLE,
+    Bilingual,
+    BrainTag,
+    ChangedOrder,
+    Code,
+    Frozen,
+    Language,
+    Plan,
+    Vocabulary,
+)
 
 OFFLINE = "offline"
 """Name of the brain that is no model: it plans by grammar and reads no free answer."""
@@ -55,6 +65,9 @@ class ThinkRequest(Frozen):
 
     text: str
     vocabulary: Vocabulary
+    changed: ChangedOrder | None = None
+    """What the sentence makes of the newest order. For the built-in brain alone: a model reads the
+    words as they were said, beside ``situation``."""
     room: str | None = None  # the id of the room the robot is in, where known
     language: Language | None = None  # as the client said; else told from the text
     runnable: frozenset[str] = RUNNABLE  # kinds of steps this robot can do now

@@ -46,7 +46,10 @@ class OfflineBrain:
             remembers=request.situation is not None
             and any(item.fits for item in request.situation.remembered),
         )
-        made = plan(request.text, request.vocabulary, context)
+        changed = request.changed
+        words = changed.words if changed is not None else request.text
+        steps = changed.steps if changed is not None else ()
+        made = StepPlan(steps=steps) if steps else plan(words, request.vocabulary, context)
         if _answers_nothing(made, request):
             made = AnswerPlan(text=say("talk.nothing_asked"))
         rest = rest_of(made, request.observed)

@@ -10,12 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
+from planner.language.changes.rows import read_rest
 from planner.language.commands import (
-    AppendCommand,
     ForgetFacts,
     HereCommand,
     Intent,
-    LeaningCommand,
     Replace,
     TeachFact,
     intent_of,
@@ -43,8 +42,8 @@ class Utterance:
     consent: bool | None
     """True for a plain yes, False for a plain no, None for anything else."""
     language: Language
-    instead: StopReading = StopReading.NONE
-    """What the part says about stopping that is to be done in place of the current goal."""
+    instead: StopReading | None = None
+    """What the part says about stopping that is done after the current goal, or in its place."""
     begins_with_stop: bool = False
     """Whether that part orders a stop."""
 
@@ -62,7 +61,7 @@ class Utterance:
     @property
     def may_mean_stop(self) -> bool:
         """Return whether a stop word stands in it that is not read as anything else."""
-        if isinstance(self.intent, Replace | AppendCommand):
+        if self.instead is not None:
             return self.instead is not StopReading.NONE
         stays = isinstance(self.intent, TeachFact | ForgetFacts | OrderCommand)
         return (self.intent is None or stays) and self.reading is StopReading.POSSIBLE
@@ -79,7 +78,7 @@ class Utterance:
             self.intent is None
             or isinstance(
                 self.intent,
-                Replace | LeaningCommand | GoOn | HereCommand,
+                Replace | GoOn | HereCommand,
             )
         )
         return self.orders_stop or memory_or_goals or self.consent is False
@@ -89,14 +88,16 @@ class Utterance:
 def parse(text: str) -> Utterance:
     """Return a sentence's meaning by itself; the stop lane reads it first."""
     reading, intent = read_stop(text), intent_of(text)
-    rest = intent.rest if isinstance(intent, Replace | AppendCommand) else None
+    rest = intent.rest if isinstance(intent, Replace) else None
+    if intent is None:
+        rest = read_rest(text)
     return Utterance(
         text,
         intent,
         reading,
         consents(text),
         language_of(text),
-        read_stop(rest) if rest is not None else StopReading.NONE,
+        read_stop(rest) if rest is not None else None,
         rest is not None and is_stop(rest),
     )
 

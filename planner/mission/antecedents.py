@@ -1,9 +1,9 @@
-"""Say whom "him" and "there" mean that lean on the orders before: a person, a place, a question.
+"""Name whom "him", "it" and "there" mean that lean on the orders before, in a sentence of its own.
 
-Pure. Laws: a name is put in a pronoun's place only where the newest order that speaks of people
-speaks of one alone, whom the pronoun fits; "there" is a place that a person named, never one of an
-answer; a condition is written out by the question that the newest order looks into, and by no
-other. What is not beyond doubt stays as it was said, for a brain to ask about.
+Pure. Laws: a name is put in a pronoun's place only where the newest order that speaks of people, or
+the newest order, speaks of one person, thing or place alone, which the pronoun fits; "there" is a
+place that a person named, never one of an answer; a condition is written out by the question that
+the newest order looks into. What is in doubt stays as it was said.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
 from planner.language.leaning_condition import WhetherThere, read_whether_there, write_condition
-from planner.language.motion_guard.mentioned_names import find_places
-from planner.language.person_names import people_named
+from planner.language.motion_guard.mentioned_names import find_places, plain
+from planner.language.person_names import is_given_name, people_named
+from planner.plan import GoalState, places_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,17 +47,6 @@ _SPEAKS_ZH = re.compile(
     r"|讲))|和(?=[他她]们?(?:说|讲))"
     r"|叫(?=[他她])|喊(?=[他她]))(?:一下)?(?P<who>他们|她们|他|她)(?P<says>说一声|说一下|说|讲)?"
 )
-_SPEAKS_AGAIN = re.compile(
-    r"(?:(?:please|ok|okay|well|now|and|just|then|go|back|no|can you|could you)[ ,]+)*"
-    r"(?:tell|ask|remind|warn|greet|call) (?P<who>him|her|them)"
-    r" (?:again|once more|one more time|a second time)(?:[ ,]+(?:please|then|louder))*[.!]*",
-    re.IGNORECASE,
-)
-_SPEAKS_AGAIN_ZH = re.compile(
-    r"(?:那|你|请|麻烦|再|去|回去|,|，)*再(?:去)?(?:问|告诉|提醒|通知|叫|喊|[跟和对](?=.{1,2}[说讲]))"
-    r"(?P<who>他|她)们?(?:说|讲)?(?:一?(?:遍|次|声|下))(?:吧|呗|啊)*[。！]*"
-)
-_SPEAKING = frozenset({"say", "ask"})
 _GO_THERE = re.compile(
     r"(?P<head>(?:^|(?<=[ ,]))"
     r"(?:(?:go|drive|come|head|walk|move|pop)(?: (?:over|back|on|straight))?"
@@ -88,24 +78,15 @@ def name_antecedents(
     """
     if not orders:
         return None
-    again = (_SPEAKS_AGAIN_ZH if has_chinese(text) else _SPEAKS_AGAIN).fullmatch(text.strip())
-    if again is not None:
-        return _speak_again(again["who"], orders[0])
     condition = _write_condition(text, orders[0], facts)
     if condition is not None:
         return condition
     chinese = has_chinese(text)
     said = _name_person(text, orders, facts, names, chinese=chinese) or text
-    return _name_place(said, orders[0], facts, names, chinese=chinese) or (
-        said if said != text else None
-    )
-
-
-def _speak_again(who: str, last: Mission) -> str | None:
-    """Return the order to say or ask the same once more; None where another person is meant."""
-    people = people_named(last.order_text)
-    spoke = any(step.kind in _SPEAKING for step in last.steps)
-    return last.order_text if spoke and len(people) == 1 and fits(who, people[0]) else None
+    placed = _name_place(said, orders[0], facts, names, chinese=chinese)
+    if placed is not None or said != text:
+        return placed or said
+    return _name_thing(text, orders[0], facts, names, chinese=chinese)
 
 
 def _write_condition(text: str, last: Mission, facts: SiteView) -> str | None:
@@ -137,7 +118,7 @@ def _name_person(
     if found is None or len(pattern.findall(text)) > 1 or _speaks_of_people(text[: found.start()]):
         return None
     for order in orders[: ORDERS_BACK + 1]:
-        if _speaks_of_people(order.order_text):
+        if people_of(order) or _PEOPLE.search(order.order_text) is not None:
             return _put_person(text, found, order, facts, names, chinese=chinese)
     return None
 
@@ -147,6 +128,19 @@ _PEOPLE = re.compile(
     r"|\bwho\b|人|谁|客",
     re.IGNORECASE,
 )
+
+
+def people_of(order: Mission) -> tuple[str, ...]:
+    """Return the persons of an order, as its words or its steps name them."""
+    named = (step.object for step in order.steps if step.object and is_given_name(step.object))
+    return people_named(order.order_text) or tuple(dict.fromkeys(named))
+
+
+def _named_places(order: Mission, names: Vocabulary) -> set[str]:
+    """Return the places that a person named in an order, or in what it changes."""
+    if order.changed is not None and order.changed.steps:
+        return {place for step in order.steps for place in places_of(step)}
+    return {place.id for place in find_places(order.order_text, names)}
 
 
 def _speaks_of_people(text: str) -> bool:
@@ -162,7 +156,7 @@ def _put_person(
     *,
     chinese: bool,
 ) -> str | None:
-    people = people_named(order.order_text)
+    people = people_of(order)
     who = found["who"] or found.groupdict().get("who_2") or ""
     if has_chinese(order.order_text) is not chinese or len(people) > 1:
         return None
@@ -170,7 +164,7 @@ def _put_person(
     if people and not fits(who, person):
         return None
     here = find_places(text, names)
-    there = {place.id for place in find_places(order.order_text, names)}
+    there = _named_places(order, names)
     name = facts.targets[there.pop()].name.of("zh" if chinese else "en") if len(there) == 1 else ""
     start, end = text[: found.start()], text[found.end() :]
     if name:  # "go back and ask her": back to her
@@ -187,9 +181,9 @@ def _put_person(
 def fits(pronoun: str, person: str) -> bool:
     """Tell whether a pronoun can mean a person of this name."""
     she, he = _HER.search(person) is not None, _HIM.search(person) is not None
-    if pronoun.lower() in ("him", "他"):
+    if pronoun.lower() in ("him", "he", "他"):
         return not she or he
-    return not he or she if pronoun.lower() in ("her", "她") else True
+    return not he or she if pronoun.lower() in ("her", "she", "她") else True
 
 
 def _name_place(
@@ -198,10 +192,81 @@ def _name_place(
     """Return a sentence with the one place that the newest order named for "there"."""
     if find_places(text, names):
         return None
-    there = {place.id for place in find_places(last.order_text, names)}
+    there = _named_places(last, names)
     found = (_GO_THERE_ZH if chinese else _GO_THERE).search(text)
     if found is None or len(there) != 1:
         return None
     name = facts.targets[there.pop()].name.of("zh" if chinese else "en")
     to = name if chinese else f" {'in' if _WAITS.match(found['head']) else 'to'} the {name}"
     return f"{text[: found.start()]}{found['head']}{to}{text[found.end() :]}"
+
+
+_SOUGHT = frozenset({"find", "count", "go_to_object", "recall"})
+_LEAD = (
+    r"(?:(?:please|ok|okay|well|then|now|so|just|and|go|hey|robot|no|yes|alright|all right|right"
+    r"|(?:can|could|would|will) you)[ ,]+)*"
+)
+_ABOUT_THING = re.compile(
+    rf"(?P<head>{_LEAD}(?:(?:go|come|drive) (?:and )?)?(?:(?:have a )?(?:look|search|hunt) for"
+    r"|find|seek|locate|count|(?:go|drive|come|move) (?:right |back |up |over )*to))"
+    r" (?:it|them|him|her)(?P<rest>(?: (?!and |then )[a-z' ]+)?)"
+)
+_ABOUT_THING_ZH = re.compile(
+    r"(?P<head>(?:请|那|那就|好|你|,|再|帮我)*(?:去[^,找]{1,8})?(?:帮我)?(?:找|数|寻找)(?:一?下|一?找)?)"
+    r"(?:它们?|他们?|她们?)(?P<rest>)"
+)
+_THERE = re.compile(
+    rf"(?P<head>{_LEAD}(?:(?:what (?:all )?)?(?:did|have) you [a-z' ]+?|who (?:was|is|were)"
+    r"|(?:was|were|is) (?:some|any)(?:body|one))) (?:in |over )?there"
+)
+_THERE_ZH = re.compile(
+    r"(?P<head>(?:那)?你?)在?(?:那里|那儿|那边)(?P<rest>(?:都|有没有|有)?(?:看到|看见|见到|发现)了?"
+    r"(?:些)?(?:什么|啥|谁|人).*)"
+)
+
+
+def _name_thing(
+    text: str, last: Mission, facts: SiteView, names: Vocabulary, *, chinese: bool
+) -> str | None:
+    """Return a sentence with the one thing, or the one place, of the newest order named."""
+    said = plain(text).strip(" .,!?;。，！？；")
+    thing, place = thing_of(last), _place_of(last, names)
+    if thing is not None and has_chinese(thing) is not chinese:
+        thing = None
+    about = (_ABOUT_THING_ZH if chinese else _ABOUT_THING).fullmatch(said)
+    if about is not None and thing is not None:
+        return f"{about['head']}{'' if chinese else ' the '}{thing}{about['rest']}"
+    there = (_THERE_ZH if chinese else _THERE).fullmatch(said.removesuffix("吗"))
+    if there is None or place is None:
+        return None
+    name = facts.targets[place].name
+    return (
+        f"{there['head']}在{name.zh}{there['rest']}"
+        if chinese
+        else f"{there['head']} in the {name.en}"
+    )
+
+
+def _was_only_proposed(last: Mission) -> bool:
+    """Tell whether a plan was laid before a person, and nothing of it was begun."""
+    waits = last.state in (GoalState.AWAITING_CONFIRMATION, GoalState.CANCELLED)
+    return waits and not last.has_begun
+
+
+def thing_of(last: Mission) -> str | None:
+    """Return the one thing that an order speaks of, in its own words."""
+    things = {step.object for step in last.steps if step.kind in _SOUGHT and step.object}
+    thing = things.pop() if len(things) == 1 else None
+    if thing is None:
+        return None
+    if _was_only_proposed(last) and thing not in plain(last.order_text):
+        return None
+    return re.sub(r"^(?:the|my|our|your|an?) ", "", thing)
+
+
+def _place_of(last: Mission, names: Vocabulary) -> str | None:
+    """Return the one place that an order speaks of."""
+    places = {place for step in last.steps for place in places_of(step) if place in names}
+    if _was_only_proposed(last):
+        places &= {each.id for each in find_places(last.order_text, names)}
+    return places.pop() if len(places) == 1 else None

@@ -44,9 +44,9 @@ def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situatio
         room=spot_at(book.facts, pose).room if pose is not None else None,
         place=_place_near(book.facts, pose) if pose is not None else None,
         heading_deg=round(degrees(pose.yaw_rad)) if pose is not None else None,
-        running=None if own or running is None else running.order_text[:_ORDER],
+        running=None if own or running is None else running.text[:_ORDER],
         step=None if own or running is None else _step(running),
-        queue=tuple(book.missions[i].order_text[:_QUEUED] for i in waiting[:MAX_QUEUED]),
+        queue=tuple(book.missions[i].text[:_QUEUED] for i in waiting[:MAX_QUEUED]),
         more=max(0, len(waiting) - MAX_QUEUED),
         thinking=_orders_in(book, mission, GoalState.PLANNING)[:MAX_QUEUED],
         paused=_orders_in(book, mission, GoalState.PAUSED)[: -MAX_QUEUED - 1 : -1],
@@ -58,7 +58,7 @@ def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situatio
 def _orders_in(book: MissionState, mission: Mission, state: GoalState) -> tuple[str, ...]:
     """Return the other orders in a state, oldest first."""
     others = (m for m in book.missions.values() if m.state is state and m.id != mission.id)
-    return tuple(m.order_text[:_QUEUED] for m in sorted(others, key=lambda m: m.order))
+    return tuple(m.text[:_QUEUED] for m in sorted(others, key=lambda m: m.order))
 
 
 def _place_near(facts: SiteView, pose: Pose2) -> str | None:
@@ -83,7 +83,7 @@ def _question(book: MissionState, mission: Mission) -> OpenQuestion | None:
     if newest is None:
         return None
     asked = _tell_outcome(newest)
-    return OpenQuestion(order=newest.order_text[:_ORDER], asked=asked)
+    return OpenQuestion(order=newest.text[:_ORDER], asked=asked)
 
 
 def _recent(book: MissionState, mission: Mission, now_unix_s: float) -> tuple[RecentGoal, ...]:
@@ -94,7 +94,7 @@ def _recent(book: MissionState, mission: Mission, now_unix_s: float) -> tuple[Re
     newest = sorted(before, key=lambda m: -m.order)[:MAX_RECENT]
     return tuple(
         RecentGoal(
-            order=m.order_text[:_ORDER],
+            order=m.text[:_ORDER],
             outcome=m.outcome.code.value if m.outcome is not None else m.state.value,
             told=_tell_outcome(m),
             minutes=max(0, int((now_unix_s - m.created_unix_s) / 60.0)),

@@ -91,7 +91,7 @@ def tell_deeds(
 def _tell(mission: Mission, now: datetime) -> Bilingual:
     at = datetime.fromtimestamp(mission.created_unix_s).astimezone()
     clock = f"{at:%H:%M}" if at.date() == now.date() else f"{at:%Y-%m-%d %H:%M}"
-    text = mission.order_text[:_ORDER]
+    text = mission.text[:_ORDER]
     return say("memory.deed", at=clock, text=text, result=_result(mission))
 
 

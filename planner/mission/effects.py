@@ -13,7 +13,7 @@ from planner.brain.situation import Situation
 from planner.mission.skills.actions import Way
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
-from planner.plan import Bilingual, Language, Span
+from planner.plan import Bilingual, ChangedOrder, Language, Span
 from wire import Pose2
 
 
@@ -41,6 +41,13 @@ class AskBrain:
     """What was asked about it, and answered; the newest answer is the text."""
     situation: Situation | None = None
     """Where things stand, and what came of the goals before."""
+    changed: ChangedOrder | None = None
+    """What the text makes of the order before it, for the built-in brain."""
+
+    @property
+    def own_words(self) -> str:
+        """Return the part of the text that is an order by itself; empty where it is steps."""
+        return self.text if self.changed is None else self.changed.words
 
 
 @dataclass(frozen=True, slots=True)

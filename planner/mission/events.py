@@ -13,6 +13,7 @@ from planner.plan import (
     AnswerPlan,
     Bilingual,
     BrainTag,
+    ChangedOrder,
     Clarify,
     Code,
     Language,
@@ -54,6 +55,8 @@ class Submitted:
     source: str = "api"
     local: bool = False
     """It is said to the planner itself, or answers: no order that needs room among the others."""
+    changed: ChangedOrder | None = None
+    """What it makes of the order before it."""
     also: Bilingual | None = None
     """What was done beside the stop that these words were: told with it."""
 

@@ -1,228 +1,284 @@
-"""Say what a sentence means that leans on the goal before it: "again", "no, the study", 还有厨房.
+"""Say what a sentence makes of the orders before it: "again", "no, the study", 还有厨房.
 
-"Come back" alone leads to where the order before was given: its departure, kept with each goal.
-
-Pure. The words of the newest order are taken up, with another place in them where one is named; a
-place alone is gone to. Law: nothing is leant on that is older than ``LEANS_S``, and where it is not
-beyond doubt which place or which order is meant, the sentence stays as it was said, for a brain to
-ask about. What comes of it is an order like any other, and every guard reads it as the person's.
+Pure; worked out once for a sentence, by its reception. What it changes is read by
+``planner.language.changes``, put into the newest order's steps by ``planner.plan.apply``, and
+planned by the built-in brain alone: a model reads what was said. Law: nothing is leant on that is
+older than ``LEANS_S``, and where it is in doubt what is meant, nothing is changed.
 """
 
 from __future__ import annotations
 
 import re
-from math import hypot
+from dataclasses import dataclass, replace
+from math import pi
 from typing import TYPE_CHECKING
 
-from planner.language.commands import (
-    AppendCommand,
-    HereCommand,
-    Intent,
-    LeaningCommand,
-    LeaveOutCommand,
-    OtherPlaceCommand,
-    OutcomeCommand,
-    RepeatCommand,
-    Replace,
-    intent_of,
-)
+from planner.language.changes.reader import read_changes
+from planner.language.commands import HereCommand, Replace, intent_of
 from planner.language.folding import has_chinese
-from planner.language.motion_guard.mentioned_names import find_places, place_alone, plain
-from planner.mission.antecedents import name_antecedents
-from planner.mission.left_out import excludes_way, is_destination_denied, leave_out, put_first
+from planner.language.motion_guard.clause_moods import Mood
+from planner.language.motion_guard.clauses import read_clauses
+from planner.language.motion_guard.mentioned_names import find_places
+from planner.language.object_names import resolve
+from planner.language.person_names import is_given_name, people_named
+from planner.language.schedule import OrderCommand
+from planner.language.stop import is_stop
+from planner.mission.antecedents import fits, name_antecedents, thing_of
+from planner.mission.departure import LEANS_S
 from planner.mission.open_questions import find_choice
-from planner.mission.outcomes import moves
-from planner.mission.place_words import (
-    find_place,
-    name_place,
-    names_of,
-    put_place,
-    room_of,
-    write_drive,
+from planner.mission.outcomes import spot_at
+from planner.mission.place_words import names_of
+from planner.mission.state import goal_to_end
+from planner.mission.whereabouts import complete_person
+from planner.plan import (
+    Change,
+    ChangedOrder,
+    Code,
+    Edit,
+    GoalState,
+    LastOrder,
+    Patrol,
+    apply,
+    places_of,
+    steps_of,
 )
-from planner.mission.pronouns import name_pronouns
-from planner.mission.short_follow_up import ShortFollowUp, read_short_follow_up
-from planner.mission.state import ORDER_SOURCE
-from planner.mission.whereabouts import search_of_place
-from planner.plan import Code, GoalState
 
 if TYPE_CHECKING:
+    from planner.language.commands import Intent
+    from planner.language.utterance import Utterance
     from planner.mission.state import Mission, MissionState
-    from planner.site.site_view import SiteView
 
-LEANS_S = 1800.0
-"""Half an hour: after it, "again" means nothing that a person could be held to."""
-AWAY_M, DRIVEN_M = 1.0, 0.1
-"""An order that is over, drove nothing and was given here was done here: one before is meant."""
-OLD_POSE_S = 1.0
-"""A status older than this says nothing of where the robot is."""
-Point = tuple[float, float, float]
-"""x [m], y [m], yaw [rad] in ``map``."""
-_LOOKS = frozenset({"count", "find", "look"})
-_LOOKS_ZH = re.compile(r"也.{0,4}[看瞅瞧查找数]")
-"""Asks to look at one more place, whatever else was done at the place before."""
-_DRIVES = frozenset({"go_to", "come_back", "return_home", "turn", "move", "wait"})
-_HERE = re.compile(r" ?\b(?:right )?(?:over )?(?:in )?here\b|(?:在)?(?:这里|这儿|这边)面?")
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
-_HEDGE = re.compile(
-    r"^(?:it|he|she|they) (?:should|must|might|could|may|has to) be (?=(?:in|at|on) )"
-    r"|^(?:它|他|她)?(?:应该|可能|好像|大概|也许|多半)(?:是)?(?:在|放在)?|^是在?(?=.{1,6}$)",
-    re.IGNORECASE,
-)
-"""A guess about where something is, said of a place that takes another's place."""
-_ASIDE = re.compile(
-    r"^(?:by|near|beside|next to|on) |(?:旁边|边上|附近|那边|那里|那儿|这边|上面?|里面?)$",
-    re.IGNORECASE,
-)
-"""Beside a place that takes another's place: the last order says at which side of it."""
-_ORDERS = re.compile(
-    r"(?:please )?(?:go|drive|come|move|head|return|turn|look|find|search|count|follow|patrol|wait"
-    r"|visit|check|say|tell|ask|take|bring|get|see|stop|have a look|pop)\b"
-    r"|[去到回来找看数转跟等说告问巡走开带拿停]"
-)
+_ROUNDS = frozenset({Edit.LEAVE_OUT, Edit.FIRST})
+_CORRECTS = frozenset({Edit.INSTEAD, Edit.OTHER})
+_CLAUSE_END = re.compile(r"[,，;；.。!！](?!$)")
+_ARTICLE = re.compile(r"^(?:the|my|our|your|an?|some|any) ", re.IGNORECASE)
 
 
-def meaning_of(book: MissionState, text: str, now_unix_s: float) -> str:
-    """Return the order that a sentence is, in words that lean on nothing."""
-    intent: Intent | None = intent_of(text)
-    last = last_order(book, now_unix_s)
-    short = find_short_follow_up(book, text, now_unix_s)
-    if short is not None:
-        return short.order
-    if (intent is None or isinstance(intent, OutcomeCommand)) and last is not None:
-        orders = last_orders(book, now_unix_s)
-        named = name_antecedents(text, orders, book.facts, names_of(book.facts))
-        return named or name_pronouns(text, last, book.facts)
-    if isinstance(intent, LeaveOutCommand) or not isinstance(intent, LeaningCommand | Replace):
-        return text
-    if isinstance(intent, RepeatCommand):
-        return _repeat_order(last.order_text, intent.times) if last is not None else text
-    if isinstance(intent, OtherPlaceCommand):
-        return _other_place(book.facts, last) or text
-    rest = _innermost(intent.rest)
+@dataclass(frozen=True, slots=True)
+class Lean:
+    """Hold how a sentence leans on the goals before it, as its reception found."""
+
+    changed: ChangedOrder
+    """What it makes of the newest order."""
+    ends: bool = False
+    """It ends what runs."""
+    first: bool = False
+    """It is done right after what runs, or in its place."""
+    replaces: bool = False
+    """It ends what runs once it is understood."""
+    corrects: bool = False
+    """It puts something else in the place of what was ordered or asked."""
+    keeps_round: bool = False
+    """What runs goes on, without one of its places or with one first."""
+
+
+def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | None:
+    """Return how a sentence leans on the goals before it; None: on none, or in doubt."""
+    text, intent, orders = said.text, said.intent, last_orders(book, now_unix_s)
+    last, names = next(iter(orders), None), names_of(book.facts)
+    waiting = [m for m in book.missions.values() if m.state is GoalState.NEEDS_CLARIFICATION]
+    asked = max(waiting, key=lambda m: m.order, default=None)
+    if isinstance(intent, Replace):
+        return _take_back(book, intent, orders, text)
+    opens = intent is None or (isinstance(intent, HereCommand) and asked is last)
+    chosen = find_choice(asked, text) if asked is not None and intent is None else None
+    if chosen is not None:
+        return Lean(ChangedOrder(words=chosen))
+    for change in read_changes(text, names):
+        if not opens and change.act not in _ROUNDS:
+            continue  # 别去卧室了 ends the round only where it is not one
+        lean = _lean(book, change, orders, text)
+        if lean is not None:
+            return lean
+    words = name_antecedents(text, orders, book.facts, names) if intent is None else None
+    return Lean(ChangedOrder(words=words)) if words is not None else None
+
+
+def _take_back(book: MissionState, intent: Replace, orders: tuple[Mission, ...], text: str) -> Lean:
+    """Return how "forget that, …" leans on the order before it."""
     names = names_of(book.facts)
-    if isinstance(intent, AppendCommand) and not _is_over_there(book.facts, text, rest, last):
-        return text
-    place = find_place(book.facts, rest) or place_alone(_ASIDE.sub("", rest), names)
-    if place is None:
-        takes_back = isinstance(intent, Replace) and not intent.corrects
-        if not (takes_back or _ORDERS.match(plain(rest))):
-            return text
-        named = name_antecedents(rest, last_orders(book, now_unix_s), book.facts, names)
-        return named or rest
-    return _order_at(book.facts, text, intent, place, last) or text
+    changed: ChangedOrder | None = None
+    for each in read_changes(text, names):
+        lean = _lean(book, each, orders, text) if not each.rest else None
+        if lean is not None and intent.now:
+            return lean
+        if lean is not None:  # "… instead" ends what runs once it is understood
+            return replace(lean, ends=False, first=False, replaces=True)
+    for each in read_changes(intent.rest, names):
+        there = Change(Edit.INSTEAD, each.place, each.inner) if each.act is Edit.WHERE else each
+        lean = _lean(book, there, orders, intent.rest) if there.act is Edit.INSTEAD else None
+        changed = changed or (lean.changed if lean is not None else None)
+    named = name_antecedents(intent.rest, orders, book.facts, names) or intent.rest
+    changed = changed or ChangedOrder(words=named)
+    now = intent.now
+    return Lean(changed, ends=now, first=now, replaces=not now, corrects=True)
 
 
-def _is_over_there(facts: SiteView, text: str, rest: str, last: Mission | None) -> bool:
-    """Tell whether the places named before an addition are of the order before it.
+def _lean(
+    book: MissionState, change: Change, orders: tuple[Mission, ...], text: str
+) -> Lean | None:
+    """Return what one change makes of the newest order; None where it makes nothing of it."""
+    last, corrects = next(iter(orders), None), change.act in _CORRECTS
+    if change.rest:
+        if not _is_order(change.rest) or not _is_over_there(book, change, last):
+            return None
+        rest = name_antecedents(change.rest, orders, book.facts, names_of(book.facts))
+        changed = ChangedOrder(words=rest or change.rest)
+        return Lean(changed, ends=corrects, first=True, corrects=corrects)
+    if change.who and last is not None and not _fits(change.who, last):
+        return None
+    order = _last_order(book, last)
+    if change.act in _ROUNDS and not _may_change_round(book, change, last):
+        return None
+    completes = change.act is Edit.WHERE and last is not None and not last.steps
+    words = complete_person(change, last, book.facts) if completes and last is not None else None
+    steps = apply(order, change) if words is None else ()
+    if not steps and words is None:
+        return None
+    thinks = last is not None and last.state is GoalState.PLANNING and not last.steps
+    changed = ChangedOrder(words=text) if thinks else ChangedOrder(steps=steps, words=words or "")
+    if change.act is Edit.ALSO:
+        wider = change.place is not None and isinstance(steps[0], Patrol)
+        ends = wider and _is_under_way(book, last)
+        return Lean(changed, ends=ends, first=True)
+    place = corrects and change.place is not None and not change.who
+    ends = place or change.act is Edit.OTHER or (
+        change.act in _ROUNDS | {Edit.INSTEAD, Edit.WHERE, Edit.OTHER_SIDE}
+        and _is_under_way(book, last)
+    )  # fmt: skip
+    rounds = change.act in _ROUNDS
+    return Lean(changed, ends, first=ends, corrects=corrects, keeps_round=rounds)
+
+
+def _is_order(rest: str) -> bool:
+    """Tell whether the rest of a sentence is no command to the planner itself."""
+    intent: Intent | None = intent_of(rest)
+    return intent is None or isinstance(intent, OrderCommand) or is_stop(rest)
+
+
+def _is_over_there(book: MissionState, change: Change, last: Mission | None) -> bool:
+    """Tell whether a place that is to be done with first is of the order before.
 
     "When you're done in the kitchen, …" waits for what is done there, and for nothing else.
     """
-    names = names_of(facts)
-    at = plain(text).find(plain(rest))
-    before = {each.id for each in find_places(plain(text)[:at], names)} if at > 0 else set()
+    if change.act is not Edit.ALSO or change.denied is None:
+        return True
     steps = last.steps if last is not None else ()
-    gone = {place for step in steps for place in (step.place, *step.places) if place}
-    return before <= gone | {room for place in gone if (room := room_of(facts, place))}
+    gone = {place for step in steps for place in places_of(step)}
+    return change.denied in gone | {_room(book, place) for place in gone}
 
 
-def _order_at(
-    facts: SiteView,
-    text: str,
-    intent: LeaningCommand | Replace,
-    place: str,
-    last: Mission | None,
-) -> str | None:
-    """Return what a sentence that names one place wants there; None where that is in doubt."""
-    rest = _innermost(intent.rest) if isinstance(intent, AppendCommand | Replace) else ""
-    looked = last is not None and any(step.kind in _LOOKS for step in last.steps)
-    if _LOOKS_ZH.search(plain(text)) and not looked:
-        return f"{write_drive(facts, place, rest)}看看"
-    if last is None:
-        return write_drive(facts, place, rest)
-    again = put_place(facts, last.order_text, place, rest)
-    if again is None and isinstance(intent, AppendCommand) and intent.asks:
-        again = _look_there(facts, last, place, rest)
-    if again is None and isinstance(intent, Replace) and intent.corrects:
-        again = search_of_place(last, place, facts)
-        if again is None and any(step.kind not in _DRIVES for step in last.steps):
-            return None  # a bare drive would leave out what was to be done there
-    return again or write_drive(facts, place, rest)
+def _room(book: MissionState, place: str) -> str | None:
+    target = book.facts.targets.get(place)
+    return None if target is None or target.room else spot_at(book.facts, target.pose).room
 
 
-def find_short_follow_up(book: MissionState, text: str, now_unix_s: float) -> ShortFollowUp | None:
-    """Return what a few words make of the newest order; None where they are more, or less."""
-    intent, last = intent_of(text), last_order(book, now_unix_s)
-    waiting = [m for m in book.missions.values() if m.state is GoalState.NEEDS_CLARIFICATION]
-    asked = max(waiting, key=lambda m: m.order, default=None)
-    chosen = find_choice(asked, text) if asked is not None and intent is None else None
-    if chosen is not None:
-        return ShortFollowUp(chosen)
-    without = change_round(book, text, now_unix_s)
-    if without is not None:
-        return ShortFollowUp(without, ends=True)
-    wider = _widen_patrol(book, last, intent) if isinstance(intent, AppendCommand) else None
-    if wider is not None:
-        return ShortFollowUp(wider, ends=True)
-    open_to = (AppendCommand, RepeatCommand, Replace, *((HereCommand,) if asked is last else ()))
-    if last is None or not (intent is None or isinstance(intent, open_to)):
-        return None
-    here = book.status.base_in_map if book.status is not None else None
-    return read_short_follow_up(text, last, book.facts, names_of(book.facts), here)
+def _fits(who: str, last: Mission) -> bool:
+    """Tell whether a pronoun can mean the person, or the thing, of an order."""
+    person = person_of(last)
+    return person is None or who == "it" or fits(who, person)
 
 
-def _widen_patrol(book: MissionState, last: Mission | None, added: AppendCommand) -> str | None:
-    """Return a patrol that runs with one more place; None where something else, or more, runs."""
-    place = place_alone(added.rest, names_of(book.facts))
-    ahead = last.steps[last.step :] if last is not None and not last.has_ended else ()
-    if place is None or last is None or [step.kind for step in ahead] != ["patrol"]:
-        return None
-    if ahead[0].depth or place in ahead[0].places or last.speed_share != 1.0:
-        return None
-    order = last.order_text
-    chinese = has_chinese(order)
-    stops = (*ahead[0].places, place)
-    names = [name_place(book.facts, stop, chinese, order) for stop in stops]
-    return f"巡逻{'、'.join(names)}" if chinese else f"patrol the {' and the '.join(names)}"
-
-
-def change_round(book: MissionState, text: str, now_unix_s: float) -> str | None:
-    """Return the order that runs without the place that a sentence leaves out, or puts first."""
-    last = last_order(book, now_unix_s)
+def _may_change_round(book: MissionState, change: Change, last: Mission | None) -> bool:
+    """Tell whether the newest order goes on; a denial sets nothing in motion that stands."""
     if last is None or book.running not in (None, last.id):
+        return False
+    return last.state is not GoalState.PAUSED or change.kind == "skip"
+
+
+def _last_order(book: MissionState, last: Mission | None) -> LastOrder:
+    """Return what is known of the newest order."""
+    names = names_of(book.facts)
+    if last is None:
+        return LastOrder((), names=names)
+    ahead = last.steps[last.step :]
+    parted = not last.has_ended and last.speed_share == 1.0 and not any(s.depth for s in ahead)
+    code = last.outcome.code if last.outcome is not None else None
+    spoken = (last.order_text, *last.questions, *last.replies)
+    return LastOrder(
+        steps_of(last.steps),
+        ahead=steps_of(ahead) if parted else (),  # a slow round would go on fast
+        ended=last.has_ended,
+        found=code is Code.FOUND or last.state is GoalState.SUCCEEDED,
+        person=person_of(last),
+        thing=thing_of(last),
+        spoken=frozenset(each.id for text in spoken for each in find_places(text, names)),
+        looked=frozenset(room for step in ahead for room in step.rooms),
+        turned_rad=_turned_rad(book, last),
+        names=names,
+        seen_as=_ask_whether_there,
+    )
+
+
+def person_of(last: Mission) -> str | None:
+    """Return the one person whom an order is for; None of none, and of several."""
+    named = {step.object for step in last.steps if step.object and is_given_name(step.object)}
+    spoken = people_named(last.order_text)
+    people = named or set(spoken)
+    return people.pop() if len(people) == 1 and len(spoken) <= 1 else None
+
+
+def _turned_rad(book: MissionState, last: Mission) -> float:
+    """Return how far a turn under way has come; 0 where that is unknown."""
+    here = book.status.base_in_map if book.status is not None else None
+    if here is None or last.accepted_at is None:
+        return 0.0
+    return abs((here.yaw_rad - last.accepted_at[2] + pi) % (2.0 * pi) - pi)
+
+
+def _ask_whether_there(thing: str) -> str | None:
+    """Return the question whether a thing or somebody is there; None of one who is called."""
+    kind = resolve(thing)
+    if kind is None or is_given_name(thing):
         return None
-    if last.state is GoalState.PAUSED and not isinstance(intent_of(text), LeaveOutCommand):
-        return None  # "it isn't in there" sets nothing in motion that stands
-    return leave_out(text, last, book.facts) or put_first(text, last, book.facts)
+    if has_chinese(thing):
+        return f"看看有没有{thing}"
+    if kind[0] == "person":
+        return "see if anybody is there"
+    noun = _ARTICLE.sub("", thing)
+    some = "are any" if noun.endswith("s") else f"is a{'n' if noun[0] in 'aeiou' else ''}"
+    return f"see if there {some} {noun}"
+
+
+def _is_under_way(book: MissionState, last: Mission | None) -> bool:
+    """Tell whether the goal that would be ended is the newest order itself."""
+    return last is not None and not last.has_ended and goal_to_end(book) == last.id
 
 
 def denies_way(book: MissionState, text: str, now_unix_s: float) -> bool:
-    """Tell whether a sentence says of a place that the robot is on its way to that it is wrong."""
-    last = last_order(book, now_unix_s)
-    return last is not None and is_destination_denied(text, last, book.facts)
+    """Tell whether a sentence says of a place that the robot is on its way to that it is wrong.
+
+    What follows behind a mark, "not the bedroom, he's reading in the study", changes nothing of it.
+    """
+    last = next(iter(last_orders(book, now_unix_s)), None)
+    if last is None:
+        return False
+    names = names_of(book.facts)
+    whole = read_changes(text, names)
+    first = _CLAUSE_END.split(text.strip(), maxsplit=1)[0]
+    denied = {each.place for each in whole if each.act is Edit.LEAVE_OUT and each.denied}
+    if not denied and first != text and not any(each.act is Edit.INSTEAD for each in whole):
+        parts = read_changes(first, names)
+        denied = {each.place for each in parts if each.act is Edit.LEAVE_OUT and not each.tells}
+    return not _places_ahead(last).isdisjoint(denied)
 
 
-def denied_goal(book: MissionState, text: str, now_unix_s: float) -> str | None:
+def denied_goal(book: MissionState, order: str, now_unix_s: float) -> str | None:
     """Return the newest open order on whose way a sentence says not to go; None: on none.
 
     "Don't go in there" is that of the place that was spoken of last.
     """
-    said = meaning_of(book, text, now_unix_s)
-    denied = (m.id for m in last_orders(book, now_unix_s) if excludes_way(said, m, book.facts))
-    return next(denied, None)
+    names = names_of(book.facts)
+    denied = " | ".join(c.text for c in read_clauses(order, names) if c.mood is Mood.DENIED)
+    places = {each.id for each in find_places(denied, names)}
+    orders = last_orders(book, now_unix_s)
+    return next((m.id for m in orders if not places.isdisjoint(_places_ahead(m))), None)
 
 
-def leans(book: MissionState, intent: Intent | None, text: str, now_unix_s: float) -> bool:
-    """Tell whether a sentence leans on a goal before it, and what it means is beyond doubt."""
-    corrects = isinstance(intent, Replace) and intent.corrects
-    if not (corrects or isinstance(intent, LeaningCommand)):
-        return False
-    return meaning_of(book, text, now_unix_s) != text
-
-
-def last_order(book: MissionState, now_unix_s: float) -> Mission | None:
-    """Return the newest goal that was an order; None where it is long ago."""
-    return next(iter(last_orders(book, now_unix_s)), None)
+def _places_ahead(last: Mission) -> set[str]:
+    ahead = last.steps[last.step :] if not last.has_ended else ()
+    return {place for step in ahead for place in places_of(step)}
 
 
 def last_orders(book: MissionState, now_unix_s: float) -> tuple[Mission, ...]:
@@ -242,91 +298,3 @@ def _was_read(mission: Mission) -> bool:
     plan = mission.plan
     lost = plan is not None and plan.code is Code.NOT_UNDERSTOOD
     return mission.state in _SPOKEN and not lost
-
-
-def _repeat_order(order: str, times: int) -> str:
-    """Return an order, or so many rounds of it."""
-    if times == 1:
-        return order
-    ends = order.rstrip(" .!,;。！，；")
-    return f"{ends}{times}次" if has_chinese(order) else f"{ends} {times} times"
-
-
-def _innermost(rest: str) -> str:
-    """Return the order in "no, not the kitchen, the study", without "it should be"."""
-    inner = intent_of(rest)
-    if isinstance(inner, Replace | AppendCommand):
-        return _innermost(inner.rest)
-    return _HEDGE.sub("", rest)
-
-
-def _look_there(facts: SiteView, last: Mission, place: str, said: str) -> str | None:
-    """Return what the last order looked for, asked of one place; None where it looked for nothing.
-
-    "And in the study?" after chairs were counted in two rooms, or here, wants them counted there.
-    """
-    step = next((step for step in reversed(last.steps) if step.kind in _LOOKS), None)
-    if step is None:
-        return None
-    chinese, thing = has_chinese(last.order_text), step.object or ""
-    name = name_place(facts, place, chinese, said)
-    match step.kind:
-        case "count":
-            return f"数一下{name}的{thing}" if chinese else f"count the {thing} in the {name}"
-        case "find":
-            return f"去{name}找{thing}" if chinese else f"look for the {thing} in the {name}"
-    asked = _HERE.sub("", plain(step.text or last.order_text)).strip(" ?？.。")
-    if find_places(asked, names_of(facts)):
-        return f"去{name}看看" if chinese else f"look around the {name}"
-    return f"{name}{asked}" if chinese else f"{asked} in the {name}"
-
-
-def _other_place(facts: SiteView, last: Mission | None) -> str | None:
-    """Return the last order with the place that it was not about; None where that is in doubt."""
-    if last is None:
-        return None
-    spoken = (last.order_text, *last.questions, *last.replies)
-    named = {each.id for text in spoken for each in find_places(text, names_of(facts))}
-    gone = {place for step in last.steps for place in (step.place, *step.places) if place}
-    left = named - gone
-    if len(left) != 1 or len(named) != 2:
-        return None
-    return write_drive(facts, left.pop(), last.order_text)
-
-
-def find_robot(book: MissionState) -> Point | None:
-    """Return where the bridge's newest status says that the robot stands."""
-    pose = book.status.base_in_map if book.status is not None else None
-    return (pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None
-
-
-def departure_of(book: MissionState, now_s: float) -> Point | None:
-    """Return where the robot stood when the order was given that led it away from there."""
-    here = find_robot(book)
-    if here is None or not now_s - book.status_s <= OLD_POSE_S:
-        return None
-    now_unix_s = now_s + book.wall_offset_s
-    for order in sorted(book.missions.values(), key=lambda m: -m.order):
-        by_schedule = order.source.startswith(ORDER_SOURCE)
-        if not order.steps or order.state is GoalState.REFUSED or by_schedule:
-            continue
-        begin = order.accepted_at
-        if begin is None or order.map_id != book.facts.map_id:
-            return None
-        if not now_unix_s - order.created_unix_s <= LEANS_S:
-            return None
-        near = hypot(here[0] - begin[0], here[1] - begin[1]) <= AWAY_M
-        if not (near and order.has_ended and order.metres <= DRIVEN_M):
-            return begin
-    return None
-
-
-def way_back_of(mission: Mission) -> Point | None:
-    """Return where a goal's ``come_back`` leads: one that moves nowhere before leans on departure.
-
-    Else it is where the goal was accepted.
-    """
-    first = next((step for step in mission.steps if moves(step)), None)
-    if first is not None and first.kind == "come_back" and mission.departed_at is not None:
-        return mission.departed_at
-    return mission.accepted_at

@@ -7,9 +7,9 @@ from planner.language.utterance import parse
 from planner.mission.activity import Thinking
 from planner.mission.answered_order import complete_order
 from planner.mission.conversation import situation_of
+from planner.mission.departure import departure_of, find_robot, way_back_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
-from planner.mission.follow_up import departure_of, find_robot, meaning_of, way_back_of
 from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
@@ -64,6 +64,7 @@ from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, Pers
 from planner.plan import (
     STEPLESS,
     AnswerPlan,
+    ChangedOrder,
     Clarify,
     Code,
     GoalState,
@@ -95,13 +96,11 @@ def submit(turn: Transaction, event: Submitted) -> None:
         make_room(turn, event.text)
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
     turn.set(order=order)
-    meant = event.rest or meaning_of(turn.book, event.text, now_unix_s)
-    meant = "" if event.local else meant
     mission = Mission(
         id=event.id,
         order=order,
         text=event.text,
-        meant=meant if meant != event.text else "",
+        changed=ChangedOrder(words=event.rest) if event.rest else event.changed,
         language=event.language,
         state=FIRST,
         confirm=event.confirm,
@@ -137,9 +136,10 @@ def _think(turn: Transaction, mission: Mission) -> None:
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     room = spot_at(turn.book.facts, pose).room
     turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
-                       order=mission.order_text, exchanges=exchanges_of(mission),
+                       order=mission.text, exchanges=exchanges_of(mission),
                        departed=mission.departed_at is not None,
-                       situation=situation_of(turn.book, mission, turn.now_s)))  # fmt: skip
+                       situation=situation_of(turn.book, mission, turn.now_s),
+                       changed=None if mission.replies else mission.changed))  # fmt: skip
 
 
 def take_plan(turn: Transaction, event: Planned) -> None:

@@ -132,6 +132,7 @@ def thinker(
         remembered = await remember(ask, vocabulary)
         request = ThinkRequest(
             text=ask.text,
+            changed=ask.changed,
             vocabulary=vocabulary,
             room=ask.room,
             language=ask.language,
@@ -168,8 +169,7 @@ def thinker(
         rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
         if rejection is not None:
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
-        unasked = unasked_of(thought, request)
-        sure = await _read_surely(request) if unasked else None
+        unasked, sure = await _hold_to_words(thought, request)
         return Planned(ask.id, thought.plan, None, thought.brain, unasked, sure)
 
     return think
@@ -178,6 +178,20 @@ def thinker(
 def _tell_down(error: BrainDown) -> Bilingual:
     told = message(Code.MODEL_UNAVAILABLE)
     return join((told, tell_failure(error.why, error.server))) if error.server else told
+
+
+async def _hold_to_words(
+    thought: ThinkResult, request: ThinkRequest
+) -> tuple[tuple[int, ...], StepPlan | None]:
+    """Return the steps that nobody asked for, and the built-in brain's plan where there are any.
+
+    "Again" names nothing: what it makes of the order before is asked for, step for step.
+    """
+    unasked, plan = unasked_of(thought, request), thought.plan
+    sure = await _read_surely(request) if unasked else None
+    if request.changed is not None and sure is not None and isinstance(plan, StepPlan):
+        unasked = tuple(index for index in unasked if plan.steps[index] not in sure.steps)
+    return unasked, sure
 
 
 async def _read_surely(request: ThinkRequest) -> StepPlan | None:

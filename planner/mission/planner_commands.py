@@ -19,7 +19,6 @@ from planner.language.commands import (
     ForgetFacts,
     HereCommand,
     Intent,
-    LeaningCommand,
     OutcomeCommand,
     PauseCommand,
     Remember,
@@ -35,9 +34,10 @@ from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
-from planner.mission.reception import goal_to_end, goal_to_pause, goal_to_resume
+from planner.mission.reception import goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
+from planner.mission.state import goal_to_end
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse, Say, StepPlan
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
@@ -101,7 +101,9 @@ class PlannerCommands:
         if self.desk is not None and mission is not None and is_of_order(mission):
             return await self._think_of_order(self.desk, ask, mission)
         intent = (
-            parse(ask.text).intent if mission is not None and _by_person(mission, ask) else None
+            parse(ask.own_words).intent
+            if mission is not None and _by_person(mission, ask)
+            else None
         )
         if mission is not None and (taken := await self._ask_desk(intent, ask, mission)):
             return taken
@@ -109,7 +111,7 @@ class PlannerCommands:
             intent = None
         if mission is not None and not (mission.replies or mission.steps):
             intent = self._facts.read_correction(mission.text, mission, intent) or intent
-        if isinstance(intent, Replace) and not intent.corrects:
+        if isinstance(intent, Replace):
             return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
         if isinstance(intent, HereCommand) and self._place(intent.name) is None:
             intent = None  # "you are in the way": nothing of ours
@@ -118,9 +120,9 @@ class PlannerCommands:
         if isinstance(intent, ForgetFacts) and self._place(intent.about) is not None:
             intent = None  # "forget about the kitchen": a drive may be meant
         if intent is None and mission is not None and not (mission.replies or mission.steps):
-            intent = None if self._facts.answers_question(mission) else read_statement(ask.text)
-        if isinstance(intent, Replace | LeaningCommand):
-            intent = None  # it leans on nothing that is known: a brain reads it
+            intent = (
+                None if self._facts.answers_question(mission) else read_statement(ask.own_words)
+            )
         if intent is None or mission is None or mission.steps:
             return take_back_offers(await self._brain(ask), self.refuse_offer)
         return Planned(ask.id, await self.carry_out(intent, mission))
@@ -146,7 +148,7 @@ class PlannerCommands:
             standing = parse(mission.order_text).intent  # its question is answered
         if self.desk is None or not isinstance(standing, OrderCommand):
             return None
-        return await self.desk.take(standing, ask, mission)
+        return await self.desk.take(standing, replace(ask, text=ask.own_words), mission)
 
     async def obey_beside_stop(self, given: Submitted) -> Bilingual | None:
         """Remove or pause the standing orders that an order to stop names, too; say which.

@@ -17,14 +17,8 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from planner.language.commands import (
-    AppendCommand,
-    LeaningCommand,
-    LeaveOutCommand,
-    OtherPlaceCommand,
-    Replace,
-)
 from planner.language.commands import CancelCommand as TakeBack
+from planner.language.commands import Replace
 from planner.language.commands import ResumeCommand as GoOn
 from planner.language.utterance import Utterance
 from planner.mission.allowed_commands import refusal
@@ -32,23 +26,25 @@ from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import (
-    change_round,
+    Lean,
     denied_goal,
     denies_way,
-    find_short_follow_up,
-    last_order,
-    leans,
-    meaning_of,
+    lean_of,
 )
 from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
-from planner.mission.state import RESERVED_KEYS, GoalKey, MissionState, newest_paused
+from planner.mission.state import (
+    RESERVED_KEYS,
+    GoalKey,
+    MissionState,
+    goal_to_end,
+    newest_paused,
+)
 from planner.plan import GoalState
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.language.commands import Intent
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
 
@@ -108,7 +104,7 @@ def receive(
     given: Submitted,
     now_s: float,
     *,
-    answers: bool = True,
+    leaning: Lean | None = None,
     key: str | None = None,
     repeats: Repeats | None = None,
 ) -> Reception:
@@ -119,7 +115,7 @@ def receive(
         said: the sentence as it was read.
         given: the goal that it would be, without marks.
         now_s: on the clock of the book.
-        answers: it may answer a question.
+        leaning: how it leans, where it was said as an answer: it answers nothing then.
         key: the Idempotency-Key of the request.
         repeats: the requests that came before.
     """
@@ -127,79 +123,46 @@ def receive(
     if said.orders_stop:
         stop = replace(given, stop=True, rest=said.behind_stop)
         return Reception(_doubtful(book, stop) if stop.rest and not full else stop, stops=True)
-    may_answer = answers and not (given.confirm or given.replace)
+    may_answer = leaning is None and not (given.confirm or given.replace)
     asking = goals_answered_by(book, said) if may_answer else ()
-    now_unix_s = now_s + book.wall_offset_s
-    if not asking and _may_stop(book, said, now_s):
-        denied = replace(given, stop=full, denies=denied_goal(book, said.text, now_unix_s))
+    now_unix_s, intent = now_s + book.wall_offset_s, said.intent
+    lean = leaning if asking or leaning is not None else lean_of(book, said, now_unix_s)
+    changed = lean.changed if lean is not None else None
+    if not asking and _may_stop(book, said, now_s, lean):
+        order = changed.words if changed is not None else said.text
+        denies = denied_goal(book, order, now_unix_s)
+        denied = replace(given, stop=full, denies=denies, changed=changed)
         return Reception(denied if full else _doubtful(book, denied), stops=True)
     if key is not None and key.startswith(RESERVED_KEYS):
         return Reception(given, refused=ReservedKey(key))
-    body = _body_of(given)
-    before = repeats.find(key) if repeats is not None else None
+    body, before = _body_of(given), repeats.find(key) if repeats is not None else None
     if before is not None and before.body != body:
         return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
     if before is not None:
         return Reception(given, repeats=before.goal)
-    lean = _lean_of(book, said, now_unix_s, asked=bool(asking))
-    intent, ends, first = lean.intent, lean.ends, lean.first
-    replaces = isinstance(intent, LeaningCommand | Replace)
-    local = bool(asking) or (intent is not None and not replaces)
+    local = bool(asking) or not (intent is None or lean is not None)
     marked = replace(
         given,
-        replace=given.replace if not isinstance(intent, Replace) else not first,
-        first=first,
+        replace=given.replace or (lean is not None and lean.replaces),
+        first=lean is not None and lean.first,
         resumes=isinstance(intent, GoOn) and not asking,
         asking=asking,
         local=local,
+        changed=changed,
     )
     if full and not local:
         return Reception(
             marked, refused=QueueFull(sum(not m.has_ended for m in book.missions.values()))
         )
     request = GoalKey(key, body, given.id) if key is not None else None
-    takes_back = goal_to_end(book) if ends else None
-    return Reception(marked, takes_back=takes_back, request=request)
+    ends = goal_to_end(book) if lean is not None and lean.ends else None
+    return Reception(marked, takes_back=ends, request=request)
 
 
 def _doubtful(book: MissionState, given: Submitted) -> Submitted:
     """Mark a sentence that stops the robot and is thought about then: it drives after a yes."""
     given = replace(given, stop=False, doubtful_stop=True, confirm=True, replace=False)
     return replace(given, interrupts=goal_to_pause(book))
-
-
-@dataclass(frozen=True, slots=True)
-class _Lean:
-    """Hold how a sentence leans on the goals before it."""
-
-    intent: Intent | None
-    """None: it is a sentence like any other, or means an order by a few words."""
-    ends: bool
-    """It ends what runs."""
-    first: bool
-    """It is done right after what runs, or in its place."""
-
-
-def _lean_of(book: MissionState, said: Utterance, now_unix_s: float, *, asked: bool) -> _Lean:
-    """Return how a sentence leans on the goals before it; `asked`: it answers one of them."""
-    intent, short = said.intent, find_short_follow_up(book, said.text, now_unix_s)
-    if short is not None and not asked:
-        ends = short.ends and _is_under_way(book, now_unix_s)
-        return _Lean(None, ends, first=ends or short.joins)
-    corrects = isinstance(intent, Replace) and intent.corrects
-    leaning = isinstance(intent, LeaningCommand) or corrects
-    if leaning and not leans(book, intent, said.text, now_unix_s):
-        intent = None  # "and you?": a sentence like any other
-    ends = isinstance(intent, OtherPlaceCommand | LeaveOutCommand) or (
-        isinstance(intent, Replace) and intent.now
-    )
-    return _Lean(intent, ends, first=ends or isinstance(intent, AppendCommand))
-
-
-def _is_under_way(book: MissionState, now_unix_s: float) -> bool:
-    """Tell whether the goal that would be ended is the newest order itself."""
-    last = last_order(book, now_unix_s)
-    return last is not None and not last.has_ended and goal_to_end(book) == last.id
 
 
 def _body_of(given: Submitted) -> str:
@@ -221,8 +184,8 @@ class AnswerReception:
     """What the words do to the goal; after a stop, where its state still allows it."""
     sentence: str | None = None
     """What is then taken in as a goal of its own, beside the question."""
-    answers: bool = True
-    """That goal may answer a question."""
+    lean: Lean | None = None
+    """What that goal makes of the order that was asked about; it answers no question then."""
 
 
 def receive_answer(
@@ -238,42 +201,39 @@ def receive_answer(
     if said.orders_stop or (said.consent is None and hears_stop(book, said, now_s)):
         ends = Cancel(goal_id) if isinstance(intent, Replace) else None
         rest = said.text if said.orders_stop and said.behind_stop else None
-        return AnswerReception(stops=True, command=ends, sentence=rest, answers=rest is None)
+        return AnswerReception(stops=True, command=ends, sentence=rest)
     if (error := refusal(book, Reply(goal_id, said.text))) is not None:
         return AnswerReception(refused=error)
     if isinstance(intent, TakeBack):
         return AnswerReception(command=Cancel(goal_id))
     now_unix_s = now_s + book.wall_offset_s
-    corrects = isinstance(intent, Replace | OtherPlaceCommand)
-    if corrects and leans(book, intent, said.text, now_unix_s):
-        # "no, the study": in place of what is asked
-        meant = meaning_of(book, said.text, now_unix_s)
-        return AnswerReception(command=Cancel(goal_id), sentence=meant, answers=False)
+    lean = lean_of(book, said, now_unix_s)
+    if lean is not None and lean.corrects:  # "no, the study": in place of what is asked
+        lean = replace(lean, ends=False, first=False, replaces=False)  # what it ends has ended
+        return AnswerReception(command=Cancel(goal_id), sentence=said.text, lean=lean)
     own_question = takes_yes(book.missions[goal_id])  # "go on" may be its answer
     declines = said.consent is False and (own_question or asks_freely(book.missions[goal_id]))
     if (said.stays_put and not declines) or (isinstance(intent, GoOn) and not own_question):
         return AnswerReception(sentence=said.text)
-    if isinstance(intent, Replace) and not intent.corrects:
-        return AnswerReception(command=Cancel(goal_id), sentence=intent.rest, answers=False)
     return AnswerReception(command=Reply(goal_id, said.text))
 
 
 def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
     """Return whether these words would stop the robot now, with any other meaning besides."""
-    return said.orders_stop or _may_stop(book, said, now_s)
+    lean = lean_of(book, said, now_s + book.wall_offset_s)
+    return said.orders_stop or _may_stop(book, said, now_s, lean)
 
 
-def _may_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
+def _may_stop(book: MissionState, said: Utterance, now_s: float, lean: Lean | None) -> bool:
     """Return whether words that may mean a stop are to be taken for one now.
 
     卧室别进去 leaves one room out of the round that runs, and the rest of it goes on.
     """
-    now_unix_s = now_s + book.wall_offset_s
-    if not is_active(book, now_s) or not (
-        said.may_mean_stop or denies_way(book, said.text, now_unix_s)
-    ):
+    if not is_active(book, now_s) or (lean is not None and lean.keeps_round):
         return False
-    return change_round(book, said.text, now_unix_s) is None
+    leans = lean is not None and bool(lean.changed.steps)
+    may_mean = said.may_mean_stop and not leans
+    return may_mean or denies_way(book, said.text, now_s + book.wall_offset_s)
 
 
 def awaits_answer(book: MissionState) -> bool:
@@ -311,27 +271,6 @@ def goals_answered_by(book: MissionState, said: Utterance) -> tuple[str, ...]:
         return tuple(m.id for m in waiting if alone and asks_freely(m))
     newest_unix_s = max(taking.values())
     return tuple(m.id for m in waiting if m.id in taking or m.updated_unix_s >= newest_unix_s)
-
-
-_OPEN = (
-    GoalState.PLANNING,
-    GoalState.NEEDS_CLARIFICATION,
-    GoalState.AWAITING_CONFIRMATION,
-    GoalState.PAUSED,
-    GoalState.QUEUED,
-)
-
-
-def goal_to_end(book: MissionState, asking: str | None = None) -> str | None:
-    """Return the goal that a person means by "that": the running one, else the newest open one."""
-    if book.running is not None:
-        return book.running
-    others = [m for m in book.missions.values() if not m.has_ended and m.id != asking]
-    for state in _OPEN:
-        found = [m for m in others if m.state is state]
-        if found:
-            return max(found, key=lambda m: m.order).id
-    return None
 
 
 def goal_to_pause(book: MissionState, asking: str | None = None) -> str | None:

@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from planner.memory import Recollection
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
+    from planner.mission.follow_up import Lean
     from planner.mission.state import GoalKey
 
 
@@ -153,7 +154,7 @@ class Missions:
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
         source: str = "api",
-        answers: bool = True,
+        leaning: Lean | None = None,
     ) -> Goal:
         """Take a goal in and return it, usually still in planning. An order to stop stops first.
 
@@ -167,7 +168,7 @@ class Missions:
             idempotency_key: the same key and request return the same goal.
             act: the person's ``op/resume``, signed, which clears the bridge's hold.
             source: who asks, for the bridge's record of stops.
-            answers: it may answer a question; never where ``confirm`` or ``replace`` is set.
+            leaning: how it leans, where it was said as an answer: it answers nothing then.
 
         Raises:
             QueueFull: 33 goals are open, and none of them waits for an answer alone.
@@ -178,7 +179,7 @@ class Missions:
         given = Submitted(goal_id, text, language or said.language, confirm, replace, source=source)
         heard = receive(
             self.loop.book, said, given, self._clocks.monotonic(),
-            answers=answers, key=idempotency_key, repeats=self._repeats,
+            leaning=leaning, key=idempotency_key, repeats=self._repeats,
         )  # fmt: skip
         if heard.refused is not None:
             raise heard.refused
@@ -240,9 +241,7 @@ class Missions:
         return await self._command(Confirm(goal_id), act)
 
     async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
-        """Answer a goal's question, or say yes or no to its plan; an order to stop always stops.
-
-        ``reception.receive_answer`` says what the words do.
+        """Do what ``reception.receive_answer`` makes of a goal's answer; a stop always stops.
 
         Raises:
             UnknownGoal, BadState: as named.
@@ -254,10 +253,10 @@ class Missions:
             await self.stop("answer")
             if heard.command is not None:
                 self.loop.obey(heard.command)
-        elif heard.command is not None:
-            await self._command(heard.command, act if isinstance(heard.command, Reply) else None)
+        elif (command := heard.command) is not None:
+            await self._command(command, act if isinstance(command, Reply) else None)
         if heard.sentence is not None:
-            await self.submit(heard.sentence, act=act, answers=heard.answers)
+            await self.submit(heard.sentence, act=act, leaning=heard.lean)
         return self.goal(goal_id)
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal:

@@ -8,6 +8,7 @@ clock, ``*_unix_s`` for people.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from pydantic import Field, model_validator
 
@@ -20,6 +21,7 @@ from planner.perception.snapshot import Sight
 from planner.plan import (
     ENDED,
     BrainTag,
+    ChangedOrder,
     Frozen,
     GoalState,
     Language,
@@ -53,8 +55,8 @@ class Mission(Frozen):
     language: Language
     state: GoalState
     reason: str | None = None
-    meant: str = ""
-    """The order that its text is, where that leans on an earlier goal: "again", "no, the study"."""
+    changed: ChangedOrder | None = None
+    """What its text makes of the order before it: "again", "no, the study"."""
     replies: tuple[str, ...] = ()
     """What the person answered to our questions, in order."""
     questions: tuple[str, ...] = ()
@@ -126,6 +128,15 @@ class Mission(Frozen):
     created_unix_s: float
     updated_unix_s: float
 
+    @model_validator(mode="before")
+    @classmethod
+    def _read_meaning(cls, record: Any) -> Any:
+        """Read the sentence that a former program wrote in place of what was said."""
+        if isinstance(record, dict) and "meant" in record:
+            kept = {name: value for name, value in record.items() if name != "meant"}
+            return {**kept, "changed": {"words": record["meant"]} if record["meant"] else None}
+        return record
+
     @model_validator(mode="after")
     def _remembers_its_own_step(self) -> Mission:
         state, step = self.skill_state, self.current_step
@@ -146,12 +157,12 @@ class Mission(Frozen):
     @property
     def words(self) -> str:
         """Return the newest thing that the person said about this goal, to be understood."""
-        return self.replies[-1] if self.replies else self.order_text
+        return self.replies[-1] if self.replies else self.text
 
     @property
     def order_text(self) -> str:
-        """Return the order in words that lean on no other goal."""
-        return self.meant or self.text
+        """Return the part of the text that is an order by itself."""
+        return self.text if self.changed is None else self.changed.words or self.text
 
     @property
     def grant_name(self) -> str:
@@ -250,3 +261,24 @@ def newest_paused(book: MissionState, asking: str | None = None) -> str | None:
     paused = (m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking)
     newest = max(paused, key=lambda m: (m.updated_unix_s, m.order), default=None)
     return newest.id if newest is not None else None
+
+
+_OPEN = (
+    GoalState.PLANNING,
+    GoalState.NEEDS_CLARIFICATION,
+    GoalState.AWAITING_CONFIRMATION,
+    GoalState.PAUSED,
+    GoalState.QUEUED,
+)
+
+
+def goal_to_end(book: MissionState, asking: str | None = None) -> str | None:
+    """Return the goal that a person means by "that": the running one, else the newest open one."""
+    if book.running is not None:
+        return book.running
+    others = [m for m in book.missions.values() if not m.has_ended and m.id != asking]
+    for state in _OPEN:
+        found = [m for m in others if m.state is state]
+        if found:
+            return max(found, key=lambda m: m.order).id
+    return None

@@ -183,9 +183,10 @@ def think(turn: Transaction, mission: Mission) -> None:
             room,
             list_observations(facts, mission),
             mission.replans,
-            order=mission.order_text,
+            order=mission.text,
             exchanges=exchanges_of(mission),
             departed=mission.departed_at is not None,
             situation=situation_of(turn.book, mission, turn.now_s),
+            changed=None if mission.replies else mission.changed,
         )
     )

@@ -1,6 +1,8 @@
 """Define the planning vocabulary: plans, steps, outcomes, places and goals. Closed."""
 
 from planner.plan.base import Bilingual, Frozen, Language, say_same
+from planner.plan.change import Change, ChangedOrder, Edit, LastOrder
+from planner.plan.changed_steps import apply
 from planner.plan.check import (
     BARE,
     MAX_DEPTH,
@@ -42,6 +44,7 @@ from planner.plan.responses import (
     StepPlan,
     words_of,
 )
+from planner.plan.slots import steps_of
 from planner.plan.steps import (
     CONDITIONS,
     CONTROL,
@@ -117,6 +120,8 @@ __all__ = [
     "Attempt",
     "Bilingual",
     "BrainTag",
+    "Change",
+    "ChangedOrder",
     "Clarify",
     "ClockTime",
     "Code",
@@ -124,6 +129,7 @@ __all__ = [
     "Condition",
     "Count",
     "Decide",
+    "Edit",
     "Entry",
     "Explore",
     "Find",
@@ -137,6 +143,7 @@ __all__ = [
     "GoalState",
     "If",
     "Language",
+    "LastOrder",
     "Look",
     "Means",
     "MoveStraight",
@@ -172,6 +179,7 @@ __all__ = [
     "Vocabulary",
     "Wait",
     "WaitFor",
+    "apply",
     "check_plan",
     "children_of",
     "end_of",
@@ -184,5 +192,6 @@ __all__ = [
     "plan_record",
     "root_of",
     "say_same",
+    "steps_of",
     "words_of",
 ]

@@ -17,6 +17,7 @@ from planner.brain.image_questions import ImageDescription, ImageSighting, NotTh
 from planner.language.utterance import parse
 from planner.memory import MemoryStore, Recollection, SightingRecorder
 from planner.mission.events import Submitted
+from planner.mission.follow_up import Lean
 from planner.mission.reception import receive
 from planner.mission.skills.spatial_relations import support_of
 from planner.plan import BrainTag, GoalState, StepPlan, say_same
@@ -117,8 +118,11 @@ class DrivenRobot(RobotEar):
         """Be told what the next turn notes of what is seen and answered."""
         self._turn, self._noted.words = turn, turn.notes.sees
 
-    async def hear(self, text: str, *, typed: bool = False) -> RobotReply:
-        """Return what a sentence comes to."""
+    async def hear(
+        self, text: str, *, typed: bool = False, leaning: Lean | None = None
+    ) -> RobotReply:
+        """Return what a sentence comes to; how it leans the missions work out themselves."""
+        del leaning
         before, waiting = self._look(), self._waiting()
         if typed and waiting is not None:
             self.world.answer(self.world.goal(waiting.id), text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.mission.follow_up import way_back_of
+from planner.mission.departure import way_back_of
 from wire import (
     PROTOCOL,
     Action,

@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from planner.mission.effects import Effect
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Event
+    from planner.mission.follow_up import Lean
     from planner.mission.state import Mission
     from planner.site.site import Site
 
@@ -115,7 +116,9 @@ class RobotEar:
         del goal, turn
         return ""
 
-    async def hear(self, text: str, *, typed: bool = False) -> RobotReply:
+    async def hear(
+        self, text: str, *, typed: bool = False, leaning: Lean | None = None
+    ) -> RobotReply:
         """Return what a sentence comes to."""
         self._now_s += _TURN_S
         status = standing_status(self._pose)
@@ -128,10 +131,11 @@ class RobotEar:
             if taken.command is not None:
                 await self._on(taken.command)
             if taken.sentence is not None:
-                return await self.hear(taken.sentence)
+                return await self.hear(taken.sentence, leaning=taken.lean)
             return self._tell(before, waiting.id, taken.stops)
         goal = f"goal-{next(self._ids)}"
-        heard = receive(before, said, Submitted(goal, text, said.language), self._now_s)
+        given = Submitted(goal, text, said.language)
+        heard = receive(before, said, given, self._now_s, leaning=leaning)
         if heard.stops:
             await self._on(Stopped("person"))
         await self._on(heard.given)

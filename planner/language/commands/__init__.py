@@ -4,7 +4,6 @@ Pure, both languages, whole sentences only. The one door of this package.
 """
 
 from planner.language.commands.command import (
-    AppendCommand,
     BatteryCommand,
     CancelCommand,
     Doing,
@@ -13,13 +12,9 @@ from planner.language.commands.command import (
     ForgetFacts,
     HereCommand,
     Intent,
-    LeaningCommand,
-    LeaveOutCommand,
-    OtherPlaceCommand,
     OutcomeCommand,
     PauseCommand,
     Remember,
-    RepeatCommand,
     Replace,
     ResumeCommand,
     Slower,
@@ -28,16 +23,9 @@ from planner.language.commands.command import (
 )
 from planner.language.commands.fact_corrections import name_subject, read_fact_correction
 from planner.language.commands.facts import read_statement
-from planner.language.commands.first_place import read_first_place
-from planner.language.commands.left_out import (
-    read_absent_place,
-    read_denied_place,
-    read_left_out,
-)
 from planner.language.commands.parser import intent_of
 
 __all__ = [
-    "AppendCommand",
     "BatteryCommand",
     "CancelCommand",
     "Doing",
@@ -46,13 +34,9 @@ __all__ = [
     "ForgetFacts",
     "HereCommand",
     "Intent",
-    "LeaningCommand",
-    "LeaveOutCommand",
-    "OtherPlaceCommand",
     "OutcomeCommand",
     "PauseCommand",
     "Remember",
-    "RepeatCommand",
     "Replace",
     "ResumeCommand",
     "Slower",
@@ -60,10 +44,6 @@ __all__ = [
     "WhereCommand",
     "intent_of",
     "name_subject",
-    "read_absent_place",
-    "read_denied_place",
     "read_fact_correction",
-    "read_first_place",
-    "read_left_out",
     "read_statement",
 ]

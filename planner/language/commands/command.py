@@ -74,37 +74,6 @@ class Replace:
     now: bool
     """The person took the current goal back ("forget that, …"): it ends before anything is thought
     about. Otherwise ("… instead") it ends once the rest is understood."""
-    corrects: bool = False
-    """It is one ("no, the study") only where the rest is a place or an order, which the missions
-    know: "no, the dinner is ready" takes nothing back."""
-
-
-@dataclass(frozen=True, slots=True)
-class AppendCommand:
-    """Do the rest of the sentence right after the current goal."""
-
-    rest: str
-    asks: bool = False
-    """It asks what was asked before: "and in the study?"."""
-
-
-@dataclass(frozen=True, slots=True)
-class RepeatCommand:
-    """Do the last goal once more, or several times."""
-
-    times: int = 1
-
-
-@dataclass(frozen=True, slots=True)
-class OtherPlaceCommand:
-    """Do the last goal with the other of two places that were spoken of."""
-
-
-@dataclass(frozen=True, slots=True)
-class LeaveOutCommand:
-    """Do what is left of the last goal without one of its places: "skip the bathroom"."""
-
-    rest: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,8 +106,6 @@ class Faster:
     """Double the speed cap again, up to the goal's first one."""
 
 
-LeaningCommand = AppendCommand | RepeatCommand | OtherPlaceCommand | LeaveOutCommand
-"""What has a meaning by the goal before it alone."""
 Intent = (
     Remember
     | Forget
@@ -149,10 +116,6 @@ Intent = (
     | ResumeCommand
     | CancelCommand
     | Replace
-    | AppendCommand
-    | RepeatCommand
-    | OtherPlaceCommand
-    | LeaveOutCommand
     | WhereCommand
     | Doing
     | BatteryCommand

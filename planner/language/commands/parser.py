@@ -14,7 +14,6 @@ from types import ModuleType
 
 from planner.language.commands import chinese, english
 from planner.language.commands.command import (
-    AppendCommand,
     BatteryCommand,
     CancelCommand,
     Doing,
@@ -32,7 +31,6 @@ from planner.language.commands.command import (
 )
 from planner.language.commands.facts import read_fact_order, read_long_fact
 from planner.language.commands.folded_text import FoldedText
-from planner.language.commands.follow_up import read_follow_up
 from planner.language.commands.statements import find_statement
 from planner.language.dialect import in_standard_words
 from planner.language.folding import fold_script, fold_width, has_chinese
@@ -79,12 +77,7 @@ def _read_intent(text: str) -> Intent | None:
     standing = None if unread else read_order_command(text)
     if standing is not None and not _tells_a_time(standing, text):
         return standing  # 在三月五号八点…: no place is called so
-    if own is not None:
-        return own
-    after = None if unread else read_follow_up(text)
-    rest = after.rest if isinstance(after, Replace | AppendCommand) else None
-    # "no, continue": whichever is meant, a person must say; an order to stop stands for itself
-    return after if rest is None or is_stop(rest) or _intent_alone(rest) is None else None
+    return own
 
 
 def _tells_a_time(standing: OrderCommand, text: str) -> bool:

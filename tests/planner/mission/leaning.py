@@ -1,33 +1,42 @@
-"""Build the newest order that a sentence of a few words leans on."""
+"""Build the newest order that a sentence leans on, and say what the sentence makes of it."""
 
 from __future__ import annotations
 
+import asyncio
 from typing import Any
 
-from planner.brain import OfflineBrain
+from planner.brain import OfflineBrain, ThinkRequest
 from planner.language.catalogue import say
 from planner.language.utterance import parse
 from planner.mission.events import Planned, Submitted
+from planner.mission.follow_up import lean_of
+from planner.mission.place_words import names_of
+from planner.mission.plan_request import things_of
 from planner.mission.reducer import advance
 from planner.mission.skills import Eyesight
 from planner.mission.state import Mission, MissionState
 from planner.perception.snapshot import Sight
-from planner.plan import Clarify, Code, GoalState, StepPlan
+from planner.plan import ChangedOrder, Clarify, Code, GoalState, Means, Plan, StepPlan
 from planner.site import Site
-from planner.site.site_view import facts_of
+from planner.site.site_view import facts_of, vocabulary_of
 from tests.conftest import ROOT
 from wire import CameraConfig
 
-FACTS = facts_of(Site.load(ROOT / "sites" / "home"))
+SITE = Site.load(ROOT / "sites" / "home")
+FACTS = facts_of(SITE)
+NAMES = names_of(FACTS)
 NOW_S = 1000.0
-_EYES = Eyesight(CameraConfig(), ("person", "cup", "bottle", "chair", "backpack"))
+_CLASSES = ("person", "cup", "bottle", "chair", "backpack", "book", "ball", "cat")
+_EYES = Eyesight(CameraConfig(), _CLASSES)
+_MEANS = Means(camera=True, detector=True)
 
 
 def order_under_way(text: str, *steps: Any) -> MissionState:
-    """Return the book with this order planned as these steps."""
+    """Return the book with this order planned as these steps, else as the built-in brain does."""
     book = MissionState(FACTS, eyes=_EYES, sight=Sight())
     book, _ = advance(book, Submitted("g0", text, parse(text).language), NOW_S)
-    return advance(book, Planned("g0", StepPlan(steps=steps)), NOW_S)[0]
+    plan = StepPlan(steps=steps) if steps else plan_of(text)
+    return advance(book, Planned("g0", plan), NOW_S)[0]
 
 
 def order_done(text: str, *steps: Any) -> MissionState:
@@ -48,3 +57,28 @@ def order_asked_about(text: str) -> MissionState:
 def newest(book: MissionState) -> Mission:
     """Return the newest order."""
     return max(book.missions.values(), key=lambda m: m.order)
+
+
+def changed_by(book: MissionState, said: str, later_s: float = 0.0) -> ChangedOrder | None:
+    """Return what a sentence makes of the newest order; None where it changes nothing."""
+    lean = lean_of(book, parse(said), NOW_S + later_s)
+    return lean.changed if lean is not None else None
+
+
+def plan_of(text: str, changed: ChangedOrder | None = None) -> Plan:
+    """Return the built-in brain's plan of a sentence."""
+    request = ThinkRequest(
+        text=text,
+        vocabulary=vocabulary_of(SITE),
+        runnable=_MEANS.plannable,
+        blind=_MEANS.blind,
+        things=things_of(_CLASSES),
+        changed=changed,
+    )
+    return asyncio.run(OfflineBrain().think(request)).plan
+
+
+def means(book: MissionState, said: str, order: str) -> bool:
+    """Tell whether a sentence comes to the same steps as an order that leans on nothing."""
+    changed = changed_by(book, said)
+    return changed is not None and plan_of(said, changed) == plan_of(order)

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi, radians
 from typing import Any
 
 import pytest
 
 from planner.language.utterance import parse
-from planner.mission.adjusted_motion import adjust_motion, turn_other_way
 from planner.mission.events import Submitted
 from planner.mission.reception import receive
 from planner.plan import Find, GoToObject, Language, MoveStraight, Turn
-from tests.planner.mission.leaning import NOW_S, newest, order_done, order_under_way
+from tests.planner.mission.fakes import status
+from tests.planner.mission.leaning import (
+    NOW_S,
+    changed_by,
+    means,
+    newest,
+    order_done,
+    order_under_way,
+)
 from wire import Pose2
 
 LEFT = Turn(angle_rad=pi / 2.0)
@@ -32,22 +40,25 @@ OTHERS_ZH = ("反了，右边！", "不对，是右边", "不对，往右", "另
 
 @pytest.mark.parametrize("said", OTHERS)
 def test_the_other_side_ends_where_the_right_turn_would_have(said: str) -> None:
-    under_way, done = order_under_way("turn left", LEFT), order_done("turn left", LEFT)
-    assert turn_other_way(said, newest(under_way), None) == "turn right by 90 degrees"
-    assert turn_other_way(said, newest(done), None) == "turn right by 180 degrees"
+    assert means(order_under_way("turn left", LEFT), said, "turn right by 90 degrees")
+    assert means(order_done("turn left", LEFT), said, "turn right by 180 degrees")
 
 
 @pytest.mark.parametrize("said", OTHERS_ZH)
 def test_so_it_does_in_chinese(said: str) -> None:
-    assert turn_other_way(said, newest(order_under_way("往左转", LEFT)), None) == "向右转90度"
+    assert means(order_under_way("往左转", LEFT), said, "向右转90度")
 
 
 def test_a_turn_under_way_is_undone_as_far_as_it_came() -> None:
-    begun = newest(order_under_way("turn left", LEFT)).model_copy(
-        update={"accepted_at": (0.0, 0.0, 0.0)}
-    )
-    here = Pose2(x_m=0.0, y_m=0.0, yaw_rad=radians(40.0))
-    assert turn_other_way("no, right!", begun, here) == "turn right by 130 degrees"
+    begun = order_under_way("turn left", LEFT)
+    last = newest(begun).model_copy(update={"accepted_at": (0.0, 0.0, 0.0)})
+    here = status(base_in_map=Pose2(x_m=0.0, y_m=0.0, yaw_rad=radians(40.0)))
+    book = replace(begun, missions={last.id: last}, status=here)
+    changed = changed_by(book, "no, right!")
+    assert changed is not None
+    [turn] = changed.steps
+    assert isinstance(turn, Turn)
+    assert turn.angle_rad == pytest.approx(radians(-130.0))
 
 
 def test_the_turn_to_the_other_side_comes_in_place_of_the_first() -> None:
@@ -58,7 +69,7 @@ def test_the_turn_to_the_other_side_comes_in_place_of_the_first() -> None:
 
 
 @pytest.mark.parametrize(
-    ("step", "said", "means"),
+    ("step", "said", "order"),
     [
         (LEFT, "a bit more", "turn left by 30 degrees"),
         (LEFT, "too far, back a bit", "turn right by 30 degrees"),
@@ -78,8 +89,8 @@ def test_the_turn_to_the_other_side_comes_in_place_of_the_first() -> None:
         (GoToObject(object="cup"), "a bit closer", "move forward a bit"),
     ],
 )
-def test_a_motion_goes_on_or_back_a_little(step: Any, said: str, means: str) -> None:
-    assert adjust_motion(said, newest(order_done("an order", step))) == means
+def test_a_motion_goes_on_or_back_a_little(step: Any, said: str, order: str) -> None:
+    assert means(order_done("an order", step), said, order)
 
 
 @pytest.mark.parametrize(
@@ -92,19 +103,18 @@ def test_a_motion_goes_on_or_back_a_little(step: Any, said: str, means: str) -> 
 )
 @pytest.mark.parametrize("step", [LEFT, MoveStraight(distance_m=0.2)])
 def test_another_sentence_moves_nothing(step: Any, said: str) -> None:
-    last = newest(order_under_way("an order", step))
-    assert (adjust_motion(said, last), turn_other_way(said, last, None)) == (None, None)
+    changed = changed_by(order_under_way("an order", step), said)
+    assert changed is None or not changed.steps
 
 
 @pytest.mark.parametrize("said", ["a bit more", "the other left", "再来一点", "反了"])
 def test_nothing_is_adjusted_where_nothing_was_turned_or_moved(said: str) -> None:
     for steps in ((Find(object="cup"),), (LEFT, LEFT)):
-        last = newest(order_under_way("an order", *steps))
-        assert (adjust_motion(said, last), turn_other_way(said, last, None)) == (None, None)
+        assert changed_by(order_under_way("an order", *steps), said) is None
 
 
 @pytest.mark.parametrize(
-    ("step", "said", "means"),
+    ("step", "said", "order"),
     [
         (MoveStraight(distance_m=0.2), "another 20 cm", "move forward 20 cm"),
         (MoveStraight(distance_m=-1.0), "another metre", "move back a metre"),
@@ -121,6 +131,7 @@ def test_nothing_is_adjusted_where_nothing_was_turned_or_moved(said: str) -> Non
     ],
 )
 def test_so_much_more_is_measured_as_the_motion_was(
-    step: Any, said: str, means: str | None
+    step: Any, said: str, order: str | None
 ) -> None:
-    assert adjust_motion(said, newest(order_done("an order", step))) == means
+    book = order_done("an order", step)
+    assert means(book, said, order) if order else changed_by(book, said) is None

@@ -94,7 +94,7 @@ def test_a_former_row_is_read_into_the_state_of_its_skill(row: str, state: Skill
     del former["notes"], now["skill_state"]
     for name in (
         "recovery",
-        "meant",
+        "changed",
         "departed_at",
         "interrupted",
         "sure",

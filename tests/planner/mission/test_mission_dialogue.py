@@ -12,6 +12,7 @@ from planner.plan import (
     Ask,
     Bilingual,
     BrainTag,
+    ChangedOrder,
     Clarify,
     Code,
     GoalState,
@@ -117,7 +118,12 @@ def test_an_order_in_place_of_the_answer_stands_alone(tmp_path: Path, site: Site
             await world.missions.answer(goal.id, "forget that, go to the kitchen")
             await world.until(lambda: len(world.brain.asked) == 2)
             heard = world.brain.asked[1]
-            assert (heard.text, heard.order, heard.exchanges) == ("go to the kitchen", "", ())
+            assert (heard.text, heard.order, heard.exchanges) == (
+                "forget that, go to the kitchen",
+                "",
+                (),
+            )
+            assert heard.changed == ChangedOrder(words="go to the kitchen")
 
     run(story())
 

@@ -174,8 +174,11 @@ def test_where_more_drives_follow_the_question_says_first() -> None:
     steps = plan_record(StepPlan(steps=(GoTo(place="kitchen"), GoTo(place="sofa")))).steps
     first, both = (ask_for_motion(FACTS, (), steps, each) for each in ((0,), (0, 1)))
     alone = ask_for_motion(FACTS, (), steps[:1], (0,))
-    assert first is not None and both is not None and alone is not None
-    assert "first" in first.message.en and "先" in first.message.zh
+    assert first is not None
+    assert both is not None
+    assert alone is not None
+    assert "first" in first.message.en
+    assert "先" in first.message.zh
     assert "first" not in both.message.en + alone.message.en
 
 

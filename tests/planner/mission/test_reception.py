@@ -17,6 +17,7 @@ from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
+from planner.mission.follow_up import Lean
 from planner.mission.reception import (
     AnswerReception,
     Reception,
@@ -27,7 +28,7 @@ from planner.mission.reception import (
 )
 from planner.mission.reducer import advance
 from planner.mission.state import MAX_OPEN, GoalKey, Mission, MissionState
-from planner.plan import Code, GoalState, Language, Outcome, Vocabulary
+from planner.plan import ChangedOrder, Code, GoalState, Language, Outcome, Vocabulary
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason
@@ -247,7 +248,8 @@ def _book_of(state: GoalState) -> MissionState:
         ("go on", GoalState.NEEDS_CLARIFICATION, AnswerReception(sentence="go on")),
         ("forget it", GoalState.AWAITING_CONFIRMATION, AnswerReception(command=Cancel("g1"))),
         ("forget that, go to the bedroom", GoalState.AWAITING_CONFIRMATION,
-         AnswerReception(command=Cancel("g1"), sentence="go to the bedroom", answers=False)),
+         AnswerReception(command=Cancel("g1"), sentence="forget that, go to the bedroom",
+                         lean=Lean(ChangedOrder(words="go to the bedroom"), corrects=True))),
         ("forget that, stop", GoalState.AWAITING_CONFIRMATION,
          AnswerReception(stops=True, command=Cancel("g1"))),
     ],

@@ -7,7 +7,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.language.commands import (
-    AppendCommand,
     BatteryCommand,
     CancelCommand,
     Doing,
@@ -15,11 +14,9 @@ from planner.language.commands import (
     Forget,
     HereCommand,
     Intent,
-    LeaveOutCommand,
     OutcomeCommand,
     PauseCommand,
     Remember,
-    RepeatCommand,
     Replace,
     ResumeCommand,
     Slower,
@@ -88,9 +85,6 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("下一个去哪", Doing()),
     ("到了没", Doing()),
     ("走吧", ResumeCommand()),
-    ("skip the bathroom", LeaveOutCommand("the bathroom")),
-    ("leave out the bedroom, the baby's asleep", LeaveOutCommand("the bedroom")),
-    ("跳过卫生间", LeaveOutCommand("卫生间")),
     ("never mind, I've got it", CancelCommand()),
     ("forget it, it's already here", CancelCommand()),
     ("不用找了，我找到了", CancelCommand()),
@@ -441,17 +435,3 @@ def test_an_order_or_a_place_behind_it_pauses_nothing(said: str) -> None:
 def test_enough_before_going_on_goes_on() -> None:
     assert intent_of("行了，接着走吧") == ResumeCommand()
     assert intent_of("行了，不用找了") == CancelCommand()
-
-
-@pytest.mark.parametrize(
-    ("text", "wanted"),
-    [
-        ("客厅也瞅瞅", AppendCommand("客厅", True)),
-        ("书房的也数一下", AppendCommand("书房", True)),
-        ("不够，书房也去看一眼", AppendCommand("书房", True)),
-        ("再去看一遍呗，都过十分钟了", RepeatCommand()),
-        ("再看一遍吧", RepeatCommand()),
-    ],
-)
-def test_one_place_more_or_less_is_read(text: str, wanted: Intent) -> None:
-    assert intent_of(text) == wanted

@@ -1,0 +1,16 @@
+"""Hold one row of a language's table."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from planner.plan import Edit
+
+
+class Row(NamedTuple):
+    """Say which whole sentence is which act; named groups fill the slots of its ``Change``."""
+
+    act: Edit
+    sentence: str
+    fills: str = ""
+    """Slots that the sentence fills by itself: marks, ``kind=count``, at the end ``words=…``."""
