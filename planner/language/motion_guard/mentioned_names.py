@@ -8,10 +8,16 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from rapidfuzz.distance import OSA
 
 from planner.language.folding import CHINESE, fold_words
 from planner.language.object_names import resolve, synonyms
 from planner.plan import Language, Vocabulary
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _WORD = re.compile(rf"[a-z0-9']+|[{CHINESE}]")
 _GENERIC = frozenset(
@@ -59,14 +65,71 @@ def plain(text: str) -> str:
     return fold_words(text).replace("’", "'")
 
 
+_SHORT = 5
+"""A name this short may be another word with one letter changed: "table", "cable"."""
+_LONG = re.compile(r"(?<![a-z0-9'])[a-z]{4,}(?![a-z0-9'])")
+_NEXT_TOO = re.compile(r"[a-z]+ [a-z]+(?![a-z0-9'])")
+_MOST_SLIPS = 2000
+
+
+@dataclass(frozen=True, slots=True)
+class NamedPlace:
+    """Hold where a text names a place: by its id, from ``start`` to ``end`` of the plain text."""
+
+    id: str
+    start: int
+    end: int
+
+
+@dataclass(frozen=True, slots=True)
+class _Names:
+    """Hold the names of one vocabulary: as one pattern, and whose each is."""
+
+    pattern: re.Pattern[str]
+    owner: dict[str, str]
+    slips: dict[str, str | None]
+    """Misspelt names that were met, and the one place that each can mean."""
+
+    def find(self, text: str) -> Iterator[NamedPlace]:
+        """Yield the places that a plain text names, in its order."""
+        at = 0
+        for found in self.pattern.finditer(text):
+            yield from self._slips_in(text, at, found.start())
+            yield NamedPlace(self.owner[_tight(found[0])], found.start(), found.end())
+            at = found.end()
+        yield from self._slips_in(text, at, len(text))
+
+    def _slips_in(self, text: str, start: int, end: int) -> Iterator[NamedPlace]:
+        """Yield the places that are misspelt between two names: one letter of a word or two."""
+        for found in _LONG.finditer(text, start, end):
+            for words in (found, _NEXT_TOO.match(text, found.start(), end)):
+                meant = self._meant_by(_tight(words[0])) if words is not None else None
+                if meant is not None and words is not None:
+                    yield NamedPlace(meant, words.start(), words.end())
+                    break
+
+    def _meant_by(self, slip: str) -> str | None:
+        if slip not in self.slips:
+            near = {
+                place
+                for name, place in self.owner.items()
+                if name[:1] == slip[:1] and name[-1:] == slip[-1:] and len(name) > _SHORT
+                if OSA.distance(name, slip, score_cutoff=1) == 1
+            }
+            if len(self.slips) >= _MOST_SLIPS:
+                self.slips.clear()
+            self.slips[slip] = next(iter(near)) if len(near) == 1 else None
+        return self.slips[slip]
+
+
 @lru_cache(maxsize=8)
-def _finder(vocabulary: Vocabulary) -> tuple[re.Pattern[str], dict[str, str]]:
+def _names(vocabulary: Vocabulary) -> _Names:
     owner: dict[str, str] = {}
     for entry in vocabulary.entries:
         for spelling in entry.spellings:
             owner.setdefault(_tight(spelling), entry.id)
     by_length = sorted(owner, key=len, reverse=True)
-    return re.compile("|".join(map(_loose, by_length)) or r"(?!)"), owner
+    return _Names(re.compile("|".join(map(_loose, by_length)) or r"(?!)"), owner, {})
 
 
 def _tight(name: str) -> str:
@@ -80,26 +143,12 @@ def _loose(name: str) -> str:
 
 def places_named(text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the ids of the places that a text names, in its order, with repetitions."""
-    finder, owner = _finder(vocabulary)
-    return tuple(owner[_tight(found[0])] for found in finder.finditer(plain(text)))
-
-
-@dataclass(frozen=True, slots=True)
-class NamedPlace:
-    """Hold where a text names a place: by its id, from ``start`` to ``end`` of the plain text."""
-
-    id: str
-    start: int
-    end: int
+    return tuple(found.id for found in _names(vocabulary).find(plain(text)))
 
 
 def find_places(text: str, vocabulary: Vocabulary) -> tuple[NamedPlace, ...]:
     """Return where a text, in plain writing, names places, in its order."""
-    finder, owner = _finder(vocabulary)
-    return tuple(
-        NamedPlace(owner[_tight(found[0])], found.start(), found.end())
-        for found in finder.finditer(plain(text))
-    )
+    return tuple(_names(vocabulary).find(plain(text)))
 
 
 _BEFORE = re.compile(r"^(?:(?:to|in|into|at|the|my|our|your|在|那个|那)(?![a-z]) ?)+")
