@@ -341,14 +341,8 @@ def _forms(label: str) -> Iterable[str]:
     for word in (label.replace("_", " "), *_catalogue_words(label, Language.EN)):
         yield word
         *first, last = word.split(" ")
-        for many in _plurals(last):
+        for many in _IRREGULAR.get(last, (_regular_plural(last),)):
             yield " ".join((*first, many))
-
-
-def _plurals(word: str) -> tuple[str, ...]:
-    if word in _IRREGULAR:
-        return _IRREGULAR[word]
-    return (_regular_plural(word),)
 
 
 def _regular_plural(word: str) -> str:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from planner.language.changes.reader import read_changes
 from planner.language.commands import HereCommand, Replace, intent_of
 from planner.language.folding import has_chinese
-from planner.language.motion_guard.clause_moods import Mood
+from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import find_places
 from planner.language.object_names import resolve
@@ -270,7 +270,7 @@ def denied_goal(book: MissionState, order: str, now_unix_s: float) -> str | None
     "Don't go in there" is that of the place that was spoken of last.
     """
     names = names_of(book.facts)
-    denied = " | ".join(c.text for c in read_clauses(order, names) if c.mood is Mood.DENIED)
+    denied = " | ".join(c.text for c in read_clauses(order, names) if c.mood is ClauseMood.DENIED)
     places = {each.id for each in find_places(denied, names)}
     orders = last_orders(book, now_unix_s)
     return next((m.id for m in orders if not places.isdisjoint(_places_ahead(m))), None)

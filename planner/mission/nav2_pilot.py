@@ -140,7 +140,7 @@ class Nav2Pilot:
         aim = self._aim_of(wanted)
         state = self._ours(aim, now_s) if aim is not None else None
         drives = state is not None and state.phase == "driving"
-        if state is None or not drives or status.grant.mission != wanted.grant:
+        if state is None or not drives or status.grant.mission != (wanted.grant or wanted.mission):
             if status.mode is not Mode.ACTIVE:
                 return ()
             return (self._velocity(status, 0.0, 0.0, now_s),)

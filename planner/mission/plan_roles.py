@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
-from planner.language.motion_guard.clause_moods import Mood
+from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import read_clauses
 from planner.mission.open_questions import WAITS, take_sentence
 from planner.mission.queue import cancel, finish
@@ -77,8 +77,8 @@ def ends_goal(text: str) -> bool:
 def _unconditional(text: str) -> str:
     """Return what a sentence says outside of conditions and quotes, denials included."""
     clauses = read_clauses(text, Vocabulary())
-    hangs = any(each.hung or each.mood is Mood.CONDITION for each in clauses)
-    out = {Mood.CONDITION, Mood.DENIED} if hangs else set()
+    hangs = any(each.hung or each.mood is ClauseMood.CONDITION for each in clauses)
+    out = {ClauseMood.CONDITION, ClauseMood.DENIED} if hangs else set()
     return " | ".join(each.text for each in clauses if each.mood not in out and not each.hung)
 
 

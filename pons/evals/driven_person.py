@@ -126,12 +126,12 @@ class DrivenRobot(RobotEar):
         before, waiting = self._look(), self._waiting()
         if typed and waiting is not None:
             self.world.answer(self.world.goal(waiting.id), text)
-            return self._settled(before, waiting.id, stopped=False)
+            return self._settle(before, waiting.id, stopped=False)
         said = parse(text)
         given = Submitted("asked", text, said.language)
         stops = receive(before, said, given, self.world.now_s).stops
         goal = self.world.say(text).id
-        told = self._settled(before, goal, stopped=False)
+        told = self._settle(before, goal, stopped=False)
         plain = stops and self._book.missions[goal].state is GoalState.SUCCEEDED
         return RobotReply(Reaction.STOP) if plain and told.reaction not in PLANS else told
 
@@ -139,7 +139,7 @@ class DrivenRobot(RobotEar):
         """Return what a yes or no to a plan comes to."""
         before = self._look()
         self.world.answer(self.world.goal(goal), "yes" if yes else "no")
-        return self._settled(before, goal, stopped=False)
+        return self._settle(before, goal, stopped=False)
 
     def _wall_s(self) -> float:
         return self.world.now_s + WALL_OFFSET_S
@@ -149,15 +149,15 @@ class DrivenRobot(RobotEar):
         self._book = self.world.planner.book
         return self._book
 
-    def _settled(self, before: MissionState, goal: str, *, stopped: bool) -> RobotReply:
+    def _settle(self, before: MissionState, goal: str, *, stopped: bool) -> RobotReply:
         """Return what the person hears once no thought is under way any more."""
 
-        def thought(world: LockstepWorld) -> bool:
+        def has_thought(world: LockstepWorld) -> bool:
             made = world.planner.book.missions  # after a stop it comes when the bridge has echoed
             return goal in made and all(m.state is not GoalState.PLANNING for m in made.values())
 
         self.world.run(0.1)
-        self.world.run_until(thought, THOUGHT_LIMIT_S)
+        self.world.run_until(has_thought, THOUGHT_LIMIT_S)
         self.world.run(0.2)
         self._look()
         return self._tell(before, goal, stopped)
@@ -169,7 +169,7 @@ class DrivenRobot(RobotEar):
             return
         answers = iter(self._turn.notes.hears if self._turn is not None else ())
 
-        def ended(world: LockstepWorld) -> bool:
+        def has_ended(world: LockstepWorld) -> bool:
             self._recorder.take(self._eyes.sight)
             book = world.planner.book
             waiting = next((m for m in book.missions.values() if m.state in _ASKING), None)
@@ -180,7 +180,7 @@ class DrivenRobot(RobotEar):
             return all(m.state not in runs for m in book.missions.values())
 
         try:
-            self.world.run_until(ended, DRIVE_LIMIT_S)
+            self.world.run_until(has_ended, DRIVE_LIMIT_S)
         except TooLong:
             self.world.cancel(self.world.goal(goal))
             self.world.run(1.0)

@@ -39,7 +39,7 @@ _SEQUEL_ZH = re.compile(r"(?![看找听][见到])[去到进看做转巡走找数
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class ClausePart:
     """Hold where a clause stands in a text, from ``start`` to ``end``."""
 
     start: int
@@ -66,23 +66,23 @@ def table_of(words: str) -> ClauseWords:
     return CHINESE if has_chinese(words) else ENGLISH
 
 
-def cut(said: str, vocabulary: Vocabulary) -> list[Part]:
+def cut(said: str, vocabulary: Vocabulary) -> list[ClausePart]:
     """Cut a text where clauses end, where a denial begins and where a condition's order does."""
-    found: list[Part] = []
+    found: list[ClausePart] = []
     at, mark = 0, ""
     for end in [*_SPLITS.finditer(said), None]:
         stop = len(said) if end is None else end.start()
         if end is not None and not end[0] and _ASKED_IF.search(said[at:stop]):
             continue  # "see if …" asks, and hangs on nothing
         if said[at:stop].strip(" '\""):
-            found += _cut_part(said, Part(at, stop, mark), vocabulary)
+            found += _cut_part(said, ClausePart(at, stop, mark), vocabulary)
             mark = ""
         if end is not None:
             at, mark = end.end(), mark + end[0]
     return found
 
 
-def _cut_part(said: str, part: Part, vocabulary: Vocabulary) -> list[Part]:
+def _cut_part(said: str, part: ClausePart, vocabulary: Vocabulary) -> list[ClausePart]:
     words = said[part.start : part.end]
     table = table_of(words)
     at, upon = None, False
@@ -108,8 +108,8 @@ def _cut_part(said: str, part: Part, vocabulary: Vocabulary) -> list[Part]:
     if at is None or at == 0:
         return [part]
     middle = part.start + at
-    rest = _cut_part(said, Part(middle, part.end, ""), vocabulary)
-    return [Part(part.start, middle, part.mark, upon), *rest]
+    rest = _cut_part(said, ClausePart(middle, part.end, ""), vocabulary)
+    return [ClausePart(part.start, middle, part.mark, upon), *rest]
 
 
 def find_denial(words: str, table: ClauseWords) -> int | None:

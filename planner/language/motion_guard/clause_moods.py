@@ -34,7 +34,7 @@ _FILLS = re.compile(
 _AFTER_ZH = re.compile(r"(?:那?[里边儿上个面]|之间|中间|[的和跟与、]|房间)*")
 
 
-class Mood(Enum):
+class ClauseMood(Enum):
     """Tell what a clause does."""
 
     ORDER = auto()
@@ -51,66 +51,80 @@ class Mood(Enum):
 class Before:
     """Hold what the clauses before one do, in their order."""
 
-    moods: tuple[Mood, ...]
+    moods: tuple[ClauseMood, ...]
 
     @property
-    def last(self) -> Mood:
+    def last(self) -> ClauseMood:
         """Return what the clause right before does."""
-        return self.moods[-1] if self.moods else Mood.NOTHING
+        return self.moods[-1] if self.moods else ClauseMood.NOTHING
 
     @property
     def states(self) -> bool:
         """Tell whether anything was stated, asked or supposed."""
-        return not {Mood.FACT, Mood.QUESTION, Mood.CONDITION}.isdisjoint(self.moods)
+        return not {ClauseMood.FACT, ClauseMood.QUESTION, ClauseMood.CONDITION}.isdisjoint(
+            self.moods
+        )
 
 
-def read_english(words: str, rest: str, asks: bool, vocabulary: Vocabulary, before: Before) -> Mood:
+def read_english(
+    words: str, rest: str, asks: bool, vocabulary: Vocabulary, before: Before
+) -> ClauseMood:
     """Return what an English clause does; ``rest``: without courtesy, ``asks``: by its mark."""
     table = ENGLISH
     if table.supposes.search(words) or table.past.match(rest):
-        return Mood.FACT
+        return ClauseMood.FACT
     if _is_call(rest, table, vocabulary, before):
-        return Mood.CALL
+        return ClauseMood.CALL
     if _is_theirs(rest, vocabulary):
-        return Mood.FACT
+        return ClauseMood.FACT
     asked = table.to_you.match(rest)
     verb = (
         strip_openers(strip_openers(rest, table.to_you), table.opens) if asked is not None else rest
     )
     if (mine := MY_ASK.match(verb)) is not None and verb[mine.end() :].strip():
-        return Mood.QUESTION
+        return ClauseMood.QUESTION
     if is_bare(verb, vocabulary):
         stated = asked is None and before.states
-        return Mood.FACT if stated else Mood.QUESTION if asks else Mood.ORDER
+        return ClauseMood.FACT if stated else ClauseMood.QUESTION if asks else ClauseMood.ORDER
     if asked is None and table.others.match(rest):
-        return Mood.QUESTION if asks else Mood.FACT
+        return ClauseMood.QUESTION if asks else ClauseMood.FACT
     if _STATIC.match(verb):
-        return before.last if before.last is Mood.ORDER and not FINITE.search(verb) else Mood.FACT
+        return (
+            before.last
+            if before.last is ClauseMood.ORDER and not FINITE.search(verb)
+            else ClauseMood.FACT
+        )
     if table.orders.match(verb) or (table.ways.match(verb) and not FINITE.search(verb)):
-        return Mood.ORDER
+        return ClauseMood.ORDER
     if table.asks.match(rest) or asks:
-        return Mood.QUESTION
+        return ClauseMood.QUESTION
     place = next(iter(find_places(verb, vocabulary)), None)
     led = place is not None and _TO_PLACE.fullmatch(verb[: place.start]) is not None
     first = verb.split(" ", maxsplit=1)[0]
     led = led and not is_given_name(first) and not FINITE.search(verb)
-    return Mood.ORDER if led else Mood.FACT
+    return ClauseMood.ORDER if led else ClauseMood.FACT
 
 
-def read_chinese(words: str, rest: str, asks: bool, vocabulary: Vocabulary, before: Before) -> Mood:
+def read_chinese(
+    words: str, rest: str, asks: bool, vocabulary: Vocabulary, before: Before
+) -> ClauseMood:
     """Return what a Chinese clause does; ``rest``: without courtesy, ``asks``: by its mark."""
     table = CHINESE
     rest = strip_openers(rest, ENGLISH.to_you)
     if table.supposes.search(words):
-        return Mood.FACT
+        return ClauseMood.FACT
     if _is_call(rest, table, vocabulary, before):
-        return Mood.CALL
+        return ClauseMood.CALL
     if table.others.match(rest) and not table.to_you.match(rest):
-        return Mood.QUESTION if table.asks.match(words) and "去" not in words else Mood.FACT
+        return (
+            ClauseMood.QUESTION
+            if table.asks.match(words) and "去" not in words
+            else ClauseMood.FACT
+        )
     if table.past.match(words) and not table.to_you.match(rest):
-        return Mood.FACT
+        return ClauseMood.FACT
     if is_bare(rest, vocabulary):
-        return Mood.FACT if asks or before.states else Mood.ORDER
+        return ClauseMood.FACT if asks or before.states else ClauseMood.ORDER
     rest = strip_openers(rest, table.to_you)
     while True:
         shorter = strip_openers(rest, table.opens)
@@ -122,17 +136,17 @@ def read_chinese(words: str, rest: str, asks: bool, vocabulary: Vocabulary, befo
             break
         rest = shorter
     if not rest:
-        return Mood.ORDER
+        return ClauseMood.ORDER
     if (table.orders.match(rest) or ENGLISH.orders.match(rest)) and not table.others.match(rest):
-        return Mood.ORDER
-    return Mood.QUESTION if asks or table.asks.match(words) else Mood.FACT
+        return ClauseMood.ORDER
+    return ClauseMood.QUESTION if asks or table.asks.match(words) else ClauseMood.FACT
 
 
 def _is_call(rest: str, table: ClauseWords, vocabulary: Vocabulary, before: Before) -> bool:
     """Tell whether somebody else is called: a name, or a lone word that opens and is not known."""
     if is_given_name(rest) or (table.others.fullmatch(rest) and rest not in ("我", "it", "that")):
         return True
-    opens = all(each is Mood.NOTHING for each in before.moods)
+    opens = all(each is ClauseMood.NOTHING for each in before.moods)
     lone = len(rest) <= 4 if table is CHINESE else rest.count(" ") == 0
     rows = (table.orders, table.to_you)
     known = any(each.match(rest) for each in rows) or bool(find_places(rest, vocabulary))

@@ -15,7 +15,7 @@ from itertools import pairwise
 
 from planner.language.motion_guard.clause_cuts import (
     HARD,
-    Part,
+    ClausePart,
     cut,
     find_denial,
     mask_quotes,
@@ -25,7 +25,7 @@ from planner.language.motion_guard.clause_cuts import (
 from planner.language.motion_guard.clause_moods import (
     MY_ASK,
     Before,
-    Mood,
+    ClauseMood,
     is_bare,
     read_chinese,
     read_english,
@@ -37,7 +37,7 @@ from planner.plan import Vocabulary
 MAX_READ = 400
 """Characters; what stands behind them asks for nothing."""
 
-_ASKED = frozenset({Mood.ORDER, Mood.QUESTION})
+_ASKED = frozenset({ClauseMood.ORDER, ClauseMood.QUESTION})
 _SAID = re.compile(
     r"\b(?:that|whether|if|i|we|he|she|it|they|you|is|are|was|were|will|can|has|have|needs?|go"
     r"|come|drive|follow|move|turn|run|stop)\b|'(?:s|re|m|ll)\b"
@@ -46,14 +46,14 @@ _AT = re.compile(r"\b(?:in|at|on|by|to|near)(?: (?:the|my|our))? $")
 
 
 @dataclass(frozen=True, slots=True)
-class Clause:
+class SaidClause:
     """Hold one clause, from ``start`` to ``end`` of the plain text."""
 
     start: int
     end: int
     text: str
     """Without what is said to somebody."""
-    mood: Mood
+    mood: ClauseMood
     speech: str = ""
     """What is said to somebody."""
     hung: bool = False
@@ -67,11 +67,11 @@ class Clause:
 
 
 @lru_cache(maxsize=64)
-def read_clauses(text: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
+def read_clauses(text: str, vocabulary: Vocabulary) -> tuple[SaidClause, ...]:
     """Return the clauses of a text, in its order."""
     said = plain(text)[:MAX_READ]
     said = mask_quotes(said)
-    found: list[Clause] = []
+    found: list[SaidClause] = []
     speaks = called = False
     for part in cut(said, vocabulary):
         words = said[part.start : part.end]
@@ -79,44 +79,48 @@ def read_clauses(text: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
             speaks = speaks or table_of(words).speaks.search(words) is not None
         clause = _judge(said, part, vocabulary, found)
         if (speaks and part.mark[:1] in (":", "：")) or called:
-            clause = replace(clause, mood=Mood.FACT)
-        called = called or clause.mood is Mood.CALL
-        speaks = clause.mood is Mood.ORDER and table_of(words).speaks.search(words) is not None
+            clause = replace(clause, mood=ClauseMood.FACT)
+        called = called or clause.mood is ClauseMood.CALL
+        speaks = (
+            clause.mood is ClauseMood.ORDER and table_of(words).speaks.search(words) is not None
+        )
         found.append(clause)
     found = _spare_lists(_take_back(found, vocabulary), vocabulary)
     return _hang(said, found)
 
 
-def _judge(said: str, part: Part, vocabulary: Vocabulary, before: list[Clause]) -> Clause:
+def _judge(
+    said: str, part: ClausePart, vocabulary: Vocabulary, before: list[SaidClause]
+) -> SaidClause:
     whole = said[part.start : part.end]
     words = whole.strip(" '\"“”")
     table = table_of(words)
     words, speech = _cut_speech(words, table, vocabulary)
-    last = before[-1].mood if before else Mood.NOTHING
+    last = before[-1].mood if before else ClauseMood.NOTHING
     rest = strip_openers(words, table.opens)
     asks = said[part.end : part.end + 1] in ("?", "？")
     denial = find_denial(words, table)
     if part.upon:
-        mood = Mood.CONDITION
+        mood = ClauseMood.CONDITION
     elif denial is not None:
-        mood = Mood.DENIED
-    elif last is Mood.FACT and part.mark.strip() == "and":
-        mood = Mood.FACT  # the same who stands before its verb
-    elif last is Mood.DENIED and _goes_on(part, rest, before[-1], table, vocabulary):
-        mood = Mood.DENIED
+        mood = ClauseMood.DENIED
+    elif last is ClauseMood.FACT and part.mark.strip() == "and":
+        mood = ClauseMood.FACT  # the same who stands before its verb
+    elif last is ClauseMood.DENIED and _goes_on(part, rest, before[-1], table, vocabulary):
+        mood = ClauseMood.DENIED
     elif not rest:
-        mood = Mood.NOTHING
+        mood = ClauseMood.NOTHING
     elif (
         (other := table.otherwise.match(rest)) is not None and not rest[other.end() :].strip()
     ) or (other is None and table.hangs.match(rest) and not table.polite.match(rest)):
-        mood = Mood.CONDITION
+        mood = ClauseMood.CONDITION
     else:
         rest = strip_openers(rest, table.otherwise).strip()
         read = read_chinese if table is CHINESE else read_english
         mood = read(words, rest, asks, vocabulary, Before(tuple(each.mood for each in before)))
-    if mood is Mood.ORDER and _is_choice(words, table, vocabulary):
-        mood = Mood.QUESTION
-    return Clause(
+    if mood is ClauseMood.ORDER and _is_choice(words, table, vocabulary):
+        mood = ClauseMood.QUESTION
+    return SaidClause(
         part.start,
         part.end,
         words,
@@ -124,7 +128,7 @@ def _judge(said: str, part: Part, vocabulary: Vocabulary, before: list[Clause]) 
         speech,
         hung=table.later.search(words) is not None,
         otherwise=table.otherwise.match(words) is not None,
-        beyond=mood in (Mood.ORDER, Mood.FACT, Mood.QUESTION)
+        beyond=mood in (ClauseMood.ORDER, ClauseMood.FACT, ClauseMood.QUESTION)
         and _is_beyond(words, rest, table, vocabulary),
         stays=table.stays.match(strip_openers(rest, table.to_you)) is not None,
     )
@@ -166,7 +170,7 @@ def _cut_speech(words: str, table: ClauseWords, vocabulary: Vocabulary) -> tuple
 
 
 def _goes_on(
-    part: Part, rest: str, denied: Clause, table: ClauseWords, vocabulary: Vocabulary
+    part: ClausePart, rest: str, denied: SaidClause, table: ClauseWords, vocabulary: Vocabulary
 ) -> bool:
     """Tell whether a denial goes on: "don't go to the kitchen and look", "…, the study"."""
     excepted = table.excepts.search(denied.text) is not None
@@ -182,27 +186,27 @@ def _is_choice(words: str, table: ClauseWords, vocabulary: Vocabulary) -> bool:
     return len({p.id for p in places}) > 1 and any(map(table.chooses.search, between))
 
 
-def _spare_lists(clauses: list[Clause], vocabulary: Vocabulary) -> list[Clause]:
+def _spare_lists(clauses: list[SaidClause], vocabulary: Vocabulary) -> list[SaidClause]:
     """Let bare names be no order beside what is merely stated: "desk, dock, so many words"."""
-    orders = [each for each in clauses if each.mood is Mood.ORDER]
+    orders = [each for each in clauses if each.mood is ClauseMood.ORDER]
     bare = all(is_bare(each.text, vocabulary) for each in orders)
-    if not bare or not any(each.mood is Mood.FACT for each in clauses):
+    if not bare or not any(each.mood is ClauseMood.FACT for each in clauses):
         return clauses
-    return [replace(each, mood=Mood.FACT) if each in orders else each for each in clauses]
+    return [replace(each, mood=ClauseMood.FACT) if each in orders else each for each in clauses]
 
 
-def _take_back(clauses: list[Clause], vocabulary: Vocabulary) -> list[Clause]:
+def _take_back(clauses: list[SaidClause], vocabulary: Vocabulary) -> list[SaidClause]:
     """Deny what stands before a correction that names a place."""
     for index in range(len(clauses) - 1, 0, -1):
         words = clauses[index].text
         named = any(find_places(each.text, vocabulary) for each in clauses[index:])
         if named and table_of(words).corrects.match(words):
-            denied = [replace(each, mood=Mood.DENIED) for each in clauses[:index]]
+            denied = [replace(each, mood=ClauseMood.DENIED) for each in clauses[:index]]
             return [*denied, *clauses[index:]]
     return clauses
 
 
-def _hang(said: str, clauses: list[Clause]) -> tuple[Clause, ...]:
+def _hang(said: str, clauses: list[SaidClause]) -> tuple[SaidClause, ...]:
     """Hang orders on their conditions: those behind one, or before one that nothing follows."""
     found = list(clauses)
     edges = [0, *(each.end() for each in HARD.finditer(said)), len(said) + 1]
@@ -212,17 +216,19 @@ def _hang(said: str, clauses: list[Clause]) -> tuple[Clause, ...]:
             found[row[0] : row[-1] + 1] = [replace(found[i], hung=True) for i in row]
         for at in row:
             here = found[at]
-            behind = [i for i in row if i > at and found[i].mood is not Mood.NOTHING]
-            if here.mood is Mood.CONDITION:
+            behind = [i for i in row if i > at and found[i].mood is not ClauseMood.NOTHING]
+            if here.mood is ClauseMood.CONDITION:
                 hung = behind or [i for i in row if i < at and found[i].mood in _ASKED]
             elif here.otherwise:
                 hung = [at, *behind]
             else:
-                awaits = here.mood is Mood.ORDER and table_of(here.text).awaits.match(here.text)
+                awaits = here.mood is ClauseMood.ORDER and table_of(here.text).awaits.match(
+                    here.text
+                )
                 hung = behind if awaits else []
             unreal = table_of(here.text).supposes.search(here.text) is not None
             for i in hung:
-                mood = Mood.FACT if unreal else found[i].mood
+                mood = ClauseMood.FACT if unreal else found[i].mood
                 other = here.otherwise or found[i].otherwise
                 found[i] = replace(found[i], hung=True, otherwise=other, mood=mood)
     return tuple(found)

@@ -10,14 +10,14 @@ import re
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from planner.language.motion_guard.clause_moods import Mood
+from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.mentioned_names import find_places, places_named
 from planner.language.room_names import sorts_of_room
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.language.motion_guard.clauses import Clause
+    from planner.language.motion_guard.clauses import SaidClause
     from planner.plan import Vocabulary
 
 GAP = " | "
@@ -48,7 +48,7 @@ _HOLDING_ZH = re.compile(r"的(?:那|房|屋|间|地方)")
 _HELD_ZH = re.compile(r"(?:在的|所在的?)那?[个间]?")
 
 
-def join_clauses(clauses: Iterable[Clause]) -> str:
+def join_clauses(clauses: Iterable[SaidClause]) -> str:
     """Return the texts of clauses as one, parted."""
     return GAP.join(each.text for each in clauses)
 
@@ -56,11 +56,13 @@ def join_clauses(clauses: Iterable[Clause]) -> str:
 class MeantPlaces:
     """Count the places that clauses of one person's words lead to."""
 
-    def __init__(self, every: tuple[Clause, ...], room: str | None, vocabulary: Vocabulary) -> None:
+    def __init__(
+        self, every: tuple[SaidClause, ...], room: str | None, vocabulary: Vocabulary
+    ) -> None:
         """Take all clauses of the words, where the robot is, and the names of places."""
         self._every, self._room, self._vocabulary = every, room, vocabulary
 
-    def count_named(self, usable: list[Clause]) -> Counter[str]:
+    def count_named(self, usable: list[SaidClause]) -> Counter[str]:
         """Return the places that clauses send to, each as often as they do."""
         leads = [c for c in usable if not c.stays]
         said = join_clauses(usable)
@@ -74,15 +76,15 @@ class MeantPlaces:
             named.update(self._leant_on(usable, said))
         return named
 
-    def _leant_on(self, usable: list[Clause], said: str) -> Counter[str]:
+    def _leant_on(self, usable: list[SaidClause], said: str) -> Counter[str]:
         """Return the one place of the other clauses, where an order names none."""
         spoken = any(c.hung for c in usable)
         others = [
             f"{c.text}{c.speech if spoken else ''}"
             for c in self._every
-            if c.mood not in (Mood.DENIED, Mood.CALL)
+            if c.mood not in (ClauseMood.DENIED, ClauseMood.CALL)
             and not _OWN_WAY.match(c.text)
-            and (c.mood is not Mood.CONDITION or _THERE.search(said))
+            and (c.mood is not ClauseMood.CONDITION or _THERE.search(said))
         ]
         found = Counter(places_named(GAP.join(others), self._vocabulary))
         found.update(self._rooms_described(GAP.join(others)))
@@ -114,6 +116,6 @@ class MeantPlaces:
         rounds = _ROUNDS.search(said) and not places_named(said, self._vocabulary)
         if not (_ALL_ROOMS.search(said) or rounds):
             return frozenset()
-        denied = join_clauses(c for c in self._every if c.mood is Mood.DENIED)
+        denied = join_clauses(c for c in self._every if c.mood is ClauseMood.DENIED)
         out = frozenset(places_named(denied, self._vocabulary))
         return frozenset(e.id for e in self._vocabulary.entries if e.kind == "room") - out

@@ -16,8 +16,8 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from planner.language.motion_guard.clause_moods import Mood
-from planner.language.motion_guard.clauses import Clause, read_clauses
+from planner.language.motion_guard.clause_moods import ClauseMood
+from planner.language.motion_guard.clauses import SaidClause, read_clauses
 from planner.language.motion_guard.meant_places import GAP, MeantPlaces, join_clauses
 from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.language.motion_guard.step_words import evidence, makes_way, moves, unsaid_kind
@@ -147,8 +147,10 @@ class _Judge:
         every = [clause for _, clauses in self._texts for clause in clauses]
         self._every = every
         self._meant = MeantPlaces(tuple(every), person.room, vocabulary)
-        self._things = GAP.join(f"{c.text}{c.speech}" for c in every if c.mood is not Mood.DENIED)
-        self._ordered = join_clauses(c for c in every if c.mood is Mood.ORDER)
+        self._things = GAP.join(
+            f"{c.text}{c.speech}" for c in every if c.mood is not ClauseMood.DENIED
+        )
+        self._ordered = join_clauses(c for c in every if c.mood is ClauseMood.ORDER)
         self._repeats = _REPEATS.search(self._ordered)
         self._done: defaultdict[str, list[_Path]] = defaultdict(list)
         self._arrivals: list[tuple[str, _Path]] = []
@@ -191,7 +193,7 @@ class _Judge:
             or self._why_often(row, index, said)
         )
 
-    def _find_clauses(self, quoted: str | None) -> list[Clause]:
+    def _find_clauses(self, quoted: str | None) -> list[SaidClause]:
         """Return the clauses that the evidence touches, of the newest words that hold it."""
         if quoted is None:
             return self._every
@@ -205,21 +207,21 @@ class _Judge:
 
     def _select(
         self,
-        touched: list[Clause],
+        touched: list[SaidClause],
         step: Step | ClockTime,
         roles: set[StepRole | None],
         *,
         upon: bool,
-        looked: Mood | None,
-    ) -> tuple[list[Clause], str]:
+        looked: ClauseMood | None,
+    ) -> tuple[list[SaidClause], str]:
         """Return the clauses that ask for a step of this kind, or why none does."""
-        moods = {Mood.ORDER}
+        moods = {ClauseMood.ORDER}
         if step.kind in _QUIET or looked is not None:
-            moods.add(Mood.QUESTION)
+            moods.add(ClauseMood.QUESTION)
         if StepRole.WHEN in roles or StepRole.UNTIL in roles:
-            moods |= {Mood.CONDITION, Mood.QUESTION}
-        if looked is Mood.CONDITION or step.kind in _LEARNS:
-            moods.add(Mood.CONDITION)
+            moods |= {ClauseMood.CONDITION, ClauseMood.QUESTION}
+        if looked is ClauseMood.CONDITION or step.kind in _LEARNS:
+            moods.add(ClauseMood.CONDITION)
         right = [c for c in touched if c.mood in moods]
         if not right:
             told = {c.mood.name.lower() for c in touched}
@@ -228,9 +230,9 @@ class _Judge:
         free = [c for c in right if hangs or not c.hung]
         return free, "" if free else "the words given stand on a condition"
 
-    def _of_branch(self, usable: list[Clause], roles: set[StepRole | None]) -> list[Clause]:
+    def _of_branch(self, usable: list[SaidClause], roles: set[StepRole | None]) -> list[SaidClause]:
         """Return the clauses of a step's own branch; a denied condition may be put both ways."""
-        when = join_clauses(c for c in self._every if c.mood is Mood.CONDITION)
+        when = join_clauses(c for c in self._every if c.mood is ClauseMood.CONDITION)
         branch = {StepRole.THEN, StepRole.OTHERWISE} & roles
         if len(branch) != 1 or not when or _DENIES.search(_ELSE.sub("", when)):
             return usable
@@ -240,7 +242,7 @@ class _Judge:
     def _why_places(
         self,
         step: Step | ClockTime,
-        usable: list[Clause],
+        usable: list[SaidClause],
         path: _Path,
     ) -> str:
         named = self._meant.count_named(usable)
@@ -263,7 +265,7 @@ class _Judge:
 
         Whoever has read every word may have read a name that no plain search finds.
         """
-        orders = (Mood.ORDER, Mood.QUESTION, Mood.CONDITION)
+        orders = (ClauseMood.ORDER, ClauseMood.QUESTION, ClauseMood.CONDITION)
         meant = self._meant.count_named([c for c in self._every if c.mood in orders])
         named = places_named(join_clauses(self._every), self._vocabulary)
         wrong = next((p for p in places_of(step) if p in named and not meant[p]), None)
@@ -272,7 +274,7 @@ class _Judge:
     def _why_kind(self, step: Step | ClockTime, said: str) -> str:
         """Return what no word asks for of a step's kind; a look may be said beside its place."""
         if step.kind in _QUIET:
-            moods = (Mood.ORDER, Mood.QUESTION, Mood.CONDITION)
+            moods = (ClauseMood.ORDER, ClauseMood.QUESTION, ClauseMood.CONDITION)
             said = join_clauses(c for c in self._every if c.mood in moods)
         texts = (said, self._ordered) if step.kind in ("turn", "move") else (said,)
         whys = (unsaid_kind(step, text, self._things, self._vocabulary) for text in texts)
@@ -294,13 +296,15 @@ class _Judge:
         return "" if before < most else f"{step.kind} more often than said"
 
 
-def _as_ordered(words: str, person: PersonWords, clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
+def _as_ordered(
+    words: str, person: PersonWords, clauses: tuple[SaidClause, ...]
+) -> tuple[SaidClause, ...]:
     """Return the clauses of a person's words; what a plain yes was said to is an order."""
-    asks = {Mood.QUESTION, Mood.FACT} if words in person.agreed else set()
-    return tuple(replace(c, mood=Mood.ORDER) if c.mood in asks else c for c in clauses)
+    asks = {ClauseMood.QUESTION, ClauseMood.FACT} if words in person.agreed else set()
+    return tuple(replace(c, mood=ClauseMood.ORDER) if c.mood in asks else c for c in clauses)
 
 
-def _is_looked_next(row: tuple[StepNode, ...], index: int) -> Mood | None:
+def _is_looked_next(row: tuple[StepNode, ...], index: int) -> ClauseMood | None:
     """Return by which mood of words a drive is asked for that leads to where is looked next."""
     at = index + 1
     upon = at + 1 < len(row) and isinstance(row[at].step, If)
@@ -308,7 +312,7 @@ def _is_looked_next(row: tuple[StepNode, ...], index: int) -> Mood | None:
     if looks is None or row[index].step.kind != "go_to" or looks.kind not in _QUIET:
         return None
     there = places_of(looks) in ((), places_of(row[index].step))
-    return (Mood.CONDITION if upon else Mood.QUESTION) if there else None
+    return (ClauseMood.CONDITION if upon else ClauseMood.QUESTION) if there else None
 
 
 def _find(said: str, span: str) -> int | None:

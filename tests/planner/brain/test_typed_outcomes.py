@@ -102,7 +102,7 @@ def test_what_is_possible_is_offered_as_a_button(home: Vocabulary) -> None:
     made = think("bring me the cup from the kitchen", home)
     assert isinstance(made, Clarify)
     (button,) = made.options
-    assert button.label.zh == "去厨房找cup"
+    assert button.label.zh == "去厨房找杯子"
     again = think(button.text, home)
     assert isinstance(again, StepPlan)
     assert [step.kind for step in again.steps] == ["go_to", "find"]

@@ -95,7 +95,7 @@ def test_a_call_is_counted_at_its_worst_and_settled_by_what_it_came_to(tmp_path:
 @pytest.mark.parametrize(
     ("goals", "per", "en", "zh"),
     [
-        (("g1", "g1", "g1"), "goal", "3 of 3 calls are spent. It does not come back", "3 / 3 次"),
+        (("g1", "g1", "g1"), "goal", "3 of 3 questions. It does not come back", "3 / 3 次"),
         (("g1", "g2", "g3", "g4", "g5"), "day", "midnight UTC, in 12 h 1 min", "12 小时 1 分钟"),
     ],
 )

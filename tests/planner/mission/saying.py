@@ -25,7 +25,7 @@ GO = Option(label=Bilingual(en="Go", zh="去"), text="go to the kitchen")
 OFFERS = Clarify(code=Code.NO_CAPABILITY, question=Bilingual(en="Go?", zh="去？"), options=(GO,))
 
 
-async def asking(world: Together, text: str = "please fetch it") -> Goal:
+async def asking(world: Together, text: str = "please see to it") -> Goal:
     """Give a goal whose first step asks, and wait until it does; then let time pass."""
     goal = await world.missions.submit(text)
     goal = await world.reach(goal.id, ASKS)

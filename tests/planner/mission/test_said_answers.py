@@ -45,10 +45,10 @@ def test_it_answers_the_one_question_and_is_told_so(tmp_path: Path, site: Site, 
             goal = await asking(world)
             said = await world.missions.submit(text)
             assert told(said) == (
-                SUCCEEDED, Code.ANSWERED, "Taken as the answer for “please fetch it”."
+                SUCCEEDED, Code.ANSWERED, "Taken as the answer for “please see to it”."
             )  # fmt: skip
             assert answer_of(world, goal) == text
-            assert heard(world) == ["please fetch it"], "no brain is asked"
+            assert heard(world) == ["please see to it"], "no brain is asked"
             await world.reach(goal.id, SUCCEEDED if consents(text) else CANCELLED)
         async with planner(tmp_path, site, prefix="h") as after:
             assert after.missions.goal(said.id) == said
@@ -77,19 +77,19 @@ def test_where_two_may_be_meant_it_answers_neither_names_both_and_clears_no_hold
     async def story() -> None:
         async with planner(tmp_path, site, DRIVES, other) as world:
             first = await asking(world)
-            second = await world.missions.submit("bring it", confirm=other is not DRIVES)
+            second = await world.missions.submit("mind it", confirm=other is not DRIVES)
             before = await world.reach(second.id, ASKS, CONFIRMS)
             await world.missions.stop("test")
             act = OpRequest(id="a", source="test")
             said = await world.missions.submit(text, act=act)
             state, code, words = told(said)
             assert (state, said.reason, code) == (REFUSED, "ambiguous", Code.AMBIGUOUS)
-            assert "“please fetch it”, “bring it”" in words
+            assert "“please see to it”, “mind it”" in words
             assert (world.missions.goal(first.id).state, answer_of(world, first)) == (ASKS, None)
             assert world.missions.goal(second.id) == before
             await later(world)
             assert world.bridge.held is not None
-            assert heard(world) == ["please fetch it", "bring it"]
+            assert heard(world) == ["please see to it", "mind it"]
 
     run(story())
 

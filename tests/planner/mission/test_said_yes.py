@@ -152,19 +152,19 @@ def test_a_single_offer_is_the_order_upon_a_yes_and_nothing_upon_a_no(
 ) -> None:
     async def story() -> None:
         async with planner(tmp_path, site, OFFERS, KITCHEN) as world:
-            goal = await asking(world, "fetch a cup")
+            goal = await asking(world, "see to a cup")
             if by == "answer":
                 await world.missions.answer(goal.id, text)
             else:
                 await world.missions.submit(text)
             if consents(text):
                 await world.reach(goal.id, SUCCEEDED)
-                assert heard(world) == ["fetch a cup", "go to the kitchen"]
+                assert heard(world) == ["see to a cup", "go to the kitchen"]
                 return
             done = await world.reach(goal.id, CANCELLED)
             assert told(done)[1:] == (Code.DECLINED, "You said no, so I do not do that.")
             assert world.bridge.waypoints == []
-            assert heard(world) == ["fetch a cup"]
+            assert heard(world) == ["see to a cup"]
 
     run(story())
 
@@ -177,7 +177,7 @@ def test_an_answer_that_is_no_yes_clears_no_hold(
 ) -> None:
     async def story() -> None:
         async with planner(tmp_path, site, what, WHICH) as world:
-            goal = await world.missions.submit("please fetch it", confirm=what is KITCHEN)
+            goal = await world.missions.submit("please see to it", confirm=what is KITCHEN)
             await world.reach(goal.id, ASKS, CONFIRMS)
             await world.missions.stop("test")
             act = OpRequest(id="a", source="test")

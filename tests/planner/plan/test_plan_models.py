@@ -244,7 +244,7 @@ def test_ids_must_be_unique() -> None:
 def test_a_long_list_of_places_is_cut_in_messages() -> None:
     many = Vocabulary(entries=tuple(entry(f"p{i}", f"p{i}", f"地{i}") for i in range(50)))
     assert known_places(many).en.endswith("p29, and 20 more")
-    assert known_places(many).zh.endswith("等另外 20 处")
+    assert known_places(many).zh.endswith("还有 20 处")
 
 
 def test_goal_record_round_trips() -> None:

@@ -128,7 +128,7 @@ def test_a_spent_budget_keeps_what_was_scored(
         shown = capsys.readouterr()
         [result] = json.loads(shown.out)["suites"]
         assert (result["passed"], result["not_asked"], result["failures"]) == (False, 1, [])
-        assert "2 of 2 calls" in shown.err
+        assert "2 of 2 questions" in shown.err
         assert main(words) == 2
         assert capsys.readouterr().out == ""
 

@@ -133,7 +133,7 @@ def test_a_budget_that_is_spent_keeps_what_was_scored(
         assert main(["eval", "look", "--model", f"m@{served.url}"]) == 1
         shown = capsys.readouterr()
         assert f"{COUNT - 2} more not asked" in shown.out
-        assert "2 of 2 calls" in shown.err
+        assert "2 of 2 questions" in shown.err
         assert main(["eval", "look", "--model", f"m@{served.url}"]) == 2
 
 

@@ -130,7 +130,7 @@ def hold_trials(language: str, model: ScriptedModel) -> list[Conversation]:
     return [held(one, model) for one in read_scripts(language, ScriptSet.TRIAL)]
 
 
-MOST_YESES = 7
+MOST_YESES = 8
 """Of all eighty goals; the goal is two."""
 
 

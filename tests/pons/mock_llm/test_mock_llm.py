@@ -28,13 +28,13 @@ from planner.brain import (
     ThinkResult,
 )
 from planner.brain.endpoint import EndpointBrain
-from planner.plan import GoTo, StepPlan
+from planner.plan import GoTo, StepPlan, list_nodes
 from planner.settings import ModelSettings
 from pons.mock_llm import FAULTS, READABLE, Switches
 from tests.planner.brain.conftest import HOME
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 
-KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
+KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),), asked_by=("go to the kitchen",))
 KEY = "sk-test-0451-0451"
 MEMORY_MB = 40.0
 """A thousand times less than what `huge` sends, and room for an interpreter's own moods."""
@@ -95,7 +95,8 @@ def test_it_plans_as_the_offline_brain_does(mock: RunningMock, text: str, tmp_pa
     by_grammar = asyncio.run(OfflineBrain().think(request)).plan
     assert by_model.kind == by_grammar.kind
     if isinstance(by_grammar, StepPlan):
-        assert by_model == by_grammar
+        quoted = (text,) * len(list_nodes(by_grammar.steps))
+        assert by_model == by_grammar.model_copy(update={"asked_by": quoted})
     else:
         assert getattr(by_model, "code", None) == getattr(by_grammar, "code", None)
 
@@ -117,7 +118,8 @@ def test_forced_tool_stream_and_models_are_served_too(mock: RunningMock) -> None
     url = f"{mock.url}/chat/completions"
     message = mock.client.post(url, json=body).json()["choices"][0]["message"]
     assert message["content"] is None
-    plan = {"kind": "plan", "steps": [{"kind": "go_to", "place": "lab"}]}
+    step = {"kind": "go_to", "place": "lab", "because": "go to the lab"}
+    plan = {"kind": "plan", "steps": [step]}
     assert json.loads(message["tool_calls"][0]["function"]["arguments"]) == plan
     streamed = mock.client.post(url, json={"messages": said, "stream": True})
     events = [line[6:] for line in streamed.text.splitlines() if line.startswith("data: ")]

@@ -96,7 +96,7 @@ def test_what_is_in_another_room_is_found_and_not_what_stands_beside_it(world_wi
     code, en, zh = told(goal)
     assert code is Code.FOUND
     assert en == f"I found a red cup in the kitchen, {found.distance_m:.1f} m from me."
-    assert zh == f"在厨房看到红色的杯子，离我 {found.distance_m:.1f} 米。"
+    assert zh == f"我在厨房找到了一个红色的杯子，离我 {found.distance_m:.1f} 米。"
 
 
 def test_what_was_just_seen_is_told_without_a_search_and_gone_things_are_not(
@@ -285,7 +285,7 @@ def test_a_point_of_the_picture_is_driven_to_on_floor_and_refused_on_a_wall(
     assert 0.8 < moved_m(world, began) < 2.2
     world.think_with(ScriptedBrain([StepPlan(steps=(GoToPoint(x=500, y=430),))]))
     world.run(1.0)
-    still, refused = world.truth, world.say("and there")
+    still, refused = world.truth, world.say("go there")
     step = done(world, refused)
     assert told(refused)[0] is Code.POINT_REFUSED
     assert step.reason in ("point_on_wall", "point_no_depth", "point_off_map")

@@ -49,6 +49,8 @@ class Obeying:
         plan: Plan = self.then if request.observed else first
         if SIGN.en in request.model_dump_json(include={"observed"}):
             plan = StepPlan(steps=(GoTo(place="charging_dock"),))
+        if isinstance(plan, StepPlan):
+            plan = plan.model_copy(update={"asked_by": (request.text,) * len(plan.steps)})
         return ThinkResult(plan=plan, brain=self.tag)
 
 

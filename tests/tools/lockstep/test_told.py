@@ -134,7 +134,7 @@ def test_a_kind_that_only_a_model_knows_is_found_direction_by_direction(
     assert plan is not None
     assert outcome.code is Code.FOUND, outcome
     assert outcome.message.en.endswith(" pictures).")
-    assert "“vase” is before me in the living room" in outcome.message.en
+    assert "I see “vase” before me in the living room" in outcome.message.en
     bill = plan.steps[0].bill
     assert bill is not None
     assert bill.pictures == len(model.poses) > 6, "all of the kitchen first"

@@ -6,16 +6,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.language.motion_guard.clause_moods import Mood
+from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import plain
 from tests.planner.brain.conftest import HOME
 
-ORDER, DENIED, FACT, UPON = Mood.ORDER, Mood.DENIED, Mood.FACT, Mood.CONDITION
+ORDER, DENIED, FACT, UPON = (
+    ClauseMood.ORDER,
+    ClauseMood.DENIED,
+    ClauseMood.FACT,
+    ClauseMood.CONDITION,
+)
 
 
-def moods(text: str) -> list[Mood]:
-    return [each.mood for each in read_clauses(text, HOME) if each.mood is not Mood.NOTHING]
+def moods(text: str) -> list[ClauseMood]:
+    return [each.mood for each in read_clauses(text, HOME) if each.mood is not ClauseMood.NOTHING]
 
 
 @pytest.mark.parametrize(
@@ -25,7 +30,7 @@ def moods(text: str) -> list[Mood]:
         ("don't go to the kitchen, go to the study", [DENIED, ORDER]),
         ("don't go to the kitchen and look around", [DENIED, DENIED]),
         ("go to every room except the study", [ORDER, DENIED]),
-        ("go to the kitchen, no, I meant the bedroom", [DENIED, Mood.DENIED, ORDER]),
+        ("go to the kitchen, no, I meant the bedroom", [DENIED, ClauseMood.DENIED, ORDER]),
         ("if nobody is in the kitchen go to the study", [UPON, ORDER]),
         ("grandma is in the bedroom, go and see", [FACT, ORDER, ORDER]),
         ("别去厨房，去书房", [DENIED, ORDER]),
@@ -35,7 +40,7 @@ def moods(text: str) -> list[Mood]:
         ("奶奶在卧室，去看看", [FACT, ORDER]),
     ],
 )
-def test_each_clause_does_one_thing(text: str, expected: list[Mood]) -> None:
+def test_each_clause_does_one_thing(text: str, expected: list[ClauseMood]) -> None:
     assert moods(text) == expected
 
 
