@@ -405,8 +405,8 @@ def test_the_arithmetic_of_cost_and_limits() -> None:
     assert cost(FEW.price, 1_000_000, 100_000) == 2000.0
     one = Expense(1, 2, 3, 4.0, 5.0)
     assert one + one - one == one
-    assert overrun("goal", Expense(), Expense(calls=30), GoalLimits()) is None
-    over = overrun("goal", Expense(calls=30), Expense(calls=1), GoalLimits())
+    assert overrun("goal", Expense(), Expense(calls=100), GoalLimits()) is None
+    over = overrun("goal", Expense(calls=100), Expense(calls=1), GoalLimits())
     assert over is not None
     assert (over.kind, over.spent, over.limit) == ("calls", 30.0, 30.0)
     nan = overrun("day", Expense(money=float("nan")), Expense(), DayLimits(money=1.0))
