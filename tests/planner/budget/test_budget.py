@@ -408,7 +408,7 @@ def test_the_arithmetic_of_cost_and_limits() -> None:
     assert overrun("goal", Expense(), Expense(calls=100), GoalLimits()) is None
     over = overrun("goal", Expense(calls=100), Expense(calls=1), GoalLimits())
     assert over is not None
-    assert (over.kind, over.spent, over.limit) == ("calls", 30.0, 30.0)
+    assert (over.kind, over.spent, over.limit) == ("calls", 100.0, 100.0)
     nan = overrun("day", Expense(money=float("nan")), Expense(), DayLimits(money=1.0))
     assert nan is not None
     assert nan.kind == "money"
