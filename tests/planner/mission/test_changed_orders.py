@@ -43,7 +43,7 @@ def test_a_model_gets_the_words_as_they_were_said_and_again_needs_no_yes(said: s
     planned = think_of(said, model)
     heard: list[ThinkRequest] = model.asked
     assert [each.text for each in heard] == [said]
-    assert planned.plan == StepPlan(steps=(GoTo(place="bedroom"),))
+    assert planned.plan == StepPlan(steps=(GoTo(place="bedroom"),), asked_by=(said,))
     assert planned.unasked == ()
 
 

@@ -102,7 +102,7 @@ def test_it_moves_straight_by_the_distance_that_was_asked(
     assert step.moved_m == pytest.approx(distance_m, abs=0.06)
     outcome = goal.record.outcome
     assert outcome is not None
-    assert f"{abs(distance_m):.2f} m" in outcome.message.en
+    assert f"{abs(distance_m):.1f} m" in outcome.message.en
 
 
 def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told(world_with: World) -> None:
@@ -116,7 +116,7 @@ def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told(world_with: 
     outcome = goal.record.outcome
     assert outcome is not None
     assert outcome.code is Code.NO_ROOM
-    assert outcome.message.en.startswith("In a straight line I know of free floor for ")
+    assert outcome.message.en.startswith("In a straight line there is room for ")
     assert outcome.message.en.endswith(" m, not for 5.0 m.")
 
 

@@ -129,7 +129,7 @@ def test_word_order_and_language_change_nothing(hour: int, other: int) -> None:
 
 
 def test_what_corrects_a_drive_stays_the_drives() -> None:
-    assert isinstance(parse("no, the study").intent, Replace)
+    assert parse("no, the study").intent is None
     assert isinstance(parse("go to the kitchen instead").intent, Replace)
 
 
