@@ -96,7 +96,8 @@ def _short(text: str) -> str:
 def corrects(turn: Transaction, mission: Mission) -> bool:
     """Tell whether a sentence that has stopped a goal puts another drive in its place."""
     stopped = turn.mission(mission.interrupted)
-    return stopped is not None and bool(stopped.steps) and takes_back(mission.words)
+    words = parse(mission.text).behind_stop or mission.words  # the stop itself takes nothing back
+    return stopped is not None and bool(stopped.steps) and takes_back(words)
 
 
 def ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
