@@ -119,7 +119,7 @@ def test_a_spent_budget_is_told_and_the_offline_brain_plans(
     assert "midnight UTC" in waits["brain"]["fallback_message"]["en"]
     lost = ended(robot, robot.system.give(NONSENSE))
     assert lost["outcome"]["code"] == "out_of_budget"
-    assert "预算" in lost["outcome"]["message"]["zh"]
+    assert "都用完了" in lost["outcome"]["message"]["zh"]
     assert robot.system.http("GET", "/v1/usage").body["refused"]["code"] == "out_of_budget"
     assert mock.report()["calls"] == before
     spend_elsewhere(robot, -2000)
