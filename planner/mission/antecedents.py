@@ -12,6 +12,7 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
+from planner.language.grammar.sentence_text import MOST_READ
 from planner.language.leaning_condition import WhetherThere, read_whether_there, write_condition
 from planner.language.motion_guard.mentioned_names import find_places, plain
 from planner.language.person_names import is_given_name, people_named
@@ -71,12 +72,12 @@ def name_antecedents(
     """Return a sentence with its condition, its person and its place in full; None: as it is.
 
     Args:
-        text: as it was said.
+        text: as it was said; longer than the grammar reads, it stays as it is.
         orders: the orders before it, the newest first.
         facts: the site.
         names: of its places.
     """
-    if not orders:
+    if not orders or len(text) > MOST_READ:
         return None
     condition = _write_condition(text, orders[0], facts)
     if condition is not None:

@@ -64,7 +64,6 @@ from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, Pers
 from planner.plan import (
     STEPLESS,
     AnswerPlan,
-    ChangedOrder,
     Clarify,
     Code,
     GoalState,
@@ -100,7 +99,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         id=event.id,
         order=order,
         text=event.text,
-        changed=ChangedOrder(words=event.rest) if event.rest else event.changed,
+        changed=event.changed,
         language=event.language,
         state=FIRST,
         confirm=event.confirm,

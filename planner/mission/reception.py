@@ -40,7 +40,7 @@ from planner.mission.state import (
     goal_to_end,
     newest_paused,
 )
-from planner.plan import GoalState
+from planner.plan import ChangedOrder, GoalState
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -122,7 +122,9 @@ def receive(
     full = not has_room(book)
     if said.orders_stop:
         stop = replace(given, stop=True, rest=said.behind_stop)
-        return Reception(_doubtful(book, stop) if stop.rest and not full else stop, stops=True)
+        if stop.rest and not full:
+            stop = _doubtful(book, replace(stop, changed=ChangedOrder(words=stop.rest)))
+        return Reception(stop, stops=True)
     may_answer = leaning is None and not (given.confirm or given.replace)
     asking = goals_answered_by(book, said) if may_answer else ()
     now_unix_s, intent = now_s + book.wall_offset_s, said.intent
@@ -151,9 +153,8 @@ def receive(
         changed=changed,
     )
     if full and not local:
-        return Reception(
-            marked, refused=QueueFull(sum(not m.has_ended for m in book.missions.values()))
-        )
+        open_goals = sum(not m.has_ended for m in book.missions.values())
+        return Reception(marked, refused=QueueFull(open_goals))
     request = GoalKey(key, body, given.id) if key is not None else None
     ends = goal_to_end(book) if lean is not None and lean.ends else None
     return Reception(marked, takes_back=ends, request=request)
@@ -198,16 +199,17 @@ def receive_answer(
     sentence that needs no proof is ever taken as the answer.
     """
     intent = said.intent
-    if said.orders_stop or (said.consent is None and hears_stop(book, said, now_s)):
-        ends = Cancel(goal_id) if isinstance(intent, Replace) else None
-        rest = said.text if said.orders_stop and said.behind_stop else None
+    ends = Cancel(goal_id) if isinstance(intent, Replace) else None
+    if said.orders_stop:
+        rest = said.text if said.behind_stop else None
         return AnswerReception(stops=True, command=ends, sentence=rest)
+    lean = lean_of(book, said, now_s + book.wall_offset_s)
+    if said.consent is None and _may_stop(book, said, now_s, lean):
+        return AnswerReception(stops=True, command=ends)
     if (error := refusal(book, Reply(goal_id, said.text))) is not None:
         return AnswerReception(refused=error)
     if isinstance(intent, TakeBack):
         return AnswerReception(command=Cancel(goal_id))
-    now_unix_s = now_s + book.wall_offset_s
-    lean = lean_of(book, said, now_unix_s)
     if lean is not None and lean.corrects:  # "no, the study": in place of what is asked
         lean = replace(lean, ends=False, first=False, replaces=False)  # what it ends has ended
         return AnswerReception(command=Cancel(goal_id), sentence=said.text, lean=lean)
@@ -220,8 +222,9 @@ def receive_answer(
 
 def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
     """Return whether these words would stop the robot now, with any other meaning besides."""
-    lean = lean_of(book, said, now_s + book.wall_offset_s)
-    return said.orders_stop or _may_stop(book, said, now_s, lean)
+    if said.orders_stop:
+        return True
+    return _may_stop(book, said, now_s, lean_of(book, said, now_s + book.wall_offset_s))
 
 
 def _may_stop(book: MissionState, said: Utterance, now_s: float, lean: Lean | None) -> bool:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.semantic_parser.decoding import allowed_actions
 from planner.language.semantic_parser.linear_plan import (
-    TOKENS,
+    TOKEN_NUMBERS,
     Action,
     GrammarWalk,
     UnknownWords,
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from planner.language.semantic_parser.plan_grammar import LabelledPlan
-
-NUMBER = {token: number for number, token in enumerate(TOKENS)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +55,7 @@ def make_example(writer: str, category: str, said: SentenceUnits, label: str) ->
     walk, allowed = GrammarWalk(), []
     for action in actions:
         tokens, units = allowed_actions(walk.next_actions(), said)
-        if (NUMBER[action] not in tokens) if isinstance(action, str) else (action not in units):
+        if TOKEN_NUMBERS[action] not in tokens if isinstance(action, str) else action not in units:
             return None
         allowed.append((tokens, units))
         walk.take(action)

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import torch
 
 from planner.language.semantic_parser.features import sentence_features
-from planner.language.semantic_parser.linear_plan import TOKENS
-from tools.train_reader.examples import NUMBER
+from planner.language.semantic_parser.linear_plan import TOKEN_NUMBERS, TOKENS
 from tools.train_reader.network import ExampleBatch, TrainableNetwork
 
 if TYPE_CHECKING:
@@ -51,7 +50,7 @@ def make_batch(
         for at, (action, (tokens, pointed)) in enumerate(
             zip(example.actions, example.allowed, strict=True)
         ):
-            token = NUMBER[action] if isinstance(action, str) else None
+            token = TOKEN_NUMBERS[action] if isinstance(action, str) else None
             unit = action if isinstance(action, int) else 0
             wanted[row, at] = len(TOKENS) + unit if token is None else token
             if at + 1 < length:

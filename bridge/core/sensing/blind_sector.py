@@ -43,9 +43,6 @@ AHEAD_RAD = pi / 3
 COARSE_RAD = 0.045
 """Between two beams: 2.6 degrees, more than any lidar that Pons reads; told once."""
 
-CUTS = 8
-"""Places at which the scans of one lidar may begin in turn; more cost time, no truth."""
-
 Point = tuple[float, float, float]
 """x and y in ``odom`` [m], and the odometer's reading when it was seen [m]."""
 
@@ -69,7 +66,8 @@ def watch_sectors(
     shift = round(picture.first_rad * count / tau) % count
     far_m = _farthest(picture, count, shift)
     seen = sum(1 << index for index, far in enumerate(far_m) if far >= 0.0)
-    silent = _with_beams(picture.step_rad, picture.beams, count, shift) & ~seen
+    beams = _with_beams(picture.step_rad, picture.beams, count)
+    silent = (beams << shift | beams >> (count - shift)) & ((1 << count) - 1) & ~seen
     middles = _middles(picture.first_rad, picture.step_rad, count, shift)
     lidar_in_odom = compose(picture.base_in_odom, Pose2(picture.lidar_x_m, picture.lidar_y_m, 0.0))
     points = _remember_points(had.points, far_m, middles, lidar_in_odom, travelled_m)
@@ -84,9 +82,9 @@ def watch_sectors(
                 enclosed |= _bits(run, count)
     if not (bounded or had.dead):
         return SectorMemory(count, alive, 0, points)
-    missed = bounded and bounded & _expected_bins(
-        points, lidar_in_odom, middles, picture, travelled_m
-    )
+    missed = 0
+    if bounded:
+        missed = bounded & _expected_bins(points, lidar_in_odom, middles, picture, travelled_m)
     recent = tuple(one for one in (*had.recent, (now_s, missed)) if now_s - one[0] <= RECENT_S)
     lasting = missed if now_s - recent[0][0] >= SEEN_S - 1e-6 else 0
     for _, mask in recent:
@@ -135,15 +133,15 @@ def _bits(run: tuple[int, int], count: int) -> int:
 
 
 def _farthest(picture: ScanPicture, count: int, shift: int) -> list[float]:
-    """Return the farthest return of each bin [m]; -1 where there is none."""
+    """Return the farthest return of each bin [m]; -1 where there is none. Beam 0 is in `shift`."""
     far_m = [-1.0] * count
     high = picture.range_max_m
     for index, r in zip(
-        _bin_of(picture.step_rad, picture.beams, count, shift), picture.ranges_m, strict=True
+        _bin_of(picture.step_rad, picture.beams, count), picture.ranges_m, strict=True
     ):
         if r is not None and far_m[index] < r <= high:
             far_m[index] = r
-    return far_m
+    return far_m[count - shift :] + far_m[: count - shift]
 
 
 def _remember_points(
@@ -185,21 +183,19 @@ def _expected_bins(
     return mask
 
 
-@lru_cache(maxsize=8 * CUTS)
-def _bin_of(step_rad: float, beams: int, count: int, shift: int) -> tuple[int, ...]:
-    """Return each beam's bin; ``shift`` is that of beam 0, half a step before which it begins."""
-    return tuple(
-        (shift + floor((beam + 0.5) * step_rad * count / tau)) % count for beam in range(beams)
-    )
+@lru_cache(maxsize=8)
+def _bin_of(step_rad: float, beams: int, count: int) -> tuple[int, ...]:
+    """Return each beam's bin, counted from that of beam 0, which begins half a step before it."""
+    return tuple(floor((beam + 0.5) * step_rad * count / tau) % count for beam in range(beams))
 
 
-@lru_cache(maxsize=8 * CUTS)
-def _with_beams(step_rad: float, beams: int, count: int, shift: int) -> int:
-    """Return the bins in which the lidar has a beam."""
-    return sum(1 << index for index in set(_bin_of(step_rad, beams, count, shift)))
+@lru_cache(maxsize=8)
+def _with_beams(step_rad: float, beams: int, count: int) -> int:
+    """Return the bins in which the lidar has a beam, counted from that of beam 0."""
+    return sum(1 << index for index in set(_bin_of(step_rad, beams, count)))
 
 
-@lru_cache(maxsize=8 * CUTS)
+@lru_cache(maxsize=8)
 def _middles(first_rad: float, step_rad: float, count: int, shift: int) -> tuple[float, ...]:
     """Return each bin's middle, in ``base``."""
     first_rad -= step_rad / 2
@@ -208,7 +204,7 @@ def _middles(first_rad: float, step_rad: float, count: int, shift: int) -> tuple
     )
 
 
-@lru_cache(maxsize=8 * CUTS)
+@lru_cache(maxsize=8)
 def _toward(way_rad: float, middles: tuple[float, ...]) -> int:
     """Return the bins near a way of the robot."""
     return sum(

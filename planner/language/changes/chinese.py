@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from planner.language.changes.row import Row
+from planner.language.changes import Row
 from planner.plan import Edit
 
 P = r"(?:那个|那|我们?的)?(?P<p>§+)(?:那边|那儿|那里|里面?|里头|旁边|边上|附近|上面?|底下|下面)?"

@@ -6,7 +6,7 @@ where ``REASON`` says so, are taken off before.
 
 from __future__ import annotations
 
-from planner.language.changes.row import Row
+from planner.language.changes import Row
 from planner.plan import Edit
 
 DET = r"(?:(?:the|my|our|your|his|her|their|a|an|some|any) )?"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from planner.language.changes.rows import lay_out, read_rows
+from planner.language.changes.rows import MAX_READ, lay_out, read_rows
 from planner.language.motion_guard.mentioned_names import find_places
 from planner.plan import Change, Vocabulary
 
@@ -17,5 +17,8 @@ def read_changes(text: str, names: Vocabulary) -> tuple[Change, ...]:
         text: as it was said.
         names: of the site's places.
     """
-    found = find_places(lay_out(text), names)
+    written = lay_out(text)
+    if len(written) > MAX_READ:  # before names are sought: a text may be of any length
+        return ()
+    found = find_places(written, names)
     return read_rows(text, tuple((each.id, each.start, each.end) for each in found))

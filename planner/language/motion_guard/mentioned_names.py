@@ -151,24 +151,6 @@ def find_places(text: str, vocabulary: Vocabulary) -> tuple[NamedPlace, ...]:
     return tuple(_names(vocabulary).find(plain(text)))
 
 
-_BEFORE = re.compile(r"^(?:(?:to|in|into|at|the|my|our|your|在|那个|那)(?![a-z]) ?)+")
-_AROUND = re.compile(
-    rf"{_BEFORE.pattern}"
-    r"|(?:吧|呀|啊|哦|那边|那儿|那里|里| please| room)+$"
-)
-
-
-def place_alone(text: str, vocabulary: Vocabulary) -> str | None:
-    """Return the place whose name is all that a text says."""
-    said = plain(text).strip(" .,!。，！")
-    bare = _BEFORE.sub("", said)  # "the living room" ends in a room of its own
-    for tried in (said, bare, _AROUND.sub("", said).strip()):
-        found = find_places(tried, vocabulary)
-        if len(found) == 1 and (found[0].start, found[0].end) == (0, len(tried)):
-            return found[0].id
-    return None
-
-
 def label_named(label: str, text: str) -> bool:
     """Tell whether every word of a label stands in the text, but for words that name nothing."""
     said = plain(text)

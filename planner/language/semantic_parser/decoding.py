@@ -12,6 +12,7 @@ from planner.language.semantic_parser.linear_plan import (
     MAX_ACTIONS,
     MAX_SPAN,
     QUOTED,
+    TOKEN_NUMBERS,
     TOKENS,
     Action,
     GrammarWalk,
@@ -23,8 +24,6 @@ from planner.language.semantic_parser.plan_grammar import LabelledPlan, SlotKind
 if TYPE_CHECKING:
     from planner.language.semantic_parser.network import PointerNetwork
     from planner.language.semantic_parser.units import SentenceUnits
-
-_NUMBER = {token: number for number, token in enumerate(TOKENS)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +59,7 @@ def allowed_units(expected: NextActions, said: SentenceUnits) -> list[int]:
 def allowed_actions(expected: NextActions, said: SentenceUnits) -> tuple[list[int], list[int]]:
     """Return the numbers of the tokens and of the units that may come next."""
     units = allowed_units(expected, said)
-    tokens = sorted(_NUMBER[token] for token in expected.tokens)
+    tokens = sorted(TOKEN_NUMBERS[token] for token in expected.tokens)
     return tokens, units
 
 

@@ -53,6 +53,7 @@ TOKENS: tuple[str, ...] = tuple(
         | {choice for choices in CHOICES.values() for choice in choices}
     )
 )
+TOKEN_NUMBERS = {token: number for number, token in enumerate(TOKENS)}
 
 
 @dataclass(frozen=True, slots=True)

@@ -196,9 +196,7 @@ def test_pause_move_and_replace(tmp_path: Path, site: Site) -> None:
     async def story() -> None:
         async with planner(tmp_path, site, KITCHEN, SOFA, SOFA, SOFA) as world:
             missions = world.missions
-            first, second, third = [
-                await missions.submit(f"see to {i}, please") for i in range(3)
-            ]
+            first, second, third = [await missions.submit(f"see to {i}, please") for i in range(3)]
             await world.reach(third.id, GoalState.QUEUED)
             assert (await missions.move(third.id, second.id)).position == 0
             assert (await missions.pause(first.id)).reason == "operator"

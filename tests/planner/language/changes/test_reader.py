@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.language.changes.reader import read_changes
-from planner.language.changes.rows import read_rest
+from planner.language.changes.rows import MAX_READ, lay_out, read_rest
 from planner.plan import Change, Edit
 from tests.planner.mission.leaning import NAMES
 
@@ -110,3 +110,14 @@ def test_an_order_behind_another_is_left_in_the_persons_words(text: str, rest: s
 @given(st.text(max_size=140))
 def test_any_text_is_read_or_left(text: str) -> None:
     assert all(isinstance(each, Change) for each in read_changes(text, NAMES))
+
+
+@pytest.mark.parametrize("length", [MAX_READ + 1, 4_000, 100_000])
+@pytest.mark.parametrize("unit", ["again, ", "no, the study, ", "kitchn ", "再来一次，", "it "])
+def test_what_is_longer_than_a_word_in_a_conversation_changes_nothing(
+    unit: str, length: int
+) -> None:
+    """Whoever sends it, no name is sought in it: the door asks this before it knows the length."""
+    text = (unit * length)[: 2 * length]
+    assert len(lay_out(text)) > MAX_READ
+    assert read_changes(text, NAMES) == ()
