@@ -283,7 +283,7 @@ def _ask_what_was_seen(last: LastOrder, change: Change) -> Steps | None:
 
 def _like(last: LastOrder, change: Change) -> Steps | None:
     thing = sought_thing(last.steps)
-    return (Look(question=(change.words or "").format(thing)),) if thing else None
+    return (Look(question=change.words.format(thing)),) if thing and change.words else None
 
 
 def _the_one(last: LastOrder, change: Change) -> Steps | None:
@@ -332,13 +332,16 @@ def _look_besides(last: LastOrder, looked: Step, change: Change) -> Steps | None
     if len(places) > 1:
         return None
     place = next(iter(places), None)
-    asked = last.seen_as(thing) or ""
-    kind = change.kind or looked.kind
-    step: Step = (
-        Count(object=thing, place=place) if kind == "count"
-        else Find(object=thing, place=place) if kind == "find"
-        else Look(question=asked, place=place)
-    )  # fmt: skip
+    asked, kind = last.seen_as(thing), change.kind or looked.kind
+    step: Step
+    if kind == "count":
+        step = Count(object=thing, place=place)
+    elif kind == "find":
+        step = Find(object=thing, place=place)
+    elif asked is not None:
+        step = Look(question=asked, place=place)
+    else:
+        return None  # no question of a look asks for it
     return (GoTo(place=place), step) if place is not None else (step,)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from planner.plan import (
@@ -82,6 +82,8 @@ def without_places(step: Step) -> dict[str, Any]:
 
 
 @given(orders, changes, st.booleans())
+@example((Find(object="cup"),), Change(act=Edit.ALSO, thing="bottle", kind="look"), False)
+@example((Find(object="cup"),), Change(act=Edit.LIKE), False)
 def test_a_change_is_pure_and_makes_valid_steps(
     steps: tuple[Step, ...], change: Change, ended: bool
 ) -> None:
