@@ -62,9 +62,8 @@ def _repeat(last: LastOrder, change: Change) -> Steps | None:
         case "say":
             steps = steps[-1:] if steps and steps[-1].kind == "say" else ()
             return steps * change.times
-        case "count" | "look":
-            if not kinds & (LOOKS if change.kind == "look" else {"count"}):
-                return None
+        case "count" | "look" if not kinds & (LOOKS if change.kind == "look" else {"count"}):
+            return None
         case "tell" if not (kinds & _SPEAKS and last.person):
             return None
     return (Repeat(steps=steps, times=change.times),) if steps and change.times > 1 else steps
@@ -127,8 +126,8 @@ def _correct_whereabouts(last: LastOrder, change: Change) -> Steps | None:
         return None
     if before:
         return _put_place(last, place)
-    called = (GoTo(place=place), Find(object=last.person or "", place=place))
-    return _narrow(last, place) or ((*called, *last.steps) if last.person else None)
+    seek = Find(object=last.person or "", place=place)
+    return _narrow(last, place) or ((GoTo(place=place), seek, *last.steps) if last.person else None)
 
 
 def _take_other_place(last: LastOrder, change: Change) -> Steps | None:
@@ -254,8 +253,8 @@ def _go_on_a_bit(last: LastOrder, change: Change) -> Steps | None:
     if change.kind in ("closer", "forth") and (turns or on != (1.0 if change.way > 0.0 else -1.0)):
         return None
     much = change.amount if change.amount is not None else BIT_RAD if turns else BIT_M
-    return (Turn(angle_rad=on * change.way * much) if turns
-            else MoveStraight(distance_m=on * change.way * much),)  # fmt: skip
+    way = on * change.way * much
+    return (Turn(angle_rad=way) if turns else MoveStraight(distance_m=way),)
 
 
 def _other_side(last: LastOrder, change: Change) -> Steps | None:
@@ -321,9 +320,8 @@ def _put_place(last: LastOrder, place: str, inner: str | None = None) -> Steps |
     if not whole or put in gone or (around is None and (len(gone) == 2 or inner is not None)):
         return None  # of a bed, another room makes no order
     old = whole.pop()
-    return put_place(
-        last.steps, last.names, {old: put} | dict.fromkeys(gone - {old}, around or put)
-    )
+    moved = {old: put} | dict.fromkeys(gone - {old}, around or put)
+    return put_place(last.steps, last.names, moved)
 
 
 def _look_besides(last: LastOrder, looked: Step, change: Change) -> Steps | None:
@@ -348,6 +346,5 @@ def _look_besides(last: LastOrder, looked: Step, change: Change) -> Steps | None
 def _at(last: LastOrder, looked: Step, place: str) -> Step:
     """Return a look at a place, with the question that it asks of it."""
     if isinstance(looked, Look):
-        put = dict.fromkeys(places_of(looked), place)
-        [looked] = put_place((looked,), last.names, put)
+        [looked] = put_place((looked,), last.names, dict.fromkeys(places_of(looked), place))
     return looked.model_copy(update={"place": place})

@@ -11,7 +11,7 @@ from pons.robot_processes import BODY, ProcessGone, RobotProcesses
 from pons.settings import CHECKOUT, LaunchSettings
 from tests.e2e.polling import until
 
-IDLE = "import sys, time\nprint(*sys.argv[1:], flush=True)\ntime.sleep(600)\n"
+IDLE = "import sys, time\nprint(' '.join(sys.argv[1:]), flush=True)\ntime.sleep(600)\n"
 START_S = 40.0
 
 
