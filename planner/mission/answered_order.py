@@ -11,7 +11,6 @@ from planner.brain.interface import OFFLINE
 from planner.language.changes.reader import read_changes
 from planner.language.utterance import parse
 from planner.mission.open_questions import find_choice, find_offer
-from planner.mission.place_words import names_of
 from planner.mission.whereabouts import complete_person
 from planner.plan import Edit
 
@@ -29,6 +28,6 @@ def complete_order(facts: SiteView, asking: Mission, answer: str) -> str:
     chosen = offered or find_choice(asking, answer)
     if chosen is not None or asking.brain is None or asking.brain.name != OFFLINE:
         return chosen or answer
-    places = [each for each in read_changes(answer, names_of(facts)) if each.act is Edit.WHERE]
+    places = [each for each in read_changes(answer, facts.names) if each.act is Edit.WHERE]
     completed = (complete_person(place, asking, facts) for place in places)
     return next((order for order in completed if order is not None), answer)

@@ -27,7 +27,6 @@ from planner.mission.antecedents import fits, name_antecedents, thing_of
 from planner.mission.departure import LEANS_S
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import spot_at
-from planner.mission.place_words import names_of
 from planner.mission.state import goal_to_end
 from planner.mission.whereabouts import complete_person
 from planner.plan import (
@@ -76,7 +75,7 @@ class Lean:
 def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | None:
     """Return how a sentence leans on the goals before it; None: on none, or in doubt."""
     text, intent, orders = said.text, said.intent, last_orders(book, now_unix_s)
-    last, names = next(iter(orders), None), names_of(book.facts)
+    last, names = next(iter(orders), None), book.facts.names
     waiting = [m for m in book.missions.values() if m.state is GoalState.NEEDS_CLARIFICATION]
     asked = max(waiting, key=lambda m: m.order, default=None)
     if isinstance(intent, Replace):
@@ -97,7 +96,7 @@ def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | No
 
 def _take_back(book: MissionState, intent: Replace, orders: tuple[Mission, ...], text: str) -> Lean:
     """Return how "forget that, …" leans on the order before it."""
-    names = names_of(book.facts)
+    names = book.facts.names
     changed: ChangedOrder | None = None
     for each in read_changes(text, names):
         lean = _lean(book, each, orders, text) if not each.rest else None
@@ -123,7 +122,7 @@ def _lean(
     if change.rest:
         if not _is_order(change.rest) or not _is_over_there(book, change, last):
             return None
-        rest = name_antecedents(change.rest, orders, book.facts, names_of(book.facts))
+        rest = name_antecedents(change.rest, orders, book.facts, book.facts.names)
         changed = ChangedOrder(words=rest or change.rest)
         return Lean(changed, ends=corrects, first=True, corrects=corrects)
     if change.who and last is not None and not _fits(change.who, last):
@@ -189,7 +188,7 @@ def _may_change_round(book: MissionState, change: Change, last: Mission | None) 
 
 def _last_order(book: MissionState, last: Mission | None) -> LastOrder:
     """Return what is known of the newest order."""
-    names = names_of(book.facts)
+    names = book.facts.names
     if last is None:
         return LastOrder((), names=names)
     ahead = last.steps[last.step :]
@@ -254,7 +253,7 @@ def denies_way(book: MissionState, text: str, now_unix_s: float) -> bool:
     last = next(iter(last_orders(book, now_unix_s)), None)
     if last is None:
         return False
-    names = names_of(book.facts)
+    names = book.facts.names
     whole = read_changes(text, names)
     first = _CLAUSE_END.split(text.strip(), maxsplit=1)[0]
     denied = {each.place for each in whole if each.act is Edit.LEAVE_OUT and each.denied}
@@ -269,7 +268,7 @@ def denied_goal(book: MissionState, order: str, now_unix_s: float) -> str | None
 
     "Don't go in there" is that of the place that was spoken of last.
     """
-    names = names_of(book.facts)
+    names = book.facts.names
     denied = " | ".join(c.text for c in read_clauses(order, names) if c.mood is ClauseMood.DENIED)
     places = {each.id for each in find_places(denied, names)}
     orders = last_orders(book, now_unix_s)

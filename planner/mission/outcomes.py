@@ -20,7 +20,7 @@ from planner.plan import (
     StepRecord,
     StepState,
 )
-from planner.site.polygon import area_m2, contains
+from planner.site.polygon import contains
 from planner.site.site_view import SiteView
 from wire import Pose2, Status
 
@@ -44,14 +44,9 @@ def spot_at(facts: SiteView, pose: Pose2 | None, place: str | None = None) -> Sp
     """Name where a pose is: its room and the point itself."""
     if pose is None:
         return Spot(place=place)
-    rooms = [
-        (area_m2(t.polygon), t.id)
-        for t in facts.targets.values()
-        if t.room and t.polygon is not None and contains(t.polygon, pose.x_m, pose.y_m)
-    ]
     return Spot(
         place=place,
-        room=min(rooms)[1] if rooms else None,
+        room=facts.room_at(pose.x_m, pose.y_m),
         x_m=round(pose.x_m, 3),
         y_m=round(pose.y_m, 3),
         yaw_rad=round(pose.yaw_rad, 4),

@@ -13,7 +13,6 @@ from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import find_places, plain
 from planner.language.person_names import people_named
 from planner.mission.antecedents import fits
-from planner.mission.place_words import names_of
 from planner.plan import Code, GoalState
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ def complete_person(change: Change, asked: Mission, facts: SiteView) -> str | No
     waits = asked.state is GoalState.NEEDS_CLARIFICATION and plan is not None
     if not waits or plan is None or plan.code is not Code.INCOMPLETE or place is None:
         return None
-    if len(people) != 1 or find_places(order, names_of(facts)):
+    if len(people) != 1 or find_places(order, facts.names):
         return None
     person = people[0]
     if change.who == "it" or (change.who and not fits(change.who, person)):

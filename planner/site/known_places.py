@@ -117,7 +117,7 @@ class KnownPlaces:
     @property
     def vocabulary(self) -> Vocabulary:
         """Return the names that a plan may use now."""
-        return self._vocabulary
+        return self._facts.names
 
     @property
     def facts(self) -> SiteView:
@@ -228,7 +228,6 @@ class KnownPlaces:
                 good.append(kept.as_place())
         self._shown, self._places = tuple(shown), (*self.site.places, *good)
         self._facts = facts_of(self.site, tuple(good), self._radius_m)
-        self._vocabulary = vocabulary_of(self.site, tuple(good))
 
     def _why_not(self, kept: TaughtPlace, known: tuple[Place, ...]) -> str | None:
         """Say why a kept place can't be used: the site's files may have changed since."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from maps.growing_map import GROWING_MAP
 from planner.language.catalogue import place_name
 from planner.plan import Bilingual, Entry, Vocabulary
 from planner.site.places import Place
+from planner.site.polygon import area_m2, contains
 from planner.site.site import Site
 from planner.site.standing_spots import StandingFloor
 from wire.geometry import Pose2
@@ -29,7 +31,7 @@ class Target:
     """What else people call it, in both languages."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SiteView:
     """Hold what missions know of a site. They read no map: routes are the navigation's."""
 
@@ -45,6 +47,31 @@ class SiteView:
     def radius_m(self) -> float:
         """Return the radius of the disc that holds the robot."""
         return self.floor.radius_m if self.floor is not None else RADIUS_M
+
+    @cached_property
+    def names(self) -> Vocabulary:
+        """Return the names that people and plans use: one value a site, for all readers."""
+        return Vocabulary(entries=tuple(map(self._entry, self.targets.values())))
+
+    def _entry(self, target: Target) -> Entry:
+        at = target.pose
+        return Entry(
+            id=target.id,
+            kind="room" if target.room else "place",
+            name=target.name,
+            aliases=target.aliases,
+            room=None if target.room else self.room_at(at.x_m, at.y_m),
+            is_home=target.id == self.home,
+        )
+
+    def room_at(self, x_m: float, y_m: float) -> str | None:
+        """Return the room in which a point lies, the smallest of several."""
+        rooms = [
+            (area_m2(t.polygon), t.id)
+            for t in self.targets.values()
+            if t.room and t.polygon is not None and contains(t.polygon, x_m, y_m)
+        ]
+        return min(rooms)[1] if rooms else None
 
 
 def facts_of(site: Site, taught: tuple[Place, ...] = (), radius_m: float = RADIUS_M) -> SiteView:
@@ -69,16 +96,4 @@ def _target(place: Place) -> Target:
 
 def vocabulary_of(site: Site, taught: tuple[Place, ...] = ()) -> Vocabulary:
     """Return the names that a plan for this site may use, the taught ones last."""
-    return Vocabulary(entries=tuple(_entry(site, place) for place in (*site.places, *taught)))
-
-
-def _entry(site: Site, place: Place) -> Entry:
-    room = site.room_at(place.pose.x_m, place.pose.y_m) if place.kind == "place" else None
-    return Entry(
-        id=place.id,
-        kind=place.kind,
-        name=place_name(place.name.en, place.name.zh),
-        aliases=(*place.aliases.en, *place.aliases.zh),
-        room=room.id if room is not None else None,
-        is_home=place.id == site.home.id,
-    )
+    return facts_of(site, taught).names

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
@@ -41,18 +42,23 @@ _ANYONE = re.compile(r"(?:any|some)(?:one|body)\b.*|人|谁")
 _ARTICLE = re.compile(r"^(?:the|my|our|your|an?|some|any) ")
 
 
-@lru_cache(maxsize=1)
-def _rows() -> dict[bool, tuple[tuple[Edit, re.Pattern[str], str], ...]]:
-    """Return the rows of Chinese and of English, compiled when the first sentence comes."""
-    return {
-        module is chinese: tuple((act, re.compile(row), fills) for act, row, fills in module.ROWS)
-        for module in (chinese, english)
-    }
+_Rows = tuple[tuple[Edit, re.Pattern[str], str], ...]
+
+
+@lru_cache(maxsize=4)
+def _rows(in_chinese: bool, with_rest: bool) -> _Rows:
+    """Return the rows of a language, compiled when its first sentence comes."""
+    rows = chinese.ROWS if in_chinese else english.ROWS
+    return tuple(
+        (act, re.compile(row), fills)
+        for act, row, fills in rows
+        if not with_rest or "(?P<rest" in row
+    )
 
 
 def read_rest(text: str) -> str | None:
     """Return the order of its own that a sentence puts after another, or in its place."""
-    return next((each.rest for each in read_rows(text, ()) if each.rest), None)
+    return next((each.rest for each in read_rows(text, (), with_rest=True)), None)
 
 
 def lay_out(text: str) -> str:
@@ -60,12 +66,13 @@ def lay_out(text: str) -> str:
     return fold_words("".join(text.split()) if has_chinese(text) else text).replace("’", "'")
 
 
-def read_rows(text: str, spots: tuple[Spot, ...]) -> tuple[Change, ...]:
+def read_rows(text: str, spots: tuple[Spot, ...], *, with_rest: bool = False) -> tuple[Change, ...]:
     """Return what a sentence may change, by the rows of its language, the likeliest first.
 
     Args:
         text: as it was said.
         spots: where the sentence, as it is laid out, names places.
+        with_rest: seek only what holds an order of its own, which needs no order before it.
     """
     said, in_chinese = lay_out(text), has_chinese(text)
     if not 0 < len(said) <= MAX_READ:
@@ -79,8 +86,10 @@ def read_rows(text: str, spots: tuple[Spot, ...]) -> tuple[Change, ...]:
     wide = fold_width("".join(text.split()) if in_chinese else " ".join(text.split()))
     whole = _MaskedSentence(bare, wide if len(wide) == len(said) else said, spots, in_chinese)
     plain, guessed = whole.cuts()
-    found = [change for each in plain for change in each.read()]
-    guesses = [change for each in guessed for change in each.read() if change.act is Edit.WHERE]
+    rows = _rows(in_chinese, with_rest)
+    read = {each: each.read(rows) for each in dict.fromkeys((*plain, *guessed))}
+    found = [change for each in plain for change in read[each]]
+    guesses = [change for each in guessed for change in read[each] if change.act is Edit.WHERE]
     asks = bare.rstrip(" ,").endswith("?")
     says_yes_or_no = consents(text) is not None and not spots
     return tuple(
@@ -93,21 +102,23 @@ def read_rows(text: str, spots: tuple[Spot, ...]) -> tuple[Change, ...]:
     )
 
 
+@dataclass(frozen=True, slots=True)
 class _MaskedSentence:
     """Hold a sentence, or the part of it that is read, with its names masked."""
 
-    def __init__(self, bare: str, written: str, spots: tuple[Spot, ...], in_chinese: bool) -> None:
-        self._bare, self._written, self._spots = bare, written, spots
-        self._zh = in_chinese
-        self._words = chinese if in_chinese else english
+    _bare: str
+    _written: str
+    _spots: tuple[Spot, ...]
+    _zh: bool
 
     def cuts(self) -> tuple[list[_MaskedSentence], list[_MaskedSentence]]:
         """Return the sentence without courtesy and reason, and without a guess's hedges, too."""
-        lead = re.compile(rf"{self._words.LEAD}|[, ]+")
-        tail = re.compile(rf"(?:{self._words.TAIL}|[,? ]+)$")
-        hedged = re.compile(rf"{self._words.LEAD}|{self._words.HEDGE}[ ,]*|[, ]+")
-        behind = re.compile(rf"(?:{self._words.TAIL}|[, ]*{self._words.HEDGE}|[,? ]+)$")
-        reason = re.compile(rf"(?P<rest>.+?){self._words.REASON}")
+        words = chinese if self._zh else english
+        lead = re.compile(rf"{words.LEAD}|[, ]+")
+        tail = re.compile(rf"(?:{words.TAIL}|[,? ]+)$")
+        hedged = re.compile(rf"{words.LEAD}|{words.HEDGE}[ ,]*|[, ]+")
+        behind = re.compile(rf"(?:{words.TAIL}|[, ]*{words.HEDGE}|[,? ]+)$")
+        reason = re.compile(rf"(?P<rest>.+?){words.REASON}")
         wholes = [self]
         if (cut := reason.fullmatch(self._bare.rstrip(_ENDS))) is not None:
             wholes.append(self._part(0, cut.end("rest")))
@@ -131,12 +142,12 @@ class _MaskedSentence:
             end = found.start()
         return self._part(start, end)
 
-    def read(self) -> list[Change]:
+    def read(self, rows: _Rows) -> list[Change]:
         """Return the rows that are this sentence, each with its slots filled."""
         said = self._bare.strip(_ENDS)
         at = self._bare.find(said)
         found = []
-        for act, row, fills in _rows()[self._zh]:
+        for act, row, fills in rows:
             match = row.fullmatch(self._bare, at, at + len(said))
             if match is not None:
                 change = self._fill(act, match, fills)

@@ -35,6 +35,7 @@ from planner.language.commands.statements import find_statement
 from planner.language.dialect import in_standard_words
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.schedule import OrderCommand, ScheduleCommand, read_order_command
+from planner.language.schedule.gate import may_concern_orders
 from planner.language.stop import is_stop
 
 MAX_READ = 300
@@ -74,7 +75,8 @@ def _read_intent(text: str) -> Intent | None:
     if own is not None and not isinstance(own, HereCommand):
         return own
     unread = not text.strip() or len(text) > MAX_READ or any(map(_unseen, text))
-    standing = None if unread else read_order_command(text)
+    timed = not unread and may_concern_orders(text)
+    standing = read_order_command(text) if timed else None
     if standing is not None and not _tells_a_time(standing, text):
         return standing  # 在三月五号八点…: no place is called so
     return own

@@ -10,7 +10,6 @@ from planner.language.catalogue import say
 from planner.language.utterance import parse
 from planner.mission.events import Planned, Submitted
 from planner.mission.follow_up import lean_of
-from planner.mission.place_words import names_of
 from planner.mission.plan_request import things_of
 from planner.mission.reducer import advance
 from planner.mission.skills import Eyesight
@@ -24,7 +23,7 @@ from wire import CameraConfig
 
 SITE = Site.load(ROOT / "sites" / "home")
 FACTS = facts_of(SITE)
-NAMES = names_of(FACTS)
+NAMES = FACTS.names
 NOW_S = 1000.0
 _CLASSES = ("person", "cup", "bottle", "chair", "backpack", "book", "ball", "cat")
 _EYES = Eyesight(CameraConfig(), _CLASSES)
