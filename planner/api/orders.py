@@ -17,7 +17,7 @@ from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
 from planner.api.schemas import Body, law_broken
-from planner.language.utterance import language_of
+from planner.language.sentence import language_of
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, order_of_text, tell_question
 from planner.orders.order import MAX_ORDERS, Firing, StandingOrder

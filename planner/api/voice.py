@@ -12,8 +12,8 @@ from planner.api.interfaces import Services
 from planner.api.operator import act_behind
 from planner.api.problems import HttpProblem
 from planner.language.catalogue import say
+from planner.language.sentence import parse
 from planner.language.stop import StopReading
-from planner.language.utterance import parse
 from planner.plan import Bilingual, Goal, Language
 from planner.voice import (
     STOP_DOUBT,

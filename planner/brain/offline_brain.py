@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from datetime import datetime
 
@@ -10,9 +9,9 @@ from planner.brain.interface import OFFLINE, Observation, ThinkRequest, ThinkRes
 from planner.brain.streamed_draft import Hear
 from planner.language.catalogue import join, message, say
 from planner.language.grammar.context import Context
-from planner.language.grammar.parser import plan
-from planner.language.yes_no import consents
-from planner.plan import AnswerPlan, Bilingual, BrainTag, Clarify, Code, Refuse, StepPlan
+from planner.language.readers import OrderWords, read_order
+from planner.language.sentence import parse
+from planner.plan import AnswerPlan, Bilingual, BrainTag, Clarify, Code, Plan, Refuse, StepPlan
 
 VERSION = "2"
 TAG = BrainTag(name=OFFLINE, version=VERSION)
@@ -35,6 +34,16 @@ class OfflineBrain:
 
     async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
         """Return the plan of a sentence. Pure beneath, and bounded by the length of the text."""
+        changed = request.changed
+        if changed is not None and changed.steps:
+            made: Plan = StepPlan(steps=changed.steps)
+        else:
+            made = read_order(self._words_of(request)).plan
+        rest = rest_of(made, request.observed)
+        return ThinkResult(plan=rest, brain=TAG, by_grammar=True)
+
+    def _words_of(self, request: ThinkRequest) -> OrderWords:
+        words = request.text if request.changed is None else request.changed.words
         context = Context(
             room=request.room,
             language=request.language,
@@ -46,24 +55,7 @@ class OfflineBrain:
             remembers=request.situation is not None
             and any(item.fits for item in request.situation.remembered),
         )
-        changed = request.changed
-        words = changed.words if changed is not None else request.text
-        steps = changed.steps if changed is not None else ()
-        made = StepPlan(steps=steps) if steps else plan(words, request.vocabulary, context)
-        if _answers_nothing(made, request):
-            made = AnswerPlan(text=say("talk.nothing_asked"))
-        rest = rest_of(made, request.observed)
-        return ThinkResult(plan=rest, brain=TAG, by_grammar=True)
-
-
-def _answers_nothing(made: StepPlan | AnswerPlan | Clarify | Refuse, request: ThinkRequest) -> bool:
-    """Tell whether a sentence is a mere yes or no, though nothing was asked."""
-    is_none = isinstance(made, Clarify | Refuse) and _ORDERS.search(request.text.lower()) is None
-    return is_none and not request.exchanges and consents(request.text) is not None
-
-
-_ORDERS = re.compile(r"\b(?:go|do|drive|come|move|start)\b|[去来走回到开]")
-"""With these a yes is an order, too: "go there"."""
+        return OrderWords(parse(words), request.vocabulary, context, bool(request.exchanges))
 
 
 _READS_NO_ANSWER = say("replan.reads_no_answer")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from planner.brain.interface import OFFLINE
 from planner.language.changes.reader import read_changes
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.open_questions import find_choice, find_offer
 from planner.mission.whereabouts import complete_person
 from planner.plan import Edit

@@ -16,7 +16,8 @@ from planner.brain.situation import (
     RecentGoal,
     Situation,
 )
-from planner.language.commands import OutcomeCommand, intent_of
+from planner.language.commands import OutcomeCommand
+from planner.language.sentence import parse
 from planner.mission.open_questions import WAITS
 from planner.mission.outcomes import spot_at
 from planner.plan import Code, GoalState
@@ -113,7 +114,7 @@ def _tell_outcome(mission: Mission) -> str:
         return _tell_looks(mission)[:_TOLD]
     if mission.outcome.code is Code.MODEL_UNAVAILABLE:  # a server's own words may be in it
         return ""
-    if isinstance(intent_of(mission.text), OutcomeCommand):
+    if isinstance(parse(mission.text).intent, OutcomeCommand):
         return ""
     return mission.outcome.message.of(mission.language)[:_TOLD]
 

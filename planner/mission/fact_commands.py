@@ -12,10 +12,9 @@ from planner.language.commands import (
     TeachFact,
     name_subject,
     read_fact_correction,
-    read_statement,
 )
 from planner.language.motion_guard.mentioned_names import places_named
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.memory import FACT, PERSON, THING, FactRefusal, MemoryQuery
 from planner.mission.outcomes import spot_at
 from planner.plan import AnswerPlan, Code, GoalState, Refuse, say_same
@@ -39,24 +38,22 @@ class FactCommands:
     def __init__(self, lookup: MemoryLookup | None, places: KnownPlaces, loop: GoalBook) -> None:
         self._lookup, self._places, self._loop = lookup, places, loop
 
-    def read_correction(self, text: str, given: Mission, intent: Intent | None) -> TeachFact | None:
+    def read_correction(self, given: Mission, intent: Intent | None) -> TeachFact | None:
         """Return the fact that a sentence puts in place of an older one; None where it does not.
 
         Args:
-            text: what was said.
             given: the goal that it is.
             intent: its reading by itself: what takes an order back may correct a fact as well.
         """
-        if not (intent is None or isinstance(intent, Replace | HereCommand)):
-            return None
         before = self._said_before(given)
         told = None
         if before is not None and before.state is GoalState.SUCCEEDED and not before.steps:
-            fact = parse(before.text).intent or read_statement(before.text)
+            said = parse(before.text)
+            fact = said.intent or said.statement
             told = fact.words if isinstance(fact, TeachFact) else None
-        if intent is not None and told is None:
+        if isinstance(intent, Replace | HereCommand) and told is None:
             return None
-        return read_fact_correction(text, told)
+        return read_fact_correction(given.text, told)
 
     def answers_question(self, given: Mission) -> bool:
         """Tell whether something that was said just before is still asked about."""

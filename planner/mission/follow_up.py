@@ -9,7 +9,7 @@ older than ``LEANS_S``, and where it is in doubt what is meant, nothing is chang
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -21,6 +21,7 @@ from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import find_places
 from planner.language.object_names import resolve
 from planner.language.person_names import is_given_name, people_named
+from planner.language.readers import ChangeReading
 from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
 from planner.mission.antecedents import fits, name_antecedents, thing_of
@@ -44,7 +45,7 @@ from planner.plan import (
 
 if TYPE_CHECKING:
     from planner.language.commands import Intent
-    from planner.language.utterance import Utterance
+    from planner.language.sentence import Sentence
     from planner.mission.state import Mission, MissionState
 
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
@@ -54,25 +55,7 @@ _CLAUSE_END = re.compile(r"[,，;；.。!！](?!$)")
 _ARTICLE = re.compile(r"^(?:the|my|our|your|an?|some|any) ", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
-class Lean:
-    """Hold how a sentence leans on the goals before it, as its reception found."""
-
-    changed: ChangedOrder
-    """What it makes of the newest order."""
-    ends: bool = False
-    """It ends what runs."""
-    first: bool = False
-    """It is done right after what runs, or in its place."""
-    replaces: bool = False
-    """It ends what runs once it is understood."""
-    corrects: bool = False
-    """It puts something else in the place of what was ordered or asked."""
-    keeps_round: bool = False
-    """What runs goes on, without one of its places or with one first."""
-
-
-def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | None:
+def lean_of(book: MissionState, said: Sentence, now_unix_s: float) -> ChangeReading | None:
     """Return how a sentence leans on the goals before it; None: on none, or in doubt."""
     text, intent, orders = said.text, said.intent, last_orders(book, now_unix_s)
     last, names = next(iter(orders), None), book.facts.names
@@ -83,7 +66,7 @@ def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | No
     opens = intent is None or (isinstance(intent, HereCommand) and asked is last)
     chosen = find_choice(asked, text) if asked is not None and intent is None else None
     if chosen is not None:
-        return Lean(ChangedOrder(words=chosen))
+        return ChangeReading(ChangedOrder(words=chosen))
     for change in read_changes(text, names):
         if not opens and change.act not in _ROUNDS:
             continue  # 别去卧室了 ends the round only where it is not one
@@ -91,10 +74,12 @@ def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | No
         if lean is not None:
             return lean
     words = name_antecedents(text, orders, book.facts, names) if intent is None else None
-    return Lean(ChangedOrder(words=words)) if words is not None else None
+    return ChangeReading(ChangedOrder(words=words)) if words is not None else None
 
 
-def _take_back(book: MissionState, intent: Replace, orders: tuple[Mission, ...], text: str) -> Lean:
+def _take_back(
+    book: MissionState, intent: Replace, orders: tuple[Mission, ...], text: str
+) -> ChangeReading:
     """Return how "forget that, …" leans on the order before it."""
     names = book.facts.names
     changed: ChangedOrder | None = None
@@ -111,12 +96,12 @@ def _take_back(book: MissionState, intent: Replace, orders: tuple[Mission, ...],
     named = name_antecedents(intent.rest, orders, book.facts, names) or intent.rest
     changed = changed or ChangedOrder(words=named)
     now = intent.now
-    return Lean(changed, ends=now, first=now, replaces=not now, corrects=True)
+    return ChangeReading(changed, ends=now, first=now, replaces=not now, corrects=True)
 
 
 def _lean(
     book: MissionState, change: Change, orders: tuple[Mission, ...], text: str
-) -> Lean | None:
+) -> ChangeReading | None:
     """Return what one change makes of the newest order; None where it makes nothing of it."""
     last, corrects = next(iter(orders), None), change.act in _CORRECTS
     if change.rest:
@@ -124,7 +109,7 @@ def _lean(
             return None
         rest = name_antecedents(change.rest, orders, book.facts, book.facts.names)
         changed = ChangedOrder(words=rest or change.rest)
-        return Lean(changed, ends=corrects, first=True, corrects=corrects)
+        return ChangeReading(changed, ends=corrects, first=True, corrects=corrects)
     if change.who and last is not None and not _fits(change.who, last):
         return None
     order = _last_order(book, last)
@@ -140,14 +125,14 @@ def _lean(
     if change.act is Edit.ALSO:
         wider = change.place is not None and isinstance(steps[0], Patrol)
         ends = wider and _is_under_way(book, last)
-        return Lean(changed, ends=ends, first=True)
+        return ChangeReading(changed, ends=ends, first=True)
     place = corrects and change.place is not None and not change.who
     ends = place or change.act is Edit.OTHER or (
         change.act in _ROUNDS | {Edit.INSTEAD, Edit.WHERE, Edit.OTHER_SIDE}
         and _is_under_way(book, last)
     )  # fmt: skip
     rounds = change.act in _ROUNDS
-    return Lean(changed, ends, first=ends, corrects=corrects, keeps_round=rounds)
+    return ChangeReading(changed, ends, first=ends, corrects=corrects, keeps_round=rounds)
 
 
 def _is_order(rest: str) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planner.language.catalogue import join, message, say
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.activity import Thinking
 from planner.mission.answered_order import complete_order
 from planner.mission.conversation import situation_of

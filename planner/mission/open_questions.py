@@ -13,8 +13,8 @@ from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
+from planner.language.sentence import parse
 from planner.language.stop import is_stop
-from planner.language.utterance import parse
 from planner.mission.declined_goals import decline
 from planner.mission.motion_consent import key_of_deed
 from planner.mission.outcomes import ended_outcome, moves

@@ -28,7 +28,6 @@ from planner.plan import (
     PlanRole,
     Vocabulary,
     plan_record,
-    say_same,
 )
 
 if TYPE_CHECKING:
@@ -126,8 +125,7 @@ def find_asking(turn: Transaction, mission: Mission) -> Mission | None:
     """
     waiting = [m for m in turn.book.missions.values() if m.state in WAITS and m.id != mission.id]
     if not waiting:
-        why = message(Code.NOT_UNDERSTOOD, part=say_same(mission.text[:60]))
-        refused = Outcome(code=Code.NOT_UNDERSTOOD, message=why)
+        refused = Outcome(code=Code.NOT_UNDERSTOOD, message=say("talk.nothing_asked"))
         finish(turn, mission, BrainCause.REFUSES, refused, Code.NOT_UNDERSTOOD.value)
         return None
     return take_sentence(turn, mission, tuple(m.id for m in waiting))

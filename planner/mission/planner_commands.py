@@ -26,10 +26,10 @@ from planner.language.commands import (
     ResumeCommand,
     Slower,
     TeachFact,
-    read_statement,
 )
+from planner.language.readers import BY_THE_PLANNER, CommandReading, OrdersReading, readings
 from planner.language.schedule import ChangeOrders, OrderCommand
-from planner.language.utterance import parse
+from planner.language.sentence import Sentence, parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
@@ -45,13 +45,13 @@ from planner.site.places import normalise
 from planner.site.pose_hint import hint_in
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from planner.mission.events import Command, Submitted
     from planner.mission.goal_book import GoalBook
     from planner.mission.memory_lookup import MemoryLookup
     from planner.mission.standing_goals import OrderDesk
-    from planner.mission.state import Mission
+    from planner.mission.state import Mission, MissionState
     from planner.mission.tasks import Think
     from planner.site.known_places import KnownPlaces
     from planner.site.places import Place
@@ -91,7 +91,7 @@ class PlannerCommands:
             lookup: what was seen and told.
         """
         self._brain, self._memory, self._loop, self._link = think, memory, loop, link
-        self._facts = FactCommands(lookup, memory, loop)
+        self.fact_commands = FactCommands(lookup, memory, loop)
         self.desk: OrderDesk | None = None
         """Who keeps the standing orders."""
 
@@ -100,32 +100,31 @@ class PlannerCommands:
         mission = self._loop.book.missions.get(ask.id)
         if self.desk is not None and mission is not None and is_of_order(mission):
             return await self._think_of_order(self.desk, ask, mission)
-        intent = (
-            parse(ask.own_words).intent
-            if mission is not None and _by_person(mission, ask)
-            else None
-        )
-        if mission is not None and (taken := await self._ask_desk(intent, ask, mission)):
-            return taken
-        if isinstance(intent, OrderCommand):
-            intent = None
-        if mission is not None and not (mission.replies or mission.steps):
-            intent = self._facts.read_correction(mission.text, mission, intent) or intent
-        if isinstance(intent, Replace):
-            return await self._brain(replace(ask, text=intent.rest, order="", exchanges=()))
-        if isinstance(intent, HereCommand) and self._place(intent.name) is None:
-            intent = None  # "you are in the way": nothing of ours
-        if isinstance(intent, OutcomeCommand) and tell_outcome(self._loop.book, ask.id) is None:
-            intent = None  # nothing was done before: a brain reads "how many?"
-        if isinstance(intent, ForgetFacts) and self._place(intent.about) is not None:
-            intent = None  # "forget about the kitchen": a drive may be meant
-        if intent is None and mission is not None and not (mission.replies or mission.steps):
-            intent = (
-                None if self._facts.answers_question(mission) else read_statement(ask.own_words)
+        if mission is not None:
+            by_person = ask.text == mission.words  # the newest, and not a model's question
+            said, words = parse(ask.own_words if by_person else ""), _WordsOf(self, mission)
+            found: Iterator[OrdersReading | CommandReading]
+            found = readings(said, words, BY_THE_PLANNER)
+            for reading in found:
+                if (taken := await self._take(reading, ask, mission)) is not None:
+                    return taken
+        return take_back_offers(await self._brain(ask), self.refuse_offer)
+
+    async def _take(
+        self, reading: OrdersReading | CommandReading, ask: AskBrain, mission: Mission
+    ) -> Planned | None:
+        """Do what was read; None where it turns out to be about something else."""
+        if isinstance(reading, OrdersReading):
+            own = replace(ask, text=ask.own_words)
+            return (
+                None if self.desk is None else await self.desk.take(reading.command, own, mission)
             )
-        if intent is None or mission is None or mission.steps:
-            return take_back_offers(await self._brain(ask), self.refuse_offer)
-        return Planned(ask.id, await self.carry_out(intent, mission))
+        if isinstance(reading.intent, Replace):
+            rest = reading.intent.rest
+            return await self._brain(replace(ask, text=rest, order="", exchanges=()))
+        if mission.steps:
+            return None
+        return Planned(ask.id, await self.carry_out(reading.intent, mission))
 
     async def _think_of_order(self, desk: OrderDesk, ask: AskBrain, mission: Mission) -> Planned:
         """Plan the goal of a standing order; a reminder's words are fixed, and no brain's."""
@@ -139,17 +138,6 @@ class PlannerCommands:
         """Return why a standing order that a brain offers could not be kept; None: it could."""
         return self.desk.refuse_offer(text) if self.desk is not None else None
 
-    async def _ask_desk(
-        self, intent: Intent | None, ask: AskBrain, mission: Mission
-    ) -> Planned | None:
-        """Have the desk take what is about standing orders; None: it is about something else."""
-        standing = intent
-        if not mission.has_begun and not isinstance(intent, OrderCommand):
-            standing = parse(mission.order_text).intent  # its question is answered
-        if self.desk is None or not isinstance(standing, OrderCommand):
-            return None
-        return await self.desk.take(standing, replace(ask, text=ask.own_words), mission)
-
     async def obey_beside_stop(self, given: Submitted) -> Bilingual | None:
         """Remove or pause the standing orders that an order to stop names, too; say which.
 
@@ -160,6 +148,11 @@ class PlannerCommands:
             return None  # a doubtful stop is thought about, and carried out then
         return await self.desk.change(command, given.language)
 
+    @property
+    def book(self) -> MissionState:
+        """Return where everything stands."""
+        return self._loop.book
+
     async def carry_out(self, intent: Intent, mission: Mission) -> AnswerPlan | Refuse:
         """Do it and say how it went."""
         book = self._loop.book
@@ -169,7 +162,7 @@ class PlannerCommands:
             case Forget(name):
                 return await self._forget(name)
             case TeachFact() | ForgetFacts():
-                return await self._facts.carry_out(intent)
+                return await self.fact_commands.carry_out(intent)
             case HereCommand(name):
                 return await self._hint(name)
             case PauseCommand():
@@ -219,7 +212,7 @@ class PlannerCommands:
             return AnswerPlan(text=say("commands.full_speed", text=text))
         return AnswerPlan(text=say("commands.speed_cap", share=share, text=text))
 
-    def _place(self, name: str) -> Place | None:
+    def place_called(self, name: str) -> Place | None:
         """Return the place that answers to a name, as people write it."""
         wanted = normalise(name)
         places = self._memory.places
@@ -229,7 +222,7 @@ class PlannerCommands:
         """Tell localization where a person says the robot is, and say what scans make of it."""
         if self._memory.facts.grows:  # the mapper takes no hints: nobody would answer
             return _hint_refused("map_grows")
-        place = self._place(name)
+        place = self.place_called(name)
         if place is None or self._link.localizer is None:
             return _hint_refused("no_localizer")
         verdict = await self._link.hint(hint_in(place))
@@ -288,6 +281,34 @@ def _hint_refused(code: str) -> Refuse:
     )
 
 
-def _by_person(mission: Mission, ask: AskBrain) -> bool:
-    """Tell whether the words are the person's own newest ones, not a model's question."""
-    return ask.text == mission.words
+class _WordsOf:
+    """Say what the planner knows of a goal whose words are read."""
+
+    def __init__(self, planner: PlannerCommands, mission: Mission) -> None:
+        self._planner, self._mission = planner, mission
+        self._is_first = not (mission.replies or mission.steps)
+
+    @property
+    def open_order(self) -> OrderCommand | None:
+        """Return what was said about standing orders, where the words answer its question."""
+        asked = None if self._mission.has_begun else parse(self._mission.order_text).intent
+        return asked if isinstance(asked, OrderCommand) else None
+
+    def correct_fact(self, said: Sentence) -> TeachFact | None:
+        """Return the fact that the words put in place of an older one."""
+        facts, mission = self._planner.fact_commands, self._mission
+        return facts.read_correction(mission, said.intent) if self._is_first else None
+
+    def tell_fact(self, said: Sentence) -> TeachFact | None:
+        """Return the fact that the words tell flatly, where nothing was asked."""
+        asked = not self._is_first or self._planner.fact_commands.answers_question(self._mission)
+        return None if asked else said.statement
+
+    def is_place(self, name: str) -> bool:
+        """Return whether a place answers to a name."""
+        return self._planner.place_called(name) is not None
+
+    @property
+    def has_outcome(self) -> bool:
+        """Return whether anything was done before that could be told."""
+        return tell_outcome(self._planner.book, self._mission.id) is not None

@@ -20,17 +20,20 @@ from typing import TYPE_CHECKING
 from planner.language.commands import CancelCommand as TakeBack
 from planner.language.commands import Replace
 from planner.language.commands import ResumeCommand as GoOn
-from planner.language.utterance import Utterance
+from planner.language.readers import (
+    AT_THE_DOOR,
+    AnswerReading,
+    ChangeReading,
+    HaltReading,
+    readings,
+    stop,
+)
+from planner.language.sentence import Sentence
 from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
-from planner.mission.follow_up import (
-    Lean,
-    denied_goal,
-    denies_way,
-    lean_of,
-)
+from planner.mission.follow_up import denied_goal, denies_way, lean_of
 from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
 from planner.mission.state import (
@@ -100,11 +103,11 @@ class Reception:
 
 def receive(
     book: MissionState,
-    said: Utterance,
+    said: Sentence,
     given: Submitted,
     now_s: float,
     *,
-    leaning: Lean | None = None,
+    leaning: ChangeReading | None = None,
     key: str | None = None,
     repeats: Repeats | None = None,
 ) -> Reception:
@@ -119,22 +122,12 @@ def receive(
         key: the Idempotency-Key of the request.
         repeats: the requests that came before.
     """
-    full = not has_room(book)
-    if said.orders_stop:
-        stop = replace(given, stop=True, rest=said.behind_stop)
-        if stop.rest and not full:
-            stop = _doubtful(book, replace(stop, changed=ChangedOrder(words=stop.rest)))
-        return Reception(stop, stops=True)
-    may_answer = leaning is None and not (given.confirm or given.replace)
-    asking = goals_answered_by(book, said) if may_answer else ()
-    now_unix_s, intent = now_s + book.wall_offset_s, said.intent
-    lean = leaning if asking or leaning is not None else lean_of(book, said, now_unix_s)
-    changed = lean.changed if lean is not None else None
-    if not asking and _may_stop(book, said, now_s, lean):
-        order = changed.words if changed is not None else said.text
-        denies = denied_goal(book, order, now_unix_s)
-        denied = replace(given, stop=full, denies=denies, changed=changed)
-        return Reception(denied if full else _doubtful(book, denied), stops=True)
+    full, may_answer = not has_room(book), not (given.confirm or given.replace)
+    goals = _AtHand(book, now_s, leaning, may_answer=leaning is None and may_answer)
+    reading = next(readings(said, goals, AT_THE_DOOR), None)
+    if isinstance(reading, HaltReading):
+        halted = _doubted(book, goals, said, given) if reading.is_doubtful else given
+        return Reception(_halt(book, halted, reading, full=full), stops=True)
     if key is not None and key.startswith(RESERVED_KEYS):
         return Reception(given, refused=ReservedKey(key))
     body, before = _body_of(given), repeats.find(key) if repeats is not None else None
@@ -142,15 +135,17 @@ def receive(
         return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
     if before is not None:
         return Reception(given, repeats=before.goal)
-    local = bool(asking) or not (intent is None or lean is not None)
+    asking = reading.goals if isinstance(reading, AnswerReading) else ()
+    lean = reading if isinstance(reading, ChangeReading) else leaning
+    local = bool(asking) or not (said.intent is None or lean is not None)
     marked = replace(
         given,
         replace=given.replace or (lean is not None and lean.replaces),
         first=lean is not None and lean.first,
-        resumes=isinstance(intent, GoOn) and not asking,
+        resumes=isinstance(said.intent, GoOn) and not asking,
         asking=asking,
         local=local,
-        changed=changed,
+        changed=lean.changed if lean is not None else None,
     )
     if full and not local:
         open_goals = sum(not m.has_ended for m in book.missions.values())
@@ -160,10 +155,72 @@ def receive(
     return Reception(marked, takes_back=ends, request=request)
 
 
-def _doubtful(book: MissionState, given: Submitted) -> Submitted:
-    """Mark a sentence that stops the robot and is thought about then: it drives after a yes."""
-    given = replace(given, stop=False, doubtful_stop=True, confirm=True, replace=False)
-    return replace(given, interrupts=goal_to_pause(book))
+def _halt(book: MissionState, given: Submitted, reading: HaltReading, *, full: bool) -> Submitted:
+    """Mark a sentence that stops the robot; what else is in it drives after a yes."""
+    stopped = replace(given, stop=True)
+    if not reading.is_doubtful:
+        stopped = replace(stopped, rest=reading.rest)
+        if not reading.rest:
+            return stopped
+        if not full:
+            stopped = replace(stopped, changed=ChangedOrder(words=reading.rest))
+    if full:
+        return stopped
+    doubtful = replace(stopped, stop=False, doubtful_stop=True, confirm=True, replace=False)
+    return replace(doubtful, interrupts=goal_to_pause(book))
+
+
+def _doubted(book: MissionState, goals: _AtHand, said: Sentence, given: Submitted) -> Submitted:
+    """Return a sentence that may mean a stop, with the goal on whose way it says not to go."""
+    lean = goals.change_of(said)
+    changed = lean.changed if lean is not None else None
+    order = changed.words if changed is not None else said.text
+    denies = denied_goal(book, order, goals.now_unix_s)
+    return replace(given, denies=denies, changed=changed)
+
+
+class _AtHand:
+    """Say what stands in the book besides a sentence; each is worked out once."""
+
+    def __init__(
+        self,
+        book: MissionState,
+        now_s: float,
+        leaning: ChangeReading | None = None,
+        *,
+        may_answer: bool = False,
+    ) -> None:
+        self._book, self._now_s, self._leaning = book, now_s, leaning
+        self._may_answer = may_answer
+        self.now_unix_s = now_s + book.wall_offset_s
+        self._changes: dict[Sentence, ChangeReading | None] = {}
+
+    def asked_by(self, said: Sentence) -> tuple[str, ...]:
+        """Return the goals whose question a sentence may answer; none unless it may."""
+        return goals_answered_by(self._book, said) if self._may_answer else ()
+
+    def change_of(self, said: Sentence) -> ChangeReading | None:
+        """Return what a sentence makes of the orders before it; None: nothing, or in doubt."""
+        if self._leaning is not None:
+            return self._leaning
+        if said not in self._changes:
+            self._changes[said] = lean_of(self._book, said, self.now_unix_s)
+        return self._changes[said]
+
+    def may_stop(self, said: Sentence) -> bool:
+        """Return whether words that may mean a stop are to be taken for one now.
+
+        卧室别进去 leaves one room out of the round that runs, and the rest of it goes on.
+        """
+        if not is_active(self._book, self._now_s):
+            return False
+        lean = self.change_of(said)
+        if lean is not None and lean.keeps_round:
+            return False
+        leans = lean is not None and bool(lean.changed.steps)
+        return (said.may_mean_stop and not leans) or denies_way(
+            self._book, said.text, self.now_unix_s
+        )
 
 
 def _body_of(given: Submitted) -> str:
@@ -185,12 +242,12 @@ class AnswerReception:
     """What the words do to the goal; after a stop, where its state still allows it."""
     sentence: str | None = None
     """What is then taken in as a goal of its own, beside the question."""
-    lean: Lean | None = None
+    lean: ChangeReading | None = None
     """What that goal makes of the order that was asked about; it answers no question then."""
 
 
 def receive_answer(
-    book: MissionState, said: Utterance, goal_id: str, now_s: float
+    book: MissionState, said: Sentence, goal_id: str, now_s: float
 ) -> AnswerReception:
     """Return the decision on words that came as the answer to a goal.
 
@@ -203,13 +260,14 @@ def receive_answer(
     if said.orders_stop:
         rest = said.text if said.behind_stop else None
         return AnswerReception(stops=True, command=ends, sentence=rest)
-    lean = lean_of(book, said, now_s + book.wall_offset_s)
-    if said.consent is None and _may_stop(book, said, now_s, lean):
+    goals = _AtHand(book, now_s)
+    if said.consent is None and goals.may_stop(said):
         return AnswerReception(stops=True, command=ends)
     if (error := refusal(book, Reply(goal_id, said.text))) is not None:
         return AnswerReception(refused=error)
     if isinstance(intent, TakeBack):
         return AnswerReception(command=Cancel(goal_id))
+    lean = goals.change_of(said)
     if lean is not None and lean.corrects:  # "no, the study": in place of what is asked
         lean = replace(lean, ends=False, first=False, replaces=False)  # what it ends has ended
         return AnswerReception(command=Cancel(goal_id), sentence=said.text, lean=lean)
@@ -220,23 +278,9 @@ def receive_answer(
     return AnswerReception(command=Reply(goal_id, said.text))
 
 
-def hears_stop(book: MissionState, said: Utterance, now_s: float) -> bool:
+def hears_stop(book: MissionState, said: Sentence, now_s: float) -> bool:
     """Return whether these words would stop the robot now, with any other meaning besides."""
-    if said.orders_stop:
-        return True
-    return _may_stop(book, said, now_s, lean_of(book, said, now_s + book.wall_offset_s))
-
-
-def _may_stop(book: MissionState, said: Utterance, now_s: float, lean: Lean | None) -> bool:
-    """Return whether words that may mean a stop are to be taken for one now.
-
-    卧室别进去 leaves one room out of the round that runs, and the rest of it goes on.
-    """
-    if not is_active(book, now_s) or (lean is not None and lean.keeps_round):
-        return False
-    leans = lean is not None and bool(lean.changed.steps)
-    may_mean = said.may_mean_stop and not leans
-    return may_mean or denies_way(book, said.text, now_s + book.wall_offset_s)
+    return stop(said, _AtHand(book, now_s)) is not None
 
 
 def awaits_answer(book: MissionState) -> bool:
@@ -255,7 +299,7 @@ def is_active(book: MissionState, now_s: float) -> bool:
     return not now_s - book.status_s <= OLD_STATUS_S or not at_rest(status)
 
 
-def goals_answered_by(book: MissionState, said: Utterance) -> tuple[str, ...]:
+def goals_answered_by(book: MissionState, said: Sentence) -> tuple[str, ...]:
     """Return the goals whose question a sentence may answer; one alone is beyond doubt.
 
     None unless it is a plain yes or no and one of them takes it. A question that takes neither (a

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from planner.brain.image_questions import Looker
 from planner.brain.interface import Brain
 from planner.bridge_client import Identity, Link, StopResult
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import goal_of
 from planner.mission.clocks import Clocks
@@ -60,10 +60,10 @@ from planner.site import KnownPlaces, Site
 from wire import OpRequest, RobotDescription
 
 if TYPE_CHECKING:
+    from planner.language.readers import ChangeReading
     from planner.memory import Recollection
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
-    from planner.mission.follow_up import Lean
     from planner.mission.state import GoalKey
 
 
@@ -154,7 +154,7 @@ class Missions:
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
         source: str = "api",
-        leaning: Lean | None = None,
+        leaning: ChangeReading | None = None,
     ) -> Goal:
         """Take a goal in and return it, usually still in planning. An order to stop stops first.
 

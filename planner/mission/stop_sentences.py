@@ -9,7 +9,7 @@ from __future__ import annotations
 from planner.language.catalogue import join, say
 from planner.language.commands import ResumeCommand
 from planner.language.folding import has_chinese
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.events import Planned
 from planner.mission.plan_roles import ends_goal, takes_back
 from planner.mission.queue import cancel, finish

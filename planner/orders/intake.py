@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from planner.language.catalogue import join, message, say
 from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, OrderCommand
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.events import Planned
 from planner.mission.state import ORDER_SOURCE
 from planner.orders.changer import OrderChanger

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import join, say
 from planner.language.schedule import ScheduleCommand
 from planner.language.schedule.reader import MAX_READ
-from planner.language.utterance import language_of, parse
+from planner.language.sentence import language_of, parse
 from planner.orders.errors import OrderRefusal
 from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_REMINDER_CHARACTERS
 from planner.orders.telling import say_goal_of_reminder

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import say
 from planner.language.schedule import ScheduleCommand
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.orders import world
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, judge_words, order_of_text

@@ -16,7 +16,7 @@ from planner.brain.interface import Exchange, Observation
 from planner.language.catalogue import UnknownMessage, message, say
 from planner.language.motion_guard import said_words
 from planner.language.motion_guard.step_words import wrong_motions
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.plan import DRIVES, EVERY_KIND, Code, say_same
 from pons.evals.matchers import BadMatcher
 from pons.evals.world import walk

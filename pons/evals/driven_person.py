@@ -14,10 +14,10 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, TypeVar
 
 from planner.brain.image_questions import ImageDescription, ImageSighting, NotThere
-from planner.language.utterance import parse
+from planner.language.readers import ChangeReading
+from planner.language.sentence import parse
 from planner.memory import MemoryStore, Recollection, SightingRecorder
 from planner.mission.events import Submitted
-from planner.mission.follow_up import Lean
 from planner.mission.reception import receive
 from planner.mission.skills.spatial_relations import support_of
 from planner.plan import BrainTag, GoalState, StepPlan, say_same
@@ -119,7 +119,7 @@ class DrivenRobot(RobotEar):
         self._turn, self._noted.words = turn, turn.notes.sees
 
     async def hear(
-        self, text: str, *, typed: bool = False, leaning: Lean | None = None
+        self, text: str, *, typed: bool = False, leaning: ChangeReading | None = None
     ) -> RobotReply:
         """Return what a sentence comes to; how it leans the missions work out themselves."""
         del leaning

@@ -15,7 +15,7 @@ from planner.brain import ThinkRequest
 from planner.brain.situation import RememberedItem, Situation
 from planner.language.commands import Forget, ForgetFacts, Remember, TeachFact, read_statement
 from planner.language.motion_guard.step_words import moves
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.plan import EVERY_KIND, Recall, StepPlan
 from pons.evals.cases import HELD_OUT, TUNED
 from pons.evals.matchers import BadMatcher, read_expectation

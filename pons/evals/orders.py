@@ -16,7 +16,7 @@ from planner.language.schedule import (
     ListOrders,
     ScheduleCommand,
 )
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
 from planner.mission.plan_request import thinker
 from planner.plan import Means

@@ -12,7 +12,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from planner.brain.interface import ThinkResult
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.effects import AskBrain
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Stopped, Submitted
@@ -47,10 +47,10 @@ if TYPE_CHECKING:
     from planner.brain import Brain
     from planner.brain.interface import ThinkRequest
     from planner.brain.streamed_draft import Hear
+    from planner.language.readers import ChangeReading
     from planner.mission.effects import Effect
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Event
-    from planner.mission.follow_up import Lean
     from planner.mission.state import Mission
     from planner.site.site import Site
 
@@ -117,7 +117,7 @@ class RobotEar:
         return ""
 
     async def hear(
-        self, text: str, *, typed: bool = False, leaning: Lean | None = None
+        self, text: str, *, typed: bool = False, leaning: ChangeReading | None = None
     ) -> RobotReply:
         """Return what a sentence comes to."""
         self._now_s += _TURN_S

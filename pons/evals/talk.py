@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Submitted
 from planner.mission.plan_request import thinker

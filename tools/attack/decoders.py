@@ -280,8 +280,8 @@ def _packed_picture(_folder: Path) -> Reader:
 
 def _language(_folder: Path) -> Reader:
     from planner.language import folding
+    from planner.language.sentence import language_of
     from planner.language.stop import is_stop, read_stop
-    from planner.language.utterance import language_of
 
     def read(data: bytes) -> object:
         text = data.decode("utf-8", "surrogateescape")

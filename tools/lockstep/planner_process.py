@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
 from planner.bridge_client import Link, LinkError, StopResult, WireBus
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission import Clocks, Missions
 from planner.mission.journal import JournalContents
 from planner.mission.perception_requests import nothing_spent

@@ -14,7 +14,7 @@ from planner.brain.endpoint.plan_reply import Unusable, clean
 from planner.language.commands import Forget, ForgetFacts
 from planner.language.folding import fold_words, has_chinese
 from planner.language.schedule import ChangeOrders, ScheduleCommand, split_time
-from planner.language.utterance import language_of, parse
+from planner.language.sentence import language_of, parse
 from planner.plan import AnswerPlan, Ask, Clarify, Language, Say, StepPlan, words_of
 from planner.plan.steps import DRIVES
 from planner.plan.tree import list_nodes

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from planner.language.catalogue import say
 from planner.language.commands import intent_of
@@ -189,37 +189,36 @@ def guess_meaning(marked: MarkedText, language: Language) -> GuessedMeaning | No
 
 
 def answer_guess(
-    made: Clarify, guessed: GuessedMeaning | None, read: ReadsOrder, name: NamesSteps
-) -> StepPlan | Clarify:
-    """Return what becomes of a sentence that was not understood.
+    guessed: GuessedMeaning | None, read: ReadsOrder, name: NamesSteps
+) -> StepPlan | Clarify | Literal[GuessKind.OTHER] | None:
+    """Return what becomes of a sentence that was not understood; None: nothing is guessed.
 
     Law: a guess that moves is a button below a question, an order that the grammar reads by itself.
 
     Args:
-        made: the question without a guess.
         guessed: what the sentence may mean.
         read: returns the plan of an order.
         name: returns the button of steps.
     """
     if guessed is None:
-        return made
+        return None
     match guessed.kind:
         case GuessKind.TALK:
             return Clarify(code=Code.NOT_UNDERSTOOD, question=say("grammar.guessed_talk"))
         case GuessKind.REFUSED:
             return Clarify(code=Code.NOT_UNDERSTOOD, question=say("grammar.guessed_beyond"))
         case GuessKind.OTHER:
-            return made.model_copy(update={"options": ()})
+            return GuessKind.OTHER
         case GuessKind.COMMAND:
             button = Option(label=say_same(guessed.order), text=guessed.order)
-            return _offer(button) if intent_of(guessed.order) is not None else made
+            return _offer(button) if intent_of(guessed.order) is not None else None
     meant = read(guessed.order)
     if not isinstance(meant, StepPlan):
-        return made
+        return None
     if guessed.kind is GuessKind.RECALL:
-        return meant if all(isinstance(step, Recall) for step in meant.steps) else made
+        return meant if all(isinstance(step, Recall) for step in meant.steps) else None
     button = name(meant.steps)
-    return _offer(button) if isinstance(read(button.text), StepPlan) else made
+    return _offer(button) if isinstance(read(button.text), StepPlan) else None
 
 
 def _offer(button: Option) -> Clarify:

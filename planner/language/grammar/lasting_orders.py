@@ -10,8 +10,8 @@ from __future__ import annotations
 from planner.language.grammar.branch_orders import call_by_name, tell_them
 from planner.language.grammar.compound_forms import CompoundForms, PartReaders
 from planner.language.numbers import seconds
+from planner.language.sentence import parse
 from planner.language.stop import StopReading, is_stop
-from planner.language.utterance import parse
 from planner.plan import MAX_FOLLOW_S, Ask, Find, Follow, GoTo, Repeat, Say, Step, WaitFor
 
 

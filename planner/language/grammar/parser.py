@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
@@ -29,7 +30,7 @@ from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.guessed_order import answer_guess, guess_meaning
+from planner.language.grammar.guessed_order import GuessKind, answer_guess, guess_meaning
 from planner.language.grammar.joined_condition import in_one_condition
 from planner.language.grammar.lexicon import (
     MARK,
@@ -62,8 +63,8 @@ from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.driving import TALK as ZH_TALK
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.recall import read_recall
+from planner.language.sentence import parse
 from planner.language.stop import StopReading
-from planner.language.utterance import parse
 from planner.plan import (
     AnswerPlan,
     Clarify,
@@ -106,27 +107,20 @@ def plan(
 def _read_sentence(
     text: str, vocabulary: Vocabulary, context: Context
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
-    """Return the plan of a sentence, or what may be meant by it as one offer."""
+    """Return the plan of a sentence, a condition that its parts share written out."""
     joined = in_one_condition(
         text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context)
     )
-    made = _plan_as_said(joined, vocabulary, context)
-    return (
-        made if isinstance(made, StepPlan | AnswerPlan) else _guess(made, text, vocabulary, context)
-    )
+    return _plan_as_said(joined, vocabulary, context)
 
 
-def _guess(
-    made: Clarify | Refuse, text: str, vocabulary: Vocabulary, context: Context
-) -> StepPlan | Clarify | Refuse:
-    """Answer by what a sentence may mean that was not understood, where it can be guessed."""
-    if made.code is not Code.NOT_UNDERSTOOD or not isinstance(made, Clarify):
-        return made
+def guess(
+    text: str, vocabulary: Vocabulary, context: Context
+) -> StepPlan | Clarify | Literal[GuessKind.OTHER] | None:
+    """Return what may be meant by a sentence that was not understood; None: not guessed."""
     lexicon, language = lexicon_of(vocabulary), context.language or parse(text).language
-    guessed = guess_meaning(lexicon.mark(normalise(text)), language)
     return answer_guess(
-        made,
-        guessed,
+        guess_meaning(lexicon.mark(normalise(" ".join(text.split()))), language),
         lambda order: _plan_as_said(order, vocabulary, context),
         lambda steps: option(steps, vocabulary, lexicon, language),
     )

@@ -12,7 +12,7 @@ where it is.
 from __future__ import annotations
 
 from planner.language.catalogue import message, say
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.skills.actions import (
     Fail,
     Finish,

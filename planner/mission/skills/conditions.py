@@ -16,7 +16,7 @@ from dataclasses import replace
 from typing import Any
 
 from planner.language.catalogue import message, say
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.skills.actions import Fail, Finish, Question, Scene, SkillAction
 from planner.mission.skills.skill_state import AskStage, AskState
 from planner.mission.wall_clock import clock_time, is_between

@@ -12,7 +12,7 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, say
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.skills.actions import (
     AskImage,
     Fail,

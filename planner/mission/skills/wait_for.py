@@ -13,7 +13,7 @@ from __future__ import annotations
 from planner.language.catalogue import message, say
 from planner.language.folding import fold_words
 from planner.language.object_names import tell_words
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.skills.actions import (
     Fail,
     Finish,

@@ -58,8 +58,8 @@ ORDERS = {
         ("去坐标(1,2)", "速度和坐标不由指令决定"),
     ),
     Code.NOT_UNDERSTOOD: (
-        ("colourless green ideas", "I did not understand “colourless green ideas”"),
-        ("天地玄黄", "我没听懂“天地玄黄”"),
+        ("colourless green ideas", "I can't read “colourless green ideas” without a model"),
+        ("天地玄黄", "没有模型，我读不懂“天地玄黄”"),
     ),
 }
 RULES = {

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from planner.language.folding import fold, fold_script, fold_width, fold_words, unmask
 from planner.language.script_table import SIMPLIFIED, TRADITIONAL
-from planner.language.utterance import language_of
+from planner.language.sentence import language_of
 from planner.plan import Language
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from planner.brain import OfflineBrain, ThinkRequest
 from planner.language.catalogue import say
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.events import Planned, Submitted
 from planner.mission.follow_up import lean_of
 from planner.mission.plan_request import things_of

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.events import Submitted
 from planner.mission.reception import receive
 from planner.plan import Find, GoToObject, Language, MoveStraight, Turn

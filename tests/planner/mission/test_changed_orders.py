@@ -9,7 +9,7 @@ import pytest
 from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.interface import Brain, ThinkRequest
 from planner.brain.scripted import ScriptedBrain
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Submitted
 from planner.mission.plan_request import thinker

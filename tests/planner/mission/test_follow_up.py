@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from planner.brain.offline_brain import TAG
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.departure import LEANS_S
 from planner.mission.events import Planned, Submitted
 from planner.mission.reception import receive

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from planner.brain.scripted import Reply
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission import BadState, JournalDown
 from planner.mission.loop import Loop
 from planner.plan import (

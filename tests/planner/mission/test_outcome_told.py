@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.conversation import situation_of
 from planner.mission.events import Cancel, Planned, Submitted
 from planner.mission.reducer import advance

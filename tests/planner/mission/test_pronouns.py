@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.departure import LEANS_S
 from planner.mission.events import Planned, Submitted
 from planner.mission.reducer import advance

@@ -11,13 +11,13 @@ import pytest
 
 from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
-from planner.language.utterance import language_of, parse
+from planner.language.readers import ChangeReading
+from planner.language.sentence import language_of, parse
 from planner.mission import reception
 from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
-from planner.mission.follow_up import Lean
 from planner.mission.reception import (
     AnswerReception,
     Reception,
@@ -249,7 +249,8 @@ def _book_of(state: GoalState) -> MissionState:
         ("forget it", GoalState.AWAITING_CONFIRMATION, AnswerReception(command=Cancel("g1"))),
         ("forget that, go to the bedroom", GoalState.AWAITING_CONFIRMATION,
          AnswerReception(command=Cancel("g1"), sentence="forget that, go to the bedroom",
-                         lean=Lean(ChangedOrder(words="go to the bedroom"), corrects=True))),
+                         lean=ChangeReading(ChangedOrder(words="go to the bedroom"),
+                                            corrects=True))),
         ("forget that, stop", GoalState.AWAITING_CONFIRMATION,
          AnswerReception(stops=True, command=Cancel("g1"))),
     ],

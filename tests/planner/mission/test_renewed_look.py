@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.events import Submitted
 from planner.mission.reception import receive
 from planner.mission.state import MissionState

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.departure import LEANS_S
 from planner.mission.events import Submitted
 from planner.mission.reception import receive

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from planner.language.schedule import OrderCommand
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
 from planner.mission.state import Mission
 from planner.orders.corrector import SPOKEN_S

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner.language.schedule import ScheduleCommand
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import judge_words, order_of_text
 

@@ -15,7 +15,7 @@ from planner.brain.fallback import FallbackBrain
 from planner.brain.interface import Exchange, Observation, ThinkResult
 from planner.brain.model_error_codes import REASONS
 from planner.brain.offline_brain import OfflineBrain
-from planner.language.utterance import language_of
+from planner.language.sentence import language_of
 from planner.plan import Clarify, GoTo, StepPlan, Vocabulary, say_same
 from tests.planner.brain.endpoint.servers import GO, Server, brain, wrote
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner.language.commands import TeachFact, read_statement
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 
 FACTS = (
     "I've put your spare cable in the bedroom, under the bed",

@@ -24,12 +24,15 @@ from planner.language.grammar.parser import plan
 from planner.language.grammar.sentence_text import normalise
 from planner.language.intent.features import units_of
 from planner.language.intent.intent_model import Guess
+from planner.language.readers import OrderWords, read_order
+from planner.language.sentence import parse
 from planner.plan import (
     EVERY_KIND,
     AnswerPlan,
     Clarify,
     Code,
     Language,
+    Plan,
     Recall,
     StepPlan,
     places_of,
@@ -49,8 +52,12 @@ SPOKEN = (
 )
 
 
+def read(text: str) -> Plan:
+    return read_order(OrderWords(parse(text), WORLD.vocabulary, CONTEXT)).plan
+
+
 def said(text: str) -> Clarify:
-    made = plan(text, WORLD.vocabulary, CONTEXT)
+    made = read(text)
     assert isinstance(made, Clarify)
     return made
 
@@ -91,13 +98,13 @@ def test_a_guessed_turn_is_offered_to_the_side_that_is_named(text: str, offered:
     ],
 )
 def test_what_asks_for_nothing_is_offered_nothing(text: str) -> None:
-    made = plan(text, WORLD.vocabulary, CONTEXT)
+    made = read(text)
     assert isinstance(made, AnswerPlan) or (isinstance(made, Clarify) and made.options == ())
 
 
 @pytest.mark.parametrize("text", ["a bit more", "just a bit closer", "再来一点", "再近点"])
 def test_how_much_more_is_no_wish_to_go_faster(text: str) -> None:
-    made = plan(text, WORLD.vocabulary, CONTEXT)
+    made = read(text)
     assert not isinstance(made, Clarify) or made.options == ()
 
 

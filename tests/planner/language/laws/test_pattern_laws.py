@@ -28,8 +28,8 @@ import pytest
 
 from planner.language.grammar.parser import plan
 from planner.language.grammar.sentence_text import MOST_READ
+from planner.language.sentence import parse
 from planner.language.stop import calls_stop, read_stop
-from planner.language.utterance import parse
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from pons_assets import ROOT

@@ -16,7 +16,7 @@ from planner.language.grammar.context import Context
 from planner.language.grammar.parser import plan
 from planner.language.motion_guard.step_words import moves
 from planner.language.recall import read_recall
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.plan import Clarify, Plan, Recall, StepPlan, Vocabulary
 from tests.planner.language.grammar.conftest import HOME
 

@@ -20,7 +20,7 @@ from planner.language.schedule import (
     read_order_command,
 )
 from planner.language.schedule.parts import After, Interval, OnceDay, TimeOfDay
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.plan.timing import CronRule, DayTime, InRule
 
 NINE, EIGHT = TimeOfDay(9), TimeOfDay(8)

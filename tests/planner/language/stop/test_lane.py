@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from planner.language.sentence import parse
 from planner.language.stop import StopReading, is_stop, read_stop
-from planner.language.utterance import parse
 
 STOPS = [
     # plain
