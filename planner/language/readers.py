@@ -38,7 +38,9 @@ from planner.language.commands import (
 )
 from planner.language.grammar.context import Context
 from planner.language.grammar.guessed_order import GuessKind
+from planner.language.grammar.lexicon import lexicon_of
 from planner.language.grammar.parser import guess, plan
+from planner.language.motion_guard.mentioned_names import find_places
 from planner.language.schedule import OrderCommand
 from planner.language.sentence import Sentence
 from planner.plan import (
@@ -270,6 +272,12 @@ BUILT_IN = (idle_answer, template, semantic_parser, not_read)
 READERS = (*AT_THE_DOOR, *BY_THE_PLANNER, *BUILT_IN)
 READERS_WITH_MODEL = (*AT_THE_DOOR, *BY_THE_PLANNER)
 """A model behind them reads what none of these takes."""
+
+
+def learn_names(names: Vocabulary) -> None:
+    """Prepare the names of a site, so that no sentence waits for it; once a site."""
+    lexicon_of(names)
+    find_places("", names)
 
 
 def readings(said: Sentence, where: _Where, readers: _Readers[_Where, _Read]) -> Iterator[_Read]:

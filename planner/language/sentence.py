@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from planner.language.changes.rows import read_rest
+from planner.language.changes.reader import read_rest
 from planner.language.commands import (
     ForgetFacts,
     HereCommand,

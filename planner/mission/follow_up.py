@@ -24,12 +24,12 @@ from planner.language.person_names import is_given_name, people_named
 from planner.language.readers import ChangeReading
 from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
+from planner.mission.answered_order import complete_person
 from planner.mission.antecedents import fits, name_antecedents, thing_of
 from planner.mission.departure import LEANS_S
 from planner.mission.open_questions import find_choice
 from planner.mission.outcomes import spot_at
 from planner.mission.state import goal_to_end
-from planner.mission.whereabouts import complete_person
 from planner.plan import (
     Change,
     ChangedOrder,

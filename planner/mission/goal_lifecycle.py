@@ -10,7 +10,6 @@ from planner.mission.conversation import situation_of
 from planner.mission.departure import departure_of, find_robot, way_back_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
-from planner.mission.motion_consent import UNASKED, ask_for_motion
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
     ask_anew,
@@ -27,12 +26,13 @@ from planner.mission.open_questions import (
     waiting_since,
 )
 from planner.mission.outcomes import spot_at
-from planner.mission.plan_check import unwalkable
+from planner.mission.plan_check import UNASKED, ask_for_motion, unwalkable
 from planner.mission.plan_roles import (
     assume_role,
     end_current,
     find_asking,
     goal_in_hand,
+    share_of,
 )
 from planner.mission.queue import (
     acknowledge_hold,
@@ -48,7 +48,6 @@ from planner.mission.queue import (
     release_queue,
 )
 from planner.mission.replan import fingerprint, rethought
-from planner.mission.speed_cap import share_of
 from planner.mission.spoken_status import go_on_told
 from planner.mission.state import Mission
 from planner.mission.stop_sentences import (

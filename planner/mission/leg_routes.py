@@ -1,7 +1,8 @@
-"""Take the routes that a leg asked for: its way, a way round, a manoeuvre, or the code of none.
+"""Take the routes that a leg asked for, or the code of none, and the leg's end.
 
 Which rung asks for which stands in ``recovery_steps``. A route that nobody waits for any more is
-forgotten.
+forgotten. A leg is done when the bridge says that this very leg was reached, the robot stands, and
+its pose lies inside the room's outline: its step goes on then.
 """
 
 from __future__ import annotations
@@ -9,18 +10,25 @@ from __future__ import annotations
 from dataclasses import replace
 
 from planner.mission.activity import Driving, Manoeuvre
+from planner.mission.bridge_status import standing
 from planner.mission.events import Routed
 from planner.mission.exploration import take_better_viewpoint, take_viewpoint
-from planner.mission.legs import detour_failed, new_leg, take_short
+from planner.mission.legs import abandon_route, detour_failed, new_leg, take_short
 from planner.mission.occupied_goal import give_up_goal, wait_beside
+from planner.mission.outcomes import spot_at
+from planner.mission.queue import note_step, settle_activity
 from planner.mission.recovery import PASSING_S, Recovery, rung_of
 from planner.mission.recovery_steps import climb_on, end_manoeuvre, next_rung, way_shut
 from planner.mission.route_doubts import take_doubted
-from planner.mission.skills import Fail, Way
+from planner.mission.scene import scene_of
+from planner.mission.skills import Fail, Way, act_of
 from planner.mission.state import Mission
+from planner.mission.step_execution import carry_out
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.plan import Code
+from planner.site.polygon import contains
+from wire import Pose2
 
 SHORT_M = 0.05
 """A straight way that ends so near to its goal is whole."""
@@ -126,3 +134,43 @@ def _waits_on(turn: Transaction, mission: Mission, leg: Driving) -> bool:
     rung, since_s = rung_of(mission.recovery), leg.rung_since_s
     waits = rung.recovery is Recovery.WAIT and since_s is not None
     return waits and since_s is not None and turn.now_s - since_s < rung.seconds
+
+
+def on_arrival(turn: Transaction) -> bool:
+    """Go on in the step if the bridge says that its leg is done; say whether that happened."""
+    mission, driving, status = turn.running, turn.driving, turn.book.status
+    if mission is None or driving is None or status is None or driving.leg is None:
+        return False
+    leg, pose = status.leg, status.base_in_map
+    if leg is None or (leg.mission, leg.leg) != (mission.grant_name, driving.leg):
+        return False
+    if not (leg.reached and standing(status)) or pose is None:
+        return False
+    if _is_outside(turn, driving, pose):
+        abandon_route(turn)
+        return True
+    settled = settle_activity(turn)
+    if settled is None:
+        return True
+    mission = turn.put(
+        settled, part=settled.part + 1, skill_state=driving.then or settled.skill_state
+    )
+    figures = {"reached": spot_at(turn.book.facts, pose, driving.target)}
+    residuals = {
+        "residual_m": round(leg.residual_m, 4),
+        "residual_rad": round(leg.residual_rad, 4) if driving.heading else None,
+    }
+    mission = note_step(turn, mission, **figures, **residuals)
+    step = mission.steps[mission.step]
+    if step.kind == "patrol" and not step.look:
+        mission = note_step(turn, mission, visited=mission.part)
+    carry_out(turn, mission, act_of(scene_of(turn, mission)))
+    return True
+
+
+def _is_outside(turn: Transaction, driving: Driving, pose: Pose2) -> bool:
+    """Tell whether the leg ended short of the room that it was to."""
+    target = turn.book.facts.targets.get(driving.target or "")
+    if target is None or not target.room or target.polygon is None:
+        return False
+    return not contains(target.polygon, pose.x_m, pose.y_m)

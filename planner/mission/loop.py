@@ -16,11 +16,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner.bridge_client import Link, LinkError
-from planner.mission.accept import WaypointLatency
 from planner.mission.allowed_commands import refusal
 from planner.mission.api_view import Progress, goal_of, progress_of
 from planner.mission.bridge_status import at_rest
-from planner.mission.clocks import Clocks
+from planner.mission.clocks import Clocks, WaypointLatency
 from planner.mission.detector_words import EyeNeeds, Wording, warm_up
 from planner.mission.effects import (
     AskRoute,

@@ -17,11 +17,10 @@ from planner.language.motion_guard.mentioned_names import places_named
 from planner.language.object_names import name_object
 from planner.language.recall import read_recall
 from planner.memory import FACT, KINDS, PERSON, THING, FactRefusal, MemoryQuery
-from planner.mission.deeds import find_deeds, tell_deeds
+from planner.mission.deeds import bounds_of, find_deeds, tell_deeds
 from planner.mission.events import Recalled
 from planner.mission.outcomes import spot_at
 from planner.mission.recall_text import tell_memos
-from planner.mission.spans import bounds_of
 from planner.mission.tasks import recall_nothing
 from planner.plan import Code
 

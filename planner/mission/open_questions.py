@@ -16,9 +16,8 @@ from planner.language.schedule import ScheduleCommand
 from planner.language.sentence import parse
 from planner.language.stop import is_stop
 from planner.mission.declined_goals import decline
-from planner.mission.motion_consent import key_of_deed
 from planner.mission.outcomes import ended_outcome, moves
-from planner.mission.plan_check import unwalkable
+from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.queue import clear_hold, enqueue, finish, note_step, release_answered
 from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.skills import Fail

@@ -1,4 +1,4 @@
-"""Take what the eyes say into the running step: gazes end, legs after what moves are laid anew.
+"""Take what the eyes and memory say into the running step; legs after what moves are laid again.
 
 Levels, not events: only the newest sight counts, and a lost one loses nothing. A picture counts for
 a gaze when it was taken after the robot stood. Nothing moves by a sight alone: what follows from it
@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import hypot
+from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say_or_quote
-from planner.mission.activity import AskingImage, Driving, Observing
+from planner.mission.activity import AskingImage, Driving, LookingUp, Observing
 from planner.mission.bridge_status import standing
 from planner.mission.effects import KeepPicture, SavePicture
 from planner.mission.legs import ask_route
@@ -20,6 +21,7 @@ from planner.mission.outcomes import looks_into
 from planner.mission.queue import settle_activity
 from planner.mission.scene import pose_now, scene_of
 from planner.mission.skills import DriveLeg, Fail, ImageAnswer, Observe, SkillAction, Way, act_of
+from planner.mission.skills.conditions import judge_recalled
 from planner.mission.skills.object_matching import fresh, list_confirmed
 from planner.mission.skills.skill_state import LookState, PatrolState
 from planner.mission.step_execution import carry_out, go_on
@@ -28,6 +30,11 @@ from planner.mission.transaction import Transaction
 from planner.perception.snapshot import Sight
 from planner.plan import Code
 from wire import wrap
+
+if TYPE_CHECKING:
+    from planner.mission.events import Recalled
+    from planner.mission.transaction import Transaction
+
 
 SETTLE_S = 0.15
 """A picture taken so soon after the robot came to stand may be smeared, and its pose late."""
@@ -213,3 +220,23 @@ def _lay_anew(turn: Transaction, leg: Driving, act: DriveLeg) -> None:
 def _raise_limit(spent: float, limit: float | None) -> float | None:
     """Return the limit of a leg that goes on, of which so much was spent before it was laid."""
     return spent + limit if limit is not None else None
+
+
+def on_recalled(turn: Transaction, event: Recalled) -> None:
+    """End the step with memory's answer, if it still waits for it."""
+    mission, activity = turn.running, turn.book.activity
+    if mission is None or mission.id != event.id or not isinstance(activity, LookingUp):
+        return
+    if activity.ticket != event.ticket:
+        return
+    step = mission.steps[mission.step]
+    carry_out(turn, mission, judge_recalled(step.role, event.code, event.said))
+
+
+def end_lookup_if_due(turn: Transaction) -> None:
+    """End a wait for memory that has lasted too long."""
+    mission, activity = turn.running, turn.book.activity
+    if mission is None or not isinstance(activity, LookingUp) or turn.now_s < activity.until_s:
+        return
+    code, step = Code.MEMORY_UNAVAILABLE, mission.steps[mission.step]
+    carry_out(turn, mission, judge_recalled(step.role, code, message(code)))

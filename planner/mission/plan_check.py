@@ -3,15 +3,22 @@
 Asked for first plans and for new ones under way; trusts no brain and no judgement before it.
 ``planner.plan.check_plan`` judges; told to it here are the places and the means as they are now,
 the detector's classes, and whether a model can point.
+
+A person is asked before steps move the robot in a way that nobody asked for. Which steps those are
+is judged beside the brain (``planner.mission.plan_request``). Law: the question names every one of
+these deeds, since a yes is a yes to all of them; what was allowed before is not asked again.
 """
 
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 from planner.language.catalogue import list_names, message, say, say_or_quote
+from planner.language.formatting import angle, metres
 from planner.language.questions import find_elsewhere
 from planner.language.room_names import sorts_of_room
+from planner.mission.scene import name_deed, name_sought
 from planner.mission.skills import SKILLS
 from planner.mission.skills.object_matching import anybody_for, picks_out, read_object
 from planner.mission.skills.object_query import place_names, unknown_kind
@@ -19,6 +26,7 @@ from planner.mission.skills.result_text import unknown_name, unknown_words
 from planner.mission.state import Mission, MissionState
 from planner.plan import (
     CONTROL,
+    DRIVES,
     NEEDS_DETECTOR,
     Bilingual,
     Code,
@@ -27,7 +35,14 @@ from planner.plan import (
     StepRecord,
     check_plan,
     places_of,
+    say_same,
 )
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from planner.site.site_view import SiteView
+
 
 NO_STEPS = say("plan.no_steps")
 UP_TO = frozenset({"go_to_object", "follow"})
@@ -104,3 +119,60 @@ def _unknown_object(book: MissionState, language: Language, step: StepRecord) ->
     which = step.kind in UP_TO and picks_out(name, step.kind, language, eyes.classes)
     unknown = which or read_object(name, language, eyes.classes) is None
     return unknown_words(name, eyes.classes, step.kind) if unknown else None
+
+
+UNASKED = "unasked_motion"
+"""The reason of a goal that waits for a yes to motion nobody asked for; never renamed."""
+
+
+def ask_for_motion(
+    facts: SiteView,
+    allowed: tuple[StepRecord, ...],
+    steps: tuple[StepRecord, ...],
+    unasked: Iterable[int],
+) -> Outcome | None:
+    """Return the question before these steps are walked, or None where every one was asked for.
+
+    Args:
+        facts: the site as it is now.
+        allowed: this goal's steps until now, accepted as they stood.
+        steps: the new ones.
+        unasked: which of the new ones nobody asked for.
+    """
+    known = {key_of_deed(step) for step in allowed}
+    found = [steps[i] for i in unasked if i < len(steps) and key_of_deed(steps[i]) not in known]
+    if not found:
+        return None
+    deeds = dict.fromkeys(_tell(facts, step) for step in found)
+    drives = [step for step in steps if step.kind in DRIVES or step.place or step.places]
+    if len(deeds) == 1 and len(drives) > 1 and drives[0] is found[0]:  # and then elsewhere
+        deeds = {say("deed.first", deed=deed): None for deed in deeds}
+    why = say("confirmation.unasked", deeds=list_names(deeds, "joint.and"))
+    return Outcome(code=Code.CONFIRM, message=message(Code.ASKED, text=why))
+
+
+def key_of_deed(step: StepRecord) -> tuple[object, ...]:
+    """Return what a step would do, so that two of the same are alike."""
+    label = (step.object or "").strip().casefold()
+    return (
+        *(step.kind, step.place, step.places, label),
+        *(step.angle_rad, step.distance_m, step.x, step.y, step.side),
+    )
+
+
+def _tell(facts: SiteView, step: StepRecord) -> Bilingual:
+    """Name a step's deed with all that it would move."""
+    if step.places:
+        names = [facts.targets[p].name if p in facts.targets else say_same(p) for p in step.places]
+        return say("deed.drive_to_each", names=list_names(names, "joint.and"))
+    if step.angle_rad is not None:
+        return say("deed.turn_by", angle=angle(step.angle_rad))
+    if step.kind == "move" and step.distance_m is not None:
+        return say("deed.move_by", metres=metres(step.distance_m))
+    if step.place and step.kind != "go_to":
+        name = facts.targets[step.place].name if step.place in facts.targets else None
+        there = say("deed.drive_to", name=name if name is not None else say_same(step.place))
+        if step.object is None:
+            return there
+        return say("deed.drive_and_seek", there=there, what=name_sought(step))
+    return name_deed(facts, step)

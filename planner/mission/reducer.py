@@ -47,15 +47,14 @@ from planner.mission.goal_lifecycle import (
     take_plan,
 )
 from planner.mission.leg_routes import on_routed
-from planner.mission.memory_answers import on_recalled
 from planner.mission.outcomes import moves
-from planner.mission.perception_events import on_sight, on_told
+from planner.mission.perception_events import on_recalled, on_sight, on_told
 from planner.mission.places_changed import on_known
+from planner.mission.plan_roles import change_speed
 from planner.mission.queue import cancel, reorder
 from planner.mission.recovery_steps import on_survey
 from planner.mission.route_doubts import on_doubted, on_oncoming
 from planner.mission.skills.object_matching import names_any
-from planner.mission.speed_cap import change_speed
 from planner.mission.state import MissionState
 from planner.mission.status_monitor import on_status, on_tick
 from planner.mission.step_execution import speak_if_safe, start_next

@@ -13,8 +13,7 @@ from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, message, say
 from planner.language.questions import looks_round
 from planner.mission.events import Planned
-from planner.mission.motion_consent import UNASKED, ask_for_motion
-from planner.mission.plan_check import NO_STEPS, unwalkable
+from planner.mission.plan_check import NO_STEPS, UNASKED, ask_for_motion, unwalkable
 from planner.mission.plan_walk import asked_of, close_open
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
 from planner.mission.scene import first_deed, scene_of

@@ -16,10 +16,9 @@ from planner.language.catalogue import join, message, say
 from planner.mission.effects import AskBrain
 from planner.mission.errors import JournalDown, QueueFull
 from planner.mission.events import Cancel, Planned, Submitted
-from planner.mission.motion_consent import key_of_deed
 from planner.mission.open_questions import has_room
 from planner.mission.outcomes import moves
-from planner.mission.plan_check import unwalkable
+from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.state import ORDER_SOURCE, GoalKey, Mission, MissionState
 from planner.mission.transitions import FIRST
 from planner.plan import (

@@ -7,7 +7,6 @@ nothing. The order is the law: what a person or a fault demands comes before any
 from __future__ import annotations
 
 from planner.mission.activity import AskingImage, Driving, Observing, Retrying
-from planner.mission.arrival import on_arrival
 from planner.mission.bridge_status import (
     GATES,
     amount_done,
@@ -19,6 +18,7 @@ from planner.mission.bridge_status import (
     standing,
 )
 from planner.mission.exploration import reconsider_viewpoint
+from planner.mission.leg_routes import on_arrival
 from planner.mission.legs import (
     abandon_route,
     ask_route,
@@ -27,10 +27,14 @@ from planner.mission.legs import (
     hand_steers,
     settle_amounts,
 )
-from planner.mission.memory_answers import end_lookup_if_due
 from planner.mission.open_questions import end_unanswered
 from planner.mission.outcomes import moves
-from planner.mission.perception_events import end_gaze_if_due, on_standing, stand_while_blind
+from planner.mission.perception_events import (
+    end_gaze_if_due,
+    end_lookup_if_due,
+    on_standing,
+    stand_while_blind,
+)
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
 from planner.mission.recovery_steps import note_unblocked, recover, watch_manoeuvre
 from planner.mission.skills import Fail, Way

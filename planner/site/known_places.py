@@ -17,6 +17,7 @@ from typing import Any, Protocol, TypeVar
 
 from maps.room_proposals import RoomProposal, read_proposals
 from planner.language.folding import unmask
+from planner.language.readers import learn_names
 from planner.plan import Vocabulary
 from planner.site.places import Names, Place, squash
 from planner.site.polygon import area_m2
@@ -228,6 +229,7 @@ class KnownPlaces:
                 good.append(kept.as_place())
         self._shown, self._places = tuple(shown), (*self.site.places, *good)
         self._facts = facts_of(self.site, tuple(good), self._radius_m)
+        learn_names(self._facts.names)
 
     def _why_not(self, kept: TaughtPlace, known: tuple[Place, ...]) -> str | None:
         """Say why a kept place can't be used: the site's files may have changed since."""

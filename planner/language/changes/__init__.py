@@ -1,7 +1,6 @@
 """Read what a sentence changes about the newest order: one table of rows a language.
 
-``rows`` reads them knowing no name, so that the door may ask it; ``reader`` adds the names of a
-site, and with them all of the guard and the grammar.
+``reader`` reads them, with the names of a site masked.
 """
 
 from __future__ import annotations

@@ -21,8 +21,7 @@ from planner.language.commands.command import (
     TeachFact,
     WhereCommand,
 )
-from planner.language.commands.fact_corrections import name_subject, read_fact_correction
-from planner.language.commands.facts import read_statement
+from planner.language.commands.facts import name_subject, read_fact_correction, read_statement
 from planner.language.commands.parser import intent_of
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""List a person's commands to the planner itself. Data only."""
+"""List a person's commands to the planner itself, and hold the text that they stand in."""
 
 from __future__ import annotations
 
@@ -124,3 +124,18 @@ Intent = (
     | Faster
     | OrderCommand
 )
+
+
+@dataclass(frozen=True, slots=True)
+class FoldedText:
+    """Hold a sentence twice: to match, and as it was written; character for character alike."""
+
+    folded: str
+    written: str
+
+    def part(self, start: int, end: int) -> FoldedText:
+        return FoldedText(self.folded[start:end], self.written[start:end])
+
+    def strip(self, characters: str) -> FoldedText:
+        start = len(self.folded) - len(self.folded.lstrip(characters))
+        return self.part(start, max(start, len(self.folded.rstrip(characters))))

@@ -18,6 +18,7 @@ from planner.language.commands.command import (
     CancelCommand,
     Doing,
     Faster,
+    FoldedText,
     Forget,
     HereCommand,
     Intent,
@@ -30,7 +31,6 @@ from planner.language.commands.command import (
     WhereCommand,
 )
 from planner.language.commands.facts import read_fact_order, read_long_fact
-from planner.language.commands.folded_text import FoldedText
 from planner.language.commands.statements import find_statement
 from planner.language.dialect import in_standard_words
 from planner.language.folding import fold_script, fold_width, has_chinese

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner.mission.events import ChangeSpeed
-from planner.mission.speed_cap import LEAST_SPEED_SHARE
+from planner.mission.plan_roles import LEAST_SPEED_SHARE
 from tests.planner.mission.lockstep import Together, go
 
 

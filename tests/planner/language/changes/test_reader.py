@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.language.changes.reader import read_changes
-from planner.language.changes.rows import MAX_READ, lay_out, read_rest
+from planner.language.changes.reader import MAX_READ, lay_out, read_changes, read_rest
 from planner.plan import Change, Edit
 from tests.planner.mission.leaning import NAMES
 

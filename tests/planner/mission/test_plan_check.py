@@ -11,7 +11,7 @@ import pytest
 from planner.brain import ScriptedBrain
 from planner.mission import AskBrain
 from planner.mission.events import Planned, Submitted
-from planner.mission.motion_consent import UNASKED, ask_for_motion
+from planner.mission.plan_check import UNASKED, ask_for_motion
 from planner.mission.plan_request import thinker
 from planner.plan import (
     Ask,
