@@ -30,7 +30,7 @@ _EN_VALUES = {word: float(value) for value, word in enumerate(_WORDS)} | {
     "a couple of": 2.0,
 }
 _ZH_DIGITS = {digit: value for value, digit in enumerate("零一二三四五六七八九")} | {"两": 2}
-_UNITS_S = {"s": 1.0, "m": 60.0, "h": 3600.0, "秒": 1.0, "分": 60.0, "小": 3600.0}
+_UNITS_S = {"s": 1.0, "m": 60.0, "h": 3600.0, "秒": 1.0, "分": 60.0, "小": 3600.0, "钟": 3600.0}
 
 _EN_NUMBER = "|".join(sorted(_EN_VALUES, key=len, reverse=True))
 EN_DURATION = (
@@ -38,7 +38,8 @@ EN_DURATION = (
     r"(?P<unit>seconds?|secs?|s|minutes?|mins?|hours?)"
 )
 ZH_DURATION = (
-    r"(?P<number>\d{1,5}(?:\.\d{1,3})?|[零一二三四五六七八九十两半]{1,4})个?(?P<unit>秒|分|小时)钟?"
+    r"(?P<number>\d{1,5}(?:\.\d{1,3})?|[零一二三四五六七八九十两半]{1,4})个?"
+    r"(?P<unit>秒|分|小时|钟头)钟?"
 )
 
 

@@ -290,25 +290,20 @@ class _WordsOf:
 
     @property
     def open_order(self) -> OrderCommand | None:
-        """Return what was said about standing orders, where the words answer its question."""
         asked = None if self._mission.has_begun else parse(self._mission.order_text).intent
         return asked if isinstance(asked, OrderCommand) else None
 
     def correct_fact(self, said: Sentence) -> TeachFact | None:
-        """Return the fact that the words put in place of an older one."""
         facts, mission = self._planner.fact_commands, self._mission
         return facts.read_correction(mission, said.intent) if self._is_first else None
 
     def tell_fact(self, said: Sentence) -> TeachFact | None:
-        """Return the fact that the words tell flatly, where nothing was asked."""
         asked = not self._is_first or self._planner.fact_commands.answers_question(self._mission)
         return None if asked else said.statement
 
     def is_place(self, name: str) -> bool:
-        """Return whether a place answers to a name."""
         return self._planner.place_called(name) is not None
 
     @property
     def has_outcome(self) -> bool:
-        """Return whether anything was done before that could be told."""
         return tell_outcome(self._planner.book, self._mission.id) is not None

@@ -196,16 +196,12 @@ class _AtHand:
         self._changes: dict[Sentence, ChangeReading | None] = {}
 
     def asked_by(self, said: Sentence) -> tuple[str, ...]:
-        """Return the goals whose question a sentence may answer; none unless it may."""
         return goals_answered_by(self._book, said) if self._may_answer else ()
 
     def change_of(self, said: Sentence) -> ChangeReading | None:
-        """Return what a sentence makes of the orders before it; None: nothing, or in doubt."""
-        if self._leaning is not None:
-            return self._leaning
-        if said not in self._changes:
+        if self._leaning is None and said not in self._changes:
             self._changes[said] = lean_of(self._book, said, self.now_unix_s)
-        return self._changes[said]
+        return self._leaning or self._changes[said]
 
     def may_stop(self, said: Sentence) -> bool:
         """Return whether words that may mean a stop are to be taken for one now.
@@ -218,9 +214,8 @@ class _AtHand:
         if lean is not None and lean.keeps_round:
             return False
         leans = lean is not None and bool(lean.changed.steps)
-        return (said.may_mean_stop and not leans) or denies_way(
-            self._book, said.text, self.now_unix_s
-        )
+        may_mean = said.may_mean_stop and not leans
+        return may_mean or denies_way(self._book, said.text, self.now_unix_s)
 
 
 def _body_of(given: Submitted) -> str:

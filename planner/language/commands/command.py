@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from planner.language.folding import fold_width
 from planner.language.schedule.command import OrderCommand
 
 
@@ -124,6 +125,16 @@ Intent = (
     | Faster
     | OrderCommand
 )
+
+
+ENDS = " .!,;:。~…"
+QUOTES = "\"'「」『』“”‘’《》"
+_MARKS = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
+
+
+def write_plainly(text: str) -> str:
+    """Return a sentence in one width, with single spaces and plain marks."""
+    return " ".join(fold_width(text).translate(_MARKS).split())
 
 
 @dataclass(frozen=True, slots=True)

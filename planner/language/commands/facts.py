@@ -11,19 +11,16 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.commands import chinese, english
-from planner.language.commands.command import ForgetFacts, TeachFact
+from planner.language.commands.command import ENDS, QUOTES, ForgetFacts, TeachFact, write_plainly
 from planner.language.commands.statements import NOUN, SPOTS, find_statement
-from planner.language.folding import fold_script, fold_width, has_chinese
+from planner.language.folding import fold_script, has_chinese
 
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from planner.language.commands.command import FoldedText
+    from planner.language.commands.command import ENDS, QUOTES, FoldedText, write_plainly
 
 
-_ENDS = " .!,;:。~…"
-_QUOTES = "\"'「」『』“”‘’《》"
-_APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
 MAX_STATEMENT = 90
 """Characters; a flat statement is short."""
 
@@ -50,7 +47,7 @@ def _read_forgetting(said: FoldedText, grammar: ModuleType) -> ForgetFacts | Non
             continue
         group = next((name for name, text in found.groupdict().items() if text), None)
         about = said.part(*found.span(group)).written if group else ""
-        about = about.strip(_ENDS + _QUOTES)
+        about = about.strip(ENDS + QUOTES)
         if pattern is grammar.FORGET_ABOUT and (not about or _PRONOUN.fullmatch(about.lower())):
             return None
         return ForgetFacts(about, told=told or bool(about), seen=seen)
@@ -66,19 +63,19 @@ def _read_teaching(said: FoldedText, grammar: ModuleType) -> TeachFact | None:
     found = grammar.TEACH.fullmatch(said.folded)
     kept = grammar.KEPT.search(said.folded)
     if kept is not None and grammar.STATEMENT.fullmatch(said.folded[: kept.start()]):
-        return TeachFact(said.part(0, kept.start()).written.strip(_ENDS + _QUOTES))
+        return TeachFact(said.part(0, kept.start()).written.strip(ENDS + QUOTES))
     if found is None:
         return None
     group = next(name for name, text in found.groupdict().items() if text is not None)
     fact = said.part(*found.span(group))
-    words = fact.written.strip(_ENDS + _QUOTES)
+    words = fact.written.strip(ENDS + QUOTES)
     here = grammar.THIS_IS.fullmatch(fact.folded) is not None
     return TeachFact(words, here=here) if words else None
 
 
 def read_statement(text: str) -> TeachFact | None:
     """Return a flat statement of where something is, as a fact; None for anything else."""
-    written = " ".join(fold_width(text).translate(_APOSTROPHES).split()).strip(_ENDS)
+    written = write_plainly(text).strip(ENDS)
     if not 0 < len(written) <= MAX_STATEMENT:
         words = find_statement(text)
         return TeachFact(words) if words is not None else None
@@ -145,7 +142,7 @@ def read_fact_correction(text: str, told: str | None) -> TeachFact | None:
         text: what a person said.
         told: the words of the fact that was told just before; None: there was none.
     """
-    written = " ".join(fold_width(text).translate(_APOSTROPHES).split()).strip(_ENDS)
+    written = write_plainly(text).strip(ENDS)
     folded = fold_script(written.lower())
     if not folded or len(folded) != len(written) or len(folded) > 140:
         return None
@@ -226,7 +223,7 @@ def _same_thing(said: str, thing: str) -> bool:
 
 def name_subject(fact: str) -> str:
     """Return the thing whose place a fact tells, folded, without article; empty: it tells none."""
-    written = " ".join(fold_width(fact).translate(_APOSTROPHES).split()).strip(_ENDS)
+    written = write_plainly(fact).strip(ENDS)
     folded = fold_script(written.lower())
     found = (_SUBJECT_ZH if has_chinese(folded) else _SUBJECT).fullmatch(folded)
     return "" if found is None else _bare(found["a"] or found["b"])

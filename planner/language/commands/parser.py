@@ -14,6 +14,8 @@ from types import ModuleType
 
 from planner.language.commands import chinese, english
 from planner.language.commands.command import (
+    ENDS,
+    QUOTES,
     BatteryCommand,
     CancelCommand,
     Doing,
@@ -29,11 +31,11 @@ from planner.language.commands.command import (
     ResumeCommand,
     Slower,
     WhereCommand,
+    write_plainly,
 )
 from planner.language.commands.facts import read_fact_order, read_long_fact
 from planner.language.commands.statements import find_statement
-from planner.language.dialect import in_standard_words
-from planner.language.folding import fold_script, fold_width, has_chinese
+from planner.language.folding import fold_script, has_chinese
 from planner.language.schedule import OrderCommand, ScheduleCommand, read_order_command
 from planner.language.schedule.gate import may_concern_orders
 from planner.language.stop import is_stop
@@ -55,22 +57,12 @@ _SIMPLE: tuple[tuple[str, Intent], ...] = (
     ("SLOWER", Slower()),
     ("FASTER", Faster()),
 )
-_END = " .!,;:。~…"
-_QUOTES = "\"'「」『』“”‘’《》"
-_APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
 _BEFORE_REASON = re.compile(r"[,;:.!?。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and then) ")
 _SEPARATOR = re.compile(r"[,;:.!。]+\s*|\s+[-–—]+\s+|—+| (?:and|then|and then) ")
 
 
 def intent_of(text: str) -> Intent | None:
     """Return the command to the planner itself in a sentence, or None."""
-    intent = _read_intent(text)
-    standard = in_standard_words(text) if intent is None else text
-    return intent if standard == text else _read_intent(standard)
-
-
-def _read_intent(text: str) -> Intent | None:
-    """Return the command in a sentence by just these words."""
     own = _intent_alone(text)
     if own is not None and not isinstance(own, HereCommand):
         return own
@@ -97,7 +89,7 @@ def _intent_alone(text: str) -> Intent | None:
     said = _fold(text)
     if len(text) > MAX_READ:
         grammar = chinese if has_chinese(said.folded) else english
-        return read_long_fact(_plain(said.strip(_END), grammar), grammar)
+        return read_long_fact(_plain(said.strip(ENDS), grammar), grammar)
     if not has_chinese(said.folded):
         return _read(said, english)
     heard = _read(said, chinese)
@@ -105,8 +97,8 @@ def _intent_alone(text: str) -> Intent | None:
 
 
 def _read(said: FoldedText, grammar: ModuleType) -> Intent | None:
-    asks = said.folded.rstrip(_END).endswith("?")
-    said = said.strip(_END + "?")
+    asks = said.folded.rstrip(ENDS).endswith("?")
+    said = said.strip(ENDS + "?")
     if grammar.COURTEOUS.match(said.folded):  # "can you continue?" asks for it, not about it
         asks, said = False, said.part(0, len(grammar.ASKING.sub("", said.folded)))
     said = _plain(said, grammar)
@@ -143,7 +135,7 @@ def _pausing(said: FoldedText, grammar: ModuleType) -> PauseCommand | None:
     if cut is None:
         return None
     first = _plain(said.part(0, cut.start()), grammar).folded.replace(" ", _gap(grammar))
-    rest = said.part(cut.end(), len(said.folded)).strip(_END)
+    rest = said.part(cut.end(), len(said.folded)).strip(ENDS)
     reason = grammar.PAUSE_REASON.fullmatch(rest.folded) is not None
     return PauseCommand() if reason and grammar.PAUSE.fullmatch(first) is not None else None
 
@@ -165,7 +157,7 @@ def _unseen(char: str) -> bool:
 
 
 def _fold(text: str) -> FoldedText:
-    written = " ".join(fold_width(text).translate(_APOSTROPHES).split())
+    written = write_plainly(text)
     folded = written.lower()
     if len(folded) != len(written):  # a few letters grow in lower case
         written = folded
@@ -177,9 +169,9 @@ def _plain(said: FoldedText, grammar: ModuleType) -> FoldedText:
     while True:
         before = said
         if (found := grammar.POLITE.match(said.folded)) and found.end() < len(said.folded):
-            said = said.part(found.end(), len(said.folded)).strip(_END)
+            said = said.part(found.end(), len(said.folded)).strip(ENDS)
         if (found := grammar.THANKS.search(said.folded)) and found.start() > 0:
-            said = said.part(0, found.start()).strip(_END)
+            said = said.part(0, found.start()).strip(ENDS)
         if said == before:
             return said
 
@@ -212,7 +204,7 @@ def _read_lesson(said: FoldedText, grammar: ModuleType) -> Intent | None:
 
 def _name(said: FoldedText) -> str | None:
     """Return a name without quotes and determiners, or None where the words are no name."""
-    said = said.strip(" " + _QUOTES + _END)
+    said = said.strip(" " + QUOTES + ENDS)
     grammar = chinese if has_chinese(said.folded) else english
     found = grammar.DETERMINER.match(said.folded)
     if found is not None:
@@ -233,12 +225,12 @@ def _replacing(said: FoldedText, grammar: ModuleType) -> Intent | None:
         return _replace(said.part(bare.end(), len(said.folded)), now=True)
     for cut in islice(_SEPARATOR.finditer(said.folded), 2):  # behind a courtesy at most
         first = _plain(said.part(0, cut.start()), grammar)
-        order = said.part(cut.end(), len(said.folded)).strip(_END)
-        put_off = said.part(0, cut.start()).strip(_END).folded  # "now" is no courtesy here
+        order = said.part(cut.end(), len(said.folded)).strip(ENDS)
+        put_off = said.part(0, cut.start()).strip(ENDS).folded  # "now" is no courtesy here
         if grammar.POSTPONED.fullmatch(put_off) and grammar.COMES_FIRST.match(order.folded):
             return _replace(order, now=True)
         if grammar.TAKEN_BACK.fullmatch(first.folded.replace(" ", _gap(grammar))):
-            rest = said.part(cut.end(), len(said.folded)).strip(_END)
+            rest = said.part(cut.end(), len(said.folded)).strip(ENDS)
             cancels = grammar.CANCEL.fullmatch(first.folded.replace(" ", _gap(grammar)))
             if cancels and grammar.REASON.fullmatch(rest.folded):
                 return CancelCommand()
@@ -254,12 +246,12 @@ def _without_reason(rest: FoldedText, grammar: ModuleType) -> FoldedText:
     reason = _plain(rest.part(0, cut.start()), grammar) if cut is not None else None
     if cut is None or reason is None or grammar.REASON.fullmatch(reason.folded) is None:
         return rest
-    return _plain(rest.part(cut.end(), len(rest.folded)).strip(_END), grammar)
+    return _plain(rest.part(cut.end(), len(rest.folded)).strip(ENDS), grammar)
 
 
 def _goes_on(said: FoldedText, cut: re.Match[str], grammar: ModuleType) -> bool:
     """Tell whether a clause is joined to the next: then "don't" may well mean both."""
-    joined = said.folded[cut.start() :].lstrip(_END)
+    joined = said.folded[cut.start() :].lstrip(ENDS)
     return grammar.GOES_ON.match(joined) is not None
 
 
@@ -269,7 +261,7 @@ def _gap(grammar: ModuleType) -> str:
 
 def _replace(rest: FoldedText, *, now: bool) -> Intent | None:
     """Take the rest as the new order; where it is none by itself, leave all to the brain."""
-    rest = rest.strip(_END)
+    rest = rest.strip(ENDS)
     if not any(map(str.isalnum, rest.folded)):
         return None
     if not is_stop(rest.written) and intent_of(rest.written) is not None:

@@ -11,12 +11,11 @@ from __future__ import annotations
 import re
 
 from planner.language.commands import chinese, english
-from planner.language.folding import fold_script, fold_width, has_chinese
+from planner.language.commands.command import ENDS, write_plainly
+from planner.language.folding import fold_script, has_chinese
 
 MAX_STATEMENT = 140
 """Characters; a flat statement is short."""
-_ENDS = " .!,;:。~…"
-_APOSTROPHES = str.maketrans({"’": "'", "‘": "'", "，": ",", "；": ";", "：": ":", "、": ","})
 _ORDERS = (
     r"(?:please|don't|do not|never|go|come (?!s\b)|drive|find|look|check|tell|ask|say|remind|wake"
     r"|bring|take|follow"
@@ -152,7 +151,7 @@ _SURE_FORMS_ZH = re.compile(
 
 def find_statement(text: str) -> str | None:
     """Return the words of a flat statement that is worth remembering; None of anything else."""
-    written = " ".join(fold_width(text).translate(_APOSTROPHES).split()).strip(_ENDS)
+    written = write_plainly(text).strip(ENDS)
     if not 0 < len(written) <= MAX_STATEMENT or "?" in text or "？" in text:
         return None
     folded = fold_script(written.lower())
@@ -161,10 +160,10 @@ def find_statement(text: str) -> str | None:
     in_chinese = has_chinese(written)
     lead, tail = (_LEAD_ZH, _TAIL_ZH) if in_chinese else (_LEAD, _TAIL)
     begins = found.end() if (found := lead.match(folded)) else 0
-    ends, asked = len(folded), bool(found and found[0].strip(_ENDS))
+    ends, asked = len(folded), bool(found and found[0].strip(ENDS))
     while (behind := tail.search(folded[:ends])) is not None and behind.start() > begins:
         ends, asked = behind.start(), True
-    core = folded[begins:ends].strip(_ENDS)
+    core = folded[begins:ends].strip(ENDS)
     start = folded.index(core, begins) if core else begins
     words = written[start : start + len(core)]
     opens = (_OPEN_ZH if in_chinese else _OPEN).search(core)
