@@ -15,7 +15,7 @@ from planner.api.rates import Rates
 from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalMove, GoalOrder, GoalReply, NewGoal
 from planner.brain.model_replies import GoalReplies
 from planner.language.catalogue import say
-from planner.language.sentence import Sentence, parse
+from planner.language.sentence import SaidSentence, parse
 from planner.mission.errors import MissionError
 from planner.plan import Goal
 
@@ -53,7 +53,7 @@ class GoalIntake:
         self._services = services
         self._rates = Rates(A_SECOND, AT_ONCE)
 
-    async def judge(self, text: str, request: Request) -> Sentence:
+    async def judge(self, text: str, request: Request) -> SaidSentence:
         """Read a sentence, the one time, and pass it.
 
         One that is too long to be kept may still stop the robot.

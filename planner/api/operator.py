@@ -19,7 +19,7 @@ from starlette.requests import ClientDisconnect, Request
 from planner.api.interfaces import Robot, Services
 from planner.api.problems import HttpProblem
 from planner.api.schemas import OperatorOrder, OperatorProof, Steer, StopOrder
-from planner.language.sentence import Sentence
+from planner.language.sentence import SaidSentence
 from wire import NEEDS_PROOF, VIRTUAL_KEY, Answer, OpKind, OpRequest, mark_relayed, signed_request
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def persons_act(robot: Robot, given: OperatorProof | None) -> OpRequest | None:
     return request(robot, "resume", "api", given)
 
 
-def act_behind(robot: Robot, said: Sentence, given: OperatorProof | None) -> OpRequest | None:
+def act_behind(robot: Robot, said: SaidSentence, given: OperatorProof | None) -> OpRequest | None:
     """Return the resume that comes with a person's sentence, where it may lead to motion.
 
     Raises:

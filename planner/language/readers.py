@@ -42,7 +42,7 @@ from planner.language.grammar.lexicon import lexicon_of
 from planner.language.grammar.parser import guess, plan
 from planner.language.motion_guard.mentioned_names import find_places
 from planner.language.schedule import OrderCommand
-from planner.language.sentence import Sentence
+from planner.language.sentence import SaidSentence
 from planner.plan import (
     AnswerPlan,
     ChangedOrder,
@@ -118,15 +118,15 @@ Reading = HaltReading | AnswerReading | ChangeReading | OrdersReading | CommandR
 class GoalsAtHand(Protocol):
     """Say what stands at the door besides a sentence: questions, the order before, motion."""
 
-    def asked_by(self, said: Sentence) -> tuple[str, ...]:
+    def asked_by(self, said: SaidSentence) -> tuple[str, ...]:
         """Return the goals whose question a sentence may answer; none unless it may."""
         ...
 
-    def change_of(self, said: Sentence) -> ChangeReading | None:
+    def change_of(self, said: SaidSentence) -> ChangeReading | None:
         """Return what a sentence makes of the orders before it; None: nothing, or in doubt."""
         ...
 
-    def may_stop(self, said: Sentence) -> bool:
+    def may_stop(self, said: SaidSentence) -> bool:
         """Return whether words that may mean a stop are to be taken for one now."""
         ...
 
@@ -139,11 +139,11 @@ class PlannerWords(Protocol):
         """Return what was said about standing orders, where the words answer its question."""
         ...
 
-    def correct_fact(self, said: Sentence) -> TeachFact | None:
+    def correct_fact(self, said: SaidSentence) -> TeachFact | None:
         """Return the fact that the words put in place of an older one."""
         ...
 
-    def tell_fact(self, said: Sentence) -> TeachFact | None:
+    def tell_fact(self, said: SaidSentence) -> TeachFact | None:
         """Return the fact that the words tell flatly, where nothing was asked."""
         ...
 
@@ -161,7 +161,7 @@ class PlannerWords(Protocol):
 class OrderWords:
     """Hold an order that the built-in brain reads, with what it reads it against."""
 
-    said: Sentence
+    said: SaidSentence
     vocabulary: Vocabulary
     context: Context
     is_answer: bool = False
@@ -173,7 +173,7 @@ class OrderWords:
         return plan(self.said.text, self.vocabulary, self.context)
 
 
-def stop(said: Sentence, goals: GoalsAtHand) -> HaltReading | None:
+def stop(said: SaidSentence, goals: GoalsAtHand) -> HaltReading | None:
     """Take an order to stop; and what may be one, unless it answers a question."""
     if said.orders_stop:
         return HaltReading(said.behind_stop)
@@ -181,24 +181,24 @@ def stop(said: Sentence, goals: GoalsAtHand) -> HaltReading | None:
     return HaltReading(is_doubtful=True) if halts else None
 
 
-def answer(said: Sentence, goals: GoalsAtHand) -> AnswerReading | None:
+def answer(said: SaidSentence, goals: GoalsAtHand) -> AnswerReading | None:
     """Take a plain yes or no that a question waits for."""
     asking = goals.asked_by(said)
     return AnswerReading(asking) if asking else None
 
 
-def change(said: Sentence, goals: GoalsAtHand) -> ChangeReading | None:
+def change(said: SaidSentence, goals: GoalsAtHand) -> ChangeReading | None:
     """Take what leans on the orders before; the newest that was read so goes on as steps."""
     return goals.change_of(said)
 
 
-def clock_order(said: Sentence, words: PlannerWords) -> OrdersReading | None:
+def clock_order(said: SaidSentence, words: PlannerWords) -> OrdersReading | None:
     """Take a standing order, a word about one, or the answer to the question about one."""
     command = said.intent if isinstance(said.intent, OrderCommand) else words.open_order
     return None if command is None else OrdersReading(command)
 
 
-def command(said: Sentence, words: PlannerWords) -> CommandReading | None:
+def command(said: SaidSentence, words: PlannerWords) -> CommandReading | None:
     """Take a word to the planner itself. A fact goes before what else the words could be."""
     intent = None if isinstance(said.intent, OrderCommand) else said.intent
     if intent is None or isinstance(intent, Replace | HereCommand):
@@ -218,7 +218,7 @@ _MOVES = re.compile(r"\b(?:go|do|drive|come|move|start)\b|[去来走回到开]",
 """With these a yes is an order, too: "go there"."""
 
 
-def idle_answer(said: Sentence, order: OrderWords) -> PlanReading | None:
+def idle_answer(said: SaidSentence, order: OrderWords) -> PlanReading | None:
     """Take a mere yes or no, though nothing was asked."""
     idle = said.consent is not None and not order.is_answer and not _MOVES.search(said.text)
     if not idle or isinstance(order.exact, StepPlan | AnswerPlan):
@@ -226,7 +226,7 @@ def idle_answer(said: Sentence, order: OrderWords) -> PlanReading | None:
     return PlanReading(AnswerPlan(text=say("talk.nothing_asked")))
 
 
-def template(said: Sentence, order: OrderWords) -> PlanReading | None:
+def template(said: SaidSentence, order: OrderWords) -> PlanReading | None:
     """Take what the grammar reads word for word, and what it refuses or asks about."""
     del said
     made = order.exact
@@ -234,7 +234,7 @@ def template(said: Sentence, order: OrderWords) -> PlanReading | None:
     return None if lost else PlanReading(made)
 
 
-def semantic_parser(said: Sentence, order: OrderWords) -> PlanReading | None:
+def semantic_parser(said: SaidSentence, order: OrderWords) -> PlanReading | None:
     """Take what may be guessed: one order that is offered, or a question to memory.
 
     The one place for a learned reader: what it returns waits for a yes.
@@ -245,7 +245,7 @@ def semantic_parser(said: Sentence, order: OrderWords) -> PlanReading | None:
     return None if guessed is None else PlanReading(guessed)
 
 
-def not_read(said: Sentence, order: OrderWords) -> PlanReading:
+def not_read(said: SaidSentence, order: OrderWords) -> PlanReading:
     """Say that nobody has read a sentence, with the cure; offer what of it was read."""
     del said
     return _not_read(order, offers=True)
@@ -261,7 +261,7 @@ def _not_read(order: OrderWords, *, offers: bool) -> PlanReading:
 
 _Where = TypeVar("_Where")
 _Read = TypeVar("_Read")
-_Readers = tuple[Callable[[Sentence, _Where], _Read | None], ...]
+_Readers = tuple[Callable[[SaidSentence, _Where], _Read | None], ...]
 
 AT_THE_DOOR: _Readers[GoalsAtHand, HaltReading | AnswerReading | ChangeReading]
 AT_THE_DOOR = (stop, answer, change)
@@ -280,7 +280,9 @@ def learn_names(names: Vocabulary) -> None:
     find_places("", names)
 
 
-def readings(said: Sentence, where: _Where, readers: _Readers[_Where, _Read]) -> Iterator[_Read]:
+def readings(
+    said: SaidSentence, where: _Where, readers: _Readers[_Where, _Read]
+) -> Iterator[_Read]:
     """Yield what each reader takes a sentence for: who declines the first gets the next."""
     for reader in readers:
         reading = reader(said, where)

@@ -32,7 +32,7 @@ REMEMBERED = 64
 
 
 @dataclass(frozen=True)
-class Sentence:
+class SaidSentence:
     """Hold a sentence as it was said; what it says by itself is read when it is first asked for."""
 
     text: str
@@ -104,9 +104,9 @@ class Sentence:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def parse(text: str) -> Sentence:
+def parse(text: str) -> SaidSentence:
     """Return a sentence; the newest are kept with what was found out about them."""
-    return Sentence(text)
+    return SaidSentence(text)
 
 
 def language_of(text: str) -> Language:

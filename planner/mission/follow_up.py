@@ -45,7 +45,7 @@ from planner.plan import (
 
 if TYPE_CHECKING:
     from planner.language.commands import Intent
-    from planner.language.sentence import Sentence
+    from planner.language.sentence import SaidSentence
     from planner.mission.state import Mission, MissionState
 
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
@@ -55,7 +55,7 @@ _CLAUSE_END = re.compile(r"[,，;；.。!！](?!$)")
 _ARTICLE = re.compile(r"^(?:the|my|our|your|an?|some|any) ", re.IGNORECASE)
 
 
-def lean_of(book: MissionState, said: Sentence, now_unix_s: float) -> ChangeReading | None:
+def lean_of(book: MissionState, said: SaidSentence, now_unix_s: float) -> ChangeReading | None:
     """Return how a sentence leans on the goals before it; None: on none, or in doubt."""
     text, intent, orders = said.text, said.intent, last_orders(book, now_unix_s)
     last, names = next(iter(orders), None), book.facts.names

@@ -29,7 +29,7 @@ from planner.language.commands import (
 )
 from planner.language.readers import BY_THE_PLANNER, CommandReading, OrdersReading, readings
 from planner.language.schedule import ChangeOrders, OrderCommand
-from planner.language.sentence import Sentence, parse
+from planner.language.sentence import SaidSentence, parse
 from planner.mission import events
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
@@ -293,11 +293,11 @@ class _WordsOf:
         asked = None if self._mission.has_begun else parse(self._mission.order_text).intent
         return asked if isinstance(asked, OrderCommand) else None
 
-    def correct_fact(self, said: Sentence) -> TeachFact | None:
+    def correct_fact(self, said: SaidSentence) -> TeachFact | None:
         facts, mission = self._planner.fact_commands, self._mission
         return facts.read_correction(mission, said.intent) if self._is_first else None
 
-    def tell_fact(self, said: Sentence) -> TeachFact | None:
+    def tell_fact(self, said: SaidSentence) -> TeachFact | None:
         asked = not self._is_first or self._planner.fact_commands.answers_question(self._mission)
         return None if asked else said.statement
 

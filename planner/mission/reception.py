@@ -28,7 +28,7 @@ from planner.language.readers import (
     readings,
     stop,
 )
-from planner.language.sentence import Sentence
+from planner.language.sentence import SaidSentence
 from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull, ReservedKey
@@ -103,7 +103,7 @@ class Reception:
 
 def receive(
     book: MissionState,
-    said: Sentence,
+    said: SaidSentence,
     given: Submitted,
     now_s: float,
     *,
@@ -126,7 +126,7 @@ def receive(
     goals = _AtHand(book, now_s, leaning, may_answer=leaning is None and may_answer)
     reading = next(readings(said, goals, AT_THE_DOOR), None)
     if isinstance(reading, HaltReading):
-        halted = _doubted(book, goals, said, given) if reading.is_doubtful else given
+        halted = _mark_denied(book, goals, said, given) if reading.is_doubtful else given
         return Reception(_halt(book, halted, reading, full=full), stops=True)
     if key is not None and key.startswith(RESERVED_KEYS):
         return Reception(given, refused=ReservedKey(key))
@@ -170,7 +170,9 @@ def _halt(book: MissionState, given: Submitted, reading: HaltReading, *, full: b
     return replace(doubtful, interrupts=goal_to_pause(book))
 
 
-def _doubted(book: MissionState, goals: _AtHand, said: Sentence, given: Submitted) -> Submitted:
+def _mark_denied(
+    book: MissionState, goals: _AtHand, said: SaidSentence, given: Submitted
+) -> Submitted:
     """Return a sentence that may mean a stop, with the goal on whose way it says not to go."""
     lean = goals.change_of(said)
     changed = lean.changed if lean is not None else None
@@ -193,17 +195,17 @@ class _AtHand:
         self._book, self._now_s, self._leaning = book, now_s, leaning
         self._may_answer = may_answer
         self.now_unix_s = now_s + book.wall_offset_s
-        self._changes: dict[Sentence, ChangeReading | None] = {}
+        self._changes: dict[SaidSentence, ChangeReading | None] = {}
 
-    def asked_by(self, said: Sentence) -> tuple[str, ...]:
+    def asked_by(self, said: SaidSentence) -> tuple[str, ...]:
         return goals_answered_by(self._book, said) if self._may_answer else ()
 
-    def change_of(self, said: Sentence) -> ChangeReading | None:
+    def change_of(self, said: SaidSentence) -> ChangeReading | None:
         if self._leaning is None and said not in self._changes:
             self._changes[said] = lean_of(self._book, said, self.now_unix_s)
         return self._leaning or self._changes[said]
 
-    def may_stop(self, said: Sentence) -> bool:
+    def may_stop(self, said: SaidSentence) -> bool:
         """Return whether words that may mean a stop are to be taken for one now.
 
         卧室别进去 leaves one room out of the round that runs, and the rest of it goes on.
@@ -242,7 +244,7 @@ class AnswerReception:
 
 
 def receive_answer(
-    book: MissionState, said: Sentence, goal_id: str, now_s: float
+    book: MissionState, said: SaidSentence, goal_id: str, now_s: float
 ) -> AnswerReception:
     """Return the decision on words that came as the answer to a goal.
 
@@ -273,7 +275,7 @@ def receive_answer(
     return AnswerReception(command=Reply(goal_id, said.text))
 
 
-def hears_stop(book: MissionState, said: Sentence, now_s: float) -> bool:
+def hears_stop(book: MissionState, said: SaidSentence, now_s: float) -> bool:
     """Return whether these words would stop the robot now, with any other meaning besides."""
     return stop(said, _AtHand(book, now_s)) is not None
 
@@ -294,7 +296,7 @@ def is_active(book: MissionState, now_s: float) -> bool:
     return not now_s - book.status_s <= OLD_STATUS_S or not at_rest(status)
 
 
-def goals_answered_by(book: MissionState, said: Sentence) -> tuple[str, ...]:
+def goals_answered_by(book: MissionState, said: SaidSentence) -> tuple[str, ...]:
     """Return the goals whose question a sentence may answer; one alone is beyond doubt.
 
     None unless it is a plain yes or no and one of them takes it. A question that takes neither (a
