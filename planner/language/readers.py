@@ -1,22 +1,22 @@
 """Read a sentence: one ladder of readers, and the first that takes it says what it is.
 
-=================  ==============================================================================
-``stop``           an order to stop, or words that are taken for one while something moves
-``answer``         a plain yes or no, where one question alone can be meant
-``change``         what it makes of the order before: "again", "no, the study"
-``clock_order``    a standing order, or a word about those that are kept
-``command``        a word to the planner itself: pause, go on, where are you, remember that …
-``idle_answer``    a yes or no though nothing was asked
-``template``       the grammar: every word is accounted for, and it is done at once
+===================  ==========================================================================
+``stop``             an order to stop, or words that are taken for one while something moves
+``answer``           a plain yes or no, where one question alone can be meant
+``change``           what it makes of the order before: "again", "no, the study"
+``clock_order``      a standing order, or a word about those that are kept
+``command``          a word to the planner itself: pause, go on, where are you, remember that …
+``idle_answer``      a yes or no though nothing was asked
+``template``         the grammar: every word is accounted for, and it is done at once
 ``semantic_parser``  a guess at it, which is only offered
-``not_read``       nothing of these: told in one sentence, with its cure
-=================  ==============================================================================
+``not_read``         nothing of these: told in one sentence, with its cure
+===================  ==========================================================================
 
 With a model set, the model stands in place of the last four and gets the words as they were said
 (``planner.brain.fallback``). The ladder is climbed in three goes: the missions read at the door,
-before the goal is written down; the planner's own commands once it is; then the brain. Nothing
-reads the text again behind the reading that was taken. Each reader begins with its gate, a test
-that costs little; what it may know besides the words it asks of where things stand.
+before the goal is written down; the planner's own commands once it is; then the brain. Behind a
+reading the guard alone reads the words again, for it trusts no reader. Each reader begins with its
+gate, a test that costs little; what it may know besides the words it asks of where things stand.
 """
 
 from __future__ import annotations
@@ -31,7 +31,6 @@ from planner.language.catalogue import say
 from planner.language.commands import (
     ForgetFacts,
     HereCommand,
-    Intent,
     OutcomeCommand,
     Replace,
     TeachFact,
@@ -41,78 +40,24 @@ from planner.language.grammar.guessed_order import GuessKind
 from planner.language.grammar.lexicon import lexicon_of
 from planner.language.grammar.parser import guess, plan
 from planner.language.motion_guard.mentioned_names import find_places
+from planner.language.reading import (
+    AnswerReading,
+    ChangeReading,
+    CommandReading,
+    HaltReading,
+    OrdersReading,
+    PlanReading,
+)
 from planner.language.schedule import OrderCommand
 from planner.language.sentence import SaidSentence
 from planner.plan import (
     AnswerPlan,
-    ChangedOrder,
     Clarify,
     Code,
     Plan,
     StepPlan,
     Vocabulary,
 )
-
-
-@dataclass(frozen=True, slots=True)
-class HaltReading:
-    """Hold words that stop the robot before anything else."""
-
-    rest: str = ""
-    """What is said behind the stop, in the same breath."""
-    is_doubtful: bool = False
-    """Another meaning is thought about once the robot stands, and waits for a yes."""
-
-
-@dataclass(frozen=True, slots=True)
-class AnswerReading:
-    """Hold a plain yes or no, and the goals that it may answer; one alone is beyond doubt."""
-
-    goals: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class ChangeReading:
-    """Hold how a sentence leans on the orders before it: the role that its plan takes."""
-
-    changed: ChangedOrder
-    """What it makes of the newest order."""
-    ends: bool = False
-    """It ends what runs."""
-    first: bool = False
-    """It is done right after what runs, or in its place."""
-    replaces: bool = False
-    """It ends what runs once it is understood."""
-    corrects: bool = False
-    """It puts something else in the place of what was ordered or asked."""
-    keeps_round: bool = False
-    """What runs goes on, without one of its places or with one first."""
-
-
-@dataclass(frozen=True, slots=True)
-class OrdersReading:
-    """Hold a standing order, or what is said about those that are kept."""
-
-    command: OrderCommand
-
-
-@dataclass(frozen=True, slots=True)
-class CommandReading:
-    """Hold a word to the planner itself: a command, or a fact that it is to remember."""
-
-    intent: Intent
-
-
-@dataclass(frozen=True, slots=True)
-class PlanReading:
-    """Hold a plan, an answer, a refusal, or a question that may offer one order."""
-
-    plan: Plan
-    is_read: bool = True
-    """False: nobody has read the sentence, and the plan says so with its cure."""
-
-
-Reading = HaltReading | AnswerReading | ChangeReading | OrdersReading | CommandReading | PlanReading
 
 
 class GoalsAtHand(Protocol):

@@ -21,7 +21,7 @@ from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import find_places
 from planner.language.object_names import resolve
 from planner.language.person_names import is_given_name, people_named
-from planner.language.readers import ChangeReading
+from planner.language.reading import ChangeReading
 from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
 from planner.mission.answered_order import complete_person

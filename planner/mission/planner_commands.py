@@ -27,7 +27,8 @@ from planner.language.commands import (
     Slower,
     TeachFact,
 )
-from planner.language.readers import BY_THE_PLANNER, CommandReading, OrdersReading, readings
+from planner.language.readers import BY_THE_PLANNER, readings
+from planner.language.reading import CommandReading, OrdersReading
 from planner.language.schedule import ChangeOrders, OrderCommand
 from planner.language.sentence import SaidSentence, parse
 from planner.mission import events

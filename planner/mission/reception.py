@@ -20,14 +20,8 @@ from typing import TYPE_CHECKING
 from planner.language.commands import CancelCommand as TakeBack
 from planner.language.commands import Replace
 from planner.language.commands import ResumeCommand as GoOn
-from planner.language.readers import (
-    AT_THE_DOOR,
-    AnswerReading,
-    ChangeReading,
-    HaltReading,
-    readings,
-    stop,
-)
+from planner.language.readers import AT_THE_DOOR, readings, stop
+from planner.language.reading import AnswerReading, ChangeReading, HaltReading
 from planner.language.sentence import SaidSentence
 from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest

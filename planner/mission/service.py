@@ -60,7 +60,7 @@ from planner.site import KnownPlaces, Site
 from wire import OpRequest, RobotDescription
 
 if TYPE_CHECKING:
-    from planner.language.readers import ChangeReading
+    from planner.language.reading import ChangeReading
     from planner.memory import Recollection
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription

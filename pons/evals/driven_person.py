@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, TypeVar
 
 from planner.brain.image_questions import ImageDescription, ImageSighting, NotThere
-from planner.language.readers import ChangeReading
+from planner.language.reading import ChangeReading
 from planner.language.sentence import parse
 from planner.memory import MemoryStore, Recollection, SightingRecorder
 from planner.mission.events import Submitted

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from planner.brain import Brain
     from planner.brain.interface import ThinkRequest
     from planner.brain.streamed_draft import Hear
-    from planner.language.readers import ChangeReading
+    from planner.language.reading import ChangeReading
     from planner.mission.effects import Effect
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Event

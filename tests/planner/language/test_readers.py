@@ -22,14 +22,16 @@ from planner.language.readers import (
     BY_THE_PLANNER,
     READERS,
     READERS_WITH_MODEL,
+    OrderWords,
+    read_order,
+    readings,
+)
+from planner.language.reading import (
     AnswerReading,
     ChangeReading,
     CommandReading,
     HaltReading,
     OrdersReading,
-    OrderWords,
-    read_order,
-    readings,
 )
 from planner.language.sentence import parse
 from planner.plan import EVERY_KIND, AnswerPlan, ChangedOrder, Clarify, Code, Refuse, StepPlan

@@ -11,7 +11,7 @@ import pytest
 
 from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
-from planner.language.readers import ChangeReading
+from planner.language.reading import ChangeReading
 from planner.language.sentence import language_of, parse
 from planner.mission import reception
 from planner.mission.bridge_status import standing
