@@ -59,7 +59,7 @@ def test_a_sort_of_room_is_a_place_wherever_it_stands(
 
 @pytest.mark.parametrize(
     "text",
-    ["check the {}", "is the {} open?", "look at the {}", "检查{}", "看看{}", "{}锁好了吗"],
+    ["check the {}", "is the {} open?", "look at the {}", "检查{}", "看看{}"],
 )
 def test_a_door_that_is_told_by_its_side_is_one_place(text: str, home: Vocabulary) -> None:
     known, unknown = ("front door", "back door") if text.isascii() else ("大门", "后门")
