@@ -230,13 +230,11 @@ def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:
 
 
 def _spoken_before(situation: Situation | None) -> tuple[str, ...]:
-    """Return the latest orders, newest first, each with what the robot itself found by it."""
+    """Return the latest orders, newest first, each before what the robot itself found by it."""
     recent = situation.recent[:ORDERS_BACK] if situation is not None else ()
-    return tuple(
-        f"{goal.order} | {goal.told}" if goal.outcome in _FOUND else goal.order
-        for goal in recent
-        if goal.minutes * 60.0 <= LEANS_S
-    )
+    fresh = [goal for goal in recent if goal.minutes * 60.0 <= LEANS_S]
+    told = ((goal.order, goal.told if goal.outcome in _FOUND else "") for goal in fresh)
+    return tuple(words for each in told for words in each if words)
 
 
 def things_of(classes: tuple[str, ...]) -> frozenset[str]:

@@ -83,7 +83,7 @@ class PersonWords:
     checked: bool = False
     """This goal has looked or asked already: what stood on a condition may be done."""
     before: tuple[str, ...] = ()
-    """What "it", "there" and "again" lean on: earlier orders, newest first, and what was found."""
+    """What "it", "there" and "again" lean on: earlier orders, newest first, with their finds."""
 
 
 @dataclass(frozen=True, slots=True)
