@@ -27,6 +27,8 @@ from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
 from planner.language.yes_no import consents
+from planner.mission.antecedents import ORDERS_BACK
+from planner.mission.departure import LEANS_S
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.tasks import Think
@@ -44,6 +46,8 @@ from planner.plan import (
 
 CHECKS = frozenset({"look", "find", "count", "ask", "recall"})
 """Steps after which what an order puts on a condition may be done."""
+_FOUND = frozenset({Code.ARRIVED, Code.FOUND, Code.COUNTED, Code.SEEN, Code.RECALLED})
+"""Outcomes in the robot's own words; an answer is a model's, and names nothing to be ordered."""
 Remember = Callable[[AskBrain, Vocabulary], Awaitable[tuple[RememberedItem, ...]]]
 """Choose what a brain is shown of memory."""
 RefusesOffer = Callable[[str], Bilingual | None]
@@ -217,11 +221,20 @@ def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:
     order = request.order if pairs else request.text
     checked = any(seen.step in CHECKS or seen.result == "failed" for seen in request.observed)
     agreed = tuple(asked for asked, answer in pairs if consents(answer) is True)
-    person = PersonWords(said_words(order, pairs), request.room, agreed, checked)
+    before = _spoken_before(request.situation)
+    person = PersonWords(said_words(order, pairs), request.room, agreed, checked, before)
     found = find_unasked(plan, person, request.vocabulary, by_all_words=thought.by_grammar)
     for each in found:
         log.info("goal %s: step %d was not asked for: %s", request.goal, each.index + 1, each.why)
     return tuple(each.index for each in found)
+
+
+def _spoken_before(situation: Situation | None) -> tuple[str, ...]:
+    """Return the latest orders, newest first, each before what the robot itself found by it."""
+    recent = situation.recent[:ORDERS_BACK] if situation is not None else ()
+    fresh = [goal for goal in recent if goal.minutes * 60.0 <= LEANS_S]
+    told = ((goal.order, goal.told if goal.outcome in _FOUND else "") for goal in fresh)
+    return tuple(words for each in told for words in each if words)
 
 
 def things_of(classes: tuple[str, ...]) -> frozenset[str]:

@@ -11,12 +11,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import message, say
+from planner.language.catalogue import list_names, message, say
 from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import read_clauses
+from planner.language.motion_guard.mentioned_names import label_named, places_named
 from planner.mission.open_questions import WAITS, take_sentence
+from planner.mission.place_words import names_of
 from planner.mission.queue import cancel, finish
-from planner.mission.state import newest_paused
 from planner.mission.transitions import BrainCause
 from planner.plan import (
     Bilingual,
@@ -27,6 +28,7 @@ from planner.plan import (
     Outcome,
     PlanRole,
     Vocabulary,
+    places_of,
     plan_record,
 )
 
@@ -95,24 +97,56 @@ def assume_role(turn: Transaction, mission: Mission, role: PlanRole) -> Mission:
 def end_current(turn: Transaction, mission: Mission, target: Mission | None) -> None:
     """End the goal that a person wants ended; ask where their words do not say so.
 
-    Where nothing runs and nothing is asked, a paused goal is meant, the one paused last.
+    The goal that the person's own words name is meant; else the one in hand, else the only one
+    that is paused. Of several paused ones none is chosen for them: they are asked which.
     """
-    target = target or turn.mission(newest_paused(turn.book))
+    named, paused = _goals_named(turn, mission), _goals_in(turn, mission, GoalState.PAUSED)
+    if len(named) == 1:
+        target = named[0]
+    elif target is None and len(paused) > 1:
+        names = list_names(say_same(f"“{each.text[:60]}”") for each in paused)
+        _ask(turn, mission, say("confirmation.end_which", names=names))
+        return
+    target = target or next(iter(paused), None)
     if target is None:
         _answer(turn, mission, say("commands.nothing_to_cancel"))
         return
     text = target.text[:60]
-    if not ends_goal(mission.words):
+    said = (mission.words, mission.text) if named else (mission.words,)  # "forget that" – "which?"
+    if not any(map(ends_goal, said)):
         question = say("confirmation.end_goal", text=text)
         order = "cancel it" if mission.language == "en" else "取消任务"
         offer = Option(label=say("confirmation.end_it"), text=order)
-        asks = Clarify(code=Code.AMBIGUOUS, question=question, options=(offer,))
-        mission = turn.put(mission, plan=plan_record(asks))
-        said = Outcome(code=asks.code, message=question)
-        turn.move_to(mission, BrainCause.ASKS, reason=asks.code.value, outcome=said)
+        _ask(turn, mission, question, offer)
         return
     cancel(turn, target)
     _answer(turn, mission, say("commands.done", done=say("commands.cancelled"), text=text))
+
+
+def _goals_in(turn: Transaction, new: Mission, *states: GoalState) -> list[Mission]:
+    """Return the other goals in these states, oldest first."""
+    others = (m for m in turn.book.missions.values() if m.state in states and m.id != new.id)
+    return sorted(others, key=lambda m: m.order)
+
+
+def _goals_named(turn: Transaction, new: Mission) -> list[Mission]:
+    """Return the open goals of which a person's words name a place or a thing."""
+    names = names_of(turn.book.facts)
+    places = set(places_named(new.words, names))
+    open_ = (*IN_HAND, GoalState.RUNNING, GoalState.QUEUED, GoalState.PAUSED)
+    return [
+        goal
+        for goal in _goals_in(turn, new, *open_)
+        if places & {place for step in goal.steps for place in places_of(step)}
+        or any(step.object and label_named(step.object, new.words) for step in goal.steps)
+    ]
+
+
+def _ask(turn: Transaction, mission: Mission, question: Bilingual, *offers: Option) -> None:
+    asks = Clarify(code=Code.AMBIGUOUS, question=question, options=offers)
+    mission = turn.put(mission, plan=plan_record(asks))
+    said = Outcome(code=asks.code, message=question)
+    turn.move_to(mission, BrainCause.ASKS, reason=asks.code.value, outcome=said)
 
 
 def _answer(turn: Transaction, mission: Mission, said: Bilingual) -> None:

@@ -16,6 +16,7 @@ from planner.language.sentence import parse
 from planner.mission.allowed_commands import refusal
 from planner.mission.effects import AskBrain
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Stopped, Submitted
+from planner.mission.open_questions import asks
 from planner.mission.plan_request import thinker
 from planner.mission.reception import receive, receive_answer
 from planner.mission.reducer import advance
@@ -218,9 +219,11 @@ class RobotEar:
         return RobotReply(Reaction.NO)
 
     def _is_taken(self, before: MissionState, mission: Mission) -> bool:
+        """Tell whether a plan is newly under way; one whose own step asks is."""
         open_ = (GoalState.QUEUED, GoalState.RUNNING, GoalState.PAUSED)
         was = before.missions.get(mission.id)
-        return mission.state in open_ and (was is None or was.state not in open_)
+        taken, had = (m is not None and (m.state in open_ or asks(m)) for m in (mission, was))
+        return taken and not had
 
     def _role(self, before: MissionState, taken: Mission) -> Reaction:
         ended = [

@@ -191,7 +191,7 @@ def _passed(page: Page, scene: Scene, shown: int) -> bool:
 REASONS = {
     "camera_silent": ("No picture comes", "没有传来画面"),
     "camera_frozen": ("one and the same", "同一张画面"),
-    "no_detector": ("No detector is set", "没有设置检测模型"),
+    "no_detector": ("Nothing is set that tells", "没有设置识别物体的模型"),
     "detector_down": ("does not answer", "没有响应"),
 }
 

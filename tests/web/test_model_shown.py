@@ -35,7 +35,7 @@ def test_stop_stops_while_the_model_hangs(
     page.locator("#now .goal[data-state=planning]").wait_for()
     note_presses(page)
     press(page)
-    page.locator("#stop-state.good", has_text="confirmed by the bridge").wait_for()
+    page.locator("#stop-state.good", has_text="confirmed by the robot").wait_for()
     robot.assert_stops(pressed_s(page))
     held = robot.judge.status.held
     assert held is not None
@@ -62,8 +62,8 @@ def test_a_plan_is_seen_as_it_is_written(
 @pytest.mark.parametrize(
     ("locale", "stands_in", "rests"),
     [
-        ("en-US", "Planned by the offline brain, not by mock.", "The model mock rests"),
-        ("zh-CN", "由离线大脑代替 mock 规划。", "模型 mock 暂停"),
+        ("en-US", "Planned by the robot itself, not by mock.", "The model mock rests"),
+        ("zh-CN", "由机器人自己代替 mock 规划。", "模型 mock 暂停"),
     ],
 )
 def test_the_offline_brain_is_seen_standing_in(

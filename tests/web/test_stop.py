@@ -65,7 +65,7 @@ def test_stop_stops(
     page.wait_for_selector("#mode[data-mode=ACTIVE]")
     note_presses(page)
     press(page)
-    page.locator("#stop-state.good", has_text="confirmed by the bridge").wait_for()
+    page.locator("#stop-state.good", has_text="confirmed by the robot").wait_for()
     robot.assert_stops(pressed_s(page))
     status = robot.judge.status
     assert status.held is not None

@@ -29,6 +29,6 @@ def test_a_page_below_a_path_drives_and_stops_the_robot(robot: Robot, browser: B
         with page.expect_request(f"{proxy.address}v1/stop"):
             page.click("#stop")
         until(robot.judge.standing, 5.0, "standing", robot.judge.describe)
-        page.locator("#stop-state.good", has_text="confirmed by the bridge").wait_for()
+        page.locator("#stop-state.good", has_text="confirmed by the robot").wait_for()
     assert proxy.beside == []
     assert [line for line in said if not expected(line)] == []

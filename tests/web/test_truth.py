@@ -74,14 +74,14 @@ def test_a_killed_planner_is_told_and_nothing_goes_on_by_itself(
         assert all(one.link == "bad" for one in lost)
         assert (lost[-1].mode, lost[-1].moving, lost[-1].at_m) == (None, None, None)
         assert lost[-1].goals is None
-        assert "planner lost" in page.inner_text("#link")
+        assert "connection lost" in page.inner_text("#link")
         assert page.inner_text(".motion").startswith("Last heard")
         # Stop is there and says that nobody confirms it.
         page.keyboard.press("Escape")
         page.locator("#stop-state.bad").wait_for()
     page.wait_for_selector("#link[data-state=good]", timeout=60_000)
     page.locator(f"#now .goal[data-goal='{goal_id}'][data-state=paused]").wait_for()
-    assert "the planner was restarted" in page.inner_text("#now")
+    assert "Pons was restarted" in page.inner_text("#now")
     page.locator("#notice.asks").wait_for()
     after = watch(robot, page, 1.5)
     assert after[-1].moving is False
@@ -174,7 +174,7 @@ def test_a_silent_bridge_is_told_while_the_planner_lives(robot: Robot, open_page
         page.locator("#lost[data-why=bridge]").wait_for()
         claim = look(page)
         assert (claim.mode, claim.moving, claim.at_m) == (None, None, None)
-        assert "bridge silent" in page.inner_text("#link")
+        assert "robot silent" in page.inner_text("#link")
     finally:
         robot.system.thaw("bridge")
     page.wait_for_selector("#link[data-state=good]")

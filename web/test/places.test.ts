@@ -60,7 +60,7 @@ describe("a step", () => {
       "reached: kitchen",
       "0.03 m from the goal",
     ]);
-    expect(verdict(step({ kind: "move", moved_m: 0.98 }))).toEqual(["0.98 m by odometry"]);
+    expect(verdict(step({ kind: "move", moved_m: 0.98 }))).toEqual(["0.98 m by its wheels"]);
     expect(verdict(step({ kind: "ask", answer: "tea" }))).toEqual(["answer: “tea”"]);
     const patrol = { kind: "patrol", places: ["a", "b"], visited: 1, state: "running" };
     expect(verdict(step({ ...patrol, left_m: 2.34 }))).toEqual(["2.3 m to go", "1 of 2 visited"]);
@@ -75,13 +75,11 @@ describe("a step", () => {
       currency: "USD",
     };
     expect(verdict(step({ kind: "find", state: "running", bill }))).toEqual([
-      "vision model so far: 3 pictures, 5100 tokens · 0.00240 USD",
-      "at most 24 pictures, about 51840 tokens · 0.0300 USD",
+      "pictures shown to the model so far: 3 · 0.00240 USD",
+      "at most 24 pictures · 0.0300 USD",
     ]);
     const free = { ...bill, money: null, money_most: null, currency: null };
-    expect(verdict(step({ kind: "find", bill: free }))).toEqual([
-      "vision model: 3 pictures, 5100 tokens",
-    ]);
+    expect(verdict(step({ kind: "find", bill: free }))).toEqual(["pictures shown to the model: 3"]);
   });
 });
 

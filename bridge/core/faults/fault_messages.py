@@ -4,27 +4,30 @@ from __future__ import annotations
 
 WORDS: dict[str, tuple[str, str]] = {
     "BRAIN_LATE": (
-        "The planner answers late; driving at half speed.",
-        "规划器响应变慢，半速行驶。",
+        "Pons thinks slowly; driving at half speed.",
+        "Pons 响应变慢，半速行驶。",
     ),
-    "BRAIN_LOST": ("The planner is silent; the robot holds.", "规划器没有响应，机器人停住。"),
+    "BRAIN_LOST": ("Pons does not answer; the robot holds.", "Pons 没有响应，机器人停住。"),
     "BRAIN_GONE": (
-        "The planner has been silent for 5 seconds; the drive is off. Arm to go on.",
-        "规划器已失联五秒，驱动已断开。请重新解锁后继续。",
+        "Pons has not answered for 5 seconds; the drive is off. Arm to go on.",
+        "Pons 已五秒没有响应，驱动已断开。请重新解锁后继续。",
     ),
     "BRAIN_STALE": (
-        "The planner is alive but thinks on old data; the robot holds.",
-        "规划器仍在运行，但使用的是旧数据，机器人停住。",
+        "Pons does not see anything new; the robot holds.",
+        "Pons 收不到新的数据，机器人停住。",
     ),
     "CMD_STALE": (
-        "The newest command is too old; the robot holds.",
+        "The newest order to the wheels came too late; the robot holds.",
         "最新指令已过期，机器人停住。",
     ),
     "CMD_BAD": (
-        "Too many commands made no sense; the robot holds.",
+        "Too many orders to the wheels made no sense; the robot holds.",
         "收到过多无效指令，机器人停住。",
     ),
-    "CMD_FLOOD": ("Too many commands arrive; the robot holds.", "指令过于频繁，机器人停住。"),
+    "CMD_FLOOD": (
+        "Too many orders to the wheels arrive; the robot holds.",
+        "指令过于频繁，机器人停住。",
+    ),
     "BUDGET": (
         "The distance or time allowed is used up; a new goal or a resume is needed.",
         "允许的距离或时间已用完，需要新的目标或由人恢复。",
@@ -42,8 +45,8 @@ WORDS: dict[str, tuple[str, str]] = {
         "激光雷达几乎看不到，机器人停住。",
     ),
     "LIDAR_SECTOR": (
-        "A sector of the lidar sees nothing; the robot holds. Uncover it, or turn once by hand.",
-        "激光雷达有一个扇区没有回波，机器人停住。请移开遮挡，或手动原地转一圈。",
+        "The lidar sees nothing to one side; the robot holds. Uncover it, or turn once by hand.",
+        "激光雷达有一侧看不到东西，机器人停住。请移开遮挡，或手动原地转一圈。",
     ),
     "NO_RANGE": (
         "Nothing watches for obstacles; the robot holds.",
@@ -55,8 +58,8 @@ WORDS: dict[str, tuple[str, str]] = {
         "机器人不知道自己的位置，停住。",
     ),
     "POSE_JUMP": (
-        "The position jumped; the route must be made anew (after three jumps: arm).",
-        "定位发生跳变，需要重新规划路线（连续三次后需重新解锁）。",
+        "The robot was wrong about where it is; it looks for a new way (after three times: arm).",
+        "机器人弄错了自己的位置，正在重新找路（连续三次后需重新解锁）。",
     ),
     "STUCK": ("The wheels should turn but the robot does not move.", "机器人被卡住，无法移动。"),
     "RUNAWAY": (
@@ -87,12 +90,12 @@ WORDS: dict[str, tuple[str, str]] = {
         "尚未验证该底盘在计算机失联时会自行停车，或停得太慢，限速行驶。请执行 pons robot try。",
     ),
     "LOOP_LATE": (
-        "This computer wakes the bridge late; driving slower or holding.",
-        "本机唤醒安全桥不及时，减速或停住。",
+        "This computer is too busy; driving slower or holding.",
+        "本机过于繁忙，减速或停住。",
     ),
     "NOT_RT": (
-        "No real-time rights on a real drive; at most 0.2 m/s.",
-        "真实驱动上没有实时权限，最高 0.2 米每秒。",
+        "This computer gives the robot no right of way over other programs; driving slowly.",
+        "本机没有让机器人优先运行，低速行驶。",
     ),
     "ESTOP": (
         "Protective stop. Release the button, then reset.",

@@ -28,8 +28,8 @@ _TO_PLACE = re.compile(
 )
 _FILLS = re.compile(
     r"\b(?:once|twice|(?:\d|two|three|four) times|the|a|my|our|and|too|also|next|by|of|to|in|at"
-    r"|on|up|there|instead|side|i think|it's)\b"
-    r"|我说的?|[就里间边上儿那和跟与、了吧呀啊哦呢旁面]|[^\w]+"
+    r"|on|up|there|instead|side|i think|it's|(?:one|room|place) (?:with|that has))\b"
+    r"|我说的?|有(?=\s*的)|的那?(?:一?[间个]|房间|屋)|[就里间边上儿那和跟与、了吧呀啊哦呢旁面]|[^\w]+"
 )
 _AFTER_ZH = re.compile(r"(?:那?[里边儿上个面]|之间|中间|[的和跟与、]|房间)*")
 
@@ -171,5 +171,8 @@ def is_bare(text: str, vocabulary: Vocabulary) -> bool:
     for place in reversed(places):
         text = f"{text[: place.start]} {text[place.end :]}"
     for table in (ENGLISH, CHINESE):
-        text = " ".join(strip_openers(word, table.opens) for word in text.split())
+        words = (
+            w if table.orders.match(w) else strip_openers(w, table.opens) for w in text.split()
+        )
+        text = " ".join(words)
     return bool(places) and not _FILLS.sub("", text)

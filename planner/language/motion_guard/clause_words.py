@@ -82,10 +82,10 @@ _GO = (
     r"|reverse|step|circle|creep|crawl|track|trail|chase|take|bring|conduct|continue|park|stand"
     r"|spot|ask|call|wake"
     r"|tell|say|wait|stay|shoo|map|report|describe|identify|let|read|have a (?:look|rest|peek)"
-    r"|(?:do|make|take) (?:a|an|the|your|one|another|yourself|me|us)|show|introduce|keep|try|meet"
-    r"|find out|listen|answer|hide|rest|sleep|lie|make sure|drop (?:by|in)|inform|contact|seeing"
-    r"|checking|making|finding|telling"
-    r"|asking|following|turning|moving|having|taking a"
+    r"|(?:do|make|take) (?:a|an|the|your|one|another|yourself|me|us|it|that|this)|show"
+    r"|introduce|keep|try|find out|listen|answer|hide|rest|sleep|lie|sit|settle"
+    r"|hang (?:around|out)|make sure|drop (?:by|in)|inform|contact|seeing|checking|making|finding"
+    r"|telling|asking|following|turning|moving|having|taking a"
 )
 ENGLISH = ClauseWords.of(
     splits=r"(?:[;!?:|…]|\.(?!\d))+|,|\b(?:and then|and|then"
@@ -93,7 +93,8 @@ ENGLISH = ClauseWords.of(
     r"|(?=\b(?:otherwise|or else|else|if|unless|when(?:ever)?|once|as soon as|in case)\b)",
     opens=r"(?:please|pls|ok(?:ay)?|well|so|now|hey|hi|hello|robot|pons|just|no|not|yes|yeah|right"
     r"|um+|uh+|er+|hm+|oh|ah|quick|quickly|slowly|quietly|gently|carefully|first|next|finally|also"
-    r"|again|actually|sorry|instead|kindly|wait(?= (?:no|go|the|i)\b|$)|still|go on|come on"
+    r"|again|actually|sorry|instead|kindly|wait(?= (?:no|go|the|i)\b|$)|still"
+    r"|(?:hold|hang) on|come on|go on(?! (?:to|into)\b)"
     r"|after that|in a moment|off"
     r"|good (?:boy|girl|robot|morning|night|evening|afternoon)|little one|buddy|pal|mate|sweetie"
     r"|always|only|last|of all|as you can|that's right|nope|thanks?(?: you)?|fast|faster|careful"

@@ -31,6 +31,23 @@ _ALL_ROOMS = re.compile(
 _ROUNDS = re.compile(r"\bpatrol|\brounds?\b|\btour\b|巡")
 _HERE = re.compile(r"\b(?:here|this room|around|the room)\b|这里|这儿|这个房间|这间|周围|四周|屋里")
 _THERE = re.compile(r"\b(?:there|it|that|one|in)\b|那里|那儿|那边|那间|过去|进去|它|的话$|再$|就$")
+_LEANS = re.compile(
+    r"\b(?:to|towards?|at|into|in|near|beside|behind|by|round|around|after|with|approach|visit|find"
+    r"|see|meet|follow|join) (?:the )?(?:\w+ )?(?:it|that|this|ones?|him|her|them)\b|\bthere\b"
+    r"|\bdo (?:it|that|this|the same)\b"
+    r"|[去到近找看跟陪接往朝过][^,，。]{0,3}[它他她]|那[里儿边个]|过去|再[去来][^,，。]?[一几两]?[次遍趟]"
+    r"|[去到近][^,，。]{1,4}的那?[个只把]?$"
+)
+_WHOM = re.compile(r"\W*(?:him|her|them)\b|[问叫一下声]{0,3}[他她]")
+
+
+def leans_back(clauses: Iterable[SaidClause]) -> bool:
+    """Tell whether clauses lead to what was spoken of before them, or to whom: "go up to it"."""
+    return any(
+        _LEANS.search(c.text) or _WHOM.match(c.speech) for c in clauses if not c.stays or c.speech
+    )
+
+
 _OWN_WAY = re.compile(
     r"(?:i|we)(?:'m|'re|'ll| am| are| will| need| have to| must| might| may| want to| got)\b"
     r"|我们?(?:先|要|去|得|马上|一会|正|自己)"
@@ -57,10 +74,17 @@ class MeantPlaces:
     """Count the places that clauses of one person's words lead to."""
 
     def __init__(
-        self, every: tuple[SaidClause, ...], room: str | None, vocabulary: Vocabulary
+        self,
+        every: tuple[SaidClause, ...],
+        room: str | None,
+        vocabulary: Vocabulary,
+        before: tuple[str, ...] = (),
     ) -> None:
-        """Take all clauses of the words, where the robot is, and the names of places."""
+        """Take all clauses of the words, where the robot is, the names of places, and what was
+        spoken of before, newest first.
+        """
         self._every, self._room, self._vocabulary = every, room, vocabulary
+        self._before = before
 
     def count_named(self, usable: list[SaidClause]) -> Counter[str]:
         """Return the places that clauses send to, each as often as they do."""
@@ -74,7 +98,15 @@ class MeantPlaces:
         named.update(self._rooms_by_use(said) if not named else ())
         if not named and leads:  # "grandma is in the bedroom, go and see"
             named.update(self._leant_on(usable, said))
+        if not named and leans_back(usable):
+            named.update(self._spoken_of_before())
         return named
+
+    def _spoken_of_before(self) -> Counter[str]:
+        """Return the one place of the newest earlier words that name any."""
+        texts = (set(places_named(text, self._vocabulary)) for text in self._before)
+        found = next(filter(None, texts), set[str]())
+        return Counter(found if len(found) == 1 else ())
 
     def _leant_on(self, usable: list[SaidClause], said: str) -> Counter[str]:
         """Return the one place of the other clauses, where an order names none."""

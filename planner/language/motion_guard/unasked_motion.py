@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import SaidClause, read_clauses
-from planner.language.motion_guard.meant_places import GAP, MeantPlaces, join_clauses
+from planner.language.motion_guard.meant_places import GAP, MeantPlaces, join_clauses, leans_back
 from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.language.motion_guard.step_words import evidence, makes_way, moves, unsaid_kind
 from planner.language.questions import looks_round
@@ -82,6 +82,8 @@ class PersonWords:
     """Of the words, a brain's questions that got a plain yes: what they ask is ordered."""
     checked: bool = False
     """This goal has looked or asked already: what stood on a condition may be done."""
+    before: tuple[str, ...] = ()
+    """What "it", "there" and "again" lean on: earlier orders, newest first, with their finds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,11 +148,13 @@ class _Judge:
         )
         every = [clause for _, clauses in self._texts for clause in clauses]
         self._every = every
-        self._meant = MeantPlaces(tuple(every), person.room, vocabulary)
+        self._meant = MeantPlaces(tuple(every), person.room, vocabulary, person.before)
         self._things = GAP.join(
             f"{c.text}{c.speech}" for c in every if c.mood is not ClauseMood.DENIED
         )
         self._ordered = join_clauses(c for c in every if c.mood is ClauseMood.ORDER)
+        leans = leans_back(c for c in every if c.mood is ClauseMood.ORDER)
+        self._spoken_of = GAP.join((self._things, *(person.before if leans else ())))
         self._repeats = _REPEATS.search(self._ordered)
         self._done: defaultdict[str, list[_Path]] = defaultdict(list)
         self._arrivals: list[tuple[str, _Path]] = []
@@ -277,7 +281,7 @@ class _Judge:
             moods = (ClauseMood.ORDER, ClauseMood.QUESTION, ClauseMood.CONDITION)
             said = join_clauses(c for c in self._every if c.mood in moods)
         texts = (said, self._ordered) if step.kind in ("turn", "move") else (said,)
-        whys = (unsaid_kind(step, text, self._things, self._vocabulary) for text in texts)
+        whys = (unsaid_kind(step, text, self._spoken_of, self._vocabulary) for text in texts)
         return next(filter(None, whys), "")
 
     def _why_often(self, row: tuple[StepNode, ...], index: int, said: str) -> str:

@@ -36,6 +36,11 @@ _ABOUT_EN = re.compile(
 )
 """What "in the" and "at the" say of time, or of where about the robot."""
 _SORT_EN = r"(?:(?<=^)|(?<= ))(?:the|my|our|your) (?P<name>(?:[a-z]+ )?(?:{sorts}))"
+_DOOR_EN = re.compile(
+    rf"\b{_THE} (?P<name>(?:back|front|side|rear|main|garden|street) (?:door|gate|entrance))\b"
+)
+_DOOR_ZH = re.compile(r"(?P<name>[前后侧边正大院]门)(?![^的有是在锁关开吗么呢没好上,，。\s])")
+"""A door of the house is told by its side: it is one place, wherever the robot is."""
 _OF_IT = r"(?= (?:doors?|windows?|lights?|lamps?|gate|shutters?|blinds?)\b|{late}$| (?:is|are)\b)"
 _LEAD_ZH = (
     r"(?:^|看一看|看看|看一?下|瞧瞧|检查一?下?|查看一?下?|观察一?下?|巡视一?下?|去|到|在|往|把|[,，。])"
@@ -79,11 +84,13 @@ def _in_english(plain: str) -> Iterator[str]:
         nearby = english.HERE.fullmatch(name) or english.HERE.fullmatch(f"the {name}")
         if not nearby and not _ABOUT_EN.fullmatch(name) and resolve(name, Language.EN) is None:
             yield name
-    yield from (found["name"] for found in _sorts(Language.EN).finditer(plain))
+    for pattern in (_sorts(Language.EN), _DOOR_EN):
+        yield from (found["name"] for found in pattern.finditer(plain))
 
 
 def _in_chinese(plain: str) -> Iterator[str]:
-    for found in (*_SLOT_ZH.finditer(plain), *_sorts(Language.ZH).finditer(plain)):
+    patterns = (_SLOT_ZH, _sorts(Language.ZH), _DOOR_ZH)
+    for found in (each for pattern in patterns for each in pattern.finditer(plain)):
         name = _BEFORE_ZH.sub("", found["name"])
         if name and not _ABOUT_ZH.fullmatch(name) and resolve(name, Language.ZH) is None:
             yield name

@@ -8,6 +8,7 @@ import pytest
 
 from planner.brain import BrainDown, FallbackBrain, OfflineBrain, OutOfBudget, ScriptedBrain
 from planner.brain.scripted import Reply
+from planner.brain.situation import RecentGoal, Situation
 from planner.mission import AskBrain, Planned
 from planner.mission.plan_request import thinker
 from planner.plan import Code, GoTo, Language, StepPlan, say_same
@@ -53,3 +54,22 @@ def test_the_event_names_the_brain_that_thought_last() -> None:
     assert lost.failure.code is Code.MODEL_UNAVAILABLE
     assert lost.brain is not None
     assert lost.brain.fallback_from == "scripted"
+
+
+@pytest.mark.parametrize(
+    ("outcome", "told", "minutes", "waits"),
+    [
+        ("recalled", "I saw a red cup in the kitchen.", 1, False),
+        ("answered", "There is one in the kitchen.", 1, True),
+        ("recalled", "I saw a red cup in the kitchen.", 31, True),
+    ],
+)
+def test_it_is_what_the_robot_itself_found_a_short_while_ago(
+    outcome: str, told: str, minutes: int, waits: bool
+) -> None:
+    """A model's own answer names no place that "it" may then lead to."""
+    recent = RecentGoal(order="where is it?", outcome=outcome, told=told, minutes=minutes)
+    ask = AskBrain("g1", "go to it", Language.EN, situation=Situation(recent=(recent,)))
+    made = StepPlan(steps=(GoTo(place="kitchen"),), asked_by=("go to it",))
+    event = asyncio.run(_think(ScriptedBrain([made], by_grammar=False), ask))
+    assert event.unasked == ((0,) if waits else ())

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from planner.mission.events import Pause, Planned, Stopped, Submitted
+from planner.mission.events import Pause, Planned, Reply, Stopped, Submitted
 from planner.mission.plan_roles import takes_back
 from planner.plan import (
     Ask,
@@ -106,6 +106,48 @@ def test_cancel_ends_the_goal_that_was_paused_last_where_nothing_else_is_open(
     world.event(Stopped("test"))
     second = say(world, "forget that", PlanRole.CANCEL)
     assert (world.goal(first).state, world.goal(second).state) == (CANCELLED, SUCCEEDED)
+
+
+def paused_pair(world: Together) -> tuple[str, str]:
+    kitchen = driving(world, "kitchen")
+    world.event(Pause(kitchen))
+    dock = driving(world, "dock")
+    world.event(Pause(dock))
+    assert [world.goal(each).state for each in (kitchen, dock)] == [PAUSED, PAUSED]
+    return kitchen, dock
+
+
+@pytest.mark.parametrize(
+    ("words", "left"), [("cancel the kitchen one", 1), ("forget going to the dock", 0)]
+)
+def test_of_several_paused_goals_the_one_that_is_named_is_ended(
+    world: Together, words: str, left: int
+) -> None:
+    pair = paused_pair(world)
+    say(world, words, PlanRole.CANCEL)
+    assert world.goal(pair[left]).state is PAUSED
+    assert world.goal(pair[1 - left]).state is CANCELLED
+
+
+def test_where_none_of_several_paused_goals_is_named_the_person_is_asked_which(
+    world: Together,
+) -> None:
+    pair = paused_pair(world)
+    goal = say(world, "forget that", PlanRole.CANCEL)
+    assert world.goal(goal).state is ASKS
+    assert "Which of these shall I end" in told(world, goal)
+    assert [world.goal(each).state for each in pair] == [PAUSED, PAUSED]
+    world.event(Reply(goal, "the kitchen one"))
+    world.event(Planned(goal, StepPlan(steps=(), does=PlanRole.CANCEL), None, MODEL))
+    assert [world.goal(each).state for each in pair] == [CANCELLED, PAUSED]
+
+
+def test_a_paused_goal_that_is_named_is_ended_and_what_runs_goes_on(world: Together) -> None:
+    kitchen = driving(world, "kitchen")
+    world.event(Pause(kitchen))
+    dock = driving(world, "dock")
+    say(world, "cancel the kitchen one", PlanRole.CANCEL)
+    assert [world.goal(each).state for each in (kitchen, dock)] == [CANCELLED, RUNNING]
 
 
 def asking(world: Together) -> str:

@@ -130,8 +130,8 @@ def hold_trials(language: str, model: ScriptedModel) -> list[Conversation]:
     return [held(one, model) for one in read_scripts(language, ScriptSet.TRIAL)]
 
 
-MOST_YESES = 8
-"""Of all eighty goals; the goal is two."""
+MOST_YESES = 1
+"""Of all eighty goals: to the order that comes in one breath with a stop."""
 
 
 def test_a_strong_models_replies_do_nearly_all_that_was_wanted_and_few_are_asked_about() -> None:

@@ -73,13 +73,7 @@ function Growing() {
   const known = new Cells(shown).floor;
   return (
     <div class="growing">
-      <span>
-        {t("map.growing", {
-          area: known.toFixed(0),
-          keyframes: String(shown.growing.keyframes),
-          loops: String(shown.growing.loops),
-        })}
-      </span>
+      <span>{t("map.growing", { area: known.toFixed(0) })}</span>
       <button type="button" id="which-room" onClick={toTeaching}>
         {t("rooms.this")}
       </button>

@@ -50,13 +50,11 @@ function bill(step: Step): string[] {
     known(amount) ? ` · ${amount.toPrecision(3)} ${own.currency ?? ""}` : "";
   const spent = {
     pictures: String(own.pictures),
-    tokens: String(own.tokens),
     money: money(own.money),
   };
   if (step.state !== "running") return [t("step.bill", spent)];
   const most = {
     most: String(own.pictures_most),
-    tokens_most: String(own.tokens_most),
     money_most: money(own.money_most),
   };
   return [t("step.bill_so_far", spent), t("step.bill_most", most)];

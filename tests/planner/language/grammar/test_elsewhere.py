@@ -59,11 +59,26 @@ def test_a_sort_of_room_is_a_place_wherever_it_stands(
 
 @pytest.mark.parametrize(
     "text",
+    ["check the {}", "is the {} open?", "look at the {}", "检查{}", "看看{}"],
+)
+def test_a_door_that_is_told_by_its_side_is_one_place(text: str, home: Vocabulary) -> None:
+    known, unknown = ("front door", "back door") if text.isascii() else ("大门", "后门")
+    made = refused(text.format(unknown), home)
+    assert made.code is Code.UNKNOWN_PLACE
+    assert f"“{unknown}”" in made.question.en
+    there = plan(text.format(known), home, Context(runnable=EVERY_KIND, now=NOON))
+    assert isinstance(there, StepPlan)
+    assert any(getattr(step, "place", None) == "front_door" for step in there.steps)
+
+
+@pytest.mark.parametrize(
+    "text",
     [
         "is there a cup in the box?", "is there a cup in front of you?", "is anybody there?",
         "is there a cup in the corner?", "is the cat in the house?", "is anything in the way?",
         "is there a cup on the shelf", "what do you see?", "look at the picture", "look around",
         "is anyone in the room?", "what is in the picture?", "is it dark in here?",
+        "is the door behind you open?", "open the door and look", "是不是有人", "看看门口",
         "这里有没有杯子", "箱子里有没有杯子", "家里有人吗", "房间里有人吗", "你看到了什么",
         "画面里有什么", "看看前面有没有人", "书架上有没有杯子", "屋里有人吗", "你手里有什么",
     ],

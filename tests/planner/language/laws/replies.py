@@ -20,6 +20,7 @@ def _block(name: str) -> frozenset[str]:
 
 INNER = _block("inner-words")
 GROUPS = _block("set-up-groups")
+PAGE_GROUPS = _block("page-set-up-groups")
 _INNER = re.compile(
     "|".join(rf"\b{re.escape(word)}\b" if word.isascii() else word for word in sorted(INNER)),
     re.IGNORECASE | re.ASCII,

@@ -10,10 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from bridge.core.faults.fault_messages import WORDS
 from planner.language.catalogue import CATALOGUE
 from tests.planner.language.laws.replies import (
     GROUPS,
     INNER,
+    PAGE_GROUPS,
     count_sentences,
     find_foreign,
     find_inner,
@@ -42,6 +44,25 @@ def test_the_page_names_words_and_groups_that_exist() -> None:
 def test_no_message_of_the_catalogue_has_an_inner_word(language: str) -> None:
     assert {code: found for own, code, text in SHOWN if own == language
             if (found := find_inner(text))} == {}  # fmt: skip
+
+
+PAGE = Path(__file__).parents[4] / "web" / "src" / "i18n"
+_ENTRY = re.compile(r'^  "([\w.]+)":\s+"((?:[^"\\]|\\.)*)",$', re.MULTILINE)
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_no_text_of_the_page_has_an_inner_word(language: str) -> None:
+    shown = dict(_ENTRY.findall((PAGE / f"{language}.ts").read_text("utf-8")))
+    assert {key.partition(".")[0] for key in shown} >= PAGE_GROUPS
+    assert len(shown) > 400
+    read = {k: text for k, text in shown.items() if k.partition(".")[0] not in PAGE_GROUPS}
+    assert {key: found for key, text in read.items() if (found := find_inner(text))} == {}
+
+
+def test_no_fault_row_has_an_inner_word() -> None:
+    parts = {"lidar", "激光", "雷达"}
+    found = {row: set(find_inner(" ".join(words))) - parts for row, words in WORDS.items()}
+    assert {row: inner for row, inner in found.items() if inner} == {}
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])
