@@ -1,5 +1,5 @@
 """Give the robot standing orders and look after them: ``pons orders [list|add|show|pause|resume|
-remove]``. Talks to the planner alone.
+skip|remove]``. Talks to the planner alone.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 PATH = "/v1/orders"
-ACTS = ("list", "add", "show", "pause", "resume", "remove")
+ACTS = ("list", "add", "show", "pause", "resume", "skip", "remove")
 
 
 def run(settings: LaunchSettings, act: str, words: list[str], *, as_json: bool = False) -> int:
@@ -47,6 +47,10 @@ def _ask(settings: LaunchSettings, act: str, what: str) -> dict[str, Any]:
         return dict(call(settings, "GET", PATH))
     if act == "add":
         return dict(call(settings, "POST", PATH, {"text": what, "source": "cli"}))
+    if act == "skip":
+        what, _, day = what.partition(" ")
+        one = f"{PATH}/{quote(what, safe='')}/skip"
+        return dict(call(settings, "POST", one, {"day": day.strip()}))
     one = f"{PATH}/{quote(what, safe='')}"
     if act == "show":
         return dict(call(settings, "GET", one))

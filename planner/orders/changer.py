@@ -1,25 +1,24 @@
 """Remove, pause, resume and skip the standing orders that a person means, or ask which.
 
-Law: words that fit several are asked about; a skip leaves out that day's runs and no other, so
-where another run lies between, the person says whether that one may go too.
+Law: words that fit several are asked about; a skip leaves out that day's runs and no other.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from planner.language.catalogue import join, message, raw, say
+from planner.language.catalogue import join, message, say
 from planner.language.folding import has_chinese
 from planner.orders.errors import OrderRefusal
 from planner.orders.rule import settle
 from planner.orders.selection import is_all, pick, select
-from planner.orders.skipping import DaySkip, SkipAct, skip_day
-from planner.orders.telling import tell_time
+from planner.orders.skipping import find_day, runs_on
 from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Language, Option, Refuse
 from planner.plan.timing import AtRule
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from datetime import date
 
     from planner.language.schedule import ChangeOrders
     from planner.language.schedule.parts import OnceDay
@@ -35,6 +34,8 @@ class ChangeDesk(Protocol):
     async def pause(
         self, order_id: str, *, paused: bool = True, until_s: float | None = None
     ) -> StandingOrder: ...
+
+    async def skip(self, order_id: str, day: date) -> StandingOrder: ...
 
     async def remove(self, order_id: str) -> StandingOrder: ...
 
@@ -77,7 +78,7 @@ class OrderChanger:
             return self._ask_which(command, found)
         try:
             if command.day is not None:
-                return await self._skip(command, command.day, found, language)
+                return await self._skip(command.day, found)
             until_s = self._read_until(command)
             for order in found:
                 if command.act == "remove":
@@ -100,62 +101,27 @@ class OrderChanger:
             return placed
         found = select(orders, command.which, zone, reminders=command.reminders, now_unix_s=now_s)
         if command.day is not None and len(found) > 1:  # those that have a run on that day
-            skips = {o.id: skip_day(o, command.day, now_s, zone) for o in found}
-            found = tuple(o for o in found if skips[o.id].act is not SkipAct.NOTHING) or found
+            day = find_day(command.day, now_s, zone)
+            found = tuple(o for o in found if runs_on(o, day, now_s, zone)) or found
         if answer is None:
             return found
         picked = pick(found, answer)
         return picked or select(found, answer, zone, reminders=command.reminders, now_unix_s=now_s)
 
-    async def _skip(
-        self,
-        command: ChangeOrders,
-        day: OnceDay,
-        found: tuple[StandingOrder, ...],
-        language: Language,
-    ) -> AnswerPlan | Clarify:
-        """Leave out a day's runs. Raises OrderRefusal: there are none, or they are no clock's."""
+    async def _skip(self, day: OnceDay, found: tuple[StandingOrder, ...]) -> AnswerPlan:
+        """Leave out a day's runs. Raises OrderRefusal: there are none."""
         now_s, zone = self._keeper.clocks.unix(), self._keeper.book.zone
-        skips = [(order, skip_day(order, day, now_s, zone)) for order in found]
-        meant = [(order, skip) for order, skip in skips if skip.act is not SkipAct.NOTHING]
+        named = find_day(day, now_s, zone)
+        meant = [order for order in found if runs_on(order, named, now_s, zone)]
         if not meant:
-            deaf = all(order.is_event for order in found)  # to pause it now is another thing
-            raise OrderRefusal("order_change_unfit" if deaf else "order_change_none", "no such run")
-        if any(skip.act is SkipAct.BETWEEN for _, skip in meant):
-            if len(meant) > 1:
-                return self._ask_which(command, tuple(order for order, _ in meant))
-            return self._ask_pause(*meant[0], language)
-        gone, paused = [], []
-        for order, skip in meant:
-            if skip.act is SkipAct.REMOVE:
-                await self._desk.remove(order.id)
-                gone.append(order)
-            else:
-                await self._desk.pause(order.id, until_s=skip.ends_s)
-                paused.append(order)
-        told = [self._tell_done(done, tuple(orders)).text
-                for done, orders in (("removed", gone), ("paused", paused)) if orders]  # fmt: skip
+            raise OrderRefusal("order_change_none", f"no run on {named}")
+        for order in meant:
+            await self._desk.skip(order.id, named)
+        gone = tuple(order for order in meant if order.id not in self._keeper.book.orders)
+        left = tuple(order for order in meant if order not in gone)
+        told = [self._tell_done(done, orders).text
+                for done, orders in (("removed", gone), ("skipped", left)) if orders]  # fmt: skip
         return AnswerPlan(text=join(told))
-
-    def _ask_pause(self, order: StandingOrder, skip: DaySkip, language: Language) -> Clarify:
-        """Ask about "not tomorrow" where a run of today would be left out as well."""
-        now_s, zone = self._keeper.clocks.unix(), self._keeper.book.zone
-        day = (skip.weekday + 1) % 7
-        code, ends_code = f"standing.day_{day}", f"standing.day_{(day + 1) % 7}"
-        name, ends = say(code), say(ends_code)
-        pause = raw("standing.pause_until", language.value).format(
-            id=order.id, day=raw(ends_code, language.value)
-        )
-        each = raw("standing.leave_out_each", language.value).format(day=raw(code, language.value))
-        options = (
-            Option(label=say("standing.option_pause", day=ends), text=pause),
-            Option(
-                label=say("standing.option_each", day=name),
-                text=f"change order {order.id}: {each}",
-            ),
-        )
-        asked = say("standing.skip_pauses", time=tell_time(skip.due_s, zone, now_s), day=name)
-        return Clarify(code=Code.AMBIGUOUS, question=asked, options=options)
 
     def _tell_done(self, done: str, orders: tuple[StandingOrder, ...]) -> AnswerPlan:
         now = self._keeper.book.orders
@@ -173,7 +139,7 @@ class OrderChanger:
         until = command.until_words
         form = f"{command.act} order {{id}} {until}"
         if command.day is not None:
-            form = f"skip order {{id}} {until}"
+            form = f"{until}的{{id}}跳过" if has_chinese(until) else f"skip order {{id}} {until}"
         elif has_chinese(until):
             form = f"把任务{{id}}暂停{until}"
         options = tuple(

@@ -28,6 +28,7 @@ from planner.orders.new_order import (
 from planner.orders.new_order_judge import NewOrderJudge, is_remark, judge_deed
 from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder, new_nonce
 from planner.orders.rule import settle
+from planner.orders.skipping import MOST_SKIPPED, days_left_out, runs_on
 from planner.orders.teller import OrderTeller
 from planner.orders.unfinished_order import UnfinishedOrder
 from planner.plan import (
@@ -48,6 +49,7 @@ from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from datetime import date
 
     from planner.language.schedule import ScheduleCommand
     from planner.language.schedule.parts import OnceDay
@@ -241,7 +243,7 @@ class OrderIntake:
     ) -> StandingOrder:
         """Pause an order (until then, where that is said), or resume it.
 
-        What was due meanwhile is not told.
+        What was due meanwhile is not told. One that is on already gets its skipped days back.
 
         Raises:
             OrderRefusal: ``unknown_order``, ``order_ended``, ``orders_unwritable``.
@@ -255,11 +257,37 @@ class OrderIntake:
                 handled_s = max(handled_s, self._keeper.clocks.unix())
             try:
                 changed = await self._keeper.revise(
-                    order_id,
-                    paused=paused,
-                    resume_unix_s=until_s if paused else None,
+                    order_id, paused=paused, resume_unix_s=until_s if paused else None,
                     handled_unix_s=handled_s,
-                )
+                    skipped=order.skipped if order.paused or paused else (),
+                )  # fmt: skip
+            except StateUnavailable as error:
+                raise OrderRefusal("orders_unwritable", str(error)) from None
+        self._corrector.note(order_id)
+        return changed
+
+    async def skip(self, order_id: str, day: date) -> StandingOrder:
+        """Leave a day out of an order; one that is due on that day alone is removed.
+
+        Raises:
+            OrderRefusal: ``unknown_order``, ``order_ended``, ``order_change_none`` (it has no run
+                on that day), ``order_skips_full``, ``orders_unwritable``.
+        """
+        async with self._keeper.lock:
+            order = self.find(order_id)
+            now_s, zone = self._keeper.clocks.unix(), self._keeper.book.zone
+            if order.ended:
+                raise OrderRefusal("order_ended", order_id)
+            if not runs_on(order, day, now_s, zone):
+                raise OrderRefusal("order_change_none", f"no run on {day}")
+            skipped = days_left_out(order, day, now_s, zone)
+            if len(skipped) > MOST_SKIPPED:
+                raise OrderRefusal("order_skips_full", order_id, most=MOST_SKIPPED)
+            try:
+                if order.is_once:
+                    await self._keeper.remove(order_id)
+                    return order
+                changed = await self._keeper.revise(order_id, skipped=tuple(skipped))
             except StateUnavailable as error:
                 raise OrderRefusal("orders_unwritable", str(error)) from None
         self._corrector.note(order_id)

@@ -37,7 +37,7 @@ _WEEKDAYS = ("mon", "tue", "wed", "thu", "fri", "sat", "sun")
 def describe_question(asked: ListOrders) -> str:
     """Return a question about orders."""
     if asked.day is not None:
-        return f"list {_describe_part(asked.day)}"
+        return f"list {describe_part(asked.day)}"
     if not asked.next_runs:
         return f"list {asked.which}".strip()
     return f"{'when' if asked.is_sure else 'left'} {asked.which}".strip()
@@ -81,10 +81,11 @@ def _describe_weekday(weekday: int, week: int | None, *, asks: bool) -> str:
 
 
 def _describe(parts: tuple[Part, ...]) -> str:
-    return " ".join(map(_describe_part, parts))
+    return " ".join(map(describe_part, parts))
 
 
-def _describe_part(part: Part) -> str:
+def describe_part(part: Part) -> str:
+    """Return one part of a time."""
     match part:
         case TimeOfDay(hour=hour, minute=minute):
             return f"{hour}:{minute:02}"

@@ -31,8 +31,9 @@ if TYPE_CHECKING:
     from planner.language.schedule.command import OrderCommand
     from planner.language.schedule.parts import Part, ReadsTiming, ReadsWhole
 
-    Act = Literal["remove", "pause", "resume"]
+    Act = Literal["remove", "pause", "resume", "skip"]
 
+TODAY = OnceDay(ahead=0)
 
 _OFTEN = (
     r"(?:evening|morning|afternoon|night|nightly|daily|hourly|weekly|weekday|weekend|noon|monday"
@@ -111,10 +112,7 @@ def _read_english(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeO
         return replace(skipped, is_sure=False)
     tonight = re.fullmatch(rf"(?:don't|do not) {_THIS_DAY.pattern}", folded)
     if tonight is not None:
-        tomorrow = DayTime(hour=0, days_ahead=1)
-        return ChangeOrders(
-            "pause", tonight["rest"], until=tomorrow, until_words="until tomorrow", is_sure=False
-        )
+        return ChangeOrders("skip", tonight["rest"], day=TODAY, until_words="today", is_sure=False)
     denied = _NOT_ANY_MORE.fullmatch(folded)
     if denied is not None and reads(denied["what"], in_chinese=False):
         return ChangeOrders("remove", denied["what"])
@@ -126,11 +124,10 @@ def _read_english(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeO
 def _read_until(rest: str, whole: ReadsWhole, reads: ReadsTiming) -> ChangeOrders | None:
     """Read "the evening check until Monday", "my reminders for a week", "the check tonight"."""
     this_day, found = _THIS_DAY.fullmatch(rest), _UNTIL.fullmatch(rest)
-    until: DayTime | InRule | None = DayTime(hour=0, days_ahead=1)
-    words = "until tomorrow"
     if this_day is not None:
-        named = _read_named("pause", this_day["rest"], reads)
-    elif found is not None:
+        named = _read_named("skip", this_day["rest"], reads)
+        return None if named is None else replace(named, day=TODAY, until_words="today")
+    if found is not None:
         named = _read_named("pause", found["rest"], reads)
         until = _end_of(whole, found["t"], found["for"])
         words = found["words"]
@@ -248,8 +245,7 @@ def _zh_until(folded: str, reads: ReadsTiming, whole: ReadsWhole) -> ChangeOrder
     today = _ZH_TODAY.fullmatch(folded)
     if today is not None:
         which = today["a"] or today["b"] or today["c"]
-        tomorrow = DayTime(hour=0, days_ahead=1)
-        return ChangeOrders("pause", which, until=tomorrow, until_words="到明天", is_sure=False)
+        return ChangeOrders("skip", which, day=TODAY, until_words="今天", is_sure=False)
     found = _ZH_UNTIL.fullmatch(folded)
     if found is None:
         return None

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from planner.language.schedule.asked import ZH_KINDS
 from planner.language.schedule.chinese_corrections import ChineseCorrections
 from planner.language.schedule.command import ChangeOrders, CorrectOrder, LeaveOutDays
-from planner.language.schedule.parts import After
-from planner.plan.timing import DayTime, InRule
+from planner.language.schedule.parts import After, OnceDay
+from planner.plan.timing import InRule
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import OrderCommand
@@ -40,14 +40,14 @@ def read_chinese_skip(folded: str, whole: ReadsWhole) -> OrderCommand | None:
     found = ChineseCorrections(whole).read(folded)
     if found is not None and isinstance(found[0], LeaveOutDays) and not found[1]:
         return CorrectOrder(found[0], found[2] or folded, "", is_sure=False)
-    tomorrow = DayTime(hour=0, days_ahead=1)
+    today = OnceDay(ahead=0)
     if _TODAY.fullmatch(folded) is not None:
         return ChangeOrders(
-            "pause", "", is_single=True, until=tomorrow, until_words="到明天", is_sure=False
+            "skip", "", is_single=True, day=today, until_words="今天", is_sure=False
         )
     if _NO_REMINDER.fullmatch(folded) is not None:
         return ChangeOrders(
-            "pause", "", reminders=True, is_single=True, until=tomorrow, until_words="到明天",
+            "skip", "", reminders=True, is_single=True, day=today, until_words="今天",
             is_sure=False,
         )  # fmt: skip
     return _read_stopped(folded, whole)

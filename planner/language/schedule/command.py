@@ -46,9 +46,9 @@ class ListOrders:
 
 @dataclass(frozen=True, slots=True)
 class ChangeOrders:
-    """Remove, pause or resume the standing orders that these words name."""
+    """Remove, pause, resume or skip the standing orders that these words name."""
 
-    act: Literal["remove", "pause", "resume"]
+    act: Literal["remove", "pause", "resume", "skip"]
     which: str
     """As said, folded; empty: all of them."""
     reminders: bool = False
@@ -62,7 +62,7 @@ class ChangeOrders:
     until_words: str = ""
     """The same as said: "until Monday"; of a day that is left out, its words."""
     day: OnceDay | None = None
-    """The runs of this one day are left out, and no others."""
+    """Skip: the runs of this one day are left out, and no others."""
     is_sure: bool = True
     """False: "the red one" may be something else, where no order is called so."""
 

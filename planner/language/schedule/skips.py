@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from planner.language.schedule.command import ChangeOrders
 from planner.language.schedule.parts import DayPart, OnceDay
-from planner.plan.timing import DayTime
 
 if TYPE_CHECKING:
     from planner.language.schedule.parts import ReadsWhole
@@ -84,13 +83,9 @@ def _skip(words: str, day_words: str, whole: ReadsWhole) -> ChangeOrders | None:
     if parts_of_day and "tonight" not in day_words:  # of two a day the one is meant
         which = f"{which} in the {parts_of_day[0].value}".strip()
     if days[0] == OnceDay(ahead=0):
-        tomorrow = DayTime(hour=0, days_ahead=1)
-        return ChangeOrders(
-            "pause", which, reminders=reminds, until=tomorrow, until_words="until tomorrow",
-            is_sure=False,
-        )  # fmt: skip
+        day_words = "today"
     single = kind is not None and not which and words.endswith(("reminder", "alarm"))
     return ChangeOrders(
-        "pause", which, reminders=reminds, day=days[0], until_words=day_words, is_single=single,
+        "skip", which, reminders=reminds, day=days[0], until_words=day_words, is_single=single,
         is_sure=False,
     )  # fmt: skip

@@ -70,6 +70,18 @@ def test_an_order_is_given_listed_shown_paused_and_removed(client: TestClient) -
     assert client.get("/v1/orders").json()["orders"] == []
 
 
+def test_a_day_is_left_out_until_the_order_is_resumed(client: TestClient) -> None:
+    give(client, text="every evening at eight go to the kitchen")
+    skipped = client.post("/v1/orders/o1/skip", json={"day": "2027-01-15"}).json()
+    assert skipped["skipped"] == ["2027-01-15"]
+    assert skipped["when"]["en"] == "every day at 20:00 (not on Friday 2027-01-15)"
+    assert skipped["when"]["zh"] == "每天 20:00（周五 2027-01-15除外）"
+    assert client.get("/v1/orders/o1").json()["runs"][0] == "2027-01-16T20:00:00+01:00"
+    over = client.post("/v1/orders/o1/skip", json={"day": "2027-01-14"})
+    assert (over.status_code, over.json()["code"]) == (422, "order_change_none")
+    assert client.post("/v1/orders/o1/resume", json={}).json()["skipped"] == []
+
+
 def test_the_same_order_again_is_the_one_that_is_kept(client: TestClient) -> None:
     first = give(client, text="every evening at eight go to the kitchen")
     again = give(client, text="each evening at 8 pm go to the kitchen")

@@ -2,113 +2,18 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from pathlib import Path
 
 import pytest
 
 from planner.language.schedule.parts import OnceDay
-from planner.orders.skipping import SkipAct, skip_day
-from planner.plan import Clarify, Language
-from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, Rule, WorldEvent
-from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, Kept
-from tests.planner.orders.player import order
+from planner.plan.timing import CronRule
+from tests.planner.orders.fakes import NOON_UNIX_S, Kept
 from tests.planner.orders.test_corrector import say, take, tell
 
 DAY_S = 86_400.0
 TOMORROW, SUNDAY = OnceDay(ahead=1), OnceDay(weekday=6)
 """It is Friday, noon."""
-
-
-@pytest.mark.parametrize(
-    ("rule", "day", "act"),
-    [
-        (CronRule(cron="0 7 * * *"), TOMORROW, SkipAct.PAUSE),
-        (CronRule(cron="0 20 * * *"), TOMORROW, SkipAct.BETWEEN),
-        (CronRule(cron="0 7 * * *"), SUNDAY, SkipAct.BETWEEN),
-        (CronRule(cron="0 7 * * 0"), SUNDAY, SkipAct.PAUSE),
-        (CronRule(cron="0 7 * * 1"), SUNDAY, SkipAct.NOTHING),
-        (CronRule(cron="0 20 * * 1-5"), TOMORROW, SkipAct.NOTHING),
-        (EveryRule(seconds=3600.0, anchor_unix_s=NOON_UNIX_S), TOMORROW, SkipAct.BETWEEN),
-        (AtRule(unix_s=NOON_UNIX_S + DAY_S), TOMORROW, SkipAct.REMOVE),
-        (AtRule(unix_s=NOON_UNIX_S + 60.0), TOMORROW, SkipAct.NOTHING),
-        (EventRule(event=WorldEvent.PERSON_SEEN), TOMORROW, SkipAct.NOTHING),
-    ],
-)
-def test_what_leaves_a_day_out(rule: Rule, day: OnceDay, act: SkipAct) -> None:
-    skip = skip_day(order(1, rule), day, NOON_UNIX_S, BERLIN)
-    assert skip.act is act
-    end = datetime.fromtimestamp(skip.ends_s, BERLIN)
-    assert (end.hour, end.minute) == (0, 0)
-    assert skip.ends_s > NOON_UNIX_S
-
-
-def test_a_day_that_is_left_out_leaves_the_order_kept(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at seven wake me up")
-        assert "Paused: o1" in await say(kept, "don't wake me tomorrow")
-        kept_order = kept.orders.keeper.book.orders["o1"]
-        assert kept_order.paused
-        assert kept_order.resume_unix_s is not None
-        assert kept_order.resume_unix_s - NOON_UNIX_S == 1.5 * DAY_S
-
-    tell(tmp_path, story)
-
-
-def test_a_single_reminder_of_that_day_is_removed(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "tomorrow at nine remind me to call Sam")
-        assert "Removed: o1" in await say(kept, "don't remind me tomorrow")
-
-    tell(tmp_path, story)
-
-
-@pytest.mark.parametrize("text", ["no pills tomorrow", "don't remind me about the pills on Sunday"])
-def test_where_another_run_lies_between_a_person_says(tmp_path: Path, text: str) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every evening at eight remind me to take my pills")
-        asked = await take(kept, text)
-        assert isinstance(asked, Clarify)
-        assert len(asked.options) == 2
-        assert not kept.orders.keeper.book.orders["o1"].paused
-        pause, each = (option.text for option in asked.options)
-        assert "Paused: o1" in await say(kept, pause)
-        assert "except" in await say(kept, each)
-
-    tell(tmp_path, story)
-
-
-def test_of_several_a_person_says_which_and_none_is_left_out_before(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at 16:00 remind me to stretch")
-        await say(kept, "every day at 6:00 remind me to walk")
-        asked = await take(kept, "no reminders tomorrow")
-        assert isinstance(asked, Clarify)
-        assert [option.text for option in asked.options] == [
-            "skip order o1 tomorrow", "skip order o2 tomorrow"]  # fmt: skip
-        assert not any(o.paused for o in kept.orders.keeper.book.orders.values())
-        assert "Paused: o2" in await say(kept, asked.options[1].text)
-
-    tell(tmp_path, story)
-
-
-def test_what_fits_no_order_is_left_to_the_brain(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        assert await take(kept, "don't go to the kitchen tomorrow") is None
-        await say(kept, "every day at seven wake me up")
-        assert await take(kept, "don't go to the kitchen tomorrow") is None
-
-    tell(tmp_path, story)
-
-
-def test_the_question_is_told_in_both_languages(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every evening at eight remind me to take my pills")
-        asked = await take(kept, "no pills tomorrow")
-        assert isinstance(asked, Clarify)
-        assert all(asked.question.of(language) for language in Language)
-
-    tell(tmp_path, story)
 
 
 @pytest.mark.parametrize(

@@ -348,7 +348,6 @@ def test_the_order_that_these_words_name_is_removed(tmp_path: Path, given: str, 
         ("pause the evening hello until Monday", 2.5 * DAY_S),
         ("pause o1 until tomorrow", HOUR_S * 12),
         ("pause o1 for two hours", 2 * HOUR_S), ("把o1暂停到周一", 2.5 * DAY_S),
-        ("skip the one at eight tonight", HOUR_S * 12),
     ],
 )  # fmt: skip
 def test_a_pause_ends_by_itself(tmp_path: Path, text: str, until_s: float) -> None:

@@ -13,6 +13,7 @@ from planner.language.schedule import (
     ScheduleCommand,
     read_order_command,
 )
+from planner.language.schedule.parts import OnceDay
 from planner.plan.timing import DayTime, InRule
 
 TOMORROW = DayTime(hour=0, days_ahead=1)
@@ -48,7 +49,7 @@ def test_days_of_the_week_are_left_out(
 def test_today_alone_is_left_out(today: str, why: str, then: str) -> None:
     command = read_order_command(f"{today},{why}{then}")
     assert isinstance(command, ChangeOrders)
-    assert (command.act, command.which, command.until) == ("pause", "", TOMORROW)
+    assert (command.act, command.which, command.day) == ("skip", "", OnceDay(ahead=0))
     assert command.is_single
     assert not command.is_sure
 
