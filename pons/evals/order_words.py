@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 
 from planner.language.schedule import (
     Delay,
-    KeepHalf,
-    KeepToHours,
     LeaveOutDays,
     RemindAgain,
 )
@@ -51,13 +49,9 @@ def describe_change(command: CorrectOrder) -> str:
             return "again" if seconds is None else f"again {seconds:g}"
         case Delay(seconds=seconds):
             return f"change {which} by {seconds:g}"
-        case LeaveOutDays(days=days, keeps=keeps, is_one=is_one):
-            how = "only" if keeps else "perhaps without" if is_one else "without"
+        case LeaveOutDays(days=days, keeps=keeps):
+            how = "only" if keeps else "without"
             return f"change {which} {how} {list_days(days)}"
-        case KeepToHours(hours=hours):
-            return f"change {which} within {hours}"
-        case KeepHalf(part=part):
-            return f"change {which} half {part.value}"
         case change:
             old = f" not {_describe(change.instead_of)}" if change.instead_of else ""
             return f"change {which} to {_describe(change.parts)}{old}"

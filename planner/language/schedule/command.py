@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from planner.language.schedule.parts import DayPart, OnceDay, Part, Problem
+from planner.language.schedule.parts import OnceDay, Part, Problem
 from planner.plan.timing import DayTime, InRule, SpokenRule
 
 
@@ -22,12 +22,6 @@ class ScheduleCommand:
     reminder: str | None = None
     """The words that it reminds of; empty: of the time alone."""
     problem: Problem | None = None
-    who: str = ""
-    """Somebody is waited for by name, whom the robot can't tell from others."""
-    offer: str = ""
-    """A sentence that comes nearest to an event that can't be noticed."""
-    begins: OnceDay | None = None
-    """It is kept from this day on, and paused until then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +57,8 @@ class ChangeOrders:
     """The same as said: "until Monday"; of a day that is left out, its words."""
     day: OnceDay | None = None
     """Skip: the runs of this one day are left out, and no others."""
+    is_spoken: bool = False
+    """The order that was spoken of last is meant."""
     is_sure: bool = True
     """False: "the red one" may be something else, where no order is called so."""
 
@@ -83,8 +79,6 @@ class LeaveOutDays:
     days: frozenset[int]
     keeps: bool = False
     """Keep to these days, and leave the others out."""
-    is_one: bool = False
-    """"Not on Sunday": one Sunday, or each? A person says."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,21 +95,7 @@ class RemindAgain:
     seconds: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class KeepToHours:
-    """Heed an event in these hours of the day alone, like ``16:00-00:00``."""
-
-    hours: str
-
-
-@dataclass(frozen=True, slots=True)
-class KeepHalf:
-    """Keep an order's hour, in this part of the day: "in the afternoon, of course"."""
-
-    part: DayPart
-
-
-OrderChange = Retime | LeaveOutDays | Delay | RemindAgain | KeepToHours | KeepHalf
+OrderChange = Retime | LeaveOutDays | Delay | RemindAgain
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ import pytest
 
 from planner.language.schedule.parts import OnceDay
 from planner.plan.timing import CronRule
-from tests.planner.orders.fakes import NOON_UNIX_S, Kept
+from tests.planner.orders.fakes import Kept
 from tests.planner.orders.test_corrector import say, take, tell
 
 DAY_S = 86_400.0
@@ -45,10 +45,31 @@ def test_without_a_list_a_place_names_nothing(tmp_path: Path) -> None:
     tell(tmp_path, story)
 
 
+def test_days_named_first_move_the_whole_order(tmp_path: Path) -> None:
+    async def story(kept: Kept) -> None:
+        await say(kept, "every day at seven wake me up")
+        await say(kept, "make it Fridays at eight")
+        [order] = kept.orders.keeper.book.orders.values()
+        assert order.rule == CronRule(cron="0 8 * * 5")
+
+    tell(tmp_path, story)
+
+
+@pytest.mark.parametrize("text", ["move the wake-up call to eight on Fridays",
+                                  "make it eight on Fridays"])  # fmt: skip
+def test_an_hour_of_some_days_alone_is_refused(tmp_path: Path, text: str) -> None:
+    async def story(kept: Kept) -> None:
+        await say(kept, "every day at seven wake me up")
+        assert "Give it anew" in await say(kept, text)
+        [order] = kept.orders.keeper.book.orders.values()
+        assert order.rule == CronRule(cron="0 7 * * *")
+
+    tell(tmp_path, story)
+
+
 def test_all_of_them_are_dropped_where_all_are_meant(tmp_path: Path) -> None:
     async def story(kept: Kept) -> None:
-        for text in ("cancel both reminders", "remove all the orders",
-                     "delete everything I've set up"):  # fmt: skip
+        for text in ("cancel both reminders", "remove all the reminders", "取消所有提醒"):
             await say(kept, "remind me at 18:00 to call Sam")
             await say(kept, "remind me at 19:00 to call Mia")
             await say(kept, text)
@@ -57,51 +78,13 @@ def test_all_of_them_are_dropped_where_all_are_meant(tmp_path: Path) -> None:
     tell(tmp_path, story)
 
 
-def test_an_order_that_begins_later_is_paused_until_that_day(tmp_path: Path) -> None:
+def test_two_reminders_at_once_are_told_again_together(tmp_path: Path) -> None:
     async def story(kept: Kept) -> None:
-        told = await say(kept, "from Monday on, every night at eleven say good night")
-        assert "paused, on again on 2027-01-18 at 00:00" in told
-        monday = kept.orders.keeper.book.orders["o1"].resume_unix_s
-        assert monday is not None
-        assert monday - NOON_UNIX_S == 2.5 * DAY_S
-
-    tell(tmp_path, story)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "move the wake-up call to eight on Fridays",
-        "on Fridays make it eight",
-        "make it eight on Fridays",
-    ],
-)
-def test_an_hour_of_some_days_leaves_the_others_as_they_were(tmp_path: Path, text: str) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at seven wake me up")
-        assert "Changed." in await say(kept, text)
-        rules = [order.rule for order in kept.orders.keeper.book.orders.values()]
-        assert rules == [CronRule(cron="0 7 * * 0,1,2,3,4,6"), CronRule(cron="0 8 * * 5")]
-        words = {order.reminder for order in kept.orders.keeper.book.orders.values()}
-        assert words == {"time to get up"}
-
-    tell(tmp_path, story)
-
-
-def test_what_is_so_on_these_days_already_changes_nothing(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at seven wake me up")
-        assert "nothing has changed" in await say(kept, "move the wake-up call to seven on Fridays")
-        assert len(kept.orders.keeper.book.orders) == 1
-
-    tell(tmp_path, story)
-
-
-def test_days_named_first_move_the_whole_order(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at seven wake me up")
-        await say(kept, "make it Fridays at eight")
-        [order] = kept.orders.keeper.book.orders.values()
-        assert order.rule == CronRule(cron="0 8 * * 5")
+        await say(kept, "remind me in 20 minutes to take the cake out")
+        await say(kept, "remind me in 20 minutes to call Tom")
+        await kept.run_s(1210.0, 10.0)
+        await say(kept, "five more minutes")
+        again = [o for o in kept.orders.keeper.book.orders.values() if not o.ended]
+        assert [o.reminder for o in again] == ["take the cake out", "call Tom"]
 
     tell(tmp_path, story)

@@ -162,3 +162,15 @@ def test_an_order_of_an_older_program_leaves_no_day_out(tmp_path: Path) -> None:
         connection.execute("UPDATE standing_orders SET record = json_remove(record, '$.skipped')")
     [kept], *_ = OrderStore(database).load()
     assert kept.skipped == ()
+
+
+@pytest.mark.parametrize("text", ["not on Sunday", "这周日不用"])
+def test_a_day_alone_is_of_the_order_that_was_spoken_of_last(tmp_path: Path, text: str) -> None:
+    async def story(kept: Kept) -> None:
+        await say(kept, "every day at seven say hello")
+        await say(kept, "every evening at eight remind me to take my pills")
+        await say(kept, text)
+        skipped = {o.id: o.skipped for o in kept.orders.keeper.book.orders.values()}
+        assert skipped == {"o1": (), "o2": (SUNDAY,)}
+
+    tell(tmp_path, story)

@@ -96,15 +96,6 @@ def test_a_time_with_nothing_to_do_is_no_order(time: str, filler: str) -> None:
     assert not isinstance(read_order_command(f"{time} {filler}"), ScheduleCommand)
 
 
-def test_what_a_person_is_to_be_told_to_do_is_a_reminder() -> None:
-    told = read_order_command("every evening at eight, tell me to take my pills")
-    reminder = read_order_command("every evening at eight, remind me to take my pills")
-    assert isinstance(told, ScheduleCommand)
-    assert isinstance(reminder, ScheduleCommand)
-    assert (told.when, told.reminder) == (reminder.when, reminder.reminder)
-    assert read_order_command("tell me to take my pills") is None
-
-
 @pytest.mark.parametrize("text", ["at 8 yesterday go to the kitchen", "yesterday at 8 go home"])
 def test_an_hour_of_yesterday_is_over(text: str) -> None:
     command = read_order_command(text)
