@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from planner.language.schedule.command import (
     ChangeOrders,
@@ -17,6 +17,7 @@ from planner.language.schedule.command import (
     ListOrders,
     RemindAgain,
     Retime,
+    ask_days,
 )
 from planner.language.schedule.parts import (
     EVERY_DAY,
@@ -31,17 +32,16 @@ from planner.language.schedule.parts import (
 from planner.language.schedule.time_finder import reads_timing, whole_parts
 
 if TYPE_CHECKING:
-    from planner.language.schedule.command import OrderChange
+    from planner.language.schedule.command import Act, FoundChange
     from planner.language.schedule.parts import Part
 
-    Act = Literal["remove", "pause", "resume", "skip"]
-    Found = tuple[OrderChange, str, str]
 
 KINDS = r"(?:提醒|定时任务|定时命令|定时|常规任务|日程安排|日程|闹钟)"
 ALL = r"(?:所有|全部|一切)?的?(?:我的|你的|现有的|这些)?"
 _WHAT = r"(?:什么|啥|些什么|哪些)(?:事情?|安排|计划|任务|提醒|活动)?"
 _LIST = re.compile(
-    rf"(?:现在|目前|一共|我|都)*(?:有|(?:设置?|定|安排)了)(?:没有)?(?:哪些|什么|几个)?{KINDS}(?:吗|啊)?"
+    rf"(?:现在|目前|一共|我|都|还|看看)*(?:有|(?:设置?|定|安排)了)(?:没有)?(?:哪些|什么|啥|几个)?{KINDS}"
+    r"(?:在跑|没响)?(?:的)?(?:吗|啊)?"
     rf"|(?:列出|列一下|显示|看看|看一下|告诉我|说说|查看|查一下|念一下){ALL}(?:有(?:哪些|什么))?{KINDS}"
     rf"|把{ALL}{KINDS}(?:都)?(?:列出来|说一下|告诉我|念一下|念一遍)"
     r"|我(?:都)?(?:让|叫|要|请)你(?:定时)?(?:做|干)(?:了)?(?:什么|啥|哪些事情?)"
@@ -114,7 +114,8 @@ def read_asked(folded: str) -> ListOrders | None:
         return ListOrders()
     at_time = _AT_TIME.fullmatch(folded)
     if at_time is not None:
-        return _at_days(next(text for text in at_time.groupdict().values() if text))
+        words = next(text for text in at_time.groupdict().values() if text)
+        return ask_days(_parts(words), words)
     left = _LEFT.fullmatch(folded)
     if left is not None:
         named = left["a"] or ""
@@ -126,17 +127,6 @@ def read_asked(folded: str) -> ListOrders | None:
     which = re.sub(r"^下一?个?的?", "", asked["of2"] or asked["of"] or "")
     reminds = asked["kind"] in (None, "提醒")
     return ListOrders(which.strip("的了"), reminders=reminds, next_runs=True)
-
-
-def _at_days(words: str) -> ListOrders | None:
-    parts = _parts(words)
-    day = next((part for part in parts if isinstance(part, OnceDay)), None)
-    if day is not None:
-        return ListOrders(day=day)
-    if parts == (WeekDays(EVERY_DAY),):
-        return ListOrders()
-    timed = parts and all(isinstance(part, (WeekDays, DayPart)) for part in parts)
-    return ListOrders(words) if timed else None
 
 
 def read_change(folded: str) -> ChangeOrders | None:
@@ -239,7 +229,7 @@ def read_correction(folded: str) -> CorrectOrder | ChangeOrders | None:
     return CorrectOrder(change, words or folded, which, is_sure=sure)
 
 
-def _read_again(said: str) -> Found | None:
+def _read_again(said: str) -> FoundChange | None:
     found = _AGAIN.fullmatch(said)
     if found is None:
         return None
@@ -250,7 +240,7 @@ def _read_again(said: str) -> Found | None:
     return None if seconds is None else (RemindAgain(seconds), "", "")
 
 
-def _read_later(said: str) -> Found | None:
+def _read_later(said: str) -> FoundChange | None:
     found = _LATER.fullmatch(said)
     seconds = _lasts(found["n"]) if found is not None else None
     if found is None or seconds is None:
@@ -260,7 +250,7 @@ def _read_later(said: str) -> Found | None:
     return Delay(-seconds if early else seconds), _THAT.sub("", found["w"] or ""), words
 
 
-def _read_days(said: str) -> Found | ChangeOrders | None:
+def _read_days(said: str) -> FoundChange | ChangeOrders | None:
     """Read 周日不用, 只在工作日; 下周日不用 is that one day."""
     for pattern, keeps in ((_LEAVES_OUT, False), (_KEEPS_TO, True)):
         found = pattern.fullmatch(said)
@@ -282,7 +272,7 @@ def _day_of(words: str) -> Part | None:
     return parts[0] if len(parts) == 1 else None
 
 
-def _read_time(said: str) -> Found | None:
+def _read_time(said: str) -> FoundChange | None:
     for pattern in _RETIME:
         found = pattern.fullmatch(said)
         if found is None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from planner.language.schedule.parts import OnceDay, Part, Problem
+from planner.language.schedule.parts import EVERY_DAY, DayPart, OnceDay, Part, Problem, WeekDays
 from planner.plan.timing import DayTime, InRule, SpokenRule
+
+Act = Literal["remove", "pause", "resume", "skip"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +44,7 @@ class ListOrders:
 class ChangeOrders:
     """Remove, pause, resume or skip the standing orders that these words name."""
 
-    act: Literal["remove", "pause", "resume", "skip"]
+    act: Act
     which: str
     """As said, folded; empty: all of them."""
     reminders: bool = False
@@ -96,6 +98,8 @@ class RemindAgain:
 
 
 OrderChange = Retime | LeaveOutDays | Delay | RemindAgain
+FoundChange = tuple[OrderChange, str, str]
+"""A change, the words that name its order, and the change in words where others stand with it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,3 +123,14 @@ OrderCommand = ScheduleCommand | ListOrders | ChangeOrders | CorrectOrder
 def can_lean(command: OrderCommand) -> bool:
     """Tell whether a sentence means something else where no order is kept that it fits."""
     return not (isinstance(command, ScheduleCommand) or command.is_sure)
+
+
+def ask_days(parts: tuple[Part, ...], words: str) -> ListOrders | None:
+    """Return the question for the orders of a time: one day's, those of every evening, or all."""
+    day = next((part for part in parts if isinstance(part, OnceDay)), None)
+    if day is not None:
+        return ListOrders(day=day)
+    if parts == (WeekDays(EVERY_DAY),):
+        return ListOrders()
+    timed = parts and all(isinstance(part, (WeekDays, DayPart)) for part in parts)
+    return ListOrders(words) if timed else None

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from planner.language.schedule.command import (
     ChangeOrders,
@@ -19,9 +19,9 @@ from planner.language.schedule.command import (
     ListOrders,
     RemindAgain,
     Retime,
+    ask_days,
 )
 from planner.language.schedule.parts import (
-    EVERY_DAY,
     After,
     DayPart,
     OnceDay,
@@ -31,12 +31,9 @@ from planner.language.schedule.parts import (
 from planner.language.schedule.time_finder import reads_timing, whole_parts
 
 if TYPE_CHECKING:
-    from planner.language.schedule.command import OrderChange
+    from planner.language.schedule.command import Act, FoundChange
     from planner.language.schedule.parts import Part
 
-    Act = Literal["remove", "pause", "resume", "skip"]
-    Found = tuple[OrderChange, str, str]
-    """The change, the words that name an order, and the change in words where others stand with it."""
 
 KINDS = (
     r"(?:reminders?|standing orders?|routines?|schedules?|scheduled (?:tasks?|orders?|jobs?)"
@@ -54,6 +51,9 @@ _LIST = re.compile(
     rf"|(?:list|show|read|tell)(?: me)?(?: out)? {MY}{KINDS}"
     rf"|(?:(?:do (?:i|we) have|are there|is there|have (?:i|we) got) )?(?:any )?{KINDS}(?: set| left)?"
     rf"|what {_GAVE}(?: regularly| so far)?"
+    rf"|(?:what|which) (?:{KINDS}|orders|jobs|tasks|chores|duties) (?:(?:have|did) (?:i|we) (?:give|given|gave"
+    r"|set|tell|told|ask|asked|left)\b.*|(?:are|do) you (?:still )?(?:keep|keeping|have)\b.*)"
+    r"|(?:tell me|show me|list) what (?:you|i|we)(?:'ve| have)(?: got)? (?:planned|scheduled|set up)"
 )
 _AT_TIME = re.compile(
     rf"what (?:do you do(?: for (?:me|us))?|will you do|are you going to do|{_GAVE})(?: for| on)? (?P<a>.+)"
@@ -152,7 +152,9 @@ def read_asked(folded: str) -> ListOrders | None:
         return ListOrders()
     at_time = _AT_TIME.fullmatch(folded)
     if at_time is not None:
-        return _at_days(next(text for text in at_time.groupdict().values() if text))
+        words = next(text for text in at_time.groupdict().values() if text)
+        words = re.sub(r"\b(morning|afternoon|evening|night)s\b", r"\1", words)
+        return ask_days(_first(words, ("", "on ", "every ")), words)
     left = _LEFT.fullmatch(folded)
     if left is not None:
         named = left["a"] or left["b"] or ""
@@ -166,18 +168,6 @@ def read_asked(folded: str) -> ListOrders | None:
     which = asked["of2"] or asked["of"] or asked["what"] or ("wake" if asked["wake"] else "")
     kinds = asked["kind"] or "reminder"
     return ListOrders(which.strip(), reminders=kinds.startswith("reminder"), next_runs=True)
-
-
-def _at_days(words: str) -> ListOrders | None:
-    words = re.sub(r"\b(morning|afternoon|evening|night)s\b", r"\1", words)
-    parts = _first(words, ("", "on ", "every "))
-    day = next((part for part in parts if isinstance(part, OnceDay)), None)
-    if day is not None:
-        return ListOrders(day=day)
-    if parts == (WeekDays(EVERY_DAY),):
-        return ListOrders()
-    timed = parts and all(isinstance(part, (WeekDays, DayPart)) for part in parts)
-    return ListOrders(words) if timed else None
 
 
 def read_change(folded: str) -> ChangeOrders | None:
@@ -277,7 +267,7 @@ def read_correction(folded: str) -> CorrectOrder | ChangeOrders | None:
     return CorrectOrder(change, words or folded, which, is_sure=sure)
 
 
-def _read_again(said: str) -> Found | None:
+def _read_again(said: str) -> FoundChange | None:
     found = _AGAIN.fullmatch(said)
     if found is None:
         return None
@@ -289,7 +279,7 @@ def _read_again(said: str) -> Found | None:
     return None if seconds is None else (RemindAgain(seconds), "", "")
 
 
-def _read_later(said: str) -> Found | None:
+def _read_later(said: str) -> FoundChange | None:
     found = _LATER.fullmatch(said)
     lasts = (found["n"] or found["n2"]) if found is not None else ""
     seconds = _lasts(lasts) if lasts else None
@@ -301,7 +291,7 @@ def _read_later(said: str) -> Found | None:
     return Delay(-seconds if early else seconds), found["w"] or "", words
 
 
-def _read_days(said: str) -> Found | None:
+def _read_days(said: str) -> FoundChange | None:
     found = _DAYS.fullmatch(said)
     parts = _first(found["d"], ("on ", "every ", "at ")) if found is not None else ()
     if found is None or len(parts) != 1:
@@ -322,7 +312,7 @@ def _read_one_day(said: str) -> ChangeOrders | None:
                         is_sure=False)  # fmt: skip
 
 
-def _read_time(said: str) -> Found | None:
+def _read_time(said: str) -> FoundChange | None:
     for pattern in _RETIME:
         found = pattern.fullmatch(said)
         if found is None:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past",
-                  "order_no_such_date", "order_no_end"]  # fmt: skip
+                  "order_no_such_date", "order_no_end", "order_no_event", "order_time_within"]  # fmt: skip
 """Why a when that was said can't be kept."""
 
 

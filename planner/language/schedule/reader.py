@@ -29,6 +29,7 @@ from planner.language.schedule.parts import (
     Problem,
     TimeOfDay,
     Timing,
+    WeekDays,
     combine,
     is_once,
     lacks_time,
@@ -67,8 +68,21 @@ _TELL_ME = re.compile(
 )
 MAX_READ = 300
 """Characters; a longer sentence is no standing order."""
+_SEES = re.compile(
+    r"(?:if|when(?:ever)?|any ?time|each time|every time) (?:you )?(?:ever )?(?:see|spot|notice|detect) .+"
+    r" (?:at night|after dark|while (?:i'm|i am|we're|we are) .+?), (?:please )?(?:let|tell|call|warn) me\b.*"
+)
+_TO_EACH = re.compile(
+    r".+ (?:every(?:body|one)|any(?:body|one)|whoever|(?:each|any|all) (?:person|guests?|visitors?)|people)"
+    r"(?: who| that)? (?:comes?|coming|arriv(?:es?|ing)|enters?|walks?|walking) ?(?:in|by|home|past)?\b.*"
+)
+"""With ``_SEES``: waits for what is read as no event: done now it would be another order."""
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
 _WAKES = range(4, 12)
+_QUOTED = re.compile(r'[“"].*?[”"]')
+_DOES = re.compile(
+    r"(?:please |just )*(?:go|drive|come|head|look|check|patrol|visit|search|find|count|turn|do|have|take|make)\b"
+)
 _THEN = re.compile(r"(?:and|then)\b")
 _UNTIL = re.compile(r"\b(?:until|till)$")
 _CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
@@ -99,6 +113,8 @@ def _read_command(
     about = read_about(said.folded, chinese=is_chinese)
     if about is not None:
         return about
+    if not asks and _SEES.fullmatch(said.folded) is not None:
+        return ScheduleCommand(None, said.written, "", problem="order_no_event")
     courteous = (
         asks and grammar is english and fold_sentence(text).folded.startswith(("can", "could", "w"))
     )
@@ -111,7 +127,30 @@ def _read_command(
         return replace(
             corrects, otherwise=_read(said.strip(_NOT_NOW), grammar)
         )  # "… again in five"
-    return corrects or _read(said, grammar)
+    order = corrects or _read(said, grammar)
+    if order is None and not asks and (problem := _problem_of(said, grammar)) is not None:
+        return ScheduleCommand(None, said.written, "", problem=problem)
+    return order
+
+
+def _problem_of(said: FoldedSentence, grammar: ModuleType) -> Problem | None:
+    """Return why a sentence is no order of now either; None: it may be one.
+
+    A time that comes again and stands in the middle is passed over by nobody: "look round at ten
+    every night, and tell me who is in" is not done at once.
+    """
+    if grammar is chinese:
+        return None
+    if _TO_EACH.fullmatch(said.folded) is not None:
+        return "order_no_event"
+    plain = _QUOTED.sub(lambda found: " " * len(found[0]), said.folded)
+    if _DOES.match(plain) is None:
+        return None
+    for cut in re.finditer(r"(?<=[ ,])(?=every |each |daily)", plain):
+        parts = first_parts(plain[cut.start() :], grammar).parts
+        if any(isinstance(part, WeekDays) for part in parts):
+            return "order_time_within"
+    return None
 
 
 def _read_excepting(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
