@@ -68,7 +68,7 @@ def parser() -> argparse.ArgumentParser:
     kept = words.add_parser("orders", help="list standing orders, add, show, pause, remove one")
     kept.add_argument("act", nargs="?", default="list",
                       choices=("list", "add", "show", "pause", "resume", "skip",
-                               "remove"))  # fmt: skip
+                               "remove", "export", "import"))  # fmt: skip
     kept.add_argument("words", nargs="*", help="the order as a sentence, or an id; skip: and a day")
     kept.add_argument("--json", action="store_true")
     broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")

@@ -14,6 +14,8 @@ from pydantic import AwareDatetime, Field, model_validator
 
 from planner.api.crowd import address_of
 from planner.api.interfaces import Services
+from planner.api.order_calendar import add_routes
+from planner.api.order_problems import problem
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
 from planner.api.schemas import Body, law_broken
@@ -41,13 +43,6 @@ from wire.bounded_types import Name
 if TYPE_CHECKING:
     from planner.orders.factory import StandingOrders
 
-STATUS = {
-    "unknown_order": 404,
-    "order_ended": 409,
-    "orders_full": 409,
-    "order_skips_full": 409,
-    "orders_unwritable": 503,
-}
 A_SECOND, AT_ONCE = 1.0, 20
 """New orders of one address: each costs a thought."""
 RUNS_SHOWN = 5
@@ -125,6 +120,7 @@ def routes(services: Services) -> APIRouter:
     """Return the routes below /v1/orders."""
     router = APIRouter(prefix="/v1/orders", tags=["orders"])
     orders = services.orders
+    add_routes(router, orders)
     _looking(router, orders)
     _giving(router, orders)
     _changing(router, orders)
@@ -301,9 +297,3 @@ def _runs(orders: StandingOrders, order: StandingOrder) -> list[str]:
 def _time(orders: StandingOrders, unix_s: float) -> str:
     """Return an instant on the robot's own clock, with its offset."""
     return datetime.fromtimestamp(unix_s, orders.keeper.book.zone).isoformat(timespec="seconds")
-
-
-def problem(refused: OrderRefusal) -> HttpProblem:
-    """Say a refusal over HTTP, in both languages."""
-    status = STATUS.get(refused.code, 422)
-    return HttpProblem(status, refused.code, refused.detail, message=refused.message.model_dump())

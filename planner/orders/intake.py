@@ -144,7 +144,11 @@ class OrderIntake:
     # Giving -------------------------------------------------------------------------------------
 
     async def give(
-        self, new: NewOrder, goal_id: str, planned: Planned | None = None
+        self,
+        new: NewOrder,
+        goal_id: str,
+        planned: Planned | None = None,
+        allowed: tuple[StepRecord, ...] | None = None,
     ) -> StandingOrder:
         """Keep an order, on disk as this returns; the same one again is the one that is kept.
 
@@ -152,6 +156,7 @@ class OrderIntake:
             new: what is wanted.
             goal_id: to whose account the thought goes.
             planned: the thought about it, where there was one.
+            allowed: what it may do, where that was weighed already.
 
         Raises:
             OrderRefusal: see ``[order_refusal]`` of the catalogue.
@@ -162,10 +167,8 @@ class OrderIntake:
         if (asked := ask_which_day(new, now_s, book.zone)) is not None:
             raise OrderQuestion(asked, is_whole=True)
         rule = self._judge.judge(new, now_s)
-        if planned is not None:
-            allowed = judge_deed(new, planned)
-        else:
-            allowed = await self._think_of_deed(new, goal_id)
+        if allowed is None:
+            allowed = judge_deed(new, planned) if planned else await self.weigh(new, goal_id)
         async with self._keeper.lock:
             if (same := self._judge.find_same(new, rule)) is not None:
                 self._changer.note(same.id)
@@ -177,6 +180,7 @@ class OrderIntake:
                 text=new.text[:MAX_ORDER_CHARACTERS], order=new.order,
                 language=new.language, rule=rule, reminder=new.reminder,
                 source=new.source, allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
+                skipped=new.skipped, paused=new.paused,
             )  # fmt: skip
             try:
                 await self._keeper.keep(order)
@@ -193,7 +197,14 @@ class OrderIntake:
             return None
         return await self._goals.consider(command.order, ask.language, ask.id, ask.text)
 
-    async def _think_of_deed(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
+    async def weigh(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
+        """Return what an order would do each time; nothing is kept.
+
+        Raises:
+            OrderRefusal: it can't be kept.
+            OrderQuestion: the brain asks about it.
+        """
+        self._judge.judge(new, self._keeper.clocks.unix())
         if new.reminder:  # its words are fixed: no brain is asked
             return plan_record(StepPlan(steps=(Say(text=new.reminder),))).steps
         return judge_deed(

@@ -40,6 +40,8 @@ class NewOrder:
     words: str = ""
     reminder: str | None = None
     source: str = "api"
+    skipped: tuple[date, ...] = ()
+    paused: bool = False
 
 
 class OrderQuestion(Exception):
