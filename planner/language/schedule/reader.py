@@ -76,6 +76,10 @@ _TO_EACH = re.compile(
     r".+ (?:every(?:body|one)|any(?:body|one)|whoever|(?:each|any|all) (?:person|guests?|visitors?)|people)"
     r"(?: who| that)? (?:comes?|coming|arriv(?:es?|ing)|enters?|walks?|walking) ?(?:in|by|home|past)?\b.*"
 )
+_ZH_COMES = re.compile(
+    r"(?:当|等|等到|只要|一旦|每次|每当)[^,]{1,8}?(?:回来|回家|到家|进门|进屋|进来)(?:了|的时候|之后|以后|时|后)*,?"
+    r"(?:就|你|请)*(?:说|告诉|提醒|通知|[跟和给对].{1,3}(?:说|讲)).+"
+)
 """With ``_SEES``: waits for what is read as no event: done now it would be another order."""
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
 _WAKES = range(4, 12)
@@ -140,7 +144,7 @@ def _problem_of(said: FoldedSentence, grammar: ModuleType) -> Problem | None:
     every night, and tell me who is in" is not done at once.
     """
     if grammar is chinese:
-        return None
+        return "order_no_event" if _ZH_COMES.fullmatch(said.folded) is not None else None
     if _TO_EACH.fullmatch(said.folded) is not None:
         return "order_no_event"
     plain = _QUOTED.sub(lambda found: " " * len(found[0]), said.folded)

@@ -64,7 +64,7 @@ def what(each: NewOrder | StandingOrder, rule: object) -> tuple[object, ...]:
     """Return what an order is, without the number that a robot gives it."""
     shown = each.order if each.reminder is None else ""
     whole = StandingOrder(
-        id="o", number=0, text="t", order="x", language=Language.EN, rule=rule,  # type: ignore[arg-type]
+        id="o", number=0, text="t", order="x", language=Language.EN, rule=rule,
         created_unix_s=NOON_UNIX_S, handled_unix_s=NOON_UNIX_S, skipped=each.skipped,
     )  # fmt: skip
     timed = isinstance(rule, AtRule | CronRule | EveryRule)
