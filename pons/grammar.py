@@ -67,8 +67,9 @@ def parser() -> argparse.ArgumentParser:
     _places(words)
     kept = words.add_parser("orders", help="list standing orders, add, show, pause, remove one")
     kept.add_argument("act", nargs="?", default="list",
-                      choices=("list", "add", "show", "pause", "resume", "remove"))  # fmt: skip
-    kept.add_argument("words", nargs="*", help="the order as a sentence, or an id")
+                      choices=("list", "add", "show", "pause", "resume", "skip",
+                               "remove", "export", "import"))  # fmt: skip
+    kept.add_argument("words", nargs="*", help="the order as a sentence, or an id; skip: and a day")
     kept.add_argument("--json", action="store_true")
     broken = words.add_parser("fault", help="break the simulated robot; without a name, mend it")
     broken.add_argument("names", nargs="*", metavar="NAME", help="an unknown one lists them all")

@@ -56,6 +56,24 @@ def call(
         PlannerDown: no connection, no answer in time, or no JSON.
         PlannerProblem: a problem+json answer, with its stable code.
     """
+    return _judge(*_exchange(settings, method, path, body, timeout_s, headers, content))
+
+
+def fetch_text(settings: LaunchSettings, path: str) -> str:
+    """Return an answer that is a text and no JSON. Raises as ``call``."""
+    status, raw = _exchange(settings, "GET", path)
+    return raw.decode() if status == http.HTTPStatus.OK else str(_judge(status, raw))
+
+
+def _exchange(
+    settings: LaunchSettings,
+    method: str,
+    path: str,
+    body: dict[str, Any] | None = None,
+    timeout_s: float = DEFAULT_TIMEOUT_S,
+    headers: dict[str, str] | None = None,
+    content: bytes | None = None,
+) -> tuple[int, bytes]:
     connection = _connection(settings, timeout_s)
     try:
         sent = {"Content-Type": "application/json", **(headers or {})} if method != "GET" else {}
@@ -76,7 +94,7 @@ def call(
         raise PlannerDown(f"{settings.url}{path}: {str(error) or type(error).__name__}") from None
     finally:
         connection.close()
-    return _judge(status, raw)
+    return status, raw
 
 
 def _connection(settings: LaunchSettings, timeout_s: float) -> http.client.HTTPConnection:

@@ -1,32 +1,42 @@
 """Give the robot standing orders and look after them: ``pons orders [list|add|show|pause|resume|
-remove]``. Talks to the planner alone.
+skip|remove|export|import]``. Talks to the planner alone.
 """
 
 from __future__ import annotations
 
 import json
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
+from pons.http import PlannerDown, PlannerProblem, call, fetch_text, tell_unreached
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
-PATH = "/v1/orders"
-ACTS = ("list", "add", "show", "pause", "resume", "remove")
+PATH, CALENDAR = "/v1/orders", "/v1/orders.ics"
+THINKING_S = 60.0
+"""Each order of a file is thought about."""
+ACTS = ("list", "add", "show", "pause", "resume", "skip", "remove", "export", "import")
 
 
 def run(settings: LaunchSettings, act: str, words: list[str], *, as_json: bool = False) -> int:
     """Do one of the acts; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
     what = " ".join(words).strip()
-    if act != "list" and not what:
-        needed = "the order as a sentence" if act == "add" else "its id, as pons orders shows it"
+    if act not in ("list", "export") and not what:
+        needed = {"add": "the order as a sentence", "import": "an iCalendar file"}.get(
+            act, "its id, as pons orders shows it"
+        )
         print(f"no_order: pons orders {act} needs {needed}", file=sys.stderr)
         return EXIT_USAGE
     try:
+        if act == "export":
+            sys.stdout.write(fetch_text(settings, CALENDAR))
+            return EXIT_DONE
+        if act == "import":
+            return _import(settings, what)
         answer = _ask(settings, act, what)
     except PlannerProblem as refused:
         told = "\n".join(refused.told.values())
@@ -47,12 +57,41 @@ def _ask(settings: LaunchSettings, act: str, what: str) -> dict[str, Any]:
         return dict(call(settings, "GET", PATH))
     if act == "add":
         return dict(call(settings, "POST", PATH, {"text": what, "source": "cli"}))
+    if act == "skip":
+        what, _, day = what.partition(" ")
+        one = f"{PATH}/{quote(what, safe='')}/skip"
+        return dict(call(settings, "POST", one, {"day": day.strip()}))
     one = f"{PATH}/{quote(what, safe='')}"
     if act == "show":
         return dict(call(settings, "GET", one))
     if act == "remove":
         return dict(call(settings, "DELETE", one))
     return dict(call(settings, "POST", f"{one}/{act}", {}))
+
+
+def _import(settings: LaunchSettings, file: str) -> int:
+    """Show what a calendar file would have kept, and keep it after a yes."""
+    try:
+        text = Path(file).read_text("utf-8")
+    except (OSError, ValueError) as error:
+        print(f"no_file: {file}: {error}", file=sys.stderr)
+        return EXIT_USAGE
+    body = {"calendar": text, "source": "cli"}
+    told = call(settings, "POST", CALENDAR, body, THINKING_S)
+    for each in told["proposed"]:
+        skipped = f" (not on {', '.join(each['skipped'])})" if each["skipped"] else ""
+        print(f"{each['when']['en']}{skipped}: {each['does']['en']}  [{each['name']}]")
+    for each in told["refused"]:
+        why = each["message"]
+        print(f"refused {each['name']}: {each['code']}: {why['en']}\n{why['zh']}", file=sys.stderr)
+    if not told["proposed"]:
+        return EXIT_REFUSED
+    print(f"Keep these {len(told['proposed'])}? 要保留这些吗？ [y/N] ", end="", flush=True)
+    if sys.stdin.readline().strip().lower() not in ("y", "yes", "是"):
+        return EXIT_REFUSED
+    kept = call(settings, "POST", CALENDAR, {**body, "agreed": told["agree"]}, THINKING_S)["kept"]
+    print(f"kept {', '.join(kept)}")
+    return EXIT_DONE
 
 
 def _lines(act: str, answer: dict[str, Any]) -> list[str]:

@@ -6,7 +6,7 @@ Translates; decides nothing. Who may look may list them; whatever changes them i
 from __future__ import annotations
 
 import uuid
-from datetime import datetime
+from datetime import date, datetime
 from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter, Path, Query, Request, Response
@@ -14,6 +14,8 @@ from pydantic import AwareDatetime, Field, model_validator
 
 from planner.api.crowd import address_of
 from planner.api.interfaces import Services
+from planner.api.order_calendar import add_routes
+from planner.api.order_problems import problem
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
 from planner.api.schemas import Body, law_broken
@@ -21,8 +23,8 @@ from planner.language.sentence import language_of
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, order_of_text, tell_question
 from planner.orders.order import MAX_ORDERS, Firing, StandingOrder
-from planner.orders.rule import upcoming
-from planner.orders.telling import say_goal_of_reminder, tell_deed, tell_rule
+from planner.orders.skipping import coming_runs
+from planner.orders.telling import say_goal_of_reminder, tell_deed, tell_when
 from planner.orders.zone import name_of
 from planner.plan import Language
 from planner.plan.timing import (
@@ -41,12 +43,6 @@ from wire.bounded_types import Name
 if TYPE_CHECKING:
     from planner.orders.factory import StandingOrders
 
-STATUS = {
-    "unknown_order": 404,
-    "order_ended": 409,
-    "orders_full": 409,
-    "orders_unwritable": 503,
-}
 A_SECOND, AT_ONCE = 1.0, 20
 """New orders of one address: each costs a thought."""
 RUNS_SHOWN = 5
@@ -114,10 +110,17 @@ class NewStandingOrder(Body):
         return self
 
 
+class SkippedDay(Body):
+    """Name a day by the robot's own calendar."""
+
+    day: date
+
+
 def routes(services: Services) -> APIRouter:
     """Return the routes below /v1/orders."""
     router = APIRouter(prefix="/v1/orders", tags=["orders"])
     orders = services.orders
+    add_routes(router, orders)
     _looking(router, orders)
     _giving(router, orders)
     _changing(router, orders)
@@ -202,6 +205,17 @@ def _changing(router: APIRouter, orders: StandingOrders) -> None:
         """Let a paused order be due again, from now on."""
         return await _change(order_id, paused=False)
 
+    @router.post("/{order_id}/skip", operation_id="skip_order")
+    async def skip(order_id: OrderId, skipped: SkippedDay) -> dict[str, Any]:
+        """Leave one day out of an order: its runs of that day are not due, and nobody misses them.
+
+        Resuming the order takes all such days back; an order of that day alone is removed.
+        """
+        try:
+            return order_view(orders, await orders.intake.skip(order_id, skipped.day))
+        except OrderRefusal as refused:
+            raise problem(refused) from None
+
     @router.delete("/{order_id}", operation_id="remove_order")
     async def remove(order_id: OrderId) -> dict[str, Any]:
         """Remove an order, with its history. A goal of it that runs goes on."""
@@ -237,7 +251,7 @@ def order_view(orders: StandingOrders, order: StandingOrder) -> dict[str, Any]:
     """Return one standing order as people and pages read it."""
     book = orders.keeper.book
     due_s = book.due.get(order.id)
-    when = tell_rule(order.rule, book.zone, orders.keeper.clocks.unix())
+    when = tell_when(order, book.zone, orders.keeper.clocks.unix())
     resumes_s = order.resume_unix_s
     return {
         "id": order.id,
@@ -252,6 +266,7 @@ def order_view(orders: StandingOrders, order: StandingOrder) -> dict[str, Any]:
         "source": order.source,
         "state": "ended" if order.ended else "paused" if order.paused else "active",
         "resumes": _time(orders, resumes_s) if resumes_s is not None else None,
+        "skipped": [day.isoformat() for day in order.skipped],
         "next": _time(orders, due_s) if due_s is not None else None,
         "created": _time(orders, order.created_unix_s),
         "fired": order.fired,
@@ -275,16 +290,10 @@ def _runs(orders: StandingOrders, order: StandingOrder) -> list[str]:
     due_s = orders.keeper.book.due.get(order.id)
     if due_s is None:
         return []
-    later = upcoming(order.rule, due_s, orders.keeper.book.zone, RUNS_SHOWN - 1)
+    later = coming_runs(order, due_s, orders.keeper.book.zone, RUNS_SHOWN - 1)
     return [_time(orders, each) for each in (due_s, *later)]
 
 
 def _time(orders: StandingOrders, unix_s: float) -> str:
     """Return an instant on the robot's own clock, with its offset."""
     return datetime.fromtimestamp(unix_s, orders.keeper.book.zone).isoformat(timespec="seconds")
-
-
-def problem(refused: OrderRefusal) -> HttpProblem:
-    """Say a refusal over HTTP, in both languages."""
-    status = STATUS.get(refused.code, 422)
-    return HttpProblem(status, refused.code, refused.detail, message=refused.message.model_dump())

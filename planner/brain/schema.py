@@ -22,6 +22,7 @@ from planner.plan import (
     Step,
     Vocabulary,
 )
+from planner.plan.order_steps import ORDER_STEPS
 
 NAME = "plan"
 """The schema's name, and the forced tool's."""
@@ -92,7 +93,7 @@ def schema_of(vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE) -> di
     condition = _step_object(asked, ids, {})
     parts: dict[str, Any] = {name: {"type": "array", "items": held} for name in _HOLDS_STEPS}
     parts |= dict.fromkeys(_HOLDS_CONDITION, condition)
-    step = _step_object(models, ids, parts)
+    step = _step_object(models | ORDER_STEPS, ids, parts)
     codes = dict.fromkeys(code.value for code in (*CLARIFY_CODES, *REFUSE_CODES))
     return _object(
         {

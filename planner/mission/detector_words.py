@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner.language.changes.reader import read_changes
 from planner.language.object_names import prepare
-from planner.language.utterance import parse
+from planner.language.sentence import parse
 from planner.mission.place_words import names_of
 from planner.mission.reducer import looks, looks_widely
 from planner.mission.skills.viewpoints import near_spot, spots_in

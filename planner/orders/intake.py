@@ -10,26 +10,29 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
-from planner.language.catalogue import join, message, say
-from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, OrderCommand
+from planner.language.catalogue import message, say
+from planner.language.schedule import (
+    ChangeOrders,
+    ListOrders,
+    OrderCommand,
+    ScheduleCommand,
+)
 from planner.language.sentence import parse
 from planner.mission.events import Planned
 from planner.mission.state import ORDER_SOURCE
 from planner.orders.changer import OrderChanger
-from planner.orders.corrector import OrderCorrector
-from planner.orders.day_question import ask_which_day
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import (
     NewOrder,
     OrderQuestion,
+    ask_which_day,
     put_time_before,
     read_new_order,
 )
 from planner.orders.new_order_judge import NewOrderJudge, is_remark, judge_deed
 from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder, new_nonce
-from planner.orders.rule import settle
+from planner.orders.skipping import MOST_SKIPPED, days_left_out, runs_on
 from planner.orders.teller import OrderTeller
-from planner.orders.unfinished_order import UnfinishedOrder
 from planner.plan import (
     AnswerPlan,
     Bilingual,
@@ -43,14 +46,12 @@ from planner.plan import (
     plan_record,
     words_of,
 )
-from planner.plan.timing import AtRule, DayTime
 from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from datetime import date
 
-    from planner.language.schedule import ScheduleCommand
-    from planner.language.schedule.parts import OnceDay
     from planner.mission.effects import AskBrain
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport
@@ -82,8 +83,6 @@ class OrderIntake:
         """Take the keeper, and who thinks about orders."""
         self._keeper, self._goals = keeper, goals
         self._judge = NewOrderJudge(keeper, lambda: goals.book, report)
-        self._corrector = OrderCorrector(keeper, self)
-        self._unfinished = UnfinishedOrder()
         self._teller = OrderTeller(keeper, lambda: goals.book.facts)
         self._changer = OrderChanger(keeper, self, lambda: self._teller.last_list)
 
@@ -95,61 +94,37 @@ class OrderIntake:
         None where the sentence may be about something else, and no order is kept that it fits.
         """
         answered = bool(given.replies) and not isinstance(parse(ask.text).intent, OrderCommand)
-        if isinstance(command, CorrectOrder):
-            plan = await self._correct(command, ask, given, answered=answered)
-            if plan is not None or command.otherwise is None:
-                return None if plan is None else Planned(ask.id, plan)
-            command = command.otherwise
         if isinstance(command, ListOrders):
             told = self._teller.tell(command)
             return None if told is None else Planned(ask.id, AnswerPlan(text=told))
-        if isinstance(command, ChangeOrders):
-            plan = await self._changer.take(command, ask.language, ask.text if answered else None)
-            return None if plan is None else Planned(ask.id, plan)
-        now_s = self._keeper.clocks.unix()
-        lacked = command.problem
-        command = self._unfinished.finish(command, ask.text if answered else None, now_s, ask.text)
+        if not isinstance(command, ScheduleCommand):
+            answer = ask.text if answered else None
+            running = self._goals.book.running
+            busy = running is not None and running != given.id
+            plan = await self._changer.take(command, ask.language, answer, ask.id, is_busy=busy)
+            if plan is not None or isinstance(command, ChangeOrders) or command.otherwise is None:
+                return None if plan is None else Planned(ask.id, plan)
+            command = command.otherwise
         planned = None if answered else await self._consider_deed(command, ask)
         if planned is not None and is_remark(planned):
             return None  # "Tom comes home at six": the whole sentence is a brain's
-        if answered and lacked is None:  # about the order within: its words alone are put in
+        if answered:  # about the order within: its words alone are put in
             command = replace(command, order=ask.text)
-        if (asked := self._unfinished.ask(command, now_s)) is not None:
-            return Planned(ask.id, asked)
+        return Planned(ask.id, await self._keep(command, ask, given, planned))
+
+    async def _keep(
+        self, command: ScheduleCommand, ask: AskBrain, given: Mission, planned: Planned | None
+    ) -> AnswerPlan | Clarify | Refuse:
+        """Keep a new order and tell it, or say why not."""
         try:
-            new = read_new_order(command, ask.language, given)
-            new = replace(new, begins_unix_s=self._begin_of(command.begins))
-            order = await self.give(new, ask.id, planned)
+            order = await self.give(read_new_order(command, ask.language, given), ask.id, planned)
         except OrderRefusal as refused:
             why = message(Code.ORDER_NOT_KEPT, why=refused.message)
-            return Planned(ask.id, Refuse(code=Code.ORDER_NOT_KEPT, reason=why))
+            return Refuse(code=Code.ORDER_NOT_KEPT, reason=why)
         except OrderQuestion as question:
-            asked = (
-                question.asked if question.is_whole else put_time_before(question.asked, command)
-            )
-            return Planned(ask.id, asked)
-        told = self.line(order) if order.paused else self.tell_one(order)
-        if command.who:
-            told = join((told, say("standing.anybody", who=command.who)))
-        return Planned(ask.id, AnswerPlan(text=told))
-
-    def _begin_of(self, day: OnceDay | None) -> float | None:
-        """Return when the day begins from which an order is kept. Raises OrderRefusal."""
-        if day is None:
-            return None
-        said = DayTime(hour=0, days_ahead=day.ahead, weekday=day.weekday, week=day.week)
-        rule = settle(said, self._keeper.clocks.unix(), self._keeper.book.zone)
-        return rule.unix_s if isinstance(rule, AtRule) else None
-
-    async def _correct(
-        self, command: CorrectOrder, ask: AskBrain, given: Mission, *, answered: bool
-    ) -> AnswerPlan | Clarify | Refuse | None:
-        if answered:  # "the second one": of those that were asked about
-            picked = self._corrector.pick(command, ask.text)
-            command = replace(command, which=picked or ask.text, is_sure=True)
-        running = self._goals.book.running
-        busy = running is not None and running != given.id
-        return await self._corrector.take(command, ask.language, ask.id, is_busy=busy)
+            whole = question.is_whole
+            return question.asked if whole else put_time_before(question.asked, command)
+        return AnswerPlan(text=self.tell_one(order))
 
     async def change(self, command: ChangeOrders, language: Language) -> Bilingual | None:
         """Remove, pause or resume the orders that are meant, and say which; None: none is meant."""
@@ -169,7 +144,11 @@ class OrderIntake:
     # Giving -------------------------------------------------------------------------------------
 
     async def give(
-        self, new: NewOrder, goal_id: str, planned: Planned | None = None
+        self,
+        new: NewOrder,
+        goal_id: str,
+        planned: Planned | None = None,
+        allowed: tuple[StepRecord, ...] | None = None,
     ) -> StandingOrder:
         """Keep an order, on disk as this returns; the same one again is the one that is kept.
 
@@ -177,6 +156,7 @@ class OrderIntake:
             new: what is wanted.
             goal_id: to whose account the thought goes.
             planned: the thought about it, where there was one.
+            allowed: what it may do, where that was weighed already.
 
         Raises:
             OrderRefusal: see ``[order_refusal]`` of the catalogue.
@@ -187,13 +167,11 @@ class OrderIntake:
         if (asked := ask_which_day(new, now_s, book.zone)) is not None:
             raise OrderQuestion(asked, is_whole=True)
         rule = self._judge.judge(new, now_s)
-        if planned is not None:
-            allowed = judge_deed(new, planned)
-        else:
-            allowed = await self._think_of_deed(new, goal_id)
+        if allowed is None:
+            allowed = judge_deed(new, planned) if planned else await self.weigh(new, goal_id)
         async with self._keeper.lock:
             if (same := self._judge.find_same(new, rule)) is not None:
-                self._corrector.note(same.id)
+                self._changer.note(same.id)
                 return same
             self._judge.judge_room(new, rule)
             number = self._keeper.last_number + 1
@@ -202,13 +180,13 @@ class OrderIntake:
                 text=new.text[:MAX_ORDER_CHARACTERS], order=new.order,
                 language=new.language, rule=rule, reminder=new.reminder,
                 source=new.source, allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
-                paused=new.begins_unix_s is not None, resume_unix_s=new.begins_unix_s,
+                skipped=new.skipped, paused=new.paused,
             )  # fmt: skip
             try:
                 await self._keeper.keep(order)
             except StateUnavailable as error:
                 raise OrderRefusal("orders_unwritable", str(error)) from None
-        self._corrector.note(order.id)
+        self._changer.note(order.id)
         return order
 
     async def _consider_deed(self, command: ScheduleCommand, ask: AskBrain) -> Planned | None:
@@ -219,16 +197,19 @@ class OrderIntake:
             return None
         return await self._goals.consider(command.order, ask.language, ask.id, ask.text)
 
-    async def _think_of_deed(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
+    async def weigh(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
+        """Return what an order would do each time; nothing is kept.
+
+        Raises:
+            OrderRefusal: it can't be kept.
+            OrderQuestion: the brain asks about it.
+        """
+        self._judge.judge(new, self._keeper.clocks.unix())
         if new.reminder:  # its words are fixed: no brain is asked
             return plan_record(StepPlan(steps=(Say(text=new.reminder),))).steps
         return judge_deed(
             new, await self._goals.consider(new.order, new.language, goal_id, new.text)
         )
-
-    def judge_quiet(self, rule: Rule, now_s: float) -> None:
-        """Refuse a rule all of whose runs are left out. Raises OrderRefusal."""
-        self._judge.judge_quiet(rule, now_s)
 
     def refuse_offer(self, text: str) -> Bilingual | None:
         """Return why a standing order that a model offers could not be kept; None: it could."""
@@ -241,7 +222,7 @@ class OrderIntake:
     ) -> StandingOrder:
         """Pause an order (until then, where that is said), or resume it.
 
-        What was due meanwhile is not told.
+        What was due meanwhile is not told. One that is on already gets its skipped days back.
 
         Raises:
             OrderRefusal: ``unknown_order``, ``order_ended``, ``orders_unwritable``.
@@ -255,14 +236,63 @@ class OrderIntake:
                 handled_s = max(handled_s, self._keeper.clocks.unix())
             try:
                 changed = await self._keeper.revise(
-                    order_id,
-                    paused=paused,
-                    resume_unix_s=until_s if paused else None,
+                    order_id, paused=paused, resume_unix_s=until_s if paused else None,
                     handled_unix_s=handled_s,
+                    skipped=order.skipped if order.paused or paused else (),
+                )  # fmt: skip
+            except StateUnavailable as error:
+                raise OrderRefusal("orders_unwritable", str(error)) from None
+        self._changer.note(order_id)
+        return changed
+
+    async def skip(self, order_id: str, day: date) -> StandingOrder:
+        """Leave a day out of an order; one that is due on that day alone is removed.
+
+        Raises:
+            OrderRefusal: ``unknown_order``, ``order_ended``, ``order_change_none`` (it has no run
+                on that day), ``order_skips_full``, ``orders_unwritable``.
+        """
+        async with self._keeper.lock:
+            order = self.find(order_id)
+            now_s, zone = self._keeper.clocks.unix(), self._keeper.book.zone
+            if order.ended:
+                raise OrderRefusal("order_ended", order_id)
+            if not runs_on(order, day, now_s, zone):
+                raise OrderRefusal("order_change_none", f"no run on {day}")
+            skipped = days_left_out(order, day, now_s, zone)
+            if len(skipped) > MOST_SKIPPED:
+                raise OrderRefusal("order_skips_full", order_id, most=MOST_SKIPPED)
+            try:
+                if order.is_once:
+                    await self._keeper.remove(order_id)
+                    return order
+                changed = await self._keeper.revise(order_id, skipped=tuple(skipped))
+            except StateUnavailable as error:
+                raise OrderRefusal("orders_unwritable", str(error)) from None
+        self._changer.note(order_id)
+        return changed
+
+    async def move(self, order_id: str, rule: Callable[[Rule], Rule]) -> StandingOrder:
+        """Give an order another rule, made of the one that it has.
+
+        Raises:
+            OrderRefusal: ``unknown_order``, ``order_ended``, as the new rule's,
+                ``order_always_quiet``, ``orders_unwritable``; nothing has changed then.
+        """
+        async with self._keeper.lock:
+            kept, now_s = self.find(order_id), self._keeper.clocks.unix()
+            if kept.ended:
+                raise OrderRefusal("order_ended", order_id)
+            new = rule(kept.rule)
+            self._judge.judge_quiet(new, now_s)
+            words = kept.reminder or kept.order  # the sentence would tell the old time
+            try:
+                changed = await self._keeper.revise(
+                    order_id, rule=new, text=words, handled_unix_s=max(kept.handled_unix_s, now_s)
                 )
             except StateUnavailable as error:
                 raise OrderRefusal("orders_unwritable", str(error)) from None
-        self._corrector.note(order_id)
+        self._changer.note(order_id)
         return changed
 
     async def remove(self, order_id: str) -> StandingOrder:

@@ -8,19 +8,24 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from datetime import datetime
+from functools import partial
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import join, say
+from planner.language.catalogue import build, join, raw, say
 from planner.language.schedule import ScheduleCommand
 from planner.language.schedule.reader import MAX_READ
 from planner.language.sentence import language_of, parse
+from planner.orders.calendar_day import days_of_next
 from planner.orders.errors import OrderRefusal
 from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_REMINDER_CHARACTERS
 from planner.orders.telling import say_goal_of_reminder
-from planner.plan import Bilingual, Clarify, Language, Option, say_same
-from planner.plan.timing import AtRule, SpokenRule
+from planner.plan import Bilingual, Clarify, Code, Language, Option, say_same
+from planner.plan.timing import AtRule, DayTime, SpokenRule
 
 if TYPE_CHECKING:
+    from datetime import date, tzinfo
+
     from planner.mission.state import Mission
 
 
@@ -35,8 +40,8 @@ class NewOrder:
     words: str = ""
     reminder: str | None = None
     source: str = "api"
-    begins_unix_s: float | None = None
-    """Paused until then; None: it is kept from now on."""
+    skipped: tuple[date, ...] = ()
+    paused: bool = False
 
 
 class OrderQuestion(Exception):
@@ -142,3 +147,38 @@ def tell_question(asked: Clarify) -> Bilingual:
         return asked.question
     offers = join((say_same(f"“{each.text}”") for each in asked.options), "joint.name")
     return join((asked.question, offers))
+
+
+def ask_which_day(new: NewOrder, now_unix_s: float, zone: tzinfo) -> Clarify | None:
+    """Return the question about an order's day ("next Friday"); None where it is beyond doubt.
+
+    Each offer is the whole order again with its date, so that a yes to it is beyond doubt.
+    """
+    if not isinstance(new.when, DayTime):
+        return None
+    both = days_of_next(new.when, datetime.fromtimestamp(now_unix_s, zone))
+    if both is None:
+        return None
+    when = new.when
+    options = tuple(
+        Option(
+            label=build(partial(_date, day, when)),
+            text=_sentence(new, day, when),
+        )
+        for day in both
+    )
+    question = say("standing.which_day", first=options[0].label, second=options[1].label)
+    return Clarify(code=Code.AMBIGUOUS, question=question, options=options)
+
+
+def _date(day: date, when: DayTime, language: str) -> str:
+    weekday = raw(f"standing.day_{day.isoweekday() % 7}", language)
+    return f"{weekday} {day.isoformat()} {when.hour:02}:{when.minute:02}"
+
+
+def _sentence(new: NewOrder, day: date, when: DayTime) -> str:
+    code = "standing.dated_order" if new.reminder is None else "standing.dated_reminder"
+    words = new.order if new.reminder is None else new.reminder
+    time = f"{when.hour:02}:{when.minute:02}"
+    said = raw(code, new.language.value).format(date=day.isoformat(), time=time, order=words)
+    return said.strip()[:2000]

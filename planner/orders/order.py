@@ -6,6 +6,7 @@ can make the robot do one twice.
 
 from __future__ import annotations
 
+from datetime import date
 from enum import StrEnum
 from secrets import token_hex
 from typing import TYPE_CHECKING, Annotated
@@ -49,6 +50,8 @@ class StandingOrder(Frozen):
     paused: bool = False
     resume_unix_s: float | None = None
     """A pause ends by itself then."""
+    skipped: tuple[date, ...] = ()
+    """Days that are left out, by the robot's own calendar (``planner.orders.skipping``)."""
     ended: bool = False
     """It was due once, and that is over."""
     created_unix_s: float

@@ -10,14 +10,13 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING
 
-from planner.language.schedule import Delay, KeepHalf, KeepToHours, LeaveOutDays, Retime
+from planner.language.schedule import Delay, LeaveOutDays, Retime
 from planner.language.schedule.parts import (
     USUAL_HOUR,
     After,
     DayPart,
     EventPart,
     Interval,
-    MinutePart,
     MonthDay,
     OnceDay,
     TimeOfDay,
@@ -84,38 +83,12 @@ def correct_rule(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinf
             new = _on_days(rule, change)
         case Delay(seconds=seconds):
             new = _delay_rule(rule, seconds)
-        case KeepToHours(hours=hours) if isinstance(rule, EventRule):
-            new = rule.model_copy(update={"hours": hours})
-        case KeepHalf(part=part):
-            new = _in_half(rule, part, zone)
         case _:
             raise _unfit(rule)
     if new == rule:
         raise OrderRefusal("order_change_none", f"{rule.model_dump()} is so already")
     judge(new, now_unix_s, zone)
     return new
-
-
-def split_days(rule: Rule, change: OrderChange, zone: tzinfo) -> tuple[CronRule, CronRule] | None:
-    """Return the rule of the other days, and that of the days whose hour alone was changed.
-
-    "To seven on Fridays" leaves the other days as they were; "make it Fridays at seven" does not.
-    Raises OrderRefusal: ``order_change_none``.
-    """
-    weekly = read_weekly(rule)
-    if weekly is None or weekly.hour is None or not isinstance(change, Retime):
-        return None
-    match change.parts:
-        case (TimeOfDay() as clock, WeekDays(days=days)) if days < weekly.days:
-            at = _hour_minute(_time_of(rule, zone), clock, None)
-        case _:
-            return None
-    if at is None:
-        return None
-    if at == (weekly.hour, weekly.minute):
-        raise OrderRefusal("order_change_none", "it is so on these days already")
-    others = WeeklyTime(weekly.minute, weekly.hour, weekly.days - days)
-    return others.rule, WeeklyTime(at[1], at[0], days).rule
 
 
 def can_take(rule: Rule, change: OrderChange, now_unix_s: float, zone: tzinfo) -> bool:
@@ -138,11 +111,12 @@ def _retime_rule(rule: Rule, parts: tuple[Part, ...], now_unix_s: float, zone: t
     if len(others) > 1:
         raise OrderRefusal("order_nested", "several times")
     match others[0] if others else None:
-        case MinutePart(minutes=minutes):
-            return _at_minute(rule, minutes, zone)
         case None:
             return _at_hour(rule, clock, part, zone)
         case WeekDays(days=days):
+            weekly = read_weekly(rule)
+            if parts[0] == clock and weekly is not None and days < weekly.days:
+                raise _unfit(rule)  # "to seven on Fridays" leaves the other days as they are
             return _weekly(rule, days, clock, part, zone)
         case Interval():
             timing = combine(parts)
@@ -202,24 +176,6 @@ def _at_hour(rule: Rule, clock: TimeOfDay | None, part: DayPart | None, zone: tz
     said = DayTime(hour=at[0], minute=at[1], year=due.year, month=due.month, day=due.day)
     noon = due.replace(hour=0, minute=0).timestamp()
     return settle(said, noon - DAY_MINUTES * 60.0, zone)  # the past is judged by now, later
-
-
-def _at_minute(rule: Rule, minutes: int, zone: tzinfo) -> Rule:
-    """Return the rule at "half past" the hour that it has; "quarter to" is before that hour."""
-    before = _time_of(rule, zone)
-    if before is None:
-        raise _unfit(rule)
-    hour, minute = divmod((before[0] * 60 + minutes) % DAY_MINUTES, 60)
-    return _at_hour(rule, TimeOfDay(hour, minute, sure=True), None, zone)
-
-
-def _in_half(rule: Rule, part: DayPart, zone: tzinfo) -> Rule:
-    """Return the rule at the hour of the dial that it has, in a part of the day."""
-    before = _time_of(rule, zone)
-    if before is None:
-        raise _unfit(rule)
-    hour = hour_in(before[0] % 12 or 12, part) % 24
-    return _at_hour(rule, TimeOfDay(hour, before[1], sure=True), None, zone)
 
 
 def _at(rule: Rule) -> AtRule:

@@ -55,7 +55,7 @@ def settle(said: SpokenRule | AtRule, now_unix_s: float, zone: tzinfo) -> Rule:
             rule: Rule = AtRule(unix_s=now_unix_s + said.seconds, relative=True)
         case DayTime():
             rule = AtRule(unix_s=_instant(said, now_unix_s, zone))
-        case EveryRule():
+        case EveryRule() if not said.anchor_unix_s:  # said now; a calendar names its instant
             rule = EveryRule(seconds=said.seconds, anchor_unix_s=now_unix_s)
         case _:
             rule = said

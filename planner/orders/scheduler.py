@@ -19,7 +19,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from planner.orders.order import COOLDOWN_S, Firing, FiringState, StandingOrder, end_pauses
-from planner.orders.rule import is_quiet, next_due
+from planner.orders.rule import is_quiet
+from planner.orders.skipping import day_at, next_run
 from planner.plan import QuietHours
 from planner.plan.timing import AtRule, EventRule, EveryRule, WorldEvent
 
@@ -120,7 +121,7 @@ def put(book: OrderBook, order: StandingOrder) -> OrderBook:
     """Return the book with an order that is new or has changed; its next run is worked out."""
     due = {name: s for name, s in book.due.items() if name != order.id}
     if not (order.paused or order.ended or order.is_event):
-        next_s = next_due(order.rule, order.handled_unix_s, book.zone)
+        next_s = next_run(order, order.handled_unix_s, book.zone)
         if next_s is not None:
             due[order.id] = next_s
     return replace(book, orders={**book.orders, order.id: order}, due=due)
@@ -242,7 +243,7 @@ def _run(
     """Fire the newest run that is due, or say why not; those before it are missed."""
     skipped, before_s, newest_s = 0, due_s, due_s
     while skipped < MOST_COUNTED:
-        next_s = next_due(order.rule, newest_s, book.zone)
+        next_s = next_run(order, newest_s, book.zone)
         if next_s is None or next_s > now.unix_s:
             break
         skipped, before_s, newest_s = skipped + 1, newest_s, next_s
@@ -308,7 +309,8 @@ def _upon_event(
     hours = order.rule.hours if isinstance(order.rule, EventRule) else None
     if hours is not None and not is_quiet(QuietHours.read(hours), now.unix_s, book.zone):
         return book  # outside of the hours in which it counts
-    if order.paused or now.monotonic_s - last_s < COOLDOWN_S:
+    left_out = order.paused or day_at(now.unix_s, book.zone) in order.skipped
+    if left_out or now.monotonic_s - last_s < COOLDOWN_S:
         return book
     book = replace(book, fired_s={**book.fired_s, order.id: now.monotonic_s})
     return _fire(book, order, now.unix_s, world, now, effects)

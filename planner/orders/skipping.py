@@ -1,71 +1,76 @@
-"""Work out what it takes to leave out an order's runs of one day: "don't wake me tomorrow". Pure.
+"""Leave whole days out of an order, as iCalendar's EXDATE does: "don't wake me tomorrow". Pure.
 
-Law: nothing but that day's runs is left out. An order has no list of days that are left out, so it
-is paused from now until that day is over, where no other run lies between.
+Law: the runs of those days are left out, untold and uncounted, and no others.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from datetime import datetime, timedelta
-from enum import StrEnum
+from datetime import datetime, time, timedelta
 from typing import TYPE_CHECKING
 
 from planner.orders.calendar_day import day_of
 from planner.orders.rule import next_due
-from planner.plan.timing import AtRule, DayTime, EventRule
+from planner.plan.timing import DayTime, EventRule
 
 if TYPE_CHECKING:
-    from datetime import tzinfo
+    from collections.abc import Iterator
+    from datetime import date, tzinfo
 
     from planner.language.schedule.parts import OnceDay
     from planner.orders.order import StandingOrder
 
-
-class SkipAct(StrEnum):
-    """Name what leaves a day's runs out."""
-
-    PAUSE = "pause"
-    REMOVE = "remove"
-    """It comes once, on that day."""
-    BETWEEN = "between"
-    """A run of another day would be left out as well."""
-    NOTHING = "nothing"
-    """It has no run on that day."""
+MOST_SKIPPED = 100
+"""Days of one order that may be left out at a time."""
+_JUST_BEFORE_S = 1e-3
 
 
-@dataclass(frozen=True, slots=True)
-class DaySkip:
-    """Hold what leaves a day's runs out, when that day ends, and the run that lies before it."""
-
-    act: SkipAct
-    ends_s: float
-    weekday: int
-    """Monday is 0."""
-    due_s: float = 0.0
+def next_run(order: StandingOrder, after_unix_s: float, zone: tzinfo) -> float | None:
+    """Return the first run after this instant that lies on no day left out; None: there is none."""
+    due_s = next_due(order.rule, after_unix_s, zone)
+    while due_s is not None and (day := day_at(due_s, zone)) in order.skipped:
+        due_s = next_due(order.rule, _begin_s(day + timedelta(days=1), zone), zone)
+    return due_s
 
 
-def skip_day(order: StandingOrder, day: OnceDay, now_unix_s: float, zone: tzinfo) -> DaySkip:
-    """Return what leaves out the runs that an order has on a day that is named now."""
-    now = datetime.fromtimestamp(now_unix_s, zone)
-    said = DayTime(hour=23, minute=59, days_ahead=day.ahead, weekday=day.weekday, week=day.week)
-    meant = day_of(said, now, 23)
-    begin = datetime(meant.year, meant.month, meant.day, tzinfo=zone)
-    following = meant + timedelta(days=1)
-    end = datetime(following.year, following.month, following.day, tzinfo=zone)
-    begin_s, end_s = begin.timestamp(), end.timestamp()
-    is_today = meant == now.date()
-    due_s = next_due(order.rule, max(now_unix_s, order.handled_unix_s), zone)
-    if isinstance(order.rule, EventRule):  # at any time: paused now it is deaf until then
-        act = SkipAct.PAUSE if is_today else SkipAct.NOTHING
-        return DaySkip(act, end_s, meant.weekday())
-    if due_s is None or due_s >= end_s:
-        return DaySkip(SkipAct.NOTHING, end_s, meant.weekday())
-    if isinstance(order.rule, AtRule):
-        act = SkipAct.REMOVE if due_s >= begin_s else SkipAct.NOTHING
-        return DaySkip(act, end_s, meant.weekday(), due_s)
-    if due_s >= begin_s:
-        return DaySkip(SkipAct.PAUSE, end_s, meant.weekday(), due_s)
-    on_day_s = next_due(order.rule, begin_s - 1.0, zone)
-    has_run = on_day_s is not None and on_day_s < end_s
-    return DaySkip(SkipAct.BETWEEN if has_run else SkipAct.NOTHING, end_s, meant.weekday(), due_s)
+def coming_runs(
+    order: StandingOrder, after_unix_s: float, zone: tzinfo, count: int
+) -> Iterator[float]:
+    """Yield the next runs of an order, ``count`` at most."""
+    due_s: float | None = after_unix_s
+    for _ in range(count):
+        due_s = next_run(order, due_s if due_s is not None else after_unix_s, zone)
+        if due_s is None:
+            return
+        yield due_s
+
+
+def runs_on(order: StandingOrder, day: date, now_unix_s: float, zone: tzinfo) -> bool:
+    """Tell whether an order may still run on a day; one upon an event may on any from today on."""
+    if isinstance(order.rule, EventRule):
+        return day >= day_at(now_unix_s, zone) and day not in order.skipped
+    since_s = max(now_unix_s, order.handled_unix_s, _begin_s(day, zone))
+    due_s = next_run(order, since_s, zone)
+    return due_s is not None and day_at(due_s, zone) == day
+
+
+def days_left_out(order: StandingOrder, day: date, now_unix_s: float, zone: tzinfo) -> list[date]:
+    """Return an order's days that are left out, with one more and without those that are over."""
+    today = day_at(now_unix_s, zone)
+    return sorted({day, *(each for each in order.skipped if each >= today)})
+
+
+def find_day(said: OnceDay, now_unix_s: float, zone: tzinfo) -> date:
+    """Return the day that is named now, today as well."""
+    wanted = DayTime(hour=23, minute=59, days_ahead=said.ahead, weekday=said.weekday,
+                     week=said.week)  # fmt: skip
+    return day_of(wanted, datetime.fromtimestamp(now_unix_s, zone), 23)
+
+
+def day_at(unix_s: float, zone: tzinfo) -> date:
+    """Return the day of an instant."""
+    return datetime.fromtimestamp(unix_s, zone).date()
+
+
+def _begin_s(day: date, zone: tzinfo) -> float:
+    """Return the instant before a day, so that a run at midnight is after it."""
+    return datetime.combine(day, time(), zone).timestamp() - _JUST_BEFORE_S

@@ -9,9 +9,8 @@ from datetime import date, datetime, time, timedelta
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import list_names, say
-from planner.orders.calendar_day import day_of
-from planner.orders.rule import next_due, upcoming
 from planner.orders.selection import select
+from planner.orders.skipping import coming_runs, find_day, next_run
 from planner.orders.telling import (
     MOST_TOLD,
     tell_deed,
@@ -21,7 +20,7 @@ from planner.orders.telling import (
     tell_rule,
     tell_time,
 )
-from planner.plan.timing import AtRule, DayTime
+from planner.plan.timing import AtRule
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,7 +87,7 @@ class OrderTeller:
     def tell_one(self, order: StandingOrder) -> Bilingual:
         """Return what a person hears when an order is taken."""
         book, now_s = self._keeper.book, self._now_s
-        due_s = book.due.get(order.id, next_due(order.rule, now_s, book.zone))
+        due_s = book.due.get(order.id, next_run(order, now_s, book.zone))
         return tell_kept(self._facts(), order, due_s, book.zone, now_s)
 
     @property
@@ -122,9 +121,7 @@ class OrderTeller:
         now = datetime.fromtimestamp(now_s, zone)
         if asked.day is None:
             return None
-        wanted = DayTime(hour=23, minute=59, days_ahead=asked.day.ahead,
-                         weekday=asked.day.weekday, week=asked.day.week)  # fmt: skip
-        day = day_of(wanted, now, 23)
+        day = find_day(asked.day, now_s, zone)
         begin_s = max(now_s, datetime.combine(day, time(), zone).timestamp() - 1e-3)
         end_s = datetime.combine(day + timedelta(days=1), time(), zone).timestamp()
         told: list[tuple[float, Bilingual]] = []
@@ -132,7 +129,7 @@ class OrderTeller:
             if order.paused and not (order.resume_unix_s and order.resume_unix_s < end_s):
                 continue
             since_s = max(begin_s, order.handled_unix_s, order.resume_unix_s or 0.0)
-            runs = [s for s in upcoming(order.rule, since_s, zone, MOST_A_DAY + 1) if s < end_s]
+            runs = [s for s in coming_runs(order, since_s, zone, MOST_A_DAY + 1) if s < end_s]
             told += self._lines_of_day(order, runs)
         name = self._name_of_day(day, now.date())
         if not told:

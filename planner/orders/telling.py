@@ -11,7 +11,7 @@ from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from datetime import tzinfo
+    from datetime import date, tzinfo
 
     from planner.orders.order import Firing, StandingOrder
     from planner.plan import StepRecord
@@ -42,6 +42,19 @@ def tell_rule(rule: Rule, zone: tzinfo, now_unix_s: float) -> Bilingual:
                 return upon
             first, last = rule.hours.split("-")
             return say("standing.upon_within", upon=upon, first=first, last=last)
+
+
+def tell_when(order: StandingOrder, zone: tzinfo, now_unix_s: float) -> Bilingual:
+    """Return when an order is due, in words, with the days that are left out."""
+    when = tell_rule(order.rule, zone, now_unix_s)
+    today = datetime.fromtimestamp(now_unix_s, zone).date()
+    days = [_tell_day(day) for day in order.skipped if day >= today]
+    return say("standing.but_not", when=when, days=list_names(days, "joint.and")) if days else when
+
+
+def _tell_day(day: date) -> Bilingual:
+    weekday = say(f"standing.day_{day.isoweekday() % 7}")
+    return say("standing.day_date", weekday=weekday, date=day.isoformat())
 
 
 def _tell_cron(cron: str) -> Bilingual:
@@ -142,7 +155,7 @@ def tell_kept(
     facts: SiteView, order: StandingOrder, due_s: float | None, zone: tzinfo, now_unix_s: float
 ) -> Bilingual:
     """Return what a person hears when an order is taken."""
-    when = capitalise(tell_rule(order.rule, zone, now_unix_s))
+    when = capitalise(tell_when(order, zone, now_unix_s))
     said = say("standing.kept", when=when, deed=tell_deed(facts, order))
     if due_s is None or order.is_once:
         return said
@@ -153,7 +166,7 @@ def tell_kept(
 def tell_order(facts: SiteView, order: StandingOrder, zone: tzinfo, now_unix_s: float) -> Bilingual:
     """Return an order in one line: "o3: every day at 20:00: look. (paused)"."""
     code = "standing.line_paused" if order.paused else "standing.line"
-    when = tell_rule(order.rule, zone, now_unix_s)
+    when = tell_when(order, zone, now_unix_s)
     if order.paused and order.resume_unix_s is not None:
         until, deed = tell_time(order.resume_unix_s, zone, now_unix_s), tell_deed(facts, order)
         return say("standing.line_paused_until", id=order.id, until=until, when=when, deed=deed)

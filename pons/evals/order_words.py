@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 
 from planner.language.schedule import (
     Delay,
-    KeepHalf,
-    KeepToHours,
     LeaveOutDays,
     RemindAgain,
 )
@@ -37,7 +35,7 @@ _WEEKDAYS = ("mon", "tue", "wed", "thu", "fri", "sat", "sun")
 def describe_question(asked: ListOrders) -> str:
     """Return a question about orders."""
     if asked.day is not None:
-        return f"list {_describe_part(asked.day)}"
+        return f"list {describe_part(asked.day)}"
     if not asked.next_runs:
         return f"list {asked.which}".strip()
     return f"{'when' if asked.is_sure else 'left'} {asked.which}".strip()
@@ -51,13 +49,9 @@ def describe_change(command: CorrectOrder) -> str:
             return "again" if seconds is None else f"again {seconds:g}"
         case Delay(seconds=seconds):
             return f"change {which} by {seconds:g}"
-        case LeaveOutDays(days=days, keeps=keeps, is_one=is_one):
-            how = "only" if keeps else "perhaps without" if is_one else "without"
+        case LeaveOutDays(days=days, keeps=keeps):
+            how = "only" if keeps else "without"
             return f"change {which} {how} {list_days(days)}"
-        case KeepToHours(hours=hours):
-            return f"change {which} within {hours}"
-        case KeepHalf(part=part):
-            return f"change {which} half {part.value}"
         case change:
             old = f" not {_describe(change.instead_of)}" if change.instead_of else ""
             return f"change {which} to {_describe(change.parts)}{old}"
@@ -81,10 +75,11 @@ def _describe_weekday(weekday: int, week: int | None, *, asks: bool) -> str:
 
 
 def _describe(parts: tuple[Part, ...]) -> str:
-    return " ".join(map(_describe_part, parts))
+    return " ".join(map(describe_part, parts))
 
 
-def _describe_part(part: Part) -> str:
+def describe_part(part: Part) -> str:
+    """Return one part of a time."""
     match part:
         case TimeOfDay(hour=hour, minute=minute):
             return f"{hour}:{minute:02}"

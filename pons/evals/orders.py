@@ -24,7 +24,7 @@ from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule
 from planner.site.site_view import vocabulary_of
 from pons.evals.cases import HELD_OUT, TUNED
 from pons.evals.matchers import BadMatcher, read_expectation
-from pons.evals.order_words import describe_change, describe_day, describe_question
+from pons.evals.order_words import describe_change, describe_day, describe_part, describe_question
 from pons.evals.world import new_goal
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 ORDERS = Path(__file__).parent / "orders"
 KINDS = ("cron", "every", "in", "day", "event", "list", "when", "left", "remove", "pause", "resume",
-         "change", "again", "problem", "none", "stops")  # fmt: skip
+         "skip", "change", "again", "problem", "none", "stops")  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +108,8 @@ def describe(intent: Intent | None) -> str:
             return describe_question(intent)
         case ChangeOrders():
             until = f" until {_tell_rule(intent.until)}" if intent.until is not None else ""
-            return f"{intent.act} {intent.which}".strip() + until
+            day = f" {describe_part(intent.day)}" if intent.day is not None else ""
+            return f"{intent.act} {intent.which}".strip() + until + day
         case CorrectOrder():
             return describe_change(intent)
         case ScheduleCommand() if intent.when is not None:
@@ -138,6 +139,10 @@ def _names(wanted: str, intent: ChangeOrders) -> bool:
     named, _, until = wanted.partition(" until ")
     act, _, which = named.partition(" ")
     read = _tell_rule(intent.until) if intent.until is not None else ""
+    if intent.day is not None:
+        which, _, day = which.rpartition(" ")
+        if day != describe_part(intent.day):
+            return False
     words = all(word in intent.which for word in which.split())
     return act == intent.act and words and until == read
 

@@ -15,6 +15,7 @@ from typing import Any, TypeGuard
 
 from pydantic import ValidationError
 
+from planner.brain.endpoint.order_proposal import propose_order
 from planner.brain.endpoint.reply_object import NoObject, read_reply
 from planner.brain.schema import CLARIFY_CODES, EVIDENCE, KINDS, MOST_DEG, REFUSE_CODES
 from planner.language.folding import fold_words
@@ -106,6 +107,11 @@ def _reshape(reply: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any] | 
     if extra:
         takes, found = ", ".join(sorted(_KEYS[kind])), ", ".join(extra[:MAX_REASONS])
         return Unusable((f"{kind} takes {takes} and not: {found}",))
+    listed = filled.get("steps")
+    if kind == "plan" and isinstance(listed, list):
+        proposed = propose_order(listed)
+        if proposed is not None:
+            return Unusable((proposed,)) if isinstance(proposed, str) else proposed.model_dump()
     if kind == "plan":
         steps = resolve_places(filled.get("steps"), vocabulary)
         shaped = _steps(steps, filled.get("does", PlanRole.NEW.value))

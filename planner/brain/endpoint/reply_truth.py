@@ -10,10 +10,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from planner.brain.endpoint.order_proposal import names_order
 from planner.brain.endpoint.plan_reply import Unusable, clean
 from planner.language.commands import Forget, ForgetFacts
 from planner.language.folding import fold_words, has_chinese
-from planner.language.schedule import ChangeOrders, ScheduleCommand, split_time
+from planner.language.schedule import ChangeOrders, CorrectOrder, ScheduleCommand, split_time
 from planner.language.sentence import language_of, parse
 from planner.plan import AnswerPlan, Ask, Clarify, Language, Say, StepPlan, words_of
 from planner.plan.steps import DRIVES
@@ -136,7 +137,10 @@ def _traps(plan: Clarify, request: ThinkRequest) -> str | None:
     timed = timed or any(split_time(fold_words(words))[0] for words in said if words)
     for option in plan.options:
         intent, shown = parse(option.text).intent, f"option “{clean(option.text)[:60]}”"
-        if isinstance(intent, Forget | ForgetFacts | ChangeOrders) and not deletes:
+        named = names_order(intent, tuple(words for words in said if words))
+        if isinstance(intent, CorrectOrder) and not (named or timed):
+            return f"{shown} changes a standing order that the person did not name"
+        if isinstance(intent, Forget | ForgetFacts | ChangeOrders) and not (deletes or named):
             return f"{shown} deletes what is kept, which nobody asked for"
         if isinstance(intent, ScheduleCommand) and not timed:
             return f"{shown} is a standing order, and the person named no time"

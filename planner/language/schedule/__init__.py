@@ -8,8 +8,6 @@ from planner.language.schedule.command import (
     ChangeOrders,
     CorrectOrder,
     Delay,
-    KeepHalf,
-    KeepToHours,
     LeaveOutDays,
     ListOrders,
     OrderChange,
@@ -19,15 +17,13 @@ from planner.language.schedule.command import (
     ScheduleCommand,
     can_lean,
 )
-from planner.language.schedule.reader import complete_order, read_order_command
+from planner.language.schedule.reader import read_order_command
 from planner.language.schedule.time_finder import split_time
 
 __all__ = [
     "ChangeOrders",
     "CorrectOrder",
     "Delay",
-    "KeepHalf",
-    "KeepToHours",
     "LeaveOutDays",
     "ListOrders",
     "OrderChange",
@@ -36,7 +32,6 @@ __all__ = [
     "Retime",
     "ScheduleCommand",
     "can_lean",
-    "complete_order",
     "read_order_command",
     "split_time",
 ]

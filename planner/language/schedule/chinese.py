@@ -24,12 +24,16 @@ from planner.language.schedule.parts import (
     WeekDays,
     hour_in,
 )
-from planner.language.schedule.placed_reminders import KIN
 from planner.plan.timing import WorldEvent
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+KIN = (
+    r"(?:和|跟|与|家|爸|妈|爹|娘|爷|奶|姥|外[公婆]|阿[公婆姨爷嬷]|儿子|女儿|闺女|孩子|小孩|宝|囡|孙|老[公婆爸妈]|丈夫|妻子"
+    r"|哥|姐|弟|妹|叔|姑|舅|婶|姨|室友|同学|朋友|的|们的|们家)"
+)
+"""Behind 我 these are who is meant: 叫我儿子起床 wakes the son, 叫我起床 the one who speaks."""
 GAP = re.compile(r"[,、]*(?:的时候|的)?[,、]*")
 _PARTS = {
     "清晨": DayPart.MORNING, "早上": DayPart.MORNING, "早晨": DayPart.MORNING, "早": DayPart.MORNING,

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from planner.language.schedule.parts import DayPart, OnceDay, Part, Problem
+from planner.language.schedule.parts import EVERY_DAY, DayPart, OnceDay, Part, Problem, WeekDays
 from planner.plan.timing import DayTime, InRule, SpokenRule
+
+Act = Literal["remove", "pause", "resume", "skip"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,12 +24,6 @@ class ScheduleCommand:
     reminder: str | None = None
     """The words that it reminds of; empty: of the time alone."""
     problem: Problem | None = None
-    who: str = ""
-    """Somebody is waited for by name, whom the robot can't tell from others."""
-    offer: str = ""
-    """A sentence that comes nearest to an event that can't be noticed."""
-    begins: OnceDay | None = None
-    """It is kept from this day on, and paused until then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +42,9 @@ class ListOrders:
 
 @dataclass(frozen=True, slots=True)
 class ChangeOrders:
-    """Remove, pause or resume the standing orders that these words name."""
+    """Remove, pause, resume or skip the standing orders that these words name."""
 
-    act: Literal["remove", "pause", "resume"]
+    act: Act
     which: str
     """As said, folded; empty: all of them."""
     reminders: bool = False
@@ -62,7 +58,9 @@ class ChangeOrders:
     until_words: str = ""
     """The same as said: "until Monday"; of a day that is left out, its words."""
     day: OnceDay | None = None
-    """The runs of this one day are left out, and no others."""
+    """Skip: the runs of this one day are left out, and no others."""
+    is_spoken: bool = False
+    """The order that was spoken of last is meant."""
     is_sure: bool = True
     """False: "the red one" may be something else, where no order is called so."""
 
@@ -83,8 +81,6 @@ class LeaveOutDays:
     days: frozenset[int]
     keeps: bool = False
     """Keep to these days, and leave the others out."""
-    is_one: bool = False
-    """"Not on Sunday": one Sunday, or each? A person says."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,21 +97,9 @@ class RemindAgain:
     seconds: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class KeepToHours:
-    """Heed an event in these hours of the day alone, like ``16:00-00:00``."""
-
-    hours: str
-
-
-@dataclass(frozen=True, slots=True)
-class KeepHalf:
-    """Keep an order's hour, in this part of the day: "in the afternoon, of course"."""
-
-    part: DayPart
-
-
-OrderChange = Retime | LeaveOutDays | Delay | RemindAgain | KeepToHours | KeepHalf
+OrderChange = Retime | LeaveOutDays | Delay | RemindAgain
+FoundChange = tuple[OrderChange, str, str]
+"""A change, the words that name its order, and the change in words where others stand with it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,3 +123,14 @@ OrderCommand = ScheduleCommand | ListOrders | ChangeOrders | CorrectOrder
 def can_lean(command: OrderCommand) -> bool:
     """Tell whether a sentence means something else where no order is kept that it fits."""
     return not (isinstance(command, ScheduleCommand) or command.is_sure)
+
+
+def ask_days(parts: tuple[Part, ...], words: str) -> ListOrders | None:
+    """Return the question for the orders of a time: one day's, those of every evening, or all."""
+    day = next((part for part in parts if isinstance(part, OnceDay)), None)
+    if day is not None:
+        return ListOrders(day=day)
+    if parts == (WeekDays(EVERY_DAY),):
+        return ListOrders()
+    timed = parts and all(isinstance(part, (WeekDays, DayPart)) for part in parts)
+    return ListOrders(words) if timed else None

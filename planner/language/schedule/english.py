@@ -18,7 +18,6 @@ from planner.language.schedule.parts import (
     DayPart,
     EventPart,
     Interval,
-    MinutePart,
     OnceDay,
     Part,
     TimeOfDay,
@@ -80,10 +79,6 @@ _AT = re.compile(
     rf"(?:at (?:{_ABOUT} |exactly )?|{_ABOUT} (?=(?:{_H})(?: (?:{_M}))?(?: or so|[,.;!]|$| {_ORDERS}\b| (?:tomorrow|today|tonight|in the)\b)))"
     rf"(?P<h>{_H})(?: (?P<m>{_M}))?(?: sharp| or so|ish)?{_END}(?! (?:past|to) (?:{_H})\b)"
 )
-_PAST_HOUR = re.compile(
-    rf"(?:at )?(?P<m>half|(?:a )?quarter|five|ten|twenty) (?P<way>past|to){_END}(?! (?:{_H})\b)(?=[ ,.;!]*$)"
-)
-"""Without its hour, which an order that is changed has."""
 _IN_THE = re.compile(rf"(?:in the (?P<a>{_PART})|at (?P<b>night|noon)){_END}")
 _AT_NOON = re.compile(rf"at noon{_END}")
 _EVERY = re.compile(
@@ -176,12 +171,6 @@ REMIND = re.compile(
     r"(?:(?:remember to )?remind (?:me|us)(?: again)?|don't let me forget|do not let me forget|(?:set|make)(?: me)? an? (?:reminder|alarm|timer)(?: for me)?"
     r"|give (?:me|us) a (?:reminder|nudge|shout|call)|(?:nudge|ping|alert) (?:me|us)|(?P<wake>wake (?:me|us)(?: up)?))(?![\w'])"
 )
-TELLS = re.compile(r"(?:and )?(?:(?:tell|say to) (?:me|us)|(?P<asks>ask (?:me|us)))(?![\w'])[ ,]*")
-"""Asks to be told or asked something; with a time it is a reminder."""
-TOLD = re.compile(
-    r"(?:(?P<asks>(?:whether|if) )|(?:to|that) )(?!.*(?:[,;:]|\b(?:and|then|if|unless|until|when|or)\b(?= (?:if|then|go|come|drive|say|tell|ask|remind|look))|\b(?:and if|unless|otherwise)\b))"
-)
-"""What is to be told or asked: one clause, and nothing that is to be done besides."""
 TIMER = re.compile(
     rf"\b(?P<a>(?:set|start|make)(?: me)? an? (?:timer|alarm)) for (?={EN_DURATION}\b|(?:an? |half an )hour\b)"
     rf"|\b(?P<c>(?:set|make)(?: me)? an? alarm) for (?=(?:{_H})\b)"
@@ -228,11 +217,6 @@ def _clock(found: re.Match[str]) -> Part | None:
         hour = hour % 12 + (12 if half == "p" else 0)
     sure = bool(half) or hour > 12 or hour == 0 or (found["m"] and len(hour_word) > 1)
     return TimeOfDay(hour, minute, bool(sure)) if hour < 24 and minute < 60 else None
-
-
-def _past_hour(found: re.Match[str]) -> Part:
-    minute = _MINUTES[found["m"]]
-    return MinutePart(minute if found["way"] == "past" else -minute)
 
 
 def _bare(found: re.Match[str]) -> Part | None:
@@ -332,7 +316,6 @@ PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]]
     (_IN, _in),
     (_CLOCK, _one(_clock)),
     (_AT, _one(_bare)),
-    (_PAST_HOUR, _one(_past_hour)),
     (_ONE_DAY, _one_day),
 )
 """What begins a part, and the parts that it makes; empty: it is none after all."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from calendar import monthrange
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal
 
 from planner.plan.timing import (
     MAX_AHEAD_S,
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 Problem = Literal["order_nested", "order_time_missing", "order_malformed", "order_in_past",
-                  "order_no_such_date", "order_no_event", "order_event_place", "order_no_end"]  # fmt: skip
+                  "order_no_such_date", "order_no_end", "order_no_event", "order_time_within"]  # fmt: skip
 """Why a when that was said can't be kept."""
 
 
@@ -118,34 +118,13 @@ class TimeOfDay:
 
 
 @dataclass(frozen=True, slots=True)
-class MinutePart:
-    """Name so many minutes past an hour that is not said ("half past"); before zero: to it."""
-
-    minutes: int
-
-
-@dataclass(frozen=True, slots=True)
 class EventPart:
     """Name an event."""
 
     event: WorldEvent
 
 
-Part = (
-    WeekDays | Interval | OnceDay | MonthDay | After | TimeOfDay | MinutePart | EventPart | DayPart
-)
-
-
-class ReadsWhole(Protocol):
-    """Return the parts of a time that a whole text is; none where it is anything else."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> tuple[Part, ...]: ...
-
-
-class ReadsTiming(Protocol):
-    """Tell whether a text is, or ends with, a time that comes again."""
-
-    def __call__(self, folded: str, *, in_chinese: bool) -> bool: ...
+Part = WeekDays | Interval | OnceDay | MonthDay | After | TimeOfDay | EventPart | DayPart
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,6 +172,14 @@ def combine(parts: Sequence[Part]) -> Timing | None:
             return Timing(EventRule(event=event, hours=hours)) if clock is None else None
         case _:
             return None
+
+
+def end_of_pause(parts: Sequence[Part]) -> DayTime | InRule | None:
+    """Return when a pause until then ends: a day alone is its beginning."""
+    days_alone = parts and all(isinstance(part, (OnceDay, MonthDay)) for part in parts)
+    timing = combine((*parts, TimeOfDay(0, 0, sure=True)) if days_alone else parts)
+    when = timing.when if timing is not None else None
+    return when if isinstance(when, (DayTime, InRule)) else None
 
 
 def is_once(parts: Sequence[Part]) -> bool:

@@ -14,69 +14,82 @@ from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
 from planner.language.schedule import chinese, english
-from planner.language.schedule.about import read_about
+from planner.language.schedule.about import read_about, read_correction
 from planner.language.schedule.command import (
-    ChangeOrders,
+    CorrectOrder,
     LeaveOutDays,
     OrderCommand,
     RemindAgain,
     ScheduleCommand,
 )
-from planner.language.schedule.corrections import read_correction
-from planner.language.schedule.event_commands import order_upon, read_event
-from planner.language.schedule.event_orders import NEWS
 from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
-from planner.language.schedule.framed_orders import (
-    has_end,
-    is_limited,
-    read_beginning,
-    read_hourless,
-    read_middle,
-    take_lead,
-)
 from planner.language.schedule.parts import (
     DayPart,
-    EventPart,
     Part,
     Problem,
     TimeOfDay,
     Timing,
+    WeekDays,
     combine,
     is_once,
     lacks_time,
     leave_days_out,
 )
-from planner.language.schedule.placed_reminders import settle_deed
-from planner.language.schedule.reasons import is_reason, leave_reasons_out
 from planner.language.schedule.statements import (
     begins_with_statement,
     ends_in_statement,
     ends_in_told_words,
+    goes_on_until,
+    has_end,
     is_filler,
+    is_limited,
 )
-from planner.language.schedule.tellings import read_told_order
 from planner.language.schedule.time_finder import (
     FoundTime,
     first_parts,
     last_parts,
-    reads_timing,
-    whole_parts,
 )
-from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule
+from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule, WorldEvent
 
 if TYPE_CHECKING:
     from types import ModuleType
 
+NEWS = {
+    WorldEvent.PERSON_SEEN: "somebody is here",
+    WorldEvent.MOVEMENT: "something is moving",
+    WorldEvent.BATTERY_LOW: "my battery is low",
+    WorldEvent.GOAL_DONE: "an order is done",
+    WorldEvent.GOAL_FAILED: "an order has failed",
+    WorldEvent.ARRIVED_HOME: "I am back home",
+}
+"""What is said to a person who wants to be told of an event."""
+_TELL_ME = re.compile(
+    r"(?:please |then |just )*(?:let (?:me|us) know|(?:tell|warn|alert|notify) (?:me|us))"
+)
 MAX_READ = 300
 """Characters; a longer sentence is no standing order."""
+_SEES = re.compile(
+    r"(?:if|when(?:ever)?|any ?time|each time|every time) (?:you )?(?:ever )?(?:see|spot|notice|detect) .+"
+    r" (?:at night|after dark|while (?:i'm|i am|we're|we are) .+?), (?:please )?(?:let|tell|call|warn) me\b.*"
+)
+_TO_EACH = re.compile(
+    r".+ (?:every(?:body|one)|any(?:body|one)|whoever|(?:each|any|all) (?:person|guests?|visitors?)|people)"
+    r"(?: who| that)? (?:comes?|coming|arriv(?:es?|ing)|enters?|walks?|walking) ?(?:in|by|home|past)?\b.*"
+)
+_ZH_COMES = re.compile(
+    r"(?:当|等|等到|只要|一旦|每次|每当)[^,]{1,8}?(?:回来|回家|到家|进门|进屋|进来)(?:了|的时候|之后|以后|时|后)*,?"
+    r"(?:就|你|请)*(?:说|告诉|提醒|通知|[跟和给对].{1,3}(?:说|讲)).+"
+)
+"""With ``_SEES``: waits for what is read as no event: done now it would be another order."""
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
 _WAKES = range(4, 12)
+_QUOTED = re.compile(r'[“"].*?[”"]')
+_DOES = re.compile(
+    r"(?:please |just )*(?:go|drive|come|head|look|check|patrol|visit|search|find|count|turn|do|have|take|make)\b"
+)
 _THEN = re.compile(r"(?:and|then)\b")
 _UNTIL = re.compile(r"\b(?:until|till)$")
 _CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
-_DENIAL = re.compile(
-    r"(?:[就都也])*(?:别|不要|不用|不准|不许)|(?:don't|do not|never|not) ", re.IGNORECASE
-)
 _TELLS = re.compile(r"(?: and|,|;) (?:then )?(?:tell|let|call|warn|say|ask|shout|remind|alert)\b")
 """Of two orders the one that waits for the event behind them."""
 
@@ -91,48 +104,7 @@ def read_order_command(text: str) -> OrderCommand | None:
     grammar = chinese if has_chinese(said.folded) else english
     said = FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
-    command = settle_deed(_read_command(said, grammar, text, asks=asks))
-    if asks or not (command is None or _denies(command) or _swallows(command)):
-        return command
-    bare = leave_reasons_out(said.folded, chinese=grammar is chinese)
-    if bare is None:
-        return command
-    bare = FoldedSentence(bare, bare).strip(grammar.POLITE).strip_end(grammar.POLITE_END).folded
-    about = _read_about_kept(bare.strip(ENDS), grammar)
-    alone = FoldedSentence(bare.strip(ENDS), bare.strip(ENDS))
-    if about is None and _waits(alone, grammar):
-        return settle_deed(read_event(alone, grammar) or _read(alone, grammar)) or command
-    return about or command
-
-
-def _waits(said: FoldedSentence, grammar: ModuleType) -> bool:
-    """Tell whether a sentence is a time alone, or an order upon the event that it ends with."""
-    if whole_parts(said.folded, in_chinese=grammar is chinese):
-        return True
-    if grammar is chinese:
-        return False
-    last = last_parts(said.folded, grammar).parts
-    return any(isinstance(part, EventPart) for part in last) or bool(read_event(said, grammar))
-
-
-def _denies(command: OrderCommand) -> bool:
-    """Tell whether an order says what is not to be done: a change of one that is kept, perhaps."""
-    if not isinstance(command, ScheduleCommand) or command.reminder is not None:
-        return False
-    return _DENIAL.match(command.order) is not None
-
-
-def _swallows(command: OrderCommand) -> bool:
-    """Tell whether the words that name an order go on with another clause: a reason, perhaps."""
-    return isinstance(command, ChangeOrders) and "," in command.which
-
-
-def _read_about_kept(folded: str, grammar: ModuleType) -> OrderCommand | None:
-    """Return what a sentence says about orders that are kept: a question, a change, a removal."""
-    is_chinese = grammar is chinese
-    return read_about(folded, reads_timing, whole_parts, chinese=is_chinese) or read_correction(
-        folded, whole_parts, chinese=is_chinese
-    )
+    return _read_command(said, grammar, text, asks=asks)
 
 
 def _read_command(
@@ -142,11 +114,11 @@ def _read_command(
     excepted = None if asks else _read_excepting(said, grammar)
     if excepted is not None:
         return excepted
-    about = read_about(said.folded, reads_timing, whole_parts, chinese=is_chinese)
+    about = read_about(said.folded, chinese=is_chinese)
     if about is not None:
         return about
-    if not asks and (unseen := read_event(said, grammar)) is not None:
-        return unseen
+    if not asks and _SEES.fullmatch(said.folded) is not None:
+        return ScheduleCommand(None, said.written, "", problem="order_no_event")
     courteous = (
         asks and grammar is english and fold_sentence(text).folded.startswith(("can", "could", "w"))
     )
@@ -154,42 +126,42 @@ def _read_command(
         return None
     if grammar.PAST.fullmatch(said.folded) is not None:
         return ScheduleCommand(None, said.written, "", problem="order_in_past")
-    corrects = read_correction(said.folded, whole_parts, chinese=is_chinese)
-    if corrects is None:
-        return _read(said, grammar) if is_chinese else _read_framed(said)
-    if isinstance(corrects.change, RemindAgain):  # "remind me again in five minutes"
-        return replace(corrects, otherwise=_read(said.strip(_NOT_NOW), grammar))
-    return corrects
+    corrects = read_correction(said.folded, chinese=is_chinese)
+    if isinstance(corrects, CorrectOrder) and isinstance(corrects.change, RemindAgain):
+        return replace(
+            corrects, otherwise=_read(said.strip(_NOT_NOW), grammar)
+        )  # "… again in five"
+    order = corrects or _read(said, grammar)
+    if order is None and not asks and (problem := _problem_of(said, grammar)) is not None:
+        return ScheduleCommand(None, said.written, "", problem=problem)
+    return order
 
 
-def _read_framed(said: FoldedSentence) -> ScheduleCommand | None:
-    """Read an order with its time in the middle, or one that begins on a later day."""
-    said = take_lead(said)
-    begins = read_beginning(said)
-    if begins is not None:
-        day, words, rest = begins
-        order = _read_framed(rest)
-        if order is None or not isinstance(order.when, CronRule | EventRule) or order.problem:
-            return None
-        return replace(order, begins=day, words=f"{words} {order.words}".strip())
-    order = _read(said, english)
-    if order is not None and order.when is not None:
-        return order
-    if order is None and (deed := read_hourless(said)) is not None:
-        missing: Problem = "order_time_missing"
-        return ScheduleCommand(None, deed.written.strip(), "", problem=missing)
-    middle = read_middle(said)
-    timing = combine(middle.parts) if middle is not None else None
-    if middle is None or timing is None:
-        return order
-    return _order(middle.order.bare(), timing, middle.words)
+def _problem_of(said: FoldedSentence, grammar: ModuleType) -> Problem | None:
+    """Return why a sentence is no order of now either; None: it may be one.
+
+    A time that comes again and stands in the middle is passed over by nobody: "look round at ten
+    every night, and tell me who is in" is not done at once.
+    """
+    if grammar is chinese:
+        return "order_no_event" if _ZH_COMES.fullmatch(said.folded) is not None else None
+    if _TO_EACH.fullmatch(said.folded) is not None:
+        return "order_no_event"
+    plain = _QUOTED.sub(lambda found: " " * len(found[0]), said.folded)
+    if _DOES.match(plain) is None:
+        return None
+    for cut in re.finditer(r"(?<=[ ,])(?=every |each |daily)", plain):
+        parts = first_parts(plain[cut.start() :], grammar).parts
+        if any(isinstance(part, WeekDays) for part in parts):
+            return "order_time_within"
+    return None
 
 
 def _read_excepting(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     """Read "every day at seven wake us up, but not at weekends", 每天七点…，周末就不要了."""
     for cut in reversed(list(_CLAUSE.finditer(said.folded))):
-        days = read_correction(said.folded[cut.end() :], whole_parts, chinese=grammar is chinese)
-        if days is None or days.which or not isinstance(days.change, LeaveOutDays):
+        days = read_correction(said.folded[cut.end() :], chinese=grammar is chinese)
+        if not isinstance(days, CorrectOrder) or not isinstance(days.change, LeaveOutDays):
             return None
         order = _read(said.part(0, cut.start()).bare(), grammar)
         if order is None or not isinstance(order.when, CronRule) or order.problem is not None:
@@ -215,12 +187,6 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
         rest, before = inner, FoundTime(_by_morning(parts) if remind["wake"] else parts, before.at)
     elif before.parts:
         rest = rest.strip(grammar.POLITE)
-    if (
-        remind is None
-        and grammar is english
-        and (told := read_told_order(rest, before)) is not None
-    ):
-        return told
     after = _time_behind(rest, before, grammar, reminds=remind is not None)
     order = rest.part(0, after.at) if after.parts else rest
     if (
@@ -285,11 +251,14 @@ def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand
     ends = isinstance(timing.when, EveryRule) and has_end(order.folded)
     if empty or ends or is_filler(order.folded):
         return None
+    if goes_on_until(order.folded):
+        return ScheduleCommand(None, order.written, "", problem="order_nested")
     recurs = isinstance(timing.when, CronRule | EveryRule | EventRule)
     if (recurs or timing.problem == "order_time_missing") and is_limited(order.folded):
         return ScheduleCommand(None, order.written, "", problem="order_no_end")
     if isinstance(timing.when, EventRule) and timing.problem is None:
-        return order_upon(timing.when, order.written.strip(), words)
+        news = NEWS[timing.when.event] if _TELL_ME.fullmatch(order.folded) else None
+        return ScheduleCommand(timing.when, order.written.strip(), words, reminder=news)
     return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
 
 
@@ -302,21 +271,6 @@ def _read_timeless(order: FoldedSentence, verb: str, grammar: ModuleType) -> Sch
     return ScheduleCommand(None, what, "", reminder=what, problem=missing) if what else None
 
 
-def complete_order(command: ScheduleCommand, time: str) -> ScheduleCommand | None:
-    """Return an order that lacked its time with the time that was said for it; None: it is none."""
-    said = fold_sentence(time)
-    grammar = chinese if has_chinese(said.folded) else english
-    bare = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
-    for words in (f"{command.words} {bare.written}".strip(), bare.written):
-        folded = fold_sentence(words).folded
-        for lead in ("", "at ") if grammar is english else ("",):
-            parts = whole_parts(lead + folded, in_chinese=grammar is chinese)
-            timing = combine(parts) if parts else None
-            if timing is not None and timing.when is not None:
-                return replace(command, when=timing.when, words=words, problem=None)
-    return None
-
-
 def _reminder(
     order: FoldedSentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
 ) -> ScheduleCommand | None:
@@ -324,12 +278,9 @@ def _reminder(
     if _THEN.match(bare.folded) is not None:
         return None  # "remind me at six, and then go to the kitchen"
     what = bare.strip(grammar.OF).bare().written.strip()
-    if woken and grammar is english and what:
-        if is_reason(english.POLITE.sub("", bare.folded), chinese=False):
-            what = ""  # "wake me at six, I've got a train"
-        elif what == bare.written or _TELLS.search(f" {what.lower()}"):
-            whole = f"wake me up {bare.written}"  # "wake me at nine, like actually come in"
-            return ScheduleCommand(timing.when, whole, words, problem=timing.problem)
+    if woken and grammar is english and what and what == bare.written:
+        whole = f"wake me up {bare.written}"  # "wake me at nine, like actually come in"
+        return ScheduleCommand(timing.when, whole, words, problem=timing.problem)
     if woken and not what:
         what = grammar.WAKE_UP
     if isinstance(timing.when, EventRule) and not what:

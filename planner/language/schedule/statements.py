@@ -37,7 +37,7 @@ _OF_OURS = re.compile(rf"{_OPENS}{_OURS}'s{_BESIDE}$")
 _MARKS = re.compile(r"[,;:!.]+ *(?:(?:and|but|so|because|since|as|for) )?|\s[-–—]+\s|—+")
 _WORDS = re.compile(r"(?<= )(?:and|but|because|'?cause|cos|since|as|please) ")
 _TOLD = re.compile(
-    r".*\b(?:(?:tell|inform|warn) (?:(?:my|our|the|your) )?(?!(?:me|us|what|if|whether|about"
+    r".*\b(?:(?:tell|inform|warn|remind) (?:(?:my|our|the|your) )?(?!(?:me|us|what|if|whether|about"
     r"|to)\b)[a-z]+"
     r"(?: (?:in|at|on|by) (?:the |my |our )?[a-z]+(?: room)?)?"
     r"|let (?:(?:my|our|the|your) )?(?!(?:me|us)\b)[a-z]+(?: [a-z]+)? know|say|announce|shout)"
@@ -101,6 +101,39 @@ def put_time_first(text: str) -> str:
     """Return "tell Emma at six that …" with its time in front, where it is the order's."""
     found = _TIME_WITHIN.fullmatch(text)
     return f"{found['t']} {found['verb']} {found['w']}" if found is not None else text
+
+
+_LIMIT = re.compile(
+    r"for (?:the (?:next|rest)|this|an?|one|two|three|four|five|six|seven|ten|\d+)\b[a-z ]{0,20}?(?:minutes?|hours?|days?|weeks?|months?|morning|afternoon|evening|night|day|week)\b"
+    r"|(?:until|till|up to)\b|this (?:week|month)\b"
+)
+_LIMIT_BEHIND = re.compile(r".+ for the (?:next|rest of the|rest of this) [a-z0-9 ]{2,20}")
+
+
+def is_limited(order: str) -> bool:
+    """Tell whether an order says how long it is to be kept: no standing order ends by itself."""
+    return _LIMIT.match(order) is not None or _LIMIT_BEHIND.fullmatch(order) is not None
+
+
+_HAS_END = re.compile(r"\b(?:until|till)\b|直到|等到|为止")
+
+
+def has_end(order: str) -> bool:
+    """Tell whether an order says itself when it ends: kept "every five minutes" it never would."""
+    return _HAS_END.search(order) is not None
+
+
+_TO_AN_HOUR = re.compile(
+    r"(?:(?<=[看瞧守待陪跟巡逻转走站盯玩坐着])|一直|直)到(?:了)?(?:今天|今晚|明天|明早)?(?:早上|上午|中午|下午|傍晚|晚上|夜里|半夜|凌晨)?"
+    r"(?:[零一二三四五六七八九十两\d]{1,3}(?:点|:\d)|中午|半夜|天亮|天黑)"
+)
+"""No plan goes on until an hour; 等到九点 waits for it, and is none of these."""
+_QUOTED = re.compile(r"[“\"「].*?[”\"」]")
+
+
+def goes_on_until(order: str) -> bool:
+    """Tell whether a Chinese deed goes on until an hour, not in words that are said."""
+    return _TO_AN_HOUR.search(_QUOTED.sub("", order)) is not None
 
 
 _FILLER = re.compile(

@@ -70,6 +70,18 @@ def test_an_order_is_given_listed_shown_paused_and_removed(client: TestClient) -
     assert client.get("/v1/orders").json()["orders"] == []
 
 
+def test_a_day_is_left_out_until_the_order_is_resumed(client: TestClient) -> None:
+    give(client, text="every evening at eight go to the kitchen")
+    skipped = client.post("/v1/orders/o1/skip", json={"day": "2027-01-15"}).json()
+    assert skipped["skipped"] == ["2027-01-15"]
+    assert skipped["when"]["en"] == "every day at 20:00 (not on Friday 2027-01-15)"
+    assert skipped["when"]["zh"] == "每天 20:00（周五 2027-01-15除外）"
+    assert client.get("/v1/orders/o1").json()["runs"][0] == "2027-01-16T20:00:00+01:00"
+    over = client.post("/v1/orders/o1/skip", json={"day": "2027-01-14"})
+    assert (over.status_code, over.json()["code"]) == (422, "order_change_none")
+    assert client.post("/v1/orders/o1/resume", json={}).json()["skipped"] == []
+
+
 def test_the_same_order_again_is_the_one_that_is_kept(client: TestClient) -> None:
     first = give(client, text="every evening at eight go to the kitchen")
     again = give(client, text="each evening at 8 pm go to the kitchen")
@@ -272,3 +284,25 @@ def test_times_are_told_on_the_robots_own_clock(client: TestClient) -> None:
     assert now == "2027-01-15T12:00:00+01:00"
     assert NOON_UNIX_S == 1_800_010_800.0
     assert BASE.startswith("http")
+
+
+def test_a_calendar_is_told_first_and_kept_by_a_yes(client: TestClient) -> None:
+    give(client, text="every evening at eight go to the kitchen")
+    answer = client.get("/v1/orders.ics")
+    assert answer.headers["content-type"] == "text/calendar; charset=utf-8"
+    assert "DTSTART;TZID=Europe/Berlin:20270115T200000\r\nRRULE:FREQ=DAILY" in answer.text
+    client.request("DELETE", "/v1/orders/o1", json={})
+    told = client.post("/v1/orders.ics", json={"calendar": answer.text}).json()
+    assert (told["kept"], told["refused"]) == ([], [])
+    [proposed] = told["proposed"]
+    assert proposed["when"]["en"] == "every day at 20:00"
+    assert proposed["does"]["en"] == "go to “kitchen”"
+    assert client.get("/v1/orders").json()["orders"] == []
+    other = client.post("/v1/orders.ics", json={"calendar": answer.text, "agreed": "0" * 32})
+    assert (other.status_code, other.json()["code"]) == (409, "calendar_changed")
+    agreed = {"calendar": answer.text, "agreed": told["agree"]}
+    assert client.post("/v1/orders.ics", json=agreed).json()["kept"] == ["o2"]
+    again = client.post("/v1/orders.ics", json={"calendar": answer.text}).json()
+    assert [each["code"] for each in again["refused"]] == ["calendar_kept"]
+    broken = client.post("/v1/orders.ics", json={"calendar": "hello"})
+    assert (broken.status_code, broken.json()["code"]) == (422, "calendar_malformed")

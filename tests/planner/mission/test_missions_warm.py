@@ -7,13 +7,13 @@ import threading
 from pathlib import Path
 
 import pytest
+from planner.mission.place_words import names_of
 
 from planner.language import object_names
 from planner.language.changes import rows
 from planner.language.changes.reader import read_changes
 from planner.language.motion_guard import mentioned_names
 from planner.mission.detector_words import warm_up
-from planner.mission.place_words import names_of
 from planner.mission.skills import viewpoints
 from planner.site import Site
 from planner.site.known_places import KnownPlaces

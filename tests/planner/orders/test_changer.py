@@ -2,113 +2,18 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from pathlib import Path
 
 import pytest
 
 from planner.language.schedule.parts import OnceDay
-from planner.orders.skipping import SkipAct, skip_day
-from planner.plan import Clarify, Language
-from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, Rule, WorldEvent
-from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, Kept
-from tests.planner.orders.player import order
+from planner.plan.timing import CronRule
+from tests.planner.orders.fakes import Kept
 from tests.planner.orders.test_corrector import say, take, tell
 
 DAY_S = 86_400.0
 TOMORROW, SUNDAY = OnceDay(ahead=1), OnceDay(weekday=6)
 """It is Friday, noon."""
-
-
-@pytest.mark.parametrize(
-    ("rule", "day", "act"),
-    [
-        (CronRule(cron="0 7 * * *"), TOMORROW, SkipAct.PAUSE),
-        (CronRule(cron="0 20 * * *"), TOMORROW, SkipAct.BETWEEN),
-        (CronRule(cron="0 7 * * *"), SUNDAY, SkipAct.BETWEEN),
-        (CronRule(cron="0 7 * * 0"), SUNDAY, SkipAct.PAUSE),
-        (CronRule(cron="0 7 * * 1"), SUNDAY, SkipAct.NOTHING),
-        (CronRule(cron="0 20 * * 1-5"), TOMORROW, SkipAct.NOTHING),
-        (EveryRule(seconds=3600.0, anchor_unix_s=NOON_UNIX_S), TOMORROW, SkipAct.BETWEEN),
-        (AtRule(unix_s=NOON_UNIX_S + DAY_S), TOMORROW, SkipAct.REMOVE),
-        (AtRule(unix_s=NOON_UNIX_S + 60.0), TOMORROW, SkipAct.NOTHING),
-        (EventRule(event=WorldEvent.PERSON_SEEN), TOMORROW, SkipAct.NOTHING),
-    ],
-)
-def test_what_leaves_a_day_out(rule: Rule, day: OnceDay, act: SkipAct) -> None:
-    skip = skip_day(order(1, rule), day, NOON_UNIX_S, BERLIN)
-    assert skip.act is act
-    end = datetime.fromtimestamp(skip.ends_s, BERLIN)
-    assert (end.hour, end.minute) == (0, 0)
-    assert skip.ends_s > NOON_UNIX_S
-
-
-def test_a_day_that_is_left_out_leaves_the_order_kept(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at seven wake me up")
-        assert "Paused: o1" in await say(kept, "don't wake me tomorrow")
-        kept_order = kept.orders.keeper.book.orders["o1"]
-        assert kept_order.paused
-        assert kept_order.resume_unix_s is not None
-        assert kept_order.resume_unix_s - NOON_UNIX_S == 1.5 * DAY_S
-
-    tell(tmp_path, story)
-
-
-def test_a_single_reminder_of_that_day_is_removed(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "tomorrow at nine remind me to call Sam")
-        assert "Removed: o1" in await say(kept, "don't remind me tomorrow")
-
-    tell(tmp_path, story)
-
-
-@pytest.mark.parametrize("text", ["no pills tomorrow", "don't remind me about the pills on Sunday"])
-def test_where_another_run_lies_between_a_person_says(tmp_path: Path, text: str) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every evening at eight remind me to take my pills")
-        asked = await take(kept, text)
-        assert isinstance(asked, Clarify)
-        assert len(asked.options) == 2
-        assert not kept.orders.keeper.book.orders["o1"].paused
-        pause, each = (option.text for option in asked.options)
-        assert "Paused: o1" in await say(kept, pause)
-        assert "except" in await say(kept, each)
-
-    tell(tmp_path, story)
-
-
-def test_of_several_a_person_says_which_and_none_is_left_out_before(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at 16:00 remind me to stretch")
-        await say(kept, "every day at 6:00 remind me to walk")
-        asked = await take(kept, "no reminders tomorrow")
-        assert isinstance(asked, Clarify)
-        assert [option.text for option in asked.options] == [
-            "skip order o1 tomorrow", "skip order o2 tomorrow"]  # fmt: skip
-        assert not any(o.paused for o in kept.orders.keeper.book.orders.values())
-        assert "Paused: o2" in await say(kept, asked.options[1].text)
-
-    tell(tmp_path, story)
-
-
-def test_what_fits_no_order_is_left_to_the_brain(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        assert await take(kept, "don't go to the kitchen tomorrow") is None
-        await say(kept, "every day at seven wake me up")
-        assert await take(kept, "don't go to the kitchen tomorrow") is None
-
-    tell(tmp_path, story)
-
-
-def test_the_question_is_told_in_both_languages(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every evening at eight remind me to take my pills")
-        asked = await take(kept, "no pills tomorrow")
-        assert isinstance(asked, Clarify)
-        assert all(asked.question.of(language) for language in Language)
-
-    tell(tmp_path, story)
 
 
 @pytest.mark.parametrize(
@@ -140,10 +45,31 @@ def test_without_a_list_a_place_names_nothing(tmp_path: Path) -> None:
     tell(tmp_path, story)
 
 
+def test_days_named_first_move_the_whole_order(tmp_path: Path) -> None:
+    async def story(kept: Kept) -> None:
+        await say(kept, "every day at seven wake me up")
+        await say(kept, "make it Fridays at eight")
+        [order] = kept.orders.keeper.book.orders.values()
+        assert order.rule == CronRule(cron="0 8 * * 5")
+
+    tell(tmp_path, story)
+
+
+@pytest.mark.parametrize("text", ["move the wake-up call to eight on Fridays",
+                                  "make it eight on Fridays"])  # fmt: skip
+def test_an_hour_of_some_days_alone_is_refused(tmp_path: Path, text: str) -> None:
+    async def story(kept: Kept) -> None:
+        await say(kept, "every day at seven wake me up")
+        assert "Give it anew" in await say(kept, text)
+        [order] = kept.orders.keeper.book.orders.values()
+        assert order.rule == CronRule(cron="0 7 * * *")
+
+    tell(tmp_path, story)
+
+
 def test_all_of_them_are_dropped_where_all_are_meant(tmp_path: Path) -> None:
     async def story(kept: Kept) -> None:
-        for text in ("cancel both reminders", "remove all the orders",
-                     "delete everything I've set up"):  # fmt: skip
+        for text in ("cancel both reminders", "remove all the reminders", "取消所有提醒"):
             await say(kept, "remind me at 18:00 to call Sam")
             await say(kept, "remind me at 19:00 to call Mia")
             await say(kept, text)
@@ -152,51 +78,13 @@ def test_all_of_them_are_dropped_where_all_are_meant(tmp_path: Path) -> None:
     tell(tmp_path, story)
 
 
-def test_an_order_that_begins_later_is_paused_until_that_day(tmp_path: Path) -> None:
+def test_two_reminders_at_once_are_told_again_together(tmp_path: Path) -> None:
     async def story(kept: Kept) -> None:
-        told = await say(kept, "from Monday on, every night at eleven say good night")
-        assert "paused, on again on 2027-01-18 at 00:00" in told
-        monday = kept.orders.keeper.book.orders["o1"].resume_unix_s
-        assert monday is not None
-        assert monday - NOON_UNIX_S == 2.5 * DAY_S
-
-    tell(tmp_path, story)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "move the wake-up call to eight on Fridays",
-        "on Fridays make it eight",
-        "make it eight on Fridays",
-    ],
-)
-def test_an_hour_of_some_days_leaves_the_others_as_they_were(tmp_path: Path, text: str) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at seven wake me up")
-        assert "Changed." in await say(kept, text)
-        rules = [order.rule for order in kept.orders.keeper.book.orders.values()]
-        assert rules == [CronRule(cron="0 7 * * 0,1,2,3,4,6"), CronRule(cron="0 8 * * 5")]
-        words = {order.reminder for order in kept.orders.keeper.book.orders.values()}
-        assert words == {"time to get up"}
-
-    tell(tmp_path, story)
-
-
-def test_what_is_so_on_these_days_already_changes_nothing(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at seven wake me up")
-        assert "nothing has changed" in await say(kept, "move the wake-up call to seven on Fridays")
-        assert len(kept.orders.keeper.book.orders) == 1
-
-    tell(tmp_path, story)
-
-
-def test_days_named_first_move_the_whole_order(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every day at seven wake me up")
-        await say(kept, "make it Fridays at eight")
-        [order] = kept.orders.keeper.book.orders.values()
-        assert order.rule == CronRule(cron="0 8 * * 5")
+        await say(kept, "remind me in 20 minutes to take the cake out")
+        await say(kept, "remind me in 20 minutes to call Tom")
+        await kept.run_s(1210.0, 10.0)
+        await say(kept, "five more minutes")
+        again = [o for o in kept.orders.keeper.book.orders.values() if not o.ended]
+        assert [o.reminder for o in again] == ["take the cake out", "call Tom"]
 
     tell(tmp_path, story)

@@ -380,20 +380,6 @@ def test_a_remark_that_holds_a_time_is_no_order_and_is_answered_as_said(
     run(story())
 
 
-def test_no_remark_completes_an_unfinished_order(tmp_path: Path) -> None:
-    async def story() -> None:
-        waits = GoalState.NEEDS_CLARIFICATION
-        async with home(tmp_path, AS_SAID, by_grammar=False) as made:
-            await made.say("remind me to ring the doctor", waits)
-            await made.say("今晚有客人")
-            await made.say("pizza tonight")
-            assert made.orders.keeper.book.orders == {}
-            kept = await made.say("about ten tomorrow")
-            assert "ring the doctor" in told(kept)
-
-    run(story())
-
-
 def test_an_order_that_a_brain_only_answers_is_refused_by_the_api(tmp_path: Path) -> None:
     async def story() -> None:
         async with home(tmp_path, AS_SAID, by_grammar=False) as made:

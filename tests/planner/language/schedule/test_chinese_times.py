@@ -75,11 +75,5 @@ def test_a_condition_behind_the_time_is_part_of_the_deed(condition: str) -> None
     assert command.order == f"{condition}客厅有人就说该睡觉了"
 
 
-def test_what_is_said_several_times_stands_so_often() -> None:
-    said = read("每天十二点去厨房说“开饭啦”,说两遍,然后回去充电").order
-    assert said == "去厨房说“开饭啦”,说“开饭啦”,然后回去充电"
-    assert read("每天十二点去厨房说“开饭啦”,说三遍").order == "去厨房说“开饭啦”3遍"
-
-
 def test_to_go_somewhere_is_reminded_of_in_full() -> None:
     assert read("下周三下午两点半提醒我去医院").reminder == "去医院"

@@ -96,15 +96,6 @@ def test_a_time_with_nothing_to_do_is_no_order(time: str, filler: str) -> None:
     assert not isinstance(read_order_command(f"{time} {filler}"), ScheduleCommand)
 
 
-def test_what_a_person_is_to_be_told_to_do_is_a_reminder() -> None:
-    told = read_order_command("every evening at eight, tell me to take my pills")
-    reminder = read_order_command("every evening at eight, remind me to take my pills")
-    assert isinstance(told, ScheduleCommand)
-    assert isinstance(reminder, ScheduleCommand)
-    assert (told.when, told.reminder) == (reminder.when, reminder.reminder)
-    assert read_order_command("tell me to take my pills") is None
-
-
 @pytest.mark.parametrize("text", ["at 8 yesterday go to the kitchen", "yesterday at 8 go home"])
 def test_an_hour_of_yesterday_is_over(text: str) -> None:
     command = read_order_command(text)
@@ -117,3 +108,21 @@ def test_what_ends_by_itself_is_not_kept_for_ever(end: str) -> None:
     assert isinstance(read_order_command("every five minutes check the kitchen"), ScheduleCommand)
     assert read_order_command(f"every five minutes check the kitchen {end}") is None
     assert read_order_command("每五分钟去厨房看看，直到有人来") is None
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("look round the house at ten every night, and tell me who's in", "order_time_within"),
+        ("go to the kitchen every day at eight and then come back", "order_time_within"),
+        ("if you see anybody in the hallway at night, let me know", "order_no_event"),
+        ("say welcome to everyone who comes in", "order_no_event"),
+        ("welcome each guest who arrives", "order_no_event"),
+    ],
+)
+def test_what_waits_for_something_and_is_not_read_is_done_by_nobody_now(
+    text: str, problem: str
+) -> None:
+    command = read_order_command(text)
+    assert isinstance(command, ScheduleCommand)
+    assert (command.when, command.problem) == (None, problem)

@@ -134,3 +134,17 @@ def test_a_time_before_that_is_the_orders(verb: str, time: str) -> None:
     command = read_order_command(f"{verb} {time} that dinner's ready")
     assert isinstance(command, ScheduleCommand)
     assert command.order == f"{verb} that dinner's ready"
+
+
+@pytest.mark.parametrize("words", ["he sees the doctor", "the film starts", "dinner is ready",
+                                   "she has to leave"])  # fmt: skip
+@pytest.mark.parametrize("told", ["remind him", "remind Tom in the study", "tell Emma",
+                                  "let Emma know",
+                                  "look for Noah in the kitchen and remind him"])  # fmt: skip
+@pytest.mark.parametrize("time", ["at ten", "at half past eight", "tomorrow at nine"])
+def test_the_time_of_what_somebody_is_told_is_not_the_orders(
+    told: str, words: str, time: str
+) -> None:
+    for that in ("that ", ""):
+        command = read_order_command(f"{told} {that}{words} {time}")
+        assert not isinstance(command, ScheduleCommand), that
