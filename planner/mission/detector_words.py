@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 from planner.language.changes.reader import read_changes
 from planner.language.object_names import prepare
 from planner.language.sentence import parse
-from planner.mission.place_words import names_of
 from planner.mission.reducer import looks, looks_widely
 from planner.mission.skills.viewpoints import near_spot, spots_in
 
@@ -85,7 +84,7 @@ def warm_up(facts: SiteView, classes: tuple[str, ...] = ()) -> None:
     The rows of changes and the site's names took 98 ms with the first short sentence, at the door.
     Takes long: call it off the event loop.
     """
-    read_changes(parse("go there").text, names_of(facts))
+    read_changes(parse("go there").text, facts.names)
     prepare(())
     prepare(classes)
     for target in facts.targets.values():

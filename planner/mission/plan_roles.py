@@ -16,7 +16,6 @@ from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import label_named, places_named
 from planner.mission.open_questions import WAITS, take_sentence
-from planner.mission.place_words import names_of
 from planner.mission.queue import cancel, finish
 from planner.mission.transitions import BrainCause
 from planner.plan import (
@@ -30,6 +29,7 @@ from planner.plan import (
     Vocabulary,
     places_of,
     plan_record,
+    say_same,
 )
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ def _goals_in(turn: Transaction, new: Mission, *states: GoalState) -> list[Missi
 
 def _goals_named(turn: Transaction, new: Mission) -> list[Mission]:
     """Return the open goals of which a person's words name a place or a thing."""
-    names = names_of(turn.book.facts)
+    names = turn.book.facts.names
     places = set(places_named(new.words, names))
     open_ = (*IN_HAND, GoalState.RUNNING, GoalState.QUEUED, GoalState.PAUSED)
     return [

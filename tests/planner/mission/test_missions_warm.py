@@ -7,10 +7,9 @@ import threading
 from pathlib import Path
 
 import pytest
-from planner.mission.place_words import names_of
 
 from planner.language import object_names
-from planner.language.changes import rows
+from planner.language.changes import reader
 from planner.language.changes.reader import read_changes
 from planner.language.motion_guard import mentioned_names
 from planner.mission.detector_words import warm_up
@@ -57,13 +56,13 @@ def test_the_spots_of_all_rooms_are_worked_out_beside_the_loop_before_any_goal(
 def test_the_first_sentence_compiles_no_row_of_changes_and_no_names(site: Site) -> None:
     """108 rows took 82 ms of the loop, with whatever short sentence came first."""
     facts = KnownPlaces(site).facts
-    for kept in (read_changes, rows._rows, mentioned_names._names):
+    for kept in (read_changes, reader._rows, mentioned_names._names):
         kept.cache_clear()
     warm_up(facts)
-    made = [kept.cache_info().misses for kept in (rows._rows, mentioned_names._names)]
+    made = [kept.cache_info().misses for kept in (reader._rows, mentioned_names._names)]
     assert made == [1, 1]
-    read_changes("no, to the study", names_of(facts))
-    assert [kept.cache_info().misses for kept in (rows._rows, mentioned_names._names)] == made
+    read_changes("no, to the study", facts.names)
+    assert [kept.cache_info().misses for kept in (reader._rows, mentioned_names._names)] == made
 
 
 def test_a_search_that_begins_anywhere_lays_no_points_anew(site: Site) -> None:
