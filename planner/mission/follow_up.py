@@ -25,7 +25,7 @@ from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
 from planner.mission.antecedents import fits, name_antecedents, thing_of
 from planner.mission.departure import LEANS_S
-from planner.mission.open_questions import find_choice
+from planner.mission.open_questions import find_choice, find_offered_plan
 from planner.mission.outcomes import spot_at
 from planner.mission.place_words import names_of
 from planner.mission.state import goal_to_end
@@ -84,7 +84,8 @@ def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | No
     opens = intent is None or (isinstance(intent, HereCommand) and asked is last)
     chosen = find_choice(asked, text) if asked is not None and intent is None else None
     if chosen is not None:
-        return Lean(ChangedOrder(words=chosen))
+        offered = find_offered_plan(asked, text) if asked is not None else None
+        return Lean(ChangedOrder(words=chosen) if offered is None else ChangedOrder(steps=offered.steps))
     for change in read_changes(text, names):
         if not opens and change.act not in _ROUNDS:
             continue  # 别去卧室了 ends the round only where it is not one

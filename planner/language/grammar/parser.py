@@ -29,8 +29,8 @@ from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.guessed_order import answer_guess, guess_meaning
 from planner.language.grammar.joined_condition import in_one_condition
+from planner.language.grammar.learned_offer import offer_plan
 from planner.language.grammar.lexicon import (
     MARK,
     MarkedText,
@@ -47,7 +47,7 @@ from planner.language.grammar.parse_result import (
     TopicQuestion,
     read_by,
 )
-from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
+from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
 from planner.language.grammar.questions_whether import asks_whether
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
@@ -119,17 +119,11 @@ def _read_sentence(
 def _guess(
     made: Clarify | Refuse, text: str, vocabulary: Vocabulary, context: Context
 ) -> StepPlan | Clarify | Refuse:
-    """Answer by what a sentence may mean that was not understood, where it can be guessed."""
+    """Answer by what the learned reader makes of a sentence that was not understood."""
     if made.code is not Code.NOT_UNDERSTOOD or not isinstance(made, Clarify):
         return made
-    lexicon, language = lexicon_of(vocabulary), context.language or parse(text).language
-    guessed = guess_meaning(lexicon.mark(normalise(text)), language)
-    return answer_guess(
-        made,
-        guessed,
-        lambda order: _plan_as_said(order, vocabulary, context),
-        lambda steps: option(steps, vocabulary, lexicon, language),
-    )
+    language = context.language or parse(text).language
+    return offer_plan(made, text, vocabulary, language, context)
 
 
 def _is_round(plan: StepPlan) -> bool:
