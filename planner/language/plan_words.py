@@ -42,7 +42,11 @@ if TYPE_CHECKING:
 
     from planner.plan.steps import Condition
 
-_ALONE = {"come_back": "come_back", "return_home": "go_home", "explore": "explore"}
+_ALONE = {
+    "come_back": "order.come_back",
+    "return_home": "order.go_home",
+    "explore": "order.explore",
+}
 _ROUND = frozenset({"look around", "看看周围"})
 """Questions of a look that asks for nothing in particular."""
 
@@ -62,8 +66,9 @@ def _is_way(steps: Sequence[Step], at: int) -> bool:
     step, after = steps[at], steps[at + 1] if at + 1 < len(steps) else None
     if isinstance(step, Find):  # who is followed is found first
         return isinstance(after, Follow) and after.object == step.object and not step.place
-    seeks = isinstance(after, Find | Count | Look | GoToObject)
-    return isinstance(step, GoTo) and seeks and after.place == step.place
+    if not (isinstance(step, GoTo) and isinstance(after, Find | Count | Look | GoToObject)):
+        return False
+    return after.place == step.place
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,8 +187,8 @@ def _tell_plain(step: Step) -> Bilingual:
         case WaitFor():
             return say("order.wait_until", time=step.time or "")
         case _:
-            code = _ALONE.get(step.kind)
-            return say_or_quote("step_kind", step.kind) if code is None else say(f"order.{code}")
+            known = step.kind in _ALONE
+            return say(_ALONE[step.kind]) if known else say_or_quote("step_kind", step.kind)
 
 
 def _with_article(label: str) -> Bilingual:

@@ -85,7 +85,9 @@ def lean_of(book: MissionState, said: Utterance, now_unix_s: float) -> Lean | No
     chosen = find_choice(asked, text) if asked is not None and intent is None else None
     if chosen is not None:
         offered = find_offered_plan(asked, text) if asked is not None else None
-        return Lean(ChangedOrder(words=chosen) if offered is None else ChangedOrder(steps=offered.steps))
+        return Lean(
+            ChangedOrder(words=chosen) if offered is None else ChangedOrder(steps=offered.steps)
+        )
     for change in read_changes(text, names):
         if not opens and change.act not in _ROUNDS:
             continue  # 别去卧室了 ends the round only where it is not one

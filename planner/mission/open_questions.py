@@ -89,7 +89,7 @@ def find_offered_plan(mission: Mission, answer: str) -> StepPlan | None:
     if plan is None or mission.state is not GoalState.NEEDS_CLARIFICATION or asks(mission):
         return None
     order = find_offer(mission) if parse(answer).consent else find_choice(mission, answer)
-    return next((each.plan for each in plan.options if each.text == order), None)
+    return next((each.plan for each in plan.options if each.text in (order, answer)), None)
 
 
 def note_answer(turn: Transaction, mission: Mission, text: str) -> Mission:

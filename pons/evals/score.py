@@ -117,9 +117,8 @@ async def _one(
     options = thought.plan.options if isinstance(thought.plan, Clarify) else ()
     if verdict.right or len(options) != 1 or not thought.by_grammar:
         return verdict
-    taken = options[0].plan
-    if taken is None:
-        taken = (await brain.think(asked.model_copy(update={"text": options[0].text}))).plan
+    laid, text = options[0].plan, options[0].text
+    taken = laid or (await brain.think(asked.model_copy(update={"text": text}))).plan
     return replace(verdict, after_yes=judge(case, taken, world).right)
 
 

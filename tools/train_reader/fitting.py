@@ -69,8 +69,8 @@ def make_batch(
                 written[row, at + 1] = -1 - unit if token is None else token + 1
             allowed[row, at, tokens + [len(TOKENS) + unit for unit in pointed]] = True
         allowed[row, len(example.actions) :, 0] = True
-    rows = (torch.tensor(each, dtype=torch.long) for each in (words, pieces, starts, unit_at))
-    return ExampleBatch(*rows, mask, written, parts, wanted, allowed)
+    rows = [torch.tensor(each, dtype=torch.long) for each in (words, pieces, starts, unit_at)]
+    return ExampleBatch(rows[0], rows[1], rows[2], rows[3], mask, written, parts, wanted, allowed)
 
 
 def _loss(logits: torch.Tensor, batch: ExampleBatch) -> torch.Tensor:

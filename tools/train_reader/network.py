@@ -71,8 +71,8 @@ class Layer(nn.Module):
         at = torch.arange(states.shape[1])
         apart = (at[None] - at[:, None]).clamp(-FARTHEST, FARTHEST) + FARTHEST
         bias = self.near.weight[:, apart][None].masked_fill(~mask, -1e9)
-        mixed = self.mix(self.norm1(states)).chunk(3, 2)
-        return states + self.dropout(self.join(_attend(*map(_heads, mixed), bias)))
+        query, key, value = map(_heads, self.mix(self.norm1(states)).chunk(3, 2))
+        return states + self.dropout(self.join(_attend(query, key, value, bias)))
 
     def think(self, states: Tensor) -> Tensor:
         """Return the states after each row has thought by itself."""
