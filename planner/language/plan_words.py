@@ -115,7 +115,7 @@ class _Teller:
 
     def _recall(self, step: Recall) -> Bilingual:
         if step.object is None:
-            return say("order.recall_deeds" if step.deeds else "order.recall")
+            return self._at("order.recall_deeds" if step.deeds else "order.recall", step.place)
         return self._at("order.recall_thing", step.place, object=_with_article(step.object))
 
     def _holder(self, step: If | Attempt | Repeat) -> Bilingual:
