@@ -24,6 +24,7 @@ from planner.plan import (
     Option,
     PlanRole,
     Recall,
+    Refuse,
     StepPlan,
     check_plan,
     list_nodes,
@@ -38,6 +39,13 @@ if TYPE_CHECKING:
 
 SURE = 0.2
 """From here on a plan is offered; a person says no to what was not meant."""
+_LEAST = {
+    Code.NOT_UNDERSTOOD: SURE,
+    Code.CONDITIONAL: SURE,
+    Code.OUT_OF_SCOPE: SURE,
+    Code.NEGATED: 0.5,
+}
+"""How sure the reader must be, by what the rules say; of other codes nothing is offered."""
 SURE_OF_TALK = 0.6
 """From here on a sentence is taken for talk, or for what the robot can't do: nothing moves."""
 COMMANDS: dict[str, tuple[str, str]] = {
@@ -51,38 +59,39 @@ _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
 
 
 def offer_plan(
-    asked: Clarify, text: str, vocabulary: Vocabulary, language: Language, context: Context
-) -> StepPlan | Clarify:
-    """Return what becomes of a sentence that was not understood.
+    told: Clarify | Refuse, text: str, vocabulary: Vocabulary, language: Language, context: Context
+) -> StepPlan | Clarify | Refuse:
+    """Return what becomes of a sentence that no rule reads as an order.
 
     Args:
-        asked: the question without an offer.
+        told: what the rules say of it, which stands where nothing is offered.
         text: the sentence as it was said.
         vocabulary: of the site.
         language: of the sentence.
         context: what the robot can do.
     """
-    read = parse(text, vocabulary)
-    if read is None or read.confidence < SURE:
-        return asked
-    form = read.plan[0].form
+    least = _LEAST.get(told.code)
+    read = parse(text, vocabulary) if least is not None else None
+    if read is None or least is None or read.confidence < least:
+        return told
+    form, offers = read.plan[0].form, isinstance(told, Clarify) and told.options
     if form in _TALK:
-        sure = read.confidence >= SURE_OF_TALK and not asked.options
-        return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[form])) if sure else asked
+        sure = read.confidence >= SURE_OF_TALK and isinstance(told, Clarify) and not offers
+        return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[form])) if sure else told
     if form in COMMANDS:
         words = "".join(value[0] for value in read.plan[0].slots if value)
         command = COMMANDS[form][language is Language.ZH].format(words=words)
         return _ask_for(Option(label=say_same(command), text=command))
     plan = _make_steps(read.plan, vocabulary, language)
     if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
-        return asked.model_copy(update={"options": ()})
+        return told.model_copy(update={"options": ()}) if offers else told
     if all(isinstance(step, Recall) for step in plan.steps):
         return plan
     places = {place for node in list_nodes(plan.steps) for place in places_of(node.step)}
     if places & denied_places(text, vocabulary):
-        return asked
-    told = _tell(plan, vocabulary)
-    return _ask_for(Option(label=told, text=told.of(language)[:2000], plan=plan))
+        return told
+    label = _tell(plan, vocabulary)
+    return _ask_for(Option(label=label, text=label.of(language)[:2000], plan=plan))
 
 
 def _make_steps(plan: LabelledPlan, vocabulary: Vocabulary, language: Language) -> StepPlan | None:

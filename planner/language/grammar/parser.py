@@ -120,8 +120,6 @@ def _guess(
     made: Clarify | Refuse, text: str, vocabulary: Vocabulary, context: Context
 ) -> StepPlan | Clarify | Refuse:
     """Answer by what the learned reader makes of a sentence that was not understood."""
-    if made.code is not Code.NOT_UNDERSTOOD or not isinstance(made, Clarify):
-        return made
     language = context.language or parse(text).language
     return offer_plan(made, text, vocabulary, language, context)
 
