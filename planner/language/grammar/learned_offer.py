@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from planner.language.semantic_parser.plan_grammar import LabelledPlan
     from planner.plan import Bilingual, Vocabulary
 
-SURE = 0.2
+SURE = 0.4
 """From here on a plan is offered; a person says no to what was not meant."""
 _LEAST = {
     Code.NOT_UNDERSTOOD: SURE,
