@@ -16,6 +16,7 @@ from planner.brain import Brain, FallbackBrain, OfflineBrain, ThinkRequest
 from planner.brain.model_replies import ReplyCollector
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
+from planner.language.semantic_parser.parser import load_network
 from planner.memory import MemoryLimits, MemoryStore, Recollection, SightingRecorder
 from planner.mission import JournalSync, MissionJournal, Missions, Rules
 from planner.mission.memory_lookup import step_kind
@@ -235,10 +236,12 @@ def application(planner: Planner, access: Access, authority: bytes = b"") -> Fas
         service = Service()
         service.ready()
         feeding = asyncio.create_task(_feed(service), name="feed the watchdog")
+        reading = asyncio.create_task(asyncio.to_thread(load_network), name="load the reader")
         try:
             yield
         finally:
             feeding.cancel()
+            reading.cancel()
             service.stopping()
             watch.cancel()
             await planner.close()

@@ -8,7 +8,7 @@
 ``command``          a word to the planner itself: pause, go on, where are you, remember that …
 ``idle_answer``      a yes or no though nothing was asked
 ``template``         the grammar: every word is accounted for, and it is done at once
-``semantic_parser``  a guess at it, which is only offered
+``semantic_parser``  what the learned reader reads, which is only offered
 ``not_read``         nothing of these: told in one sentence, with its cure
 ===================  ==========================================================================
 
@@ -36,9 +36,8 @@ from planner.language.commands import (
     TeachFact,
 )
 from planner.language.grammar.context import Context
-from planner.language.grammar.guessed_order import GuessKind
 from planner.language.grammar.lexicon import lexicon_of
-from planner.language.grammar.parser import guess, plan
+from planner.language.grammar.parser import plan
 from planner.language.motion_guard.mentioned_names import find_places
 from planner.language.reading import (
     AnswerReading,
@@ -49,12 +48,13 @@ from planner.language.reading import (
     PlanReading,
 )
 from planner.language.schedule import OrderCommand
+from planner.language.semantic_parser.offer import LEAST, offer_plan
 from planner.language.sentence import SaidSentence
 from planner.plan import (
     AnswerPlan,
     Clarify,
-    Code,
     Plan,
+    Refuse,
     StepPlan,
     Vocabulary,
 )
@@ -175,33 +175,26 @@ def template(said: SaidSentence, order: OrderWords) -> PlanReading | None:
     """Take what the grammar reads word for word, and what it refuses or asks about."""
     del said
     made = order.exact
-    lost = isinstance(made, Clarify) and made.code is Code.NOT_UNDERSTOOD
+    lost = isinstance(made, Clarify | Refuse) and made.code in LEAST
     return None if lost else PlanReading(made)
 
 
 def semantic_parser(said: SaidSentence, order: OrderWords) -> PlanReading | None:
-    """Take what may be guessed: one order that is offered, or a question to memory.
+    """Take what the learned reader reads: a plan that is offered, or a question to memory.
 
-    The one place for a learned reader: what it returns waits for a yes.
+    What it returns waits for a yes.
     """
-    guessed = guess(said.text, order.vocabulary, order.context)
-    if isinstance(guessed, GuessKind):  # something else: to offer a part of it would be silly
-        return _not_read(order, offers=False)
-    return None if guessed is None else PlanReading(guessed)
+    told, language = order.exact, order.context.language or said.language
+    made = offer_plan(told, said.text, order.vocabulary, language, order.context)
+    lost = isinstance(made, Clarify) and made.question == getattr(told, "question", None)
+    return None if made is None else PlanReading(made, is_read=not lost)
 
 
 def not_read(said: SaidSentence, order: OrderWords) -> PlanReading:
-    """Say that nobody has read a sentence, with the cure; offer what of it was read."""
+    """Say why nobody has read a sentence, with the cure; offer what of it was read."""
     del said
-    return _not_read(order, offers=True)
-
-
-def _not_read(order: OrderWords, *, offers: bool) -> PlanReading:
-    """Return the grammar's word on what it can't read: ``not_understood`` in the catalogue."""
     made = order.exact
-    if isinstance(made, Clarify) and not offers:
-        made = made.model_copy(update={"options": ()})
-    return PlanReading(made, is_read=False)
+    return PlanReading(made, is_read=not isinstance(made, Clarify))
 
 
 _Where = TypeVar("_Where")

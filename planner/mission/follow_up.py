@@ -27,7 +27,7 @@ from planner.language.stop import is_stop
 from planner.mission.answered_order import complete_person
 from planner.mission.antecedents import fits, name_antecedents, thing_of
 from planner.mission.departure import LEANS_S
-from planner.mission.open_questions import find_choice
+from planner.mission.open_questions import find_choice, find_offered_plan
 from planner.mission.outcomes import spot_at
 from planner.mission.state import goal_to_end
 from planner.plan import (
@@ -66,7 +66,9 @@ def lean_of(book: MissionState, said: SaidSentence, now_unix_s: float) -> Change
     opens = intent is None or (isinstance(intent, HereCommand) and asked is last)
     chosen = find_choice(asked, text) if asked is not None and intent is None else None
     if chosen is not None:
-        return ChangeReading(ChangedOrder(words=chosen))
+        offered = find_offered_plan(asked, text) if asked is not None else None
+        steps = () if offered is None else offered.steps
+        return ChangeReading(ChangedOrder(steps=steps, words="" if steps else chosen))
     for change in read_changes(text, names):
         if not opens and change.act not in _ROUNDS:
             continue  # 别去卧室了 ends the round only where it is not one

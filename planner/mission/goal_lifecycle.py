@@ -18,7 +18,9 @@ from planner.mission.open_questions import (
     close_older,
     confirms,
     find_offer,
+    find_offered_plan,
     make_room,
+    note_answer,
     take_answer,
     take_no,
     take_sentence,
@@ -257,18 +259,13 @@ def reply(turn: Transaction, mission: Mission, text: str) -> None:
         ready(turn, mission, PersonCause.AGREES)
     elif confirms(mission):
         ask_plainly(turn, mission)
+    elif (offered := find_offered_plan(mission, text)) is not None:
+        mission = note_answer(turn, mission, text)
+        turn.move_to(mission, PersonCause.EXPLAINS, reason=None, outcome=None, plan=None)
+        take_plan(turn, Planned(mission.id, offered, None, mission.brain))
     else:
-        _reply_about_order(turn, mission, complete_order(turn.book.facts, mission, text))
-
-
-def _reply_about_order(turn: Transaction, mission: Mission, text: str) -> None:
-    """Think about the order again, with the brain's own question and this answer to it."""
-    said = mission.outcome.message.of(mission.language) if mission.outcome is not None else ""
-    unknown = ("" for _ in mission.replies[len(mission.questions) :])
-    questions = (*mission.questions, *unknown, said)
-    replies = (*mission.replies, text)
-    mission = turn.put(mission, replies=replies, questions=questions)
-    _think_anew(turn, mission, PersonCause.EXPLAINS)
+        mission = note_answer(turn, mission, complete_order(turn.book.facts, mission, text))
+        _think_anew(turn, mission, PersonCause.EXPLAINS)
 
 
 def pause(turn: Transaction, mission: Mission) -> None:

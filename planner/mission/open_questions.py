@@ -31,6 +31,7 @@ from planner.plan import (
     Code,
     GoalState,
     Outcome,
+    StepPlan,
     StepState,
     say_same,
 )
@@ -79,6 +80,23 @@ def find_choice(mission: Mission, answer: str) -> str | None:
     offers = [(each.text, each.label.en, each.label.zh) for each in plan.options]
     chosen = choose(offers, answer)
     return plan.options[chosen].text if chosen is not None else None
+
+
+def find_offered_plan(mission: Mission, answer: str) -> StepPlan | None:
+    """Return the plan that was laid before a person and that this answer takes; None: none."""
+    plan = mission.plan
+    if plan is None or mission.state is not GoalState.NEEDS_CLARIFICATION or asks(mission):
+        return None
+    order = find_offer(mission) if parse(answer).consent else find_choice(mission, answer)
+    return next((each.plan for each in plan.options if each.text in (order, answer)), None)
+
+
+def note_answer(turn: Transaction, mission: Mission, text: str) -> Mission:
+    """Keep an answer about an order beside the brain's question that it answers."""
+    said = mission.outcome.message.of(mission.language) if mission.outcome is not None else ""
+    unknown = ("" for _ in mission.replies[len(mission.questions) :])
+    questions = (*mission.questions, *unknown, said)
+    return turn.put(mission, replies=(*mission.replies, text), questions=questions)
 
 
 def tell_offer(mission: Mission, question: Bilingual) -> Bilingual:

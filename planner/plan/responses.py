@@ -54,6 +54,8 @@ class Option(Frozen):
 
     label: Bilingual
     text: str = Field(min_length=1, max_length=2000)
+    plan: StepPlan | None = None
+    """What is done upon this reply as it stands; None: the sentence is read. No model writes it."""
 
 
 class Clarify(Frozen):

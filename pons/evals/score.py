@@ -117,8 +117,9 @@ async def _one(
     options = thought.plan.options if isinstance(thought.plan, Clarify) else ()
     if verdict.right or len(options) != 1 or not thought.by_grammar:
         return verdict
-    taken = await brain.think(asked.model_copy(update={"text": options[0].text}))
-    return replace(verdict, after_yes=judge(case, taken.plan, world).right)
+    laid, text = options[0].plan, options[0].text
+    taken = laid or (await brain.think(asked.model_copy(update={"text": text}))).plan
+    return replace(verdict, after_yes=judge(case, taken, world).right)
 
 
 def _request(case: Case, world: EvalWorld, goal: str) -> ThinkRequest:

@@ -1,4 +1,4 @@
-"""Give the sentences of ``tools/train_intent`` plans: each has one intent and its slots.
+"""Give the sentences of eighteen earlier writers plans: each has one intent and its slots.
 
 What an intent leaves open (which words are the time, several steps at once) isn't learnt from.
 """
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
 ROOT = Path(__file__).parents[2]
-PHRASES = ROOT / "tools" / "train_intent" / "phrases"
+EARLIER = Path(__file__).parent / "earlier"
 _LABELS: Mapping[str, str] = {
     "go": "go({p})",
     "go_go": "go({p}); go({q})",
@@ -121,7 +121,7 @@ def label_of(intent: str, said: SentenceUnits, slots: Mapping[str, str]) -> str 
 def earlier_examples() -> Iterator[PlanExample]:
     """Yield what can be learnt from the sentences of both languages."""
     for language in ("en", "zh"):
-        lines = (PHRASES / f"people_{language}.tsv").read_text("utf-8").splitlines()
+        lines = (EARLIER / f"people_{language}.tsv").read_text("utf-8").splitlines()
         for line in lines:
             writer, intent, sentence, written = line.split("\t")
             said = cut_units(sentence, home_names())

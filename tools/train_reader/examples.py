@@ -21,7 +21,7 @@ from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, Sentenc
 from tools.train_reader.sentences import fault_of, read_sentences
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from planner.language.semantic_parser.plan_grammar import LabelledPlan
 
@@ -37,6 +37,8 @@ class PlanExample:
     actions: tuple[Action, ...]
     allowed: tuple[tuple[list[int], list[int]], ...]
     """At each action the tokens and the units that the grammar and the sentence allow."""
+    parts: tuple[int, ...]
+    """Which part of a plan each action is of."""
 
 
 def make_example(writer: str, category: str, said: SentenceUnits, label: str) -> PlanExample | None:
@@ -52,15 +54,26 @@ def make_example(writer: str, category: str, said: SentenceUnits, label: str) ->
         actions = write_actions(plan, said)
     except UnknownWords:
         return None
-    walk, allowed = GrammarWalk(), []
+    walked = walk_actions(actions, said)
+    if walked is None:
+        return None
+    meant = normalise_plan(read_actions(actions, said))
+    return PlanExample(writer, category, said, meant, actions, *walked)
+
+
+def walk_actions(
+    actions: Sequence[Action], said: SentenceUnits
+) -> tuple[tuple[tuple[list[int], list[int]], ...], tuple[int, ...]] | None:
+    """Return what is allowed at each action and which part it is of; None where one is not."""
+    walk, allowed, parts = GrammarWalk(), [], []
     for action in actions:
         tokens, units = allowed_actions(walk.next_actions(), said)
         if TOKEN_NUMBERS[action] not in tokens if isinstance(action, str) else action not in units:
             return None
         allowed.append((tokens, units))
+        parts.append(walk.part_number)
         walk.take(action)
-    meant = normalise_plan(read_actions(actions, said))
-    return PlanExample(writer, category, said, meant, actions, tuple(allowed))
+    return tuple(allowed), tuple(parts)
 
 
 def written_examples(path: Path) -> Iterator[PlanExample]:

@@ -8,45 +8,57 @@ from typing import TYPE_CHECKING
 
 import torch
 
-from planner.language.semantic_parser.features import sentence_features
+from planner.language.semantic_parser.features import (
+    UNKNOWN,
+    UnitFeatures,
+    bucket_of,
+    sentence_features,
+)
 from planner.language.semantic_parser.linear_plan import TOKEN_NUMBERS, TOKENS
 from tools.train_reader.network import ExampleBatch, TrainableNetwork
+from tools.train_reader.swapping import WordSwapper
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from tools.train_reader.examples import PlanExample
 
-BATCH = 32
-RATE, BUCKET_RATE = 2e-3, 1.2e-2
+BATCH = 64
+RATE, BUCKET_RATE = 1.3e-3, 5e-3
 """A bucket is seen seldom, so that it must learn more of each time."""
 WARM_UP = 0.05
-LOST = 0.1
-"""So many features of a sentence aren't seen, so that none is relied on alone."""
+LOST, UNKNOWN_WORDS = 0.1, 0.06
+"""So many pieces and words of a sentence aren't seen, so that none is relied on alone."""
+CHANGED = 0.4
+"""So many sentences get other quoted words each time they are shown."""
 SMOOTHED = 0.05
 KEPT, MEAN_EVERY = 0.98, 5
 """Of the running mean of weights, each so many steps."""
 
 
 def make_batch(
-    examples: Sequence[PlanExample], features: Sequence[list[list[int]]]
+    examples: Sequence[PlanExample], features: Sequence[Sequence[UnitFeatures]]
 ) -> ExampleBatch:
     """Return examples with their units' features as tensors."""
     units = max(len(example.said.units) for example in examples)
     length = max(len(example.actions) for example in examples)
-    buckets: list[int] = []
+    words: list[int] = []
+    pieces: list[int] = []
     starts: list[int] = []
     unit_at: list[int] = []
     mask = torch.zeros(len(examples), units, dtype=torch.bool)
     written = torch.zeros(len(examples), length, dtype=torch.long)
+    parts = torch.zeros(len(examples), length, dtype=torch.long)
     wanted = torch.full((len(examples), length), -100)
     allowed = torch.zeros(len(examples), length, len(TOKENS) + units, dtype=torch.bool)
     for row, (example, of_units) in enumerate(zip(examples, features, strict=True)):
         mask[row, : len(of_units)] = True
         for at, of_unit in enumerate(of_units):
-            starts.append(len(buckets))
-            buckets += of_unit
+            words.append(of_unit.word)
+            starts.append(len(pieces))
+            pieces += of_unit.pieces
             unit_at.append(row * units + at)
+        parts[row, : len(example.parts)] = torch.tensor(example.parts)
         for at, (action, (tokens, pointed)) in enumerate(
             zip(example.actions, example.allowed, strict=True)
         ):
@@ -57,8 +69,8 @@ def make_batch(
                 written[row, at + 1] = -1 - unit if token is None else token + 1
             allowed[row, at, tokens + [len(TOKENS) + unit for unit in pointed]] = True
         allowed[row, len(example.actions) :, 0] = True
-    tensors = (torch.tensor(buckets), torch.tensor(starts), torch.tensor(unit_at))
-    return ExampleBatch(*tensors, mask, written, wanted, allowed)
+    rows = [torch.tensor(each, dtype=torch.long) for each in (words, pieces, starts, unit_at)]
+    return ExampleBatch(rows[0], rows[1], rows[2], rows[3], mask, written, parts, wanted, allowed)
 
 
 def _loss(logits: torch.Tensor, batch: ExampleBatch) -> torch.Tensor:
@@ -73,8 +85,8 @@ def _loss(logits: torch.Tensor, batch: ExampleBatch) -> torch.Tensor:
 
 def make_optimizer(network: TrainableNetwork) -> torch.optim.Optimizer:
     """Return what fits a network: its buckets faster than all else."""
-    buckets = [network.embedding.weight]
-    others = [each for name, each in network.named_parameters() if name != "embedding.weight"]
+    buckets = network.tables()
+    others = [each for each in network.parameters() if all(each is not table for table in buckets)]
     groups = [
         {"params": buckets, "lr": BUCKET_RATE, "weight_decay": 0.0},
         {"params": others, "lr": RATE},
@@ -98,20 +110,21 @@ def fit(
     network = TrainableNetwork()
     mean = {name: weight.detach().clone() for name, weight in network.state_dict().items()}
     optimizer = make_optimizer(network)
-    features = [sentence_features(example.said.units) for example in examples]
+    swapper = WordSwapper(examples)
     steps = epochs * math.ceil(len(examples) / BATCH)
     rate = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda step: _rate(step / steps))
     step = 0
     for epoch in range(epochs):
         order = sorted(
-            range(len(examples)), key=lambda i: len(examples[i].actions) + random.random() * 4
+            range(len(examples)), key=lambda i: len(examples[i].said.units) + random.random() * 5
         )
         blocks = [order[at : at + BATCH] for at in range(0, len(order), BATCH)]
         random.shuffle(blocks)
         total = 0.0
         for block in blocks:
-            seen = [_lose(features[i], random) for i in block]
-            batch = make_batch([examples[i] for i in block], seen)
+            shown = [_change(examples[i], swapper, random) for i in block]
+            seen = [_lose(sentence_features(each.said.units), random) for each in shown]
+            batch = make_batch(shown, seen)
             loss = _loss(network(batch), batch)
             total += loss.item()
             optimizer.zero_grad()
@@ -136,6 +149,17 @@ def _rate(share: float) -> float:
     return share / WARM_UP if share < WARM_UP else 0.5 + 0.5 * math.cos(math.pi * min(share, 1.0))
 
 
-def _lose(features: list[list[int]], random: Random) -> list[list[int]]:
-    """Return a sentence's features, some of them lost; each unit keeps one."""
-    return [[bucket for bucket in unit if random.random() > LOST] or unit[:1] for unit in features]
+def _change(example: PlanExample, swapper: WordSwapper, random: Random) -> PlanExample:
+    return swapper.swap(example, random) if random.random() < CHANGED else example
+
+
+def _lose(features: list[UnitFeatures], random: Random) -> list[UnitFeatures]:
+    """Return a sentence's features, some of them lost."""
+    unknown = bucket_of(UNKNOWN)
+    return [
+        UnitFeatures(
+            unknown if random.random() < UNKNOWN_WORDS else unit.word,
+            tuple(piece for piece in unit.pieces if random.random() >= LOST),
+        )
+        for unit in features
+    ]

@@ -9,56 +9,96 @@ from torch import Tensor, nn
 from torch.nn import functional
 
 from planner.language.semantic_parser.features import BUCKETS
-from planner.language.semantic_parser.linear_plan import TOKENS
-from planner.language.semantic_parser.network import HEADS
-from planner.language.semantic_parser.units import MAX_UNITS
+from planner.language.semantic_parser.linear_plan import PARTS, TOKENS
+from planner.language.semantic_parser.network import FARTHEST, HEADS
 
-WIDTH = 128
-LAYERS = 2
-DROPPED = 0.1
+WIDTH = 160
+FELT = 96
+"""Numbers a bucket."""
+ENCODER_LAYERS, DECODER_LAYERS = 3, 1
+DROPPED = 0.15
 
 
 @dataclass(frozen=True, slots=True)
 class ExampleBatch:
     """Hold several examples as tensors."""
 
-    buckets: Tensor
-    """All units' buckets in one row."""
+    words: Tensor
+    """All units' words in one row."""
+    pieces: Tensor
+    """All units' pieces in one row."""
     starts: Tensor
+    """Where the pieces of each unit begin."""
     unit_at: Tensor
     """(units of all sentences): where each stands in (sentence, unit)."""
     mask: Tensor
     """(sentences, units): whether there is a unit."""
     written: Tensor
     """(sentences, actions): the action before; a token's number + 1, or -1 - unit."""
+    parts: Tensor
+    """(sentences, actions): which part of the plan comes next."""
     wanted: Tensor
     """(sentences, actions): the index among tokens and then units; -100: none."""
     allowed: Tensor
     """(sentences, actions, tokens + units)."""
 
 
-class EncoderLayer(nn.Module):
-    """Let units look at each other."""
+def _attend(query: Tensor, key: Tensor, value: Tensor, bias: Tensor) -> Tensor:
+    """Return (sentences, rows, width) of what (sentences, heads, rows, part) hear."""
+    heard = functional.scaled_dot_product_attention(query, key, value, attn_mask=bias)
+    return heard.transpose(1, 2).flatten(2)
+
+
+def _heads(values: Tensor) -> Tensor:
+    count, rows, width = values.shape
+    return values.view(count, rows, HEADS, width // HEADS).transpose(1, 2)
+
+
+class Layer(nn.Module):
+    """Let rows look at each other."""
 
     def __init__(self) -> None:
         super().__init__()
         self.norm1, self.norm2 = nn.LayerNorm(WIDTH), nn.LayerNorm(WIDTH)
         self.mix, self.join = nn.Linear(WIDTH, 3 * WIDTH), nn.Linear(WIDTH, WIDTH)
+        self.near = nn.Embedding(HEADS, 2 * FARTHEST + 1)
         self.wide, self.narrow = nn.Linear(WIDTH, 2 * WIDTH), nn.Linear(2 * WIDTH, WIDTH)
         self.dropout = nn.Dropout(DROPPED)
+        nn.init.zeros_(self.near.weight)
 
-    def forward(self, states: Tensor, mask: Tensor) -> Tensor:
-        """Return the next states of (sentences, units, width)."""
-        count, units, _ = states.shape
-        mixed = self.mix(self.norm1(states)).view(count, units, 3, HEADS, WIDTH // HEADS)
-        query, key, value = mixed.permute(2, 0, 3, 1, 4)
-        joined = functional.scaled_dot_product_attention(
-            query, key, value, attn_mask=mask[:, None, None, :]
-        )
-        joined = joined.transpose(1, 2).reshape(count, units, WIDTH)
-        states = states + self.dropout(self.join(joined))
+    def look(self, states: Tensor, mask: Tensor) -> Tensor:
+        """Return the next states of (sentences, rows, width); ``mask``: which see which."""
+        at = torch.arange(states.shape[1])
+        apart = (at[None] - at[:, None]).clamp(-FARTHEST, FARTHEST) + FARTHEST
+        bias = self.near.weight[:, apart][None].masked_fill(~mask, -1e9)
+        query, key, value = map(_heads, self.mix(self.norm1(states)).chunk(3, 2))
+        return states + self.dropout(self.join(_attend(query, key, value, bias)))
+
+    def think(self, states: Tensor) -> Tensor:
+        """Return the states after each row has thought by itself."""
         wide = torch.relu(self.wide(self.norm2(states)))
         return states + self.dropout(self.narrow(self.dropout(wide)))
+
+    def forward(self, states: Tensor, mask: Tensor) -> Tensor:
+        """Return the next states of units."""
+        return self.think(self.look(states, mask))
+
+
+class DecoderLayer(Layer):
+    """Let actions look at those before them and at the sentence."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.norm3 = nn.LayerNorm(WIDTH)
+        self.ask, self.tell = nn.Linear(WIDTH, WIDTH), nn.Linear(WIDTH, 2 * WIDTH)
+        self.answer = nn.Linear(WIDTH, WIDTH)
+
+    def hear(self, states: Tensor, units: Tensor, mask: Tensor) -> Tensor:
+        """Return the states after they have looked at the sentence."""
+        bias = torch.zeros(mask.shape).masked_fill(~mask, -1e9)
+        query = _heads(self.ask(self.norm3(states)))
+        key, value = map(_heads, self.tell(units).chunk(2, 2))
+        return states + self.dropout(self.answer(_attend(query, key, value, bias)))
 
 
 class TrainableNetwork(nn.Module):
@@ -66,61 +106,54 @@ class TrainableNetwork(nn.Module):
 
     def __init__(self) -> None:
         super().__init__()
-        self.embedding = nn.EmbeddingBag(BUCKETS, WIDTH, mode="mean")
-        self.positions = nn.Embedding(MAX_UNITS, WIDTH)
-        self.layers = nn.ModuleList(EncoderLayer() for _ in range(LAYERS))
-        self.norm = nn.LayerNorm(WIDTH)
+        self.words = nn.Embedding(BUCKETS, FELT)
+        self.pieces = nn.EmbeddingBag(BUCKETS, FELT, mode="mean")
+        self.felt = nn.Linear(FELT, WIDTH)
+        self.encoder = nn.ModuleList(Layer() for _ in range(ENCODER_LAYERS))
+        self.decoder = nn.ModuleList(DecoderLayer() for _ in range(DECODER_LAYERS))
+        self.heard, self.norm = nn.LayerNorm(WIDTH), nn.LayerNorm(WIDTH)
         self.keys = nn.Linear(WIDTH, WIDTH, bias=False)
-        self.taken = nn.Linear(WIDTH, WIDTH, bias=False)
+        self.taken = nn.Linear(WIDTH, WIDTH)
         self.tokens = nn.Embedding(len(TOKENS) + 1, WIDTH)
-        self.begin = nn.Linear(WIDTH, WIDTH)
-        self.gates_in = nn.Linear(2 * WIDTH, 3 * WIDTH)
-        self.gates_hidden = nn.Linear(WIDTH, 3 * WIDTH)
-        self.look = nn.Linear(WIDTH, WIDTH, bias=False)
-        self.out = nn.Linear(2 * WIDTH, WIDTH)
+        self.parts = nn.Embedding(len(PARTS), WIDTH)
+        self.out = nn.Linear(WIDTH, WIDTH)
         self.scores = nn.Linear(WIDTH, len(TOKENS))
         self.point = nn.Linear(WIDTH, WIDTH, bias=False)
         self.dropout = nn.Dropout(DROPPED)
-        nn.init.normal_(self.embedding.weight, std=0.1)
-        nn.init.normal_(self.positions.weight, std=0.1)
-        nn.init.normal_(self.tokens.weight, std=0.3)
+        for table, spread in (
+            *((self.words, 0.1), (self.pieces, 0.1)),
+            *((self.tokens, 0.3), (self.parts, 0.3)),
+        ):
+            nn.init.normal_(table.weight, std=spread)
+
+    def tables(self) -> list[nn.Parameter]:
+        """Return the weights of buckets."""
+        return [self.words.weight, self.pieces.weight]
 
     def encode(self, batch: ExampleBatch) -> Tensor:
         """Return the states of (sentences, units, width)."""
         count, units = batch.mask.shape
-        states = self.positions.weight[:units].expand(count, -1, -1).reshape(-1, WIDTH)
-        felt = self.embedding(batch.buckets, batch.starts)
-        states = states.index_add(0, batch.unit_at, felt).view(count, units, WIDTH)
-        states = self.dropout(states)
-        for layer in self.layers:
-            states = layer(states, batch.mask)
-        return self.norm(states)
+        felt = self.felt(self.words(batch.words) + self.pieces(batch.pieces, batch.starts))
+        states = torch.zeros(count * units, WIDTH).index_copy(0, batch.unit_at, felt)
+        states = self.dropout(states.view(count, units, WIDTH))
+        mask = batch.mask[:, None, None].expand(count, 1, units, units)
+        for layer in self.encoder:
+            states = layer(states, mask)
+        return self.heard(states)
 
     def forward(self, batch: ExampleBatch) -> Tensor:
         """Return logits (sentences, actions, tokens + units); what isn't allowed has -1e9."""
-        states = self.encode(batch)
-        mask = batch.mask[:, :, None].float()
-        hidden = torch.tanh(self.begin((states * mask).sum(1) / mask.sum(1)))
-        context = torch.zeros_like(hidden)
-        taken, rows = self.taken(states), torch.arange(len(states))
-        hiddens, contexts = [], []
-        for number in range(batch.written.shape[1]):
-            action = batch.written[:, number]
-            token = self.tokens(action.clamp(min=0))
-            unit = taken[rows, (-1 - action).clamp(min=0)]
-            written = self.dropout(torch.where((action < 0)[:, None], unit, token))
-            gates_in = self.gates_in(torch.cat((written, context), 1)).split((2 * WIDTH, WIDTH), 1)
-            gates = self.gates_hidden(hidden).split((2 * WIDTH, WIDTH), 1)
-            reset, update = torch.sigmoid(gates_in[0] + gates[0]).chunk(2, 1)
-            fresh = torch.tanh(gates_in[1] + reset * gates[1])
-            hidden = (1.0 - update) * fresh + update * hidden
-            looked = torch.bmm(states, self.look(hidden)[:, :, None])[:, :, 0]
-            weights = looked.masked_fill(~batch.mask, -1e9).softmax(1)
-            context = torch.bmm(weights[:, None], states)[:, 0]
-            hiddens.append(hidden)
-            contexts.append(context)
-        joined = torch.cat((torch.stack(hiddens, 1), torch.stack(contexts, 1)), 2)
-        out = self.dropout(torch.tanh(self.out(self.dropout(joined))))
-        units = torch.bmm(self.point(out), self.keys(states).transpose(1, 2)) / WIDTH**0.5
-        logits = torch.cat((self.scores(out), units), 2)
+        units, action = self.encode(batch), batch.written
+        count, length = action.shape
+        token = self.tokens(action.clamp(min=0))
+        unit = self.taken(units)[torch.arange(count)[:, None], (-1 - action).clamp(min=0)]
+        states = torch.where((action < 0)[..., None], unit, token) + self.parts(batch.parts)
+        states = self.dropout(states)
+        before = torch.ones(length, length, dtype=torch.bool).tril()[None, None]
+        heard = batch.mask[:, None, None].expand(count, 1, length, units.shape[1])
+        for layer in self.decoder:
+            states = layer.think(layer.hear(layer.look(states, before), units, heard))
+        out = self.dropout(torch.tanh(self.out(self.norm(states))))
+        pointed = torch.bmm(self.point(out), self.keys(units).transpose(1, 2)) / WIDTH**0.5
+        logits = torch.cat((self.scores(out), pointed), 2)
         return logits.masked_fill(~batch.allowed, -1e9)

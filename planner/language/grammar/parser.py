@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
 
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
@@ -30,7 +29,6 @@ from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.guessed_order import GuessKind, answer_guess, guess_meaning
 from planner.language.grammar.joined_condition import in_one_condition
 from planner.language.grammar.lexicon import (
     MARK,
@@ -48,7 +46,7 @@ from planner.language.grammar.parse_result import (
     TopicQuestion,
     read_by,
 )
-from planner.language.grammar.plan_assembly import Setting, compose, option, unsafe, veto
+from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
 from planner.language.grammar.questions_whether import asks_whether
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
@@ -112,18 +110,6 @@ def _read_sentence(
         text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context)
     )
     return _plan_as_said(joined, vocabulary, context)
-
-
-def guess(
-    text: str, vocabulary: Vocabulary, context: Context
-) -> StepPlan | Clarify | Literal[GuessKind.OTHER] | None:
-    """Return what may be meant by a sentence that was not understood; None: not guessed."""
-    lexicon, language = lexicon_of(vocabulary), context.language or parse(text).language
-    return answer_guess(
-        guess_meaning(lexicon.mark(normalise(" ".join(text.split()))), language),
-        lambda order: _plan_as_said(order, vocabulary, context),
-        lambda steps: option(steps, vocabulary, lexicon, language),
-    )
 
 
 def _is_round(plan: StepPlan) -> bool:

@@ -4,6 +4,7 @@ Each step names the words that ask for it; the clause around them is judged. Sha
 brain, and asks none.
 """
 
+from planner.language.motion_guard.clauses import denied_places
 from planner.language.motion_guard.unasked_motion import (
     PersonWords,
     UnaskedStep,
@@ -11,4 +12,4 @@ from planner.language.motion_guard.unasked_motion import (
     said_words,
 )
 
-__all__ = ["PersonWords", "UnaskedStep", "find_unasked", "said_words"]
+__all__ = ["PersonWords", "UnaskedStep", "denied_places", "find_unasked", "said_words"]

@@ -89,6 +89,16 @@ def read_clauses(text: str, vocabulary: Vocabulary) -> tuple[SaidClause, ...]:
     return _hang(said, found)
 
 
+def denied_places(text: str, vocabulary: Vocabulary) -> frozenset[str]:
+    """Return the places that a text names where it denies, and nowhere else."""
+    denied: set[str] = set()
+    meant: set[str] = set()
+    for clause in read_clauses(text, vocabulary):
+        names = meant if clause.mood is not ClauseMood.DENIED else denied
+        names.update(found.id for found in find_places(clause.text, vocabulary))
+    return frozenset(denied - meant)
+
+
 def _judge(
     said: str, part: ClausePart, vocabulary: Vocabulary, before: list[SaidClause]
 ) -> SaidClause:

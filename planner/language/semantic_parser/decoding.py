@@ -66,12 +66,12 @@ def allowed_actions(expected: NextActions, said: SentenceUnits) -> tuple[list[in
 def decode_plan(network: PointerNetwork, said: SentenceUnits) -> ParsedPlan | None:
     """Return the plan that the network reads in a sentence; None where it finds no end."""
     encoded = network.encode(sentence_features(said.units))
-    state, written = network.begin(encoded), network.token(0)
+    memory, written = network.begin(), network.token(0)
     walk, actions, log_probability = GrammarWalk(), list[Action](), 0.0
     while not walk.is_done:
         if len(actions) >= MAX_ACTIONS:
             return None
-        state, scores, unit_scores = network.step(encoded, state, written)
+        scores, unit_scores = network.step(encoded, memory, written, walk.part_number)
         tokens, units = allowed_actions(walk.next_actions(), said)
         if not tokens and not units:
             return None

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import product
 from typing import TYPE_CHECKING
 
 from planner.language.semantic_parser.amounts import amount_value, write_amount
@@ -107,6 +108,15 @@ def _of_slot(slot: FormSlot) -> frozenset[str]:
     return frozenset(tokens | ({ABSENT} if is_optional(slot) else set()))
 
 
+_SLOTS = {(slot.kind, slot.marker) for form in FORMS.values() for slot in form.slots}
+PARTS: tuple[tuple[object, ...], ...] = (
+    *product(("top", "row", "when", "denied"), range(3), (False, True)),
+    *((part, *slot) for part in ("slot", "more", "last") for slot in sorted(_SLOTS)),
+)
+"""What may come next in a plan; the network is told which of these it is."""
+_PART_NUMBERS = {part: number for number, part in enumerate(PARTS)}
+
+
 class GrammarWalk:
     """Follow a row of actions through the grammar."""
 
@@ -118,6 +128,14 @@ class GrammarWalk:
     def is_done(self) -> bool:
         """Return whether the plan is whole."""
         return not self._pending
+
+    @property
+    def part_number(self) -> int:
+        """Return which of ``PARTS`` comes next."""
+        now = self._pending[-1]
+        if now.slot is not None:
+            return _PART_NUMBERS[now.part, now.slot.kind, now.slot.marker]
+        return _PART_NUMBERS[now.part, min(now.depth, 2), now.is_open]
 
     def next_actions(self) -> NextActions:
         """Return what may come next."""

@@ -15,9 +15,8 @@ from zlib import crc32
 import numpy as np
 
 from planner.language.semantic_parser.features import BUCKETS
-from planner.language.semantic_parser.linear_plan import TOKENS
+from planner.language.semantic_parser.linear_plan import PARTS, TOKENS
 from planner.language.semantic_parser.network import Int8Matrix, PointerNetwork
-from planner.language.semantic_parser.units import MAX_UNITS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -25,8 +24,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MODEL = Path(__file__).with_name("reader_model.bin")
-MAGIC = b"PONS reader 1\n"
-MAX_BYTES = 8_000_000
+MAGIC = b"PONS reader 2\n"
+MAX_BYTES = 4_000_000
 _CHECKSUM_BYTES = 4
 
 
@@ -35,8 +34,8 @@ class ModelFileError(ValueError):
 
 
 def grammar_version() -> int:
-    """Return a number that differs where tokens, features or lengths differ."""
-    return crc32("\n".join((*TOKENS, str(BUCKETS), str(MAX_UNITS))).encode())
+    """Return a number that differs where tokens, parts or features differ."""
+    return crc32("\n".join((*TOKENS, *map(str, PARTS), str(BUCKETS))).encode())
 
 
 def quantise(weights: NDArray[np.float32]) -> Int8Matrix:

@@ -1,12 +1,14 @@
 """Run the pointer network: an encoder over units, a decoder that writes one action after another.
 
-Numbers alone, in numpy; what a number means is the business of ``decoding``. The weights are 8-bit
-whole numbers with a scale a row; those of the units' buckets stay so in memory.
+Both are transformers (Vaswani et al. 2017, "Attention is all you need"), normed before each part,
+with a learned bias by distance in place of positions. Numbers alone, in numpy; what a number means
+is the business of ``decoding``. The weights are 8-bit whole numbers with a scale a row; those of
+the units' buckets stay so in memory.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,9 +18,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from planner.language.semantic_parser.features import UnitFeatures
+
     Floats = NDArray[np.float32]
 
 HEADS = 4
+FARTHEST = 16
+"""Units or actions: what is farther away counts as so far."""
 
 
 def as_floats(values: NDArray[Any]) -> Floats:
@@ -45,22 +51,22 @@ class Int8Matrix:
 
 @dataclass(frozen=True, slots=True)
 class SentenceStates:
-    """Hold what the encoder made of a sentence."""
+    """Hold what the encoder made of a sentence of so many units."""
 
-    states: Floats
-    """(units, width)."""
     pointed: Floats
-    """The states as pointers compare them."""
+    """(units, width): the states as pointers compare them."""
     taken: Floats
-    """The states as the decoder takes them after it has pointed at one."""
+    """(units, width): the states as the decoder takes them after it has pointed at one."""
+    heard: tuple[tuple[Floats, Floats], ...]
+    """By decoder layer: (heads, units, part) of keys and values."""
 
 
-@dataclass(frozen=True, slots=True)
-class DecoderState:
-    """Hold what the decoder remembers between two actions."""
+@dataclass(slots=True)
+class DecoderMemory:
+    """Hold the keys and values of the actions written before, by decoder layer."""
 
-    hidden: Floats
-    context: Floats
+    keys: list[list[Floats]] = field(default_factory=list)
+    values: list[list[Floats]] = field(default_factory=list)
 
 
 def _norm(values: Floats, gain: Floats, shift: Floats) -> Floats:
@@ -69,13 +75,18 @@ def _norm(values: Floats, gain: Floats, shift: Floats) -> Floats:
     return as_floats(centred / spread * gain + shift)
 
 
-def _softmax(scores: Floats) -> Floats:
+def _attend(query: Floats, key: Floats, value: Floats, bias: Floats | float) -> Floats:
+    """Return (rows, width) of what queries (heads, rows, part) hear."""
+    scores = query @ key.transpose(0, 2, 1) / query.shape[-1] ** 0.5 + bias
     shifted = np.exp(scores - scores.max(axis=-1, keepdims=True))
-    return as_floats(shifted / shifted.sum(axis=-1, keepdims=True))
+    joined = (shifted / shifted.sum(axis=-1, keepdims=True)) @ value
+    return as_floats(joined.transpose(1, 0, 2).reshape(query.shape[1], -1))
 
 
-def _sigmoid(values: Floats) -> Floats:
-    return as_floats(1.0 / (1.0 + np.exp(-values)))
+def _heads(values: Floats) -> Floats:
+    """Return (heads, rows, part) of (rows, width)."""
+    count, width = values.shape
+    return values.reshape(count, HEADS, width // HEADS).transpose(1, 0, 2)
 
 
 class PointerNetwork:
@@ -87,68 +98,94 @@ class PointerNetwork:
     """
 
     def __init__(self, matrices: Mapping[str, Int8Matrix], vectors: Mapping[str, Floats]) -> None:
-        self._buckets = matrices["embedding.weight"]
+        self._words, self._pieces = matrices["words.weight"], matrices["pieces.weight"]
         self._m = {
             name: np.ascontiguousarray(matrix.whole().T)
             for name, matrix in matrices.items()
-            if name != "embedding.weight"
+            if name not in ("words.weight", "pieces.weight")
         }
         self._v = dict(vectors)
-        names = {name.split(".")[1] for name in self._m if name.startswith("layers.")}
-        self._layers = len(names)
+        self._encoder = self._count("encoder")
+        self._decoder = self._count("decoder")
 
-    def encode(self, features: Sequence[Sequence[int]]) -> SentenceStates:
+    def _count(self, part: str) -> int:
+        return len({name.split(".")[1] for name in self._m if name.startswith(f"{part}.")})
+
+    def encode(self, features: Sequence[UnitFeatures]) -> SentenceStates:
         """Return the states of a sentence's units."""
-        flat = [bucket for unit in features for bucket in unit]
-        starts = np.cumsum([0, *map(len, features[:-1])])
-        sums = np.add.reduceat(self._buckets.rows(flat), starts, axis=0)
-        lengths = np.array([[len(unit)] for unit in features], np.float32)
-        states = as_floats(sums / lengths + self._m["positions.weight"].T[: len(features)])
-        for number in range(self._layers):
-            states = self._layer(f"layers.{number}", states)
-        states = _norm(states, self._v["norm.weight"], self._v["norm.bias"])
-        return SentenceStates(
-            states, states @ self._m["keys.weight"], states @ self._m["taken.weight"]
-        )
+        felt = self._words.rows([unit.word for unit in features])
+        for at, unit in enumerate(features):
+            if unit.pieces:
+                felt[at] += self._pieces.rows(unit.pieces).mean(axis=0)
+        states = self._linear("felt", felt)
+        apart = np.arange(len(states))
+        apart = np.clip(apart[None] - apart[:, None], -FARTHEST, FARTHEST) + FARTHEST
+        for number in range(self._encoder):
+            name = f"encoder.{number}"
+            query, key, value = self._mix(name, states)
+            bias = self._m[f"{name}.near.weight"].T[:, apart]
+            states = as_floats(
+                states + self._linear(f"{name}.join", _attend(query, key, value, bias))
+            )
+            states = self._think(name, states)
+        states = _norm(states, self._v["heard.weight"], self._v["heard.bias"])
+        heard = tuple(self._hear(number, states) for number in range(self._decoder))
+        return SentenceStates(states @ self._m["keys.weight"], self._linear("taken", states), heard)
 
     def _linear(self, name: str, values: Floats) -> Floats:
         return as_floats(values @ self._m[f"{name}.weight"] + self._v[f"{name}.bias"])
 
-    def _layer(self, name: str, states: Floats) -> Floats:
-        count, width = states.shape
-        normed = _norm(states, self._v[f"{name}.norm1.weight"], self._v[f"{name}.norm1.bias"])
-        mixed = self._linear(f"{name}.mix", normed).reshape(count, 3, HEADS, width // HEADS)
-        query, key, value = mixed.transpose(1, 2, 0, 3)
-        weights = _softmax(as_floats(query @ key.transpose(0, 2, 1) / (width // HEADS) ** 0.5))
-        joined = (weights @ value).transpose(1, 0, 2).reshape(count, width)
-        states = as_floats(states + self._linear(f"{name}.join", joined))
-        normed = _norm(states, self._v[f"{name}.norm2.weight"], self._v[f"{name}.norm2.bias"])
-        wide = np.maximum(self._linear(f"{name}.wide", normed), 0.0)
+    def _normed(self, name: str, values: Floats) -> Floats:
+        return _norm(values, self._v[f"{name}.weight"], self._v[f"{name}.bias"])
+
+    def _mix(self, name: str, states: Floats) -> tuple[Floats, Floats, Floats]:
+        mixed = self._linear(f"{name}.mix", self._normed(f"{name}.norm1", states))
+        query, key, value = np.split(mixed, 3, axis=1)
+        return _heads(query), _heads(key), _heads(value)
+
+    def _think(self, name: str, states: Floats) -> Floats:
+        wide = np.maximum(self._linear(f"{name}.wide", self._normed(f"{name}.norm2", states)), 0.0)
         return as_floats(states + self._linear(f"{name}.narrow", as_floats(wide)))
 
-    def begin(self, encoded: SentenceStates) -> DecoderState:
-        """Return the decoder's state before its first action."""
-        mean = encoded.states.mean(axis=0)
-        return DecoderState(np.tanh(self._linear("begin", mean)), np.zeros_like(mean))
+    def _hear(self, number: int, states: Floats) -> tuple[Floats, Floats]:
+        key, value = np.split(self._linear(f"decoder.{number}.tell", states), 2, axis=1)
+        return _heads(key), _heads(value)
 
     def token(self, number: int) -> Floats:
         """Return what the decoder takes in after it has written a token; 0: nothing was written."""
         return as_floats(self._m["tokens.weight"].T[number])
 
+    def begin(self) -> DecoderMemory:
+        """Return the decoder's memory before its first action."""
+        return DecoderMemory([[] for _ in range(self._decoder)], [[] for _ in range(self._decoder)])
+
     def step(
-        self, encoded: SentenceStates, state: DecoderState, written: Floats
-    ) -> tuple[DecoderState, Floats, Floats]:
-        """Return the next state, the tokens' scores and the units' scores."""
-        hidden = state.hidden
-        gates_in = self._linear("gates_in", np.concatenate((written, state.context)))
-        gates = self._linear("gates_hidden", hidden)
-        width = len(hidden)
-        reset, update = np.split(_sigmoid(gates_in[: 2 * width] + gates[: 2 * width]), 2)
-        fresh = np.tanh(gates_in[2 * width :] + reset * gates[2 * width :])
-        hidden = as_floats((1.0 - update) * fresh + update * hidden)
-        looked = encoded.states @ (hidden @ self._m["look.weight"])
-        context = as_floats(_softmax(looked) @ encoded.states)
-        out = as_floats(np.tanh(self._linear("out", np.concatenate((hidden, context)))))
-        scores = self._linear("scores", out)
-        units = as_floats(encoded.pointed @ (out @ self._m["point.weight"]) / width**0.5)
-        return DecoderState(hidden, context), scores, units
+        self, encoded: SentenceStates, memory: DecoderMemory, written: Floats, part: int
+    ) -> tuple[Floats, Floats]:
+        """Return the tokens' scores and the units' scores of the next action.
+
+        Args:
+            encoded: the sentence.
+            memory: of the actions before; this one is added.
+            written: the action before, as ``token`` or ``taken`` gives it.
+            part: of the plan that comes next, by its number.
+        """
+        state = as_floats(written + self._m["parts.weight"].T[part])[None]
+        for number in range(self._decoder):
+            name = f"decoder.{number}"
+            query, key, value = self._mix(name, state)
+            memory.keys[number].append(key)
+            memory.values[number].append(value)
+            count = len(memory.keys[number])
+            apart = np.clip(np.arange(1 - count, 1), -FARTHEST, 0) + FARTHEST
+            bias = self._m[f"{name}.near.weight"].T[:, apart][:, None]
+            keys, values = memory.keys[number], memory.values[number]
+            heard = _attend(query, np.concatenate(keys, 1), np.concatenate(values, 1), bias)
+            state = as_floats(state + self._linear(f"{name}.join", heard))
+            asked = _heads(self._linear(f"{name}.ask", self._normed(f"{name}.norm3", state)))
+            answer = _attend(asked, *encoded.heard[number], 0.0)
+            state = as_floats(state + self._linear(f"{name}.answer", answer))
+            state = self._think(name, state)
+        out = as_floats(np.tanh(self._linear("out", self._normed("norm", state))))[0]
+        units = encoded.pointed @ (out @ self._m["point.weight"]) / len(out) ** 0.5
+        return self._linear("scores", out), as_floats(units)

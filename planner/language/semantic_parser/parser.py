@@ -8,6 +8,8 @@ sentence, not before. Where the model can't be used the reason is told once, and
 from __future__ import annotations
 
 import logging
+import os
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,18 +17,40 @@ from typing import TYPE_CHECKING
 from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, cut_units
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from planner.language.semantic_parser.decoding import ParsedPlan
     from planner.language.semantic_parser.network import PointerNetwork
     from planner.plan import Vocabulary
 
 LOG = logging.getLogger(__name__)
+_THREADS = "OPENBLAS_NUM_THREADS"
 MODEL = Path(__file__).with_name("reader_model.bin")
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Have numpy load its linear algebra for one thread.
+
+    Its products are small here: threads that wait for each other on a busy processor made a
+    sentence of 9 ms one of 400.
+    """
+    before = os.environ.get(_THREADS)
+    os.environ[_THREADS] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[_THREADS]
+        else:
+            os.environ[_THREADS] = before
 
 
 @lru_cache(maxsize=2)
 def load_network(path: Path = MODEL) -> PointerNetwork | None:
     """Return the network of a file; None, told in the log, where it can't be used."""
-    from planner.language.semantic_parser.model_file import ModelFileError, read_model
+    with _one_thread():
+        from planner.language.semantic_parser.model_file import ModelFileError, read_model
 
     try:
         return read_model(path)

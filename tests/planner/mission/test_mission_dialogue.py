@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 from pathlib import Path
 
+import pytest
+
 from planner.brain.interface import Exchange, Observation, ThinkRequest
 from planner.brain.offline_brain import TAG, OfflineBrain
 from planner.mission.events import Reply
@@ -143,3 +145,37 @@ def test_the_offline_brain_goes_on_with_nothing_after_an_answer_it_can_not_read(
     )
     again = asyncio.run(OfflineBrain().think(bare.model_copy(update={"observed": walked}))).plan
     assert isinstance(again, Refuse)
+
+
+LAID = Option(
+    label=say_same("to the hall"), text="the hall, if that is what you mean", plan=go("hall")
+)
+LAYS = Clarify(code=Code.NOT_UNDERSTOOD, question=say_same("To the hall?"), options=(LAID,))
+
+
+@pytest.mark.parametrize("answer", ["yes please", "好的", LAID.text])
+def test_a_plan_laid_before_a_person_is_done_as_it_stands_by_a_yes_or_its_own_words(
+    answer: str,
+) -> None:
+    world = Rethinking(thoughts=[LAYS])
+    world.run(0.2)
+    goal = world.give(None)
+    world.event(Reply(goal, answer))
+    world.run_until(goal, SUCCEEDED)
+    assert len(world.asked) == 1  # nobody reads the words of the button
+
+
+def test_a_plan_laid_before_a_person_is_dropped_by_a_no() -> None:
+    world = Rethinking(thoughts=[LAYS])
+    world.run(0.2)
+    goal = world.give(None)
+    world.event(Reply(goal, "no"))
+    assert world.book.missions[goal].state is GoalState.CANCELLED
+
+
+def test_a_plan_laid_before_a_person_is_thought_about_after_any_other_answer() -> None:
+    world = Rethinking(thoughts=[LAYS, go("kitchen")])
+    world.run(0.2)
+    goal = world.give(None)
+    world.event(Reply(goal, "the one with the stove"))
+    assert [a.text for a in world.asked][1:] == ["the one with the stove"]

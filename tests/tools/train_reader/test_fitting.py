@@ -31,6 +31,7 @@ def test_the_fitted_network_scores_alike_in_numpy_and_is_fitted_alike_again(tmp_
         logits = networks[0](make_batch([example], [features]))[0, 0]
     reader = read_model(tmp_path / "one")
     encoded = reader.encode(features)
-    _, scores, _ = reader.step(encoded, reader.begin(encoded), reader.token(0))
+    part = example.parts[0]
+    scores, _ = reader.step(encoded, reader.begin(), reader.token(0), part)
     tokens = example.allowed[0][0]
     assert scores[tokens] == pytest.approx(logits[tokens].numpy(), abs=0.1)

@@ -1,1 +1,0 @@
-"""Make the intent model: sentences from phrases of our own, a small network, an ONNX file."""
