@@ -17,10 +17,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from planner.language.grammar.context import Context
-from planner.language.grammar.parser import plan
+from planner.language.readers import OrderWords, read_order
 from planner.language.semantic_parser.normal_plan import normalise_plan
 from planner.language.semantic_parser.plan_grammar import ALONE, FORMS, SlotKind, parse_plan
 from planner.language.semantic_parser.plan_steps import StepMaker
+from planner.language.sentence import parse
 from planner.language.stop import is_stop
 from planner.plan import (
     EVERY_KIND,
@@ -28,6 +29,7 @@ from planner.plan import (
     Clarify,
     Entry,
     Language,
+    Plan,
     StepPlan,
     Vocabulary,
     list_nodes,
@@ -60,6 +62,7 @@ class PlannerVerdict(StrEnum):
     WRONG_MOTION = "wrong motion"
     WRONG_STILL = "wrong, still"
     QUIET = "orders nothing, and nothing is done"
+    STOPS = "stops"
 
 
 def vocabulary_of(home: Iterable[str]) -> Vocabulary:
@@ -130,6 +133,10 @@ def _moves(made: StepPlan) -> bool:
     return any(node.step.kind in _MOVES for node in list_nodes(made.steps))
 
 
+def _read(text: str, vocabulary: Vocabulary, context: Context) -> Plan:
+    return read_order(OrderWords(parse(text), vocabulary, context)).plan
+
+
 def judge_sentence(row: WrittenSentence) -> PlannerVerdict:
     """Return what the offline planner makes of a sentence."""
     vocabulary = vocabulary_of(row.home)
@@ -137,7 +144,8 @@ def judge_sentence(row: WrittenSentence) -> PlannerVerdict:
     label = normalise_plan(parse_plan(row.label))
     maker = StepMaker(vocabulary, Language(row.language), lambda words: "10:00")
     meant = None if label[0].form in ALONE else maker.plan(_with_ids(label, ids))
-    made = plan(row.words, vocabulary, _CONTEXT.model_copy(update={"language": row.language}))
+    context = _CONTEXT.model_copy(update={"language": Language(row.language)})
+    made = _read(row.words, vocabulary, context)
     quiet = label[0].form in ("none", "refuse")
     if isinstance(made, StepPlan):
         if meant is not None and _is_same(made, meant):
@@ -145,7 +153,7 @@ def judge_sentence(row: WrittenSentence) -> PlannerVerdict:
         return PlannerVerdict.WRONG_MOTION if _moves(made) else PlannerVerdict.WRONG_STILL
     options = made.options if isinstance(made, Clarify) else ()
     if len(options) == 1:
-        laid = options[0].plan or plan(options[0].text, vocabulary, _CONTEXT)
+        laid = options[0].plan or _read(options[0].text, vocabulary, context)
         if meant is not None and isinstance(laid, StepPlan) and _is_same(laid, meant):
             return PlannerVerdict.AFTER_YES
         return PlannerVerdict.OTHER_OFFER
@@ -164,7 +172,7 @@ def main() -> None:
         rows = [row for row in read_sentences(path) if not fault_of(row)]
         for row in rows[:: told.every]:
             if is_stop(row.words):
-                counts[row.category]["stops" if "stop" in row.label else "stops wrongly"] += 1
+                counts[row.category][PlannerVerdict.STOPS] += 1
                 continue
             verdict = judge_sentence(row)
             counts[row.category][verdict] += 1
