@@ -41,7 +41,4 @@ ORDER_STEPS: dict[str, type[Frozen]] = {
     "order_change": OrderChange,
     "order_remove": OrderRemove,
 }
-ORDER_LINE = 'order_add {"due","order"}'
-"""How a model is told of them in words: every token is one less for names of places. The others
-stand in the reply's schema alone, and a wrong one is answered by what is right.
-"""
+"""They stand in the reply's schema alone: the prompt has no token left beside names of places."""
