@@ -10,7 +10,7 @@ from pydantic import Field
 
 from planner.api.order_problems import problem
 from planner.api.schemas import Body
-from planner.orders.calendar_import import Proposal, keep_proposed, propose
+from planner.orders.calendar_import import ImportedEntry, keep_proposed, propose
 from planner.orders.calendar_orders import write_orders
 from planner.orders.calendar_text import MOST_CHARACTERS
 from planner.orders.errors import OrderRefusal
@@ -70,7 +70,7 @@ def add_routes(router: APIRouter, orders: StandingOrders) -> None:
         }
 
 
-def _view(orders: StandingOrders, each: Proposal) -> dict[str, Any]:
+def _view(orders: StandingOrders, each: ImportedEntry) -> dict[str, Any]:
     if each.new is None or each.rule is None:
         return {}
     when = tell_rule(each.rule, orders.keeper.book.zone, orders.keeper.clocks.unix())

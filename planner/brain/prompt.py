@@ -26,7 +26,6 @@ from planner.brain.schema import (
 from planner.brain.situation_text import tell_situation
 from planner.language.folding import has_chinese
 from planner.plan import EVERY_KIND, NEEDS_CAMERA, Code, Entry, Language, Vocabulary
-from planner.plan.order_steps import ORDER_STEPS
 from pons_assets import PROMPTS
 
 BUDGET_TOKENS = 1500
@@ -126,7 +125,7 @@ def _system(
     """Fill the template; a place has as many names as the budget allows, and one more at least."""
     sees = bool(runnable & NEEDS_CAMERA)
     filled = {
-        "steps": "\n".join(map(step_line, (step_models(runnable) | ORDER_STEPS).values())),
+        "steps": "\n".join(map(step_line, step_models(runnable).values())),
         "clarify": _codes([code for code in CLARIFY_CODES if code not in REFUSE_CODES]),
         "refuse": _codes(REFUSE_CODES),
         "robot": _CAMERA + _tell_kinds(kinds) if sees else _BLIND[blind is Code.NO_DETECTOR],

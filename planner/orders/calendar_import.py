@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from planner.plan.timing import Rule
 
 
-class Desk(Protocol):
+class ImportDesk(Protocol):
     """Weigh and keep orders, as ``OrderIntake`` does."""
 
     async def weigh(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]: ...
@@ -36,7 +36,7 @@ class Desk(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Proposal:
+class ImportedEntry:
     """Hold one entry of a file: the order that it would be, or why it is none."""
 
     name: str
@@ -50,12 +50,12 @@ class Proposal:
 class ImportedCalendar:
     """Hold what a file would have kept, and what a yes to it must name."""
 
-    proposals: tuple[Proposal, ...]
+    proposals: tuple[ImportedEntry, ...]
     digest: str
 
 
 async def propose(
-    text: str, keeper: OrderKeeper, desk: Desk, source: str, goal_id: str
+    text: str, keeper: OrderKeeper, desk: ImportDesk, source: str, goal_id: str
 ) -> ImportedCalendar:
     """Return what a file wants kept; nothing is.
 
@@ -66,21 +66,21 @@ async def propose(
     proposals = []
     for name, read in read_orders(text, zone, now_s, source):
         if isinstance(read, OrderRefusal):
-            proposals.append(Proposal(name, refused=read))
+            proposals.append(ImportedEntry(name, refused=read))
             continue
         try:
             rule = settle(read.when, now_s, zone)
             kept = keeper.book.orders.values()
             if any(_is_same(order, read, rule, zone, now_s) for order in kept):
                 raise OrderRefusal("calendar_kept", name)
-            proposals.append(Proposal(name, read, rule, await desk.weigh(read, goal_id)))
+            proposals.append(ImportedEntry(name, read, rule, await desk.weigh(read, goal_id)))
         except OrderRefusal as refused:
-            proposals.append(Proposal(name, refused=refused))
+            proposals.append(ImportedEntry(name, refused=refused))
         except OrderQuestion as question:
             said = tell_question(question.asked)
             words = read.order[:120]
             unclear = OrderRefusal("order_not_understood", said.en, order=words, why=said)
-            proposals.append(Proposal(name, refused=unclear))
+            proposals.append(ImportedEntry(name, refused=unclear))
     shown = [(p.new, p.rule, p.allowed) for p in proposals if p.new is not None]
     return ImportedCalendar(tuple(proposals), hashlib.sha256(repr(shown).encode()).hexdigest()[:32])
 
@@ -96,7 +96,7 @@ def _is_same(order: StandingOrder, new: NewOrder, rule: Rule, zone: tzinfo, now_
 
 
 async def keep_proposed(
-    imported: ImportedCalendar, digest: str, desk: Desk, goal_id: str
+    imported: ImportedCalendar, digest: str, desk: ImportDesk, goal_id: str
 ) -> tuple[StandingOrder, ...]:
     """Keep what was told and agreed to; what is kept already stays as it is.
 

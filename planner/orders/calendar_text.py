@@ -89,7 +89,7 @@ def read_components(text: str) -> tuple[Component, ...]:
         OrderRefusal: ``calendar_malformed``.
     """
     if len(text) > MOST_CHARACTERS:
-        raise _malformed(f"over {MOST_CHARACTERS} characters")
+        raise _refuse_file(f"over {MOST_CHARACTERS} characters")
     found: list[Component] = []
     open_: list[str] = []
     unfolded = text.replace("\r\n", "\n").replace("\n ", "").replace("\n\t", "")
@@ -98,18 +98,18 @@ def read_components(text: str) -> tuple[Component, ...]:
         if line.name == "BEGIN":
             open_.append(line.value.upper())
             if open_[0] != "VCALENDAR":
-                raise _malformed(f"line {number}: BEGIN:{line.value[:40]}")
+                raise _refuse_file(f"line {number}: BEGIN:{line.value[:40]}")
             if open_[1:] in (["VEVENT"], ["VTODO"]):
                 found.append(Component(open_[-1]))
         elif line.name == "END":
             if not open_ or open_.pop() != line.value.upper():
-                raise _malformed(f"line {number}: END:{line.value[:40]}")
+                raise _refuse_file(f"line {number}: END:{line.value[:40]}")
         elif not open_ or open_[0] != "VCALENDAR":
-            raise _malformed(f"line {number}: not within a VCALENDAR")
+            raise _refuse_file(f"line {number}: not within a VCALENDAR")
         elif open_[1:] in (["VEVENT"], ["VTODO"]):
             found[-1].lines.setdefault(line.name, []).append(line)
     if open_ or not unfolded.strip():
-        raise _malformed("it ends too early")
+        raise _refuse_file("it ends too early")
     return tuple(found)
 
 
@@ -123,10 +123,10 @@ def _read_line(written: str, number: int) -> CalendarLine:
     name, *parameters = head.split(";")
     controls = any(category(char) == "Cc" and char != "\t" for char in written)
     if not name or not name.replace("-", "").isalnum() or controls:
-        raise _malformed(f"line {number}: {written[:40]!r}")
+        raise _refuse_file(f"line {number}: {written[:40]!r}")
     pairs = (each.partition("=") for each in parameters)
     return CalendarLine(name.upper(), value, {k.upper(): v.strip('"') for k, _, v in pairs})
 
 
-def _malformed(what: str) -> OrderRefusal:
+def _refuse_file(what: str) -> OrderRefusal:
     return OrderRefusal("calendar_malformed", what, what=what)

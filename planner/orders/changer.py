@@ -41,7 +41,7 @@ AGAIN_S = 600.0
 MOST_OFFERED = 8
 
 
-class Desk(Protocol):
+class ChangeDesk(Protocol):
     """Take, change and tell orders, as ``OrderIntake`` does."""
 
     async def give(self, new: NewOrder, goal_id: str) -> StandingOrder: ...
@@ -67,7 +67,7 @@ class OrderChanger:
     """Carry out what a person said about orders that are kept; remember which were spoken of."""
 
     def __init__(
-        self, keeper: OrderKeeper, desk: Desk, listed: Callable[[], Orders] = lambda: ()
+        self, keeper: OrderKeeper, desk: ChangeDesk, listed: Callable[[], Orders] = lambda: ()
     ) -> None:
         """Take the keeper, who changes orders on disk and tells them, and what was listed last."""
         self._keeper, self._desk, self._listed = keeper, desk, listed
@@ -126,7 +126,7 @@ class OrderChanger:
             self._live, which, zone, reminders=reminders, now_unix_s=self._now_s
         )
 
-    def _picked(self, found: Orders, answer: str) -> Orders:
+    def _find_answered(self, found: Orders, answer: str) -> Orders:
         zone = self._keeper.book.zone
         return pick(found, answer) or select(
             found, answer, zone, reminders=False, now_unix_s=self._now_s
@@ -170,7 +170,7 @@ class OrderChanger:
         if command.is_spoken:
             found = self._spoken_of(found)
         if answer is not None:
-            found = self._picked(found, answer)
+            found = self._find_answered(found, answer)
         if not found:
             return self._no_such(command.which, language) if command.is_sure else None
         is_one = bool(command.which) or command.is_single or command.is_spoken
@@ -231,7 +231,7 @@ class OrderChanger:
             recent = tuple(o for o in found if self._is_recent(o))
             found = self._spoken_of(tuple(o for o in recent if o in able) or recent or able)
         if answer is not None:
-            found = self._picked(found, answer)
+            found = self._find_answered(found, answer)
         if not found:
             return self._no_such(command.which, language) if command.is_sure else None
         is_meant = bool(command.which) or answer is not None or self._is_recent(found[0])

@@ -41,3 +41,4 @@ ORDER_STEPS: dict[str, type[Frozen]] = {
     "order_change": OrderChange,
     "order_remove": OrderRemove,
 }
+"""They stand in the reply's schema alone: the prompt has no token left beside names of places."""
