@@ -11,7 +11,7 @@ import re
 from planner.language.folding import fold, has_chinese
 
 _TIMES = (
-    r"\d|every|each|daily|nightly|hourly|weekly|week\w*|month\w*|years?|fortnight|morning\w*"
+    r"o?\d|every|each|daily|nightly|hourly|weekly|week\w*|month\w*|years?|fortnight|morning\w*"
     r"|evening\w*|afternoons?|(?:to)?nights?|noon|midday|midnight|to(?:day|morrow)|yesterday|\w*days?"
     r"|hour\w*|min(?:ute)?s?|sec(?:ond)?s?|o'?clock|half|quarter|time\w*|how long|until|till|later"
     r"|earlier|sooner|soon|before|after|once|moment|when\w*|if|unless|always|never|from now on"

@@ -135,16 +135,18 @@ class PointerNetwork:
     def _linear(self, name: str, values: Floats) -> Floats:
         return as_floats(values @ self._m[f"{name}.weight"] + self._v[f"{name}.bias"])
 
-    def _normed(self, name: str, values: Floats) -> Floats:
+    def _apply_norm(self, name: str, values: Floats) -> Floats:
         return _norm(values, self._v[f"{name}.weight"], self._v[f"{name}.bias"])
 
     def _mix(self, name: str, states: Floats) -> tuple[Floats, Floats, Floats]:
-        mixed = self._linear(f"{name}.mix", self._normed(f"{name}.norm1", states))
+        mixed = self._linear(f"{name}.mix", self._apply_norm(f"{name}.norm1", states))
         query, key, value = np.split(mixed, 3, axis=1)
         return _heads(query), _heads(key), _heads(value)
 
     def _think(self, name: str, states: Floats) -> Floats:
-        wide = np.maximum(self._linear(f"{name}.wide", self._normed(f"{name}.norm2", states)), 0.0)
+        wide = np.maximum(
+            self._linear(f"{name}.wide", self._apply_norm(f"{name}.norm2", states)), 0.0
+        )
         return as_floats(states + self._linear(f"{name}.narrow", as_floats(wide)))
 
     def _hear(self, number: int, states: Floats) -> tuple[Floats, Floats]:
@@ -182,10 +184,10 @@ class PointerNetwork:
             keys, values = memory.keys[number], memory.values[number]
             heard = _attend(query, np.concatenate(keys, 1), np.concatenate(values, 1), bias)
             state = as_floats(state + self._linear(f"{name}.join", heard))
-            asked = _heads(self._linear(f"{name}.ask", self._normed(f"{name}.norm3", state)))
+            asked = _heads(self._linear(f"{name}.ask", self._apply_norm(f"{name}.norm3", state)))
             answer = _attend(asked, *encoded.heard[number], 0.0)
             state = as_floats(state + self._linear(f"{name}.answer", answer))
             state = self._think(name, state)
-        out = as_floats(np.tanh(self._linear("out", self._normed("norm", state))))[0]
+        out = as_floats(np.tanh(self._linear("out", self._apply_norm("norm", state))))[0]
         units = encoded.pointed @ (out @ self._m["point.weight"]) / len(out) ** 0.5
         return self._linear("scores", out), as_floats(units)
