@@ -1,0 +1,60 @@
+"""What the learned reader reads is laid before a person, and nothing moves by it."""
+
+from __future__ import annotations
+
+import pytest
+
+from planner.language.grammar.context import Context
+from planner.language.readers import OrderWords, read_order
+from planner.language.sentence import parse
+from planner.plan import EVERY_KIND, AnswerPlan, Clarify, Plan, StepPlan, list_nodes, places_of
+from pons.evals.suites import HOME_SITE
+from pons.evals.world import site_world
+
+WORLD = site_world(HOME_SITE)
+CONTEXT = Context(room="hallway", runnable=frozenset(EVERY_KIND))
+
+
+def read(text: str) -> Plan:
+    return read_order(OrderWords(parse(text), WORLD.vocabulary, CONTEXT)).plan
+
+
+@pytest.mark.parametrize(
+    ("text", "places"),
+    [
+        ("would you fancy a trip to the kitchen", {"kitchen"}),
+        ("the kitchen and the study, one after the other, if you please", {"kitchen", "study"}),
+        ("能不能麻烦您老人家移步厨房", {"kitchen"}),
+    ],
+)
+def test_what_no_rule_reads_is_offered_as_one_plan_in_words(text: str, places: set[str]) -> None:
+    asked = read(text)
+    assert isinstance(asked, Clarify)
+    (button,) = asked.options
+    assert button.plan is not None
+    steps = [node.step for node in list_nodes(button.plan.steps)]
+    assert {place for step in steps for place in places_of(step)} == places
+    for place in places:
+        assert WORLD.vocabulary.name(place).en in button.label.en
+        assert WORLD.vocabulary.name(place).zh in button.label.zh
+    assert button.label.en in asked.question.en
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "do not go to the kitchen",
+        "whatever you do, keep out of the study",
+        "别去厨房",
+        "厨房千万不要去",
+    ],
+)
+def test_a_place_that_is_denied_is_in_no_offer(text: str) -> None:
+    asked = read(text)
+    assert not isinstance(asked, StepPlan | AnswerPlan)
+    assert not getattr(asked, "options", ())
+
+
+def test_a_sentence_of_any_kind_moves_nothing_by_the_learned_reader() -> None:
+    for text in ("the kitchen is lovely", "x" * 300, "厨房" * 40, "?!", "go go go to to the the"):
+        assert not isinstance(read(text), StepPlan)
