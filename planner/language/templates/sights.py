@@ -73,9 +73,15 @@ _UNIT = r"(?:(?:个|只|张|位|把|本|台|瓶|杯|名|条|件|辆|盒|罐|双|
 _AND_MANY = re.compile(rf"(?:(?:和|与|跟|以及|还有|、)有?|(?<!有))(?:几|多少){_UNIT}(?=.)")
 
 
-def count(found: Found, reading: Reading) -> Meaning:
+_SEEN_HERE = re.compile(r"^count .* (?:here|there|you see)$|^有[几多](?!.*[\ue000-\ue8ff])")
+"""It asks for what is in sight: that is looked at."""
+
+
+def count(found: Found, reading: Reading) -> Meaning | None:
     """Count one kind after the other: "几个人和几把椅子"."""
     place = _where(found, "at2") or _where(found)
+    if reading.scene.place is None and _SEEN_HERE.search(found[0]):
+        return None
     said = found["what"]
     if not has_chinese(said):
         said = " ".join(_COUNTING.sub(" ", f"{said} {found['how']}").split()) or said
