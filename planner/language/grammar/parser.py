@@ -119,8 +119,8 @@ def _read_exactly(
 ) -> StepPlan | AnswerPlan | Clarify | Refuse | None:
     """Return the plan of one order whose every word a template names; None of any other.
 
-    No denial, condition or choice can stand in it, for no template names such a word: what judges
-    those is not asked.
+    No template names a word of denial, condition or choice; what is said around the order may
+    ("when there, …"), and a drive "over" somebody is made of a template's words.
     """
     said = parse(text)
     grammar = CHINESE if has_chinese(text) else ENGLISH
@@ -128,6 +128,9 @@ def _read_exactly(
         return None
     lexicon = lexicon_of(vocabulary)
     marked = lexicon.mark(normalise(text))
+    vetoes = (veto for each in (ENGLISH, CHINESE) for _, veto in each.vetoes)
+    if any(veto.search(marked.text) for veto in vetoes) or broken_rule(marked.text):
+        return None
     clause = grammar.plain(_BORDERS.sub("", marked.text))
     language, moved = context.language or said.language, context.moved or context.departed
     reading = Reading(marked, lexicon, vocabulary, language, maps="explore" in context.runnable)

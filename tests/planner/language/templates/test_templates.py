@@ -214,3 +214,11 @@ def test_a_wrong_file_is_told_with_its_cure(wrong: str, told: str) -> None:
     assert raised.value.code == "bad_template"
     assert raised.value.cure
     assert raised.value.cure_zh
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["when there visit the kitchen", "once there, visit the kitchen", "drive over at the sofa"],
+)
+def test_what_stands_around_an_order_is_judged(text: str) -> None:
+    assert not isinstance(plan(text, HOME, Context(runnable=EVERY_KIND)), StepPlan)
