@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from planner.language.grammar.parse_result import Meaning, Reading
-    from planner.language.templates.reader import Found
+    from planner.language.templates.template_file import Found
 
 BUILDERS: Mapping[str, Callable[[Found, Reading], Meaning | None]] = {
     "home": driving.home,

@@ -26,7 +26,7 @@ from planner.language.grammar.step_builders import (
     one_at_a_time,
 )
 from planner.language.numbers import times
-from planner.language.templates.reader import Found
+from planner.language.templates.template_file import Found
 from planner.plan import (
     Code,
     ComeBack,

@@ -37,7 +37,7 @@ from planner.language.grammar.step_builders import meet as meet_person
 from planner.plan import Ask, Code, ComeBack, Decide, GoToObject, Say
 
 if TYPE_CHECKING:
-    from planner.language.templates.reader import Found
+    from planner.language.templates.template_file import Found
 
 
 def _where(found: Found, name: str = "at") -> str | None:

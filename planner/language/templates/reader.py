@@ -23,13 +23,13 @@ from planner.language.semantic_parser.amounts import find_amounts
 from planner.language.semantic_parser.plan_grammar import SlotKind
 from planner.language.templates.automaton import Units
 from planner.language.templates.expressions import TOKEN
-from planner.language.templates.template_file import TemplateSet, load_templates
+from planner.language.templates.template_file import Found, TemplateSet, load_templates
 from planner.plan import Language
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    Builder = Callable[["Found", Reading], Meaning | None]
+    Builder = Callable[[Found, Reading], Meaning | None]
 
 TEMPLATES = load_templates()
 
@@ -59,25 +59,6 @@ class Clause:
     def between(self, begin: int, end: int) -> str:
         """Return the words from one token up to another."""
         return self.text[self.spans[begin][0] : self.spans[end - 1][1]]
-
-
-@dataclass(frozen=True, slots=True)
-class Found:
-    """Hold what a template found in a clause: its slots' words and amounts, and its own values."""
-
-    text: str
-    slots: dict[str, str]
-    amounts: dict[str, float]
-    free_words: float
-    """How much of it no template names."""
-
-    def __getitem__(self, name: str | int) -> str:
-        """Return the words of a slot; those of the whole clause by 0; empty where it lacks."""
-        return self.text if isinstance(name, int) else self.slots.get(name, "")
-
-    def has(self, name: str) -> bool:
-        """Return whether a slot is filled."""
-        return name in self.slots
 
 
 def cut_clause(text: str, templates: TemplateSet) -> Clause:

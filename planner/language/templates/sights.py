@@ -22,7 +22,7 @@ from planner.language.grammar.step_builders import look as look_at
 from planner.plan import Code, Count, Step
 
 if TYPE_CHECKING:
-    from planner.language.templates.reader import Found
+    from planner.language.templates.template_file import Found
 
 
 def _where(found: Found, name: str = "at") -> str | None:

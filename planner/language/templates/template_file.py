@@ -86,6 +86,25 @@ class TemplateSet:
             self.automata[tongue] = Automaton([expression for _, expression in said], weights)
 
 
+@dataclass(frozen=True, slots=True)
+class Found:
+    """Hold what a template found in a clause: its slots' words and amounts, and its own values."""
+
+    text: str
+    slots: dict[str, str]
+    amounts: dict[str, float]
+    free_words: float
+    """How much of it no template names."""
+
+    def __getitem__(self, name: str | int) -> str:
+        """Return the words of a slot; those of the whole clause by 0; empty where it lacks."""
+        return self.text if isinstance(name, int) else self.slots.get(name, "")
+
+    def has(self, name: str) -> bool:
+        """Return whether a slot is filled."""
+        return name in self.slots
+
+
 @lru_cache(maxsize=1)
 def load_templates() -> TemplateSet:
     """Return the templates that Pons ships."""
