@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 
 from planner.language.templates.expressions import (
     Expression,
+    LiteralWords,
     OneOf,
-    Row,
-    Slot,
-    Unit,
-    Words,
+    Sequel,
+    SlotFilling,
+    UnitKind,
 )
 
 Span = tuple[int, int]
@@ -93,7 +93,7 @@ class Automaton:
     ) -> tuple[list[int], list[int], bool]:
         """Add an expression's arcs; return those that begin it, end it, and whether it may lack."""
         match expression:
-            case Slot():
+            case SlotFilling():
                 return self._build(expression.filled_by, template, (*slots, expression.name))
             case OneOf():
                 built = [self._build(each, template, slots) for each in expression.options]
@@ -102,13 +102,13 @@ class Automaton:
                     [arc for _, last, _ in built for arc in last],
                     any(lacks for _, _, lacks in built),
                 )
-            case Row():
+            case Sequel():
                 return self._build_row(expression, template, slots)
-            case Words() | Unit():
+            case LiteralWords() | UnitKind():
                 return self._build_arc(expression, template, slots)
 
     def _build_row(
-        self, row: Row, template: int, slots: tuple[str, ...]
+        self, row: Sequel, template: int, slots: tuple[str, ...]
     ) -> tuple[list[int], list[int], bool]:
         first: list[int] = []
         last: list[int] = []
@@ -123,11 +123,11 @@ class Automaton:
         return first, last, may_lack
 
     def _build_arc(
-        self, part: Words | Unit, template: int, slots: tuple[str, ...]
+        self, part: LiteralWords | UnitKind, template: int, slots: tuple[str, ...]
     ) -> tuple[list[int], list[int], bool]:
         number, arc = len(self._arcs), Arc(template, slots)
         lacks = False
-        if isinstance(part, Words):
+        if isinstance(part, LiteralWords):
             lacks = 0 in part.by_length
             arc.words = tuple((n, rows) for n, rows in part.by_length.items() if n)
             if not arc.words:
@@ -135,7 +135,7 @@ class Automaton:
         else:
             arc.kind = part.kind
         self._arcs.append(arc)
-        if isinstance(part, Words) or not part.is_free:
+        if isinstance(part, LiteralWords) or not part.is_free:
             return [number], [number], lacks
         arc.weight = self._weights[part.kind]
         arc.kind = f"{part.kind}^"  # the first word of several

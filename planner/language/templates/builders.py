@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from planner.language.grammar.parse_result import Meaning, Reading
-    from planner.language.templates.template_file import Found
+    from planner.language.templates.template_file import TemplateFind
 
-BUILDERS: Mapping[str, Callable[[Found, Reading], Meaning | None]] = {
+BUILDERS: Mapping[str, Callable[[TemplateFind, Reading], Meaning | None]] = {
     "home": driving.home,
     "come_back": driving.come_back,
     "drive_to": driving.drive_to,

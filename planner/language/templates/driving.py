@@ -26,7 +26,7 @@ from planner.language.grammar.step_builders import (
     one_at_a_time,
 )
 from planner.language.numbers import times
-from planner.language.templates.template_file import Found
+from planner.language.templates.template_file import TemplateFind
 from planner.plan import (
     Code,
     ComeBack,
@@ -48,7 +48,7 @@ _HOME = ("home", "家", "家里")
 WHERE = message_of("grammar.which_places")
 
 
-def drive_to(found: Found, reading: Reading) -> Meaning:
+def drive_to(found: TemplateFind, reading: Reading) -> Meaning:
     """Read the group `place` as a place to drive to, or as a thing to drive up to."""
     meaning = go_to(found["place"], reading)
     if isinstance(meaning, Steps):
@@ -61,7 +61,7 @@ def drive_to(found: Found, reading: Reading) -> Meaning:
     return up_to(found["place"], reading) or meaning
 
 
-def set_out(found: Found, reading: Reading) -> Meaning | None:
+def set_out(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read "from the kitchen" as the first place, where it opens an order and more follows.
 
     Alone, "leave from the kitchen" orders no drive to the kitchen.
@@ -69,7 +69,7 @@ def set_out(found: Found, reading: Reading) -> Meaning | None:
     return go_to(found["place"], reading) if reading.opens else None
 
 
-def drive_into(found: Found, reading: Reading) -> Meaning:
+def drive_into(found: TemplateFind, reading: Reading) -> Meaning:
     """Read the group `place` as a room: nothing drives into a sofa."""
     meaning = go_to(found["place"], reading)
     goals = meaning.steps if isinstance(meaning, Steps) else ()
@@ -80,7 +80,7 @@ def drive_into(found: Found, reading: Reading) -> Meaning:
     return meaning if rooms else reading.problem(Code.NOT_UNDERSTOOD, found[0])
 
 
-def route(found: Found, reading: Reading) -> Meaning:
+def route(found: TemplateFind, reading: Reading) -> Meaning:
     """Read the groups `start` and `place` as two places, one after the other."""
     start, place = go_to(found["start"], reading), go_to(found["place"], reading)
     if isinstance(start, Steps) and isinstance(place, Steps):
@@ -88,7 +88,7 @@ def route(found: Found, reading: Reading) -> Meaning:
     return place if isinstance(start, Steps) else start
 
 
-def next_place(found: Found, reading: Reading) -> Meaning | None:
+def next_place(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read a bare place after a go-to clause as the next place; elsewhere offer it."""
     phrase = found["place"]
     meaning = go_to(phrase, reading)
@@ -105,22 +105,22 @@ def next_place(found: Found, reading: Reading) -> Meaning | None:
     return meaning if named else None
 
 
-def come_back(_found: Found, _reading: Reading) -> Meaning:
+def come_back(_found: TemplateFind, _reading: Reading) -> Meaning:
     """Read the way back to where the goal was accepted."""
     return Steps((ComeBack(),))
 
 
-def home(_found: Found, _reading: Reading) -> Meaning:
+def home(_found: TemplateFind, _reading: Reading) -> Meaning:
     """Read the way to the site's home."""
     return Steps((ReturnHome(),))
 
 
-def stand(_found: Found, reading: Reading) -> Meaning | None:
+def stand(_found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read "and stay there" after a go-to: arriving does that."""
     return Steps(()) if reading.going else None
 
 
-def wait(found: Found, reading: Reading) -> Meaning:
+def wait(found: TemplateFind, reading: Reading) -> Meaning:
     """Read a time to stand still."""
     if not found.amounts["duration"]:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
@@ -137,7 +137,7 @@ _NOT_SAID = re.compile(
 """What names words without giving them: "say it", "say how many there are"."""
 
 
-def say(found: Found, reading: Reading) -> Meaning | None:
+def say(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read a quotation or plain words as what is to be said."""
     if found["quote"]:
         words = reading.quotes[ord(found["quote"]) - FIRST_QUOTE].strip()
@@ -150,12 +150,12 @@ def say(found: Found, reading: Reading) -> Meaning | None:
     return Steps((Say(text=words),))
 
 
-def say_hello(_found: Found, _reading: Reading) -> Meaning:
+def say_hello(_found: TemplateFind, _reading: Reading) -> Meaning:
     """Greet those who are there."""
     return Steps((Say(text="你好"),))
 
 
-def say_often(found: Found, reading: Reading) -> Meaning | None:
+def say_often(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Say the same words a few times: 喊三遍开饭了."""
     said = say(found, reading)
     often = times(found["often"])
@@ -170,12 +170,12 @@ _ASKED = {
 }
 
 
-def ask(found: Found, reading: Reading) -> Meaning:
+def ask(found: TemplateFind, reading: Reading) -> Meaning:
     """Ask back for what an order leaves open, and offer no place that it names."""
     return replace(missing(_ASKED[found["what"]], found[0], reading), places=())
 
 
-def stay_at(found: Found, reading: Reading) -> Meaning:
+def stay_at(found: TemplateFind, reading: Reading) -> Meaning:
     """Go where it is to wait, without a time: arriving does that."""
     return go_to(found["place"], reading)
 
@@ -193,7 +193,7 @@ def _only_door(phrase: str, reading: Reading) -> str | None:
     return doors[0] if len(doors) == 1 else None
 
 
-def stand_at(found: Found, reading: Reading) -> Meaning | None:
+def stand_at(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read the groups `place`, `side` and `length` as a side of a place or thing to stand at."""
     phrase = found["place"]
     there = reading.scene.place if phrase in _IT else _only_door(phrase, reading)
@@ -224,7 +224,7 @@ _TURNS_RAD = {"left": pi / 2, "right": -pi / 2, "around": pi, "back_right": -pi,
 _MOST_TURNED_RAD = 4 * pi
 
 
-def turn(found: Found, reading: Reading) -> Meaning:
+def turn(found: TemplateFind, reading: Reading) -> Meaning:
     """Turn by an amount, else a quarter to a side, half about or once round."""
     whole, angle = _TURNS_RAD[found["side"]], found.amounts.get("angle")
     if angle is not None and not angle <= _MOST_TURNED_RAD:
@@ -233,7 +233,7 @@ def turn(found: Found, reading: Reading) -> Meaning:
     return Steps((turned,) * round(found.amounts.get("times", 1.0)))
 
 
-def move(found: Found, reading: Reading) -> Meaning:
+def move(found: TemplateFind, reading: Reading) -> Meaning:
     """Move by a length; without one it is asked for."""
     length = found.amounts.get("length")
     if length is None:
@@ -245,7 +245,7 @@ def move(found: Found, reading: Reading) -> Meaning:
         return ClauseProblem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
 
 
-def turn_and_move(found: Found, reading: Reading) -> Meaning:
+def turn_and_move(found: TemplateFind, reading: Reading) -> Meaning:
     """Turn, then move straight: "drive 2 m, 30 degrees left of straight ahead"."""
     turned, moved = turn(found, reading), move(found, reading)
     if isinstance(turned, Steps) and isinstance(moved, Steps):
@@ -253,7 +253,7 @@ def turn_and_move(found: Found, reading: Reading) -> Meaning:
     return moved if isinstance(turned, Steps) else turned
 
 
-def patrol(found: Found, reading: Reading) -> Meaning:
+def patrol(found: TemplateFind, reading: Reading) -> Meaning:
     """Visit a place of a patrol; places that follow are joined to it."""
     meaning = go_to(found["place"], reading)
     if not isinstance(meaning, Steps):
@@ -266,12 +266,12 @@ def patrol(found: Found, reading: Reading) -> Meaning:
 _WATCHES = re.compile(r"\b(?:patrol|rounds?|check|inspect)\b|巡|检查|看看")
 
 
-def _watches(found: Found) -> bool:
+def _watches(found: TemplateFind) -> bool:
     """Tell whether a round is one to look: "patrol", and not "visit" or "drive through"."""
     return _WATCHES.search(found[0]) is not None
 
 
-def patrol_all(found: Found, reading: Reading) -> Meaning:
+def patrol_all(found: TemplateFind, reading: Reading) -> Meaning:
     """Visit every room."""
     rooms = tuple(entry.id for entry in reading.vocabulary.entries if entry.kind == "room")
     if not rooms:
@@ -279,28 +279,28 @@ def patrol_all(found: Found, reading: Reading) -> Meaning:
     return Steps((Patrol(places=rooms[:20], look=_watches(found)),), seen=_watches(found))
 
 
-def at_stops(_found: Found, reading: Reading) -> Meaning | None:
+def at_stops(_found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read "look at every stop", "tell me what you saw" behind a round that looks by itself."""
     return Steps((), seen=True) if reading.scene.toured else None
 
 
-def in_all(found: Found, reading: Reading) -> Meaning | None:
+def in_all(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read "in every room" as the round, where it opens an order and more follows."""
     return patrol_all(found, reading) if reading.opens else None
 
 
-def explore(found: Found, reading: Reading) -> Meaning | None:
+def explore(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read an order to drive over what is not mapped yet, where a map is being made."""
     place = found["place"]
     whole = not place or reading.marked.restore(place) in _HOME
     return Steps((Explore(),)) if reading.maps and whole else None
 
 
-def map_alone(found: Found, reading: Reading) -> Meaning | None:
+def map_alone(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read an order that can only mean this: where no map is being made, it is refused."""
     return explore(found, replace(reading, maps=True))
 
 
-def unread_way(found: Found, reading: Reading) -> Meaning:
+def unread_way(found: TemplateFind, reading: Reading) -> Meaning:
     """Understand nothing of a clause, and offer no place that it names."""
     return replace(reading.problem(Code.NOT_UNDERSTOOD, found[0]), places=())

@@ -33,7 +33,7 @@ class TemplateError(ValueError):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Words:
+class LiteralWords:
     """Hold literal words, each a row of tokens, by their length; one of them stands there."""
 
     by_length: Mapping[int, frozenset[tuple[str, ...]]]
@@ -43,16 +43,16 @@ class Words:
         return sum(map(len, self.by_length.values()))
 
 
-def words_of(options: Iterable[tuple[str, ...]]) -> Words:
+def words_of(options: Iterable[tuple[str, ...]]) -> LiteralWords:
     """Return literal words."""
     by_length: dict[int, set[tuple[str, ...]]] = {}
     for option in options:
         by_length.setdefault(len(option), set()).add(option)
-    return Words({length: frozenset(rows) for length, rows in by_length.items()})
+    return LiteralWords({length: frozenset(rows) for length, rows in by_length.items()})
 
 
 @dataclass(frozen=True, slots=True)
-class Unit:
+class UnitKind:
     """Stand for a unit of a kind, or for one or more words that no template names."""
 
     kind: str
@@ -60,7 +60,7 @@ class Unit:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class Sequel:
     """Hold expressions that follow each other."""
 
     parts: tuple[Expression, ...]
@@ -74,14 +74,14 @@ class OneOf:
 
 
 @dataclass(frozen=True, slots=True)
-class Slot:
+class SlotFilling:
     """Hold what fills a slot."""
 
     name: str
     filled_by: Expression
 
 
-Expression = Words | Unit | Row | OneOf | Slot
+Expression = LiteralWords | UnitKind | Sequel | OneOf | SlotFilling
 NOTHING = words_of([()])
 UNITS = frozenset({"place", "person", "quote", "length", "angle", "duration", "times"})
 _PIECE = re.compile(
@@ -92,7 +92,7 @@ _PIECE = re.compile(
 
 
 @dataclass(slots=True)
-class _Reader:
+class _ExpressionReader:
     text: str
     named: Mapping[str, str]
     free: frozenset[str]
@@ -131,12 +131,12 @@ class _Reader:
             return self.named_words(found["named"])
         if found["slot"]:
             name = found["slot"]
-            return Slot(name, self.named_words(found["by"] or name))
+            return SlotFilling(name, self.named_words(found["by"] or name))
         if found["unit"]:
             kind = found["unit"]
             if kind not in UNITS | self.free:
                 raise self.fail(f"@{kind} is not a kind of unit")
-            return Unit(kind, is_free=kind in self.free)
+            return UnitKind(kind, is_free=kind in self.free)
         return words_of([tuple(TOKEN.findall(found["text"]))]) if found["text"] else None
 
     def named_words(self, name: str) -> Expression:
@@ -146,7 +146,7 @@ class _Reader:
             raise self.fail(f"<{name}> {problem}")
         if name not in self.read:
             within = (*self.within, name)
-            inner = _Reader(self.named[name], self.named, self.free, self.read, within)
+            inner = _ExpressionReader(self.named[name], self.named, self.free, self.read, within)
             self.read[name] = inner.one_of("")
         return self.read[name]
 
@@ -174,7 +174,7 @@ def parse_expression(
     Raises:
         TemplateError: it can't be read.
     """
-    return _Reader(text, named, free, read).one_of("")
+    return _ExpressionReader(text, named, free, read).one_of("")
 
 
 def _row(parts: list[Expression]) -> Expression:
@@ -182,24 +182,24 @@ def _row(parts: list[Expression]) -> Expression:
     joined: list[Expression] = []
     for part in parts:
         last = joined[-1] if joined else None
-        if not isinstance(part, Words) or not isinstance(last, Words):
+        if not isinstance(part, LiteralWords) or not isinstance(last, LiteralWords):
             joined.append(part)
         elif len(part) * len(last) <= MOST_WORDS:
             pairs = product(_options(last), _options(part))
             joined[-1] = words_of(before + after for before, after in pairs)
         else:
             joined.append(part)
-    return joined[0] if len(joined) == 1 else Row(tuple(joined)) if joined else NOTHING
+    return joined[0] if len(joined) == 1 else Sequel(tuple(joined)) if joined else NOTHING
 
 
-def _options(words: Words) -> list[tuple[str, ...]]:
+def _options(words: LiteralWords) -> list[tuple[str, ...]]:
     return [option for rows in words.by_length.values() for option in rows]
 
 
 def _join(options: list[Expression]) -> Expression:
     """Return one of the options; literal ones as one set."""
-    literal = [option for option in options if isinstance(option, Words)]
-    rest = [option for option in options if not isinstance(option, Words)]
+    literal = [option for option in options if isinstance(option, LiteralWords)]
+    rest = [option for option in options if not isinstance(option, LiteralWords)]
     both = [words_of(each for words in literal for each in _options(words))] if literal else []
     joined = (*(literal if len(literal) == 1 else both), *rest)
     return joined[0] if len(joined) == 1 else OneOf(joined)

@@ -37,18 +37,18 @@ from planner.language.grammar.step_builders import meet as meet_person
 from planner.plan import Ask, Code, ComeBack, Decide, GoToObject, Say
 
 if TYPE_CHECKING:
-    from planner.language.templates.template_file import Found
+    from planner.language.templates.template_file import TemplateFind
 
 
-def _where(found: Found, name: str = "at") -> str | None:
+def _place_in(found: TemplateFind, name: str = "at") -> str | None:
     return found[name] or None
 
 
-def _at(found: Found) -> str | None:
-    return _where(found, "at2") or _where(found)
+def _at(found: TemplateFind) -> str | None:
+    return _place_in(found, "at2") or _place_in(found)
 
 
-def meet(found: Found, reading: Reading) -> Meaning:
+def meet(found: TemplateFind, reading: Reading) -> Meaning:
     """Go to somebody; several people are not sought one after the other."""
     sought = found["how"] == "sought"
     if sought and several(found["who"]) is not None:
@@ -56,22 +56,22 @@ def meet(found: Found, reading: Reading) -> Meaning:
     return meet_person(found["who"], _at(found), reading, sought=sought)
 
 
-def _one_at_a_time(found: Found, reading: Reading) -> Meaning:
+def _one_at_a_time(found: TemplateFind, reading: Reading) -> Meaning:
     place = place_of(_at(found), reading)
     return (
         place if isinstance(place, ClauseProblem) else one_at_a_time(found["who"], place, reading)
     )
 
 
-def call_somebody(found: Found, reading: Reading) -> Meaning:
+def call_somebody(found: TemplateFind, reading: Reading) -> Meaning:
     """Look for somebody, and call them by name."""
     name = call(found["who"], "", reading).rstrip(",")
     return meet_person(found["who"], _at(found), reading, name, sought=True)
 
 
-def go_up_to(found: Found, reading: Reading) -> Meaning:
+def go_up_to(found: TemplateFind, reading: Reading) -> Meaning:
     """Drive up to a person whom the detector knows; one who is only named is met."""
-    who, place = found["who"], place_of(_where(found), reading)
+    who, place = found["who"], place_of(_place_in(found), reading)
     if isinstance(place, ClauseProblem) or not is_known(who, reading.things):
         return meet(found, reading)
     if several(who) is not None:
@@ -83,7 +83,7 @@ def go_up_to(found: Found, reading: Reading) -> Meaning:
 _WISHED = re.compile(r"say (good (?:morning|evening|afternoon)|goodbye|bye|welcome)\b")
 
 
-def greet(found: Found, reading: Reading) -> Meaning:
+def greet(found: TemplateFind, reading: Reading) -> Meaning:
     """Go to somebody and greet them, by name where it is known."""
     who = found["who"]
     is_name = re.match(NAME, who) is not None
@@ -91,40 +91,40 @@ def greet(found: Found, reading: Reading) -> Meaning:
     if has_chinese(found[0]):
         said = (say("spoken.hello_name", name=name) if is_name else say("spoken.hello")).zh
         said = "晚安" if "晚安" in found[0] and not is_name else said
-        return meet_person(who, _where(found), reading, said)
+        return meet_person(who, _place_in(found), reading, said)
     called = say("spoken.hello_name", name=name).en if name[:1].isupper() else None
     wish = _WISHED.match(found[0])
     if wish is not None:  # nobody is greeted with "hello" for a goodbye
         called = f"{wish[1].capitalize()}{f', {name}' if name[:1].isupper() else ''}!"
-    return meet_person(who, _where(found), reading, called or told_in("spoken.hello", reading))
+    return meet_person(who, _place_in(found), reading, called or told_in("spoken.hello", reading))
 
 
-def present_itself(found: Found, reading: Reading) -> Meaning:
+def present_itself(found: TemplateFind, reading: Reading) -> Meaning:
     """Tell somebody about the robot."""
     said = answer_topic(Topic.SELF, None)
     words = said.of(reading.language) if said else ""
-    return meet_person(found["who"], _where(found), reading, words)
+    return meet_person(found["who"], _place_in(found), reading, words)
 
 
-def follow(found: Found, reading: Reading) -> Meaning:
+def follow(found: TemplateFind, reading: Reading) -> Meaning:
     """Find somebody and follow them, to a place where one is named."""
-    start = _where(found) or _where(found, "start")
-    return follow_person(found["who"], start, _where(found, "to"), reading)
+    start = _place_in(found) or _place_in(found, "start")
+    return follow_person(found["who"], start, _place_in(found, "to"), reading)
 
 
-def guide(found: Found, reading: Reading) -> Meaning:
+def guide(found: TemplateFind, reading: Reading) -> Meaning:
     """Find somebody and drive ahead of them."""
-    start = _where(found, "found") or _where(found) or _where(found, "start")
-    end = _where(found, "to") or _where(found, "back")
+    start = _place_in(found, "found") or _place_in(found) or _place_in(found, "start")
+    end = _place_in(found, "to") or _place_in(found, "back")
     return guide_person(found["who"], start, end, reading)
 
 
-def introduce(found: Found, reading: Reading) -> Meaning:
+def introduce(found: TemplateFind, reading: Reading) -> Meaning:
     """Lead one person to another, and name both."""
-    first = meet_person(found["who"], _where(found), reading)
+    first = meet_person(found["who"], _place_in(found), reading)
     if not isinstance(first, Steps):
         return first
-    second = meet_person(found["other"], _where(found, "at2"), ahead(reading, first))
+    second = meet_person(found["other"], _place_in(found, "at2"), ahead(reading, first))
     if not isinstance(second, Steps):
         return second
     words = told_in("spoken.this_is", reading, name=first.person or "")
@@ -135,7 +135,7 @@ def introduce(found: Found, reading: Reading) -> Meaning:
 _US = frozenset({"", "我", "我们", "大家"})
 
 
-def tell_topic(found: Found, reading: Reading) -> Meaning | None:
+def tell_topic(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Tell a topic to the person there, or to one who is found first."""
     topic = topic_of(found["topic"])
     if topic is None:
@@ -144,33 +144,33 @@ def tell_topic(found: Found, reading: Reading) -> Meaning | None:
         return TopicQuestion(topic)
     said = answer_topic(topic, reading.now)
     words = said.of(reading.language) if said else None
-    return meet_person(found["who"], _where(found), reading, words) if words else None
+    return meet_person(found["who"], _place_in(found), reading, words) if words else None
 
 
-def tell_words(found: Found, reading: Reading) -> Meaning:
+def tell_words(found: TemplateFind, reading: Reading) -> Meaning:
     """Go to somebody and tell them words of the sentence."""
     words = put_quotes_back(reading.marked.restore(found["words"]), reading.quotes).strip('" ')
     return meet_person(found["who"], _at(found), reading, words[:500])
 
 
-def ask_for_words(found: Found, reading: Reading) -> Meaning:
+def ask_for_words(found: TemplateFind, reading: Reading) -> Meaning:
     """Ask which words somebody is to be told."""
     return missing(WHICH_WORDS, found[0], reading)
 
 
-def _quoted(found: Found, reading: Reading) -> str:
+def _quotation(found: TemplateFind, reading: Reading) -> str:
     return reading.quotes[ord(found["quote"]) - ord(QUOTE[1])]
 
 
-def tell_quote(found: Found, reading: Reading) -> Meaning:
+def tell_quote(found: TemplateFind, reading: Reading) -> Meaning:
     """Go to somebody and tell them a quotation."""
-    return meet_person(found["who"], _where(found), reading, _quoted(found, reading)[:500])
+    return meet_person(found["who"], _place_in(found), reading, _quotation(found, reading)[:500])
 
 
-def request(found: Found, reading: Reading) -> Meaning:
+def request(found: TemplateFind, reading: Reading) -> Meaning:
     """Ask somebody to do something."""
     words = f"Please {reading.marked.restore(found['deed'])}."
-    return meet_person(found["who"], _where(found), reading, words[:500])
+    return meet_person(found["who"], _place_in(found), reading, words[:500])
 
 
 _OF_THEM = re.compile(r"^(?:他|她)(?!们)")
@@ -178,10 +178,10 @@ _OF_THEM = re.compile(r"^(?:他|她)(?!们)")
 _EVERYBODY = frozenset({"", "大家", "他们", "她们"})
 
 
-def ask_somebody(found: Found, reading: Reading) -> Meaning:
+def ask_somebody(found: TemplateFind, reading: Reading) -> Meaning:
     """Ask somebody a question; those who are there where nobody is named."""
     if found["quote"]:
-        words = _quoted(found, reading)
+        words = _quotation(found, reading)
     else:
         words = reading.marked.restore(found["question"])
         words = _OF_THEM.sub("你", words) if has_chinese(words) else ask_directly(words)
@@ -194,37 +194,37 @@ def ask_somebody(found: Found, reading: Reading) -> Meaning:
     return Steps((*met.steps[:-1], asked), person=met.person)
 
 
-def bring_answer(_found: Found, reading: Reading) -> Meaning | None:
+def bring_answer(_found: TemplateFind, reading: Reading) -> Meaning | None:
     """Come back with what somebody answered, where they were searched for to be asked."""
     if reading.scene.kind == "come_back":
         return Steps(())
     return Steps((ComeBack(),)) if reading.scene.kind == "ask" and reading.scene.person else None
 
 
-def describe(found: Found, reading: Reading) -> Meaning:
+def describe(found: TemplateFind, reading: Reading) -> Meaning:
     """Look at somebody or something and tell about it, here or to another person."""
-    seen = look(found["what"], _where(found), reading)
+    seen = look(found["what"], _place_in(found), reading)
     if not isinstance(seen, Steps) or not found["who"]:
         return seen
-    met = meet_person(found["who"], _where(found, "at2"), ahead(reading, seen))
+    met = meet_person(found["who"], _place_in(found, "at2"), ahead(reading, seen))
     if not isinstance(met, Steps):
         return met
     tell = Decide(question=reading.marked.restore(found[0])[:500])
     return Steps((*seen.steps, *met.steps, tell), person=met.person, seen=True)
 
 
-def hold_dialogue(found: Found, reading: Reading) -> Meaning:
+def hold_dialogue(found: TemplateFind, reading: Reading) -> Meaning:
     """Say no to a conversation; offer to go to whom it is to be held with."""
-    met = meet_person(found["who"], _where(found), reading) if found["who"] else None
+    met = meet_person(found["who"], _place_in(found), reading) if found["who"] else None
     before = met.steps if isinstance(met, Steps) else ()
     return reading.problem(Code.NO_CAPABILITY, found[0], before)
 
 
-def lacks_means(found: Found, reading: Reading) -> Meaning:
+def lacks_means(found: TemplateFind, reading: Reading) -> Meaning:
     """Say no to what is understood and can't be done."""
     return reading.problem(Code.NO_CAPABILITY, found[0])
 
 
-def say_plainly(found: Found, reading: Reading) -> Meaning:
+def say_plainly(found: TemplateFind, reading: Reading) -> Meaning:
     """Say words of the sentence."""
     return saying(found["words"], reading)

@@ -23,13 +23,13 @@ from planner.language.semantic_parser.amounts import find_amounts
 from planner.language.semantic_parser.plan_grammar import SlotKind
 from planner.language.templates.automaton import Units
 from planner.language.templates.expressions import TOKEN
-from planner.language.templates.template_file import Found, TemplateSet, load_templates
+from planner.language.templates.template_file import TemplateFind, TemplateSet, load_templates
 from planner.plan import Language
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    Builder = Callable[[Found, Reading], Meaning | None]
+    Builder = Callable[[TemplateFind, Reading], Meaning | None]
 
 TEMPLATES = load_templates()
 
@@ -48,7 +48,7 @@ _WORD = re.compile(rf"[\w'{CHINESE}°/-]+")
 
 
 @dataclass(frozen=True, slots=True)
-class Clause:
+class ClauseUnits:
     """Hold a clause's units, where they stand in its text, and its amounts by their tokens."""
 
     text: str
@@ -61,7 +61,7 @@ class Clause:
         return self.text[self.spans[begin][0] : self.spans[end - 1][1]]
 
 
-def cut_clause(text: str, templates: TemplateSet) -> Clause:
+def cut_clause(text: str, templates: TemplateSet) -> ClauseUnits:
     """Return a marked clause's units."""
     found = list(TOKEN.finditer(text))
     tokens = tuple(token[0] for token in found)
@@ -83,7 +83,7 @@ def cut_clause(text: str, templates: TemplateSet) -> Clause:
         for kind, rule, first in templates.free_kinds
     }
     spans = tuple(token.span() for token in found)
-    return Clause(text, spans, Units(tokens, ends, free), amounts)
+    return ClauseUnits(text, spans, Units(tokens, ends, free), amounts)
 
 
 def _amounts_of(text: str) -> Iterator[tuple[str, float, int, int]]:
@@ -95,7 +95,7 @@ def _amounts_of(text: str) -> Iterator[tuple[str, float, int, int]]:
 
 
 @lru_cache(maxsize=256)
-def find_templates(text: str, language: Language) -> tuple[tuple[int, Found], ...]:
+def find_templates(text: str, language: Language) -> tuple[tuple[int, TemplateFind], ...]:
     """Return the templates that read a marked clause, and what each found, the surest first."""
     templates = TEMPLATES
     clause = cut_clause(text, templates)
@@ -111,7 +111,7 @@ def find_templates(text: str, language: Language) -> tuple[tuple[int, Found], ..
         hits.append(
             (
                 template,
-                Found(
+                TemplateFind(
                     text, {**templates.rows[template].values, **slots}, amounts, match.free_words
                 ),
             )

@@ -17,8 +17,8 @@ from planner.language.templates.automaton import Automaton
 from planner.language.templates.expressions import (
     Expression,
     OneOf,
-    Row,
-    Slot,
+    Sequel,
+    SlotFilling,
     TemplateError,
     parse_expression,
 )
@@ -51,7 +51,7 @@ class FreeKind:
 
 
 @dataclass(frozen=True, slots=True)
-class Template:
+class SentenceTemplate:
     """Hold one meaning: its plan's name, fixed values and slots, and its sentences."""
 
     form: str
@@ -65,7 +65,7 @@ class Template:
 class TemplateSet:
     """Hold templates and what matches them."""
 
-    def __init__(self, rows: tuple[Template, ...], free: Mapping[str, FreeKind]) -> None:
+    def __init__(self, rows: tuple[SentenceTemplate, ...], free: Mapping[str, FreeKind]) -> None:
         self.rows = rows
         self.free_kinds = tuple(
             (f"{kind}^" if first else kind, rule, first)
@@ -87,7 +87,7 @@ class TemplateSet:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class TemplateFind:
     """Hold what a template found in a clause: its slots' words and amounts, and its own values."""
 
     text: str
@@ -143,7 +143,7 @@ def _template(
     words: Mapping[str, Mapping[str, str]],
     free: frozenset[str],
     read: Mapping[str, dict[str, Expression]],
-) -> Template:
+) -> SentenceTemplate:
     plan = _PLAN.fullmatch(str(row.get("plan", "")))
     if plan is None:
         raise TemplateError(
@@ -167,14 +167,14 @@ def _template(
                 "name every slot of the sentences in the plan",
                 "句子中的每个槽位都要写在 plan 里",
             )
-    return Template(plan["form"], values, slots, int(row.get("stage", 0)), sentences)
+    return SentenceTemplate(plan["form"], values, slots, int(row.get("stage", 0)), sentences)
 
 
 def _slots_of(expression: Expression) -> set[str]:
     match expression:
-        case Slot():
+        case SlotFilling():
             return {expression.name} | _slots_of(expression.filled_by)
-        case Row():
+        case Sequel():
             return set().union(*map(_slots_of, expression.parts))
         case OneOf():
             return set().union(*map(_slots_of, expression.options))

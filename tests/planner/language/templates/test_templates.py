@@ -16,12 +16,12 @@ from planner.language.templates import automaton
 from planner.language.templates.builders import BUILDERS
 from planner.language.templates.expressions import (
     Expression,
+    LiteralWords,
     OneOf,
-    Row,
-    Slot,
+    Sequel,
+    SlotFilling,
     TemplateError,
-    Unit,
-    Words,
+    UnitKind,
 )
 from planner.language.templates.reader import TEMPLATES, find_templates, read_exactly
 from planner.language.templates.template_file import read_templates
@@ -46,17 +46,17 @@ MOTION = {"drive_to", "home", "wait", "turn", "move"}
 def _say(expression: Expression, tongue: str, dice: random.Random) -> list[str]:
     """Return the tokens of one sentence that an expression stands for."""
     match expression:
-        case Words():
+        case LiteralWords():
             options = sorted(each for rows in expression.by_length.values() for each in rows)
             return list(dice.choice(options))
-        case Unit():
+        case UnitKind():
             word = OTHER_WORD[tongue] if expression.is_free else SAID[tongue][expression.kind]
             return [word]
-        case Row():
+        case Sequel():
             return [token for part in expression.parts for token in _say(part, tongue, dice)]
         case OneOf():
             return _say(dice.choice(expression.options), tongue, dice)
-        case Slot():
+        case SlotFilling():
             return _say(expression.filled_by, tongue, dice)
 
 
