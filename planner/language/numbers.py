@@ -43,17 +43,6 @@ ZH_DURATION = (
 )
 
 
-_DIGITS = r"\d{1,5}(?:\.\d{1,4})?"
-_ZH_DIGIT = r"[零一二三四五六七八九十两半百]{1,5}"
-EN_LENGTH = (
-    rf"(?P<length>{_DIGITS}|{_EN_NUMBER}) ?(?P<unit>met(?:er|re)s?|m|centimet(?:er|re)s?|cm"
-    r"|feet|foot|ft|inch(?:es)?|yards?|yd)\b"
-)
-ZH_LENGTH = rf"(?P<length>{_DIGITS}|{_ZH_DIGIT})个?(?P<unit>厘米|公分|米|m|cm)(?P<half>半)?"
-EN_ANGLE = rf"(?P<angle>{_DIGITS}|{_EN_NUMBER}) ?(?P<arc>degrees?|deg|°|radians?|rad)"
-ZH_ANGLE = rf"(?P<angle>{_DIGITS}|{_ZH_DIGIT})(?P<arc>度|°|弧度)"
-ZH_TURNS = r"(?P<turns>[两二三四五2345])"
-TIMES = r"(?P<times>once|twice|thrice|two times|three times|four times|\d times)"
 _TIMES = {"once": 1, "twice": 2, "thrice": 3, "two": 2, "three": 3, "four": 4, "five": 5}
 _TIMES |= {"couple": 2, "few": 3, "several": 3, "几": 3, "好几": 3}
 

@@ -28,16 +28,13 @@ from planner.language.grammar.noun_phrases import go_to
 from planner.language.grammar.parse_result import (
     Clause,
     ClauseProblem,
+    ClauseReader,
     Meaning,
     Reading,
-    Rule,
     Steps,
     read_by,
 )
 from planner.plan import MAX_STEPS, Bilingual, Code, Count, Find, GoTo, Look, Patrol, Step
-
-FIRST_QUOTE = 0xF800
-QUOTE = "[\uf800-\uf8ff]"
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +53,7 @@ class Grammar:
     thanks: Pattern[str]  # at the end of a clause
     opening: Pattern[str]
     closing: Pattern[str]
-    rules: tuple[Rule, ...]
+    rules: tuple[ClauseReader, ...]
 
     def clauses(self, text: str) -> list[Clause]:
         """Cut a marked sentence into clauses; those of mere courtesy are dropped."""
@@ -147,42 +144,6 @@ def _order(clause: str) -> str:
 
 def _going(clause: str) -> str:
     return f"go to {clause}" if _BARE.fullmatch(clause) else clause
-
-
-_SAYING = re.compile(
-    r"(?P<verb>\b(?<!\bi )(?:say|announce|tell (?:me|us|them|everyone)"
-    r"|(?:tell|ask) (?:[\w']+ ){0,6}?[\w']+(?=[:,]? [\"“]))(?: out loud)?"
-    r"|(?<!我)(?:说|說|喊|讲|播报)(?:一声|一句|一下|出|(?:[两二三四五2-5]|好?几)[遍声次句])?)\s*[:：,，]?\s*"
-    r"(?:[\"“”「](?P<double>[^\"“”「」]*)[\"“”」]|['‘](?P<single>.*?)['’](?!\w))",
-    re.IGNORECASE,
-)
-_MARKS = re.compile(r"[\"“”「」『』]")
-_MOST = 200
-
-
-def take_quotes(text: str) -> tuple[str, tuple[str, ...]]:
-    """Return the text with each quotation after "say" as one private character, and the words.
-
-    Quotation marks elsewhere (a name in quotes) are dropped and their words stay in the sentence.
-    """
-    words: list[str] = []
-
-    def set_aside(found: re.Match[str]) -> str:
-        if len(words) >= _MOST:
-            return found[0]
-        words.append(found["double"] if found["double"] is not None else found["single"])
-        return f"{found['verb']} {chr(FIRST_QUOTE + len(words) - 1)}"
-
-    return _MARKS.sub("", _SAYING.sub(set_aside, text)), tuple(words)
-
-
-def put_quotes_back(text: str, words: tuple[str, ...]) -> str:
-    """Return a text with its quotations in marks again, as ``take_quotes`` found them."""
-    return re.sub(
-        QUOTE,
-        lambda found: f'"{words[at]}"' if (at := ord(found[0]) - FIRST_QUOTE) < len(words) else "",
-        text,
-    )
 
 
 WHICH = say("grammar.which_one")

@@ -9,8 +9,8 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
-from functools import lru_cache
 from re import Match, Pattern
+from typing import Protocol
 
 from planner.language.grammar.lexicon import MARK, Lexicon, MarkedText
 from planner.language.grammar.small_talk import Topic, topic_of
@@ -151,6 +151,13 @@ class Reading:
 Build = Callable[[Match[str], Reading], Meaning | None]
 
 
+class ClauseReader(Protocol):
+    """Read a clause whole, or not at all."""
+
+    def read(self, clause: str, reading: Reading) -> Meaning | None:
+        """Return the meaning of a clause; None where it is not read."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Rule:
     """Read a clause that matches the pattern whole; words beyond the pattern are unread."""
@@ -158,26 +165,21 @@ class Rule:
     pattern: Pattern[str]
     build: Build
 
+    def read(self, clause: str, reading: Reading) -> Meaning | None:
+        """Return the meaning of a clause; None where it is not read."""
+        found = self.pattern.fullmatch(clause)
+        return self.build(found, reading) if found else None
 
-def read_by(rules: tuple[Rule, ...], clause: str, reading: Reading) -> Meaning:
+
+def read_by(rules: Sequence[ClauseReader], clause: str, reading: Reading) -> Meaning:
     """Return the first fitting rule's reading; a clause that no rule reads whole is a problem."""
-    at = _next_fitting(rules, clause, 0)
-    while at >= 0:
-        found = rules[at].pattern.fullmatch(clause)
-        meaning = rules[at].build(found, reading) if found else None
+    for each in rules:
+        meaning = each.read(clause, reading)
         if isinstance(meaning, Steps):
             return replace(meaning, part=reading.marked.restore(clause))
         if meaning is not None:
             return meaning
-        at = _next_fitting(rules, clause, at + 1)
     return reading.problem(Code.NOT_UNDERSTOOD, clause)
-
-
-@lru_cache(maxsize=256)
-def _next_fitting(rules: tuple[Rule, ...], clause: str, begin: int) -> int:
-    """Return which rule fits next, -1 for none; an order is read up to sixteen times over."""
-    fitting = (at for at in range(begin, len(rules)) if rules[at].pattern.fullmatch(clause))
-    return next(fitting, -1)
 
 
 def rule(pattern: str, build: Build) -> Rule:

@@ -20,15 +20,13 @@ from planner.language.grammar.clauses import (
     Grammar,
     at_each,
     in_order,
-    put_quotes_back,
-    take_quotes,
 )
 from planner.language.grammar.compound import read_compound
 from planner.language.grammar.compound_forms import PartReaders
 from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
-from planner.language.grammar.en.driving import TALK
 from planner.language.grammar.en.orders import ENGLISH
+from planner.language.grammar.en.talk import TALK
 from planner.language.grammar.joined_condition import in_one_condition
 from planner.language.grammar.lexicon import (
     MARK,
@@ -43,11 +41,13 @@ from planner.language.grammar.parse_result import (
     ClauseProblem,
     Meaning,
     Reading,
+    Rule,
     TopicQuestion,
     read_by,
 )
 from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
 from planner.language.grammar.questions_whether import asks_whether
+from planner.language.grammar.quotes import put_quotes_back, take_quotes
 from planner.language.grammar.sentence_text import (
     EXAMPLE,
     mend,
@@ -58,11 +58,13 @@ from planner.language.grammar.sentence_text import (
 )
 from planner.language.grammar.unread_branch import tell_unread
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
-from planner.language.grammar.zh.driving import TALK as ZH_TALK
 from planner.language.grammar.zh.orders import CHINESE
+from planner.language.grammar.zh.talk import TALK as ZH_TALK
 from planner.language.recall import read_recall
 from planner.language.sentence import parse
 from planner.language.stop import StopReading
+from planner.language.templates.reader import read_exactly
+from planner.language.templates.template_file import template_words
 from planner.plan import (
     AnswerPlan,
     Clarify,
@@ -84,7 +86,13 @@ _SEAM = re.compile(rf"(?<=[a-z0-9])(?={_OTHER})|(?<={_OTHER})(?=[a-z0-9])")
 _BORDERS = re.compile(r"^[\s,.!?;:。、~]+|[\s,.!?;:。、~]+$")
 _LATIN = re.compile(r"[a-z]")
 
-_SPELT = words_of(*(rule.pattern for rule in ENGLISH.rules), *(veto for _, veto in ENGLISH.vetoes))
+_SPELT = (
+    words_of(
+        *(rule.pattern for rule in ENGLISH.rules if isinstance(rule, Rule)),
+        *(veto for _, veto in ENGLISH.vetoes),
+    )
+    | template_words()
+)
 
 
 def plan(
@@ -96,10 +104,40 @@ def plan(
     refused = refused or refuse_long_text(text)
     if refused is not None:
         return refused
+    exact = _read_exactly(text, vocabulary, context)
+    if exact is not None:
+        return exact
     made = _read_sentence(text, vocabulary, context)
     if isinstance(made, Refuse):
         return tell_unread(made, text, lambda said: _read_sentence(said, vocabulary, context))
     return made
+
+
+def _read_exactly(
+    text: str, vocabulary: Vocabulary, context: Context
+) -> StepPlan | AnswerPlan | Clarify | Refuse | None:
+    """Return the plan of one order whose every word a template names; None of any other.
+
+    No template names a word of denial, condition or choice; what is said around the order may
+    ("when there, …"), and a drive "over" somebody is made of a template's words.
+    """
+    said = parse(text)
+    grammar = CHINESE if has_chinese(text) else ENGLISH
+    if said.reading is StopReading.ORDER:
+        return None
+    lexicon = lexicon_of(vocabulary)
+    marked = lexicon.mark(normalise(text))
+    vetoes = (veto for each in (ENGLISH, CHINESE) for _, veto in each.vetoes)
+    if any(veto.search(marked.text) for veto in vetoes) or broken_rule(marked.text):
+        return None
+    clause = grammar.plain(_BORDERS.sub("", marked.text))
+    language, moved = context.language or said.language, context.moved or context.departed
+    reading = Reading(marked, lexicon, vocabulary, language, maps="explore" in context.runnable)
+    steps = read_exactly(clause, reading, context.runnable)
+    if steps is None:
+        return None
+    setting = Setting(vocabulary, lexicon, language, context.room, context.now, moved=moved)
+    return compose([steps], marked.restore(marked.text), setting)
 
 
 def _read_sentence(

@@ -6,12 +6,6 @@ from planner.language.folding import CHINESE
 from planner.language.grammar.lexicon import MARK, NAME
 
 THE = r"(?:the |a |an |my |our |your |this |that )?"
-GO = (
-    r"(?:go|drive|move|head|walk|navigate|travel|proceed|run|roll|come|return|get|continue|pop|"
-    r"swing|nip|hop|"
-    r"step|make your way)"
-    r"(?: (?:back|over|straight|directly|on|down|up|out|along|ahead|right|off))?"
-)
 PREP = (
     r"(?:in|inside|at|on|on top of|near|by|next to|beside|around|within|within|of|from|inside of)"
 )
@@ -43,8 +37,3 @@ def loc(name: str) -> str:
         rf"(?: (?:right |over )?{PREP} (?P<{name}>{_SPOT})| (?:over )?(?P<{name}_there>there|"
         r"here))?"
     )
-
-
-def sure_loc(name: str) -> str:
-    """Return a place phrase that must be there."""
-    return loc(name).removesuffix("?")

@@ -6,17 +6,16 @@ A clause is read whole or not at all; the rules name every word that they pass o
 from __future__ import annotations
 
 import re
-from re import Match
 
 from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_EN
 from planner.language.grammar.clauses import Grammar
-from planner.language.grammar.driving_steps import next_place
-from planner.language.grammar.en import PERSON, driving, objects, people
+from planner.language.grammar.en.talk import TALK
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.parse_result import Meaning, Reading, Steps, lacks, rule, unread
+from planner.language.grammar.parse_result import lacks, rule, unread
 from planner.language.grammar.unsupported import lacks_arm
-from planner.plan import Code
+from planner.language.templates.reader import TemplateStage
+from planner.plan import Code, Language
 
 _ARM = (
     r"(?:bring|fetch|get|grab|grasp|pick|put|place|take|carry|deliver|give|hand|hold|lift|drop|"
@@ -117,11 +116,6 @@ _PURPOSE = (
 )
 
 
-def _tell_nothing(_found: Match[str], reading: Reading) -> Meaning | None:
-    """Add nothing behind "come back": who is back tells what came of the order by itself."""
-    return Steps(()) if reading.scene.kind == "come_back" else None
-
-
 ENGLISH = Grammar(
     asked=re.compile(r"(?!)()"),  # "can you …" is a courtesy that needs no closing word
     vetoes=(
@@ -146,26 +140,28 @@ ENGLISH = Grammar(
         r"^(?:finally|lastly|last|at last|in the end)\s+|\s+(?:at the end|last|afterwards)$"
     ),
     rules=(
-        *driving.TALK,
+        *TALK,
         *unsupported.PAST_ENGLISH,
         *unsupported.ASIDE_ENGLISH,
+        TemplateStage(Language.EN, (0, 2)),
         rule(
-            r"(?:tell|inform|notify) (?:me|us)(?: (?:all )?about it)?|let (?:me|us) know"
-            r"|report(?: back)?(?: to (?:me|us))?",
-            _tell_nothing,
+            r"(?:(?:move|go|drive|walk|come|step|roll|slide) )?(?:a (?:bit|little) )?sideways\b.*",
+            lacks(Code.NO_CAPABILITY),
         ),
-        *people.RULES,
-        *driving.RULES,
         rule(
-            rf"give (?P<who>{PERSON}) (?:a )?(?:hug|kiss|hand|ride|lift)", lacks(Code.NO_CAPABILITY)
+            r"(?:(?:move|go|drive|walk|come|step|roll) )?(?:a (?:bit|little) )?"
+            r"(?:left|right|closer|away|in circles?)\b.*"
+            r"|turn(?! (?:on|off|up|down|over|out)\b|.* (?:on|off)$)\b.*"
+            r"|(?:rotate|spin|reverse|back up|circle|orbit|park)\b.*"
+            r"|(?:move|go|drive|walk) (?:for )?(?:about )?(?:back )?\d.*",
+            unread,
         ),
-        *objects.RULES[:-1],
         rule(_OWN_MOTION, lacks(Code.NOT_UNDERSTOOD)),
         rule(_ARM, lacks_arm),
         rule(_LACKS, lacks(Code.NO_CAPABILITY)),
         rule(_TALK, unread),
-        objects.RULES[-1],
-        rule(r"(?P<place>.+)", next_place),
+        TemplateStage(Language.EN, (8,)),
+        TemplateStage(Language.EN, (9,)),
     ),
 )
 """The last of the rules about things reads a bare thing: after all that begins with a verb."""

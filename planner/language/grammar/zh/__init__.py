@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.language.grammar.lexicon import MARK, NAME
+from planner.language.grammar.lexicon import MARK
 
 GO = (
     r"(?:去往|前往|去到|到达|开往|开到|开去|驶向|驶往|驶到|走到|走去|走向|走回|跑到|移动到|移动至|"
@@ -33,29 +33,7 @@ SEE = (
     r"确认|巡视|查一下|"
     r"查查|拍照|拍张照片?|拍一张照片?|描述一下|描述|描绘|告诉我|说说|监控|盯着|看着|留意|了解一下)"
 )
-UNIT = r"(?:(?:个|只|张|位|把|本|台|瓶|杯|名|条|件|辆|盒|罐|双|支|口|盏)(?!子))?"
-"""A measure word between a number and what is counted; 杯子 is a thing and no measure."""
 WHETHER = r"[都还]?(?:有没有|是否有|是不是有|有无)"
 WHAT = r"[都还]?有(?:些|点)?(?:什么|啥|谁|哪些|何|甚么)"
 """What, or who, is there."""
 THING = r"[^,。\ue000-\ue8ff]{1,24}?"
-_WHO = (
-    r"(?:人|男人|女人|男的|女的|男孩子?|女孩子?|小孩子?|孩子|小朋友|老人|客人|先生|女士|朋友|主人|"
-    r"病人|顾客|"
-    r"婴儿|宝宝|同学|学生|访客|家人|同事|行人|叔叔|阿姨|大叔|大爷|大妈|哥哥|姐姐|弟弟|妹妹)"
-)
-PERSON = (
-    rf"(?:{NAME}|人家|他们|她们|他|她|大家|所有人|每个人|有人"
-    r"|(?:那个|这个|一个|那位|这位|一位|那些|这些|所有|某个|个|"
-    rf"位)?(?:(?!.{{0,3}}有|.{{0,6}}(?:几|"
-    rf"多少))[^,。\ue000-\ue7ff去到来跟找把]{{0,14}}?的?)?{_WHO}"
-    r"|[那这]位)"
-)
-
-
-def loc(name: str) -> str:
-    """Return a place phrase as a named group: "在厨房里", "去厨房", "那里"."""
-    return (
-        rf"(?:(?:在|去|到|来|往|前往|去到|走到|回到|从)?(?P<{name}>{SPOT}){IN}(?:去|来)?"
-        rf"|(?:在|去|到)(?P<{name}_there>那里|那儿|那边|这里|这儿|这边))"
-    )

@@ -10,13 +10,14 @@ from re import Match
 
 from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_ZH
-from planner.language.grammar.clauses import QUOTE, Grammar
-from planner.language.grammar.driving_steps import next_place, say, say_often
+from planner.language.grammar.clauses import Grammar
 from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.parse_result import Meaning, Reading, Steps, lacks, rule, unread
 from planner.language.grammar.unsupported import lacks_arm
-from planner.language.grammar.zh import ALL_ROOMS, GO, IN, SEE, VERB, driving, objects, people
-from planner.plan import Code
+from planner.language.grammar.zh import ALL_ROOMS, GO, IN, SEE, VERB
+from planner.language.grammar.zh.talk import TALK
+from planner.language.templates.reader import TemplateStage
+from planner.plan import Code, Language
 
 _ARM = (
     r"(?:拿|取(?!消)|(?<!快)递|抓|放(?!映)|搬|端(?!口)|捡|拾|夹|提起|提着|抬|打开|关闭|关掉|关上|"
@@ -36,17 +37,7 @@ _WITH_ARM = rf"(?:{_NO_ARM}|(?!{_ARM}|{_NO_ARM}).)*(?!{_NO_ARM}){_ARM}"
 """A verb of an arm that is no part of another word: 放松 and 关于 grasp nothing."""
 _NO_LOOK = rf"(?!(?:{SEE}).*[着了]没有?$)"
 """看看门关了没 closes no door."""
-_SAID = (
-    r"(?:大声|高声|小声|轻声)?地?(?:(?:说|喊|叫|讲)(?:一声|一句|一嗓子|声|句)|说(?!一下|一说))"
-    r"(?![话说明法出过到的了给完好])(?!.*(?:什么|哪|几|怎么|多少|谁|啥|吗$|呢$))"
-    r"(?P<words>[^,.;!?。、\"“”\ue000-\ue8ff]{1,20})"
-)
-"""Words to be said, without marks around them; what asks the robot something is none."""
-_SAID_OFTEN = (
-    rf"(?:大声|高声|小声)?地?[说喊讲叫](?P<often>[两二三四五2-5]|好?几)[遍声次句][:,]? ?"
-    rf"(?:(?P<quote>{QUOTE})|(?P<words>[^,.;!?。、\"“”\ue000-\ue8ff]{{1,20}}))"
-)
-_TALK = r"(?:说|讲|告诉|回答|提醒|叫|读|念|介绍|聊天|查询|发[现出生动]).*"
+_TALKING = r"(?:说|讲|告诉|回答|提醒|叫|读|念|介绍|聊天|查询|发[现出生动]).*"
 _LACKS = r"(?:唱|跳舞|播放|放.*音乐|订|搜索网|翻译|计算|写|发).*"
 
 _NEGATION = (
@@ -56,7 +47,7 @@ _NEGATION = (
 )
 _CONDITION = (
     r"如果|要是|假如|假若|倘若|若|除非|的话|只要|只有|一旦|当.+(?:时|的时候)|时候(?!了)|直到|等到|"
-    r"等(?!着[,。]|待?(?:我|上)?(?:\d|[一二三四五六七八九十两半]+个?(?:秒|分|小时))).+(?:再|后|了)|"
+    r"等(?!着[,。]|[待候]?(?:我|上)?(?:\d|[一二三四五六七八九十两半]+个?(?:秒|分|小时))).+(?:再|后|了)|"
     r"万一|是否|是不是|要不要|否则|不然|明天|后天|今晚|今天晚上|待会儿?|过一会儿?|稍后|晚点|"
     r"[\d一二三四五六七八九十]+点(?!钟?了?吗?$)|每(?:隔|天|小时|分钟|次)|半小时后|分钟后|小时后|"
     r"随时|(?<![此里儿])为止|(?:[我他她]们?|妈|爸|奶奶|爷爷)[^,.;!?。停]{1,10}再停"
@@ -124,10 +115,10 @@ CHINESE = Grammar(
     opening=re.compile(r"^(?:首先|先)"),
     closing=re.compile(r"^(?:最后|最终)"),
     rules=(
-        *driving.RULES[:-2],
-        *people.GUIDE,
+        *TALK,
+        TemplateStage(Language.ZH, (0,)),
         *unsupported.PAST_CHINESE,
-        *objects.NEIGHBOUR_RULES,
+        TemplateStage(Language.ZH, (1,)),
         rule(rf"{_NO_LOOK}(?!{_WITH_ARM}).*{_ARM}.*", unread),
         rule(rf"{_NO_LOOK}.*{_ARM}.*", lacks_arm),
         *unsupported.ASIDE_CHINESE,
@@ -140,13 +131,16 @@ CHINESE = Grammar(
             r"(?:告诉我|[跟和向给对]我(?:说|讲|报告|汇报))(?:一声|一下|一遍|下|声)?",
             _tell_nothing,
         ),
-        *people.RULES,
-        *objects.RULES,
-        *driving.RULES[-2:],
-        rule(_SAID_OFTEN, say_often),
-        rule(_SAID, say),
-        rule(_TALK, unread),
+        TemplateStage(Language.ZH, (2,)),
+        rule(r"(?:往上|向上)?(?:跳|爬|飞起来).*", lacks(Code.NO_CAPABILITY)),
+        rule(
+            r"(?:往|向|朝|沿)(?:着)?[^\ue000-\ue7ff]*(?:走|移动|前进|转|开|退|行驶|旋转|挪).*"
+            r"|(?:旋转|转|绕).*|走\d.*",
+            unread,
+        ),
+        TemplateStage(Language.ZH, (3,)),
+        rule(_TALKING, unread),
         rule(_LACKS, lacks(Code.NO_CAPABILITY)),
-        rule(r"(?P<place>.+)", next_place),
+        TemplateStage(Language.ZH, (9,)),
     ),
 )

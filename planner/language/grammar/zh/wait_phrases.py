@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 
-from planner.language.grammar.clauses import QUOTE
+from planner.language.grammar.quotes import QUOTE
 from planner.language.person_names import is_given_name
 
 _LEAD = r"(?:请|麻烦|帮我|你|您|先|就)*"

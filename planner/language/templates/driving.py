@@ -1,4 +1,4 @@
-"""Make steps of what a rule about driving found: places, ways, waits, turns, moves and patrols.
+"""Make steps of what a template about driving found: places, ways, waits, turns, moves and patrols.
 
 One way for all tongues. Counter-clockwise is positive.
 """
@@ -7,17 +7,26 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from math import pi
-from re import Match
+from math import copysign, pi
 
 from pydantic import ValidationError
 
 from planner.language.catalogue import say as message_of
-from planner.language.grammar.clauses import FIRST_QUOTE
 from planner.language.grammar.noun_phrases import go_to, several_of, up_to
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
-from planner.language.grammar.step_builders import ASIDE, look, missing, one_at_a_time
-from planner.language.numbers import angle_rad, metres, seconds, times
+from planner.language.grammar.quotes import FIRST_QUOTE
+from planner.language.grammar.small_talk import topic_of
+from planner.language.grammar.step_builders import (
+    ASIDE,
+    HOW_LONG,
+    WHERE_ARE_YOU,
+    WHERE_TO,
+    look,
+    missing,
+    one_at_a_time,
+)
+from planner.language.numbers import times
+from planner.language.templates.template_file import TemplateFind
 from planner.plan import (
     Code,
     ComeBack,
@@ -33,16 +42,13 @@ from planner.plan import (
 )
 
 HOW_FAR = message_of("grammar.how_far")
-_BACKWARD = ("back", "reverse", "后", "倒", "退")
-_RIGHT = ("right", "clockwise", "右", "顺")
-_HALF_M = 0.5
 _TOO_FAR = message_of("grammar.too_far")
 _HOME = ("home", "家", "家里")
 """The one place of a map that has just begun: as the object of "explore", all of it."""
 WHERE = message_of("grammar.which_places")
 
 
-def drive_to(found: Match[str], reading: Reading) -> Meaning:
+def drive_to(found: TemplateFind, reading: Reading) -> Meaning:
     """Read the group `place` as a place to drive to, or as a thing to drive up to."""
     meaning = go_to(found["place"], reading)
     if isinstance(meaning, Steps):
@@ -55,7 +61,7 @@ def drive_to(found: Match[str], reading: Reading) -> Meaning:
     return up_to(found["place"], reading) or meaning
 
 
-def set_out(found: Match[str], reading: Reading) -> Meaning | None:
+def set_out(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read "from the kitchen" as the first place, where it opens an order and more follows.
 
     Alone, "leave from the kitchen" orders no drive to the kitchen.
@@ -63,7 +69,7 @@ def set_out(found: Match[str], reading: Reading) -> Meaning | None:
     return go_to(found["place"], reading) if reading.opens else None
 
 
-def drive_into(found: Match[str], reading: Reading) -> Meaning:
+def drive_into(found: TemplateFind, reading: Reading) -> Meaning:
     """Read the group `place` as a room: nothing drives into a sofa."""
     meaning = go_to(found["place"], reading)
     goals = meaning.steps if isinstance(meaning, Steps) else ()
@@ -74,7 +80,7 @@ def drive_into(found: Match[str], reading: Reading) -> Meaning:
     return meaning if rooms else reading.problem(Code.NOT_UNDERSTOOD, found[0])
 
 
-def route(found: Match[str], reading: Reading) -> Meaning:
+def route(found: TemplateFind, reading: Reading) -> Meaning:
     """Read the groups `start` and `place` as two places, one after the other."""
     start, place = go_to(found["start"], reading), go_to(found["place"], reading)
     if isinstance(start, Steps) and isinstance(place, Steps):
@@ -82,7 +88,7 @@ def route(found: Match[str], reading: Reading) -> Meaning:
     return place if isinstance(start, Steps) else start
 
 
-def next_place(found: Match[str], reading: Reading) -> Meaning | None:
+def next_place(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read a bare place after a go-to clause as the next place; elsewhere offer it."""
     phrase = found["place"]
     meaning = go_to(phrase, reading)
@@ -99,56 +105,81 @@ def next_place(found: Match[str], reading: Reading) -> Meaning | None:
     return meaning if named else None
 
 
-def come_back(_found: Match[str], _reading: Reading) -> Meaning:
+def come_back(_found: TemplateFind, _reading: Reading) -> Meaning:
     """Read the way back to where the goal was accepted."""
     return Steps((ComeBack(),))
 
 
-def home(_found: Match[str], _reading: Reading) -> Meaning:
+def home(_found: TemplateFind, _reading: Reading) -> Meaning:
     """Read the way to the site's home."""
     return Steps((ReturnHome(),))
 
 
-def stand(_found: Match[str], reading: Reading) -> Meaning | None:
+def stand(_found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read "and stay there" after a go-to: arriving does that."""
     return Steps(()) if reading.going else None
 
 
-def wait(found: Match[str], reading: Reading) -> Meaning:
-    """Read the groups `number` and `unit` as a time to stand still."""
-    span_s = seconds(found["number"], found["unit"])
-    if not span_s:
+def wait(found: TemplateFind, reading: Reading) -> Meaning:
+    """Read a time to stand still."""
+    if not found.amounts["duration"]:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
     try:
-        return Steps((Wait(seconds=span_s),))
+        return Steps((Wait(seconds=found.amounts["duration"]),))
     except ValidationError:
         return reading.problem(Code.BAD_PLAN, found[0])
 
 
-def say(found: Match[str], reading: Reading) -> Meaning:
-    """Read the group `quote` or `words` as words to say."""
-    groups = found.groupdict()
-    if groups.get("quote"):
+_NOT_SAID = re.compile(
+    r"(?:it|that|this|so|them)$|how (?:many|much)\b|which\b|what(?! an?\b)"
+    r"|.*(?:什么|哪|几|怎么|多少|谁|啥|[吗呢]$)|一下|一说"
+)
+"""What names words without giving them: "say it", "say how many there are"."""
+
+
+def say(found: TemplateFind, reading: Reading) -> Meaning | None:
+    """Read a quotation or plain words as what is to be said."""
+    if found["quote"]:
         words = reading.quotes[ord(found["quote"]) - FIRST_QUOTE].strip()
     else:
         words = reading.marked.restore(found["words"])
+        if _NOT_SAID.match(words) or topic_of(words) is not None:
+            return None
     if not 1 <= len(words) <= 500:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
     return Steps((Say(text=words),))
 
 
-def say_often(found: Match[str], reading: Reading) -> Meaning:
+def say_hello(_found: TemplateFind, _reading: Reading) -> Meaning:
+    """Greet those who are there."""
+    return Steps((Say(text="你好"),))
+
+
+def say_often(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Say the same words a few times: 喊三遍开饭了."""
     said = say(found, reading)
     often = times(found["often"])
     return replace(said, steps=said.steps * often) if isinstance(said, Steps) else said
 
 
-_STANDS = {
-    "before": re.compile(r"before|in front|opposite|away|from|前|对面|离"),
-    "behind": re.compile(r"behind|back of|other side|后"),
-    "facing": re.compile(r"fac|look|turn|toward|面|朝|对|向"),
+_ASKED = {
+    "where_are_you": WHERE_ARE_YOU,
+    "where_to": WHERE_TO,
+    "how_long": HOW_LONG,
+    "which_places": WHERE,
 }
+
+
+def ask(found: TemplateFind, reading: Reading) -> Meaning:
+    """Ask back for what an order leaves open, and offer no place that it names."""
+    return replace(missing(_ASKED[found["what"]], found[0], reading), places=())
+
+
+def stay_at(found: TemplateFind, reading: Reading) -> Meaning:
+    """Go where it is to wait, without a time: arriving does that."""
+    return go_to(found["place"], reading)
+
+
 _IT = frozenset({"it", "them", "它"})
 _DOOR = re.compile(r"(?:the |a )?door|门")
 
@@ -162,18 +193,9 @@ def _only_door(phrase: str, reading: Reading) -> str | None:
     return doors[0] if len(doors) == 1 else None
 
 
-def stand_at(found: Match[str], reading: Reading) -> Meaning | None:
+def stand_at(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read the groups `place`, `side` and `length` as a side of a place or thing to stand at."""
-    groups = found.groupdict()
-    side = groups.get("side") or groups.get("side2") or ""
-    which = next((name for name, words in _STANDS.items() if words.search(side)), "beside")
-    length = groups.get("length")
-    far_m = metres(length, groups["unit"]) if length else None
-    if length and far_m is None:
-        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-    if far_m is not None and groups.get("half"):
-        far_m += _HALF_M
-    phrase = groups["place"]
+    phrase = found["place"]
     there = reading.scene.place if phrase in _IT else _only_door(phrase, reading)
     goal = Steps((GoTo(place=there),)) if there is not None else go_to(phrase, reading)
     step = goal.steps[0] if isinstance(goal, Steps) else None
@@ -187,48 +209,43 @@ def stand_at(found: Match[str], reading: Reading) -> Meaning | None:
             return goal
         aim = {"object": thing.thing}
     try:
-        return Steps((StandAt.model_validate({**aim, "side": which, "distance_m": far_m}),))
+        return Steps(
+            (
+                StandAt.model_validate(
+                    {**aim, "side": found["side"], "distance_m": found.amounts.get("length")}
+                ),
+            )
+        )
     except ValidationError:
         return ClauseProblem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
 
 
-def turn(found: Match[str], reading: Reading) -> Meaning:
-    """Turn by the groups `angle` and `unit`, by `turns`, else a quarter to a side, else about."""
-    groups = found.groupdict()
-    side = groups.get("side") or groups.get("side2") or ""
-    if groups.get("angle"):
-        angle = angle_rad(groups["angle"], groups["arc"])
-    elif groups.get("turns"):
-        return Steps((Turn(angle_rad=2 * pi),) * times(groups["turns"]))
-    elif groups.get("whole"):
-        angle = 2 * pi
-    else:
-        quarter = groups.get("quarter") or side
-        angle = pi / 2 if quarter and not groups.get("about") else pi
-    if angle is None:
+_TURNS_RAD = {"left": pi / 2, "right": -pi / 2, "around": pi, "back_right": -pi, "full": 2 * pi}
+_MOST_TURNED_RAD = 4 * pi
+
+
+def turn(found: TemplateFind, reading: Reading) -> Meaning:
+    """Turn by an amount, else a quarter to a side, half about or once round."""
+    whole, angle = _TURNS_RAD[found["side"]], found.amounts.get("angle")
+    if angle is not None and not angle <= _MOST_TURNED_RAD:
         return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-    right = side.startswith(_RIGHT)
-    return Steps((Turn(angle_rad=-angle if right else angle),))
+    turned = Turn(angle_rad=whole if angle is None else copysign(angle, whole))
+    return Steps((turned,) * round(found.amounts.get("times", 1.0)))
 
 
-def move(found: Match[str], reading: Reading) -> Meaning:
-    """Move by the groups `length` and `unit`; without a length it is asked for."""
-    groups = found.groupdict()
-    if not groups.get("length"):
-        return missing(HOW_FAR, found[0], reading)
-    way = groups.get("way") or groups.get("way2") or ""
-    length = metres(groups["length"], groups["unit"])
+def move(found: TemplateFind, reading: Reading) -> Meaning:
+    """Move by a length; without one it is asked for."""
+    length = found.amounts.get("length")
     if length is None:
-        return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-    length += _HALF_M if groups.get("half") else 0.0
+        return missing(HOW_FAR, found[0], reading)
     try:
-        backward = way.startswith(_BACKWARD)
-        return Steps((MoveStraight(distance_m=-length if backward else length),))
+        far = -length if found["way"] == "backward" else length
+        return Steps((MoveStraight(distance_m=far),))
     except ValidationError:
         return ClauseProblem(Code.BAD_PLAN, reading.marked.restore(found[0]), what=_TOO_FAR)
 
 
-def turn_and_move(found: Match[str], reading: Reading) -> Meaning:
+def turn_and_move(found: TemplateFind, reading: Reading) -> Meaning:
     """Turn, then move straight: "drive 2 m, 30 degrees left of straight ahead"."""
     turned, moved = turn(found, reading), move(found, reading)
     if isinstance(turned, Steps) and isinstance(moved, Steps):
@@ -236,25 +253,25 @@ def turn_and_move(found: Match[str], reading: Reading) -> Meaning:
     return moved if isinstance(turned, Steps) else turned
 
 
-def patrol(found: Match[str], reading: Reading) -> Meaning:
+def patrol(found: TemplateFind, reading: Reading) -> Meaning:
     """Visit a place of a patrol; places that follow are joined to it."""
     meaning = go_to(found["place"], reading)
     if not isinstance(meaning, Steps):
         return meaning
     places = tuple(step.place for step in meaning.steps if isinstance(step, GoTo))
-    often = times(found["times"]) if found.groupdict().get("times") else 1
+    often = round(found.amounts.get("times", 1.0))
     return Steps((Patrol(places=places * often, look=_watches(found)),), seen=_watches(found))
 
 
 _WATCHES = re.compile(r"\b(?:patrol|rounds?|check|inspect)\b|巡|检查|看看")
 
 
-def _watches(found: Match[str]) -> bool:
+def _watches(found: TemplateFind) -> bool:
     """Tell whether a round is one to look: "patrol", and not "visit" or "drive through"."""
     return _WATCHES.search(found[0]) is not None
 
 
-def patrol_all(found: Match[str], reading: Reading) -> Meaning:
+def patrol_all(found: TemplateFind, reading: Reading) -> Meaning:
     """Visit every room."""
     rooms = tuple(entry.id for entry in reading.vocabulary.entries if entry.kind == "room")
     if not rooms:
@@ -262,28 +279,28 @@ def patrol_all(found: Match[str], reading: Reading) -> Meaning:
     return Steps((Patrol(places=rooms[:20], look=_watches(found)),), seen=_watches(found))
 
 
-def at_stops(_found: Match[str], reading: Reading) -> Meaning | None:
+def at_stops(_found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read "look at every stop", "tell me what you saw" behind a round that looks by itself."""
     return Steps((), seen=True) if reading.scene.toured else None
 
 
-def in_all(found: Match[str], reading: Reading) -> Meaning | None:
+def in_all(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read "in every room" as the round, where it opens an order and more follows."""
     return patrol_all(found, reading) if reading.opens else None
 
 
-def explore(found: Match[str], reading: Reading) -> Meaning | None:
+def explore(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read an order to drive over what is not mapped yet, where a map is being made."""
-    place = found.groupdict().get("place")
-    whole = place is None or reading.marked.restore(place) in _HOME
+    place = found["place"]
+    whole = not place or reading.marked.restore(place) in _HOME
     return Steps((Explore(),)) if reading.maps and whole else None
 
 
-def map_alone(found: Match[str], reading: Reading) -> Meaning | None:
+def map_alone(found: TemplateFind, reading: Reading) -> Meaning | None:
     """Read an order that can only mean this: where no map is being made, it is refused."""
     return explore(found, replace(reading, maps=True))
 
 
-def wander(found: Match[str], reading: Reading) -> Meaning:
-    """Ask where to, where somebody wants the robot to roam or patrol no place at all."""
-    return missing(WHERE, found[0], reading)
+def unread_way(found: TemplateFind, reading: Reading) -> Meaning:
+    """Understand nothing of a clause, and offer no place that it names."""
+    return replace(reading.problem(Code.NOT_UNDERSTOOD, found[0]), places=())
