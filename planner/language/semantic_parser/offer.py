@@ -18,6 +18,7 @@ from planner.language.plan_words import tell_steps
 from planner.language.semantic_parser.parser import parse
 from planner.language.semantic_parser.plan_steps import StepMaker
 from planner.plan import (
+    CONTROL,
     Clarify,
     Code,
     Language,
@@ -40,13 +41,8 @@ if TYPE_CHECKING:
 
 SURE = 0.4
 """From here on a plan is offered; a person says no to what was not meant."""
-LEAST = {
-    Code.NOT_UNDERSTOOD: SURE,
-    Code.CONDITIONAL: SURE,
-    Code.OUT_OF_SCOPE: SURE,
-    Code.NEGATED: 0.5,
-}
-"""How sure the reader must be, by what the rules say; of other codes nothing is offered."""
+LEAST = {Code.NOT_UNDERSTOOD: SURE, Code.CONDITIONAL: SURE}
+"""How sure the reader must be, by what the rules say. A denial stays one: nothing is offered."""
 SURE_OF_TALK = 0.6
 """From here on a sentence is taken for talk, or for what the robot can't do: nothing moves."""
 COMMANDS: dict[str, tuple[str, str]] = {
@@ -89,8 +85,12 @@ def offer_plan(
         return told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
     if all(isinstance(step, Recall) for step in plan.steps):
         return plan
-    places = {place for node in list_nodes(plan.steps) for place in places_of(node.step)}
-    if places & denied_places(text, vocabulary):
+    nodes = list_nodes(plan.steps)
+    if told.code is Code.CONDITIONAL and not any(node.step.kind in CONTROL for node in nodes):
+        return None  # what stands on a condition is not offered without it
+    if {place for node in nodes for place in places_of(node.step)} & denied_places(
+        text, vocabulary
+    ):
         return None
     label = _tell(plan, vocabulary)
     return _ask_for(Option(label=label, text=label.of(language)[:2000], plan=plan))
