@@ -163,7 +163,7 @@ def read_exactly(clause: str, reading: Reading, runnable: frozenset[str]) -> Ste
     """
     language = Language.ZH if has_chinese(clause) else Language.EN
     for number, found in find_templates(clause, language):
-        if found.free_words:
+        if found.free_words or "times" in found.amounts:  # rounds are counted by the chain's reader
             return None
         meaning = _builders()[TEMPLATES.rows[number].form](found, reading)
         if meaning is not None:
