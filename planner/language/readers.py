@@ -48,7 +48,7 @@ from planner.language.reading import (
     PlanReading,
 )
 from planner.language.schedule import OrderCommand
-from planner.language.semantic_parser.offer import LEAST, offer_plan
+from planner.language.semantic_parser.offer import UNREAD, offer_plan
 from planner.language.sentence import SaidSentence
 from planner.plan import (
     AnswerPlan,
@@ -175,7 +175,7 @@ def template(said: SaidSentence, order: OrderWords) -> PlanReading | None:
     """Take what the grammar reads word for word, and what it refuses or asks about."""
     del said
     made = order.exact
-    lost = isinstance(made, Clarify | Refuse) and made.code in LEAST
+    lost = isinstance(made, Clarify | Refuse) and made.code in UNREAD
     return None if lost else PlanReading(made)
 
 

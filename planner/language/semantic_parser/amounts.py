@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from math import pi
 from typing import TYPE_CHECKING
 
 from planner.language.numbers import chinese_number
@@ -34,7 +35,9 @@ _UNITS: dict[str, tuple[SlotKind, float]] = {
     r"centimet(?:re|er)s?|cms?": (SlotKind.LENGTH, 0.01),
     r"feet|foot|ft": (SlotKind.LENGTH, 0.3048),
     r"inch(?:es)?|in": (SlotKind.LENGTH, 0.0254),
+    r"yards?|yds?": (SlotKind.LENGTH, 0.9144),
     r"degrees?|deg|°": (SlotKind.ANGLE, 1.0),
+    r"rad(?:ian)?s?": (SlotKind.ANGLE, 180.0 / pi),
     r"(?:more )?times?|x": (SlotKind.TIMES, 1.0),
 }
 _UNITS_ZH: dict[str, tuple[SlotKind, float]] = {

@@ -41,8 +41,8 @@ if TYPE_CHECKING:
 
 SURE = 0.4
 """From here on a plan is offered; a person says no to what was not meant."""
-LEAST = {Code.NOT_UNDERSTOOD: SURE, Code.CONDITIONAL: SURE}
-"""How sure the reader must be, by what the rules say. A denial stays one: nothing is offered."""
+UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL})
+"""What the rules say of sentences that this may read. A denial stays one: nothing is offered."""
 SURE_OF_TALK = 0.6
 """From here on a sentence is taken for talk, or for what the robot can't do: nothing moves."""
 COMMANDS: dict[str, tuple[str, str]] = {
@@ -67,9 +67,10 @@ def offer_plan(
         language: of the sentence.
         context: what the robot can do.
     """
-    least = LEAST.get(told.code) if isinstance(told, Clarify | Refuse) else None
-    read = parse(text, vocabulary) if least is not None else None
-    if read is None or least is None or read.confidence < least:
+    if not isinstance(told, Clarify | Refuse) or told.code not in UNREAD:
+        return None
+    read = parse(text, vocabulary)
+    if read is None or read.confidence < SURE:
         return None
     form, offers = read.plan[0].form, isinstance(told, Clarify) and told.options
     if form in _TALK:
