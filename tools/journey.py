@@ -34,8 +34,8 @@ class Limit:
     aim: int
 
 
-FILES, FUNCTIONS = Limit(115, 60), Limit(512, 250)
-EXPRESSIONS = Limit(474, 300)
+FILES, FUNCTIONS = Limit(110, 60), Limit(486, 250)
+EXPRESSIONS = Limit(286, 300)
 BRIDGE_FILES = Limit(34, 25)
 LIMIT_S = 20.0
 UNDER_WAY_S = 2.0

@@ -15,7 +15,8 @@
 With a model set, the model stands in place of the last four and gets the words as they were said
 (``planner.brain.fallback``). The ladder is climbed in three goes: the missions read at the door,
 before the goal is written down; the planner's own commands once it is; then the brain. Behind a
-reading the guard alone reads the words again, for it trusts no reader. Each reader begins with its
+reading the guard reads the words again, for it trusts no reader; so do memory for a question to it,
+and the rest behind a stop. Each reader begins with its
 gate, a test that costs little; what it may know besides the words it asks of where things stand.
 """
 
