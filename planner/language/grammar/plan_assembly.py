@@ -12,15 +12,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from math import degrees
 
-from planner.language.catalogue import join, list_names, message, say, say_or_quote
+from planner.language.catalogue import list_names, message, say
 from planner.language.grammar.checks import Veto
 from planner.language.grammar.lexicon import Lexicon, MarkedText
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Steps, TopicQuestion
 from planner.language.grammar.small_talk import Topic, answer_topic
-from planner.language.object_names import tell_words
 from planner.language.place_lists import known_places
+from planner.language.plan_words import tell_steps
 from planner.plan import (
     DRIVES,
     MAX_STEPS,
@@ -32,22 +31,16 @@ from planner.plan import (
     Count,
     Explore,
     Find,
-    Follow,
     GoTo,
     Language,
-    Look,
-    MoveStraight,
     Option,
     Patrol,
     Refuse,
     ReturnHome,
     Say,
-    StandAt,
     Step,
     StepPlan,
-    Turn,
     Vocabulary,
-    Wait,
     say_same,
 )
 
@@ -69,11 +62,6 @@ _SHOWN = 60  # characters of the sentence that a message repeats
 _SPAN = say("grammar.wait_too_long")
 _NO_ROOM = say("grammar.room_unknown")
 
-_ORDERS = {
-    "come_back": "order.come_back",
-    "return_home": "order.go_home",
-    "explore": "order.explore",
-}
 
 Plan = StepPlan | AnswerPlan | Clarify | Refuse
 
@@ -261,15 +249,7 @@ def _cut(part: str) -> Bilingual:
 
 def sentence(steps: Sequence[Step], vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingual:
     """Return the order of these steps in both languages."""
-    kept = [step for at, step in enumerate(steps) if not _goes_without_saying(steps, at)]
-    said = [_step_said(step, vocabulary, lexicon) for step in kept]
-    return join(said, "joint.then")
-
-
-def _goes_without_saying(steps: Sequence[Step], at: int) -> bool:
-    """Return whether a drive is only the way to the next step in the same place."""
-    step, after = steps[at], steps[at + 1] if at + 1 < len(steps) else None
-    return isinstance(step, GoTo) and isinstance(after, Find | Count) and after.place == step.place
+    return tell_steps(steps, lambda place: lexicon.own_name(vocabulary.by_id[place]))
 
 
 def option(
@@ -278,63 +258,3 @@ def option(
     """Return a button that stands for these steps."""
     label = sentence(steps, vocabulary, lexicon)
     return Option(label=label, text=label.of(language)[:2000])
-
-
-def _step_said(step: Step, vocabulary: Vocabulary, lexicon: Lexicon) -> Bilingual:
-    def name_of(place: str) -> Bilingual:
-        return lexicon.own_name(vocabulary.by_id[place])
-
-    match step:
-        case GoTo():
-            name = name_of(step.place)
-            return say("order.go_to", name=name)
-        case StandAt(place=str(place)):
-            side = say(f"stand.side_{step.side}", name=name_of(place))
-            far = "" if step.distance_m is None else f"{step.distance_m:g}"
-            return say("order.stand_far" if far else "order.stand", side=side, far=far)
-        case ComeBack() | ReturnHome() | Explore():
-            return say(_ORDERS[step.kind])
-        case Wait():
-            return say("order.wait", seconds=step.seconds)
-        case Say():
-            return say("order.say", text=step.text)
-        case Find() | Count():
-            return _seen_said(step, name_of(step.place) if step.place else None)
-        case Follow():
-            return say("order.follow", object=_with_article(step.object))
-        case Turn():
-            return _turn_said(round(degrees(step.angle_rad)))
-        case MoveStraight():
-            code = "order.forward" if step.distance_m > 0 else "order.back"
-            return say(code, far=f"{abs(step.distance_m):g}")
-        case Patrol():
-            names = join((name_of(place) for place in step.places), "joint.and_the")
-            return say("order.patrol", names=names)
-        case _:
-            room = name_of(step.place) if isinstance(step, Look) and step.place else None
-            return _other_said(step, room)
-
-
-def _other_said(step: Step, place: Bilingual | None) -> Bilingual:
-    if place is not None:
-        return say("order.look_in", place=place)
-    return say("order.look") if isinstance(step, Look) else say_or_quote("step_kind", step.kind)
-
-
-def _seen_said(step: Find | Count, place: Bilingual | None) -> Bilingual:
-    verb, what = ("count" if isinstance(step, Count) else "find"), _with_article(step.object)
-    if place is None:
-        return say(f"order.{verb}", object=what)
-    return say(f"order.{verb}_in", object=what, place=place)
-
-
-def _turn_said(angle_deg: int) -> Bilingual:
-    code = "order.left" if angle_deg > 0 else "order.right"
-    return say(code, angle_deg=abs(angle_deg))
-
-
-def _with_article(label: str) -> Bilingual:
-    """Put the article before a thing, where the language has one; a name has none."""
-    if label[:1].isupper() or not label.isascii():
-        return tell_words(label)
-    return say("order.the", object=tell_words(label))

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import say
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.lexicon import lexicon_of
+from planner.language.grammar.plan_assembly import sentence
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.motion_guard import denied_places
-from planner.language.plan_words import tell_steps
 from planner.language.semantic_parser.parser import parse
 from planner.language.semantic_parser.plan_steps import StepMaker
 from planner.plan import (
@@ -103,8 +103,7 @@ def _make_steps(plan: LabelledPlan, vocabulary: Vocabulary, language: Language) 
 
 
 def _tell(plan: StepPlan, vocabulary: Vocabulary) -> Bilingual:
-    lexicon = lexicon_of(vocabulary)
-    told = tell_steps(plan.steps, lambda place: lexicon.own_name(vocabulary.by_id[place]))
+    told = sentence(plan.steps, vocabulary, lexicon_of(vocabulary))
     told = say("order.slow", order=told) if plan.pace == "slow" else told
     return say("order.after", order=told) if plan.does is PlanRole.AFTER else told
 
