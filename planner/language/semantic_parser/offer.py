@@ -16,6 +16,7 @@ from planner.language.grammar.plan_assembly import sentence
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.motion_guard import denied_places
 from planner.language.semantic_parser.parser import parse
+from planner.language.semantic_parser.plan_grammar import STEPS
 from planner.language.semantic_parser.plan_steps import StepMaker
 from planner.plan import (
     CONTROL,
@@ -39,10 +40,10 @@ if TYPE_CHECKING:
     from planner.language.semantic_parser.plan_grammar import LabelledPlan
     from planner.plan import Bilingual, Vocabulary
 
-SURE = 0.4
+SURE = 0.3
 """From here on a plan is offered; a person says no to what was not meant."""
-UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL})
-"""What the rules say of sentences that this may read. A denial stays one: nothing is offered."""
+UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED})
+"""What the rules say of sentences that this may read."""
 SURE_OF_TALK = 0.6
 """From here on a sentence is taken for talk, or for what the robot can't do: nothing moves."""
 COMMANDS: dict[str, tuple[str, str]] = {
@@ -73,6 +74,8 @@ def offer_plan(
     if read is None or read.confidence < SURE:
         return None
     form, offers = read.plan[0].form, isinstance(told, Clarify) and told.options
+    if told.code is Code.NEGATED and form not in STEPS:
+        return None
     if form in _TALK:
         sure = read.confidence >= SURE_OF_TALK and isinstance(told, Clarify) and not offers
         return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[form])) if sure else None
@@ -86,15 +89,21 @@ def offer_plan(
         return told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
     if all(isinstance(step, Recall) for step in plan.steps):
         return plan
-    nodes = list_nodes(plan.steps)
-    if told.code is Code.CONDITIONAL and not any(node.step.kind in CONTROL for node in nodes):
-        return None  # what stands on a condition is not offered without it
-    if {place for node in nodes for place in places_of(node.step)} & denied_places(
-        text, vocabulary
-    ):
+    if _is_held_back(plan, text, vocabulary, told.code):
         return None
     label = _tell(plan, vocabulary)
     return _ask_for(Option(label=label, text=label.of(language)[:2000], plan=plan))
+
+
+def _is_held_back(plan: StepPlan, text: str, vocabulary: Vocabulary, code: Code) -> bool:
+    """Return whether a sentence denies what a plan does, or sets a condition that it lacks."""
+    nodes = list_nodes(plan.steps)
+    places = {place for node in nodes for place in places_of(node.step)}
+    denied = denied_places(text, vocabulary)
+    if code is Code.NEGATED:  # of a place, or of the very deed where none is named
+        return bool(denied) or not places
+    hangs = any(node.step.kind in CONTROL for node in nodes)
+    return (code is Code.CONDITIONAL and not hangs) or bool(places & denied)
 
 
 def _make_steps(plan: LabelledPlan, vocabulary: Vocabulary, language: Language) -> StepPlan | None:
