@@ -44,6 +44,8 @@ SURE = 0.3
 """From here on a plan is offered; a person says no to what was not meant."""
 UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED})
 """What the rules say of sentences that this may read."""
+SURE_OF_RECALL = 0.6
+"""From here on a question to memory is answered: it drives nothing, and needs no yes."""
 SURE_OF_TALK = 0.6
 """From here on a sentence is taken for talk, or for what the robot can't do: nothing moves."""
 COMMANDS: dict[str, tuple[str, str]] = {
@@ -88,7 +90,8 @@ def offer_plan(
         # Something else is meant: the rules' own offer of a part of it would be silly.
         return told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
     if all(isinstance(step, Recall) for step in plan.steps):
-        return plan
+        surely = told.code is Code.NOT_UNDERSTOOD and read.confidence >= SURE_OF_RECALL
+        return plan if surely else None
     if _is_held_back(plan, text, vocabulary, told.code):
         return None
     label = _tell(plan, vocabulary)
