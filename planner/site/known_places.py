@@ -17,7 +17,6 @@ from typing import Any, Protocol, TypeVar
 
 from maps.room_proposals import RoomProposal, read_proposals
 from planner.language.folding import unmask
-from planner.language.readers import learn_names
 from planner.plan import Vocabulary
 from planner.site.places import Names, Place, squash
 from planner.site.polygon import area_m2
@@ -229,6 +228,8 @@ class KnownPlaces:
                 good.append(kept.as_place())
         self._shown, self._places = tuple(shown), (*self.site.places, *good)
         self._facts = facts_of(self.site, tuple(good), self._radius_m)
+        from planner.language.readers import learn_names  # routes know these places, and no words
+
         learn_names(self._facts.names)
 
     def _why_not(self, kept: TaughtPlace, known: tuple[Place, ...]) -> str | None:

@@ -45,7 +45,7 @@ MOST_CALLS = 40
 MOST_S = 60.0
 RUNGS_SHARE = 1 / 3
 """Of the exam's time, after which no further rung is begun once one has given a right plan."""
-PROMPT_TOKENS = 3400
+PROMPT_TOKENS = 3500
 """What a call may send, taken over all calls: some 1 700, and in a repair the reply once more."""
 GOAL = "exam"
 

@@ -58,7 +58,7 @@ ORDERS = {
         ("去坐标(1,2)", "速度和坐标不由指令决定"),
     ),
     Code.NOT_UNDERSTOOD: (
-        ("colourless green ideas", "I can't read “colourless green ideas” without a model"),
+        ("zwei dingse flumpen", "I can't read “zwei dingse flumpen” without a model"),
         ("天地玄黄", "没有模型，我读不懂“天地玄黄”"),
     ),
 }

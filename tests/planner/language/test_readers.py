@@ -171,7 +171,7 @@ def order(text: str, *, is_answer: bool = False) -> OrderWords:
         ("yes", AnswerPlan, True),
         ("don't go to the kitchen", Refuse, True),
         ("where did you last see my keys?", StepPlan, True),
-        ("colourless green ideas", Clarify, False),
+        ("zwei dingse flumpen", Clarify, False),
         ("天地玄黄", Clarify, False),
     ],
 )
@@ -183,7 +183,7 @@ def test_the_built_in_brain_reads_or_says_that_it_does_not(
 
 
 def test_what_is_not_read_is_told_in_one_sentence_with_its_cure() -> None:
-    for text in ("colourless green ideas", "天地玄黄"):
+    for text in ("zwei dingse flumpen", "天地玄黄"):
         made = read_order(order(text)).plan
         assert isinstance(made, Clarify)
         assert made.code is Code.NOT_UNDERSTOOD

@@ -90,7 +90,7 @@ def test_the_offline_brain_moves_nothing_wrongly() -> None:
     for suite in load("turns"):
         verdicts = asyncio.run(score(suite, OfflineBrain()))
         assert [v.case.full_text for v in verdicts if v.wrong] == []
-        assert sum(v.right for v in verdicts) >= 9
+        assert sum(v.right for v in verdicts) >= 8
 
 
 @pytest.mark.usefixtures("home")

@@ -164,7 +164,7 @@ def hangs(name: str, pattern: re.Pattern[str]) -> str | None:
 @pytest.mark.timeout(600)
 def test_no_pattern_has_two_ways_to_read_its_own_words() -> None:
     all_patterns = patterns()
-    assert len(all_patterns) > 1_000, "what is compiled in the tree is found"
+    assert len(all_patterns) > 800, "what is compiled in the tree is found"
     bad = [(n, p.pattern[:100], w) for n, p in all_patterns if (w := hangs(n, p)) is not None]
     assert not bad, bad
 

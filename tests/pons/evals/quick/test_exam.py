@@ -253,8 +253,8 @@ def test_elsewhere_it_says_what_it_will_spend_and_spends_nothing_unasked(
     for words in (
         "model.example",
         "40 calls",
-        "at most 136000 tokens",
-        "at most 3.36 USD",
+        "at most 140000 tokens",
+        "at most 3.40 USD",
         "not_agreed",
     ):
         assert words in said.err
