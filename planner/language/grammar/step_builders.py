@@ -67,8 +67,12 @@ _IN_A_ROOM = re.compile(
     r" (?!(?:whole |entire )?(?:house|home|flat|apartment|place|building|rooms?)\b)[a-z][a-z ]*)"
 )
 _TITLE = 80
-_DONE = re.compile(r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?|since|because|had)\b")
-"""What no thing's name holds: "找到杯子了吗", "数完了" and "my legs are tired" tell or ask."""
+_DONE = re.compile(
+    r"了|完$|[过吗]$|没有?$|\b(?:is|are|am|was|were|hurts?|since|because|had)\b"
+    r"|^(?:it|em|them|him|they)\b|^它(?!的)"
+)
+"""What no thing's name holds: "找到杯子了吗", "数完了" and "my legs are tired" tell or ask, and "it
+for me" names none."""
 ASIDE = re.compile(
     r"\b(?:behind (?:you|me|us)|(?:on|to|at|by) (?:your|my|the) (?:left|right)"
     r"|(?:left|right) of (?:you|me))\b|^[你您我]?的?(?:[身背]后|后[面边方]|[左右]手?[边侧面])的"

@@ -193,3 +193,27 @@ def test_who_asks_where_something_is_is_offered_a_search(
     assert again == StepPlan(steps=(Find(object=what),))
     blind = plan(text, home, Context(runnable=frozenset({"go_to"})))
     assert blind.kind == "refuse"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "find it for me plssss",
+        "find them all for me",
+        "count them n tell us",
+        "count em",
+        "找它一下",
+    ],
+    ids=ascii,
+)
+def test_what_leans_on_something_before_it_is_no_thing(
+    text: str, understood: Callable[[str], str]
+) -> None:
+    assert understood(text) == "clarify not_understood"
+
+
+@pytest.mark.parametrize(
+    ("text", "what"), {"find his keys": "his keys", "找他的手机": "他的手机"}.items(), ids=ascii
+)
+def test_what_is_somebodys_is_a_thing(text: str, what: str, home: Vocabulary) -> None:
+    assert plan(text, home, Context(runnable=EVERY_KIND)) == StepPlan(steps=(Find(object=what),))
