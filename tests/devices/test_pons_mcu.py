@@ -7,10 +7,11 @@ from binascii import crc_hqx
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from devices.pons_mcu import (
+    HEAD,
     LONGEST,
     McuCommand,
     McuReader,
@@ -101,8 +102,10 @@ def test_noise_before_a_frame_does_not_hide_it(noise: bytes, command: McuCommand
 
 @given(STATES, st.integers(0, LONGEST - 1), COMMANDS)
 def test_a_cut_frame_costs_no_other(state: McuState, kept: int, command: McuCommand) -> None:
+    sent = encode_state(state)
+    assume(not HEAD.startswith(sent[kept:]))  # else the next frame's head completes this one
     reader = McuReader()
-    found = reader.read(encode_state(state)[:kept] + encode_command(command))
+    found = reader.read(sent[:kept] + encode_command(command))
     assert command in found + reader.read(bytes(LONGEST))
 
 
