@@ -20,7 +20,9 @@ afterEach(() => {
 
 describe("the log", () => {
   it("says the bridge's events in sentences, with the code beside", () => {
-    expect(told(entry("bridge", "row_down", "BRAIN_LATE.0")).text).toMatch(/^Over: Pons thinks slowly/);
+    expect(told(entry("bridge", "row_down", "BRAIN_LATE.0")).text).toMatch(
+      /^Over: Pons thinks slowly/,
+    );
     expect(told(entry("bridge", "mode", "HOLD ACTIVE waypoints"))).toEqual({
       text: "Ready → Driving",
       fine: "waypoints",
