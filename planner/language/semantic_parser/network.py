@@ -128,7 +128,7 @@ class PointerNetwork:
                 states + self._linear(f"{name}.join", _attend(query, key, value, bias))
             )
             states = self._think(name, states)
-        states = _norm(states, self._v["heard.weight"], self._v["heard.bias"])
+        states = self._apply_norm("heard", states)
         heard = tuple(self._hear(number, states) for number in range(self._decoder))
         return SentenceStates(states @ self._m["keys.weight"], self._linear("taken", states), heard)
 

@@ -60,7 +60,7 @@ _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
 
 def offer_plan(
     told: Plan, text: str, vocabulary: Vocabulary, language: Language, context: Context
-) -> StepPlan | Clarify | Refuse | None:
+) -> StepPlan | Clarify | None:
     """Return what is laid before a person whose sentence no rule reads; None: nothing.
 
     Args:
