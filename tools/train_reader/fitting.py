@@ -15,6 +15,7 @@ from planner.language.semantic_parser.features import (
     sentence_features,
 )
 from planner.language.semantic_parser.linear_plan import TOKEN_NUMBERS, TOKENS
+from tools.train_reader.joining import SentenceJoiner
 from tools.train_reader.network import ExampleBatch, TrainableNetwork
 from tools.train_reader.swapping import WordSwapper
 
@@ -31,6 +32,8 @@ LOST, UNKNOWN_WORDS = 0.1, 0.06
 """So many pieces and words of a sentence aren't seen, so that none is relied on alone."""
 CHANGED = 0.4
 """So many sentences get other quoted words each time they are shown."""
+JOINED = 0.15
+"""So many get another sentence behind them."""
 SMOOTHED = 0.05
 KEPT, MEAN_EVERY = 0.98, 5
 """Of the running mean of weights, each so many steps."""
@@ -110,7 +113,7 @@ def fit(
     network = TrainableNetwork()
     mean = {name: weight.detach().clone() for name, weight in network.state_dict().items()}
     optimizer = make_optimizer(network)
-    swapper = WordSwapper(examples)
+    swapper, joiner = WordSwapper(examples), SentenceJoiner(examples)
     steps = epochs * math.ceil(len(examples) / BATCH)
     rate = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda step: _rate(step / steps))
     step = 0
@@ -122,7 +125,7 @@ def fit(
         random.shuffle(blocks)
         total = 0.0
         for block in blocks:
-            shown = [_change(examples[i], swapper, random) for i in block]
+            shown = [_change(examples[i], swapper, joiner, random) for i in block]
             seen = [_lose(sentence_features(each.said.units), random) for each in shown]
             batch = make_batch(shown, seen)
             loss = _loss(network(batch), batch)
@@ -149,8 +152,11 @@ def _rate(share: float) -> float:
     return share / WARM_UP if share < WARM_UP else 0.5 + 0.5 * math.cos(math.pi * min(share, 1.0))
 
 
-def _change(example: PlanExample, swapper: WordSwapper, random: Random) -> PlanExample:
-    return swapper.swap(example, random) if random.random() < CHANGED else example
+def _change(
+    example: PlanExample, swapper: WordSwapper, joiner: SentenceJoiner, random: Random
+) -> PlanExample:
+    changed = swapper.swap(example, random) if random.random() < CHANGED else example
+    return joiner.join(changed, random) if random.random() < JOINED else changed
 
 
 def _lose(features: list[UnitFeatures], random: Random) -> list[UnitFeatures]:

@@ -42,6 +42,8 @@ _SAID = re.compile(
     r"\b(?:that|whether|if|i|we|he|she|it|they|you|is|are|was|were|will|can|has|have|needs?|go"
     r"|come|drive|follow|move|turn|run|stop)\b|'(?:s|re|m|ll)\b"
 )
+_THERE = re.compile(r"\b(?:there|in)\b|那[里儿边]|[过进]去")
+"""What leans on the place that was named last."""
 _AT = re.compile(r"\b(?:in|at|on|by|to|near)(?: (?:the|my|our))? $")
 
 
@@ -90,12 +92,23 @@ def read_clauses(text: str, vocabulary: Vocabulary) -> tuple[SaidClause, ...]:
 
 
 def denied_places(text: str, vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the places that a text names where it denies, and nowhere else."""
+    """Return the places that a text names where it denies, and nowhere else.
+
+    "Mum is in the bath, don't go there" denies the bath, though it is a fact that names it.
+    """
     denied: set[str] = set()
     meant: set[str] = set()
+    before: set[str] = set()
     for clause in read_clauses(text, vocabulary):
-        names = meant if clause.mood is not ClauseMood.DENIED else denied
-        names.update(found.id for found in find_places(clause.text, vocabulary))
+        named = {found.id for found in find_places(clause.text, vocabulary)}
+        if clause.mood is not ClauseMood.DENIED:
+            meant |= named
+            before = named if clause.mood is not ClauseMood.ORDER else set()
+        elif named or not _THERE.search(clause.text):
+            denied |= named
+        else:
+            denied |= before
+            meant -= before
     return frozenset(denied - meant)
 
 

@@ -42,12 +42,12 @@ if TYPE_CHECKING:
 
 SURE = 0.3
 """From here on a plan is offered; a person says no to what was not meant."""
-UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED})
+_BEYOND = frozenset({Code.NO_CAPABILITY, Code.OUT_OF_SCOPE})
+UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED}) | _BEYOND
 """What the rules say of sentences that this may read."""
-SURE_OF_RECALL = 0.6
-"""From here on a question to memory is answered: it drives nothing, and needs no yes."""
-SURE_OF_TALK = 0.6
-"""From here on a sentence is taken for talk, or for what the robot can't do: nothing moves."""
+SURER = 0.6
+"""From here on the reader is believed though a rule speaks against it, and what it takes for a
+question to memory or for talk is answered without a yes: nothing drives for these."""
 COMMANDS: dict[str, tuple[str, str]] = {
     "slower": ("slow down", "慢一点"),
     "faster": ("faster", "快一点"),
@@ -55,6 +55,8 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "fact": ("remember that {words}", "记住{words}"),
 }
 """What the planner itself does upon a yes, in words that it reads."""
+_HANGING = CONTROL | {"wait_for", "wait"}
+"""Steps that wait for something, as the words "until" and "when" ask for."""
 _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
 
 
@@ -78,10 +80,12 @@ def offer_plan(
     form, offers = read.plan[0].form, isinstance(told, Clarify) and told.options
     if told.code is Code.NEGATED and form not in STEPS:
         return None
+    if told.code in _BEYOND and offers:  # what of it can be done is laid before the person already
+        return None
     if form in _TALK:
-        sure = read.confidence >= SURE_OF_TALK and isinstance(told, Clarify) and not offers
+        sure = read.confidence >= SURER and isinstance(told, Clarify) and not offers
         return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[form])) if sure else None
-    if form in COMMANDS:
+    if form in COMMANDS and told.code not in _BEYOND:
         words = "".join(value[0] for value in read.plan[0].slots if value)
         command = COMMANDS[form][language is Language.ZH].format(words=words)
         return _ask_for(Option(label=say_same(command), text=command))
@@ -89,24 +93,29 @@ def offer_plan(
     if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
         # Something else is meant: the rules' own offer of a part of it would be silly.
         return told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
-    if all(isinstance(step, Recall) for step in plan.steps):
-        surely = told.code is Code.NOT_UNDERSTOOD and read.confidence >= SURE_OF_RECALL
-        return plan if surely else None
-    if _is_held_back(plan, text, vocabulary, told.code):
+    if _lacks_condition(plan, told.code) or (read.confidence < SURER and _is_doubted(plan, told)):
+        return None
+    if all(isinstance(step, Recall) for step in plan.steps) and read.confidence >= SURER:
+        return plan
+    if _places_of(plan) & denied_places(text, vocabulary):
         return None
     label = _tell(plan, vocabulary)
     return _ask_for(Option(label=label, text=label.of(language)[:2000], plan=plan))
 
 
-def _is_held_back(plan: StepPlan, text: str, vocabulary: Vocabulary, code: Code) -> bool:
-    """Return whether a sentence denies what a plan does, or sets a condition that it lacks."""
-    nodes = list_nodes(plan.steps)
-    places = {place for node in nodes for place in places_of(node.step)}
-    denied = denied_places(text, vocabulary)
-    if code is Code.NEGATED:  # of a place, or of the very deed where none is named
-        return bool(denied) or not places
-    hangs = any(node.step.kind in CONTROL for node in nodes)
-    return (code is Code.CONDITIONAL and not hangs) or bool(places & denied)
+def _lacks_condition(plan: StepPlan, code: Code) -> bool:
+    """Return whether an order hangs on something that its plan doesn't wait for."""
+    kinds = {node.step.kind for node in list_nodes(plan.steps)}
+    return code is Code.CONDITIONAL and not kinds & _HANGING and plan.does is not PlanRole.AFTER
+
+
+def _is_doubted(plan: StepPlan, told: Clarify | Refuse) -> bool:
+    """Return whether rules see a deed that is beyond the robot, or denied with no place named."""
+    return told.code in _BEYOND or (told.code is Code.NEGATED and not _places_of(plan))
+
+
+def _places_of(plan: StepPlan) -> set[str]:
+    return {place for node in list_nodes(plan.steps) for place in places_of(node.step)}
 
 
 def _make_steps(plan: LabelledPlan, vocabulary: Vocabulary, language: Language) -> StepPlan | None:

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.language.motion_guard.clause_moods import ClauseMood
-from planner.language.motion_guard.clauses import read_clauses
+from planner.language.motion_guard.clauses import denied_places, read_clauses
 from planner.language.motion_guard.mentioned_names import plain
 from tests.planner.brain.conftest import HOME
 
@@ -87,3 +87,17 @@ def test_any_text_is_read_and_every_clause_stands_in_it(text: str) -> None:
     for each in read_clauses(text, HOME):
         assert at <= each.start < each.end <= len(said)
         at = each.end
+
+
+@pytest.mark.parametrize(
+    ("text", "denied"),
+    [
+        ("mum is in the bathroom, don't go there", {"bathroom"}),
+        ("妈妈在卫生间，别进去", {"bathroom"}),
+        ("go to the study, not the kitchen", {"kitchen"}),
+        ("go to the study but touch nothing there", set()),
+        ("I can't point, but go to the study", set()),
+    ],
+)
+def test_a_denial_may_lean_on_the_place_named_last(text: str, denied: set[str]) -> None:
+    assert denied_places(text, HOME) == denied
