@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.grammar.context import Context
 from planner.language.readers import OrderWords, read_order
+from planner.language.schedule import ScheduleCommand
 from planner.language.semantic_parser.normal_plan import normalise_plan
 from planner.language.semantic_parser.plan_grammar import ALONE, FORMS, SlotKind, parse_plan
 from planner.language.semantic_parser.plan_steps import StepMaker
@@ -137,6 +138,14 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> Plan:
     return read_order(OrderWords(parse(text), vocabulary, context)).plan
 
 
+def _order_at(text: str, when: str) -> str:
+    """Return what a standing order does at a time; empty where it is for another one."""
+    kept = parse(text).intent
+    if not isinstance(kept, ScheduleCommand) or kept.words.casefold() not in when.casefold():
+        return ""
+    return kept.order if kept.reminder is None else text.removeprefix(kept.words)
+
+
 def judge_sentence(row: WrittenSentence) -> PlannerVerdict:
     """Return what the offline planner makes of a sentence."""
     vocabulary = vocabulary_of(row.home)
@@ -153,7 +162,12 @@ def judge_sentence(row: WrittenSentence) -> PlannerVerdict:
         return PlannerVerdict.WRONG_MOTION if _moves(made) else PlannerVerdict.WRONG_STILL
     options = made.options if isinstance(made, Clarify) else ()
     if len(options) == 1:
-        laid = options[0].plan or _read(options[0].text, vocabulary, context)
+        laid: Plan | None = options[0].plan
+        text = options[0].text
+        if label[0].form == "at" and laid is None:
+            meant = maker.plan(_with_ids(label[0].blocks[0], ids))
+            text = _order_at(text, label[0].slots[0][0])
+        laid = laid or _read(text, vocabulary, context)
         if meant is not None and isinstance(laid, StepPlan) and _is_same(laid, meant):
             return PlannerVerdict.AFTER_YES
         return PlannerVerdict.OTHER_OFFER

@@ -11,17 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from planner.language.catalogue import say
 from planner.language.folding import fold_words, has_chinese
-from planner.language.schedule import ChangeOrders, CorrectOrder, Retime, ScheduleCommand
-from planner.language.sentence import parse
-from planner.plan import Clarify, Code, Option, say_same
-from planner.plan.order_steps import ORDER_STEPS, OrderAdd, OrderChange, OrderRemove
+from planner.language.order_sentence import is_order_sentence, offer_order, write_order
+from planner.language.schedule import ChangeOrders, CorrectOrder
+from planner.plan import Clarify
+from planner.plan.order_steps import ORDER_STEPS
 
 if TYPE_CHECKING:
     from planner.language.commands import Intent
-
-_ID = re.compile(r"o\d{1,6}")
 
 
 def propose_order(steps: list[Any]) -> Clarify | str | None:
@@ -40,15 +37,13 @@ def propose_order(steps: list[Any]) -> Clarify | str | None:
         step = ORDER_STEPS[kinds[0]].model_validate(given)
     except ValidationError:
         return f"{kinds[0]} needs {', '.join(sorted(known - {'kind'}))}, each in a few plain words"
-    text = _sentence(step)
-    if not _is_read(step, parse(text).intent):
+    text = write_order(step)
+    if not is_order_sentence(text, step):
         return (
             f"“{text[:120]}” is no standing order: due is a time such as “every day at 20:00”, "
             "“tomorrow at nine”, “in 20 minutes”; order is one plain order; which is a word of it"
         )
-    option = Option(label=say_same(text), text=text)
-    question = say("standing.proposed", order=text)
-    return Clarify(code=Code.NOT_UNDERSTOOD, question=question, options=(option,))
+    return offer_order(text)
 
 
 def names_order(intent: Intent | None, own: tuple[str, ...]) -> bool:
@@ -59,34 +54,3 @@ def names_order(intent: Intent | None, own: tuple[str, ...]) -> bool:
     which = re.sub(r"\bones?\b", "", intent.which)
     words = [which] if has_chinese(which) else which.split()
     return bool(words) and all(word in heard for word in words)
-
-
-def _sentence(step: object) -> str:
-    match step:
-        case OrderAdd(due=due, order=order):
-            return f"{due}{order}" if has_chinese(order) else f"{due} {order}"
-        case OrderChange(which=which, due=due) if _ID.fullmatch(which):
-            chinese = has_chinese(due)
-            return (
-                f"更改任务{which}：改成{due}" if chinese else f"change order {which}: make it {due}"
-            )
-        case OrderChange(which=which, due=due):
-            chinese = has_chinese(which)
-            return f"把{which}那个改成{due}" if chinese else f"move the {which} one to {due}"
-        case OrderRemove(which=which) if _ID.fullmatch(which):
-            return f"remove order {which}"
-        case OrderRemove(which=which):
-            return f"取消{which}那个" if has_chinese(which) else f"remove the {which} one"
-    return ""
-
-
-def _is_read(step: object, intent: Intent | None) -> bool:
-    match step, intent:
-        case OrderAdd(order=order), ScheduleCommand(problem=None) as command:
-            said = command.order if command.reminder is None else order
-            return fold_words(said) == fold_words(order)
-        case OrderChange(), CorrectOrder(change=Retime()):
-            return True
-        case OrderRemove(), ChangeOrders(act="remove"):
-            return True
-    return False

@@ -70,8 +70,10 @@ _EN = re.compile(
     rf"|(?<![a-z])(?P<often>{_alternatives(_OFTEN)})(?![a-z])"
 )
 _ZH_NUMBER = rf"{_DIGITS}|[零一二三四五六七八九十两半百]{{1,5}}"
+_AFTER_NUMBER = "|".join(("个", *_UNITS_ZH))
 _ZH = re.compile(
     rf"(?P<number>{_ZH_NUMBER}) ?(?P<and>个半)?个? ?(?P<unit>{'|'.join(_UNITS_ZH)})(?P<half>半)?"
+    rf"(?:(?<=米)(?P<tenths>[一二三四五六七八九])十?(?![零一二三四五六七八九十百点]|{_AFTER_NUMBER}))?"
 )
 
 
@@ -129,7 +131,8 @@ def _read_chinese(found: re.Match[str]) -> tuple[SlotKind, float] | None:
         return None
     kind, factor = _unit_of(found["unit"], _UNITS_ZH)
     half = 0.5 if found["half"] or found["and"] else 0.0
-    return kind, (value + half) * factor
+    tenths = (chinese_number(found["tenths"]) or 0.0) / 10.0 if found["tenths"] else 0.0
+    return kind, (value + half + tenths) * factor
 
 
 def amount_value(text: str) -> float:

@@ -7,17 +7,22 @@ sure of is not offered.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
+
+from pydantic import ValidationError
 
 from planner.language.catalogue import say
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.lexicon import lexicon_of
+from planner.language.grammar.parser import plan as grammar_plan
 from planner.language.grammar.plan_assembly import sentence
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.motion_guard import denied_places
+from planner.language.order_sentence import is_order_sentence, offer_order, write_order
 from planner.language.semantic_parser.parser import parse
-from planner.language.semantic_parser.plan_grammar import STEPS
 from planner.language.semantic_parser.plan_steps import StepMaker
+from planner.language.sentence import parse as parse_sentence
 from planner.plan import (
     CONTROL,
     Clarify,
@@ -34,10 +39,11 @@ from planner.plan import (
     places_of,
     say_same,
 )
+from planner.plan.order_steps import OrderAdd, OrderChange, OrderRemove
 
 if TYPE_CHECKING:
     from planner.language.grammar.context import Context
-    from planner.language.semantic_parser.plan_grammar import LabelledPlan
+    from planner.language.semantic_parser.plan_grammar import LabelledPlan, PlanNode
     from planner.plan import Bilingual, Vocabulary
 
 SURE = 0.3
@@ -52,11 +58,20 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "slower": ("slow down", "慢一点"),
     "faster": ("faster", "快一点"),
     "resume": ("go on", "继续"),
+    "pause": ("pause for a moment", "暂停一下"),
     "fact": ("remember that {words}", "记住{words}"),
+    "name_here": ("this place is called {words}", "这里叫{words}"),
+    "orders": ("list your standing orders", "有哪些定时任务"),
+    "order_pause": ("pause the {words} one", "暂停{words}那个"),
+    "order_resume": ("resume the {words} one", "恢复{words}那个"),
 }
 """What the planner itself does upon a yes, in words that it reads."""
 _HANGING = CONTROL | {"wait_for", "wait"}
 """Steps that wait for something, as the words "until" and "when" ask for."""
+_NAMES_ONE = re.compile(r"\bones?$|那[一]?[个项条]$")
+"""What "the pills one" is without "one"."""
+_ORDERS = frozenset({"at", "order_move", "order_remove"})
+"""Forms about standing orders."""
 _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
 
 
@@ -78,21 +93,23 @@ def offer_plan(
     if read is None or read.confidence < SURE:
         return None
     form, offers = read.plan[0].form, isinstance(told, Clarify) and told.options
-    if told.code is Code.NEGATED and form not in STEPS:
+    if told.code is Code.NEGATED and form in _TALK:
         return None
     if told.code in _BEYOND and offers:  # what of it can be done is laid before the person already
         return None
     if form in _TALK:
         sure = read.confidence >= SURER and isinstance(told, Clarify) and not offers
         return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[form])) if sure else None
-    if form in COMMANDS and told.code not in _BEYOND:
-        words = "".join(value[0] for value in read.plan[0].slots if value)
-        command = COMMANDS[form][language is Language.ZH].format(words=words)
-        return _ask_for(Option(label=say_same(command), text=command))
+    if form in COMMANDS and (told.code is Code.NOT_UNDERSTOOD or read.confidence >= SURER):
+        return _offer_command(read.plan[0], language)
+    # Where something else is meant, the rules' own offer of a part of it would be silly.
+    without_offer = told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
+    if form in _ORDERS:
+        asked = _offer_standing_order(read.plan[0], vocabulary, language, context)
+        return asked or without_offer
     plan = _make_steps(read.plan, vocabulary, language)
     if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
-        # Something else is meant: the rules' own offer of a part of it would be silly.
-        return told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
+        return without_offer
     if _lacks_condition(plan, told.code) or (read.confidence < SURER and _is_doubted(plan, told)):
         return None
     if all(isinstance(step, Recall) for step in plan.steps) and read.confidence >= SURER:
@@ -101,6 +118,48 @@ def offer_plan(
         return None
     label = _tell(plan, vocabulary)
     return _ask_for(Option(label=label, text=label.of(language)[:2000], plan=plan))
+
+
+def _offer_command(node: PlanNode, language: Language) -> Clarify | None:
+    """Return the question about what the planner itself does; None where it reads it not so."""
+    words = " ".join(_NAMES_ONE.sub("", value[0]).strip() for value in node.slots if value)
+    command = COMMANDS[node.form][language is Language.ZH].format(words=words)
+    is_read = parse_sentence(command).intent is not None
+    return _ask_for(Option(label=say_same(command), text=command)) if is_read else None
+
+
+def _offer_standing_order(
+    node: PlanNode, vocabulary: Vocabulary, language: Language, context: Context
+) -> Clarify | None:
+    """Return the question about a standing order whose time the clock reads; None: it doesn't."""
+    words = tuple(_NAMES_ONE.sub("", value[0]).strip() if value else "" for value in node.slots)
+    try:
+        if node.form == "order_remove":
+            step: OrderAdd | OrderChange | OrderRemove = OrderRemove(which=words[0])
+        elif node.form == "order_move":
+            step = OrderChange(which=words[0], due=words[1])
+        else:
+            order = _told_as_order(node, vocabulary, language, context)
+            if order is None:
+                return None
+            step = OrderAdd(due=words[0], order=order)
+    except ValidationError:
+        return None
+    text = write_order(step)
+    return offer_order(text) if is_order_sentence(text, step) else None
+
+
+def _told_as_order(
+    node: PlanNode, vocabulary: Vocabulary, language: Language, context: Context
+) -> str | None:
+    """Return what is to be done in words that the grammar reads as these steps; None: none do."""
+    steps = _make_steps(node.blocks[0], vocabulary, language)
+    if steps is None:
+        return None
+    told = _tell(steps, vocabulary)
+    back = grammar_plan(told.of(language), vocabulary, context)
+    is_same = isinstance(back, StepPlan) and _tell(back, vocabulary) == told
+    return told.of(language) if is_same else None
 
 
 def _lacks_condition(plan: StepPlan, code: Code) -> bool:

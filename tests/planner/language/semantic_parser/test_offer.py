@@ -6,6 +6,7 @@ import pytest
 
 from planner.language.grammar.context import Context
 from planner.language.readers import OrderWords, read_order
+from planner.language.schedule import ScheduleCommand
 from planner.language.sentence import parse
 from planner.plan import EVERY_KIND, AnswerPlan, Clarify, Plan, StepPlan, list_nodes, places_of
 from pons.evals.suites import HOME_SITE
@@ -53,6 +54,26 @@ def test_a_place_that_is_denied_is_in_no_offer(text: str) -> None:
     asked = read(text)
     assert not isinstance(asked, StepPlan | AnswerPlan)
     assert not getattr(asked, "options", ())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "be a love and pop to the kitchen every evening at eight, would you",
+        "tomorrow at nine you could find my glasses in the study, if you'd be so kind",
+        "每天晚上八点辛苦您老人家去趟厨房哈",
+        "on Friday at noon, ha, visitors are coming, so you go to the hallway, okay?",
+    ],
+)
+def test_a_standing_order_is_offered_as_the_clock_reads_it_or_not(text: str) -> None:
+    asked = read(text)
+    assert not isinstance(asked, StepPlan)
+    for button in getattr(asked, "options", ()):
+        kept = parse(button.text).intent
+        assert button.plan is None
+        assert isinstance(kept, ScheduleCommand)
+        assert kept.problem is None
+        assert isinstance(read(kept.order), StepPlan)
 
 
 def test_a_sentence_of_any_kind_moves_nothing_by_the_learned_reader() -> None:

@@ -45,6 +45,8 @@ def test_a_place_is_one_unit_however_it_is_written(sentence: str, places: list[s
         ("等一个半小时", SlotKind.DURATION, 5400.0),
         ("半个钟头", SlotKind.DURATION, 1800.0),
         ("一米半", SlotKind.LENGTH, 1.5),
+        ("走一米五", SlotKind.LENGTH, 1.5),
+        ("两米三十", SlotKind.LENGTH, 2.3),
         ("三十公分", SlotKind.LENGTH, 0.3),
         ("轉兩圈", SlotKind.TIMES, 2.0),
         ("左转九十度", SlotKind.ANGLE, 90.0),
