@@ -150,6 +150,7 @@ def thinker(
             order=ask.order if ask.exchanges else "",
             standing=ask.standing,
             departed=ask.departed,
+            newest=ask.newest,
             exchanges=ask.exchanges,
             situation=_situation(ask, clock, remembered),
             refuse_offer=refuse_offer,
