@@ -6,6 +6,7 @@ import math
 from random import Random
 from typing import TYPE_CHECKING
 
+import numpy as np
 import torch
 
 from planner.language.semantic_parser.features import (
@@ -14,7 +15,7 @@ from planner.language.semantic_parser.features import (
     bucket_of,
     sentence_features,
 )
-from planner.language.semantic_parser.linear_plan import TOKEN_NUMBERS, TOKENS
+from planner.language.semantic_parser.linear_plan import PARTS, TOKEN_NUMBERS, TOKENS
 from tools.train_reader.joining import SentenceJoiner
 from tools.train_reader.network import ExampleBatch, TrainableNetwork
 from tools.train_reader.swapping import WordSwapper
@@ -52,6 +53,8 @@ def make_batch(
     mask = torch.zeros(len(examples), units, dtype=torch.bool)
     written = torch.zeros(len(examples), length, dtype=torch.long)
     parts = torch.zeros(len(examples), length, dtype=torch.long)
+    pointed = torch.full((len(examples), length), -1)
+    is_told = np.zeros((len(examples), length, units), bool)
     wanted = torch.full((len(examples), length), -100)
     allowed = torch.zeros(len(examples), length, len(TOKENS) + units, dtype=torch.bool)
     for row, (example, of_units) in enumerate(zip(examples, features, strict=True)):
@@ -62,7 +65,7 @@ def make_batch(
             pieces += of_unit.pieces
             unit_at.append(row * units + at)
         parts[row, : len(example.parts)] = torch.tensor(example.parts)
-        for at, (action, (tokens, pointed)) in enumerate(
+        for at, (action, (tokens, fitting)) in enumerate(
             zip(example.actions, example.allowed, strict=True)
         ):
             token = TOKEN_NUMBERS[action] if isinstance(action, str) else None
@@ -70,10 +73,16 @@ def make_batch(
             wanted[row, at] = len(TOKENS) + unit if token is None else token
             if at + 1 < length:
                 written[row, at + 1] = -1 - unit if token is None else token + 1
-            allowed[row, at, tokens + [len(TOKENS) + unit for unit in pointed]] = True
+            if token is None:
+                is_last = PARTS[example.parts[at]][0] == "last"
+                first = int(example.actions[at - 1]) if is_last else unit
+                pointed[row, at + 1 :] = unit
+                is_told[row, at + 1 :, first : unit + 1] = True
+            allowed[row, at, tokens + [len(TOKENS) + unit for unit in fitting]] = True
         allowed[row, len(example.actions) :, 0] = True
     rows = [torch.tensor(each, dtype=torch.long) for each in (words, pieces, starts, unit_at)]
-    return ExampleBatch(rows[0], rows[1], rows[2], rows[3], mask, written, parts, wanted, allowed)
+    told = torch.from_numpy(is_told)
+    return ExampleBatch(*rows, mask, written, parts, pointed, told, wanted, allowed)
 
 
 def _loss(logits: torch.Tensor, batch: ExampleBatch) -> torch.Tensor:

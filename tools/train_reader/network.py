@@ -10,7 +10,7 @@ from torch.nn import functional
 
 from planner.language.semantic_parser.features import BUCKETS
 from planner.language.semantic_parser.linear_plan import PARTS, TOKENS
-from planner.language.semantic_parser.network import FARTHEST, HEADS
+from planner.language.semantic_parser.network import DISTANCES, FARTHEST, HEADS
 
 WIDTH = 160
 FELT = 96
@@ -37,6 +37,10 @@ class ExampleBatch:
     """(sentences, actions): the action before; a token's number + 1, or -1 - unit."""
     parts: Tensor
     """(sentences, actions): which part of the plan comes next."""
+    pointed: Tensor
+    """(sentences, actions): the unit that was pointed at last before; -1: none."""
+    is_told: Tensor
+    """(sentences, actions, units): whether it was pointed at before, or stands in quoted words."""
     wanted: Tensor
     """(sentences, actions): the index among tokens and then units; -100: none."""
     allowed: Tensor
@@ -52,6 +56,13 @@ def _attend(query: Tensor, key: Tensor, value: Tensor, bias: Tensor) -> Tensor:
 def _heads(values: Tensor) -> Tensor:
     count, rows, width = values.shape
     return values.view(count, rows, HEADS, width // HEADS).transpose(1, 2)
+
+
+def _distances(batch: ExampleBatch) -> Tensor:
+    """Return (sentences, actions, units): the column of a unit's distance from the last pointed."""
+    units = torch.arange(batch.mask.shape[1])[None, None]
+    apart = (units - batch.pointed[..., None]).clamp(-FARTHEST, FARTHEST) + FARTHEST
+    return apart.masked_fill((batch.pointed < 0)[..., None], 2 * FARTHEST + 1)
 
 
 class Layer(nn.Module):
@@ -92,10 +103,14 @@ class DecoderLayer(Layer):
         self.norm3 = nn.LayerNorm(WIDTH)
         self.ask, self.tell = nn.Linear(WIDTH, WIDTH), nn.Linear(WIDTH, 2 * WIDTH)
         self.answer = nn.Linear(WIDTH, WIDTH)
+        self.far = nn.Embedding(HEADS, DISTANCES)
+        nn.init.zeros_(self.far.weight)
 
-    def hear(self, states: Tensor, units: Tensor, mask: Tensor) -> Tensor:
+    def hear(self, states: Tensor, units: Tensor, batch: ExampleBatch) -> Tensor:
         """Return the states after they have looked at the sentence."""
-        bias = torch.zeros(mask.shape).masked_fill(~mask, -1e9)
+        told = self.far.weight[:, -1][None, :, None, None] * batch.is_told[:, None]
+        bias = self.far.weight[:, _distances(batch)].transpose(0, 1) + told
+        bias = bias.masked_fill(~batch.mask[:, None, None], -1e9)
         query = _heads(self.ask(self.norm3(states)))
         key, value = map(_heads, self.tell(units).chunk(2, 2))
         return states + self.dropout(self.answer(_attend(query, key, value, bias)))
@@ -116,6 +131,8 @@ class TrainableNetwork(nn.Module):
         self.taken = nn.Linear(WIDTH, WIDTH)
         self.tokens = nn.Embedding(len(TOKENS) + 1, WIDTH)
         self.parts = nn.Embedding(len(PARTS), WIDTH)
+        self.apart = nn.Embedding(len(PARTS), DISTANCES)
+        nn.init.zeros_(self.apart.weight)
         self.out = nn.Linear(WIDTH, WIDTH)
         self.scores = nn.Linear(WIDTH, len(TOKENS))
         self.point = nn.Linear(WIDTH, WIDTH, bias=False)
@@ -150,10 +167,11 @@ class TrainableNetwork(nn.Module):
         states = torch.where((action < 0)[..., None], unit, token) + self.parts(batch.parts)
         states = self.dropout(states)
         before = torch.ones(length, length, dtype=torch.bool).tril()[None, None]
-        heard = batch.mask[:, None, None].expand(count, 1, length, units.shape[1])
         for layer in self.decoder:
-            states = layer.think(layer.hear(layer.look(states, before), units, heard))
+            states = layer.think(layer.hear(layer.look(states, before), units, batch))
         out = self.dropout(torch.tanh(self.out(self.norm(states))))
         pointed = torch.bmm(self.point(out), self.keys(units).transpose(1, 2)) / WIDTH**0.5
+        table = self.apart(batch.parts)
+        pointed = pointed + table.gather(2, _distances(batch)) + table[..., -1:] * batch.is_told
         logits = torch.cat((self.scores(out), pointed), 2)
         return logits.masked_fill(~batch.allowed, -1e9)

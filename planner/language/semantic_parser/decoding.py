@@ -66,13 +66,14 @@ def allowed_actions(expected: NextActions, said: SentenceUnits) -> tuple[list[in
 def decode_plan(network: PointerNetwork, said: SentenceUnits) -> ParsedPlan | None:
     """Return the plan that the network reads in a sentence; None where it finds no end."""
     encoded = network.encode(sentence_features(said.units))
-    memory, written = network.begin(), network.token(0)
+    memory, written = network.begin(len(said.units)), network.token(0)
     walk, actions, log_probability = GrammarWalk(), list[Action](), 0.0
     while not walk.is_done:
         if len(actions) >= MAX_ACTIONS:
             return None
         scores, unit_scores = network.step(encoded, memory, written, walk.part_number)
-        tokens, units = allowed_actions(walk.next_actions(), said)
+        expected = walk.next_actions()
+        tokens, units = allowed_actions(expected, said)
         if not tokens and not units:
             return None
         joint = np.concatenate((scores[tokens], unit_scores[units]))
@@ -82,6 +83,8 @@ def decode_plan(network: PointerNetwork, said: SentenceUnits) -> ParsedPlan | No
         number = tokens[best] if is_token else units[best - len(tokens)]
         action: Action = TOKENS[number] if is_token else number
         written = network.token(number + 1) if is_token else encoded.taken[number]
+        if not is_token:
+            memory.point(number, expected.first if expected.is_last else number)
         walk.take(action)
         actions.append(action)
     return ParsedPlan(read_actions(actions, said), float(np.exp(log_probability)))

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MODEL = Path(__file__).with_name("reader_model.bin")
-MAGIC = b"PONS reader 2\n"
+MAGIC = b"PONS reader 3\n"
 MAX_BYTES = 4_000_000
 _CHECKSUM_BYTES = 4
 

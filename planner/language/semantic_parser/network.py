@@ -1,9 +1,11 @@
 """Run the pointer network: an encoder over units, a decoder that writes one action after another.
 
 Both are transformers (Vaswani et al. 2017, "Attention is all you need"), normed before each part,
-with a learned bias by distance in place of positions. Numbers alone, in numpy; what a number means
-is the business of ``decoding``. The weights are 8-bit whole numbers with a scale a row; those of
-the units' buckets stay so in memory.
+with a learned bias by distance in place of positions. The decoder looks at the sentence by each
+unit's distance from the one that it pointed at last, and knows which it has told already: plans go
+through a sentence from left to right, and tell each part of it once. Numbers alone, in numpy; what
+a number means is the business of ``decoding``. The weights are 8-bit whole numbers with a scale a
+row; those of the units' buckets stay so in memory.
 """
 
 from __future__ import annotations
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
 HEADS = 4
 FARTHEST = 16
 """Units or actions: what is farther away counts as so far."""
+DISTANCES = 2 * FARTHEST + 3
+"""Columns of the decoder's tables: a distance, then "nothing was pointed at", then "is told"."""
 
 
 def as_floats(values: NDArray[Any]) -> Floats:
@@ -63,10 +67,28 @@ class SentenceStates:
 
 @dataclass(slots=True)
 class DecoderMemory:
-    """Hold the keys and values of the actions written before, by decoder layer."""
+    """Hold the actions written before: keys and values by decoder layer, what was pointed at."""
 
+    is_told: NDArray[np.bool_]
+    """(units): whether it was pointed at, or stands in quoted words."""
+    pointed: int | None = None
+    """The unit that was pointed at last."""
     keys: list[list[Floats]] = field(default_factory=list)
     values: list[list[Floats]] = field(default_factory=list)
+
+    def point(self, unit: int, first: int) -> None:
+        """Keep that a unit was pointed at; ``first``: the first one that is told with it."""
+        self.pointed = unit
+        self.is_told[first : unit + 1] = True
+
+    def bias(self, table: Floats) -> Floats:
+        """Return (rows, units) of a table (rows, ``DISTANCES``)."""
+        if self.pointed is None:
+            near = table[:, 2 * FARTHEST + 1, None]
+        else:
+            apart = np.arange(len(self.is_told)) - self.pointed
+            near = table[:, np.clip(apart, -FARTHEST, FARTHEST) + FARTHEST]
+        return as_floats(near + table[:, 2 * FARTHEST + 2, None] * self.is_told)
 
 
 def _norm(values: Floats, gain: Floats, shift: Floats) -> Floats:
@@ -157,9 +179,12 @@ class PointerNetwork:
         """Return what the decoder takes in after it has written a token; 0: nothing was written."""
         return as_floats(self._m["tokens.weight"].T[number])
 
-    def begin(self) -> DecoderMemory:
-        """Return the decoder's memory before its first action."""
-        return DecoderMemory([[] for _ in range(self._decoder)], [[] for _ in range(self._decoder)])
+    def begin(self, units: int) -> DecoderMemory:
+        """Return the decoder's memory before its first action on a sentence of so many units."""
+        memory = DecoderMemory(np.zeros(units, bool))
+        memory.keys = [[] for _ in range(self._decoder)]
+        memory.values = [[] for _ in range(self._decoder)]
+        return memory
 
     def step(
         self, encoded: SentenceStates, memory: DecoderMemory, written: Floats, part: int
@@ -185,9 +210,11 @@ class PointerNetwork:
             heard = _attend(query, np.concatenate(keys, 1), np.concatenate(values, 1), bias)
             state = as_floats(state + self._linear(f"{name}.join", heard))
             asked = _heads(self._linear(f"{name}.ask", self._apply_norm(f"{name}.norm3", state)))
-            answer = _attend(asked, *encoded.heard[number], 0.0)
+            far = memory.bias(self._m[f"{name}.far.weight"].T)[:, None]
+            answer = _attend(asked, *encoded.heard[number], far)
             state = as_floats(state + self._linear(f"{name}.answer", answer))
             state = self._think(name, state)
         out = as_floats(np.tanh(self._linear("out", self._apply_norm("norm", state))))[0]
         units = encoded.pointed @ (out @ self._m["point.weight"]) / len(out) ** 0.5
+        units = units + memory.bias(self._m["apart.weight"].T[part][None])[0]
         return self._linear("scores", out), as_floats(units)

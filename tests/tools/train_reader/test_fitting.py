@@ -12,6 +12,11 @@ torch = pytest.importorskip(
 )
 
 from planner.language.semantic_parser.features import sentence_features  # noqa: E402
+from planner.language.semantic_parser.linear_plan import (  # noqa: E402
+    TOKEN_NUMBERS,
+    TOKENS,
+    GrammarWalk,
+)
 from planner.language.semantic_parser.model_file import read_model, write_model  # noqa: E402
 from tools.train_reader.earlier_sentences import earlier_examples  # noqa: E402
 from tools.train_reader.fitting import fit, make_batch  # noqa: E402
@@ -25,13 +30,25 @@ def test_the_fitted_network_scores_alike_in_numpy_and_is_fitted_alike_again(tmp_
         weights = {name: each.numpy() for name, each in network.state_dict().items()}
         write_model(weights, tmp_path / name)
     assert (tmp_path / "one").read_bytes() == (tmp_path / "other").read_bytes()
-    example = examples[0]
+    example = max(examples, key=lambda each: len(each.actions))
     features = sentence_features(example.said.units)
     with torch.no_grad():
-        logits = networks[0](make_batch([example], [features]))[0, 0]
+        logits = networks[0](make_batch([example], [features]))[0].numpy()
     reader = read_model(tmp_path / "one")
-    encoded = reader.encode(features)
-    part = example.parts[0]
-    scores, _ = reader.step(encoded, reader.begin(), reader.token(0), part)
-    tokens = example.allowed[0][0]
-    assert scores[tokens] == pytest.approx(logits[tokens].numpy(), abs=0.1)
+    encoded, memory = reader.encode(features), reader.begin(len(example.said.units))
+    written, walk = reader.token(0), GrammarWalk()
+    for action, (tokens, units), wanted in zip(
+        example.actions, example.allowed, logits, strict=True
+    ):
+        scores, unit_scores = reader.step(encoded, memory, written, walk.part_number)
+        assert scores[tokens] == pytest.approx(wanted[tokens], abs=0.15)
+        pointed = [len(TOKENS) + unit for unit in units]
+        assert unit_scores[units] == pytest.approx(wanted[pointed], abs=0.15)
+        expected = walk.next_actions()
+        walk.take(action)
+        if isinstance(action, int):
+            memory.point(action, expected.first if expected.is_last else action)
+            written = encoded.taken[action]
+        else:
+            written = reader.token(TOKEN_NUMBERS[action] + 1)
+    assert walk.is_done

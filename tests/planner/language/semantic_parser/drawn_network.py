@@ -6,7 +6,7 @@ import numpy as np
 
 from planner.language.semantic_parser.features import BUCKETS
 from planner.language.semantic_parser.linear_plan import PARTS, TOKENS
-from planner.language.semantic_parser.network import FARTHEST, HEADS
+from planner.language.semantic_parser.network import DISTANCES, FARTHEST, HEADS
 
 WIDTH = 8
 _LINEAR = {"mix": (3, 1), "join": (1, 1), "wide": (2, 1), "narrow": (1, 2)}
@@ -20,6 +20,8 @@ def draw_weights(seed: int) -> dict[str, np.ndarray[tuple[int, ...], np.dtype[np
         "pieces.weight": (BUCKETS, WIDTH),
         "tokens.weight": (len(TOKENS) + 1, WIDTH),
         "parts.weight": (len(PARTS), WIDTH),
+        "apart.weight": (len(PARTS), DISTANCES),
+        "decoder.0.far.weight": (HEADS, DISTANCES),
         "scores.weight": (len(TOKENS), WIDTH),
         "scores.bias": (len(TOKENS),),
         "keys.weight": (WIDTH, WIDTH),
