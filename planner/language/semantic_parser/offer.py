@@ -72,8 +72,8 @@ def offer_plan(
     """
     if not isinstance(told, Clarify | Refuse) or told.code not in UNREAD:
         return None
-    read = parse(text, vocabulary)
-    if read is None or read.confidence < SURE:
+    read = parse(text, vocabulary, least_confidence=SURE)
+    if read is None:
         return None
     form, offers = read.plan[0].form, isinstance(told, Clarify) and told.options
     if told.code is Code.NEGATED and form not in STEPS:
