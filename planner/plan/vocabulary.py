@@ -51,6 +51,10 @@ class Vocabulary(Frozen):
         """Return the entries by their id."""
         return {entry.id: entry for entry in self.entries}
 
+    def __hash__(self) -> int:
+        """Hash the ids alone: sentences are looked up by their vocabulary hundreds of times."""
+        return hash(tuple(self.by_id))
+
     def __contains__(self, place: object) -> bool:
         return place in self.by_id
 

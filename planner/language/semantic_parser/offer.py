@@ -91,8 +91,8 @@ def offer_plan(
     """
     if not isinstance(told, Clarify | Refuse) or told.code not in UNREAD:
         return None
-    read = parse(text, vocabulary)
-    if read is None or read.confidence < SURE:
+    read = parse(text, vocabulary, least_confidence=SURE)
+    if read is None:
         return None
     node, is_sure = read.plan[0], read.confidence >= SURER
     has_offer = isinstance(told, Clarify) and bool(told.options)
