@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.branch_words import plain_branches
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
 from planner.language.grammar.clauses import (
     ClauseReading,
@@ -56,7 +55,6 @@ from planner.language.grammar.sentence_text import (
     refuse_long_text,
     words_of,
 )
-from planner.language.grammar.unread_branch import tell_unread
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.grammar.zh.talk import TALK as ZH_TALK
@@ -107,10 +105,7 @@ def plan(
     exact = _read_exactly(text, vocabulary, context)
     if exact is not None:
         return exact
-    made = _read_sentence(text, vocabulary, context)
-    if isinstance(made, Refuse):
-        return tell_unread(made, text, lambda said: _read_sentence(said, vocabulary, context))
-    return made
+    return _read_sentence(text, vocabulary, context)
 
 
 def _read_exactly(
@@ -228,7 +223,7 @@ def _read_compound(
         read_steps, read_memory, lambda place: vocabulary.name(place).of(tongue), read_person
     )
     forms = CHINESE_COMPOUND if tongue is Language.ZH else ENGLISH_COMPOUND
-    made = read_compound(plain_branches(said), forms, readers)
+    made = read_compound(said.strip(" ,.!?;。"), forms, readers)
     lacks = made is None or check_plan(made, vocabulary, context.runnable, context.blind)
     return None if lacks else made
 

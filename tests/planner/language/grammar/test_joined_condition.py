@@ -136,23 +136,6 @@ def test_a_name_that_nobody_knows_is_somebody_to_eyes(
 
 
 @pytest.mark.parametrize(
-    ("said", "question"),
-    [
-        ("if there's a cup on the desk, tell me", "is there a cup on the desk"),
-        ("走廊上要是有书包，你就吱一声", "走廊上有没有书包"),
-        ("如果书房有人就告诉我", "书房有没有人"),
-    ],
-)
-def test_to_tell_the_person_themselves_is_to_look(
-    home: Vocabulary, said: str, question: str
-) -> None:
-    made = plan(said, home, WHOLE)
-    assert isinstance(made, StepPlan)
-    assert [type(step) for step in made.steps] == [Look]
-    assert getattr(made.steps[0], "question", None) == question
-
-
-@pytest.mark.parametrize(
     "said",
     [
         "how many chairs are in the attic",
