@@ -198,7 +198,7 @@ def _read_failure(said: str, forms: CompoundForms, read: PartReaders) -> tuple[S
     if found is None:
         return None
     tried = read.steps(found["main"].strip(" ,;."))
-    if not tried:
+    if not tried or isinstance(tried[-1], Look):  # what a look says is no failure of it
         return None
     instead = read.steps(found["else"].strip(" ,;."))
     if not instead:
