@@ -35,9 +35,14 @@ class Entry(Frozen):
 
 
 class Vocabulary(Frozen):
-    """List the site's names. An id occurs once; a spelling may be shared, and is then ambiguous."""
+    """List the site's names. An id occurs once; a spelling may be shared, and is then ambiguous.
+
+    With them stand the sentences of the site's owner.
+    """
 
     entries: tuple[Entry, ...] = ()
+    sentences: str = ""
+    """Templates of sentences by the site's owner, as their file holds them; checked when loaded."""
 
     @model_validator(mode="after")
     def _ids_once(self) -> Self:

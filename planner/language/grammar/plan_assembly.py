@@ -3,8 +3,8 @@
 One clause that can't be read or done holds the whole sentence back; what could be done without it
 is offered, never done unasked.
 
-What a button of a question says stands here, too: the steps as a sentence that reads back as the
-same steps.
+What a button of a question says stands here, too: the steps as a sentence. The button carries them,
+and no reader reads it again.
 """
 
 from __future__ import annotations
@@ -257,4 +257,4 @@ def option(
 ) -> Option:
     """Return a button that stands for these steps."""
     label = sentence(steps, vocabulary, lexicon)
-    return Option(label=label, text=label.of(language)[:2000])
+    return Option(label=label, text=label.of(language)[:2000], plan=StepPlan(steps=tuple(steps)))

@@ -23,7 +23,13 @@ from planner.language.semantic_parser.amounts import find_amounts
 from planner.language.semantic_parser.plan_grammar import SlotKind
 from planner.language.templates.automaton import Units
 from planner.language.templates.expressions import TOKEN
-from planner.language.templates.template_file import TemplateFind, TemplateSet, load_templates
+from planner.language.templates.owners import read_owners_templates
+from planner.language.templates.template_file import (
+    SentenceTemplate,
+    TemplateFind,
+    TemplateSet,
+    load_templates,
+)
 from planner.plan import Language
 
 if TYPE_CHECKING:
@@ -95,9 +101,26 @@ def _amounts_of(text: str) -> Iterator[tuple[str, float, int, int]]:
 
 
 @lru_cache(maxsize=256)
-def find_templates(text: str, language: Language) -> tuple[tuple[int, TemplateFind], ...]:
-    """Return the templates that read a marked clause, and what each found, the surest first."""
-    templates = TEMPLATES
+def find_templates(
+    text: str, language: Language, owners: str = ""
+) -> tuple[tuple[SentenceTemplate, TemplateFind], ...]:
+    """Return the templates that read a marked clause, and what each found, the surest first.
+
+    Args:
+        text: of the clause.
+        language: of the templates.
+        owners: the templates of the site's owner; of two that are as sure theirs comes first.
+    """
+    ours = _find_in(TEMPLATES, text, language)
+    if not owners:
+        return ours
+    both = (*_find_in(read_owners_templates(owners), text, language), *ours)
+    return tuple(sorted(both, key=lambda hit: hit[1].free_words))
+
+
+def _find_in(
+    templates: TemplateSet, text: str, language: Language
+) -> tuple[tuple[SentenceTemplate, TemplateFind], ...]:
     clause = cut_clause(text, templates)
     hits = []
     for match in templates.automata[language].match(clause.units):
@@ -110,7 +133,7 @@ def find_templates(text: str, language: Language) -> tuple[tuple[int, TemplateFi
         }
         hits.append(
             (
-                template,
+                templates.rows[template],
                 TemplateFind(
                     text, {**templates.rows[template].values, **slots}, amounts, match.free_words
                 ),
@@ -140,8 +163,7 @@ class TemplateStage:
 
     def read(self, clause: str, reading: Reading) -> Meaning | None:
         """Return the meaning of a clause; None where no template of these reads it."""
-        for number, found in find_templates(clause, self.language):
-            row = TEMPLATES.rows[number]
+        for row, found in find_templates(clause, self.language, reading.vocabulary.sentences):
             if row.stage not in self.stages:
                 continue
             loose = _LOOSE_END.search(found["who"]) is not None
@@ -162,10 +184,10 @@ def read_exactly(clause: str, reading: Reading, runnable: frozenset[str]) -> Ste
         runnable: the kinds of steps that the robot can do.
     """
     language = Language.ZH if has_chinese(clause) else Language.EN
-    for number, found in find_templates(clause, language):
+    for row, found in find_templates(clause, language, reading.vocabulary.sentences):
         if found.free_words or "times" in found.amounts:  # rounds are counted by the chain's reader
             return None
-        meaning = _builders()[TEMPLATES.rows[number].form](found, reading)
+        meaning = _builders()[row.form](found, reading)
         if meaning is not None:
             kinds = {step.kind for step in meaning.steps} if isinstance(meaning, Steps) else set()
             able = kinds and kinds <= _MOTION & runnable

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
-from planner.language.grammar.zh.answers import ANSWERS, OPEN_QUESTION
 from planner.language.numbers import ZH_DURATION, times
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
@@ -113,8 +112,6 @@ _ORDER = (
 _PLACE_HAS = r"[^,，;；。]*?(?:没有|没|有)[^,，;；。]*?"
 _IS_AT = r"[^,，;；。有没不在]{1,10}?还?(?:不在|没在|在)[^,，;；。有没了在]{1,10}?"
 _THEM = r"(?:他们?|她们?|那个?人|大家)"
-_SEARCHES = r"(?:找找看?|找一找|找一下|找下|找|搜一下|搜搜)"
-_LOOKS = r"(?:看看|看一下|看一看|看一眼|看下|瞧瞧|瞧一下)"
 _TOLD = r"(?P<w>[^,，;；。\"“”]{1,60}?)(?=$|[,，;；。])"
 
 CHINESE_COMPOUND = CompoundForms(
@@ -187,10 +184,6 @@ CHINESE_COMPOUND = CompoundForms(
         (re.compile(r"(?:问问|问一下|询问|问)(?:他们?|她们?)(?=[^,，;；。]{2})"), "问问"),
         (re.compile(rf"(?:叫|让|喊|请){_THEM}{_TOLD}"), r"说“请\g<w>”"),
     ),
-    reports=re.compile(
-        r"(?:你)?(?:就)?(?:告诉|通知|提醒|喊|叫|跟|和|向|给)我"
-        r"(?:说|讲|报告)?(?:一声|一下)?|(?:说|吱|吭)一?声"
-    ),
     calls=",",
     cuts=re.compile(r"(?!)"),
     failures=re.compile(
@@ -214,25 +207,4 @@ CHINESE_COMPOUND = CompoundForms(
         r"(?<![不太])(?:慢慢|缓慢|慢一?点儿?)地?(?=[去到回来开走往跟前后退倒转移靠绕向])"
     ),
     follows=re.compile(rf"(?P<main>.*跟.+?){ZH_DURATION}"),
-    tries=re.compile(
-        r"(?:你|就|再|那|便)*(?:去|到|在|上)?(?P<place>[^,;。去到在再也看瞧找搜没有不别]{1,6}?)"
-        r"(?:那边|那里|那儿|里面|里)?(?:也|再|去|帮我)*"
-        rf"(?:(?P<try>{_SEARCHES})|(?P<look>{_LOOKS}))"
-    ),
-    polls=(
-        re.compile(
-            rf"(?:请|你)*每(?:隔|过)?{ZH_DURATION}(?:就|都|再|，|,)*(?P<main>[^,;。]+?)(?:一次|一遍|一下|一趟)?,?(?:一直)?(?:直到|到)"
-            rf"(?:(?P<time>{_HOUR})|(?:{_SEE})?(?:那里|里面)?有?(?P<until>(?![没不])[^,;。]+?))(?:来|出现|进来)?(?:了)?(?:为止)?"
-        ),
-    ),
-    poll_there="{place}有{until}",
-    spun_to="有{until}",
-    spins=re.compile(
-        rf"(?:请|你|一直|就|慢慢)*(?:在?原地)?(?:一直|慢慢)*(?:(?:往|向|朝)?(?:左|(?P<right>右))边?)?(?:转着?|旋转|转身)(?:圈|个圈|下去)?"
-        rf",?(?:一直)?(?:直到|到){_SEE}有?(?P<until>(?![没不])[^,;。]+?)了?(?:为止|再停|就停(?:下来?)?|停)?"
-    ),
-    answers=ANSWERS,
-    open_question=OPEN_QUESTION,
-    search="去{place}找{thing}",
-    look_there="看看{place}有没有人",
 )
