@@ -96,7 +96,7 @@ def offer_plan(
         return None
     node, is_sure = read.plan[0], read.confidence >= SURER
     has_offer = isinstance(told, Clarify) and bool(told.options)
-    if told.code in _BEYOND and has_offer:  # what of it can be done is laid before the person
+    if told.code in _BEYOND and has_offer and node.form not in CHANGES:  # a part of it is offered
         return None
     if node.form in _TALK:
         said = Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
