@@ -90,8 +90,8 @@ def load_sentences(path: Path) -> str:
     Raises:
         SiteError: it can't be read, or a template in it can't.
     """
-    from planner.language.templates.owners import read_owners_templates  # words know sites' names
-    from planner.language.templates.template_file import TemplateError
+    from planner.language.templates.expressions import TemplateError  # words know sites' names
+    from planner.language.templates.owners import read_owners_templates
 
     try:
         text = read_plain_file(path, MOST_BYTES).decode("utf-8")

@@ -9,12 +9,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from planner.language.templates.template_file import (
-    TemplateError,
-    TemplateSet,
-    load_templates,
-    read_templates,
-)
+from planner.language.templates.expressions import TemplateError
+from planner.language.templates.template_file import TemplateSet, load_templates, read_templates
 
 
 @lru_cache(maxsize=8)
