@@ -33,7 +33,6 @@ from planner.language.grammar.lexicon import (
     mark_people,
     person_named,
 )
-from planner.language.grammar.means import limit_to_means
 from planner.language.grammar.parse_result import (
     ClauseContext,
     ClauseProblem,
@@ -43,7 +42,7 @@ from planner.language.grammar.parse_result import (
     TopicQuestion,
     read_by,
 )
-from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
+from planner.language.grammar.plan_assembly import Setting, compose, limit_to_means, unsafe, veto
 from planner.language.grammar.questions_whether import asks_whether
 from planner.language.grammar.quotes import put_quotes_back, take_quotes
 from planner.language.grammar.sentence_text import (

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from math import radians
@@ -79,25 +78,20 @@ def cut_clause(text: str, templates: TemplateSet) -> ClauseUnits:
     amounts: dict[tuple[str, int, int], float] = {}
     begins = {token.start(): at for at, token in enumerate(found)}
     after = {token.end(): at + 1 for at, token in enumerate(found)}
-    for kind, value, start, end in _amounts_of(text):
-        begin, behind = begins.get(start), after.get(end)
-        if begin is not None and behind is not None:
+    for amount in find_amounts(text):
+        kind = _AMOUNTS.get(amount.kind, "")
+        begin, behind = begins.get(amount.start), after.get(amount.end)
+        if kind and begin is not None and behind is not None:
             ends[kind][begin] = (*ends[kind].get(begin, ()), behind)
-            amounts[kind, begin, behind] = value
+            amounts[kind, begin, behind] = (
+                radians(amount.value) if kind == "angle" else amount.value
+            )
     free = {
         kind: tuple(rule.admits(token, is_first=first) for token in tokens)
         for kind, rule, first in templates.free_kinds
     }
     spans = tuple(token.span() for token in found)
     return ClauseUnits(text, spans, Units(tokens, ends, free), amounts)
-
-
-def _amounts_of(text: str) -> Iterator[tuple[str, float, int, int]]:
-    for amount in find_amounts(text):
-        kind = _AMOUNTS.get(amount.kind)
-        if kind is not None:
-            value = radians(amount.value) if kind == "angle" else amount.value
-            yield kind, value, amount.start, amount.end
 
 
 @lru_cache(maxsize=256)

@@ -19,6 +19,7 @@ _FAILS = (
 _OTHERWISE = (
     r"(?:[,;.]? ?(?:and |but )?(?:otherwise|or else|else|if not|if no)(?:,| then)?(?: just)? )"
 )
+_ELSE = rf"(?:{_OTHERWISE}(?P<else>.+))?"
 _IF = r"(?:if|in case)"
 _IF_NOT = r"(?:if|in case|(?P<unless>unless))"
 _VERBS = (
@@ -90,22 +91,16 @@ ENGLISH_COMPOUND = CompoundForms(
             r" ?(?:and |but )?if (?:there is (?:some|any)(?:body|one)|(?:some|any)(?:body|one) is)"
             r"(?: (?:there|in|in there|inside))?,?(?: then)? (?P<else>.+)"
         ),
-        re.compile(rf"(?:please )?{_IF_NOT} (?P<body>.+?){_OTHERWISE}(?P<else>.+)"),
-        re.compile(rf"(?:please )?{_IF_NOT} (?P<body>.+)"),
-        re.compile(
-            rf"(?:please )?(?:check|see|look|find out) (?:if|whether) (?P<if>.+?)[;,.] ?(?:and )?"
-            rf"if (?:so|yes|there is|they are)(?:,| then)? (?P<then>.+?){_OTHERWISE}(?P<else>.+)"
-        ),
+        re.compile(rf"(?:please )?{_IF_NOT} (?P<body>.+?){_ELSE}"),
         re.compile(
             r"(?:please )?(?:check|see|look|find out) (?:if|whether) (?P<if>.+?)[;,.] ?(?:and )?"
-            r"if (?:so|yes|there is|they are)(?:,| then)? (?P<then>.+)"
+            rf"if (?:so|yes|there is|they are)(?:,| then)? (?P<then>.+?){_ELSE}"
         ),
         re.compile(
             r"(?P<then>.+?),? (?P<unless>unless) (?P<if>.+?)"
             rf"(?:,? (?:and )?in (?:which|that) case,? |{_OTHERWISE})(?P<else>.+)"
         ),
-        re.compile(rf"{_NO_QUESTION}(?P<then>.+?),? {_IF} (?P<if>.+?){_OTHERWISE}(?P<else>.+)"),
-        re.compile(rf"{_NO_QUESTION}(?P<then>.+?),? {_IF_NOT} (?P<if>.+)"),
+        re.compile(rf"{_NO_QUESTION}(?P<then>.+?),? {_IF_NOT} (?P<if>.+?){_ELSE}"),
     ),
     read_condition=read_condition,
     read_memory=read_memory,

@@ -109,6 +109,8 @@ _ORDER = (
     r"(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开"
     r"|告诉|问|叫|喊|吱|吭|报告|通知|对|提醒|让)"
 )
+_THEN_ELSE = rf"(?P<then>{_ORDER}.+?)(?:{_OTHERWISE}(?P<else>.+))?"
+_LATE = r"(?:现在|时间)?(?:已经)?(?:过了|超过|晚于|还没到|没到|没过|早于)[^,，;；。]+?"
 _PLACE_HAS = r"[^,，;；。]*?(?:没有|没|有)[^,，;；。]*?"
 _IS_AT = r"[^,，;；。有没不在]{1,10}?还?(?:不在|没在|在)[^,，;；。有没了在]{1,10}?"
 _THEM = r"(?:他们?|她们?|那个?人|大家)"
@@ -119,47 +121,20 @@ CHINESE_COMPOUND = CompoundForms(
         r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟|问|直到|为止|转到"
     ),
     conditions=(
-        re.compile(
-            rf"(?:现在)?{_IF}(?P<if>(?:现在|时间)?(?:已经)?(?:过了|超过|晚于|还没到|没到|没过|早于)[^,，;；。]+?)"
-            rf"(?:的话)?{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
-        ),
-        re.compile(
-            rf"(?:现在)?{_IF}(?P<if>(?:现在|时间)?(?:已经)?(?:过了|超过|晚于|还没到|没到|没过|早于)[^,，;；。]+?)"
-            rf"(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
-        ),
-        re.compile(
-            rf"(?:请)?(?P<if>(?>[^,，;；。]*?{_IF}){_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?)"
-            rf"{_OTHERWISE}(?P<else>.+)"
-        ),
-        re.compile(
-            rf"(?:请)?(?P<if>(?>[^,，;；。]*?{_IF}){_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
-        ),
-        re.compile(rf"(?P<if>{_PAST})的话{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"),
-        re.compile(rf"(?P<if>{_PAST})的话{_THEN}(?P<then>{_ORDER}.+)"),
+        re.compile(rf"(?:现在)?{_IF}(?P<if>{_LATE})(?:的话)?{_THEN}{_THEN_ELSE}"),
+        re.compile(rf"(?:请)?(?P<if>(?>[^,，;；。]*?{_IF}){_PAST})(?:的话)?{_THEN}{_THEN_ELSE}"),
+        re.compile(rf"(?P<if>{_PAST})的话{_THEN}{_THEN_ELSE}"),
         re.compile(
             rf"(?:请)?{_IF}?(?P<if>{_PLACE_HAS})(?:的话)?{_THEN}"
             rf"(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
         ),
         re.compile(
             r"(?:请)?(?:去)?(?:看看|看一下|检查一下|看一看)(?P<if>[^,，;；。]*?(?:有没有|有无)[^,，;；。]*?)[,，;；。]"
-            rf"(?:如果|要是)?(?:有人的话|有的话|有人|有)[,，]?(?:就|便)?(?P<then>.+?){_OTHERWISE}(?P<else>.+)"
+            rf"(?:如果|要是)?(?:有人的话|有的话|有人|有)[,，]?(?:就|便)?(?P<then>.+?)(?:{_OTHERWISE}(?P<else>.+))?"
         ),
-        re.compile(
-            r"(?:请)?(?:去)?(?:看看|看一下|检查一下|看一看)(?P<if>[^,，;；。]*?(?:有没有|有无)[^,，;；。]*?)[,，;；。]"
-            r"(?:如果|要是)?(?:有人的话|有的话|有人|有)[,，]?(?:就|便)(?P<then>.+)"
-        ),
-        re.compile(
-            rf"(?:请)?{_IF}(?P<if>{_PLACE_HAS})(?:的话)?{_THEN}"
-            rf"(?P<then>{_ORDER}.+)"
-        ),
-        re.compile(
-            rf"(?:请)?{_IF}(?P<if>{_IS_AT})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
-        ),
-        re.compile(rf"(?:请)?{_IF}(?P<if>{_IS_AT})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"),
-        re.compile(
-            rf"(?P<if>{_PLACE_HAS})(?:的话)[,，]?(?:就|便)"
-            rf"(?P<then>{_ORDER}.+)"
-        ),
+        re.compile(rf"(?:请)?{_IF}(?P<if>{_PLACE_HAS})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"),
+        re.compile(rf"(?:请)?{_IF}(?P<if>{_IS_AT})(?:的话)?{_THEN}{_THEN_ELSE}"),
+        re.compile(rf"(?P<if>{_PLACE_HAS})(?:的话)[,，]?(?:就|便)(?P<then>{_ORDER}.+)"),
         re.compile(
             rf"(?P<if>[^,，;；。]+?{_IF}(?:没有|没|有)[^,，;；。]*?)(?:的话)?{_THEN}"
             rf"(?P<then>{_ORDER}.+)"

@@ -9,8 +9,8 @@ import pytest
 
 from maps.errors import SiteError
 from planner.language.grammar import Context, plan
+from planner.language.templates.expressions import TemplateError
 from planner.language.templates.owners import read_owners_templates
-from planner.language.templates.template_file import TemplateError
 from planner.plan import EVERY_KIND, GoTo, StepPlan
 from planner.site import KnownPlaces, Site
 from pons_assets import DEFAULT_SITE
