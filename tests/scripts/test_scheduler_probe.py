@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from pons.conformance.scheduler_probe import HostTiming, Naps, Pulse, until_calm, worst_timing
+from scripts.scheduler_probe import HostTiming, Naps, Pulse, until_calm, worst_timing
 
 CALM = HostTiming(400, 0, 0.004)
 HELD_UP = HostTiming(90, 40, 0.3)
