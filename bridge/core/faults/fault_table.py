@@ -122,7 +122,7 @@ ROWS: tuple[FaultRow, ...] = (
          "in one scan in which nothing beside them went away (one edge within 0.85 of the lidar's "
          "range), or stayed silent, as wide as they are, through 15 degrees of a turn on the "
          "spot, or have never returned since the start (both edges within 0.7); it asks for no "
-         "map; a turn in place passes until then",
+         "map; a turn in place passes, and leads out of the hold",
          _do("0.2 s where it fell silent; at once where it turned with the robot or nothing ever "
              "came", _HOLD2, "WX", clean_s=2.0),
          _do("likewise", _CAP, "T", clean_s=2.0, cap_mps=0.1)),

@@ -199,7 +199,7 @@ def test_a_suspicion_ends_where_the_scans_do() -> None:
     assert room.scan(9).dead == 0
 
 
-@pytest.mark.parametrize("width_deg", [45, 60, 90])
+@pytest.mark.parametrize("width_deg", [45, 60, 90, 300])
 def test_a_door_that_opens_before_something_black_shows_no_hole(width_deg: int) -> None:
     room = Room()
     room.black, room.leaf_rad = (1.6, 0.0, 0.25), (0.0, radians(width_deg))
