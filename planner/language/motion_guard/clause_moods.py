@@ -84,7 +84,8 @@ def read_english(
     if (mine := MY_ASK.match(verb)) is not None and verb[mine.end() :].strip():
         return ClauseMood.QUESTION
     if is_bare(verb, vocabulary):
-        stated = asked is None and before.states
+        else_way = before.last is ClauseMood.CONDITION and table.ways.match(verb)
+        stated = asked is None and before.states and not else_way
         return ClauseMood.FACT if stated else ClauseMood.QUESTION if asks else ClauseMood.ORDER
     if asked is None and table.others.match(rest):
         return ClauseMood.QUESTION if asks else ClauseMood.FACT

@@ -249,7 +249,9 @@ def _hang(said: str, clauses: list[SaidClause]) -> tuple[SaidClause, ...]:
             here = found[at]
             behind = [i for i in row if i > at and found[i].mood is not ClauseMood.NOTHING]
             if here.mood is ClauseMood.CONDITION:
-                hung = behind or [i for i in row if i < at and found[i].mood in _ASKED]
+                hung = list(behind)
+                if all(found[i].otherwise for i in behind):  # "go if …, otherwise come back"
+                    hung += [i for i in row if i < at and found[i].mood in _ASKED]
             elif here.otherwise:
                 hung = [at, *behind]
             else:
