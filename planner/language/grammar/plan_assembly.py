@@ -260,7 +260,8 @@ def option(
 ) -> Option:
     """Return a button that stands for these steps."""
     label = sentence(steps, vocabulary, lexicon)
-    return Option(label=label, text=label.of(language)[:2000], plan=StepPlan(steps=tuple(steps)))
+    plan = StepPlan(steps=tuple(steps)) if 0 < len(steps) <= MAX_STEPS else None
+    return Option(label=label, text=label.of(language)[:2000], plan=plan)
 
 
 def limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:

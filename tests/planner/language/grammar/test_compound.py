@@ -136,3 +136,10 @@ def test_what_no_eye_tells_is_waited_for_in_vain(home: Vocabulary, until: str) -
 def test_what_the_learned_reader_reads_moves_nothing_at_once(home: Vocabulary, text: str) -> None:
     made = plan(text, home, WHOLE)
     assert isinstance(made, Clarify | Refuse)
+
+
+def test_no_button_holds_more_steps_than_a_plan_may(home: Vocabulary) -> None:
+    for times, carries in ((19, True), (20, False)):
+        made = plan(", ".join(["turn left"] * times + ["go to the kitch"]), home, WHOLE)
+        assert isinstance(made, Clarify)
+        assert {each.plan is not None for each in made.options} == {carries}
