@@ -75,7 +75,7 @@ def watch_sectors(
     seen = _mask([far >= 0.0 for far in far_m])
     alive = had.alive | seen
     beams = _with_beams(picture.step_rad, picture.beams, count)
-    silent = _turned(beams, -shift, count) & ~seen
+    silent = _turn_bins(beams, -shift, count) & ~seen
     least = max(2, ceil(LEAST_RAD * count / tau - 1e-9))
     bounded, enclosed = [], 0
     for run in runs(silent, count, least):
@@ -162,15 +162,15 @@ def _fell_silent(
         bins = wrap(scan.yaw_rad - one.yaw_rad) * count / tau
         near = _mask([0.0 <= far <= within_m for far in one.far_m])
         low, high = floor(bins + 1e-6), ceil(bins - 1e-6)
-        expected |= _turned(near, low, count) & _turned(near, high, count)
+        expected |= _turn_bins(near, low, count) & _turn_bins(near, high, count)
     for run in bounded:
         bits = _bits(run, count)
-        if (bits & expected).bit_count() >= least > _uncovered(run, scan, last):
+        if (bits & expected).bit_count() >= least > _count_uncovered(run, scan, last):
             found |= bits
     return found
 
 
-def _uncovered(run: tuple[int, int], scan: SectorScan, last: SectorScan) -> int:
+def _count_uncovered(run: tuple[int, int], scan: SectorScan, last: SectorScan) -> int:
     """Count the bins beside a silence in which something went away since the scan before."""
     count, uncovered = len(scan.far_m), 0
     shift = round(wrap(scan.yaw_rad - last.yaw_rad) * count / tau)
@@ -221,7 +221,7 @@ def _mask(flags: Sequence[bool]) -> int:
     return sum(1 << index for index, flag in enumerate(flags) if flag)
 
 
-def _turned(mask: int, by: int, count: int) -> int:
+def _turn_bins(mask: int, by: int, count: int) -> int:
     """Return a mask whose bin 0 is another's bin ``by``."""
     by %= count
     return (mask >> by | mask << (count - by)) & ((1 << count) - 1)
@@ -230,7 +230,7 @@ def _turned(mask: int, by: int, count: int) -> int:
 def _bits(run: tuple[int, int], count: int) -> int:
     """Return the bins of a run as a mask."""
     first, last = run
-    return _turned((1 << (last - first) % count + 1) - 1, -first, count)
+    return _turn_bins((1 << (last - first) % count + 1) - 1, -first, count)
 
 
 def _farthest(picture: ScanPicture, count: int, shift: int) -> tuple[float, ...]:
