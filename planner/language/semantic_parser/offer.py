@@ -91,12 +91,12 @@ def offer_plan(
     """
     if not isinstance(told, Clarify | Refuse) or told.code not in UNREAD:
         return None
-    read = parse(text, vocabulary)
-    if read is None or read.confidence < SURE:
+    read = parse(text, vocabulary, least_confidence=SURE)
+    if read is None:
         return None
     node, is_sure = read.plan[0], read.confidence >= SURER
     has_offer = isinstance(told, Clarify) and bool(told.options)
-    if told.code in _BEYOND and has_offer:  # what of it can be done is laid before the person
+    if told.code in _BEYOND and has_offer and node.form not in CHANGES:  # a part of it is offered
         return None
     if node.form in _TALK:
         said = Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
