@@ -21,7 +21,7 @@ from tools.train_reader.fitting import fit
 SENTENCES = Path(__file__).parent / "sentences"
 KEPT_AWAY = 3
 UNREAD = frozenset({39, 40, 41})
-"""Files that nobody reads, trainer and judge included, until the reader is finished."""
+"""Files that are taught to no reader: they tell how the shipped one reads people it never met."""
 
 
 def is_kept_away(writer: str) -> bool:
