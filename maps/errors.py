@@ -7,6 +7,7 @@ from wire.errors import ConfigError
 CODES = frozenset(
     {
         "site_file_missing",
+        "bad_template",
         "yaml_malformed",
         "json_malformed",
         "unknown_key",

@@ -9,7 +9,7 @@ import sys
 from dataclasses import replace
 from importlib import import_module
 
-from pons.grammar import CONFORMANCE, EVAL, MAP, MOCK_LLM, NAV2, OPERATOR, ROBOT, SITE, parser
+from pons.grammar import EVAL, MAP, MOCK_LLM, NAV2, OPERATOR, ROBOT, SITE, parser
 from pons.settings import BadSetting, LaunchSettings, is_robot_named, load, port_of, site_of
 from pons_assets import IS_INSTALLED, needs_checkout
 
@@ -78,10 +78,6 @@ def _run_command(words: list[str]) -> int:
         from pons.mock_llm.command import main as mock_llm
 
         return mock_llm(words[1:])
-    if words[:1] == [CONFORMANCE]:  # likewise; it starts a robot of its own
-        from pons.conformance import main as conformance
-
-        return conformance(settings, words[1:])
     if words[:1] == [EVAL]:  # likewise; it starts nothing
         from pons.evals.command import main as evaluate
 

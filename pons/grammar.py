@@ -9,14 +9,12 @@ import argparse
 from pathlib import Path
 
 MOCK_LLM = "mock-llm"
-CONFORMANCE = "conformance"
 EVAL = "eval"
 SITE = "site"
 MAP = "map"
 ROBOT = "robot"
 NAV2 = "nav2"
 _APART = {
-    CONFORMANCE: "play broken brains at a simulated bridge",
     EVAL: "score what a brain plans, on sentences",
     MOCK_LLM: "serve a model that is none, with faults",
     SITE: "make a site of a map, name its rooms, check it",

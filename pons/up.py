@@ -234,7 +234,7 @@ def brain_example(home: Path, root: Path = ROOT) -> str:
     example = root / "examples" / "external_brain.py"
     if example.is_file():
         return f"python {example} --home {home}"
-    return "pons conformance --connect   (examples/external_brain.py of a checkout drives it)"
+    return f"a brain of your own with --home {home}, as examples/external_brain.py of a checkout is"
 
 
 def arm_direct(settings: LaunchSettings) -> bool:

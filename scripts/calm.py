@@ -10,12 +10,12 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from pons.conformance.scheduler_probe import Pulse, until_calm
+from scripts.scheduler_probe import Pulse, until_calm
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pons.conformance.scheduler_probe import HostTiming
+    from scripts.scheduler_probe import HostTiming
 
 LIMIT_S = 120.0
 

@@ -33,8 +33,6 @@ GENERATORS = (
     Generator("sim.site", "sites/"),
     Generator("planner.openapi", "openapi.json"),
     Generator("scripts.page_words", "web/src/i18n/"),
-    Generator("scripts.wiring", "docs/wiring.svg"),
-    Generator("scripts.threats", "docs/security.md"),
     Generator("scripts.locked_extra", "pyproject.toml, extra locked"),
     Generator("scripts.sbom", "sbom.cdx.json, docs/licences.md"),
 )

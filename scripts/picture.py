@@ -13,7 +13,7 @@ from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
 
-from tools.bench.measure.page import chromium
+from scripts.browser import chromium
 
 ROOT = Path(__file__).resolve().parents[1]
 TARGET = ROOT / "docs" / "page.png"

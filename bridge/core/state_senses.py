@@ -32,6 +32,32 @@ class DriveMemory:
 
 
 @value
+class SectorScan:
+    """Hold the farthest return of each bin of one scan, and how the robot stood."""
+
+    far_m: tuple[float, ...]
+    """-1 where nothing returned."""
+    first_rad: float
+    """Direction of the scan's beam 0 in ``base``."""
+    yaw_rad: float
+    """Of ``base`` in ``odom``."""
+    at_s: float
+
+
+@value
+class SectorTurn:
+    """Hold what was silent since a turn on the spot began."""
+
+    yaw_rad: float
+    travelled_m: float
+    """The odometer when it began."""
+    began: int
+    """Bins that were silent then."""
+    through: int
+    """Bins that were silent in each scan since."""
+
+
+@value
 class SectorMemory:
     """Remember which directions of the lidar return something, in bins, each a bit of a mask."""
 
@@ -40,11 +66,12 @@ class SectorMemory:
     alive: int = 0
     """Those from which something has come since the start."""
     dead: int = 0
-    """Those from which nothing comes where something was seen."""
-    points: tuple[tuple[float, float, float] | None, ...] = ()
-    """By direction in ``odom``: x, y [m] of what was seen last, and the odometer then [m]."""
-    recent: tuple[tuple[float, int], ...] = ()
-    """When [s] which bins missed what was seen before, oldest first."""
+    """Those that are silent by the lidar's own fault."""
+    scans: tuple[SectorScan, ...] = ()
+    """The last two, newest first."""
+    gone: tuple[tuple[float, int], ...] = ()
+    """When [s] which bins fell silent together and are so still, oldest first."""
+    turn: SectorTurn | None = None
     ahead_rad: float = 0.0
     """How much of the way ahead is dead or never proven; 0 if that is too little to hide much."""
     behind_rad: float = 0.0
@@ -151,6 +178,8 @@ class DetectorMemory:
     blind_s: float = 0.0
     blind_way: float = 0.0
     """Which way it was asked to drive into a sector that returns nothing: 1, -1, or 0 for none."""
+    blind_turn: bool = False
+    """What is asked since is a turn in place: that leads out, and shows what is a hole."""
     blind_mission: str | None = None
     """For whom; another's way is judged by itself."""
     yaw_s: float = 0.0

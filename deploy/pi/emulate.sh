@@ -34,7 +34,7 @@ done >"$FOLDER/arm/proc/cpuinfo"
 cat >"$FOLDER/drive.py" <<'PYTHON'
 import platform
 
-from tools.bench.detector_run import DrawnFinder
+from tools.lockstep.drawn_finder import DrawnFinder
 from tools.lockstep import LockstepWorld
 from tools.lockstep.truth_detector import header_of
 

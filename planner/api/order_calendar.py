@@ -14,7 +14,7 @@ from planner.orders.calendar_import import ImportedEntry, keep_proposed, propose
 from planner.orders.calendar_orders import write_orders
 from planner.orders.calendar_text import MOST_CHARACTERS
 from planner.orders.errors import OrderRefusal
-from planner.orders.telling import tell_rule, tell_steps
+from planner.orders.telling import tell_record, tell_rule
 from wire.bounded_types import Name
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def _view(orders: StandingOrders, each: ImportedEntry) -> dict[str, Any]:
         "order": each.new.order,
         "reminder": each.new.reminder,
         "when": when.model_dump(),
-        "does": tell_steps(orders.intake.facts, each.allowed).model_dump(),
+        "does": tell_record(orders.intake.facts, each.allowed).model_dump(),
         "may": [step.model_dump(mode="json", exclude_none=True) for step in each.allowed],
         "skipped": [day.isoformat() for day in each.new.skipped],
         "paused": each.new.paused,

@@ -20,6 +20,7 @@ from planner.plan import (
     Code,
     Frozen,
     Language,
+    LastOrder,
     Plan,
     Vocabulary,
 )
@@ -80,6 +81,8 @@ class ThinkRequest(Frozen):
     """How often this goal was thought about again after a step that failed."""
     standing: str = ""  # the whole sentence of a standing order; ``text`` is what is to be done
     departed: bool = False  # the order before led the robot away: "come back" means from there
+    newest: LastOrder | None = Field(default=None, exclude=True)
+    """The newest order, which the text may change. For the built-in brain alone."""
     order: str = ""  # what was said first, where ``text`` answers a question about it
     exchanges: tuple[Exchange, ...] = ()  # these questions and answers; the last answer is ``text``
     situation: Situation | None = None  # where things stand, for a brain that can read of it

@@ -52,6 +52,7 @@ class OfflineBrain:
             blind=request.blind,
             things=request.things,
             departed=request.departed,
+            newest=request.newest,
             remembers=request.situation is not None
             and any(item.fits for item in request.situation.remembered),
         )

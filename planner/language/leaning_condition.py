@@ -142,13 +142,6 @@ _OTHER_CONDITION = re.compile(
     re.IGNORECASE,
 )
 _ASK_IF = re.compile(r"\bask (?:him|her|them|it|[a-z]+) (?:if|whether)\b", re.IGNORECASE)
-_SEE_IF = re.compile(
-    r"\b(?:see|check|look|find out|tell me|let me know) (?:if|whether)\b", re.IGNORECASE
-)
-_SOMEBODY = re.compile(
-    r"\bif (?:there(?:'s| is| are) )?(?:(?:any|some)(?:body|one)|nobody|no one)|[有没]人",
-    re.IGNORECASE,
-)
 _AT_SUBJECT = re.compile(
     r"\b(?P<verb>(?:go|drive|come|walk)(?: up| over| right)* to|approach|follow|greet|find|count)"
     r" (?:him|her|it|them)\b",
@@ -173,18 +166,6 @@ def read_whether_there(question: str) -> WhetherThere | None:
         if found is not None and (who := found["who"].strip()):
             return WhetherThere(who, (found.groupdict().get("where") or "").strip())
     return None
-
-
-def is_leaning(text: str) -> bool:
-    """Tell whether a sentence begins with a condition that leans on a question before it."""
-    return _read_leaning(text) is not None
-
-
-def asks_for_anybody(text: str) -> WhetherThere | None:
-    """Return the question whether somebody is there that a leaning sentence brings with itself."""
-    if _SOMEBODY.search(text) is None or not is_leaning(text):
-        return None
-    return WhetherThere("人" if has_chinese(text) else "anyone", "")
 
 
 def write_condition(asked: WhetherThere, place: str, text: str) -> str | None:
@@ -251,48 +232,4 @@ def _read_leaning(text: str) -> tuple[bool, str, str] | None:
         if found is not None:
             other = found.groupdict().get("else") or ""
             return holds, found["then"].strip(" ,，;"), other.strip(" ,，;")
-    return None
-
-
-_IF_THERE = re.compile(
-    rf"{_LEAD}if (?:{_SUBJECT}(?: is|'s| are)|there(?: is|'s| are) (?P<some>[^,;?]{{1,40}}?))"
-    rf"(?P<not>(?: not|n't)?) (?:in |over )?(?:there|in)(?P<rest>(?:[,;.]| then| {_VERB}\b).*)",
-    re.IGNORECASE,
-)
-_IF_THERE_ZH = re.compile(
-    rf"{_LEAD_ZH}{_IF_ZH}(?P<who>(?!他|她|它|有|没|人)[^,，在不没有就]{{1,8}}?)还?(?P<not>不|没)?在(?:那儿|那里|那边|里面)?(?:的话)?"
-    rf"(?P<rest>{_SO_ZH}.+)"
-)
-
-
-def place_condition(place: str, text: str) -> str | None:
-    """Return "if Dad is there, …" with a place's name for "there"; None of any other sentence."""
-    said = " ".join(text.replace("’", "'").split())
-    if has_chinese(said):
-        there = _IF_THERE_ZH.fullmatch(said)
-        if there is None:
-            return None
-        return f"如果{place}{'没有' if there['not'] else '有'}{there['who']}{there['rest']}"
-    found = _IF_THERE.fullmatch(said)
-    if found is None:
-        return None
-    denied = " not" if found["not"] else ""
-    if found["who"] is None:
-        return f"if there is{denied} {found['some']} in the {place}{found['rest']}"
-    return f"if {found['who']} is{denied} in the {place}{found['rest']}"
-
-
-_SPLIT = re.compile(
-    r"[?？.。!！;；,，]+\s*(?=\S)|\s+and\s+(?=(?:then |also )?(?:if|otherwise)\b)", re.IGNORECASE
-)
-
-
-def join_within(text: str) -> tuple[str, str] | None:
-    """Return the question, or the drive, and the sentence that leans on it, of a text with both."""
-    for cut in _SPLIT.finditer(text):
-        question, rest = text[: cut.start()], text[cut.end() :]
-        if _OTHER_CONDITION.search(_SEE_IF.sub("", question)):
-            return None
-        if is_leaning(rest) or place_condition("", rest) is not None:
-            return question, rest
     return None

@@ -61,6 +61,13 @@ def tell_steps(steps: Sequence[Step], name_of: Callable[[str], Bilingual]) -> Bi
     return _Teller(name_of).row(steps)
 
 
+def _tell_span(seconds: float) -> Bilingual:
+    """Return a time in whole minutes where it is so, else in seconds."""
+    if seconds >= 60.0 and seconds % 60.0 == 0.0:
+        return say("order.minutes", minutes=seconds / 60.0)
+    return say("order.seconds", seconds=seconds)
+
+
 def _is_way(steps: Sequence[Step], at: int) -> bool:
     """Return whether a step is only the way to what is done next at the same place."""
     step, after = steps[at], steps[at + 1] if at + 1 < len(steps) else None
@@ -139,7 +146,7 @@ class _Teller:
         if step.until is not None:
             return say("order.until", steps=steps, when=self._condition(step.until))
         if step.seconds < MAX_LOOP_S:
-            return say("order.again_for", steps=steps, seconds=step.seconds)
+            return say("order.again_for", steps=steps, span=_tell_span(step.seconds))
         if step.times < MAX_ROUNDS:
             return say("order.times", steps=steps, times=str(step.times))
         return say("order.again", steps=steps)
@@ -164,7 +171,7 @@ def _tell_plain(step: Step) -> Bilingual:
     """Return what a step does that names no place and holds no other."""
     match step:
         case Wait():
-            return say("order.wait", seconds=step.seconds)
+            return say("order.wait", span=_tell_span(step.seconds))
         case Say():
             return say("order.say", text=step.text)
         case Ask():
@@ -173,7 +180,7 @@ def _tell_plain(step: Step) -> Bilingual:
             what = _with_article(step.object)
             if step.seconds is None:
                 return say("order.follow", object=what)
-            return say("order.follow_for", object=what, seconds=step.seconds)
+            return say("order.follow_for", object=what, span=_tell_span(step.seconds))
         case Turn():
             angle_deg = round(degrees(step.angle_rad))
             return say("order.left" if angle_deg > 0 else "order.right", angle_deg=abs(angle_deg))

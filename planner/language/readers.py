@@ -187,15 +187,13 @@ def semantic_parser(said: SaidSentence, order: OrderWords) -> PlanReading | None
     """
     told, language = order.exact, order.context.language or said.language
     made = offer_plan(told, said.text, order.vocabulary, language, order.context)
-    lost = isinstance(made, Clarify) and made.question == getattr(told, "question", None)
-    return None if made is None else PlanReading(made, is_read=not lost)
+    return None if made is None else PlanReading(made)
 
 
 def not_read(said: SaidSentence, order: OrderWords) -> PlanReading:
     """Say why nobody has read a sentence, with the cure; offer what of it was read."""
     del said
-    made = order.exact
-    return PlanReading(made, is_read=not isinstance(made, Clarify))
+    return PlanReading(order.exact)
 
 
 _Where = TypeVar("_Where")

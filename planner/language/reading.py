@@ -63,8 +63,6 @@ class PlanReading:
     """Hold a plan, an answer, a refusal, or a question that may offer one order."""
 
     plan: Plan
-    is_read: bool = True
-    """False: nobody has read the sentence, and the plan says so with its cure."""
 
 
 Reading = HaltReading | AnswerReading | ChangeReading | OrdersReading | CommandReading | PlanReading

@@ -13,7 +13,7 @@ from planner.brain.situation import Situation
 from planner.mission.skills.actions import Way
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
-from planner.plan import Bilingual, ChangedOrder, Language, Span
+from planner.plan import Bilingual, ChangedOrder, Language, LastOrder, Span
 from wire import Pose2
 
 
@@ -37,6 +37,8 @@ class AskBrain:
     """The whole sentence of the standing order whose goal this is."""
     departed: bool = False
     """The order before led the robot away from where it was given: "come back" means there."""
+    newest: LastOrder | None = None
+    """The order before, which the text may change."""
     exchanges: tuple[Exchange, ...] = ()
     """What was asked about it, and answered; the newest answer is the text."""
     situation: Situation | None = None

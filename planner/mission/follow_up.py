@@ -173,6 +173,13 @@ def _may_change_round(book: MissionState, change: Change, last: Mission | None) 
     return last.state is not GoalState.PAUSED or change.kind == "skip"
 
 
+def newest_order(book: MissionState, besides: str, now_s: float) -> LastOrder | None:
+    """Return what is known of the newest order besides a goal; None where there is none."""
+    orders = last_orders(book, now_s + book.wall_offset_s)
+    last = next((each for each in orders if each.id != besides and each.steps), None)
+    return None if last is None else _last_order(book, last)
+
+
 def _last_order(book: MissionState, last: Mission | None) -> LastOrder:
     """Return what is known of the newest order."""
     names = book.facts.names

@@ -10,6 +10,7 @@ from planner.mission.conversation import situation_of
 from planner.mission.departure import departure_of, find_robot, way_back_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
+from planner.mission.follow_up import newest_order
 from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
     ask_anew,
@@ -138,6 +139,7 @@ def _think(turn: Transaction, mission: Mission) -> None:
     turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
                        order=mission.text, exchanges=exchanges_of(mission),
                        departed=mission.departed_at is not None,
+                       newest=newest_order(turn.book, mission.id, turn.now_s),
                        situation=situation_of(turn.book, mission, turn.now_s),
                        changed=None if mission.replies else mission.changed))  # fmt: skip
 
@@ -261,6 +263,7 @@ def reply(turn: Transaction, mission: Mission, text: str) -> None:
         ask_plainly(turn, mission)
     elif (offered := find_offered_plan(mission, text)) is not None:
         mission = note_answer(turn, mission, text)
+        mission = turn.put(mission, replace=mission.replace or offered.does is PlanRole.INSTEAD)
         turn.move_to(mission, PersonCause.EXPLAINS, reason=None, outcome=None, plan=None)
         take_plan(turn, Planned(mission.id, offered, None, mission.brain))
     else:

@@ -127,10 +127,7 @@ def thinker(
     remember: Remember = remember_nothing,
     refuse_offer: RefusesOffer | None = None,
 ) -> Think:
-    """Return how this brain thinks about goals in this closed world; ``hearing`` listens.
-
-    ``refuse_offer`` says why a standing order that the brain offers could not be kept.
-    """
+    """Return how a brain thinks about goals here; ``refuse_offer``: of orders not to be kept."""
 
     async def think(ask: AskBrain) -> Planned:
         remembered = await remember(ask, vocabulary)
@@ -150,6 +147,7 @@ def thinker(
             order=ask.order if ask.exchanges else "",
             standing=ask.standing,
             departed=ask.departed,
+            newest=ask.newest,
             exchanges=ask.exchanges,
             situation=_situation(ask, clock, remembered),
             refuse_offer=refuse_offer,

@@ -5,12 +5,14 @@ from __future__ import annotations
 from datetime import datetime
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import CATALOGUE, build, join, list_names, raw, say, say_or_quote
+from planner.language.catalogue import build, join, list_names, raw, say, say_or_quote
+from planner.language.plan_words import tell_steps
 from planner.plan import Bilingual, say_same
+from planner.plan.slots import steps_of
 from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Sequence
     from datetime import date, tzinfo
 
     from planner.orders.order import Firing, StandingOrder
@@ -105,37 +107,13 @@ def tell_time(unix_s: float, zone: tzinfo, now_unix_s: float) -> Bilingual:
     return say("standing.on_date", date=then.date().isoformat(), time=time)
 
 
-def tell_steps(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual:
-    """Return what these steps do: "go to the kitchen, then look"."""
-    return list_names((_tell_step(facts, step) for step in steps), "joint.then")
-
-
-def _tell_step(facts: SiteView, step: StepRecord) -> Bilingual:
-    code = f"order_deed.{step.kind}"
-    if not CATALOGUE.has(code):
-        return say_same(step.kind)
-    place = facts.home if step.kind == "return_home" else step.place
-    if step.place and step.kind != "go_to" and CATALOGUE.has(f"{code}_at"):
-        code = f"{code}_at"
-    return say(
-        code,
-        place=_name(facts, place) if place else "",
-        places=list_names([_name(facts, each) for each in step.places], "joint.and"),
-        what=step.object or "",
-        text=(step.text or "")[:120],
-        amount=_amount(step),
-    )
+def tell_record(facts: SiteView, records: Sequence[StepRecord]) -> Bilingual:
+    """Return what these steps do: "go to the kitchen, then look around"."""
+    return tell_steps(steps_of(records), lambda place: _name(facts, place))
 
 
 def _name(facts: SiteView, place: str) -> Bilingual:
     return facts.targets[place].name if place in facts.targets else say_same(place)
-
-
-def _amount(step: StepRecord) -> str:
-    value = step.seconds if step.seconds is not None else step.distance_m
-    if value is None and step.angle_rad is not None:
-        return f"{step.angle_rad * 57.29577951308232:.0f}°"
-    return f"{value or 0.0:g}"
 
 
 def tell_deed(facts: SiteView, order: StandingOrder) -> Bilingual:
@@ -146,9 +124,7 @@ def tell_deed(facts: SiteView, order: StandingOrder) -> Bilingual:
         )  # fmt: skip
     if not order.allowed:
         return say("standing.answers", order=order.order)
-    if not all(CATALOGUE.has(f"order_deed.{step.kind}") for step in order.allowed):
-        return say("standing.as_said", order=order.order)  # steps that hold others: if, repeat
-    return tell_steps(facts, order.allowed)
+    return tell_record(facts, order.allowed)
 
 
 def tell_kept(

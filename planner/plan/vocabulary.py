@@ -35,9 +35,14 @@ class Entry(Frozen):
 
 
 class Vocabulary(Frozen):
-    """List the site's names. An id occurs once; a spelling may be shared, and is then ambiguous."""
+    """List the site's names. An id occurs once; a spelling may be shared, and is then ambiguous.
+
+    With them stand the sentences of the site's owner.
+    """
 
     entries: tuple[Entry, ...] = ()
+    sentences: str = ""
+    """Templates of sentences by the site's owner, as their file holds them; checked when loaded."""
 
     @model_validator(mode="after")
     def _ids_once(self) -> Self:
@@ -50,6 +55,10 @@ class Vocabulary(Frozen):
     def by_id(self) -> dict[str, Entry]:
         """Return the entries by their id."""
         return {entry.id: entry for entry in self.entries}
+
+    def __hash__(self) -> int:
+        """Hash the ids alone: sentences are looked up by their vocabulary hundreds of times."""
+        return hash(tuple(self.by_id))
 
     def __contains__(self, place: object) -> bool:
         return place in self.by_id

@@ -12,6 +12,10 @@ from maps.spots import check_on_floor
 from planner.site.fence import Fence, load_fence
 from planner.site.places import Place, load_places, normalise
 from planner.site.polygon import area_m2
+from wire.plain_file import read_plain_file
+
+MOST_BYTES = 16_000
+"""Of an owner's templates: some two hundred lines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,10 +28,14 @@ class Site:
     fence: Fence
     places: tuple[Place, ...]
     home: Place
+    sentences: str = ""
+    """Templates of sentences by its owner, as ``sentences.toml`` holds them; none: empty."""
 
     @classmethod
     def load(cls, folder: Path) -> Site:
         """Load map.yaml with its image, places.yaml and fence.json from one folder.
+
+        A ``sentences.toml`` beside them is loaded, too.
 
         Raises:
             SiteError: a file is missing or malformed, or two files contradict each other.
@@ -42,7 +50,8 @@ class Site:
         for place in record.places:
             _check_standing(place, loaded.grid, fence)
         home = next(place for place in record.places if place.id == record.home)
-        return cls(folder, loaded.grid, loaded.map_id, fence, record.places, home)
+        sentences = load_sentences(folder / "sentences.toml")
+        return cls(folder, loaded.grid, loaded.map_id, fence, record.places, home, sentences)
 
     @property
     def rooms(self) -> tuple[Place, ...]:
@@ -73,3 +82,27 @@ def _check_standing(place: Place, grid: GridMap, fence: Fence) -> None:
         text = f"the place {place.id!r} at {at} is outside the fence, or in a keep-out area of it"
         zh = f"地点 {place.id!r} {at} 在围栏之外，或在禁入区内"
         raise SiteError("place_outside_fence", text, zh)
+
+
+def load_sentences(path: Path) -> str:
+    """Return the text of an owner's templates; nothing where there is no such file.
+
+    Raises:
+        SiteError: it can't be read, or a template in it can't.
+    """
+    from planner.language.templates.expressions import TemplateError  # words know sites' names
+    from planner.language.templates.owners import read_owners_templates
+
+    try:
+        text = read_plain_file(path, MOST_BYTES).decode("utf-8")
+        read_owners_templates(text)
+    except FileNotFoundError:
+        return ""
+    except TemplateError as wrong:
+        raise SiteError("bad_template", f"{path}: {wrong}", f"{path}：{wrong.told_zh}") from None
+    except (OSError, UnicodeDecodeError) as wrong:
+        why = getattr(wrong, "strerror", None) or "it is not UTF-8"
+        zh = f"{path}：无法读取（{why}）；请存成不大于 {MOST_BYTES} 字节的 UTF-8 文本"
+        text = f"{path}: {why}; save it as UTF-8 text of at most {MOST_BYTES} bytes"
+        raise SiteError("bad_template", text, zh) from None
+    return text

@@ -42,6 +42,8 @@ class SiteView:
     """The map is being made by driving: there may be floor that nobody saw yet."""
     floor: StandingFloor | None = field(default=None, repr=False, compare=False)
     """Says where a robot may stand at a side of something; None: nobody knows."""
+    sentences: str = ""
+    """Templates of sentences by the site's owner."""
 
     @property
     def radius_m(self) -> float:
@@ -51,7 +53,8 @@ class SiteView:
     @cached_property
     def names(self) -> Vocabulary:
         """Return the names that people and plans use: one value a site, for all readers."""
-        return Vocabulary(entries=tuple(map(self._entry, self.targets.values())))
+        entries = tuple(map(self._entry, self.targets.values()))
+        return Vocabulary(entries=entries, sentences=self.sentences)
 
     def _entry(self, target: Target) -> Entry:
         at = target.pose
@@ -80,7 +83,7 @@ def facts_of(site: Site, taught: tuple[Place, ...] = (), radius_m: float = RADIU
     targets = {place.id: _target(place) for place in places}
     grows = (site.folder / GROWING_MAP).is_file()
     floor = StandingFloor(site, radius_m)
-    return SiteView(targets, site.home.id, site.map_id, grows, floor)
+    return SiteView(targets, site.home.id, site.map_id, grows, floor, site.sentences)
 
 
 def _target(place: Place) -> Target:

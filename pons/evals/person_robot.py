@@ -38,6 +38,7 @@ from planner.plan import (
     plan_record,
     say_same,
 )
+from planner.plan.slots import steps_of
 from planner.site.site_view import facts_of, vocabulary_of
 from pons.evals.cases import Case
 from pons.evals.evidence import give_evidence
@@ -176,6 +177,9 @@ class RobotEar:
         sure = self._sure.get(mission.id)
         if sure is not None and mission.plan == plan_record(sure):
             self._plans[mission.id] = sure  # a yes is to this one, whatever becomes of its record
+        made = mission.plan
+        if mission.id not in self._plans and made is not None and made.steps:
+            self._plans[mission.id] = StepPlan(steps=steps_of(made.steps))  # a button carried it
         return self._plans.get(mission.id)
 
     def _waiting(self) -> Mission | None:

@@ -12,6 +12,7 @@ import pytest
 from planner.__main__ import NICE as PLANNER_NICE
 from pons.supervisor import HANG_S
 from sim.camera.__main__ import NICE as CAMERA_NICE
+from tests.deploy.deployed_users import folders, members
 from tests.deploy.installed import (
     PROCESSES,
     UNITS,
@@ -21,7 +22,6 @@ from tests.deploy.installed import (
     unit,
     weight_of,
 )
-from tools.bench.users import folders, members
 from wire import load_robot
 from wire.doors import BRIDGE_DOOR, DOORS
 from wire.keys import Party

@@ -18,8 +18,16 @@ from pathlib import Path
 
 import pytest
 
+from tests.deploy.deployed_users import (
+    BRIDGE,
+    SIM,
+    USERS,
+    folders,
+    groups_of,
+    home_as_deployed,
+    numbers_of,
+)
 from tests.deploy.installed import ROOT
-from tools.bench.users import BRIDGE, SIM, USERS, folders, groups_of, home_as_deployed, numbers_of
 from wire.doors import BRIDGE_DOOR, DOORS, Door
 from wire.keys import Party
 

@@ -1,6 +1,6 @@
 """Run the whole robot as a person does: ``pons up`` in a home of its own, the CLI, plain HTTP.
 
-Owns requests and waits; ``tools.pons_up`` owns the processes. Judges nothing about driving.
+Owns requests and waits; ``tests.e2e.pons_up`` owns the processes. Judges nothing about driving.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import psutil
 
 from processes.parent_death import module_in
 from tests.e2e.polling import until
-from tools.pons_up import PonsUp
+from tests.e2e.pons_up import PonsUp
 
 ROOT = Path(__file__).resolve().parents[2]
 TWO_ROOM = ROOT / "sites" / "two_room"

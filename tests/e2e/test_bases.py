@@ -16,7 +16,7 @@ from wire import Mode, load_robot
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(200)]
 
 PRESETS = ("waveshare_ugv_rover",)
-"""One in real time; every kind dies 20 times in lockstep (tools/bench/measure/dead_men.py)."""
+"""One in real time; tests/tools/lockstep/test_drives.py has every kind."""
 RAMP_M = 0.12
 """What a base rolls beside its dead-man, and a busy machine's share."""
 

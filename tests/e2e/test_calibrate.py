@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from pons.conformance.scheduler_probe import Pulse, until_calm
+from scripts.scheduler_probe import Pulse, until_calm
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import ROOT, TWO_ROOM

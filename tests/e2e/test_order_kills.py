@@ -14,7 +14,7 @@ pytestmark = [pytest.mark.e2e, pytest.mark.long]
 
 AHEAD_S = 1.5
 OFFSETS_S = (-0.05, 0.06)
-"""Around the due moment. ``python -m tools.bench order_kills`` tries many more."""
+"""Around the due moment."""
 SETTLED_S = 25.0
 """A planner that starts waits 10 s at most for the bridge's word."""
 

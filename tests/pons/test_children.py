@@ -179,7 +179,7 @@ def test_what_may_be_tried_without_a_planner_is_there_to_be_tried(tmp_path: Path
     python, file, *rest = brain_example(tmp_path).split()
     assert (python, rest) == ("python", ["--home", str(tmp_path)])
     assert Path(file).is_file()
-    assert brain_example(tmp_path, root=tmp_path).startswith("pons conformance --connect ")
+    assert brain_example(tmp_path, root=tmp_path).startswith("a brain of your own ")
 
 
 def test_while_a_home_is_mapped_only_the_simulator_knows_it(tmp_path: Path) -> None:

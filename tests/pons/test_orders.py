@@ -43,7 +43,7 @@ def test_a_day_is_left_out_and_an_order_comes_back_from_its_calendar(
         assert run(asked, "import", [str(calendar)]) == verdict
         assert "not on 2027-01-16" in capsys.readouterr().out
         assert run(asked, "list", []) == EXIT_DONE
-        assert capsys.readouterr().out.count("go to “kitchen”") == kept
+        assert capsys.readouterr().out.count("go to the kitchen") == kept
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,7 @@ from wire.session import open_session
 
 NEEDS = "import rclpy, nav_msgs, diagnostic_msgs, zenoh"
 PACKAGE = "ros2/pons_ros2"
-LIMIT_S = 20.0
+LIMIT_S = 60.0
 ROBOT = """
 id = "r1"
 [drive]

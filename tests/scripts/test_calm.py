@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from pons.conformance.scheduler_probe import HostTiming, Pulse
 from scripts import calm
+from scripts.scheduler_probe import HostTiming, Pulse
 
 
 @pytest.mark.parametrize(

@@ -18,12 +18,12 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Error, Page, sync_playwright
 
 from planner.settings import FILE
+from scripts.browser import CHROMIUM, behind, chromium
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import ENDED, new_home
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 from tests.web.person import ended
-from tools.bench.measure.page import CHROMIUM, behind, chromium
 
 ROOT = Path(__file__).resolve().parents[2]
 LAPTOP = (1280, 800)

@@ -15,9 +15,9 @@ import pytest
 from playwright.sync_api import Browser
 
 from planner.voice import Recognition, Sound, read_wav
+from scripts.browser import chromium
 from tests.planner.api.serving import served
 from tests.planner.voice.speech import speak, wav
-from tools.bench.measure.page import chromium
 
 pytestmark = pytest.mark.e2e
 LOUD = 2_000

@@ -15,8 +15,8 @@ import pytest
 from playwright.sync_api import Browser
 
 from pons.stop import CONFIRMED
+from scripts.browser import behind, chromium
 from tests.e2e.system import System, new_home
-from tools.bench.measure.page import behind, chromium
 
 TOKEN = "a-token-of-this-story"
 MACHINE = socket.gethostname().partition(".")[0].lower()

@@ -7,8 +7,8 @@ from typing import Annotated
 import pytest
 from pydantic import Field
 
+from tests.wire.codec_fuzz import fuzz, is_within
 from tests.wire.examples import EXAMPLES
-from tools.bench.measure.codec_fuzz import fuzz, is_within
 from wire import Stop, Velocity
 
 

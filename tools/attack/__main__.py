@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from tools.attack import contract, decoding, files, roles, slow_clients
+from tools.attack import contract, decoding, files
 from tools.attack.lab import AttackLab
 from tools.attack.outcome import AttackOutcome, table
 from tools.bench.context import TROUBLE, line
@@ -27,9 +27,7 @@ if TYPE_CHECKING:
     from tools.attack.lab import Attack
 
 INTERRUPTED = 130
-ALL: tuple[Attack, ...] = cast(
-    "tuple[Attack, ...]", (roles, slow_clients, contract, files, decoding)
-)
+ALL: tuple[Attack, ...] = cast("tuple[Attack, ...]", (contract, files, decoding))
 """In the order in which they run: what needs a robot first, then what takes both processors."""
 
 

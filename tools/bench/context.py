@@ -5,15 +5,16 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from multiprocessing import get_context
 from pathlib import Path
 from subprocess import SubprocessError
 from tempfile import TemporaryDirectory
 from typing import Any, Protocol
 
 from pons.http import PlannerDown, PlannerProblem
-from tools.bench.parallel import take_in_parallel
 from tools.bench.report import ReportRow
 from tools.bench.store import Store
 from wire import ConfigError
@@ -91,12 +92,16 @@ class BenchLab:
         name = f"{self.name}.{what}"
         known = self.store.slices(name)
         yield from (known[index] for index in range(count) if index in known)
-        for done in take_in_parallel(take, self._missing(what, count, known)):
-            if done.trouble is not None:
-                self.lost.append(f"{what} {done.index + 1}: {line(done.trouble)}")
-                continue
-            self.store.append("slice", name, {"index": done.index, "data": done.data})
-            yield done.data
+        with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+            missing = self._missing(what, count, known)
+            running = {pool.submit(take, index): index for index in missing}
+            for done in as_completed(running):
+                if (trouble := done.exception()) is not None:
+                    self.lost.append(f"{what} {running[done] + 1}: {line(trouble)}")
+                    continue
+                data = done.result()
+                self.store.append("slice", name, {"index": running[done], "data": data})
+                yield data
 
     def _missing(self, what: str, count: int, known: dict[int, Any]) -> Iterator[int]:
         """Yield what nobody took yet, until the time is up."""

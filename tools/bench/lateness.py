@@ -1,6 +1,6 @@
-"""Run the sleepers whose lateness is compared: the bridge, its pacer, cyclictest, a C++ loop.
+"""Run the sleepers whose lateness is compared: the bridge and cyclictest.
 
-Each returns how late every wake-up was [us]. All ask for the same rank and the same CPU; what the
+Each returns how late every wake-up was [us]. Both ask for the same rank and the same CPU; what the
 machine lacks returns nothing.
 """
 
@@ -10,10 +10,8 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import time
 from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tools.bench.context import until
@@ -29,7 +27,6 @@ SETTLE_S = 0.5
 _BUCKETS_US = 300_000
 """Longer stalls than this have not been seen on a machine that lives."""
 _BUCKET = re.compile(r"^(\d+)\s+(\d+)\s*$")
-_SOURCE = Path(__file__).resolve().parent / "native" / "sleep_until.cpp"
 
 
 def rt_cpu() -> int:
@@ -114,40 +111,3 @@ def _expand_histogram(histogram: str) -> list[float]:
         if found:
             samples += [float(found[1])] * int(found[2])
     return samples
-
-
-def compiled_loop(folder: Path) -> Path | None:
-    """Compile the C++ loop into a folder; None where there is no compiler."""
-    compiler = shutil.which("c++") or shutil.which("g++")
-    if compiler is None:
-        return None
-    made = folder / "sleep_until"
-    words = [compiler, "-O2", "-std=c++17", "-o", str(made), str(_SOURCE)]
-    done = subprocess.run(words, capture_output=True, check=False)
-    return made if done.returncode == 0 else None
-
-
-def cpp_late_us(loop: Path | None, seconds: float, period_us: int) -> list[float]:
-    """Run the C++ loop."""
-    if loop is None:
-        return []
-    count = max(1, round(seconds * 1e6 / period_us))
-    return _run_and_read([str(loop), str(period_us), str(count), str(PRIORITY), str(rt_cpu())])
-
-
-def pacer_late_us(seconds: float, period_us: int) -> list[float]:
-    """Run the bridge's pacer with nothing to do."""
-    count = max(1, round(seconds * 1e6 / period_us))
-    return _run_and_read(
-        [sys.executable, "-m", "tools.bench.pacer", str(period_us), str(count), str(PRIORITY)]
-    )
-
-
-def _run_and_read(words: list[str]) -> list[float]:
-    done = subprocess.run(words, capture_output=True, text=True, check=True)
-    return [float(line) for line in done.stdout.split()]
-
-
-def count_missed(late_us: list[float], period_us: int) -> int:
-    """Count the whole periods that wake-ups came too late."""
-    return sum(int(late // period_us) for late in late_us)

@@ -19,6 +19,9 @@ from pons.robot_processes import free_port
 from pons.settings import CHECKOUT
 from processes.parent_death import child_command
 from tools.bench.context import MeasurementFailure, until
+from wire import DriveCommand, DriveState, keys
+from wire.keys import Party
+from wire.session import open_session
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,6 +31,7 @@ if TYPE_CHECKING:
 WAYS = ("dds", "rosbridge")
 ROBOT = CHECKOUT / "robots" / "ros2_diff_drive.toml"
 START_S = 20.0
+TICK_S = 0.01
 GRAPH = CHECKOUT / "tests" / "ros2" / "ros_graph.py"
 CAMERA = CHECKOUT / "tests" / "ros2" / "ros_camera.py"
 RELAY = CHECKOUT / "examples" / "ros2_relay" / "relay.py"
@@ -168,3 +172,39 @@ def end_process(process: subprocess.Popen[Any]) -> None:
     process.wait()
     if process.stdout is not None:
         process.stdout.close()
+
+
+class Commander:
+    """Say commands as the bridge does, at 100 Hz, and hear the states."""
+
+    def __init__(self, home: Path) -> None:
+        self.session = open_session(Party.BRIDGE, "r1", home)
+        self._commands = self.session.publisher(keys.DRIVE_COMMAND)
+        self._states = self.session.subscriber(keys.DRIVE_STATE)
+        self._next_s = time.monotonic()
+        self.sent_s: dict[int, float] = {}
+        self.echo_ms: list[float] = []
+        self.state: DriveState | None = None
+
+    def turn(self, wheel_radps: float = 0.0) -> None:
+        self._next_s = max(self._next_s + TICK_S, time.monotonic() - TICK_S)
+        time.sleep(max(0.0, self._next_s - time.monotonic()))
+        seq = len(self.sent_s) + 1
+        command = DriveCommand(
+            boot="bench", seq=seq, left_radps=wheel_radps, right_radps=wheel_radps, enable=True
+        )
+        self.sent_s[seq] = time.monotonic()
+        self._commands.put(command)
+        for state in self._states.drain().items:
+            if isinstance(state, DriveState):
+                self.state = state
+                if state.echo_boot == "bench":
+                    self.echo_ms.append(1000 * (time.monotonic() - self.sent_s[state.echo_seq]))
+
+    def until_obeyed(self) -> None:
+        """Turn until the echo says that commands arrive."""
+        end_s = time.monotonic() + START_S
+        while self.state is None or self.state.timed_out or self.state.echo_boot != "bench":
+            if time.monotonic() > end_s:
+                raise TimeoutError(f"no command was obeyed within {START_S:.0f} s: {self.state}")
+            self.turn()

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 
 from websockets.sync.client import connect
 
-from pons.robot_processes import PATIENCE_S
 from tools.bench.robot import BenchRobot
 
 if TYPE_CHECKING:
@@ -40,16 +39,12 @@ _CLI = (
 
 def noting(home: Path) -> BenchRobot:
     """Return a robot whose bridge notes its commands."""
-    robot = BenchRobot(home, "two_room")
-    robot.children["bridge"].arguments[0] = "tools.bench.command_probe"
-    return robot
+    return BenchRobot(home, "two_room", tapped=True)
 
 
 def notes_of(robot: BenchRobot) -> list[Note]:
     """End the bridge of such a robot and return what it noted."""
-    robot.children["bridge"].stop(PATIENCE_S)
-    text = (robot.settings.home / "commands.json").read_text("utf-8")
-    return [(at_s, v_mps, mode) for at_s, v_mps, mode in json.loads(text)]
+    return [(at_s, v_mps, mode) for at_s, v_mps, mode in robot.end_bridge()["commands"]]
 
 
 @contextmanager
@@ -126,5 +121,3 @@ WAYS: dict[str, Callable[[BenchRobot], AbstractContextManager[Stop]]] = {
     "CLI": by_cli,
     "WebSocket": by_socket,
 }
-STANDING_WAYS = {name: way for name, way in WAYS.items() if way is not by_sentence}
-"""Ways that hold a robot that stands; a stop word within a sentence holds one that moves."""

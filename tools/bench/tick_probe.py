@@ -1,8 +1,8 @@
 """Be the real bridge process with a stopwatch at its edges: ``python -m tools.bench.tick_probe …``.
 
 Takes the bridge's own arguments. Its loop, core, link and drive are the shipped ones; what is added
-notes when ticks were due, when waypoints arrived, when their command left, and when the loss of the
-brain was decided. At its end it writes ``tap.json`` into the home folder.
+notes when ticks were due, when waypoints arrived, when each command left and what it means, and
+when the loss of the brain was decided. At its end it writes ``tap.json`` into the home folder.
 """
 
 from __future__ import annotations
@@ -46,6 +46,10 @@ class Tap:
         self.late_us: list[float] = []
         self.step_us: list[float] = []
         self.silences: list[dict[str, Any]] = []
+        self.decided = (0.0, "")
+        """The speed that the newest decision means [m/s], and its mode."""
+        self.commands: list[tuple[float, float, str]] = []
+        """When a command had left [s, monotonic], and what it means."""
         self.was_lost = False
         self.ears: Any = None
         """Kept here: a subscriber is undeclared with its last reference."""
@@ -61,7 +65,7 @@ class Tap:
             horizon = decode(WAYPOINTS, payload)
             if isinstance(horizon, Waypoints) and horizon.points:
                 first.setdefault(horizon.mission, at_s)
-        names = ("wheel_us", "late_us", "step_us", "silences")
+        names = ("wheel_us", "late_us", "step_us", "silences", "commands")
         content = {name: getattr(self, name) for name in names}
         path.write_text(json.dumps({**content, "first_waypoint_s": first}), "utf-8")
 
@@ -90,10 +94,12 @@ class TappedLink(BridgeLink):
 
 
 class TappedDrive(SimDrive):
-    """Note when the command of such a tick was handed to the transport."""
+    """Note when a command was handed to the transport."""
 
     def write(self, command: DriveCommand | None) -> None:
         super().write(command)
+        if len(TAP.commands) < KEPT_TICKS:
+            TAP.commands.append((time.monotonic(), *TAP.decided))
         if TAP.carries_waypoints:
             TAP.wheel_us.append((time.monotonic() - TAP.due_s) * 1e6)
 
@@ -105,6 +111,7 @@ def tapped_step(config: CoreConfig, state: BridgeState, inbox: Inbox, now_s: flo
     took_us = (time.thread_time_ns() - began_ns) / 1e3
     if state.mode is Mode.ACTIVE and len(TAP.step_us) < KEPT_TICKS:
         TAP.step_us.append(took_us)
+    TAP.decided = (decision.state.motion.limiter.sent.v_mps, decision.state.mode.value)
     _note_silence(state, decision, now_s)
     return decision
 

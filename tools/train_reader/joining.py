@@ -53,7 +53,7 @@ class SentenceJoiner:
         mark = cut_units(random.choice(BETWEEN[example.writer[:2]]), Gazetteer({})).units
         units = (*before, *mark, *other.said.units)
         offset = len(before) + len(mark)
-        actions = (*example.actions[:-1], *_moved(other, units, offset))
+        actions = (*example.actions[:-1], *_shift_actions(other, units, offset))
         said = SentenceUnits("", units)
         walked = walk_actions(actions, said)
         if walked is None:
@@ -66,7 +66,7 @@ def _is_short_row(example: PlanExample) -> bool:
     return row and len(example.plan) <= min(_MOST_NODES, MAX_NODES // 2)
 
 
-def _moved(example: PlanExample, units: Sequence[Unit], offset: int) -> list[Action]:
+def _shift_actions(example: PlanExample, units: Sequence[Unit], offset: int) -> list[Action]:
     """Return an example's actions on its units, which begin at ``offset`` now."""
     moved: list[Action] = []
     for action, part in zip(example.actions, example.parts, strict=True):

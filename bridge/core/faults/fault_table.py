@@ -118,12 +118,13 @@ ROWS: tuple[FaultRow, ...] = (
     _row("LIDAR_BLIND", "returns under 5 % of the baseline",
          _do("300 ms", _HOLD2, "WTX", clean_s=2.0),
          _do("5 s", _STOP1, "WTX", _REARM)),
-    _row("LIDAR_SECTOR", "nothing comes from 12 degrees or more within 60 degrees of the way asked "
-         "for, where something was seen less than 0.3 m ago (one edge of the silence within 0.85 "
-         "of the lidar's range), or from where nothing has come since the start (both within 0.7); "
-         "it asks for no map; a turn in place passes until then",
-         _do("0.2 s where something was seen; at once where nothing ever came", _HOLD2, "WX",
-             clean_s=2.0),
+    _row("LIDAR_SECTOR", "within 60 degrees of the way asked for, 12 degrees or more fell silent "
+         "in one scan in which nothing beside them went away (one edge within 0.85 of the lidar's "
+         "range), or stayed silent, as wide as they are, through 15 degrees of a turn on the "
+         "spot, or have never returned since the start (both edges within 0.7); it asks for no "
+         "map; a turn in place passes, and leads out of the hold",
+         _do("0.2 s where it fell silent; at once where it turned with the robot or nothing ever "
+             "came", _HOLD2, "WX", clean_s=2.0),
          _do("likewise", _CAP, "T", clean_s=2.0, cap_mps=0.1)),
     _row("NO_RANGE", "no obstacle source is configured or alive",
          _do("at once", _HOLD2, "WX"), _do("at once", _CAP, "T", cap_mps=0.2)),

@@ -25,7 +25,7 @@ from bridge.core.motion import motion_gates
 from bridge.core.motion.limiter import shape, tick_length
 from bridge.core.motion.pursuit import carry_over, follow
 from bridge.core.state_motion import AT_REST, NEW, LimiterState, Profile, Wheel, profile_of
-from bridge.core.tick_context import POWERED
+from bridge.core.tick_context import POWERED, STANDING_MPS, STANDING_RADPS
 from wire import STILL, DriveCommand, Mode, Twist2
 
 if TYPE_CHECKING:
@@ -48,23 +48,26 @@ def move(tick: TickContext) -> None:
     asked, at_end = requested_twist(tick)
     arrive(tick, at_end=at_end)
     if tick.s.gate.blocked:
-        _reconsider(tick)
+        motion_gates.reconsider(tick, _wish(tick))
+    if tick.s.watch.blind_way:
+        wish = asked if tick.is_moving else _wish(tick)
+        turns = abs(wish.v_mps) < STANDING_MPS and abs(wish.w_radps) >= STANDING_RADPS
+        tick.s.watch.blind_turn = turns
     motion.asked = asked if tick.is_moving else STILL
     motion.limiter = limit(tick, motion.asked)
 
 
-def _reconsider(tick: TickContext) -> None:
-    """Judge a blocked way on its owner's request now: a velocity still fresh, or the follower.
+def _wish(tick: TickContext) -> Twist2:
+    """Return what the owner of a robot that is held asks now: a fresh velocity, or the follower's.
 
-    What the follower would remember of it is not kept: a blocked robot stands and follows nothing.
+    What the follower would remember of it is not kept: a held robot stands and follows nothing.
     """
     owner = tick.s.ownership.owner
     if owner is not None and owner.kind == "external":
         fresh = external_velocity.asks_to_move(tick)
-        motion_gates.reconsider(tick, external_velocity.requested_twist(tick) if fresh else STILL)
-        return
+        return external_velocity.requested_twist(tick) if fresh else STILL
     answer = follow_horizon(tick)
-    motion_gates.reconsider(tick, STILL if answer is None else answer.target)
+    return STILL if answer is None else answer.target
 
 
 def requested_twist(tick: TickContext) -> tuple[Twist2, bool]:

@@ -133,7 +133,8 @@ ROWS: tuple[Row, ...] = (
      rf"(?: to (?:her|him|them))?(?: (?:{_ONCE_MORE}|(?P<times>twice|two times)(?: more)?))?"
      rf"(?:[ ,]*(?:but )?{_LOUDER})?", "kind=say"),
     Row(Edit.AGAIN, rf"(?:and )?(?:{_ONCE_MORE}[ ,]*(?:but )?)?{_LOUDER}", "kind=say"),
-    Row(Edit.AGAIN, r"(?:(?:and|no|then|go back and) ?,? ?)*(?:tell|ask|remind|warn|greet|call)"
+    Row(Edit.AGAIN, r"(?:(?:and|no|then|go back and)(?: ?, ?| )?)*"
+     r"(?:tell|ask|remind|warn|greet|call)"
      rf" (?P<who>him|her|them) {_ONCE_MORE}(?:,? louder)?", "kind=tell"),
     Row(Edit.OTHER, rf"{_NO}*(?:i meant? |i said |go to |to )?(?:the|that) other(?: one| room"
      r"| place)?"),

@@ -22,7 +22,6 @@ from dataclasses import dataclass, replace
 from re import Pattern
 
 from planner.language.catalogue import say
-from planner.language.grammar.elsewhere_asked import tell_elsewhere
 from planner.language.grammar.lexicon import MARK
 from planner.language.grammar.noun_phrases import go_to
 from planner.language.grammar.parse_result import (
@@ -34,6 +33,7 @@ from planner.language.grammar.parse_result import (
     Steps,
     read_by,
 )
+from planner.language.questions import find_elsewhere
 from planner.plan import MAX_STEPS, Bilingual, Code, Count, Find, GoTo, Look, Patrol, Step
 
 
@@ -78,7 +78,7 @@ class Grammar:
             text = self.plain(self.opening.sub("", text))
         if clause.last:
             text = self.plain(self.closing.sub("", text))
-        return tell_elsewhere(text, read_by(self.rules, text, reading), reading)
+        return _tell_elsewhere(text, read_by(self.rules, text, reading), reading)
 
 
 _WORDS = re.compile(
@@ -299,3 +299,29 @@ def _ask(
     reading = acts[0].reading
     part = ", ".join(act.clause.text for act in acts)
     return ClauseProblem(Code.INCOMPLETE, reading.marked.restore(part), what=what, choices=choices)
+
+
+_UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.INCOMPLETE, Code.UNKNOWN_PLACE})
+_ASKS = re.compile(
+    r"看|检查|查看|巡视|[吗么]$|有没有|有人|什么|谁"
+    r"|^(?:is|are|what|who|do you|can you|check|look|see|watch|inspect)\b"
+)
+
+
+def _tell_elsewhere(text: str, meaning: Meaning, reading: Reading) -> Meaning:
+    """Return a clause's meaning, or that a place is unknown of which would be answered here.
+
+    Args:
+        text: the clause, its known places marked.
+        meaning: what it was read as.
+        reading: of the clause.
+    """
+    looks = isinstance(meaning, Steps) and any(
+        isinstance(step, Look) and step.place is None for step in meaning.steps
+    )
+    asks = isinstance(meaning, ClauseProblem) and meaning.code in _UNREAD
+    name = find_elsewhere(text) if looks or (asks and _ASKS.search(text)) else None
+    if name is None:
+        return meaning
+    near = reading.lexicon.near(name)
+    return ClauseProblem(Code.UNKNOWN_PLACE, name, places=near, name=name)

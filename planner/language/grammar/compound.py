@@ -13,26 +13,25 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from planner.language.grammar.answered_orders import read_answered
-from planner.language.grammar.branch_orders import (
-    call_by_name,
-    condition_there,
-    name_there,
-    search_there,
-    tell_news,
-    tell_them,
-)
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, PartReaders
-from planner.language.grammar.lasting_orders import (
-    read_follow,
-    read_follow_until,
-    read_hunt,
-    read_rounds,
-    read_wait,
-)
-from planner.language.grammar.polled_orders import read_poll, read_spin
+from planner.language.numbers import seconds
 from planner.language.object_names import resolve
-from planner.plan import Ask, Attempt, ClockTime, Find, GoTo, If, Look, Recall, Say, Step, StepPlan
+from planner.language.stop import is_stop
+from planner.plan import (
+    MAX_FOLLOW_S,
+    Ask,
+    Attempt,
+    ClockTime,
+    Follow,
+    If,
+    Look,
+    Recall,
+    Repeat,
+    Say,
+    Step,
+    StepPlan,
+    WaitFor,
+)
 
 MOST_CUTS = 40
 """Places at which a condition without a comma may end, tried one after the other."""
@@ -50,15 +49,10 @@ def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPla
         return StepPlan(steps=steps, pace="slow") if steps else None
     steps = (
         _read_failure(said, forms, read)
-        or read_answered(said, forms, read)
         or _read_condition(said, forms, read)
-        or read_wait(said, forms, read)
-        or read_rounds(said, forms, read)
-        or read_follow(said, forms, read)
-        or read_follow_until(said, forms, read)
-        or read_hunt(said, forms, read)
-        or read_poll(said, forms, read, lambda each: _plain_look(each, forms, read))
-        or read_spin(said, forms, lambda each: _plain_look(each, forms, read))
+        or _read_wait(said, forms, read)
+        or _read_rounds(said, forms, read)
+        or _read_follow(said, forms, read)
     )
     return StepPlan(steps=steps) if steps else None
 
@@ -102,7 +96,6 @@ def _branch(
     *,
     flips: bool = False,
 ) -> tuple[Step, ...] | None:
-    condition = _in_full(condition, order, forms, read)
     eyes = None
     when: ClockTime | Recall | Look
     asked = _asked_of_clock(condition, forms) or _asked_of_memory(condition, forms, read)
@@ -115,36 +108,18 @@ def _branch(
     denied ^= flips
     if not isinstance(when, ClockTime) and when.place is not None:
         name = read.name(when.place)
-        order = name_there(order, name, forms)
-        other = name_there(other, name, forms) if other else None
+        order = _name_there(order, name, forms)
+        other = _name_there(other, name, forms) if other else None
     if eyes is not None and eyes.is_somebody:
-        order, other = tell_them(order, forms), tell_them(other, forms) if other else None
-    if eyes is not None:
-        if denied:
-            order = search_there(order, eyes.thing, forms, somebody=eyes.is_somebody)
-        elif other:
-            other = search_there(other, eyes.thing, forms, somebody=eyes.is_somebody)
-        order = order if flips else tell_news(order, eyes.statement, forms)
-    told = eyes is not None and forms.reports.fullmatch(order.strip(" ,.")) is not None
-    yes, no = () if told else read.steps(order), read.steps(other) if other else ()
+        order, other = _tell_them(order, forms), _tell_them(other, forms) if other else None
+    yes, no = read.steps(order), read.steps(other) if other else ()
     if yes is None or no is None:
         return None
-    if eyes is not None and told and not no:
-        return (eyes.look,)
     if denied:
         yes, no = no, yes
     if eyes is not None and eyes.person and all(isinstance(step, Say | Ask) for step in yes):
-        when, yes = eyes.anybody or eyes.look, call_by_name(yes, eyes.person, forms)
+        when, yes = eyes.anybody or eyes.look, _call_by_name(yes, eyes.person, forms)
     return (If(when=when, then=yes, otherwise=no),)
-
-
-def _in_full(condition: str, order: str, forms: CompoundForms, read: PartReaders) -> str:
-    """Return a condition about "there" with the place that the order itself drives to."""
-    if condition_there(condition, "", forms) is None:
-        return condition
-    steps = read.steps(order) or ()
-    place = steps[0].place if steps and isinstance(steps[0], GoTo) else None
-    return (condition_there(condition, read.name(place), forms) or "") if place else condition
 
 
 _WHERE_WITHIN = re.compile(r" (?:in|on|at|under|inside|near|by|behind|beside) |里|上|下|旁")
@@ -187,10 +162,6 @@ class SightCondition:
     """A person's name, as it is written."""
     anybody: Look | None = None
     """The look for anybody, where one is named: no eye tells who is who."""
-    thing: str = ""
-    """What may be searched for elsewhere: one person or thing, and not just anybody."""
-    statement: str = ""
-    """The condition, as words to be told."""
 
 
 def _asked_of_eyes(
@@ -207,16 +178,7 @@ def _asked_of_eyes(
         return None
     somebody = person is not None or (kind is not None and kind[0] == "person")
     anybody = _look(parts.anybody, parts, read) if person and parts.anybody else None
-    thing = person or ("" if somebody else f"{forms.the}{parts.thing}")
-    return SightCondition(
-        look, parts.denied, somebody, person or "", anybody, thing, parts.statement
-    )
-
-
-def _plain_look(condition: str, forms: CompoundForms, read: PartReaders) -> Look | None:
-    """Return the look whose yes tells a condition; None where a no does, or who somebody is."""
-    eyes = _asked_of_eyes(condition, forms, read)
-    return None if eyes is None or eyes.denied or eyes.person else eyes.look
+    return SightCondition(look, parts.denied, somebody, person or "", anybody)
 
 
 def _look(question: str, parts: ConditionParts, read: PartReaders) -> Look | None:
@@ -236,14 +198,82 @@ def _read_failure(said: str, forms: CompoundForms, read: PartReaders) -> tuple[S
     if found is None:
         return None
     tried = read.steps(found["main"].strip(" ,;."))
-    if not tried:
+    if not tried or isinstance(tried[-1], Look):  # what a look says is no failure of it
         return None
-    last, other = tried[-1], found["else"].strip(" ,;.")
-    if isinstance(last, Find):
-        somebody = read.person(last.object) is not None
-        thing = last.object if somebody else f"{forms.the}{last.object}"
-        other = search_there(other, thing, forms, somebody=somebody)
-    instead = read.steps(other)
+    instead = read.steps(found["else"].strip(" ,;."))
     if not instead:
         return None
     return (Attempt(steps=tried, on_failure=instead),)
+
+
+def _tell_them(order: str, forms: CompoundForms) -> str:
+    """Return an order with what is told to "him" as words to be said where he was seen."""
+    for pattern, plain in forms.tells:
+        order = pattern.sub(plain, order)
+    return order
+
+
+def _call_by_name(steps: tuple[Step, ...], person: str, forms: CompoundForms) -> tuple[Step, ...]:
+    """Put a person's name before the words for them: whoever else hears them knows it then."""
+    return tuple(_put_name(step, person, forms) for step in steps)
+
+
+def _put_name(step: Step, person: str, forms: CompoundForms) -> Step:
+    if isinstance(step, Say) and person.lower() not in step.text.lower():
+        return Say(text=f"{person}{forms.calls}{step.text}"[:500])
+    if isinstance(step, Ask) and person.lower() not in step.question.lower():
+        return Ask(question=f"{person}{forms.calls}{step.question}"[:500])
+    return step
+
+
+def _name_there(order: str, name: str, forms: CompoundForms) -> str:
+    """Return an order in which "there" is the place that its condition names."""
+    return forms.go_there.sub(lambda found: f"{found['verb']}{forms.to}{name}", order)
+
+
+def _read_rounds(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
+    """Read how many times an order is to be carried out."""
+    found = forms.rounds.fullmatch(said)
+    if found is None:
+        return None
+    times, again = forms.count(found["times"]), read.steps(found["main"].strip(" ,"))
+    if times is None or not again:
+        return None
+    return (Repeat(times=times, steps=again),) if 1 <= times <= 20 else None
+
+
+def _read_follow(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
+    """Read a time for which somebody is followed; longer than a step may last it is not read."""
+    found = forms.follows.fullmatch(said)
+    steps = read.steps(found["main"].strip(" ,")) if found is not None else None
+    if found is None or not steps or not isinstance(steps[-1], Follow):
+        return None
+    far_s = seconds(found["number"], found["unit"])
+    if far_s is None or not 0.0 < far_s <= MAX_FOLLOW_S:
+        return None
+    return (*steps[:-1], steps[-1].model_copy(update={"seconds": far_s}))
+
+
+def _read_wait(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
+    """Read whom, which word or which hour is waited for, and what comes before and after it."""
+    for pattern in forms.waits:
+        found = pattern.fullmatch(said)
+        if found is None:
+            continue
+        parts = found.groupdict()
+        wait, first, then = _wait(parts, forms), parts.get("before"), parts.get("rest")
+        before = read.steps(first.strip(" ,")) if first else ()
+        rest = read.steps(_tell_them(then, forms).strip(" ,")) if then else ()
+        if wait is not None and before is not None and rest is not None:
+            return (*before, wait, *rest)
+    return None
+
+
+def _wait(parts: dict[str, str | None], forms: CompoundForms) -> WaitFor | None:
+    who, word, time = parts.get("who"), parts.get("word"), parts.get("time")
+    if time:
+        hour = forms.time(time)
+        return WaitFor(time=hour) if hour is not None else None
+    if word:  # a stop word stops: nobody could say it for anything else
+        return None if is_stop(word) else WaitFor(word=word)
+    return WaitFor(object="person") if who else None

@@ -1,7 +1,7 @@
 """Say what a language brings to read orders that hang on something, and what reads their parts.
 
 The words are each language's own (``en/compound.py``, ``zh/compound.py``); what is made of them is
-the same for all (``compound.py``, ``lasting_orders.py``, ``branch_orders.py``).
+the same for all (``compound.py``).
 """
 
 from __future__ import annotations
@@ -30,8 +30,6 @@ class ConditionParts:
     """It says where."""
     anybody: str = ""
     """The question whether anybody is there, for one who is named: no eye tells who is who."""
-    statement: str = ""
-    """The condition itself, as words to be told to somebody."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,8 +74,6 @@ class CompoundForms:
     """Stands between that verb and the place's name."""
     tells: tuple[tuple[re.Pattern[str], str], ...]
     """What is to be told to "him", and the order to say it."""
-    reports: re.Pattern[str]
-    """An order to tell the person themselves: the look's own answer is that."""
     calls: str
     """Stands between a person's name and the words for them."""
     cuts: re.Pattern[str]
@@ -88,66 +84,9 @@ class CompoundForms:
     """Groups ``main`` and ``times``."""
     count: Callable[[str], int | None]
     waits: tuple[re.Pattern[str], ...]
-    """Groups ``before``, ``rest``, and one of ``who``, ``named``, ``word`` and ``time``.
-
-    A group ``at`` is where to wait; ``named`` is one of whom there are many.
-    """
+    """Groups ``before``, ``rest``, and one of ``who``, ``word`` and ``time``."""
     time: Callable[[str], str | None]
     slowly: re.Pattern[str]
     """Words that ask for no more than half the speed."""
     follows: re.Pattern[str]
     """Groups ``main``, ``number`` and ``unit``."""
-    there: tuple[tuple[re.Pattern[str], str], ...] = ()
-    """Other words for "go there" and "wait there", and these."""
-    inside: re.Pattern[str] | None = None
-    """Ends a condition that is about the place which its order drives to; group ``rest``."""
-    within: str = ""
-    """Stands between what is asked about and that place's name."""
-    tries: re.Pattern[str] | None = None
-    """An order to look in another place, ``place``, and no more: for what the condition names.
-
-    Groups ``try`` and ``look`` hold its verb, where it has one.
-    """
-    the: str = ""
-    """Stands before a thing's bare name."""
-    search: str = ""
-    """The order to search ``{thing}`` in ``{place}``."""
-    look_there: str = ""
-    """The order to look in ``{place}``, for a group ``try`` of `tries` that names no thing."""
-    informs: re.Pattern[str] | None = None
-    """An order to tell ``who`` that the condition holds, in no words of its own."""
-    news: str = ""
-    """The order to tell ``{who}`` what ``{said}``."""
-    wait_at: str = ""
-    """The order to drive to where is waited, ``{at}``."""
-    folk: re.Pattern[str] | None = None
-    """People who have no name: the kids, the postman."""
-    mine: re.Pattern[str] | None = None
-    """What nobody is called by: "my" sister."""
-    hunts: tuple[re.Pattern[str], ...] = ()
-    """Groups ``what`` (found, it ends), ``for`` or none, ``at`` or none, ``before``, ``rest``."""
-    any_hunted: re.Pattern[str] | None = None
-    """What names no thing or person to be found: "it", "something", "no more cups"."""
-    find: str = ""
-    """The order to find ``{what}``, with where, ``{at}``."""
-    find_and: str = ""
-    """That order, and what is to be done then, ``{rest}``."""
-    follows_until: re.Pattern[str] | None = None
-    """Groups ``main`` and ``word``: whom to follow, and what is said in the end."""
-    ends: re.Pattern[str] | None = None
-    """A word in the end that stands for a stop: "until I say so"."""
-    answers: tuple[tuple[bool, re.Pattern[str]], ...] = ()
-    """Groups ``ask``, ``then``, ``else`` or none, ``echo`` (the question's own verb) or none.
-
-    With each stands whether ``then`` hangs on a yes.
-    """
-    open_question: re.Pattern[str] | None = None
-    """Stands in a question that no yes or no answers."""
-    polls: tuple[re.Pattern[str], ...] = ()
-    """Groups ``number``, ``unit``, ``main``, and one of ``until`` (a condition) and ``time``."""
-    poll_there: str = ""
-    """The condition ``{until}`` at ``{place}``."""
-    spins: re.Pattern[str] | None = None
-    """Groups ``until`` (what is to be seen), and ``right`` where the turn is to the right."""
-    spun_to: str = ""
-    """The condition that ``{until}`` is there."""

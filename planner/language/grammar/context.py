@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime
 
-from planner.plan import RUNNABLE, Code, Frozen, Language
+from planner.plan import RUNNABLE, Code, Frozen, Language, LastOrder
 
 
 class Context(Frozen):
@@ -18,6 +18,7 @@ class Context(Frozen):
     things: frozenset[str] = frozenset()  # what can be driven up to though it is no place
     remembers: bool = False  # something that the sentence names is remembered
     departed: bool = False  # an order before led the robot away: "come back" is back from there
+    newest: LastOrder | None = None  # what "again" and "skip the kitchen" change
     moved: bool = False  # it is a part of an order: the robot has driven somewhere before it
 
 

@@ -27,6 +27,8 @@ FIRST_NAME = 0xE900
 NAMES = 256
 NAME = rf"[{chr(FIRST_NAME)}-{chr(FIRST_NAME + NAMES - 1)}]"
 """What stands for a person's name."""
+_MARKS_SAID = re.compile(f"{MARK}|{NAME}")
+"""A person's own text may hold them, and they name nothing there."""
 
 # "home" is a step of its own (return_home), whatever a site calls its home.
 _RESERVED = frozenset({"home", "base", "家", "here", "there", "it", "back"})
@@ -111,6 +113,7 @@ class Lexicon:
 
     def mark(self, text: str) -> MarkedText:
         """Replace each place name of a normalised sentence, the longest first."""
+        text = _MARKS_SAID.sub("\ufffd", text)
         pieces = [(found.start(), found.end()) for found in _PIECE.finditer(text)]
         out: list[str] = []
         mentions: list[Mention] = []

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from planner.language.catalogue import message
 from planner.language.folding import CHINESE as HAN
 from planner.language.folding import has_chinese
-from planner.language.grammar.branch_words import plain_branches
 from planner.language.grammar.checks import TAMPERING, broken_rule, find_veto, withholds_offers
 from planner.language.grammar.clauses import (
     ClauseReading,
@@ -27,7 +26,6 @@ from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.orders import ENGLISH
 from planner.language.grammar.en.talk import TALK
-from planner.language.grammar.joined_condition import in_one_condition
 from planner.language.grammar.lexicon import (
     MARK,
     MarkedText,
@@ -35,7 +33,6 @@ from planner.language.grammar.lexicon import (
     mark_people,
     person_named,
 )
-from planner.language.grammar.means import limit_to_means
 from planner.language.grammar.parse_result import (
     ClauseContext,
     ClauseProblem,
@@ -45,7 +42,7 @@ from planner.language.grammar.parse_result import (
     TopicQuestion,
     read_by,
 )
-from planner.language.grammar.plan_assembly import Setting, compose, unsafe, veto
+from planner.language.grammar.plan_assembly import Setting, compose, limit_to_means, unsafe, veto
 from planner.language.grammar.questions_whether import asks_whether
 from planner.language.grammar.quotes import put_quotes_back, take_quotes
 from planner.language.grammar.sentence_text import (
@@ -56,7 +53,6 @@ from planner.language.grammar.sentence_text import (
     refuse_long_text,
     words_of,
 )
-from planner.language.grammar.unread_branch import tell_unread
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.orders import CHINESE
 from planner.language.grammar.zh.talk import TALK as ZH_TALK
@@ -70,7 +66,6 @@ from planner.plan import (
     Clarify,
     Code,
     Language,
-    Option,
     Patrol,
     Recall,
     Refuse,
@@ -107,10 +102,7 @@ def plan(
     exact = _read_exactly(text, vocabulary, context)
     if exact is not None:
         return exact
-    made = _read_sentence(text, vocabulary, context)
-    if isinstance(made, Refuse):
-        return tell_unread(made, text, lambda said: _read_sentence(said, vocabulary, context))
-    return made
+    return _plan_as_said(text, vocabulary, context)
 
 
 def _read_exactly(
@@ -138,16 +130,6 @@ def _read_exactly(
         return None
     setting = Setting(vocabulary, lexicon, language, context.room, context.now, moved=moved)
     return compose([steps], marked.restore(marked.text), setting)
-
-
-def _read_sentence(
-    text: str, vocabulary: Vocabulary, context: Context
-) -> StepPlan | AnswerPlan | Clarify | Refuse:
-    """Return the plan of a sentence, a condition that its parts share written out."""
-    joined = in_one_condition(
-        text, vocabulary, lambda part: _plan_as_said(part, vocabulary, context)
-    )
-    return _plan_as_said(joined, vocabulary, context)
 
 
 def _is_round(plan: StepPlan) -> bool:
@@ -180,13 +162,13 @@ def _plan_as_said(
     whole = _read_compound(said, sentence, vocabulary, context)
     if whole is not None and not _is_round(whole):
         return whole
-    made = _offering(said, sentence, vocabulary, context)
+    made = _read_once(said, sentence, vocabulary, context)
     if whole is not None and not (isinstance(made, StepPlan) and _has_patrol(made)):
         return whole  # "twice" is a patrol's own word where the grammar reads it as such
     if isinstance(made, Clarify) and made.code is Code.NOT_UNDERSTOOD:
         mended = mend(said, _SPELT)  # only now: "the green cup" is no "greet"
         if mended != said:
-            second = _offering(mended, sentence, vocabulary, context)
+            second = _read_once(mended, sentence, vocabulary, context)
             lost = isinstance(second, Clarify) and second.code is Code.NOT_UNDERSTOOD
             return made if lost else second
     return made
@@ -213,7 +195,7 @@ def _read_compound(
         spoken = put_quotes_back(part, sentence.quotes)
         apart, quotes = take_quotes(spoken)
         of_part = _Sentence(spoken, f"{apart}. {sentence.apart}", quotes)
-        made = _read_once(normalise(apart), of_part, vocabulary, part_of, offers=False)
+        made = _read_once(normalise(apart), of_part, vocabulary, part_of)
         return made.steps if isinstance(made, StepPlan) else None
 
     def read_person(words: str) -> str | None:
@@ -228,28 +210,9 @@ def _read_compound(
         read_steps, read_memory, lambda place: vocabulary.name(place).of(tongue), read_person
     )
     forms = CHINESE_COMPOUND if tongue is Language.ZH else ENGLISH_COMPOUND
-    made = read_compound(plain_branches(said), forms, readers)
+    made = read_compound(said.strip(" ,.!?;。"), forms, readers)
     lacks = made is None or check_plan(made, vocabulary, context.runnable, context.blind)
     return None if lacks else made
-
-
-def _offering(
-    said: str, sentence: _Sentence, vocabulary: Vocabulary, context: Context
-) -> StepPlan | AnswerPlan | Clarify | Refuse:
-    """Read a sentence; where an option would be no order by itself, ask without any."""
-    made = _read_once(said, sentence, vocabulary, context)
-    options = made.options if isinstance(made, Clarify) else ()
-    if all(_reads_back(option, vocabulary, context) for option in options):
-        return made
-    return _read_once(said, sentence, vocabulary, context, offers=False)
-
-
-def _reads_back(option: Option, vocabulary: Vocabulary, context: Context) -> bool:
-    """Tell whether an option's text is by itself an order that is planned."""
-    apart, quotes = take_quotes(option.text)
-    sentence = _Sentence(option.text, apart, quotes)
-    made = _read_once(normalise(apart), sentence, vocabulary, context)
-    return isinstance(made, StepPlan)
 
 
 def _read_once(
@@ -257,14 +220,13 @@ def _read_once(
     sentence: _Sentence,
     vocabulary: Vocabulary,
     context: Context,
-    offers: bool = True,
 ) -> StepPlan | AnswerPlan | Clarify | Refuse:
     """Read a normalised sentence once."""
     text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
     lexicon = lexicon_of(vocabulary)
     marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
     language, moved = context.language or parse(text).language, context.moved or context.departed
-    offers = offers and not withholds_offers(marked.text)
+    offers = not withholds_offers(marked.text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers, moved)
     bare = _BORDERS.sub("", marked.text)
     things = context.things if "go_to_object" in context.runnable else frozenset()

@@ -3,15 +3,16 @@
 One clause that can't be read or done holds the whole sentence back; what could be done without it
 is offered, never done unasked.
 
-What a button of a question says stands here, too: the steps as a sentence that reads back as the
-same steps.
+What a button of a question says stands here, too: the steps as a sentence. The button carries them,
+and no reader reads it again.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
+from itertools import chain
 
 from planner.language.catalogue import list_names, message, say
 from planner.language.grammar.checks import Veto
@@ -23,6 +24,7 @@ from planner.language.plan_words import tell_steps
 from planner.plan import (
     DRIVES,
     MAX_STEPS,
+    NEEDS_CAMERA,
     AnswerPlan,
     Bilingual,
     Clarify,
@@ -41,6 +43,7 @@ from planner.plan import (
     Step,
     StepPlan,
     Vocabulary,
+    lacking,
     say_same,
 )
 
@@ -257,4 +260,31 @@ def option(
 ) -> Option:
     """Return a button that stands for these steps."""
     label = sentence(steps, vocabulary, lexicon)
-    return Option(label=label, text=label.of(language)[:2000])
+    plan = StepPlan(steps=tuple(steps)) if 0 < len(steps) <= MAX_STEPS else None
+    return Option(label=label, text=label.of(language)[:2000], plan=plan)
+
+
+def limit_to_means(meaning: Meaning, runnable: frozenset[str], blind: Code) -> Meaning:
+    """Turn steps that this robot can't do into the problem that it lacks the means."""
+    if isinstance(meaning, ClauseProblem):
+        can = tuple(step for step in meaning.before if step.kind in runnable)
+        offered = chain(meaning.instead, *meaning.choices)
+        if all(step.kind in runnable for step in offered):
+            return replace(meaning, before=can)
+        return ClauseProblem(blind, meaning.part, before=can)
+    if isinstance(meaning, Steps) and "count" not in runnable:  # nothing to look with
+        meaning = replace(meaning, steps=tuple(map(_without_look, meaning.steps)))
+    lacks = (
+        [s for s in meaning.steps if s.kind not in runnable] if isinstance(meaning, Steps) else []
+    )
+    if not lacks or not isinstance(meaning, Steps):
+        return meaning
+    code = blind if any(s.kind in NEEDS_CAMERA for s in lacks) else lacking(lacks[0])
+    patrolled = [p for s in lacks if isinstance(s, Patrol) for p in s.places]
+    can = tuple(s for s in meaning.steps if isinstance(s, GoTo))
+    can = (*can, *(GoTo(place=place) for place in patrolled))
+    return ClauseProblem(code, meaning.part, before=can)
+
+
+def _without_look(step: Step) -> Step:
+    return step.model_copy(update={"look": False}) if isinstance(step, Patrol) else step

@@ -50,7 +50,7 @@ _ANYBODY = re.compile(r"(?:any|some)(?:one|body)")
 _THERE = frozenset({"there", "over there", "那里", "那儿", "那边"})
 _HERE = frozenset({"here", "over here", "这里", "这儿", "这边"})
 _ARTICLE = re.compile(
-    r"^(?:(?:the|a|an|my|our|your|some|any|that|this|all|all of|of|every|each|me)\s+)+"
+    r"^(?:(?:the|a|an|my|our|your|some|any|that|this|all|of|every|each|me)\s+)+"
     r"|^(?:这个|那个|一个|一下|一只|一位|一些|所有的?|我的|咱们?的)"
 )
 _AT_HAND = re.compile(

@@ -97,7 +97,8 @@ def _cut_part(said: str, part: ClausePart, vocabulary: Vocabulary) -> list[Claus
     elif table is CHINESE:
         just = _JUST_ZH.match(words)
         left = strip_openers(just[1], table.opens) if just is not None else ""
-        if just is not None and left and not table.others.fullmatch(left):
+        actor = table.others.fullmatch(left) and left[0] not in "有没"  # 有人就: where somebody is
+        if just is not None and left and not actor:
             at, upon = just.end(1), _SEQUEL_ZH.match(left) is None
     denial = find_denial(words, table) if at is None else None
     if denial is not None and denial > 0 and strip_openers(words[:denial].strip(), table.opens):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.motion_guard.clause_cuts import FINITE, strip_openers
 from planner.language.motion_guard.clause_words import CHINESE, ENGLISH, ClauseWords
-from planner.language.motion_guard.mentioned_names import find_places
+from planner.language.motion_guard.mentioned_names import find_places, first_place
 from planner.language.person_names import is_given_name
 
 if TYPE_CHECKING:
@@ -84,7 +84,8 @@ def read_english(
     if (mine := MY_ASK.match(verb)) is not None and verb[mine.end() :].strip():
         return ClauseMood.QUESTION
     if is_bare(verb, vocabulary):
-        stated = asked is None and before.states
+        else_way = before.last is ClauseMood.CONDITION and table.ways.match(verb)
+        stated = asked is None and before.states and not else_way
         return ClauseMood.FACT if stated else ClauseMood.QUESTION if asks else ClauseMood.ORDER
     if asked is None and table.others.match(rest):
         return ClauseMood.QUESTION if asks else ClauseMood.FACT
@@ -98,7 +99,7 @@ def read_english(
         return ClauseMood.ORDER
     if table.asks.match(rest) or asks:
         return ClauseMood.QUESTION
-    place = next(iter(find_places(verb, vocabulary)), None)
+    place = first_place(verb, vocabulary)
     led = place is not None and _TO_PLACE.fullmatch(verb[: place.start]) is not None
     first = verb.split(" ", maxsplit=1)[0]
     led = led and not is_given_name(first) and not FINITE.search(verb)
@@ -128,10 +129,10 @@ def read_chinese(
     rest = strip_openers(rest, table.to_you)
     while True:
         shorter = strip_openers(rest, table.opens)
-        places = find_places(shorter, vocabulary)
-        if places and places[0].start == 0:
-            follows = _AFTER_ZH.match(shorter, places[0].end)
-            shorter = shorter[follows.end() if follows else places[0].end :]
+        place = first_place(shorter, vocabulary)
+        if place is not None and place.start == 0:
+            follows = _AFTER_ZH.match(shorter, place.end)
+            shorter = shorter[follows.end() if follows else place.end :]
         if shorter == rest:
             break
         rest = shorter
@@ -149,7 +150,7 @@ def _is_call(rest: str, table: ClauseWords, vocabulary: Vocabulary, before: Befo
     opens = all(each is ClauseMood.NOTHING for each in before.moods)
     lone = len(rest) <= 4 if table is CHINESE else rest.count(" ") == 0
     rows = (table.orders, table.to_you)
-    known = any(each.match(rest) for each in rows) or bool(find_places(rest, vocabulary))
+    known = any(each.match(rest) for each in rows) or first_place(rest, vocabulary) is not None
     if table is CHINESE:
         known = known or re.search(r"[了啦吧吗呢没好]$|[你您]", rest) is not None
     return opens and lone and not known and rest.isalpha()

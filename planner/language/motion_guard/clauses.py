@@ -9,6 +9,7 @@ and nothing else. Pure, never raises, linear up to ``MAX_READ`` characters.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -31,7 +32,12 @@ from planner.language.motion_guard.clause_moods import (
     read_english,
 )
 from planner.language.motion_guard.clause_words import CHINESE, ENGLISH, ClauseWords
-from planner.language.motion_guard.mentioned_names import find_places, plain
+from planner.language.motion_guard.mentioned_names import (
+    NamedPlace,
+    find_places,
+    first_place,
+    plain,
+)
 from planner.plan import Vocabulary
 
 MAX_READ = 400
@@ -161,14 +167,15 @@ def _is_beyond(words: str, rest: str, table: ClauseWords, vocabulary: Vocabulary
     """Tell whether a clause orders an arm's work, harm or haste, anywhere behind a place."""
     verb = strip_openers(strip_openers(rest, table.to_you), table.opens)
     places = find_places(words, vocabulary)
-    tails = (words[p.end :].lstrip(" 里上并和后再") for p in places)
-    parts = (re.sub(r"[\s·]+", " ", _blot(each, vocabulary)) for each in (words, verb, *tails))
-    return any(table.beyond.match(each) for each in parts)
+    blotted = _blot(words, places)
+    tails = (blotted[p.end :].lstrip(" 里上并和后再") for p in places)
+    parts = (blotted, _blot(verb, find_places(verb, vocabulary)), *tails)
+    return any(table.beyond.match(re.sub(r"[\s·]+", " ", each)) for each in parts)
 
 
-def _blot(words: str, vocabulary: Vocabulary) -> str:
+def _blot(words: str, places: Sequence[NamedPlace]) -> str:
     """Blot out the names of places, in which letters of other words stand."""
-    for place in find_places(words, vocabulary):
+    for place in places:
         words = f"{words[: place.start]}{'·' * (place.end - place.start)}{words[place.end :]}"
     return words
 
@@ -220,9 +227,10 @@ def _spare_lists(clauses: list[SaidClause], vocabulary: Vocabulary) -> list[Said
 
 def _take_back(clauses: list[SaidClause], vocabulary: Vocabulary) -> list[SaidClause]:
     """Deny what stands before a correction that names a place."""
+    named = False
     for index in range(len(clauses) - 1, 0, -1):
         words = clauses[index].text
-        named = any(find_places(each.text, vocabulary) for each in clauses[index:])
+        named = named or first_place(words, vocabulary) is not None
         if named and table_of(words).corrects.match(words):
             denied = [replace(each, mood=ClauseMood.DENIED) for each in clauses[:index]]
             return [*denied, *clauses[index:]]
@@ -241,7 +249,9 @@ def _hang(said: str, clauses: list[SaidClause]) -> tuple[SaidClause, ...]:
             here = found[at]
             behind = [i for i in row if i > at and found[i].mood is not ClauseMood.NOTHING]
             if here.mood is ClauseMood.CONDITION:
-                hung = behind or [i for i in row if i < at and found[i].mood in _ASKED]
+                hung = list(behind)
+                if all(found[i].otherwise for i in behind):  # "go if …, otherwise come back"
+                    hung += [i for i in row if i < at and found[i].mood in _ASKED]
             elif here.otherwise:
                 hung = [at, *behind]
             else:

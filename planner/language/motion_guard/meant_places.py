@@ -52,6 +52,12 @@ _OWN_WAY = re.compile(
     r"(?:i|we)(?:'m|'re|'ll| am| are| will| need| have to| must| might| may| want to| got)\b"
     r"|我们?(?:先|要|去|得|马上|一会|正|自己)"
 )
+_GOES_BACK = re.compile(
+    r"(?:(?:otherwise|else|then|please|and|just|now) )*(?:come|go|drive|head|return|get|be)? ?"
+    r"(?:straight |right )?(?:back|home)(?: here| home| to me)?"
+    r"|(?:否则|不然|要不然|就|再|请|你|那|都)*(?:回[来去家]|返回|回到?家)[吧了啊哦]?"
+)
+"""Leads home or back, and nowhere that other clauses name."""
 _USED = {
     "kitchen": re.compile(
         r"\b(?:oven|stove|hob|cooker|kettle|dishwasher|washing.up)\b|灶|烤箱|炉子|水壶|洗碗"
@@ -89,14 +95,15 @@ class MeantPlaces:
     def count_named(self, usable: list[SaidClause]) -> Counter[str]:
         """Return the places that clauses send to, each as often as they do."""
         leads = [c for c in usable if not c.stays]
+        away = [c for c in leads if not _GOES_BACK.fullmatch(c.text)]
         said = join_clauses(usable)
         named = Counter(places_named(said, self._vocabulary))
         named.update(dict.fromkeys(self._rooms_of_group(said), 1))
         named.update(self._rooms_described(said))
-        if self._room is not None and _HERE.search(said):
+        if self._room is not None and _HERE.search(join_clauses(leads)):
             named[self._room] += 1
         named.update(self._rooms_by_use(said) if not named else ())
-        if not named and leads:  # "grandma is in the bedroom, go and see"
+        if not named and away:  # "grandma is in the bedroom, go and see"
             named.update(self._leant_on(usable, said))
         if not named and leans_back(usable):
             named.update(self._spoken_of_before())
@@ -112,15 +119,24 @@ class MeantPlaces:
         """Return the one place of the other clauses, where an order names none."""
         spoken = any(c.hung for c in usable)
         others = [
-            f"{c.text}{c.speech if spoken else ''}"
+            c
             for c in self._every
             if c.mood not in (ClauseMood.DENIED, ClauseMood.CALL)
             and not _OWN_WAY.match(c.text)
             and (c.mood is not ClauseMood.CONDITION or _THERE.search(said))
         ]
-        found = Counter(places_named(GAP.join(others), self._vocabulary))
-        found.update(self._rooms_described(GAP.join(others)))
-        found.update(self._rooms_by_use(GAP.join(others)) if not found else ())
+        places = self._find_one(others, spoken)
+        if not places and _THERE.search(said):  # of two places it is the one before it
+            at = self._every.index(usable[0])
+            places = self._find_one([c for c in others if c in self._every[:at]], spoken)
+        return places
+
+    def _find_one(self, clauses: list[SaidClause], spoken: bool) -> Counter[str]:
+        """Return the place of clauses where they name one alone; ``spoken``: speech counts."""
+        said = GAP.join(f"{c.text}{c.speech if spoken else ''}" for c in clauses)
+        found = Counter(places_named(said, self._vocabulary))
+        found.update(self._rooms_described(said))
+        found.update(self._rooms_by_use(said) if not found else ())
         return Counter(dict.fromkeys(found, 1)) if len(found) == 1 else Counter()
 
     def _rooms_described(self, said: str) -> Counter[str]:

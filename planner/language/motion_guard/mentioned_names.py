@@ -151,6 +151,11 @@ def find_places(text: str, vocabulary: Vocabulary) -> tuple[NamedPlace, ...]:
     return tuple(_names(vocabulary).find(plain(text)))
 
 
+def first_place(text: str, vocabulary: Vocabulary) -> NamedPlace | None:
+    """Return where a text, in plain writing, first names a place; what follows is not read."""
+    return next(_names(vocabulary).find(plain(text)), None)
+
+
 def label_named(label: str, text: str) -> bool:
     """Tell whether every word of a label stands in the text, but for words that name nothing."""
     said = plain(text)

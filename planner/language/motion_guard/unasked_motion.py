@@ -13,9 +13,13 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import TYPE_CHECKING
 
+from planner.language.motion_guard.branch_words import (
+    BranchPath,
+    may_both,
+    path_of,
+    select_of_branch,
+)
 from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import SaidClause, read_clauses
 from planner.language.motion_guard.meant_places import GAP, MeantPlaces, join_clauses, leans_back
@@ -40,9 +44,6 @@ from planner.plan import (
     places_of,
 )
 
-if TYPE_CHECKING:
-    pass
-
 _QUIET = frozenset({"look", "find", "count", "go_to_object"})
 """Steps by which a question is answered."""
 _LEARNS = frozenset({"look", "find", "count"})
@@ -61,13 +62,6 @@ _ROUNDS_SAID = re.compile(
     r"|seconds?)|rounds?)\b|直到|等到|为止|每|分钟|小时|秒|轮"
 )
 _BACK = re.compile(r"\bback\b|回[来去]|[带领送]回")
-_DENIES = re.compile(r"\b(?:no|nobody|none|not|never|without|empty|unless)\b|n't|没|无|不|空")
-_ELSE = re.compile(r"\bif (?:not|no)\b|要?不然|否则|[没不][有在](?=[的就,，去回到|]|$)")
-"""Words that open the other branch and deny nothing."""
-
-
-_Path = tuple[tuple[int, StepRole | None], ...]
-"""In which branches a step stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,8 +150,8 @@ class _Judge:
         leans = leans_back(c for c in every if c.mood is ClauseMood.ORDER)
         self._spoken_of = GAP.join((self._things, *(person.before if leans else ())))
         self._repeats = _REPEATS.search(self._ordered)
-        self._done: defaultdict[str, list[_Path]] = defaultdict(list)
-        self._arrivals: list[tuple[str, _Path]] = []
+        self._done: defaultdict[str, list[BranchPath]] = defaultdict(list)
+        self._arrivals: list[tuple[str, BranchPath, frozenset[int]]] = []
         self._at = ""
 
     def find_fault(
@@ -184,7 +178,7 @@ class _Judge:
         usable, why = self._select(touched, step, roles, upon=upon, looked=looked)
         if quoted is None and usable:
             return self._why_elsewhere(step)
-        usable = self._of_branch(usable, roles)
+        usable = select_of_branch(usable, self._every, roles)
         if not usable:
             return why or "the words given stand in the other branch"
         if not places_of(step):
@@ -192,7 +186,7 @@ class _Judge:
         said = join_clauses(usable)
         hung = roles & {StepRole.WHEN, StepRole.UNTIL}
         return (
-            self._why_places(step, usable, _path(row, index))
+            self._why_places(step, usable, path_of(row, index))
             or ("" if hung and isinstance(step, Look) else self._why_kind(step, said))
             or self._why_often(row, index, said)
         )
@@ -234,30 +228,24 @@ class _Judge:
         free = [c for c in right if hangs or not c.hung]
         return free, "" if free else "the words given stand on a condition"
 
-    def _of_branch(self, usable: list[SaidClause], roles: set[StepRole | None]) -> list[SaidClause]:
-        """Return the clauses of a step's own branch; a denied condition may be put both ways."""
-        when = join_clauses(c for c in self._every if c.mood is ClauseMood.CONDITION)
-        branch = {StepRole.THEN, StepRole.OTHERWISE} & roles
-        if len(branch) != 1 or not when or _DENIES.search(_ELSE.sub("", when)):
-            return usable
-        other = StepRole.OTHERWISE in branch
-        return [c for c in usable if not c.hung or c.otherwise is other]
-
     def _why_places(
         self,
         step: Step | ClockTime,
         usable: list[SaidClause],
-        path: _Path,
+        path: BranchPath,
     ) -> str:
         named = self._meant.count_named(usable)
+        upon = frozenset(c.start for c in usable if c.hung)
         for place in places_of(step):
             if not named[place]:
                 return f"{step.kind} to {place}, which the words given do not name"
-            if place != self._at:
-                self._arrivals.append((place, path))
+            other_branch = bool(self._arrivals) and not may_both(path, self._arrivals[-1][1])
+            if place != self._at or other_branch:
+                self._arrivals.append((place, path, upon))
             self._at = place
-            before = sum(
-                there == place and _may_both(path, other) for there, other in self._arrivals[:-1]
+            before = sum(  # one order upon a condition stands in one of its branches
+                there == place and (may_both(path, other) or not upon.isdisjoint(by))
+                for there, other, by in self._arrivals[:-1]
             )
             most = named[place] + (1 if _BACK.search(self._ordered) else 0)
             if before >= most and not self._repeats:
@@ -291,8 +279,8 @@ class _Judge:
         if again and not _ROUNDS_SAID.search(self._things):
             return f"{step.kind} again and again, which is not said"
         key = step.model_dump_json(exclude={"look", "question"})
-        path = _path(row, index)
-        before = sum(_may_both(path, other) for other in self._done[key])
+        path = path_of(row, index)
+        before = sum(may_both(path, other) for other in self._done[key])
         self._done[key].append(path)
         if self._repeats or places_of(step) or isinstance(step, Patrol):
             return ""
@@ -328,17 +316,3 @@ def _find(said: str, span: str) -> int | None:
         rf"(?<!{edge}){re.escape(span)}(?!{edge})" if span.isascii() else re.escape(span), said
     )
     return found.start() if found is not None else None
-
-
-def _path(row: tuple[StepNode, ...], index: int) -> _Path:
-    """Return in which branches a step stands: the holder of each, and which of its two."""
-    about = (index, *parents_of(row, index))
-    branch = (StepRole.THEN, StepRole.OTHERWISE)
-    pairs = pairwise(about)
-    return tuple((holder, row[at].role) for at, holder in pairs if row[at].role in branch)
-
-
-def _may_both(one: _Path, other: _Path) -> bool:
-    """Tell whether two steps may both be walked: of two branches of one condition one is."""
-    roles = dict(one)
-    return all(roles.get(holder, role) is role for holder, role in other)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import exp
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -63,8 +64,13 @@ def allowed_actions(expected: NextActions, said: SentenceUnits) -> tuple[list[in
     return tokens, units
 
 
-def decode_plan(network: PointerNetwork, said: SentenceUnits) -> ParsedPlan | None:
-    """Return the plan that the network reads in a sentence; None where it finds no end."""
+def decode_plan(
+    network: PointerNetwork, said: SentenceUnits, least_confidence: float = 0.0
+) -> ParsedPlan | None:
+    """Return the plan that the network reads in a sentence; None where it finds no end.
+
+    None, too, as soon as it is less sure than asked: each action only lowers the confidence.
+    """
     encoded = network.encode(sentence_features(said.units))
     memory, written = network.begin(), network.token(0)
     walk, actions, log_probability = GrammarWalk(), list[Action](), 0.0
@@ -78,10 +84,12 @@ def decode_plan(network: PointerNetwork, said: SentenceUnits) -> ParsedPlan | No
         joint = np.concatenate((scores[tokens], unit_scores[units]))
         best = int(joint.argmax())
         log_probability -= float(np.log(np.exp(joint - joint[best]).sum()))
+        if exp(log_probability) < least_confidence:
+            return None
         is_token = best < len(tokens)
         number = tokens[best] if is_token else units[best - len(tokens)]
         action: Action = TOKENS[number] if is_token else number
         written = network.token(number + 1) if is_token else encoded.taken[number]
         walk.take(action)
         actions.append(action)
-    return ParsedPlan(read_actions(actions, said), float(np.exp(log_probability)))
+    return ParsedPlan(read_actions(actions, said), exp(log_probability))

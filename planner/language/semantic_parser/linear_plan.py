@@ -42,7 +42,8 @@ if TYPE_CHECKING:
 
 Action = str | int
 ABSENT, END = "-", "}"
-MAX_ACTIONS = 120
+MAX_ACTIONS = 40
+"""The longest plan of 20 000 sentences has 30."""
 MAX_SPAN = 40
 QUOTED = (SlotKind.WORDS, SlotKind.THING)
 ONE_PLACE, PLACES = SlotKind.PLACE, (SlotKind.PLACES, SlotKind.ROUND)

@@ -20,6 +20,7 @@ from planner.language.grammar.plan_assembly import sentence
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.motion_guard import denied_places
 from planner.language.order_sentence import is_order_sentence, offer_order, write_order
+from planner.language.semantic_parser.changed_order import CHANGES, change_order
 from planner.language.semantic_parser.parser import parse
 from planner.language.semantic_parser.plan_steps import StepMaker
 from planner.language.sentence import parse as parse_sentence
@@ -44,7 +45,7 @@ from planner.plan.order_steps import OrderAdd, OrderChange, OrderRemove
 if TYPE_CHECKING:
     from planner.language.grammar.context import Context
     from planner.language.semantic_parser.plan_grammar import LabelledPlan, PlanNode
-    from planner.plan import Bilingual, Vocabulary
+    from planner.plan import Bilingual, LastOrder, Vocabulary
 
 SURE = 0.3
 """From here on a plan is offered; a person says no to what was not meant."""
@@ -68,6 +69,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
 """What the planner itself does upon a yes, in words that it reads."""
 _HANGING = CONTROL | {"wait_for", "wait"}
 """Steps that wait for something, as the words "until" and "when" ask for."""
+_ROLES = {PlanRole.AFTER: "order.after", PlanRole.INSTEAD: "order.instead"}
 _NAMES_ONE = re.compile(r"\bones?$|那[一]?[个项条]$")
 """What "the pills one" is without "one"."""
 _ORDERS = frozenset({"at", "order_move", "order_remove"})
@@ -89,30 +91,36 @@ def offer_plan(
     """
     if not isinstance(told, Clarify | Refuse) or told.code not in UNREAD:
         return None
-    read = parse(text, vocabulary)
-    if read is None or read.confidence < SURE:
+    read = parse(text, vocabulary, least_confidence=SURE)
+    if read is None:
         return None
-    form, offers = read.plan[0].form, isinstance(told, Clarify) and told.options
-    if told.code is Code.NEGATED and form in _TALK:
+    node, is_sure = read.plan[0], read.confidence >= SURER
+    has_offer = isinstance(told, Clarify) and bool(told.options)
+    if told.code in _BEYOND and has_offer and node.form not in CHANGES:  # a part of it is offered
         return None
-    if told.code in _BEYOND and offers:  # what of it can be done is laid before the person already
-        return None
-    if form in _TALK:
-        sure = read.confidence >= SURER and isinstance(told, Clarify) and not offers
-        return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[form])) if sure else None
-    if form in COMMANDS and (told.code is Code.NOT_UNDERSTOOD or read.confidence >= SURER):
-        return _offer_command(read.plan[0], language)
+    if node.form in _TALK:
+        said = Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
+        plainly = is_sure and told.code not in _BEYOND | {Code.NEGATED} and not has_offer
+        return said if plainly else None
+    if node.form in COMMANDS and (told.code is Code.NOT_UNDERSTOOD or is_sure):
+        return _offer_command(node, language)
     # Where something else is meant, the rules' own offer of a part of it would be silly.
     without_offer = told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
-    if form in _ORDERS:
-        asked = _offer_standing_order(read.plan[0], vocabulary, language, context)
-        return asked or without_offer
-    plan = _make_steps(read.plan, vocabulary, language)
+    if node.form in _ORDERS:
+        return _offer_standing_order(node, vocabulary, language, context) or without_offer
+    plan = _make_steps(read.plan, vocabulary, language, context.newest)
     if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
         return without_offer
-    if _lacks_condition(plan, told.code) or (read.confidence < SURER and _is_doubted(plan, told)):
+    if _lacks_condition(plan, told.code) or (not is_sure and _is_doubted(plan, told)):
         return None
-    if all(isinstance(step, Recall) for step in plan.steps) and read.confidence >= SURER:
+    return _offer_steps(plan, text, vocabulary, language, at_once=is_sure)
+
+
+def _offer_steps(
+    plan: StepPlan, text: str, vocabulary: Vocabulary, language: Language, *, at_once: bool
+) -> StepPlan | Clarify | None:
+    """Return the question about a plan; a mere question to memory itself where it is sure."""
+    if at_once and all(isinstance(step, Recall) for step in plan.steps):
         return plan
     if _places_of(plan) & denied_places(text, vocabulary):
         return None
@@ -177,7 +185,11 @@ def _places_of(plan: StepPlan) -> set[str]:
     return {place for node in list_nodes(plan.steps) for place in places_of(node.step)}
 
 
-def _make_steps(plan: LabelledPlan, vocabulary: Vocabulary, language: Language) -> StepPlan | None:
+def _make_steps(
+    plan: LabelledPlan, vocabulary: Vocabulary, language: Language, newest: LastOrder | None = None
+) -> StepPlan | None:
+    if plan[0].form in CHANGES:
+        return change_order(plan[0], newest)
     forms = CHINESE_COMPOUND if language is Language.ZH else ENGLISH_COMPOUND
     return StepMaker(vocabulary, language, forms.time).plan(plan)
 
@@ -185,7 +197,8 @@ def _make_steps(plan: LabelledPlan, vocabulary: Vocabulary, language: Language) 
 def _tell(plan: StepPlan, vocabulary: Vocabulary) -> Bilingual:
     told = sentence(plan.steps, vocabulary, lexicon_of(vocabulary))
     told = say("order.slow", order=told) if plan.pace == "slow" else told
-    return say("order.after", order=told) if plan.does is PlanRole.AFTER else told
+    role = _ROLES.get(plan.does)
+    return say(role, order=told) if role else told
 
 
 def _ask_for(button: Option) -> Clarify:

@@ -69,16 +69,19 @@ def names_of(vocabulary: Vocabulary) -> Gazetteer:
     return Gazetteer({word: ids.pop() for word, ids in found.items() if len(ids) == 1})
 
 
-def parse(sentence: str, vocabulary: Vocabulary, path: Path = MODEL) -> ParsedPlan | None:
+def parse(
+    sentence: str, vocabulary: Vocabulary, path: Path = MODEL, least_confidence: float = 0.0
+) -> ParsedPlan | None:
     """Return the plan that a sentence may mean; None where it is not read.
 
     Args:
         sentence: as it was said.
         vocabulary: of the site; a plan names its places by their ids.
         path: of the model.
+        least_confidence: nothing is read with less.
     """
     from planner.language.semantic_parser.decoding import decode_plan
 
     said = cut_units(sentence, names_of(vocabulary))
     network = load_network(path) if 0 < len(said.units) <= MAX_UNITS else None
-    return decode_plan(network, said) if network is not None else None
+    return decode_plan(network, said, least_confidence) if network is not None else None

@@ -29,7 +29,12 @@ class TemplateError(ValueError):
 
     def __init__(self, problem: str, cure: str, cure_zh: str) -> None:
         super().__init__(f"{problem}; {cure}")
-        self.cure, self.cure_zh = cure, cure_zh
+        self.problem, self.cure, self.cure_zh = problem, cure, cure_zh
+
+    @property
+    def told_zh(self) -> str:
+        """Return the whole in Chinese; the problem names words of the file and stays as it is."""
+        return f"{self.problem}；{self.cure_zh}"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -28,7 +28,6 @@ from planner.language.grammar.step_builders import (
     missing,
     one_at_a_time,
     place_of,
-    saying,
     told_in,
 )
 from planner.language.grammar.step_builders import follow as follow_person
@@ -223,8 +222,3 @@ def hold_dialogue(found: TemplateFind, reading: Reading) -> Meaning:
 def lacks_means(found: TemplateFind, reading: Reading) -> Meaning:
     """Say no to what is understood and can't be done."""
     return reading.problem(Code.NO_CAPABILITY, found[0])
-
-
-def say_plainly(found: TemplateFind, reading: Reading) -> Meaning:
-    """Say words of the sentence."""
-    return saying(found["words"], reading)

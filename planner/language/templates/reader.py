@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from math import radians
@@ -23,7 +22,13 @@ from planner.language.semantic_parser.amounts import find_amounts
 from planner.language.semantic_parser.plan_grammar import SlotKind
 from planner.language.templates.automaton import Units
 from planner.language.templates.expressions import TOKEN
-from planner.language.templates.template_file import TemplateFind, TemplateSet, load_templates
+from planner.language.templates.owners import read_owners_templates
+from planner.language.templates.template_file import (
+    SentenceTemplate,
+    TemplateFind,
+    TemplateSet,
+    load_templates,
+)
 from planner.plan import Language
 
 if TYPE_CHECKING:
@@ -73,11 +78,14 @@ def cut_clause(text: str, templates: TemplateSet) -> ClauseUnits:
     amounts: dict[tuple[str, int, int], float] = {}
     begins = {token.start(): at for at, token in enumerate(found)}
     after = {token.end(): at + 1 for at, token in enumerate(found)}
-    for kind, value, start, end in _amounts_of(text):
-        begin, behind = begins.get(start), after.get(end)
-        if begin is not None and behind is not None:
+    for amount in find_amounts(text):
+        kind = _AMOUNTS.get(amount.kind, "")
+        begin, behind = begins.get(amount.start), after.get(amount.end)
+        if kind and begin is not None and behind is not None:
             ends[kind][begin] = (*ends[kind].get(begin, ()), behind)
-            amounts[kind, begin, behind] = value
+            amounts[kind, begin, behind] = (
+                radians(amount.value) if kind == "angle" else amount.value
+            )
     free = {
         kind: tuple(rule.admits(token, is_first=first) for token in tokens)
         for kind, rule, first in templates.free_kinds
@@ -86,18 +94,27 @@ def cut_clause(text: str, templates: TemplateSet) -> ClauseUnits:
     return ClauseUnits(text, spans, Units(tokens, ends, free), amounts)
 
 
-def _amounts_of(text: str) -> Iterator[tuple[str, float, int, int]]:
-    for amount in find_amounts(text):
-        kind = _AMOUNTS.get(amount.kind)
-        if kind is not None:
-            value = radians(amount.value) if kind == "angle" else amount.value
-            yield kind, value, amount.start, amount.end
-
-
 @lru_cache(maxsize=256)
-def find_templates(text: str, language: Language) -> tuple[tuple[int, TemplateFind], ...]:
-    """Return the templates that read a marked clause, and what each found, the surest first."""
-    templates = TEMPLATES
+def find_templates(
+    text: str, language: Language, owners: str = ""
+) -> tuple[tuple[SentenceTemplate, TemplateFind], ...]:
+    """Return the templates that read a marked clause, and what each found, the surest first.
+
+    Args:
+        text: of the clause.
+        language: of the templates.
+        owners: the templates of the site's owner; of two that are as sure theirs comes first.
+    """
+    ours = _find_in(TEMPLATES, text, language)
+    if not owners:
+        return ours
+    both = (*_find_in(read_owners_templates(owners), text, language), *ours)
+    return tuple(sorted(both, key=lambda hit: hit[1].free_words))
+
+
+def _find_in(
+    templates: TemplateSet, text: str, language: Language
+) -> tuple[tuple[SentenceTemplate, TemplateFind], ...]:
     clause = cut_clause(text, templates)
     hits = []
     for match in templates.automata[language].match(clause.units):
@@ -110,7 +127,7 @@ def find_templates(text: str, language: Language) -> tuple[tuple[int, TemplateFi
         }
         hits.append(
             (
-                template,
+                templates.rows[template],
                 TemplateFind(
                     text, {**templates.rows[template].values, **slots}, amounts, match.free_words
                 ),
@@ -140,8 +157,7 @@ class TemplateStage:
 
     def read(self, clause: str, reading: Reading) -> Meaning | None:
         """Return the meaning of a clause; None where no template of these reads it."""
-        for number, found in find_templates(clause, self.language):
-            row = TEMPLATES.rows[number]
+        for row, found in find_templates(clause, self.language, reading.vocabulary.sentences):
             if row.stage not in self.stages:
                 continue
             loose = _LOOSE_END.search(found["who"]) is not None
@@ -162,10 +178,10 @@ def read_exactly(clause: str, reading: Reading, runnable: frozenset[str]) -> Ste
         runnable: the kinds of steps that the robot can do.
     """
     language = Language.ZH if has_chinese(clause) else Language.EN
-    for number, found in find_templates(clause, language):
+    for row, found in find_templates(clause, language, reading.vocabulary.sentences):
         if found.free_words or "times" in found.amounts:  # rounds are counted by the chain's reader
             return None
-        meaning = _builders()[TEMPLATES.rows[number].form](found, reading)
+        meaning = _builders()[row.form](found, reading)
         if meaning is not None:
             kinds = {step.kind for step in meaning.steps} if isinstance(meaning, Steps) else set()
             able = kinds and kinds <= _MOTION & runnable

@@ -1,7 +1,4 @@
-"""Load templates from their file, and those of the site's owner beside a site.
-
-An owner's file has the same form: ``[[template]]`` with ``plan``, ``en`` and ``zh``.
-"""
+"""Load templates from their file; an owner's (``owners.py``) has the same form."""
 
 from __future__ import annotations
 
@@ -65,8 +62,13 @@ class SentenceTemplate:
 class TemplateSet:
     """Hold templates and what matches them."""
 
-    def __init__(self, rows: tuple[SentenceTemplate, ...], free: Mapping[str, FreeKind]) -> None:
-        self.rows = rows
+    def __init__(
+        self,
+        rows: tuple[SentenceTemplate, ...],
+        free: Mapping[str, FreeKind],
+        words: Mapping[str, Mapping[str, str]],
+    ) -> None:
+        self.rows, self.free, self.words = rows, dict(free), {k: dict(v) for k, v in words.items()}
         self.free_kinds = tuple(
             (f"{kind}^" if first else kind, rule, first)
             for kind, rule in free.items()
@@ -111,8 +113,12 @@ def load_templates() -> TemplateSet:
     return read_templates(OURS.read_text(encoding="utf-8"))
 
 
-def read_templates(text: str) -> TemplateSet:
+def read_templates(text: str, ours: TemplateSet | None = None) -> TemplateSet:
     """Return the templates of a file's text.
+
+    Args:
+        text: of the file.
+        ours: whose named and free words the templates may use, too.
 
     Raises:
         TemplateError: a template can't be read, or a plan is not known.
@@ -125,11 +131,27 @@ def read_templates(text: str) -> TemplateSet:
             "write it as templates.toml is written",
             "请按 templates.toml 的格式书写",
         ) from None
-    free = {kind: _free(row) for kind, row in data.get("free", {}).items()}
     words = {tongue: dict(data.get("words", {}).get(tongue, {})) for tongue in LANGUAGES}
+    free = {kind: _free(row) for kind, row in data.get("free", {}).items()}
+    if ours is not None:
+        words = {tongue: ours.words[tongue] | words[tongue] for tongue in LANGUAGES}
+        free = ours.free | free
     read: dict[str, dict[str, Expression]] = {tongue: {} for tongue in LANGUAGES}
-    rows = tuple(_template(row, words, frozenset(free), read) for row in data.get("template", ()))
-    return TemplateSet(rows, free)
+    rows = []
+    for row in data.get("template", ()):
+        try:
+            rows.append(_template(row, words, frozenset(free), read))
+        except TemplateError as wrong:
+            where = f"line {_line_of(row, text)}: {wrong.problem}"
+            raise TemplateError(where, wrong.cure, wrong.cure_zh) from None
+    return TemplateSet(tuple(rows), free, words)
+
+
+def _line_of(row: Mapping[str, Any], text: str) -> int:
+    """Return the line at which a template's plan stands; of one without any, the file's first."""
+    lines = text.splitlines()
+    plan = str(row.get("plan", ""))
+    return next((at for at, line in enumerate(lines, 1) if plan and plan in line), 1)
 
 
 def _free(row: Mapping[str, Any]) -> FreeKind:

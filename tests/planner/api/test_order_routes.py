@@ -52,8 +52,8 @@ def test_an_order_is_given_listed_shown_paused_and_removed(client: TestClient) -
     order = made.json()
     assert order["id"] == "o1"
     assert order["next"] == "2027-01-15T20:00:00+01:00"
-    assert order["told"]["en"] == "Every day at 20:00 I will go to “kitchen”. Next: today 20:00."
-    assert order["told"]["zh"] == "每天 20:00我会去“厨房”。下一次：今天 20:00。"
+    assert order["told"]["en"] == "Every day at 20:00 I will go to the kitchen. Next: today 20:00."
+    assert order["told"]["zh"] == "每天 20:00我会去厨房。下一次：今天 20:00。"
     assert [step["kind"] for step in order["may"]] == ["go_to"]
     listed = client.get("/v1/orders").json()
     assert listed["timezone"] == "Europe/Berlin"
@@ -296,7 +296,7 @@ def test_a_calendar_is_told_first_and_kept_by_a_yes(client: TestClient) -> None:
     assert (told["kept"], told["refused"]) == ([], [])
     [proposed] = told["proposed"]
     assert proposed["when"]["en"] == "every day at 20:00"
-    assert proposed["does"]["en"] == "go to “kitchen”"
+    assert proposed["does"]["en"] == "go to the kitchen"
     assert client.get("/v1/orders").json()["orders"] == []
     other = client.post("/v1/orders.ics", json={"calendar": answer.text, "agreed": "0" * 32})
     assert (other.status_code, other.json()["code"]) == (409, "calendar_changed")

@@ -8,10 +8,6 @@ from hypothesis import strategies as st
 
 from planner.language.leaning_condition import (
     WhetherThere,
-    asks_for_anybody,
-    is_leaning,
-    join_within,
-    place_condition,
     read_whether_there,
     write_condition,
 )
@@ -113,29 +109,8 @@ def test_a_thing_that_may_be_missing_has_no_article() -> None:
     )
 
 
-def test_there_behind_a_drive_is_its_place() -> None:
-    assert place_condition("study", "if Dad's there tell him tea is ready") == (
-        "if Dad is in the study tell him tea is ready"
-    )
-    assert place_condition("书房", "如果爸爸在就告诉他吃饭了") == "如果书房有爸爸就告诉他吃饭了"
-    assert place_condition("study", "if it rains there, come back") is None
-    assert asks_for_anybody("if there's anyone, say hello") == WhetherThere("anyone", "")
-    assert asks_for_anybody("if so, say hello") is None
-
-
-def test_a_question_and_what_leans_on_it_are_parted() -> None:
-    assert join_within("is Dad in the study? if he is, say hello") == (
-        "is Dad in the study",
-        "if he is, say hello",
-    )
-    assert join_within("if it rains go home, if he is, say hello and if so wait") is None
-    assert join_within("go to the kitchen and say hello") is None
-
-
 @given(st.text(max_size=60))
 def test_any_text_is_read_or_left(text: str) -> None:
     for asked in (WhetherThere("Dad", "in the study"), WhetherThere("爸爸", "书房")):
-        written = write_condition(asked, "study", text)
-        assert written is None or is_leaning(text)
-    join_within(text)
+        write_condition(asked, "study", text)
     read_whether_there(text)

@@ -36,10 +36,10 @@ def told(label: str, language: str = "en") -> str | None:
         ("look(in hall); back", "look in the hall, then come back", "去hall看看，然后回来"),
         ('check("window open", in hall)', "check in the hall: “window open?”", None),
         ('go(hall); approach("red cup")', "go to the hall, then go up to the red cup", None),
-        ('follow("me", for 5 min)', "follow the person for 300 seconds", None),
+        ('follow("me", for 5 min)', "follow the person for 5 min", None),
         (
             'if check("Dad", in hall) { home } else { wait(2 min) }',
-            "if I see in the hall that yes, “Dad?”: go home; otherwise: wait 120 seconds",
+            "if I see in the hall that yes, “Dad?”: go home; otherwise: wait 2 min",
             None,
         ),
         (

@@ -164,22 +164,19 @@ def order(text: str, *, is_answer: bool = False) -> OrderWords:
 
 
 @pytest.mark.parametrize(
-    ("text", "kind", "is_read"),
+    ("text", "kind"),
     [
-        ("go to the kitchen", StepPlan, True),
-        ("去厨房", StepPlan, True),
-        ("yes", AnswerPlan, True),
-        ("don't go to the kitchen", Refuse, True),
-        ("where did you last see my keys?", StepPlan, True),
-        ("zwei dingse flumpen", Clarify, False),
-        ("天地玄黄", Clarify, False),
+        ("go to the kitchen", StepPlan),
+        ("去厨房", StepPlan),
+        ("yes", AnswerPlan),
+        ("don't go to the kitchen", Refuse),
+        ("where did you last see my keys?", StepPlan),
+        ("zwei dingse flumpen", Clarify),
+        ("天地玄黄", Clarify),
     ],
 )
-def test_the_built_in_brain_reads_or_says_that_it_does_not(
-    text: str, kind: type, is_read: bool
-) -> None:
-    reading = read_order(order(text))
-    assert (type(reading.plan), reading.is_read) == (kind, is_read)
+def test_the_built_in_brain_reads_or_says_that_it_does_not(text: str, kind: type) -> None:
+    assert type(read_order(order(text)).plan) is kind
 
 
 def test_what_is_not_read_is_told_in_one_sentence_with_its_cure() -> None:

@@ -20,6 +20,7 @@ from planner.plan import (
     GoalState,
     GoTo,
     Option,
+    PlanRole,
     Refuse,
     StepPlan,
     say_same,
@@ -179,3 +180,29 @@ def test_a_plan_laid_before_a_person_is_thought_about_after_any_other_answer() -
     goal = world.give(None)
     world.event(Reply(goal, "the one with the stove"))
     assert [a.text for a in world.asked][1:] == ["the one with the stove"]
+
+
+@pytest.mark.parametrize("role", [PlanRole.NEW, PlanRole.INSTEAD])
+def test_what_is_laid_in_place_of_what_runs_ends_that_by_a_yes_alone(role: PlanRole) -> None:
+    plan = StepPlan(steps=(GoTo(place="hall"),), does=role)
+    laid = LAYS.model_copy(update={"options": (LAID.model_copy(update={"plan": plan}),)})
+    world = Rethinking(thoughts=[go("kitchen"), laid])
+    world.run(0.2)
+    running, goal = world.give(None), world.give(None)
+    assert world.goal(running).state is GoalState.RUNNING
+    world.event(Reply(goal, "yes"))
+    replaced = world.goal(running).state is GoalState.CANCELLED
+    assert replaced is (role is PlanRole.INSTEAD)
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_a_thought_is_told_the_order_before_it_and_never_itself() -> None:
+    world = Rethinking(thoughts=[go("kitchen"), which("Which?"), go("hall")])
+    world.run(0.2)
+    first, second = world.give(None), world.give(None)
+    world.event(Reply(second, "the hall"))
+    assert world.asked[0].newest is None
+    for asked in world.asked[1:]:
+        assert asked.newest is not None
+        assert asked.newest.steps == go("kitchen").steps
+    world.run_until(first, SUCCEEDED)

@@ -1,4 +1,4 @@
-"""Check that no plan which a faulty model writes is walked; the long bench does it 50 times."""
+"""Check that no plan which a faulty model writes is walked."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import asyncio
 from pathlib import Path
 
 from pons.mock_llm import FAULTS, READABLE
+from tests.pons.mock_llm.mock_faults import try_fault
 from tests.pons.mock_llm.mocks import running_mock
-from tools.bench.measure.mock_faults import try_fault
 
 WRITTEN = (
     *("garbage", "hallucinate", "hostile", "wrong_types", "two_plans", "refuse_and_plan"),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import psutil
 import pytest
 
-from tools.bench.lateness import count_missed, cyclictest, cyclictest_late_us
+from tools.bench.lateness import cyclictest, cyclictest_late_us
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -35,7 +35,6 @@ def test_every_wake_up_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     fake(tmp_path, f"cat <<'end'\n{HISTOGRAM}end", monkeypatch)
     late_us = cyclictest_late_us(1.0, 10_000)
     assert late_us == [7.0, 7.0, 120.0, 10_500.0]
-    assert count_missed(late_us, 10_000) == 1
 
 
 def test_it_ends_with_whom_it_runs_beside(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tools.bench.measure.hostile_planner import attack
+from tests.tools.lockstep.hostile_attack import attack
 from tools.lockstep import LockstepWorld
 from tools.lockstep.homes import hall
 from tools.lockstep.hostile import HostilePlanner, Person

@@ -6,7 +6,7 @@ from math import pi
 
 import pytest
 
-from tools.bench.measure.walls_and_people import clearance_m, faster_than_allowed, gap_m, trials
+from tests.tools.lockstep.walls_and_people import clearance_m, faster_than_allowed, gap_m, trials
 from wire import Pose2
 
 

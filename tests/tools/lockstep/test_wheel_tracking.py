@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tools.bench.measure.wheel_tracking import METALS, drive
+from tests.tools.lockstep.wheel_tracking import METALS, drive
 from wire import Pose2
 
 LIMIT_MMPS, LIMIT_MM = 10.0, 8.0

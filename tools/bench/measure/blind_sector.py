@@ -15,12 +15,12 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from bridge.core.sensing.blind_sector import SEEN_S
+from bridge.drive.serial_drive import SERIAL_PROTOCOLS
 from planner.navigation import RouteFailure, RouteRequest
 from pons.settings import CHECKOUT
 from sim import Domain, Hardware
 from sim.site import load_home, pose2
 from tools.bench.figures import none_in, poisson_upper_95
-from tools.bench.measure.presets import preset_names
 from tools.bench.report import ReportRow
 from tools.lockstep import TICK_S, LockstepWorld, TooLong
 from tools.lockstep.scene import folder_of, scene
@@ -222,3 +222,9 @@ def tour(name: str, index: int) -> dict[str, Any]:
         "name": name, "seconds": world.now_s - began_s, "driven_s": driven * TICK_S, "holds": holds,
         "ends": dict(ends), "contacts": world.contacts,
     }  # fmt: skip
+
+
+def preset_names() -> list[str]:
+    """Return the presets whose bases have a line."""
+    paths = sorted((CHECKOUT / "robots").glob("*.toml"))
+    return [path.stem for path in paths if load_robot(path).drive.kind in SERIAL_PROTOCOLS]

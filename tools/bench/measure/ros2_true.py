@@ -15,9 +15,16 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from tools.bench.context import MeasurementFailure, until
-from tools.bench.measure.ros2_base import DRIVE_MPS, ROBOTS, START_S, Commander
 from tools.bench.report import ReportRow, row_of
-from tools.bench.ros2_graph import WAYS, Cable, TrueGraph, check_for_rclpy
+from tools.bench.ros2_graph import (
+    ROBOT,
+    START_S,
+    WAYS,
+    Cable,
+    Commander,
+    TrueGraph,
+    check_for_rclpy,
+)
 from wire import keys, load_robot
 
 if TYPE_CHECKING:
@@ -31,6 +38,7 @@ LONG_ONLY = True
 COMMANDS, KILLS, SCANS_S = 1_000, 20, 20.0
 FAULTS = ("killed", "frozen", "cut")
 STAMPED = "geometry_msgs/msg/TwistStamped"
+DRIVE_MPS = 0.3
 STEP_MPS = 1e-5
 """Each command of the line has a speed of its own, by which the base's line tells it."""
 
@@ -48,7 +56,7 @@ def _measure_way(lab: BenchLab, way: str) -> list[ReportRow]:
     delivered = ", ".join(f"{one['delivered']} of {COMMANDS}" for one in lines)
     scans = ", ".join(f"{one['scans']} of {one['scans_said']}" for one in lines)
     came_ms = [one for line in lines for one in line["came_ms"]]
-    within = f"<= {1000 * load_robot(ROBOTS['rosbridge']).drive.timeout_s + 50:.0f}"
+    within = f"<= {1000 * load_robot(ROBOT).drive.timeout_s + 50:.0f}"
     return [
         ReportRow(f"{way}: commands at the base's node", "", ">= 99 %", value=delivered),
         row_of(f"{way}: bridge to the base's node", "ms", "p99 <= 10", came_ms),
@@ -79,7 +87,7 @@ def _line(lab: BenchLab, way: str) -> dict[str, Any]:
     with lab.folder() as home, ExitStack() as stack:
         graph = TrueGraph(way, home, stack)
         commander, _ = _begin_line(stack, graph)
-        radius_m = load_robot(ROBOTS["rosbridge"]).base.wheel_radius_m
+        radius_m = load_robot(ROBOT).base.wheel_radius_m
         sent_s = {}
         for number in range(COMMANDS):
             speed_mps = round(0.1 + STEP_MPS * number, 6)
@@ -112,7 +120,7 @@ def _break_line(lab: BenchLab, way: str, fault: str) -> dict[str, float]:
         cable = Cable(stack) if is_laid else None
         graph = TrueGraph(way, home, stack, cable)
         commander, process = _begin_line(stack, graph)
-        radius_m = load_robot(ROBOTS["rosbridge"]).base.wheel_radius_m
+        radius_m = load_robot(ROBOT).base.wheel_radius_m
         for _ in range(100):
             commander.turn(DRIVE_MPS / radius_m)
         if not any(speed > 0.9 * DRIVE_MPS for _, speed in graph.twists()):

@@ -39,7 +39,6 @@ _COUNTED = re.compile(
     r"|both|all|every|each|more|another|other|only|exactly|just|several|many|a few|a couple of)\b.*"
 )
 """A look answers whether there is any: how many there must be, its yes does not say."""
-_ANY = re.compile(r"(?<=are )(?:still )?any ")
 _ARTICLE = re.compile(r"^(?:a|an|any|some|the|my|our|your)\b ?")
 
 
@@ -62,7 +61,6 @@ def read_condition(said: str) -> ConditionParts | None:
         _ARTICLE.sub("", thing).strip(),
         denied,
         is_placed=bool(where),
-        statement="" if denied or found.re is _SEES else _ANY.sub("", said),
     )
 
 
@@ -81,7 +79,6 @@ def _read_placed(said: str) -> ConditionParts | None:
         found["not"] is not None,
         is_placed=True,
         anybody=f"is there somebody {where}",
-        statement=said,
     )
 
 

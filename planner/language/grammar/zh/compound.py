@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
-from planner.language.grammar.zh.answers import ANSWERS, OPEN_QUESTION
 from planner.language.numbers import ZH_DURATION, times
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
@@ -110,11 +109,11 @@ _ORDER = (
     r"(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开"
     r"|告诉|问|叫|喊|吱|吭|报告|通知|对|提醒|让)"
 )
+_THEN_ELSE = rf"(?P<then>{_ORDER}.+?)(?:{_OTHERWISE}(?P<else>.+))?"
+_LATE = r"(?:现在|时间)?(?:已经)?(?:过了|超过|晚于|还没到|没到|没过|早于)[^,，;；。]+?"
 _PLACE_HAS = r"[^,，;；。]*?(?:没有|没|有)[^,，;；。]*?"
 _IS_AT = r"[^,，;；。有没不在]{1,10}?还?(?:不在|没在|在)[^,，;；。有没了在]{1,10}?"
 _THEM = r"(?:他们?|她们?|那个?人|大家)"
-_SEARCHES = r"(?:找找看?|找一找|找一下|找下|找|搜一下|搜搜)"
-_LOOKS = r"(?:看看|看一下|看一看|看一眼|看下|瞧瞧|瞧一下)"
 _TOLD = r"(?P<w>[^,，;；。\"“”]{1,60}?)(?=$|[,，;；。])"
 
 CHINESE_COMPOUND = CompoundForms(
@@ -122,47 +121,20 @@ CHINESE_COMPOUND = CompoundForms(
         r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟|问|直到|为止|转到"
     ),
     conditions=(
-        re.compile(
-            rf"(?:现在)?{_IF}(?P<if>(?:现在|时间)?(?:已经)?(?:过了|超过|晚于|还没到|没到|没过|早于)[^,，;；。]+?)"
-            rf"(?:的话)?{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
-        ),
-        re.compile(
-            rf"(?:现在)?{_IF}(?P<if>(?:现在|时间)?(?:已经)?(?:过了|超过|晚于|还没到|没到|没过|早于)[^,，;；。]+?)"
-            rf"(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
-        ),
-        re.compile(
-            rf"(?:请)?(?P<if>(?>[^,，;；。]*?{_IF}){_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?)"
-            rf"{_OTHERWISE}(?P<else>.+)"
-        ),
-        re.compile(
-            rf"(?:请)?(?P<if>(?>[^,，;；。]*?{_IF}){_PAST})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"
-        ),
-        re.compile(rf"(?P<if>{_PAST})的话{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"),
-        re.compile(rf"(?P<if>{_PAST})的话{_THEN}(?P<then>{_ORDER}.+)"),
+        re.compile(rf"(?:现在)?{_IF}(?P<if>{_LATE})(?:的话)?{_THEN}{_THEN_ELSE}"),
+        re.compile(rf"(?:请)?(?P<if>(?>[^,，;；。]*?{_IF}){_PAST})(?:的话)?{_THEN}{_THEN_ELSE}"),
+        re.compile(rf"(?P<if>{_PAST})的话{_THEN}{_THEN_ELSE}"),
         re.compile(
             rf"(?:请)?{_IF}?(?P<if>{_PLACE_HAS})(?:的话)?{_THEN}"
             rf"(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
         ),
         re.compile(
             r"(?:请)?(?:去)?(?:看看|看一下|检查一下|看一看)(?P<if>[^,，;；。]*?(?:有没有|有无)[^,，;；。]*?)[,，;；。]"
-            rf"(?:如果|要是)?(?:有人的话|有的话|有人|有)[,，]?(?:就|便)?(?P<then>.+?){_OTHERWISE}(?P<else>.+)"
+            rf"(?:如果|要是)?(?:有人的话|有的话|有人|有)[,，]?(?:就|便)?(?P<then>.+?)(?:{_OTHERWISE}(?P<else>.+))?"
         ),
-        re.compile(
-            r"(?:请)?(?:去)?(?:看看|看一下|检查一下|看一看)(?P<if>[^,，;；。]*?(?:有没有|有无)[^,，;；。]*?)[,，;；。]"
-            r"(?:如果|要是)?(?:有人的话|有的话|有人|有)[,，]?(?:就|便)(?P<then>.+)"
-        ),
-        re.compile(
-            rf"(?:请)?{_IF}(?P<if>{_PLACE_HAS})(?:的话)?{_THEN}"
-            rf"(?P<then>{_ORDER}.+)"
-        ),
-        re.compile(
-            rf"(?:请)?{_IF}(?P<if>{_IS_AT})(?:的话)?{_THEN}(?P<then>{_ORDER}.+?){_OTHERWISE}(?P<else>.+)"
-        ),
-        re.compile(rf"(?:请)?{_IF}(?P<if>{_IS_AT})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"),
-        re.compile(
-            rf"(?P<if>{_PLACE_HAS})(?:的话)[,，]?(?:就|便)"
-            rf"(?P<then>{_ORDER}.+)"
-        ),
+        re.compile(rf"(?:请)?{_IF}(?P<if>{_PLACE_HAS})(?:的话)?{_THEN}(?P<then>{_ORDER}.+)"),
+        re.compile(rf"(?:请)?{_IF}(?P<if>{_IS_AT})(?:的话)?{_THEN}{_THEN_ELSE}"),
+        re.compile(rf"(?P<if>{_PLACE_HAS})(?:的话)[,，]?(?:就|便)(?P<then>{_ORDER}.+)"),
         re.compile(
             rf"(?P<if>[^,，;；。]+?{_IF}(?:没有|没|有)[^,，;；。]*?)(?:的话)?{_THEN}"
             rf"(?P<then>{_ORDER}.+)"
@@ -187,10 +159,6 @@ CHINESE_COMPOUND = CompoundForms(
         (re.compile(r"(?:问问|问一下|询问|问)(?:他们?|她们?)(?=[^,，;；。]{2})"), "问问"),
         (re.compile(rf"(?:叫|让|喊|请){_THEM}{_TOLD}"), r"说“请\g<w>”"),
     ),
-    reports=re.compile(
-        r"(?:你)?(?:就)?(?:告诉|通知|提醒|喊|叫|跟|和|向|给)我"
-        r"(?:说|讲|报告)?(?:一声|一下)?|(?:说|吱|吭)一?声"
-    ),
     calls=",",
     cuts=re.compile(r"(?!)"),
     failures=re.compile(
@@ -214,25 +182,4 @@ CHINESE_COMPOUND = CompoundForms(
         r"(?<![不太])(?:慢慢|缓慢|慢一?点儿?)地?(?=[去到回来开走往跟前后退倒转移靠绕向])"
     ),
     follows=re.compile(rf"(?P<main>.*跟.+?){ZH_DURATION}"),
-    tries=re.compile(
-        r"(?:你|就|再|那|便)*(?:去|到|在|上)?(?P<place>[^,;。去到在再也看瞧找搜没有不别]{1,6}?)"
-        r"(?:那边|那里|那儿|里面|里)?(?:也|再|去|帮我)*"
-        rf"(?:(?P<try>{_SEARCHES})|(?P<look>{_LOOKS}))"
-    ),
-    polls=(
-        re.compile(
-            rf"(?:请|你)*每(?:隔|过)?{ZH_DURATION}(?:就|都|再|，|,)*(?P<main>[^,;。]+?)(?:一次|一遍|一下|一趟)?,?(?:一直)?(?:直到|到)"
-            rf"(?:(?P<time>{_HOUR})|(?:{_SEE})?(?:那里|里面)?有?(?P<until>(?![没不])[^,;。]+?))(?:来|出现|进来)?(?:了)?(?:为止)?"
-        ),
-    ),
-    poll_there="{place}有{until}",
-    spun_to="有{until}",
-    spins=re.compile(
-        rf"(?:请|你|一直|就|慢慢)*(?:在?原地)?(?:一直|慢慢)*(?:(?:往|向|朝)?(?:左|(?P<right>右))边?)?(?:转着?|旋转|转身)(?:圈|个圈|下去)?"
-        rf",?(?:一直)?(?:直到|到){_SEE}有?(?P<until>(?![没不])[^,;。]+?)了?(?:为止|再停|就停(?:下来?)?|停)?"
-    ),
-    answers=ANSWERS,
-    open_question=OPEN_QUESTION,
-    search="去{place}找{thing}",
-    look_there="看看{place}有没有人",
 )

@@ -12,7 +12,7 @@ from bridge.core.geometry.fence import Zone, build_fence
 from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.scripted import World, config
 from tests.bridge.core.windows import raised, silent_for
-from wire import Mode, RobotDescription
+from wire import Mode, RobotDescription, wrap
 from wire.lidar_config import LidarConfig
 
 
@@ -199,6 +199,19 @@ class TestSector:
         world.run(1.0)
         assert not raised(world, "LIDAR_SECTOR.0")
         assert world.is_in(Mode.ACTIVE)
+
+    def test_a_held_robot_turns_in_place_where_its_way_now_begins_so(self) -> None:
+        world = far_seeing().driving((5.0, 0.0))
+        world.hidden_rad = (0.0, radians(46))
+        world.run(3.0)
+        assert raised(world, "LIDAR_SECTOR.0")
+        assert world.planner is not None
+        begun = world.here
+        world.planner.goal_m = (begun.x_m - 2.0, 0.0)
+        world.run(8.0)
+        assert abs(wrap(world.here.yaw_rad - begun.yaw_rad)) > 1.0
+        assert abs(world.here.x_m - begun.x_m) < 0.1, "the hole turned with it, and holds it again"
+        assert raised(world, "LIDAR_SECTOR.0")
 
     def test_a_hand_drives_slowly_into_a_silent_sector(self) -> None:
         world = far_seeing().armed()

@@ -1,4 +1,4 @@
-"""Tell a hole in the lidar from what is black, open or far: by what else saw there, and when."""
+"""Tell a hole in the lidar from what is black, open or far: by what turns with the robot."""
 
 from __future__ import annotations
 
@@ -37,6 +37,8 @@ class Room:
         """Middle and width, in ``base``."""
         self.black: tuple[float, float, float] | None = None
         """A disc from which nothing returns: x, y, radius."""
+        self.leaf_rad: tuple[float, float] | None = None
+        """Middle and width of a door's leaf at 0.8 m, in ``odom``."""
         self.at, self.now_s, self.way_m = Pose2(0.0, 0.0, 0.0), 50.0, 0.0
         self.memory = SectorMemory()
 
@@ -81,6 +83,10 @@ class Room:
             if abs(off) <= self.hole_rad[1] / 2:
                 return None
         angle = in_base_rad + self.at.yaw_rad
+        if self.leaf_rad is not None:
+            off = (angle - self.leaf_rad[0] + pi) % tau - pi
+            if abs(off) <= self.leaf_rad[1] / 2:
+                return 0.8
         c, s = cos(angle), sin(angle)
         x_m = ((self.half_m if c > 0 else -self.half_m) - self.at.x_m) / c if c else 1e9
         y_m = ((self.half_m if s > 0 else -self.half_m) - self.at.y_m) / s if s else 1e9
@@ -176,15 +182,112 @@ def test_an_open_side_beyond_the_lidars_reach_is_free() -> None:
     assert room.drive(3.0, 0.05) == 0.0
 
 
-def test_what_was_seen_long_before_is_not_missed() -> None:
+def test_scans_long_apart_tell_nothing_of_each_other() -> None:
     room = Room()
-    room.turn(360.0)
-    room.way_m += 0.31
+    room.scan(3)
     room.hole_rad = (0.0, radians(45))
-    memory = replace(room.memory, alive=room.memory.alive)
-    far = [None if one is None else (one[0], one[1], 0.0) for one in memory.points]
-    room.memory = replace(memory, points=tuple(far))
-    assert room.scan(9).ahead_rad == 0.0
+    room.now_s += 0.4
+    assert room.scan(9).dead == 0
+
+
+def test_a_suspicion_ends_where_the_scans_do() -> None:
+    room = Room()
+    room.scan(3)
+    room.hole_rad = (0.0, radians(45))
+    room.scan()
+    room.now_s += 0.4
+    assert room.scan(9).dead == 0
+
+
+@pytest.mark.parametrize("width_deg", [45, 60, 90, 300])
+def test_a_door_that_opens_before_something_black_shows_no_hole(width_deg: int) -> None:
+    room = Room()
+    room.black, room.leaf_rad = (1.6, 0.0, 0.25), (0.0, radians(width_deg))
+    room.scan(5)
+    room.leaf_rad = None
+    assert room.scan(9).dead == 0
+    room.hole_rad = (1.0, radians(30))
+    assert room.scan(3).dead != 0, "a hole beside it is one"
+
+
+_PLACES = st.tuples(st.floats(-1.3, 1.3), st.floats(-1.3, 1.3), st.floats(0.1, 0.7))
+_BEAMS = st.sampled_from((180, 250, 360))
+_MOVES = st.lists(st.tuples(st.floats(0.0, 0.05), st.floats(-0.12, 0.12)), min_size=4, max_size=12)
+"""Of a scan each: metres along the heading [m], then a turn [rad]."""
+
+
+def _move(room: Room, move: tuple[float, float]) -> bool:
+    """Move where a wall and the black disc are 0.4 m away; tell whether that was so."""
+    yaw = room.at.yaw_rad
+    there = Pose2(room.at.x_m + move[0] * cos(yaw), room.at.y_m + move[0] * sin(yaw), yaw + move[1])
+    clear = max(abs(there.x_m), abs(there.y_m)) < room.half_m - 0.4
+    if room.black is not None:
+        x_m, y_m, radius = room.black
+        clear = clear and hypot(there.x_m - x_m, there.y_m - y_m) > radius + 0.4
+    if clear:
+        room.at, room.way_m = there, room.way_m + move[0]
+    return clear
+
+
+@given(_BEAMS, _PLACES, _MOVES, st.integers(1, 3))
+def test_no_way_past_anything_black_shows_a_hole(
+    beams: int, black: tuple[float, float, float], moves: list[tuple[float, float]], times: int
+) -> None:
+    room = Room(beams)
+    room.black = black
+    if hypot(black[0], black[1]) <= black[2] + 0.4:
+        return
+    for move in moves * times:
+        _move(room, move)
+        assert room.scan().dead == 0
+
+
+@given(
+    _BEAMS, _MOVES, st.integers(15, 120), st.floats(-pi, pi),
+    st.tuples(st.floats(-0.05, 0.05), st.floats(-0.12, 0.12)),
+)  # fmt: skip
+def test_a_hole_that_comes_in_any_motion_is_dead_in_three_scans(
+    beams: int, moves: list[tuple[float, float]], width_deg: int, at_rad: float,
+    after: tuple[float, float],
+) -> None:  # fmt: skip
+    room = Room(beams)
+    for move in moves:
+        _move(room, move)
+        room.scan()
+    room.hole_rad = (at_rad, radians(width_deg))
+    for _ in range(3):
+        _move(room, after)
+        room.scan()
+    assert room.memory.dead.bit_count() * 3 >= width_deg - 6
+    held = room.memory.dead
+    room.scan(3)
+    assert room.memory.dead == held, "it stays until something returns"
+
+
+@given(
+    st.sampled_from((180, 360)), st.integers(15, 120), st.floats(-pi, pi),
+    st.sampled_from([2.0, 30.0]), st.sampled_from([-1, 1]), st.integers(4, 6),
+)  # fmt: skip
+def test_a_hole_from_the_start_is_dead_after_a_turn_on_the_spot(
+    beams: int, width_deg: int, at_rad: float, half_m: float, side: int, step_deg: int
+) -> None:
+    """Even in a hall whose walls are beyond the range but for one beside the robot."""
+    room = Room(beams, half_m=half_m)
+    room.at = Pose2(half_m - 1.2, 0.0, 0.0)
+    room.hole_rad = (at_rad, radians(width_deg))
+    room.scan()
+    room.turn(side * 359.0, step_deg)
+    assert room.memory.dead.bit_count() * 3 >= width_deg - 6
+
+
+def test_who_boots_before_something_black_is_free_once_turned_past_it() -> None:
+    room = Room()
+    room.black = (0.9, 0.0, 0.4)
+    assert degrees(room.scan(5).ahead_rad) > 40
+    room.turn(60.0)
+    room.turn(0.0)
+    assert room.memory.ahead_rad == 0.0
+    assert room.memory.dead == 0
 
 
 def test_scans_that_come_seldom_are_judged_by_time() -> None:

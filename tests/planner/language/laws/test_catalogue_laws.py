@@ -89,7 +89,7 @@ def test_messages_are_said_with_their_blanks(repository: Path) -> None:
 
 
 BY_CODE = (
-    *("order_deed", "order_reason", "order_refusal", "order_lacks"),
+    *("order_reason", "order_refusal", "order_lacks"),
     *("blind", "goal_act", "goal_state", "step_kind", "recording_refusal"),
 )
 """What is told by a kind of step, a state or a code."""

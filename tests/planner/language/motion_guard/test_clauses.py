@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -101,3 +104,30 @@ def test_any_text_is_read_and_every_clause_stands_in_it(text: str) -> None:
 )
 def test_a_denial_may_lean_on_the_place_named_last(text: str, denied: set[str]) -> None:
     assert denied_places(text, HOME) == denied
+
+
+@pytest.mark.parametrize(
+    "unit", ["‘，", "灶间 ", "0，é，", "kitchen, ", "不要去厨房，", "tell him ", "no, the study, "]
+)
+def test_four_times_as_many_clauses_cost_at_most_five_times_the_calls(unit: str) -> None:
+    few = 360 // len(unit) // 4
+    short = calls_within(lambda: read_clauses(unit * few, HOME))
+    long = calls_within(lambda: read_clauses(unit * (4 * few), HOME))
+    assert long <= 5 * short, "linear; quadratic would be sixteen times"
+
+
+def calls_within(work: Callable[[], object]) -> int:
+    """Return how many calls a piece of work makes, generators and built-in functions among them."""
+    count = 0
+
+    def hear(_frame: object, event: str, _arg: object) -> None:
+        nonlocal count
+        count += event in ("call", "c_call")
+
+    before = sys.getprofile()
+    sys.setprofile(hear)
+    try:
+        work()
+    finally:
+        sys.setprofile(before)
+    return count

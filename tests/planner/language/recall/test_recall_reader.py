@@ -217,3 +217,12 @@ def test_whether_it_was_somewhere_is_asked_of_its_deeds(place: str, span: str) -
     wanted = Recall(place=place, span=when, deeds=True)
     assert asked(f"have you been to the {place} {span}".strip() + "?") == wanted
     assert asked(f"你{zh}去过{PLACES[place]}吗？") == wanted
+
+
+@pytest.mark.parametrize("mark", ["\ue000", "\ue7ff", "\ue900", "\ue9ff"])
+@pytest.mark.parametrize(
+    "text", ["who was in the {}?", "have you seen {} in the {}?", "{}在哪里？"]
+)
+def test_a_private_character_of_the_persons_own_names_nothing(text: str, mark: str) -> None:
+    read = read_recall(text.replace("{}", mark), HOME)
+    assert read is None or read.step.place is None

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import pons.evals
+from planner.language.commands.parser import may_concern_orders
 from planner.language.schedule import read_order_command
-from planner.language.schedule.gate import may_concern_orders
 
 SUITES = Path(pons.evals.__file__).parent
 SENTENCES = tuple(

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from random import Random
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from planner.language.semantic_parser.decoding import allowed_actions, decode_plan
 from planner.language.semantic_parser.linear_plan import (
@@ -18,11 +20,16 @@ from planner.language.semantic_parser.linear_plan import (
     write_actions,
 )
 from planner.language.semantic_parser.model_file import quantise
-from planner.language.semantic_parser.network import PointerNetwork
+from planner.language.semantic_parser.network import (
+    DecoderMemory,
+    PointerNetwork,
+    SentenceStates,
+)
 from planner.language.semantic_parser.plan_grammar import parse_plan, render_plan
 from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, cut_units
 from tests.planner.language.semantic_parser.drawn_network import draw_weights
 
+Values = NDArray[np.float32]
 NAMES = Gazetteer({"kitchen": "kitchen", "hall": "hall", "厨房": "kitchen"})
 SENTENCE = "go to the hall, wait five minutes, then tell Dad it's late in the kitchen"
 
@@ -78,6 +85,38 @@ def test_any_weights_write_a_plan_of_what_the_sentence_holds(seed: int, words: l
         assert 0.0 <= parsed.confidence <= 1.0
         assert parse_plan(render_plan(parsed.plan)) == parsed.plan
         write_actions(parsed.plan, said)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 99), st.lists(st.sampled_from(_WORDS), min_size=1), st.floats(0.0, 1.0))
+def test_a_reading_that_is_less_sure_than_asked_is_none_and_ends_early(
+    seed: int, words: list[str], least: float
+) -> None:
+    weights = draw_weights(seed)
+    network = _CountingNetwork(
+        {name: quantise(each) for name, each in weights.items() if each.ndim > 1},
+        {name: each for name, each in weights.items() if each.ndim == 1},
+    )
+    said = cut_units(" ".join(words[:12]), NAMES)
+    whole = decode_plan(network, said)
+    in_full, network.steps = network.steps, 0
+    sure = whole if whole is not None and whole.confidence >= least else None
+    assert decode_plan(network, said, least) == sure
+    assert network.steps <= in_full
+    assert decode_plan(network, said, 1.5) is None
+    assert network.steps <= in_full + 1, "the first action ends what can't be sure enough"
+
+
+class _CountingNetwork(PointerNetwork):
+    """Count the actions that are scored: what a reading costs."""
+
+    steps = 0
+
+    def step(
+        self, encoded: SentenceStates, memory: DecoderMemory, written: Values, part: int
+    ) -> tuple[Values, Values]:
+        self.steps += 1
+        return super().step(encoded, memory, written, part)
 
 
 def test_random_walks_through_the_grammar_end_in_plans() -> None:

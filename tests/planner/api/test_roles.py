@@ -1,0 +1,57 @@
+"""The table of who may do what, written a second time, tried on every route with every method."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import pytest
+
+from planner.api.access import Access, AccessError
+from tests.conftest import ROOT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+METHODS = ("GET", "HEAD", "OPTIONS", "POST", "PUT", "PATCH", "DELETE")
+LOOKING = frozenset({"GET", "HEAD", "OPTIONS"})
+OPERATORS = frozenset({"/v1/goals/x/replies"})
+"""What a viewer may not even look at."""
+STOPPING = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
+TOKENS = {"operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": ""}
+ACCESS = Access("127.0.0.1", operator_token=TOKENS["operator"], viewer_token=TOKENS["viewer"])
+
+
+def all_requests() -> Iterator[tuple[str, str]]:
+    """Yield every method with every path, a name in place of what the path leaves open."""
+    contract = json.loads((ROOT / "openapi.json").read_text("utf-8"))
+    for template in sorted(contract["paths"]):
+        path = "/".join("x" if part.startswith("{") else part for part in template.split("/"))
+        yield from ((method, path) for method in METHODS)
+
+
+def expected_status(asker: str, method: str, path: str) -> int | None:
+    """Return the status by which an asker is refused; None where it may ask."""
+    if asker in ("nobody", "wrong token"):
+        return 401
+    looks = method in LOOKING and path not in OPERATORS
+    if asker == "viewer" and not looks and path not in STOPPING:
+        return 403
+    return None
+
+
+@pytest.mark.parametrize("asker", TOKENS)
+def test_every_route_refuses_each_asker_as_the_table_says(asker: str) -> None:
+    requests = list(all_requests())
+    assert ("POST", "/v1/goals/x/confirm") in requests
+    for method, path in requests:
+        kind = "audio/wav" if path == "/v1/voice" else "application/json"
+        headers = {"host": "127.0.0.1", "content-type": kind}
+        if TOKENS[asker]:
+            headers["authorization"] = f"Bearer {TOKENS[asker]}"
+        try:
+            ACCESS.judge(method, path, headers)
+            refused = None
+        except AccessError as refusal:
+            refused = refusal.status
+        assert expected_status(asker, method, path) == refused, (method, path)

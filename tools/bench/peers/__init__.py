@@ -1,1 +1,0 @@
-"""Hold the contenders of the comparison: scripts that run alone, each in the Python that has it."""
