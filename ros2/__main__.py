@@ -25,7 +25,7 @@ from ros2.base_link import BaseLink
 from ros2.nav2_goals import Nav2Goals
 from ros2.node import Ros2Node
 from ros2.robot_link import RobotLink
-from ros2.robot_process import RobotProcess
+from ros2.robot_process import RosRobotProcess
 from ros2.ros_base import RosBase
 from wire import ConfigError, load_robot
 from wire.keys import Party
@@ -97,7 +97,7 @@ def _serve_node(
     """Dial the robot until told to stop."""
     names = (*base.names, "nav2/state") if nav2 else base.names
     with RobotLink(locator, names) as link:
-        process = RobotProcess(base, link, session, key, nav2=nav2)
+        process = RosRobotProcess(base, link, session, key, nav2=nav2)
         gc.collect()
         gc.freeze()
         log.info("dialling %s", locator)

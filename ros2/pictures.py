@@ -14,7 +14,7 @@ from ros2.robot_link import MOST_PICTURE_BYTES, RobotLink
 from ros2.robot_words import PictureHead, Unreadable, read_words
 from ros2.trouble import Ros2Trouble, TopicFailure, known_code
 
-__all__ = ["PictureHead", "PictureStream", "RosPicture", "TopicFailure"]
+__all__ = ["PictureHead", "RosPicture", "RosPictureStream", "TopicFailure"]
 
 PERIOD_S = 0.005
 CLOCK_S = 0.5
@@ -35,7 +35,7 @@ class RosPicture:
     depth: tuple[PictureHead, bytes] | None = None
 
 
-class PictureListener:
+class RosPictureListener:
     """Read pictures as they came, and date them. Told the time; knows no socket."""
 
     def __init__(self, peer: str) -> None:
@@ -89,12 +89,12 @@ class PictureListener:
         return max(0.0, self._clock.note(stamp_s, now_s))
 
 
-class PictureStream:
+class RosPictureStream:
     """Hear a robot's pictures until it is closed; the robot sends them while somebody hears."""
 
     def __init__(self, locator: str) -> None:
         """Begin to dial."""
-        self._listener = PictureListener(locator)
+        self._listener = RosPictureListener(locator)
         self._link = RobotLink(locator, ("picture", "depth"), MOST_PICTURE_BYTES)
 
     def take(self, limit_s: float) -> RosPicture:

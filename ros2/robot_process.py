@@ -34,7 +34,7 @@ DISTRUST_S = 0.1
 how old it is, and the robot has stopped by then."""
 
 
-class RobotProcess:
+class RosRobotProcess:
     """Connect one base to the wire and to its robot."""
 
     def __init__(

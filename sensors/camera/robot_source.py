@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 import cv2
 import numpy as np
 
-from ros2.pictures import PictureStream, TopicFailure
+from ros2.pictures import RosPictureStream, TopicFailure
 from sensors.camera.packed_picture import MAX_PIXELS, TOO_LARGE, UNREADABLE, unpack
 from sensors.camera.shot import CameraTrouble, shot_of
 from wire.image_header import read_header
@@ -40,7 +40,7 @@ class RobotSource:
 
     def __init__(self, config: CameraConfig, locator: str) -> None:
         """Begin to dial the node."""
-        self._config, self._stream = config, PictureStream(locator)
+        self._config, self._stream = config, RosPictureStream(locator)
         self._has_given = False
 
     def read(self) -> CameraShot:

@@ -11,8 +11,8 @@ from collections import deque
 from math import cos, remainder, sin, tau
 from typing import TYPE_CHECKING, Any
 
-from ros2.pons_ros2.pons_ros2.dead_man import DeadMan
-from ros2.pons_ros2.pons_ros2.link import RobotLink
+from ros2.pons_ros2.pons_ros2.dead_man import CmdVelDeadMan
+from ros2.pons_ros2.pons_ros2.link import PlannerLink
 from wire import ConfigError, DriveCommand
 
 if TYPE_CHECKING:
@@ -39,10 +39,10 @@ class Ros2NodeTwin:
 
         self._base = robot.base
         try:
-            self.link = RobotLink(f"tcp/127.0.0.1:{port}", has_key=bool(key))
+            self.link = PlannerLink(f"tcp/127.0.0.1:{port}", has_key=bool(key))
         except zenoh.ZError as error:
             raise ConfigError("twin_port", f"port {port}: {error}") from None
-        self.dead_man = DeadMan(f"twin-{secrets.token_hex(4)}", key)
+        self.dead_man = CmdVelDeadMan(f"twin-{secrets.token_hex(4)}", key)
         self._heard: deque[str] = deque(maxlen=64)
         self.link.hear("command", self._heard.append)
         self._x_m = self._y_m = self._yaw_rad = 0.0

@@ -15,7 +15,7 @@ from pons.robot.command import run
 from pons.robot_processes import free_port
 from pons.ros2_robot import fetch_map, fetch_mounting
 from pons.settings import LaunchSettings
-from ros2.pons_ros2.pons_ros2.link import RobotLink
+from ros2.pons_ros2.pons_ros2.link import PlannerLink
 from ros2.trouble import TopicFailure
 from tests.ros2.test_mounting import transform
 from tests.ros2.words import odometry, robot, scan, state
@@ -37,7 +37,7 @@ MAP = {
 def locator() -> Iterator[str]:
     """Return where a robot says all that it knows, again and again."""
     where = f"tcp/127.0.0.1:{free_port()}"
-    link, ending = RobotLink(where, has_key=False), threading.Event()
+    link, ending = PlannerLink(where, has_key=False), threading.Event()
     frames = [transform("base_link", "laser", (0.12, -0.03, 0.2), yaw_rad=1.5)]
 
     def say() -> None:

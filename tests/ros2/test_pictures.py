@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from ros2.pictures import PAIR_S, PictureListener
+from ros2.pictures import PAIR_S, RosPictureListener
 
 
 def head(stamp_s: float | None = 100.0, **more: object) -> bytes:
@@ -14,7 +14,7 @@ def head(stamp_s: float | None = 100.0, **more: object) -> bytes:
 
 
 def test_a_picture_that_was_held_up_on_its_way_is_dated_as_older() -> None:
-    listener = PictureListener("tcp/x:1")
+    listener = RosPictureListener("tcp/x:1")
     first = listener.hear(head(100.0), b"a", 10.0)
     late = listener.hear(head(100.1), b"b", 10.3)
     assert first is not None
@@ -28,7 +28,7 @@ def test_a_picture_that_was_held_up_on_its_way_is_dated_as_older() -> None:
 
 
 def test_depth_of_the_same_time_belongs_to_a_picture() -> None:
-    listener = PictureListener("tcp/x:1")
+    listener = RosPictureListener("tcp/x:1")
     listener.hear_depth(head(100.0), b"depth")
     with_it = listener.hear(head(100.0 + PAIR_S / 2), b"a", 10.0)
     without = listener.hear(head(100.0 + 2 * PAIR_S), b"b", 10.2)
@@ -53,7 +53,7 @@ def test_depth_of_the_same_time_belongs_to_a_picture() -> None:
     ],
 )
 def test_what_is_no_picture_is_told(said: bytes, data: bytes, code: str) -> None:
-    listener = PictureListener("tcp/x:1")
+    listener = RosPictureListener("tcp/x:1")
     assert listener.trouble(joined=True).code == "ros2_topic_silent"
     assert listener.hear(said, data, 10.0) is None
     assert listener.trouble(joined=True).code == code

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from pons.robot_processes import free_port
-from ros2.pons_ros2.pons_ros2.dead_man import DeadMan
-from ros2.pons_ros2.pons_ros2.goals import Nav2Goals, read_order
-from ros2.pons_ros2.pons_ros2.link import RobotLink
+from ros2.pons_ros2.pons_ros2.dead_man import CmdVelDeadMan
+from ros2.pons_ros2.pons_ros2.goals import Nav2Dialogue, read_order
+from ros2.pons_ros2.pons_ros2.link import PlannerLink
 from tests.ros2.test_process import LIMIT_S, Bridge
 from tests.ros2.words import ROS_S, STAMPED, odometry
 from wire import Nav2Goal, Nav2State, Pose2, keys
@@ -38,8 +38,8 @@ class Robot(threading.Thread):
 
     def __init__(self, port: int, key: bytes = b"", **graph: object) -> None:
         super().__init__(daemon=True)
-        self.link = RobotLink(f"tcp/127.0.0.1:{port}", has_key=bool(key))
-        self.dead_man, self.goals = DeadMan("relay-1", key), Nav2Goals(time.monotonic())
+        self.link = PlannerLink(f"tcp/127.0.0.1:{port}", has_key=bool(key))
+        self.dead_man, self.goals = CmdVelDeadMan("relay-1", key), Nav2Dialogue(time.monotonic())
         self.goals.trouble = None
         self.graph = {"cmd_vel": STAMPED, "others": 0, "code": None, "found": ""} | graph
         self.accepted_s: list[float] = []

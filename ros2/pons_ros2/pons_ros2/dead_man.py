@@ -24,7 +24,7 @@ def sign(text: str, key: bytes) -> str:
     return f"{text} {hmac.new(key, text.encode(), hashlib.sha256).hexdigest()}" if key else text
 
 
-def unsigned(words: str, key: bytes) -> str | None:
+def strip_signature(words: str, key: bytes) -> str | None:
     """Return words without their signature; None where a key is held and did not sign them."""
     if not key:
         return words
@@ -46,7 +46,7 @@ def key_of(path: str) -> bytes:
     return key
 
 
-class DeadMan:
+class CmdVelDeadMan:
     """Decide what the base is told now."""
 
     def __init__(self, boot: str, key: bytes = b"") -> None:
@@ -57,7 +57,7 @@ class DeadMan:
 
     def hear(self, words: str, now_s: float) -> bool:
         """Take a command; False where it is unreadable, unsigned, old, long-lived or another's."""
-        text = unsigned(words, self.key)
+        text = strip_signature(words, self.key)
         if text is None:
             return False
         try:

@@ -14,7 +14,7 @@ from math import inf, isfinite
 from typing import Any
 
 from .graph_check import Trouble
-from .readings import Unreadable, read_twist
+from .readings import UnusableMessage, read_twist
 
 UNASKED_S = 0.5
 """A planner that says nothing for so long wants nothing; it speaks twenty times a second."""
@@ -34,7 +34,7 @@ Pose = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class GoalOrder:
+class PlannerOrder:
     """Hold what the planner wants now; no goal: Nav2 is to end what it does."""
 
     planner: str
@@ -50,25 +50,25 @@ class GoalOrder:
 
 
 @dataclass(frozen=True)
-class _SentGoal:
-    order: GoalOrder
+class _PublishedGoal:
+    order: PlannerOrder
     known: frozenset[str]
     """The action's goals that were there before it."""
 
 
-def read_order(text: str) -> GoalOrder:
+def read_order(text: str) -> PlannerOrder:
     """Read a planner's order.
 
     Raises:
-        Unreadable: it is none.
+        UnusableMessage: it is none.
     """
     try:
         raw = json.loads(text)
         mission = None if raw["mission"] is None else str(raw["mission"])
         poses = [_pose(raw[name]) for name in ("goal", "here")]
-        return GoalOrder(str(raw["planner_id"]), mission, int(raw["leg"]), *poses)
+        return PlannerOrder(str(raw["planner_id"]), mission, int(raw["leg"]), *poses)
     except (ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
-        raise Unreadable(f"no order of the planner: {error}"[:200]) from None
+        raise UnusableMessage(f"no order of the planner: {error}"[:200]) from None
 
 
 def _pose(raw: Any) -> Pose | None:
@@ -80,15 +80,15 @@ def _pose(raw: Any) -> Pose | None:
     return x, y, yaw
 
 
-class Nav2Goals:
+class Nav2Dialogue:
     """Hold the dialogue of one planner with one Nav2."""
 
     def __init__(self, now_s: float) -> None:
         """Begin; Nav2 may have goals of before."""
         self._joined_s = now_s
-        self._order: GoalOrder | None = None
+        self._order: PlannerOrder | None = None
         self._ordered_s = self._published_s = self._refused_s = self._came_s = -inf
-        self._sent: _SentGoal | None = None
+        self._sent: _PublishedGoal | None = None
         self._mine = ""
         self._goals: dict[str, tuple[tuple[int, int], str | None]] = {}
         self._phase, self._since_s = "idle", now_s
@@ -99,7 +99,7 @@ class Nav2Goals:
         self.twists = self._seq = 0
         """How many twists came; and how often it was told."""
 
-    def take(self, order: GoalOrder, now_s: float) -> None:
+    def take(self, order: PlannerOrder, now_s: float) -> None:
         """Hear the planner; its newest word counts."""
         self._order, self._ordered_s = order, now_s
 
@@ -108,10 +108,12 @@ class Nav2Goals:
         try:
             v, sideways, w = read_twist(message)
             if not abs(sideways) <= SIDEWAYS_MPS:
-                raise Unreadable(f"linear.y {sideways:g}: a differential base can't go sideways")
+                raise UnusableMessage(
+                    f"linear.y {sideways:g}: a differential base can't go sideways"
+                )
             if not (abs(v) <= FASTEST_MPS and abs(w) <= FASTEST_RADPS):
-                raise Unreadable(f"({v:g} m/s, {w:g} rad/s) is no speed of a robot")
-        except Unreadable as why:
+                raise UnusableMessage(f"({v:g} m/s, {w:g} rad/s) is no speed of a robot")
+        except UnusableMessage as why:
             self._refuse(str(why), now_s)
             self._came_s = -inf
             return
@@ -175,10 +177,10 @@ class Nav2Goals:
             return "ros2_unreadable", self._refusal
         return self.trouble
 
-    def _pursue(self, order: GoalOrder, now_s: float) -> Pose | None:
+    def _pursue(self, order: PlannerOrder, now_s: float) -> Pose | None:
         sent = self._sent
         if sent is None or sent.order.ident != order.ident:
-            self._sent, self._mine = _SentGoal(order, frozenset(self._goals)), ""
+            self._sent, self._mine = _PublishedGoal(order, frozenset(self._goals)), ""
             self._enter("sent", now_s)
         elif self._phase != "sent" or now_s - self._published_s < AGAIN_S:
             return None

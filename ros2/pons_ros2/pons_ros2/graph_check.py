@@ -24,14 +24,14 @@ class Need:
 
 
 @dataclass(frozen=True)
-class Seen:
+class TopicPublishers:
     """Hold what the graph says of a topic's publishers."""
 
     kinds: tuple[str, ...]
     publishers: int
 
 
-class GraphCheck:
+class TopicCheck:
     """Remember whether each topic had its right type once, and none a wrong one since.
 
     A node that ends takes its topic along: that it is silent shows in what it says.
@@ -42,7 +42,7 @@ class GraphCheck:
         self.needs, self.is_sound = needs, False
         self.trouble: Trouble | None = ("ros2_starting", "the graph was not looked at yet")
 
-    def look(self, graph: dict[str, Seen]) -> None:
+    def look(self, graph: dict[str, TopicPublishers]) -> None:
         """Judge the graph as it is now."""
         found = [trouble for need in self.needs if (trouble := _judge(need, graph[need.topic]))]
         if not found:
@@ -52,7 +52,7 @@ class GraphCheck:
         self.trouble = None if self.is_sound else found[0]
 
 
-def _judge(need: Need, seen: Seen) -> Trouble | None:
+def _judge(need: Need, seen: TopicPublishers) -> Trouble | None:
     if not seen.kinds:
         return "ros2_topic_missing", f"the graph has no {need.topic}, which {need.name} names"
     if seen.kinds != (need.kind,):

@@ -25,7 +25,7 @@ SILENT_S = 0.5
 PERIOD_S = 0.1
 
 
-class Guard(Node):
+class CmdVelGuard(Node):
     """Remember whether the base node was heard, and zero the base once it no longer is."""
 
     def __init__(self) -> None:
@@ -59,7 +59,7 @@ class Guard(Node):
 def main() -> int:
     """Be the node."""
     rclpy.init(args=sys.argv)
-    rclpy.spin(Guard())
+    rclpy.spin(CmdVelGuard())
     return 0
 
 

@@ -25,7 +25,7 @@ class OpenToAll(Exception):
     """Refuse to listen beyond this computer where anybody's command would move the base."""
 
 
-class RobotLink:
+class PlannerLink:
     """Listen for Pons. Thread-safe, as zenoh is."""
 
     def __init__(self, listen: str, *, has_key: bool) -> None:

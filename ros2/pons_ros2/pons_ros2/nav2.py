@@ -9,22 +9,22 @@ from typing import Any
 from action_msgs.msg import GoalStatusArray
 from geometry_msgs.msg import PoseStamped, Twist, TwistStamped
 
-from .goals import Nav2Goals, Pose, read_order
+from .goals import Nav2Dialogue, Pose, read_order
 from .graph_check import STAMPED, TWIST, Trouble
-from .link import RobotLink
-from .readings import Unreadable, stamp_of
+from .link import PlannerLink
+from .readings import UnusableMessage, stamp_of
 from .senses import KEPT
 
 STATE_S = 0.1
 
 
-class Nav2Door:
+class Nav2Topics:
     """Publish goals, hear twists and the action's status, for one node."""
 
-    def __init__(self, node: Any, link: RobotLink, boot: str, names: dict[str, str]) -> None:
+    def __init__(self, node: Any, link: PlannerLink, boot: str, names: dict[str, str]) -> None:
         """Begin; the type of Nav2's velocity is asked of the graph."""
         self._node, self._link, self._boot, self._names = node, link, boot, names
-        self.goals = Nav2Goals(time.monotonic())
+        self.goals = Nav2Dialogue(time.monotonic())
         self._kind, self._said_s, self._told = "", 0.0, 0
         self._subscription: Any = None
         self._poses = node.create_publisher(PoseStamped, names["goal_pose"], 10)
@@ -34,7 +34,7 @@ class Nav2Door:
         """Take the planner's order."""
         try:
             self.goals.take(read_order(text), time.monotonic())
-        except Unreadable as why:
+        except UnusableMessage as why:
             self._node.get_logger().warning(str(why))
 
     def look(self) -> None:
@@ -55,7 +55,7 @@ class Nav2Door:
         """Publish the goal that is due, and tell the planner what is new."""
         pose = self.goals.due(now_s)
         if pose is not None:
-            self._poses.publish(self._stamped(pose))
+            self._poses.publish(self._stamp_pose(pose))
         if pose or self.goals.twists != self._told or now_s - self._said_s >= STATE_S:
             self._told, self._said_s = self.goals.twists, now_s
             self._link.say("nav2/state", self.goals.state(self._boot, now_s))
@@ -70,7 +70,7 @@ class Nav2Door:
     def _hear_status(self, message: Any) -> None:
         self.goals.hear_status(message, time.monotonic())
 
-    def _stamped(self, pose: Pose) -> PoseStamped:
+    def _stamp_pose(self, pose: Pose) -> PoseStamped:
         """Return a goal of no particular time: the newest transform counts."""
         made = PoseStamped()
         made.header.frame_id = self._names["map_frame"]

@@ -22,10 +22,10 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
 
-from .dead_man import DeadMan, key_of, unsigned
-from .graph_check import STAMPED, GraphCheck, Seen, judge_cmd_vel
-from .link import OpenToAll, RobotLink
-from .nav2 import Nav2Door
+from .dead_man import CmdVelDeadMan, key_of, strip_signature
+from .graph_check import STAMPED, TopicCheck, TopicPublishers, judge_cmd_vel
+from .link import OpenToAll, PlannerLink
+from .nav2 import Nav2Topics
 from .senses import Senses
 
 PERIOD_S = 0.01
@@ -53,17 +53,17 @@ class PonsBase(Node):
         self.topic, self.frame = names["cmd_vel"], self._ask("frame", "base_link")
         self.key = key_of(self._ask("key", ""))
         boot = f"relay-{secrets.token_hex(4)}"
-        self.dead_man, self.lock = DeadMan(boot, self.key), threading.Lock()
+        self.dead_man, self.lock = CmdVelDeadMan(boot, self.key), threading.Lock()
         self.kind, self.heard, self.others = "", "", 0
         self.trouble: tuple[str, str] | None = ("ros2_starting", "the graph was not looked at yet")
         self.drives: Any = None
         self.ticks = 0
         listen = self._ask("listen", "tcp/127.0.0.1:7448")
-        self.link = RobotLink(listen, has_key=bool(self.key))
+        self.link = PlannerLink(listen, has_key=bool(self.key))
         given = self._ask("scan_zero", "near"), self._ask("picture_hz", 10.0)
         self.senses = Senses(self, self.link, names, *given)
-        self.graph = GraphCheck(self.senses.needs())
-        self.nav2 = Nav2Door(self, self.link, boot, names) if self._ask("nav2", False) else None
+        self.graph = TopicCheck(self.senses.needs())
+        self.nav2 = Nav2Topics(self, self.link, boot, names) if self._ask("nav2", False) else None
         if self.nav2 is not None and names["nav2_cmd_vel"] == self.topic:
             raise ValueError(f"nav2_cmd_vel and cmd_vel are both {self.topic}")
         self.says = self.create_publisher(String, "pons/state", 10)
@@ -89,7 +89,7 @@ class PonsBase(Node):
 
     def hear_goal(self, words: str) -> None:
         """Take the planner's order for Nav2, on a thread of zenoh's."""
-        text = unsigned(words, self.key)
+        text = strip_signature(words, self.key)
         if self.nav2 is not None and text is not None:
             self.nav2.hear(text)
 
@@ -121,7 +121,7 @@ class PonsBase(Node):
         publishers = len(self.get_publishers_info_by_topic(self.topic))
         others = max(0, publishers - (0 if self.drives is None else 1))
         trouble = judge_cmd_vel(self.topic, kinds, others)
-        self.graph.look({need.topic: self.seen(need.topic) for need in self.graph.needs})
+        self.graph.look({need.topic: self.read_publishers(need.topic) for need in self.graph.needs})
         with self.lock:
             only = next(iter(kinds), "")
             if (trouble is None or trouble[0] == "ros2_cmd_vel_shared") and only != self.kind:
@@ -133,10 +133,10 @@ class PonsBase(Node):
             self.nav2.look()
         self.diagnose()
 
-    def seen(self, topic: str) -> Seen:
+    def read_publishers(self, topic: str) -> TopicPublishers:
         """Return what the graph says of a topic's publishers."""
         infos = self.get_publishers_info_by_topic(topic)
-        return Seen(tuple(sorted({one.topic_type for one in infos})), len(infos))
+        return TopicPublishers(tuple(sorted({one.topic_type for one in infos})), len(infos))
 
     def publish_as(self, kind: str) -> None:
         """Publish on cmd_vel as this type; those who hear the other must not go on by it."""

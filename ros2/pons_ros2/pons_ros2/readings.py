@@ -17,7 +17,7 @@ _UNIT = 0.1
 Words = dict[str, Any]
 
 
-class Unreadable(Exception):
+class UnusableMessage(Exception):
     """A message that can't be used; says which field held what."""
 
 
@@ -31,12 +31,12 @@ def yaw_of(turn: Any, name: str) -> float:
     """Return the heading of an orientation.
 
     Raises:
-        Unreadable: it is none.
+        UnusableMessage: it is none.
     """
     x, y, z, w = (_number(getattr(turn, axis), f"{name}.{axis}") for axis in "xyzw")
     length = math.hypot(x, y, z, w)
     if not abs(length - 1.0) <= _UNIT:
-        raise Unreadable(f"{name} has length {length:.3g}, expected 1")
+        raise UnusableMessage(f"{name} has length {length:.3g}, expected 1")
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
@@ -44,7 +44,7 @@ def read_odometry(message: Any) -> Words:
     """Read nav_msgs/Odometry.
 
     Raises:
-        Unreadable: a field is not finite, or the orientation is none.
+        UnusableMessage: a field is not finite, or the orientation is none.
     """
     pose, twist = message.pose.pose, message.twist.twist
     return {
@@ -61,7 +61,7 @@ def read_imu(message: Any) -> Words:
     """Read sensor_msgs/Imu.
 
     Raises:
-        Unreadable: a field is not finite.
+        UnusableMessage: a field is not finite.
     """
     accel = message.linear_acceleration
     return {
@@ -76,7 +76,7 @@ def read_scan(message: Any, zero: str = "near") -> Words:
     """Read sensor_msgs/LaserScan; of more beams than the wire carries, the nearest of each few.
 
     Raises:
-        Unreadable: its angles or ranges are no lidar's.
+        UnusableMessage: its angles or ranges are no lidar's.
     """
     step_rad = _number(message.angle_increment, "angle_increment")
     least_m, most_m = (
@@ -86,9 +86,9 @@ def read_scan(message: Any, zero: str = "near") -> Words:
     ranges = [_range(one, most_m, zero) for one in message.ranges]
     if not 0.0 < abs(step_rad) * len(ranges) <= 2.0 * math.pi + 0.2:
         found = f"angle_increment {step_rad:.4g} times {len(ranges)} beams"
-        raise Unreadable(f"{found} is no turn or part of one")
+        raise UnusableMessage(f"{found} is no turn or part of one")
     if not 0.0 <= least_m < most_m <= 1000.0:
-        raise Unreadable(f"range_min {least_m:g} and range_max {most_m:g} are no lidar's")
+        raise UnusableMessage(f"range_min {least_m:g} and range_max {most_m:g} are no lidar's")
     first_rad = _number(message.angle_min, "angle_min")
     if step_rad < 0.0:
         first_rad += step_rad * (len(ranges) - 1)
@@ -115,7 +115,7 @@ def read_twist(message: Any) -> tuple[float, float, float]:
     """Return forward [m/s], sideways [m/s] and turning [rad/s] of a Twist or TwistStamped.
 
     Raises:
-        Unreadable: one is not finite.
+        UnusableMessage: one is not finite.
     """
     twist = getattr(message, "twist", message)
     linear = twist.linear
@@ -176,5 +176,5 @@ def _range(value: float, most_m: float, zero: str) -> float | None:
 
 def _number(value: Any, name: str) -> float:
     if not -MOST <= value <= MOST:
-        raise Unreadable(f"{name} holds {value!r}, expected a finite number")
+        raise UnusableMessage(f"{name} holds {value!r}, expected a finite number")
     return float(value)

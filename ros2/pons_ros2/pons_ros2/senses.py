@@ -13,9 +13,9 @@ from std_msgs.msg import Bool
 
 from . import readings
 from .graph_check import Need
-from .link import RobotLink
+from .link import PlannerLink
 from .pictures import COMPRESSED, RAW, read_picture
-from .readings import Unreadable
+from .readings import UnusableMessage
 
 try:
     from tf2_msgs.msg import TFMessage
@@ -43,7 +43,7 @@ class Senses:
     """Subscribe for one node, and keep what is told with the next odometry."""
 
     def __init__(
-        self, node: Any, link: RobotLink, names: dict[str, str], scan_zero: str, picture_hz: float
+        self, node: Any, link: PlannerLink, names: dict[str, str], scan_zero: str, picture_hz: float
     ) -> None:
         """Subscribe to all topics that are named; pictures only while somebody looks."""
         self._node, self._link, self._names = node, link, names
@@ -116,14 +116,14 @@ class Senses:
     def _say(self, name: str, read: Any, message: Any) -> None:
         try:
             words = read(message)
-        except Unreadable as why:
+        except UnusableMessage as why:
             self._wrong = f"{self._names[name]}: {why}"[:200], time.monotonic()
             return
         if name == "odom":
-            words |= {"battery": self._battery, **self._told(time.monotonic())}
+            words |= {"battery": self._battery, **self._read_inputs(time.monotonic())}
         self._link.say(name, words)
 
-    def _told(self, now_s: float) -> dict[str, bool | None]:
+    def _read_inputs(self, now_s: float) -> dict[str, bool | None]:
         """Return the inputs; what is not wired is false, what fell silent is not known."""
         told: dict[str, bool | None] = {}
         for name in INPUTS:
@@ -162,6 +162,6 @@ class Senses:
         self._pictured_s[name] = now_s
         try:
             head, data = read_picture(message, depth=name == "depth")
-        except Unreadable as why:
+        except UnusableMessage as why:
             head, data = {"code": "ros2_unreadable", "found": f"{self._names[name]}: {why}"}, b""
         self._link.say_bytes(name, head, data)

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from examples.ros2_relay.relay import RelayDeadMan
-from ros2.pons_ros2.pons_ros2.dead_man import DeadMan
+from ros2.pons_ros2.pons_ros2.dead_man import CmdVelDeadMan
 from ros2.relay import RelayCommand, decode_state, encode_command
 from sim.twin.ros2_relay import RelayFirmware
 from wire import DriveCommand
@@ -48,7 +48,7 @@ class Example:
 
 class Package:
     def __init__(self, key: bytes = b"") -> None:
-        self.made = DeadMan("relay-1", key)
+        self.made = CmdVelDeadMan("relay-1", key)
         self.boot = self.made.boot
 
     def hear(self, text: str, now_s: float) -> bool:

@@ -16,11 +16,11 @@ from ros2.pons_ros2.pons_ros2.goals import (
     OLD_S,
     SETTLE_S,
     UNASKED_S,
-    Nav2Goals,
+    Nav2Dialogue,
     Pose,
     read_order,
 )
-from ros2.pons_ros2.pons_ros2.readings import Unreadable
+from ros2.pons_ros2.pons_ros2.readings import UnusableMessage
 from wire import Nav2Goal, Nav2State, Pose2, decode, encode, keys
 from wire.nav2_dialogue import UNASKED_S as WIRE_UNASKED_S
 
@@ -39,26 +39,26 @@ def order(leg: int | None = 1, here: Pose2 | None = HERE) -> str:
     ).decode()  # fmt: skip
 
 
-def begun() -> Nav2Goals:
-    made = Nav2Goals(0.0)
+def begun() -> Nav2Dialogue:
+    made = Nav2Dialogue(0.0)
     made.trouble = None
     return made
 
 
-def sent(made: Nav2Goals, now_s: float, leg: int | None = 1) -> Pose | None:
+def sent(made: Nav2Dialogue, now_s: float, leg: int | None = 1) -> Pose | None:
     """Return the pose that is published when the planner wants this leg."""
     made.take(read_order(order(leg)), now_s)
     return made.due(now_s)
 
 
-def state(made: Nav2Goals, now_s: float) -> Nav2State:
+def state(made: Nav2Dialogue, now_s: float) -> Nav2State:
     """Return what the planner is told, as the wire carries it."""
     said = decode(keys.NAV2_STATE, json.dumps(made.state("relay-1", now_s)).encode())
     assert isinstance(said, Nav2State)
     return said
 
 
-def tell(made: Nav2Goals, now_s: float, *goals: tuple[int, int, int]) -> str:
+def tell(made: Nav2Dialogue, now_s: float, *goals: tuple[int, int, int]) -> str:
     """Say an array of goals (number, stamp, status); return the phase that comes of it."""
     made.hear_status(
         Made(
@@ -181,7 +181,7 @@ def test_a_topic_that_is_not_nav2s_velocity_is_told_and_gives_no_twist() -> None
 
 @given(st.text(max_size=30) | st.dictionaries(st.text(max_size=8), st.integers()).map(str))
 def test_what_is_no_order_is_refused(text: str) -> None:
-    with pytest.raises(Unreadable):
+    with pytest.raises(UnusableMessage):
         read_order(text)
 
 

@@ -7,19 +7,19 @@ import pytest
 from ros2.pons_ros2.pons_ros2.graph_check import (
     STAMPED,
     TWIST,
-    GraphCheck,
     Need,
-    Seen,
+    TopicCheck,
+    TopicPublishers,
     judge_cmd_vel,
 )
 
 ODOM = Need("odom", "/odom", "nav_msgs/msg/Odometry")
-RIGHT, GONE = Seen((ODOM.kind,), 1), Seen((), 0)
-WRONG, TWO = Seen(("std_msgs/msg/String",), 1), Seen((ODOM.kind,), 2)
+RIGHT, GONE = TopicPublishers((ODOM.kind,), 1), TopicPublishers((), 0)
+WRONG, TWO = TopicPublishers(("std_msgs/msg/String",), 1), TopicPublishers((ODOM.kind,), 2)
 
 
-def code_after(*seen: Seen) -> str | None:
-    check = GraphCheck([ODOM])
+def code_after(*seen: TopicPublishers) -> str | None:
+    check = TopicCheck([ODOM])
     for one in seen:
         check.look({"/odom": one})
     return check.trouble[0] if check.trouble else None
@@ -40,7 +40,7 @@ def code_after(*seen: Seen) -> str | None:
     ],
 )
 def test_a_topic_that_went_is_silent_and_one_that_is_wrong_is_named(
-    seen: list[Seen], code: str | None
+    seen: list[TopicPublishers], code: str | None
 ) -> None:
     assert code_after(*seen) == code
 

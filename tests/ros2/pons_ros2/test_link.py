@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from pons.robot_processes import free_port
-from ros2.pons_ros2.pons_ros2.link import OpenToAll, RobotLink, is_loopback
-from ros2.robot_link import RobotLink as Dialled
+from ros2.pons_ros2.pons_ros2.link import OpenToAll, PlannerLink, is_loopback
+from ros2.robot_link import RobotLink
 
 LIMIT_S = 20.0
 
@@ -28,16 +28,16 @@ def locator() -> str:
 
 
 @pytest.fixture
-def robot(locator: str) -> Iterator[RobotLink]:
-    made = RobotLink(locator, has_key=False)
+def robot(locator: str) -> Iterator[PlannerLink]:
+    made = PlannerLink(locator, has_key=False)
     yield made
     made.close()
 
 
-def test_words_go_both_ways_and_heads_beside_bytes(robot: RobotLink, locator: str) -> None:
+def test_words_go_both_ways_and_heads_beside_bytes(robot: PlannerLink, locator: str) -> None:
     heard: list[str] = []
     robot.hear("command", heard.append)
-    with Dialled(locator, ("state", "picture", "odom")) as pons:
+    with RobotLink(locator, ("state", "picture", "odom")) as pons:
         until(lambda: pons.is_joined)
         until(lambda: robot.has_listener("state") and not robot.has_listener("map"))
 
@@ -65,9 +65,9 @@ def test_words_go_both_ways_and_heads_beside_bytes(robot: RobotLink, locator: st
 
 
 def test_a_robot_that_comes_late_is_found(locator: str) -> None:
-    with Dialled(locator, ("state",)) as pons:
+    with RobotLink(locator, ("state",)) as pons:
         assert not pons.is_joined
-        robot = RobotLink(locator, has_key=False)
+        robot = PlannerLink(locator, has_key=False)
         until(lambda: pons.is_joined)
         robot.close()
         until(lambda: not pons.is_joined)
@@ -88,7 +88,7 @@ def test_beyond_the_loopback_it_listens_with_a_key_alone(listen: str, *, is_ours
     assert is_loopback(listen) is is_ours
     if not is_ours:
         with pytest.raises(OpenToAll):
-            RobotLink(listen, has_key=False)
+            PlannerLink(listen, has_key=False)
 
 
 def test_the_package_stands_alone(repository: Path) -> None:

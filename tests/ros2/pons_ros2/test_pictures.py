@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from ros2.pons_ros2.pons_ros2.pictures import MOST_BYTES, read_picture
-from ros2.pons_ros2.pons_ros2.readings import Unreadable
+from ros2.pons_ros2.pons_ros2.readings import UnusableMessage
 
 HEADER = Made(stamp=Made(sec=7, nanosec=0))
 
@@ -52,5 +52,5 @@ def test_raw_rows_lose_their_padding() -> None:
     ],
 )
 def test_what_is_no_such_picture_is_refused(message: Any, *, depth: bool) -> None:
-    with pytest.raises(Unreadable):
+    with pytest.raises(UnusableMessage):
         read_picture(message, depth=depth)

@@ -10,7 +10,7 @@ import pytest
 
 from ros2.pons_ros2.pons_ros2.readings import (
     MAX_BEAMS,
-    Unreadable,
+    UnusableMessage,
     read_battery,
     read_frames,
     read_imu,
@@ -47,7 +47,7 @@ def test_a_pose_is_read() -> None:
 
 @pytest.mark.parametrize("turn", [{"z": 0.0, "w": 0.0}, {"z": 3.0}, {"w": math.nan}])
 def test_what_is_no_orientation_is_refused(turn: dict[str, float]) -> None:
-    with pytest.raises(Unreadable, match="orientation"):
+    with pytest.raises(UnusableMessage, match="orientation"):
         read_odometry(odometry(**turn))
 
 
@@ -55,10 +55,10 @@ def test_what_is_no_orientation_is_refused(turn: dict[str, float]) -> None:
 def test_what_is_not_finite_is_refused(hole: float) -> None:
     made = odometry()
     made.pose.pose.position.x = hole
-    with pytest.raises(Unreadable, match=r"position\.x"):
+    with pytest.raises(UnusableMessage, match=r"position\.x"):
         read_odometry(made)
     accel = Made(x=0.1, y=0.2, z=9.81)
-    with pytest.raises(Unreadable, match=r"angular_velocity\.z"):
+    with pytest.raises(UnusableMessage, match=r"angular_velocity\.z"):
         read_imu(Made(header=HEADER, angular_velocity=Made(z=hole), linear_acceleration=accel))
 
 
@@ -87,7 +87,7 @@ def test_of_too_many_beams_the_nearest_of_each_few_counts() -> None:
     "wrong", [{"ranges": []}, {"angle_increment": 0.0}, {"range_min": 9.0}, {"angle_min": math.nan}]
 )
 def test_what_is_no_lidars_scan_is_refused(wrong: dict[str, Any]) -> None:
-    with pytest.raises(Unreadable):
+    with pytest.raises(UnusableMessage):
         read_scan(scan(**wrong))
 
 
