@@ -19,6 +19,7 @@ ASSETS = {
     "prompts": "prompts",
     "sites": "sites",
     "examples/ros2_relay/relay.py": "ros2_relay.py",
+    "ros2/pons_ros2": "pons_ros2",
     "web/dist": "page",
 }
 """What a checkout has, and its name in the wheel."""

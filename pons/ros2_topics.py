@@ -12,10 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from maps import load_map
+from pons.ros2_robot import fetch_map, fetch_mounting
 from ros2.graph import LASER_SCAN
-from ros2.messages import Unreadable
 from ros2.mounting import NoMounting, find_mounting
 from ros2.occupancy import map_files
+from ros2.robot_words import Unreadable
 from ros2.topic_request import WantedTopic, collect
 from ros2.trouble import CODES, Ros2Trouble, TopicFailure
 from wire import ConfigError
@@ -49,6 +50,12 @@ def load_topic_map(robot: RobotDescription, topic: str) -> LoadedMap:
         TopicRefusal: no such map came; with a code of ``ros2.trouble``.
         SiteError: the map is none that Pons drives on.
     """
+    locator = _ros2_of(robot).node
+    if locator is not None:
+        try:
+            return fetch_map(locator, topic)
+        except TopicFailure as why:
+            raise TopicRefusal(why.trouble) from None
     wanted = WantedTopic(topic, OCCUPANCY_GRID, keeps=True)
     (message,) = _collect(_ros2_of(robot), [wanted], MAP_S)[topic][-1:]
     try:
@@ -80,6 +87,11 @@ def print_mounting(robot: RobotDescription) -> int:
 
 def _find_lidar(robot: RobotDescription) -> tuple[SensorMounting, str]:
     ros2 = _ros2_of(robot)
+    if ros2.node is not None:
+        try:
+            return fetch_mounting(ros2.node)
+        except TopicFailure as why:
+            raise TopicRefusal(why.trouble) from None
     if ros2.scan is None:
         found = "robot.toml names no ros2.scan, whose frame is asked for"
         raise TopicRefusal(Ros2Trouble("ros2_topic_missing", found))

@@ -24,13 +24,19 @@ from processes.priority import set_fifo
 from ros2.base_link import BaseLink
 from ros2.nav2_goals import Nav2Goals
 from ros2.node import Ros2Node
+from ros2.robot_link import RobotLink
+from ros2.robot_process import RosRobotProcess
+from ros2.ros_base import RosBase
 from wire import ConfigError, load_robot
 from wire.keys import Party
 from wire.plain_file import read_plain_file
 from wire.session import open_session
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from wire.ros2_config import Ros2Config
+    from wire.session import Session
 
 log = logging.getLogger("ros2")
 
@@ -65,6 +71,11 @@ def _serve(options: argparse.Namespace) -> None:
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     with open_session(Party.ROS2, robot.id, home) as session:
         boot_id = f"ros2-{secrets.token_hex(4)}"
+        if ros2.node is not None:
+            base = RosBase(robot, boot_id, relay_key(home))
+            _serve_node(base, ros2.node, session, relay_key(home), nav2=ros2.nav2 is not None,
+                        stopped=stopped.is_set)  # fmt: skip
+            return
         nav2 = Nav2Goals(ros2, ros2.nav2, boot_id) if ros2.nav2 is not None else None
         link = BaseLink(robot, boot_id, relay_key(home))
         node = Ros2Node(link, ros2, session, nav2)
@@ -72,6 +83,25 @@ def _serve(options: argparse.Namespace) -> None:
         gc.freeze()
         log.info("dialling %s", ros2.peer)
         asyncio.run(node.run(stopped.is_set))
+
+
+def _serve_node(
+    base: RosBase,
+    locator: str,
+    session: Session,
+    key: bytes,
+    *,
+    nav2: bool,
+    stopped: Callable[[], bool],
+) -> None:
+    """Dial the robot until told to stop."""
+    names = (*base.names, "nav2/state") if nav2 else base.names
+    with RobotLink(locator, names) as link:
+        process = RosRobotProcess(base, link, session, key, nav2=nav2)
+        gc.collect()
+        gc.freeze()
+        log.info("dialling %s", locator)
+        process.run(stopped)
 
 
 def relay_key(home: Path) -> bytes:
@@ -96,6 +126,8 @@ def relay_key(home: Path) -> bytes:
 
 def at_port(ros2: Ros2Config, port: int) -> Ros2Config:
     """Return how a twin is reached: by rosbridge too where robot.toml says DDS."""
+    if ros2.node is not None:
+        return ros2.model_copy(update={"node": f"tcp/127.0.0.1:{port}"})
     if ros2.transport == "zenoh":
         return ros2.model_copy(update={"router": f"tcp/127.0.0.1:{port}"})
     return ros2.model_copy(update={"transport": "rosbridge", "url": f"ws://127.0.0.1:{port}"})

@@ -17,7 +17,6 @@ from ros2 import graph, messages
 from ros2.arrivals import TopicArrivals
 from ros2.graph import GraphCheck
 from ros2.last_resort import LastResort
-from ros2.messages import Unreadable
 from ros2.operations import (
     Advertise,
     AskType,
@@ -31,6 +30,7 @@ from ros2.operations import (
 )
 from ros2.relay import STRING, RelayCommand, decode_state, encode_command
 from ros2.relay_watch import SILENT_S, RelayWatch
+from ros2.robot_words import Unreadable
 from ros2.ros_clock import OLDEST_S
 from ros2.sensor_messages import SensorMessages
 from ros2.transport import NOTHING_MADE, LinkMessages
@@ -245,7 +245,7 @@ class BaseLink:
         """Return why nobody may be driven by this graph and its relay."""
         if not self._graph.is_sound:
             return self._graph.trouble(now_s)
-        return self._relay.refusal(self._graph.kind_of(self._ros2.cmd_vel), now_s)
+        return self._relay.refusal(now_s, self._graph.kind_of(self._ros2.cmd_vel))
 
     def _refuse(self, topic: str, why: str, now_s: float) -> None:
         self.unreadable += 1

@@ -12,7 +12,7 @@ from array import array
 from typing import TYPE_CHECKING, Any
 
 from ros2.layouts import LAYOUTS
-from ros2.messages import Unreadable
+from ros2.robot_words import Unreadable
 
 if TYPE_CHECKING:
     from ros2.layouts import MessageField

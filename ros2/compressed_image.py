@@ -10,7 +10,8 @@ import binascii
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ros2.messages import Unreadable, stamp_of
+from ros2.messages import stamp_of
+from ros2.robot_words import Unreadable
 from ros2.trouble import Ros2Trouble, TopicFailure
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ from math import atan2, hypot, pi, remainder
 from typing import Literal
 
 from ros2.operations import Message
+from ros2.robot_words import Unreadable
 from wire.bounded_types import MAX_BEAMS
 
 SLOWEST_BEAM_S = 0.01
@@ -18,10 +19,6 @@ MOST = 1e12
 """No stamp, length or speed of a robot is more; integers of JSON know no bound."""
 _UNIT = 0.1
 """How far a quaternion's length may be off: some bases send all zeros, which turns by nothing."""
-
-
-class Unreadable(Exception):
-    """A message that cannot be used; says which field held what."""
 
 
 @dataclass(frozen=True, slots=True)

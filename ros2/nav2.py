@@ -136,6 +136,9 @@ def _serve(options: argparse.Namespace) -> None:
     if ros2 is None:
         found = f"{options.robot} has no part ros2; docs/external-velocity.md shows one"
         raise ConfigError("ros2_not_configured", found)
+    if ros2.node is not None:
+        found = "pons nav2 goes by ros2.transport; with ros2.node have [ros2.nav2] and a planner"
+        raise ConfigError("nav2_by_node", found)
     if options.topic in (ros2.cmd_vel, ros2.command):
         found = f"{options.topic} is what the relay drives by; have Nav2 say {TOPIC} instead"
         raise ConfigError("nav2_topic_taken", found)

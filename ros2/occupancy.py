@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import atan2
 from typing import TYPE_CHECKING, Any
 
-from ros2.messages import Unreadable
+from ros2.robot_words import Unreadable
 
 if TYPE_CHECKING:
     from ros2.operations import Message

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 from ros2 import cdr
 from ros2.endpoints import GraphEndpoints
-from ros2.messages import Unreadable
 from ros2.operations import (
     Advertise,
     AskType,
@@ -22,6 +21,7 @@ from ros2.operations import (
     TopicMessage,
     UnreadableMessage,
 )
+from ros2.robot_words import Unreadable
 from ros2.trouble import Ros2Trouble
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from ros2.operations import plain_type
 from ros2.ros_clock import RosClock
-from ros2.trouble import Ros2Trouble
+from ros2.trouble import Ros2Trouble, known_code
 
 if TYPE_CHECKING:
-    from ros2.relay import RelayState
+    from ros2.robot_words import RelayState
 
 log = logging.getLogger("ros2")
 
@@ -55,12 +55,12 @@ class RelayWatch:
         self.clock.note(state.ros, now_s)
         self.state, self._heard_s = state, now_s
 
-    def refusal(self, kind: str, now_s: float) -> Ros2Trouble | None:
+    def refusal(self, now_s: float, kind: str = "") -> Ros2Trouble | None:
         """Return why this relay may not be driven by, or its words not be believed.
 
         Args:
-            kind: the type of cmd_vel as the graph says it; empty where it was not asked.
             now_s: the time.
+            kind: the type of cmd_vel as the graph says it; empty where it was not asked.
         """
         relay = self.state
         if relay is None:
@@ -72,6 +72,8 @@ class RelayWatch:
             return Ros2Trouble(
                 "ros2_relay_key", "the relay obeys only commands signed with its key"
             )
+        if relay.code is not None:
+            return Ros2Trouble(known_code(relay.code), relay.found)
         if relay.others > 0:
             found = f"{relay.others} more publish on {self._cmd_vel}"
             return Ros2Trouble("ros2_cmd_vel_shared", found)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import inf
 
 from devices.clock import SensorClock
-from ros2.messages import Unreadable
+from ros2.robot_words import Unreadable
 
 OLDEST_S, NEWEST_S = 1.0, 0.05
 """How far from the relay's clock a stamp may lie; beyond, it is another clock's."""

@@ -2,30 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
+
+from ros2.ros_base import NOTHING_MADE, LinkMessages
 
 if TYPE_CHECKING:
     from ros2.operations import Answer, Request
     from ros2.trouble import Ros2Trouble
-    from wire import DriveState, Imu, Scan
+
+__all__ = ["NOTHING_MADE", "GraphListener", "LinkMessages", "Transport"]
 
 MOST_BYTES = 1 << 20
 """A scan of 4 000 beams has 80 kB as JSON; a server that sends more sends something else."""
 PERIOD_S = 0.001
 """So often are the readers of DDS and zenoh asked, where a wheel waits for what they read."""
-
-
-@dataclass(frozen=True, slots=True)
-class LinkMessages:
-    """Hold the messages of the wire that one answer makes; None for each that it does not."""
-
-    state: DriveState | None = None
-    scan: Scan | None = None
-    imu: Imu | None = None
-
-
-NOTHING_MADE = LinkMessages()
 
 
 class GraphListener(Protocol):

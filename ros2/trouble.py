@@ -7,8 +7,19 @@ from dataclasses import dataclass
 STARTING = "ros2_starting"
 _LAUNCH = "ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
 _RELAY = "pons robot relay > relay.py; python3 relay.py"
+_START = "ros2 launch pons_ros2 pons.launch.py"
+_INSTALL = f"install pons_ros2 on the robot (docs/ros2.md) and start `{_START}` there"
+_INSTALL_ZH = f"请在机器人上安装 pons_ros2（docs/ros2.md）并运行 `{_START}`"
 CODES: dict[str, tuple[str, str]] = {
     STARTING: ("it was just reached: wait", "刚刚连上：请稍候"),
+    "ros2_no_node": (
+        f"{_INSTALL}; look at ros2.node",
+        f"{_INSTALL_ZH}；并检查 ros2.node",
+    ),
+    "ros2_node_gone": (
+        "the robot stands by its node's dead-man; it is dialled anew",
+        "机器人已由其节点的超时保护停下；正在重新连接",
+    ),
     "ros2_no_server": (
         f"start `{_LAUNCH}` on the robot, and look at ros2.url",
         f"请在机器人上运行 `{_LAUNCH}`，并检查 ros2.url",
@@ -128,6 +139,11 @@ class Ros2Trouble:
     def detail(self) -> str:
         """Return it with its cure, in English, as long as the wire carries."""
         return f"{self.found}; {CODES[self.code][0]}"[:400]
+
+
+def known_code(code: str) -> str:
+    """Return a code that a robot said, or what stands for one that a newer package has."""
+    return code if code in CODES else "ros2_relay_silent"
 
 
 class TopicFailure(Exception):

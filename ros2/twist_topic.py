@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from devices.clock import SensorClock
 from ros2.graph import TWIST, TWIST_STAMPED
-from ros2.messages import Unreadable, stamp_of
+from ros2.messages import stamp_of
 from ros2.operations import (
     AskType,
     NoAnswer,
@@ -22,6 +22,7 @@ from ros2.operations import (
     UnreadableMessage,
     plain_type,
 )
+from ros2.robot_words import Unreadable
 from ros2.trouble import STARTING, Ros2Trouble
 from wire.geometry import MAX_SPEED_MPS, MAX_TURN_RADPS
 

@@ -84,7 +84,7 @@ def _wrong_camera_keys(camera: CameraConfig) -> Iterator[str]:
         ("device", "uvc", True),
         ("url", "stream", True),
         ("serial", "realsense", False),
-        ("topic", "ros2", True),
+        ("topic", "ros2", False),
     ):
         given = getattr(camera, key) is not None
         if needed and camera.kind == kind and not given:

@@ -24,7 +24,7 @@ from wire.imu_config import ImuConfig
 from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
-from wire.ros2_config import Ros2Config, wrong_ros2
+from wire.ros2_config import Ros2Config, wrong_camera_topic, wrong_ros2
 from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
@@ -157,7 +157,12 @@ class RobotDescription(Record):
     @model_validator(mode="after")
     def _ros2_is_whole(self) -> RobotDescription:
         parts = (self.ros2, self.drive.kind, self.lidar.kind, self.camera.kind)
-        wrong = "; ".join(wrong_ros2(*parts, has_imu=self.inputs.imu))
+        wrong = "; ".join(
+            (
+                *wrong_ros2(*parts, has_imu=self.inputs.imu),
+                *wrong_camera_topic(self.ros2, self.camera.kind, self.camera.topic),
+            )
+        )
         if wrong:
             raise ValueError(wrong)
         return self

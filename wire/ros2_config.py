@@ -35,6 +35,8 @@ class Nav2Config(Record):
 class Ros2Config(Record):
     """Name the way to a base that ROS 2 drives, and its topics."""
 
+    node: Annotated[str, Field(pattern=r"^(tcp|tls)/[A-Za-z0-9_.:\[\]-]{1,200}$")] | None = None
+    """Where the package pons_ros2 listens on the robot; it names the topics (docs/ros2.md)."""
     transport: Literal["rosbridge", "dds", "zenoh"] = "rosbridge"
     """A websocket to rosbridge_server; DDS itself, by Cyclone DDS; or rmw_zenoh's own keys."""
     url: Annotated[str, Field(pattern=r"^wss?://[A-Za-z0-9_.:\[\]/-]{1,200}$")] | None = None
@@ -65,6 +67,8 @@ class Ros2Config(Record):
     @property
     def peer(self) -> str:
         """Return how people are told whom this dials."""
+        if self.node is not None:
+            return self.node
         if self.transport == "rosbridge":
             return self.url or "ros2.url"
         if self.transport == "zenoh":
@@ -104,6 +108,9 @@ def wrong_ros2(
         return
     if drive != ROS2:
         yield f"the part ros2 is for drive.kind 'ros2', not for kind {drive!r}"
+    if ros2.node is not None:
+        yield from _wrong_node(ros2)
+        return
     yield from _wrong_way(ros2)
     if ros2.nav2 is not None and ros2.nav2.cmd_vel in (ros2.cmd_vel, ros2.command):
         yield (
@@ -117,6 +124,24 @@ def wrong_ros2(
             f"ros2.imu {ros2.imu!r} and inputs.imu {str(has_imu).lower()} do not fit: name the "
             "topic, or say inputs.imu = false (at most 0.3 m/s then)"
         )
+
+
+def wrong_camera_topic(ros2: Ros2Config | None, kind: str, topic: str | None) -> Iterator[str]:
+    """Yield why a camera of kind "ros2" can't be read: its topic is said here or on the robot."""
+    by_node = ros2 is not None and ros2.node is not None
+    if kind == ROS2 and topic is None and not by_node:
+        yield "camera.topic is missing: kind 'ros2' needs it (docs/sensors.md)"
+    if kind == ROS2 and topic is not None and by_node:
+        yield "camera.topic is the parameter picture of the node on the robot (docs/ros2.md)"
+
+
+def _wrong_node(ros2: Ros2Config) -> Iterator[str]:
+    """Yield what is said on the robot and not here."""
+    for key in sorted(ros2.model_fields_set - {"node", "nav2"}):
+        yield f"ros2.{key} is for ros2.transport; the node names its topics on the robot"
+    given = set() if ros2.nav2 is None else ros2.nav2.model_fields_set
+    for key in sorted(given & {"goal_pose", "status", "cmd_vel", "frame"}):
+        yield f"ros2.nav2.{key} is a parameter of the node on the robot (docs/ros2.md)"
 
 
 _KEYS_OF = {"url": ("rosbridge",), "router": ("zenoh",), "domain": ("dds", "zenoh"),

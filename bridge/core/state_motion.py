@@ -243,6 +243,8 @@ class Motion:
     """What the source in charge wants, before gates and limits."""
     limiter: LimiterState = field(default_factory=LimiterState)
     """Its ``sent`` is what was meant last: what wheel control adds to it is not in there."""
+    turns_out: bool = False
+    """Before a blind sector its owner asks for a turn on the spot, which leads out of the hold."""
     left: Wheel = AT_REST
     right: Wheel = AT_REST
     powered: bool = False

@@ -178,8 +178,6 @@ class DetectorMemory:
     blind_s: float = 0.0
     blind_way: float = 0.0
     """Which way it was asked to drive into a sector that returns nothing: 1, -1, or 0 for none."""
-    blind_turn: bool = False
-    """What is asked since is a turn in place: that leads out, and shows what is a hole."""
     blind_mission: str | None = None
     """For whom; another's way is judged by itself."""
     yaw_s: float = 0.0

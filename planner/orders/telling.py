@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import build, join, list_names, raw, say, say_or_quote
 from planner.language.plan_words import tell_steps
-from planner.plan import Bilingual, say_same
+from planner.plan import CONTROL, Bilingual, say_same
 from planner.plan.slots import steps_of
 from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule
 
@@ -124,6 +124,8 @@ def tell_deed(facts: SiteView, order: StandingOrder) -> Bilingual:
         )  # fmt: skip
     if not order.allowed:
         return say("standing.answers", order=order.order)
+    if any(step.kind in CONTROL for step in order.allowed):  # the person's words are shorter
+        return say("standing.as_said", order=order.order)
     return tell_record(facts, order.allowed)
 
 

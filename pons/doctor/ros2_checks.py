@@ -11,6 +11,9 @@ from urllib.parse import urlsplit
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.doctor.running_process import hear_state, says_nothing
 from ros2 import BaseLink
+from ros2.pons_ros2.pons_ros2.link import is_loopback
+from ros2.robot_link import RobotLink
+from ros2.ros_base import RosBase
 from ros2.transport_choice import open_transport
 from ros2.trouble import CODES, STARTING, Ros2Trouble
 from wire import keys
@@ -35,7 +38,10 @@ def ros2(home: Path, robot: RobotDescription) -> HealthFinding:
         return ok("ros2", "not used", "未使用")
     if is_listening(Endpoints(home).socket(ROS2_COPY_DOOR)):
         return _hear_process(home, robot, config)
-    trouble = asyncio.run(_ask_graph(robot, config))
+    if config.node is not None:
+        trouble = _ask_node(robot, config.node)
+    else:
+        trouble = asyncio.run(_ask_graph(robot, config))
     return _describe(config, trouble.code if trouble else None, trouble.found if trouble else "")
 
 
@@ -50,6 +56,25 @@ def _hear_process(home: Path, robot: RobotDescription, config: Ros2Config) -> He
             return says_nothing("ros2")
         return _describe(config, nav2.code, nav2.detail)
     return _describe(config, status.code, status.detail)
+
+
+def _ask_node(robot: RobotDescription, locator: str) -> Ros2Trouble | None:
+    """Dial the node as the process would, and listen for some seconds."""
+    base = RosBase(robot, "doctor")
+    end_s = time.monotonic() + ASK_S
+    trouble: Ros2Trouble | None = Ros2Trouble("ros2_no_node", f"nobody answers at {locator}")
+    with RobotLink(locator, base.names) as link:
+        while trouble is not None and time.monotonic() < end_s:
+            time.sleep(PERIOD_S)
+            now_s = time.monotonic()
+            if link.is_joined and not base.reached:
+                base.open(now_s)
+            for name in base.names:
+                for payload in link.take(name):
+                    base.hear(name, payload, now_s)
+            if base.reached:
+                trouble = base.judge(now_s)
+    return trouble
 
 
 async def _ask_graph(robot: RobotDescription, config: Ros2Config) -> Ros2Trouble | None:
@@ -74,6 +99,8 @@ async def _ask_graph(robot: RobotDescription, config: Ros2Config) -> Ros2Trouble
 
 def open_beyond_loopback(config: Ros2Config) -> bool:
     """Return whether others than this computer reach the transport; it asks for no password."""
+    if config.node is not None:
+        return not is_loopback(config.node)
     if config.transport == "dds":
         return config.interface != "lo"
     place = config.router if config.transport == "zenoh" else config.url or ""

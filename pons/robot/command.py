@@ -14,12 +14,13 @@ import json
 import sys
 from dataclasses import asdict, replace
 from pathlib import Path
+from shutil import copytree, ignore_patterns
 from typing import TYPE_CHECKING, Any, Final
 
 from devices.camera_listing import list_cameras
 from devices.port_listing import describe_port, find_port_takers, list_ports
 from pons.robot.port_finder import question_ports
-from pons_assets import RELAY
+from pons_assets import RELAY, ROS2_NODE
 from wire import load_robot
 
 if TYPE_CHECKING:
@@ -118,8 +119,27 @@ def parser() -> argparse.ArgumentParser:
     tried = acts.add_parser("try", help="turn the wheels, off the ground, and prove that they stop")
     tried.add_argument("--robot", type=Path, metavar="FILE", help="robot.toml (PONS_ROBOT)")
     acts.add_parser("relay", help="print the node that a robot of ROS 2 runs: > relay.py")
+    node = acts.add_parser(
+        "node", help="write the ROS 2 package that a robot runs into a new folder"
+    )
+    node.add_argument("folder", type=Path, metavar="FOLDER", help="~/ros2_ws/src/pons_ros2")
     acts.add_parser("mount", help="print where a ROS 2 robot's lidar sits, by its /tf_static")
     return top
+
+
+def _write_node(folder: Path) -> int:
+    """Copy the package; 3 where the folder is there already or can't be written."""
+    try:
+        copytree(ROS2_NODE, folder, ignore=ignore_patterns("__pycache__"))
+    except OSError as error:
+        print(
+            f"node_not_written: {folder}: {error.strerror or error}; name a new folder",
+            file=sys.stderr,
+        )
+        print(f"无法写入 {folder}：请指定一个尚不存在的文件夹", file=sys.stderr)
+        return EXIT_NOTHING
+    print(f"{folder}: on the robot there `colcon build`, and `pip install eclipse-zenoh`")
+    return EXIT_FOUND
 
 
 def run(settings: LaunchSettings, words: list[str]) -> int:
@@ -132,6 +152,8 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
     if said.act == "relay":
         sys.stdout.write(RELAY.read_text("utf-8"))
         return EXIT_FOUND
+    if said.act == "node":
+        return _write_node(said.folder)
     if said.act == "mount":
         from pons.ros2_topics import print_mounting
 

@@ -47,6 +47,10 @@ def open_source(config: CameraConfig, ros2: Ros2Config | None = None) -> Picture
 
         return RealsenseSource(config)
     if config.kind == "ros2" and ros2 is not None:
+        if ros2.node is not None:
+            from sensors.camera.robot_source import RobotSource
+
+            return RobotSource(config, ros2.node)
         from sensors.camera.ros2_source import Ros2Source
 
         return Ros2Source(config, ros2)

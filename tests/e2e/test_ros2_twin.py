@@ -1,4 +1,4 @@
-"""A ROS 2 robot is played whole by its twin: rosbridge server, relay, base, lidar and gyro."""
+"""A ROS 2 robot is played whole by its twin, behind rosbridge or its own node."""
 
 from __future__ import annotations
 
@@ -13,13 +13,11 @@ from tests.e2e.system import ROOT
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150)]
 
-ROBOT_TOML = ROOT / "robots" / "ros2_diff_drive.toml"
 
-
-@pytest.fixture
-def ros2(home: Path) -> Iterator[Robot]:
-    """Return a robot at rest whose wheels, scans and gyro go over one websocket."""
-    robot = Robot(home, PONS_ROBOT=str(ROBOT_TOML))
+@pytest.fixture(params=["ros2_diff_drive", "ros2_node"])
+def ros2(home: Path, request: pytest.FixtureRequest) -> Iterator[Robot]:
+    """Return a robot at rest whose wheels, scans and gyro go over one socket."""
+    robot = Robot(home, PONS_ROBOT=str(ROOT / "robots" / f"{request.param}.toml"))
     robot.system.arguments = ("--twin",)
     try:
         made = robot.system.pons("key", "new")  # metal is armed by a person, with a proof

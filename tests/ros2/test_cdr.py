@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from ros2 import cdr
 from ros2.layouts import LAYOUTS
-from ros2.messages import Unreadable
+from ros2.robot_words import Unreadable
 from sim.twin import cdr_writer
 
 GOLDEN = json.loads((Path(__file__).parent / "golden" / "kilted_messages.json").read_text())

@@ -23,7 +23,7 @@ from tests.ros2.frames import TYPES, command, robot
 from tests.ros2.graph_peers import DdsPeer, PeerBase
 from wire import Ros2Status
 
-LIMIT_S = 20.0
+LIMIT_S = 60.0
 COMMAND = {"/pons/command": "std_msgs/msg/String"}
 
 

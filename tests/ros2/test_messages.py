@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros2.messages import Unreadable, read_imu, read_odometry, read_scan
+from ros2.messages import read_imu, read_odometry, read_scan
+from ros2.robot_words import Unreadable
 from tests.ros2.frames import imu, odometry, scan
 from wire.bounded_types import MAX_BEAMS
 

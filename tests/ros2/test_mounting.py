@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from ros2.messages import Unreadable
 from ros2.mounting import NoMounting, find_mounting
+from ros2.robot_words import Unreadable
 
 
 def transform(

@@ -20,7 +20,7 @@ from wire.keys import Party
 from wire.session import open_session
 from wire.status import GrantLeft, Owner
 
-LIMIT_S = 20.0
+LIMIT_S = 60.0
 ROBOT = """
 [drive]
 kind = "ros2"

@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from maps import FREE, OCCUPIED, UNKNOWN, load_map
-from ros2.messages import Unreadable
 from ros2.occupancy import map_files
+from ros2.robot_words import Unreadable
 
 
 def grid(data: Any, width: int = 3, height: int = 2, yaw_rad: float = 0.0, **info: Any) -> Any:

@@ -24,7 +24,7 @@ from wire.ros2_config import Ros2Config
 
 TOPIC = "/camera/compressed"
 DATA = bytes(range(256)) * 300
-LIMIT_S = 20.0
+LIMIT_S = 60.0
 DOMAIN = 9
 
 

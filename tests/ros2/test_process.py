@@ -23,7 +23,7 @@ from wire import DriveCommand, DriveState, Ros2Status, keys
 from wire.keys import Party
 from wire.session import Session, open_session
 
-LIMIT_S = 20.0
+LIMIT_S = 60.0
 ROBOT = """
 [drive]
 kind = "ros2"

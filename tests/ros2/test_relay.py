@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from ros2.messages import Unreadable
 from ros2.relay import RelayCommand, decode_state, encode_command
+from ros2.robot_words import Unreadable
 from tests.ros2.frames import command, relay_state
 
 

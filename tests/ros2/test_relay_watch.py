@@ -18,12 +18,12 @@ def known(watch: RelayWatch) -> str:
 
 
 def code(watch: RelayWatch, now_s: float, kind: str = KIND) -> str | None:
-    trouble = watch.refusal(kind, now_s)
+    trouble = watch.refusal(now_s, kind)
     return trouble.code if trouble else None
 
 
 def test_without_a_relay_there_is_nothing_to_refuse() -> None:
-    assert RelayWatch("/cmd_vel", "/pons/state", has_key=False).refusal(KIND, 1.0) is None
+    assert RelayWatch("/cmd_vel", "/pons/state", has_key=False).refusal(1.0, KIND) is None
 
 
 def test_a_relay_that_was_started_anew_is_the_relay() -> None:
@@ -44,7 +44,7 @@ def test_two_relays_that_speak_by_turns_are_two_robots_until_one_is_silent() -> 
     assert known(watch) == "relay-1", "the other is never driven"
     heard(watch, "relay-1", 2, 1.02)
     assert code(watch, 1.02) == "ros2_two_robots"
-    found = watch.refusal(KIND, 1.02)
+    found = watch.refusal(1.02, KIND)
     assert found is not None
     assert "relay-1" in found.found
     assert "relay-2" in found.found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ros2.messages import Unreadable
+from ros2.robot_words import Unreadable
 from ros2.ros_clock import RosClock
 
 ROS_S = 1.8e9

@@ -33,7 +33,7 @@ from wire.keys import Party
 from wire.session import open_session
 
 NEEDS = "import rclpy, nav_msgs, websockets"
-LIMIT_S = 20.0
+LIMIT_S = 60.0
 HAS_DDS = importlib.util.find_spec("cyclonedds") is not None
 BY_DDS = pytest.param(
     "dds", marks=pytest.mark.skipif(not HAS_DDS, reason="cyclonedds is not installed (extra dds)")

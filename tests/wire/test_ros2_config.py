@@ -48,6 +48,34 @@ def test_what_does_not_fit_is_refused_by_name(given: dict[str, Any], says: str) 
     assert says in str(refused.value)
 
 
+NODE = {"node": "tcp/127.0.0.1:7448"}
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"ros2": NODE | {"odom": "/odom"}}, "ros2.odom is for ros2.transport"),
+        ({"ros2": NODE | URL}, "ros2.url is for ros2.transport"),
+        ({"ros2": NODE | {"transport": "dds"}}, "ros2.transport is for ros2.transport"),
+        ({"ros2": NODE | {"nav2": {"cmd_vel": "/x"}}}, "ros2.nav2.cmd_vel is a parameter"),
+        ({"ros2": {"node": "ws://x"}}, "ros2.node"),
+        ({"ros2": NODE, "camera": {"kind": "ros2", "topic": "/c"}}, "parameter picture"),
+    ],
+)
+def test_by_the_node_topics_are_named_on_the_robot(given: dict[str, Any], says: str) -> None:
+    with pytest.raises(ValidationError) as refused:
+        RobotDescription.model_validate({"drive": DRIVE, "inputs": BLIND} | given)
+    assert says in str(refused.value)
+
+
+def test_the_preset_of_the_node_hears_scans_and_gyro() -> None:
+    robot = load_robot(ROOT / "robots" / "ros2_node.toml")
+    assert robot.ros2 is not None
+    assert (robot.ros2.peer, robot.lidar.kind) == ("tcp/127.0.0.1:7448", "ros2")
+    blind = {"drive": DRIVE, "inputs": BLIND, "ros2": NODE | {"nav2": {"within_m": 0.5}}}
+    assert RobotDescription.model_validate(blind).ros2 is not None
+
+
 def test_a_camera_of_its_graph_is_read_by_a_process_of_ours() -> None:
     given = {"drive": DRIVE, "ros2": URL, "inputs": BLIND}
     camera = {"kind": "ros2", "topic": "/camera/image_raw/compressed"}

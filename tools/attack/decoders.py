@@ -261,7 +261,7 @@ def _packed_picture(_folder: Path) -> Reader:
 
     from ros2 import cdr
     from ros2.compressed_image import COMPRESSED_IMAGE, read_compressed_image
-    from ros2.messages import Unreadable
+    from ros2.robot_words import Unreadable
     from ros2.trouble import TopicFailure
     from sensors.camera.packed_picture import unpack
     from sensors.camera.shot import CameraTrouble

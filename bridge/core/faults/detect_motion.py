@@ -207,8 +207,7 @@ def sector(tick: TickContext, dirty: Dirty) -> None:
         way = 1.0 if asked_mps > 0.0 else -1.0
         watch.blind_way = way if hidden[way] else 0.0
         watch.blind_mission = s.grants.mission
-        watch.blind_turn = False
-    if watch.blind_way and not watch.blind_turn:
+    if watch.blind_way and not s.motion.turns_out:
         where = "ahead" if watch.blind_way > 0.0 else "behind"
         evidence = f"{degrees(hidden[watch.blind_way]):.0f} degrees {where}"
         dirty.append(("LIDAR_SECTOR.0", evidence))

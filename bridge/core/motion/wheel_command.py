@@ -49,10 +49,11 @@ def move(tick: TickContext) -> None:
     arrive(tick, at_end=at_end)
     if tick.s.gate.blocked:
         motion_gates.reconsider(tick, _wish(tick))
+    motion.turns_out = False
     if tick.s.watch.blind_way:
         wish = asked if tick.is_moving else _wish(tick)
         turns = abs(wish.v_mps) < STANDING_MPS and abs(wish.w_radps) >= STANDING_RADPS
-        tick.s.watch.blind_turn = turns
+        motion.turns_out = turns
     motion.asked = asked if tick.is_moving else STILL
     motion.limiter = limit(tick, motion.asked)
 

@@ -1,4 +1,4 @@
-"""The relay's dead-man keeps its laws, in the node of the example and in the twin alike."""
+"""The dead-man keeps its laws: in the example, in the package pons_ros2 and in the twin."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from examples.ros2_relay.relay import RelayDeadMan
+from ros2.pons_ros2.pons_ros2.dead_man import CmdVelDeadMan
 from ros2.relay import RelayCommand, decode_state, encode_command
 from sim.twin.ros2_relay import RelayFirmware
 from wire import DriveCommand
@@ -45,6 +46,21 @@ class Example:
         return self.made.state(now_s, now_s + 1e9, TWIST, 0)
 
 
+class Package:
+    def __init__(self, key: bytes = b"") -> None:
+        self.made = CmdVelDeadMan("relay-1", key)
+        self.boot = self.made.boot
+
+    def hear(self, text: str, now_s: float) -> bool:
+        return self.made.hear(text, now_s)
+
+    def moves(self, now_s: float) -> tuple[float, float, bool]:
+        return self.made.twist(now_s)
+
+    def says(self, now_s: float) -> str:
+        return self.made.state(now_s, now_s + 1e9, cmd_vel=TWIST, others=0)
+
+
 class Twin:
     def __init__(self, key: bytes = b"") -> None:
         self.made = RelayFirmware(TWIST, "relay-1", key)
@@ -61,7 +77,7 @@ class Twin:
         return self.made.state(now_s, now_s + 1e9)
 
 
-BOTH = pytest.mark.parametrize("made", [Example, Twin], ids=["example", "twin"])
+BOTH = pytest.mark.parametrize("made", [Example, Package, Twin], ids=["example", "package", "twin"])
 
 
 def words(seq: Any = 1, seen_s: float = 10.0, **more: Any) -> str:
@@ -76,7 +92,7 @@ def words(seq: Any = 1, seen_s: float = 10.0, **more: Any) -> str:
 
 @BOTH
 def test_a_command_moves_until_its_end_on_the_relays_clock_however_late_it_came(
-    made: type[Example | Twin],
+    made: type[Example | Package | Twin],
 ) -> None:
     for late_s in (0.0, 0.1, 0.19):
         relay = made()
@@ -109,7 +125,7 @@ def test_a_command_moves_until_its_end_on_the_relays_clock_however_late_it_came(
     ],
 )
 def test_what_is_old_of_another_relay_or_insane_moves_nothing(
-    made: type[Example | Twin], wrong: dict[str, Any]
+    made: type[Example | Package | Twin], wrong: dict[str, Any]
 ) -> None:
     relay = made()
     assert not relay.hear(words(**wrong), 10.01)
@@ -120,7 +136,7 @@ def test_what_is_old_of_another_relay_or_insane_moves_nothing(
 @pytest.mark.parametrize(
     "text", ["", "[]", "7", "null", "{", '{"boot": "b"}', words()[:-9], "[" * 99_999]
 )
-def test_what_is_no_command_moves_nothing(made: type[Example | Twin], text: str) -> None:
+def test_what_is_no_command_moves_nothing(made: type[Example | Package | Twin], text: str) -> None:
     relay = made()
     assert not relay.hear(text, 10.01)
 
@@ -128,7 +144,9 @@ def test_what_is_no_command_moves_nothing(made: type[Example | Twin], text: str)
 @BOTH
 @pytest.mark.parametrize("hole", ["NaN", "Infinity", "-Infinity"])
 @pytest.mark.parametrize("name", ["v", "w", "seen", "ttl"])
-def test_not_a_number_moves_nothing(made: type[Example | Twin], hole: str, name: str) -> None:
+def test_not_a_number_moves_nothing(
+    made: type[Example | Package | Twin], hole: str, name: str
+) -> None:
     raw = json.loads(words())
     raw[name] = float(hole.replace("Infinity", "inf"))
     relay = made()
@@ -138,7 +156,7 @@ def test_not_a_number_moves_nothing(made: type[Example | Twin], hole: str, name:
 
 @BOTH
 def test_a_repeated_or_older_number_is_no_sign_of_life_and_another_bridge_begins_anew(
-    made: type[Example | Twin],
+    made: type[Example | Package | Twin],
 ) -> None:
     relay = made()
     assert relay.hear(words(5, 10.0), 10.0)
@@ -151,7 +169,7 @@ def test_a_repeated_or_older_number_is_no_sign_of_life_and_another_bridge_begins
 
 @BOTH
 def test_the_state_echoes_what_is_obeyed_and_tells_the_dead_man(
-    made: type[Example | Twin],
+    made: type[Example | Package | Twin],
 ) -> None:
     relay = made()
     before = decode_state({"data": relay.says(9.0)})
@@ -168,7 +186,9 @@ def test_the_state_echoes_what_is_obeyed_and_tells_the_dead_man(
 
 
 @BOTH
-def test_without_torque_it_stands_and_has_not_timed_out(made: type[Example | Twin]) -> None:
+def test_without_torque_it_stands_and_has_not_timed_out(
+    made: type[Example | Package | Twin],
+) -> None:
     relay = made()
     assert relay.hear(words(on=False), 10.0)
     assert relay.moves(10.1) == (0.0, 0.0, False)
@@ -179,7 +199,7 @@ KEY = b"a key of both ends"
 
 @BOTH
 def test_with_a_key_only_what_is_signed_with_it_moves_the_base(
-    made: type[Example | Twin],
+    made: type[Example | Package | Twin],
 ) -> None:
     """A stranger at rosbridge hears all that a command needs but the key."""
     relay = made(KEY)
@@ -199,18 +219,19 @@ def test_with_a_key_only_what_is_signed_with_it_moves_the_base(
 
 
 @given(st.lists(st.tuples(st.floats(0.0, 0.3), st.booleans(), st.integers(1, 40)), max_size=40))
-def test_both_do_the_same_and_neither_moves_longer_than_a_command_lives(
+def test_all_do_the_same_and_neither_moves_longer_than_a_command_lives(
     script: list[tuple[float, bool, int]],
 ) -> None:
-    example, twin = Example(), Twin()
+    example, package, twin = Example(), Package(), Twin()
     now_s = seen_s = 100.0
     for pause_s, hears_anew, seq in script:
         now_s += pause_s
         if hears_anew:
             seen_s = now_s
         text = words(seq, seen_s)
-        assert example.hear(text, now_s) == twin.hear(text, now_s)
-        assert example.moves(now_s) == twin.moves(now_s)
+        heard = example.hear(text, now_s)
+        assert heard == package.hear(text, now_s) == twin.hear(text, now_s)
+        assert example.moves(now_s) == package.moves(now_s) == twin.moves(now_s)
         assert example.moves(seen_s + TTL_S + 1e-9)[2]
 
 

@@ -78,7 +78,7 @@ def test_an_order_just_given_is_corrected_step_by_step(tmp_path: Path) -> None:
     async def story(kept: Kept) -> None:
         await say(kept, "every evening at eight say hello")
         told = await say(kept, "make it nine instead")
-        assert told == "Changed. Every day at 21:00 I will say “hello”. Next: today 21:00."
+        assert told == 'Changed. Every day at 21:00 I will say "hello". Next: today 21:00.'
         assert "Every day except Sunday" in await say(kept, "not on Sundays")
         assert "On weekdays at 21:00" in await say(kept, "only on weekdays")
         assert cron(kept) == "0 21 * * 1-5"
