@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 SURE = 0.3
 """From here on a plan is offered; a person says no to what was not meant."""
-_BEYOND = frozenset({Code.NO_CAPABILITY, Code.OUT_OF_SCOPE})
+_BEYOND = frozenset({Code.NO_CAPABILITY})
 UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED}) | _BEYOND
 """What the rules say of sentences that this may read."""
 SURER = 0.6
@@ -102,7 +102,7 @@ def offer_plan(
         said = Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
         plainly = is_sure and told.code not in _BEYOND | {Code.NEGATED} and not has_offer
         return said if plainly else None
-    if node.form in COMMANDS and (told.code is Code.NOT_UNDERSTOOD or is_sure):
+    if node.form in COMMANDS and is_sure:
         return _offer_command(node, language)
     # Where something else is meant, the rules' own offer of a part of it would be silly.
     without_offer = told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None

@@ -24,8 +24,11 @@ def read(text: str) -> Plan:
     ("text", "places"),
     [
         ("would you fancy a trip to the kitchen", {"kitchen"}),
-        ("the kitchen and the study, one after the other, if you please", {"kitchen", "study"}),
-        ("能不能麻烦您老人家移步厨房", {"kitchen"}),
+        (
+            "would you be a dear and nip to the kitchen, then over to the study",
+            {"kitchen", "study"},
+        ),
+        ("麻烦您老人家移步去厨房一趟", {"kitchen"}),
     ],
 )
 def test_what_no_rule_reads_is_offered_as_one_plan_in_words(text: str, places: set[str]) -> None:
