@@ -27,7 +27,7 @@ def install(*words: str, path: str | None = None) -> subprocess.CompletedProcess
         capture_output=True,
         text=True,
         check=False,
-        timeout=60,
+        timeout=150,
         env=environment,
     )
 

@@ -137,7 +137,7 @@ class System(PonsUp):
 
     # Requests -----------------------------------------------------------------------------------
 
-    def pons(self, *words: str, timeout_s: float = 40.0) -> subprocess.CompletedProcess[str]:
+    def pons(self, *words: str, timeout_s: float = 100.0) -> subprocess.CompletedProcess[str]:
         """Run a ``pons`` command as a person in a shell."""
         return subprocess.run(
             self.command(*words),

@@ -82,7 +82,9 @@ def make_batch(
         allowed[row, len(example.actions) :, 0] = True
     rows = [torch.tensor(each, dtype=torch.long) for each in (words, pieces, starts, unit_at)]
     told = torch.from_numpy(is_told)
-    return ExampleBatch(*rows, mask, written, parts, pointed, told, wanted, allowed)
+    return ExampleBatch(
+        rows[0], rows[1], rows[2], rows[3], mask, written, parts, pointed, told, wanted, allowed
+    )
 
 
 def _loss(logits: torch.Tensor, batch: ExampleBatch) -> torch.Tensor:
