@@ -70,7 +70,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
 _HANGING = CONTROL | {"wait_for", "wait"}
 """Steps that wait for something, as the words "until" and "when" ask for."""
 _ROLES = {PlanRole.AFTER: "order.after", PlanRole.INSTEAD: "order.instead"}
-_NAMES_ONE = re.compile(r"\bones?$|那[一]?[个项条]$")
+_NAMES_ONE = re.compile(r"\bones?$|那一?[个项条]$")
 """What "the pills one" is without "one"."""
 _ORDERS = frozenset({"at", "order_move", "order_remove"})
 """Forms about standing orders."""
@@ -103,11 +103,14 @@ def offer_plan(
         plainly = is_sure and told.code not in _BEYOND | {Code.NEGATED} and not has_offer
         return said if plainly else None
     if node.form in COMMANDS and is_sure:
-        return _offer_command(node, language)
+        return _offer_command(node, language, told.code)
     # Where something else is meant, the rules' own offer of a part of it would be silly.
     without_offer = told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
     if node.form in _ORDERS:
-        return _offer_standing_order(node, vocabulary, language, context) or without_offer
+        if told.code is Code.NEGATED and node.form == "at" and not is_sure:
+            return without_offer
+        denied = denied_places(text, vocabulary)
+        return _offer_standing_order(node, vocabulary, language, context, denied) or without_offer
     plan = _make_steps(read.plan, vocabulary, language, context.newest)
     if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
         return without_offer
@@ -128,8 +131,13 @@ def _offer_steps(
     return _ask_for(Option(label=label, text=label.of(language)[:2000], plan=plan))
 
 
-def _offer_command(node: PlanNode, language: Language) -> Clarify | None:
-    """Return the question about what the planner itself does; None where it reads it not so."""
+def _offer_command(node: PlanNode, language: Language, code: Code) -> Clarify | None:
+    """Return the question about what the planner itself does; None where it reads it not so.
+
+    A bare command behind a denial ("don't slow down") is none.
+    """
+    if code is Code.NEGATED and not any(node.slots):
+        return None
     words = " ".join(_NAMES_ONE.sub("", value[0]).strip() for value in node.slots if value)
     command = COMMANDS[node.form][language is Language.ZH].format(words=words)
     is_read = parse_sentence(command).intent is not None
@@ -137,7 +145,11 @@ def _offer_command(node: PlanNode, language: Language) -> Clarify | None:
 
 
 def _offer_standing_order(
-    node: PlanNode, vocabulary: Vocabulary, language: Language, context: Context
+    node: PlanNode,
+    vocabulary: Vocabulary,
+    language: Language,
+    context: Context,
+    denied: frozenset[str],
 ) -> Clarify | None:
     """Return the question about a standing order whose time the clock reads; None: it doesn't."""
     words = tuple(_NAMES_ONE.sub("", value[0]).strip() if value else "" for value in node.slots)
@@ -147,7 +159,7 @@ def _offer_standing_order(
         elif node.form == "order_move":
             step = OrderChange(which=words[0], due=words[1])
         else:
-            order = _told_as_order(node, vocabulary, language, context)
+            order = _told_as_order(node, vocabulary, language, context, denied)
             if order is None:
                 return None
             step = OrderAdd(due=words[0], order=order)
@@ -158,11 +170,15 @@ def _offer_standing_order(
 
 
 def _told_as_order(
-    node: PlanNode, vocabulary: Vocabulary, language: Language, context: Context
+    node: PlanNode,
+    vocabulary: Vocabulary,
+    language: Language,
+    context: Context,
+    denied: frozenset[str],
 ) -> str | None:
     """Return what is to be done in words that the grammar reads as these steps; None: none do."""
     steps = _make_steps(node.blocks[0], vocabulary, language)
-    if steps is None:
+    if steps is None or _places_of(steps) & denied:
         return None
     told = _tell(steps, vocabulary)
     back = grammar_plan(told.of(language), vocabulary, context)

@@ -51,6 +51,11 @@ def test_what_no_rule_reads_is_offered_as_one_plan_in_words(text: str, places: s
         "whatever you do, keep out of the study",
         "别去厨房",
         "厨房千万不要去",
+        "don't you go to the kitchen at eight tonight",
+        "every evening at eight, keep out of the study",
+        "今晚八点千万别去厨房",
+        "don't slow down",
+        "mum is in the bathroom, so don't go there",
     ],
 )
 def test_a_place_that_is_denied_is_in_no_offer(text: str) -> None:
