@@ -37,7 +37,8 @@ class BuildWithAssets(build_py):
         package = Path(self.build_lib) / "pons_assets"
         for source, name in ASSETS.items():
             if (ROOT / source).is_dir():
-                shutil.copytree(ROOT / source, package / name, dirs_exist_ok=True)
+                without = shutil.ignore_patterns("__pycache__")
+                shutil.copytree(ROOT / source, package / name, ignore=without, dirs_exist_ok=True)
             else:
                 shutil.copyfile(ROOT / source, package / name)
 
