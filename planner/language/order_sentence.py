@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 
 from planner.language.catalogue import say
-from planner.language.commands import Intent
 from planner.language.folding import fold_words, has_chinese
 from planner.language.schedule import ChangeOrders, CorrectOrder, Retime, ScheduleCommand
 from planner.language.sentence import parse
@@ -29,7 +28,15 @@ def offer_order(text: str) -> Clarify:
 
 def is_order_sentence(text: str, step: Frozen) -> bool:
     """Return whether the clock's grammar reads a step's sentence whole, as the step means it."""
-    return _is_read(step, parse(text).intent)
+    match step, parse(text).intent:
+        case OrderAdd(order=order), ScheduleCommand(problem=None) as command:
+            said = command.order if command.reminder is None else order
+            return fold_words(said) == fold_words(order)
+        case OrderChange(), CorrectOrder(change=Retime()):
+            return True
+        case OrderRemove(), ChangeOrders(act="remove"):
+            return True
+    return False
 
 
 def write_order(step: Frozen) -> str:
@@ -50,15 +57,3 @@ def write_order(step: Frozen) -> str:
         case OrderRemove(which=which):
             return f"取消{which}那个" if has_chinese(which) else f"remove the {which} one"
     return ""
-
-
-def _is_read(step: Frozen, intent: Intent | None) -> bool:
-    match step, intent:
-        case OrderAdd(order=order), ScheduleCommand(problem=None) as command:
-            said = command.order if command.reminder is None else order
-            return fold_words(said) == fold_words(order)
-        case OrderChange(), CorrectOrder(change=Retime()):
-            return True
-        case OrderRemove(), ChangeOrders(act="remove"):
-            return True
-    return False
