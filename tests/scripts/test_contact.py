@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, cast
 
 import pytest
 
-from tests.contact import SEEN, STATUS
+from tests.contact import SEEN, STATUS, Contacts
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+TOLD = [(f"{SEEN}: 1", STATUS), ("too late", 1)]
 
-@pytest.mark.parametrize(("said", "ends_with"), [(f"{SEEN}: 1", STATUS), ("too late", 1)])
-@pytest.mark.parametrize("apart", ["0", "1"])
+
+@pytest.mark.parametrize(("said", "ends_with"), TOLD)
 def test_the_exit_status_tells_a_contact(
-    said: str, ends_with: int, apart: str, repository: Path, tmp_path: Path
+    said: str, ends_with: int, repository: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "conftest.py").write_text(
         "from tests.contact import Contacts\n\n"
@@ -29,8 +31,27 @@ def test_the_exit_status_tells_a_contact(
         "utf-8",
     )
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-n", apart, "-p", "no:cacheprovider", "."],
+        [sys.executable, "-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider", "."],
         cwd=tmp_path, env={"PYTHONPATH": str(repository), "PATH": ""},
         capture_output=True, text=True, check=False, timeout=50,
     )  # fmt: skip
     assert done.returncode == ends_with, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(("said", "ends_with"), TOLD)
+def test_a_contact_is_heard_from_a_report_that_came_as_text(
+    said: str, ends_with: int, request: pytest.FixtureRequest
+) -> None:
+    # The processes of xdist send their reports through these two hooks.
+    failed = pytest.TestReport(
+        "test_a.py::test_a", ("test_a.py", 0, "test_a"), {}, "failed", said, "call"
+    )
+    hook = request.config.hook
+    sent = hook.pytest_report_to_serializable(config=request.config, report=failed)
+    contacts = Contacts()
+    contacts.pytest_runtest_logreport(
+        hook.pytest_report_from_serializable(config=request.config, data=sent)
+    )
+    session = SimpleNamespace(exitstatus=1)
+    contacts.pytest_sessionfinish(cast("pytest.Session", session))
+    assert session.exitstatus == ends_with
