@@ -96,12 +96,14 @@ def offer_plan(
         return None
     node, is_sure = read.plan[0], read.confidence >= SURER
     has_offer = isinstance(told, Clarify) and bool(told.options)
+    if node.form in _TALK:
+        # What is beyond the robot keeps the part that the rules offer; a remark has none.
+        is_kept = told.code in _BEYOND and (node.form == "refuse" or not has_offer)
+        if not is_sure or is_kept or (told.code is Code.NEGATED and not has_offer):
+            return None
+        return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
     if told.code in _BEYOND and has_offer and node.form not in CHANGES:  # a part of it is offered
         return None
-    if node.form in _TALK:
-        said = Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
-        plainly = is_sure and told.code not in _BEYOND | {Code.NEGATED} and not has_offer
-        return said if plainly else None
     if node.form in COMMANDS and is_sure:
         return _offer_command(node, language, told.code)
     # Where something else is meant, the rules' own offer of a part of it would be silly.

@@ -44,6 +44,24 @@ def test_what_no_rule_reads_is_offered_as_one_plan_in_words(text: str, places: s
     assert button.label.en in asked.question.en
 
 
+@pytest.mark.parametrize("room", ["kitchen", "study", "bathroom"])
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "we were in the {} yesterday, me and the girls",
+        "I'll go to the {} myself, thank you",
+        "昨天我们在{}待了一下午",
+        "我自己去{}就好",
+        "{}停过电",
+    ],
+)
+def test_a_remark_that_names_a_room_is_met_with_no_drive_to_it(room: str, remark: str) -> None:
+    name = WORLD.vocabulary.name(room)
+    told = read(remark.format(name.en if remark.isascii() else name.zh))
+    assert isinstance(told, Clarify)
+    assert not told.options
+
+
 @pytest.mark.parametrize(
     "text",
     [
