@@ -7,11 +7,10 @@ An activity dies with the process; the journal keeps what is needed to begin it 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import StrEnum
 
 from planner.mission.recovery import LadderRung
-from planner.mission.skills.actions import Way
-from planner.mission.skills.perception import WantedObject
-from planner.mission.skills.skill_state import SkillStateBase
+from planner.mission.skills.actions import AskImage, DriveLeg, Observe, Way
 from planner.plan import Bilingual
 from wire import Pose2
 
@@ -60,37 +59,46 @@ class RouteDoubt:
     ``route_keeps_right``."""
 
 
+@dataclass(frozen=True, slots=True)
+class LegDoubts:
+    """Hold what a leg by route doubts of its way, and when it was last looked after."""
+
+    newest: RouteDoubt | None = None
+    searched_s: float = float("-inf")
+    """When a way round was searched last because of a doubt."""
+    right_searched_s: float = float("-inf")
+    """When a way on the right was searched last."""
+    met_s: float = float("-inf")
+    """When somebody was last seen to come towards the robot."""
+    bends: int = 0
+    """Ways taken because the one before was doubted."""
+
+
+class RoutePurpose(StrEnum):
+    """What a way is searched for."""
+
+    LEG = "leg"
+    """The leg's own way."""
+    DETOUR = "detour"
+    """Round what the lidar sees."""
+    DOUBT = "doubt"
+    """Round what the route search remembers; without one the leg goes on."""
+    KEEP_RIGHT = "keep_right"
+    """With room for somebody who comes; without one the leg goes on."""
+    EXPLORE = "explore"
+    """To say whether to look from elsewhere; without an answer the leg goes on."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Driving(_StepActivity):
     """Drive one leg to a goal: its route is searched, streamed, lost and searched again."""
 
-    goal: Pose2
-    heading: bool = False
-    """The goal's yaw matters too."""
-    way: Way = Way.ROUTE
-    target: str | None = None
-    """The place that is driven to."""
-    limit_s: float | None = None
-    limit_m: float | None = None
-    """The skill's budget for this leg."""
-    sees: tuple[float, float] | None = None
-    """What it is to see from its end, and face."""
-    sees_from_m: float = 0.0
-    """No nearer to it."""
+    act: DriveLeg
+    """What the skill asked for last: the goal, the way, the budget and what is remembered."""
     since_s: float
     """When this leg began: the step's time is counted from here."""
     asked_s: float
     """When the skill was asked last."""
-    state: SkillStateBase | None = None
-    """What the skill remembers while this leg lasts."""
-    then: SkillStateBase | None = None
-    """And once it is reached."""
-    otherwise: SkillStateBase | None = None
-    """And where its way is shut; None: then the step fails."""
-    wanted: WantedObject | None = None
-    """As soon as this is seen for sure the skill is asked again."""
-    watch: bool = False
-    """The skill is asked again as the sight changes."""
     moving_s: float = 0.0
     """Time for which the leg was followed and nothing held it."""
     left_m: float | None = None
@@ -99,25 +107,11 @@ class Driving(_StepActivity):
     """Statuses during which the bridge's limit of that name was the nearest one."""
     ticket: int | None = None
     """The route that is being searched."""
-    ticket_detour: bool = False
-    """It is to lead round what the lidar sees."""
-    ticket_doubted: bool = False
-    """It is to lead round what the route search remembers; without one the leg goes on."""
-    ticket_keeps_right: bool = False
-    """It is to leave room for somebody who comes; without one the leg goes on."""
-    ticket_explores: bool = False
-    """It is to say whether to look from elsewhere; without an answer the leg goes on."""
+    purpose: RoutePurpose = RoutePurpose.LEG
+    """Of the newest search."""
     explore_asked_s: float = float("-inf")
     """When that was asked last."""
-    doubt: RouteDoubt | None = None
-    doubt_asked_s: float = float("-inf")
-    """When a way round was searched last because of a doubt."""
-    right_asked_s: float = float("-inf")
-    """When a way on the right was searched last."""
-    met_s: float = float("-inf")
-    """When somebody was last seen to come towards the robot."""
-    bends: int = 0
-    """Ways taken because the one before was doubted."""
+    doubts: LegDoubts = LegDoubts()
     leg: int | None = None
     """The leg that is streamed; None: stand."""
     route_when_standing: bool = False
@@ -158,19 +152,12 @@ class Retrying(_StepActivity):
 class Observing(_StepActivity):
     """Stand and take pictures in."""
 
+    act: Observe
     since_s: float
     asked_s: float
     """When the skill was asked last."""
     until_s: float
     """When this ends anyhow."""
-    looks: int
-    """New pictures that are waited for."""
-    state: SkillStateBase | None = None
-    then: SkillStateBase | None = None
-    wanted: WantedObject | None = None
-    """This ends as soon as that is seen for sure."""
-    watch: bool = False
-    """The skill is asked again as the sight changes."""
     look_seq: int = -1
     """The newest picture that was counted."""
     looked: int = 0
@@ -183,13 +170,12 @@ class Observing(_StepActivity):
 class AskingImage(_StepActivity):
     """Stand until a question about the picture is answered."""
 
+    act: AskImage
     since_s: float
     ticket: int
     """The question whose answer is waited for."""
     until_s: float
     """When the wait ends without one."""
-    state: SkillStateBase | None = None
-    then: SkillStateBase | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

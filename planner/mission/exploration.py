@@ -7,9 +7,11 @@ was to look at often comes into view long before it is there. Nothing stops for 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
+from planner.mission.activity import RoutePurpose
 from planner.mission.legs import ask_route, new_leg
 from planner.mission.skills import Fail, Way
 from planner.mission.skills.skill_state import ExploreState
@@ -33,11 +35,11 @@ ELSEWHERE_M = 0.3
 def reconsider_viewpoint(turn: Transaction) -> None:
     """Ask whether to look from elsewhere, for a leg that explores and is driven undisturbed."""
     leg, now_s = turn.driving, turn.now_s
-    if leg is None or leg.leg is None or not isinstance(leg.state, ExploreState):
+    if leg is None or leg.leg is None or not isinstance(leg.act.state, ExploreState):
         return
     if leg.ticket is None and now_s - max(leg.since_s, leg.explore_asked_s) >= AGAIN_S:
         turn.change(explore_asked_s=now_s)
-        ask_route(turn, detour=False, explores=True)
+        ask_route(turn, RoutePurpose.EXPLORE)
 
 
 def take_better_viewpoint(
@@ -47,14 +49,15 @@ def take_better_viewpoint(
     floor, end_m = routed.floor, routed.end_m
     if floor is None or end_m is None or leg.leg is None:
         return
-    off_m = hypot(end_m[0] - leg.goal.x_m, end_m[1] - leg.goal.y_m)
+    off_m = hypot(end_m[0] - leg.act.goal.x_m, end_m[1] - leg.act.goal.y_m)
     if floor.explored or off_m > ELSEWHERE_M:
         take_viewpoint(turn, mission, leg, routed)
 
 
 def take_viewpoint(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
     """Drive to where the route ends, or tell the skill that all was explored."""
-    state, floor, end_m = leg.state, routed.floor, routed.end_m
+    act, floor, end_m = leg.act, routed.floor, routed.end_m
+    state = act.state
     if not isinstance(state, ExploreState) or floor is None or end_m is None:
         fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
         return
@@ -62,11 +65,13 @@ def take_viewpoint(turn: Transaction, mission: Mission, leg: Driving, routed: Ro
     if floor.explored:
         go_on(turn, state.but(known_m2=known_m2, explored=True))
         return
-    turn.change(
+    act = replace(
+        act,
         way=Way.ROUTE,
-        goal=Pose2(*end_m, leg.goal.yaw_rad),
+        goal=Pose2(*end_m, act.goal.yaw_rad),
         state=state.but(known_m2=known_m2),
-        then=leg.then.but(known_m2=known_m2) if leg.then is not None else None,
-        otherwise=leg.otherwise.but(known_m2=known_m2) if leg.otherwise is not None else None,
+        then=act.then.but(known_m2=known_m2) if act.then is not None else None,
+        otherwise=act.otherwise.but(known_m2=known_m2) if act.otherwise is not None else None,
     )
+    turn.change(act=act)
     new_leg(turn, mission)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from planner.mission.activity import Driving, Manoeuvre
+from planner.mission.activity import Driving, Manoeuvre, RoutePurpose
 from planner.mission.bridge_status import standing
 from planner.mission.events import Routed
 from planner.mission.exploration import take_better_viewpoint, take_viewpoint
@@ -40,6 +40,12 @@ MAX_APPROACHES = 2
 TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
 MAX_ROUTES = 5
 RETRY_S = 1.0
+_TAKEN_BESIDE = {
+    RoutePurpose.DOUBT: take_doubted,
+    RoutePurpose.KEEP_RIGHT: take_doubted,
+    RoutePurpose.EXPLORE: take_better_viewpoint,
+}
+"""Who takes the answer to a search without which the leg goes on."""
 
 
 def on_routed(turn: Transaction, routed: Routed) -> None:
@@ -50,20 +56,19 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
     failure, short_m = routed.failure, routed.short_m
     turn.change(ticket=None)
     leg = turn.driving or leg
-    if leg.ticket_doubted or leg.ticket_explores:
-        take = take_doubted if leg.ticket_doubted else take_better_viewpoint
-        take(turn, mission, leg, routed)
+    if leg.purpose in _TAKEN_BESIDE:
+        _TAKEN_BESIDE[leg.purpose](turn, mission, leg, routed)
     elif leg.manoeuvre is not None:
         _take_manoeuvre(turn, mission, leg, leg.manoeuvre, routed)
-    elif failure is None and leg.way is Way.STRAIGHT and not short_m <= SHORT_M:
+    elif failure is None and leg.act.way is Way.STRAIGHT and not short_m <= SHORT_M:
         take_short(turn, leg, short_m)
     elif failure is None:
         _take_route(turn, mission, leg, routed)
-    elif leg.way is not Way.ROUTE and leg.ticket_detour:
+    elif leg.act.way is not Way.ROUTE and leg.purpose is RoutePurpose.DETOUR:
         detour_failed(turn, leg)
-    elif failure == OCCUPIED and leg.way is Way.ROUTE:
+    elif failure == OCCUPIED and leg.act.way is Way.ROUTE:
         wait_beside(turn, mission, leg)
-    elif leg.ticket_detour:
+    elif leg.purpose is RoutePurpose.DETOUR:
         _no_way_round(turn, mission, leg, failure)
     elif failure in TRANSIENT and leg.routes < MAX_ROUTES:
         turn.change(routes=leg.routes + 1, retry_s=turn.now_s + RETRY_S)
@@ -92,14 +97,15 @@ def _stay_aside(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
 
 def _take_route(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
     """Stream a route; one round something that ends short of its goal moves the goal, once."""
-    if leg.way is Way.EXPLORE:
+    if leg.act.way is Way.EXPLORE:
         take_viewpoint(turn, mission, leg, routed)
         return
     short_m, end_m = routed.short_m, routed.end_m
-    moved = leg.way is Way.ROUTE and leg.ticket_detour and short_m > MOVED_M and end_m is not None
+    detour = leg.purpose is RoutePurpose.DETOUR
+    moved = detour and leg.act.way is Way.ROUTE and short_m > MOVED_M and end_m is not None
     if not moved:
         new_leg(turn, mission)
-        if leg.ticket_detour:
+        if detour:
             next_rung(turn)
         return
     record = mission.recovery
@@ -108,7 +114,7 @@ def _take_route(turn: Transaction, mission: Mission, leg: Driving, routed: Route
         return
     update = {
         "approaches": record.approaches + 1,
-        "goal": (leg.goal.x_m, leg.goal.y_m),
+        "goal": (leg.act.goal.x_m, leg.act.goal.y_m),
         "goal_moved": end_m,
     }
     mission = turn.put(mission, recovery=record.model_copy(update=update))
@@ -153,12 +159,12 @@ def on_arrival(turn: Transaction) -> bool:
     if settled is None:
         return True
     mission = turn.put(
-        settled, part=settled.part + 1, skill_state=driving.then or settled.skill_state
+        settled, part=settled.part + 1, skill_state=driving.act.then or settled.skill_state
     )
-    figures = {"reached": spot_at(turn.book.facts, pose, driving.target)}
+    figures = {"reached": spot_at(turn.book.facts, pose, driving.act.target)}
     residuals = {
         "residual_m": round(leg.residual_m, 4),
-        "residual_rad": round(leg.residual_rad, 4) if driving.heading else None,
+        "residual_rad": round(leg.residual_rad, 4) if driving.act.heading else None,
     }
     mission = note_step(turn, mission, **figures, **residuals)
     step = mission.steps[mission.step]
@@ -170,7 +176,7 @@ def on_arrival(turn: Transaction) -> bool:
 
 def _is_outside(turn: Transaction, driving: Driving, pose: Pose2) -> bool:
     """Tell whether the leg ended short of the room that it was to."""
-    target = turn.book.facts.targets.get(driving.target or "")
+    target = turn.book.facts.targets.get(driving.act.target or "")
     if target is None or not target.room or target.polygon is None:
         return False
     return not contains(target.polygon, pose.x_m, pose.y_m)

@@ -16,7 +16,7 @@ from dataclasses import replace
 from math import cos, sin
 
 from planner.language.catalogue import say
-from planner.mission.activity import Driving
+from planner.mission.activity import Driving, RoutePurpose
 from planner.mission.effects import AskRoute
 from planner.mission.queue import finish, standing_hold
 from planner.mission.recovery import shut_now
@@ -43,12 +43,7 @@ DETOUR_MOST_S = 30.0
 
 
 def ask_route(
-    turn: Transaction,
-    *,
-    detour: bool,
-    doubted: bool = False,
-    explores: bool = False,
-    keep_right_m: float = 0.0,
+    turn: Transaction, purpose: RoutePurpose = RoutePurpose.LEG, *, keep_right_m: float = 0.0
 ) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
     mission, leg, status = turn.running, turn.driving, turn.book.status
@@ -59,34 +54,33 @@ def ask_route(
         turn.change(retry_s=turn.now_s + RETRY_S)
         return
     own, record = leg.manoeuvre, mission.recovery
-    ticket, way, goal = turn.book.tickets + 1, leg.way, record.aim(leg.goal)
+    ticket, way, goal = turn.book.tickets + 1, leg.act.way, record.aim(leg.act.goal)
     if own is not None:
         way, goal = own.way, own.goal
-    if explores:
+    if purpose is RoutePurpose.EXPLORE:
         way = Way.EXPLORE
     if way is Way.SPIN:
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
     turn.set(tickets=ticket)
-    turn.change(ticket=ticket, ticket_detour=detour, ticket_doubted=doubted)
-    turn.change(ticket_explores=explores, ticket_keeps_right=keep_right_m > 0.0)
-    turn.change(retry_s=None, route_when_standing=False)
+    turn.change(ticket=ticket, purpose=purpose, retry_s=None, route_when_standing=False)
     shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way in _ROUND else ()
-    seen = detour or way is Way.STRAIGHT or bool(shut)
-    heading = leg.heading if own is None else way is Way.SPIN
+    seen = purpose is RoutePurpose.DETOUR or way is Way.STRAIGHT or bool(shut)
+    heading = leg.act.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
+    doubted = purpose in (RoutePurpose.DOUBT, RoutePurpose.KEEP_RIGHT)
     ask = AskRoute(mission.id, ticket, start, goal, heading, seen, way, shut, speed_mps, doubted)
     if own is None and way is Way.ROUTE:
-        ask = replace(ask, sees=leg.sees, sees_from_m=leg.sees_from_m)
+        ask = replace(ask, sees=leg.act.sees, sees_from_m=leg.act.sees_from_m)
     turn.emit(replace(ask, keep_right_m=keep_right_m))
 
 
 def take_short(turn: Transaction, leg: Driving, short_m: float) -> None:
     """Judge a straight way that ends early: under way something may leave again, at first not."""
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
-    if leg.leg is not None or leg.ticket_detour or pose is None:
+    if leg.leg is not None or leg.purpose is RoutePurpose.DETOUR or pose is None:
         detour_failed(turn, leg)
     else:
-        fail_step(turn, no_room(leg.goal, pose, short_m))
+        fail_step(turn, no_room(leg.act.goal, pose, short_m))
 
 
 def new_leg(turn: Transaction, mission: Mission) -> None:
@@ -125,7 +119,7 @@ def detour_if_due(turn: Transaction, leg: Driving, blocked_since_s: float) -> No
         return
     # The wait for the next try begins now, and grows: the world may just need time.
     turn.change(detours=leg.detours + 1, blocked_since_s=turn.now_s)
-    ask_route(turn, detour=True)
+    ask_route(turn, RoutePurpose.DETOUR)
 
 
 def abandon_route(turn: Transaction) -> None:

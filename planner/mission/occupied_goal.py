@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import hypot
 
 from planner.mission.account import place_name
-from planner.mission.activity import Driving
+from planner.mission.activity import Driving, RoutePurpose
 from planner.mission.legs import ask_route
 from planner.mission.obstruction_text import tell_occupied
 from planner.mission.skills import Fail
@@ -37,13 +37,13 @@ def look_for_room(turn: Transaction, mission: Mission, leg: Driving) -> None:
         give_up_goal(turn, mission, leg)
     elif leg.rung_since_s is not None and turn.now_s - leg.rung_since_s >= OCCUPIED_RETRY_S:
         turn.change(rung_since_s=turn.now_s)
-        ask_route(turn, detour=True)
+        ask_route(turn, RoutePurpose.DETOUR)
 
 
 def give_up_goal(turn: Transaction, mission: Mission, leg: Driving) -> None:
     """Fail the step, with how near the robot came."""
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
-    near_m = _away_m(pose, leg.goal) if pose is not None else 0.0
+    near_m = _away_m(pose, leg.act.goal) if pose is not None else 0.0
     name = place_name(turn.book.facts, mission, mission.current_step)
     said = tell_occupied(name, near_m)
     fail_step(turn, Fail(Code.GOAL_OCCUPIED, "goal_occupied", said))

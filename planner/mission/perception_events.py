@@ -79,11 +79,12 @@ def stand_while_blind(turn: Transaction) -> bool:
         or leg is None
     ):
         return False
-    if not (leg.watch or leg.wanted is not None or mission.current_step.kind in LOOKING):
+    act = leg.act
+    if not (act.watch or act.wanted is not None or mission.current_step.kind in LOOKING):
         return False
     settled = settle_activity(turn)
     if settled is not None:
-        carry_out(turn, settled, Observe(1, state=leg.state, then=leg.state, watch=leg.watch))
+        carry_out(turn, settled, Observe(1, state=act.state, then=act.state, watch=act.watch))
     return True
 
 
@@ -93,7 +94,7 @@ def on_told(turn: Transaction, mission_id: str, ticket: int, answer: ImageAnswer
     if mission is None or mission.id != mission_id or not isinstance(activity, AskingImage):
         return
     if activity.ticket == ticket:
-        go_on(turn, activity.then, answer=answer)
+        go_on(turn, activity.act.then, answer=answer)
 
 
 def on_standing(turn: Transaction) -> None:
@@ -111,7 +112,7 @@ def end_gaze_if_due(turn: Transaction) -> None:
     if not isinstance(activity, (Observing, AskingImage)) or turn.now_s < activity.until_s:
         return
     if isinstance(activity, AskingImage):
-        go_on(turn, activity.then, answer=ImageAnswer(failure="timed_out"))
+        go_on(turn, activity.act.then, answer=ImageAnswer(failure="timed_out"))
     elif activity.looked > 0:
         _end_gaze(turn, activity)
     else:
@@ -122,7 +123,7 @@ def end_gaze_if_due(turn: Transaction) -> None:
 
 def _end_gaze(turn: Transaction, gaze: Observing) -> None:
     """Go on after a gaze; its picture is kept for people at a patrol's stop, else for a model."""
-    mission, then = turn.running, gaze.then
+    mission, then = turn.running, gaze.act.then
     if mission is not None and isinstance(then, PatrolState):
         stop = len(then.stops)
         place = mission.steps[mission.step].places[stop]
@@ -144,12 +145,12 @@ def _counts(gaze: Observing, sight: Sight) -> bool:
 def _has_enough(turn: Transaction, gaze: Observing, sight: Sight) -> bool:
     """Return whether a gaze has found its object, or as many pictures as it was to."""
     since_s = gaze.standing_s if gaze.standing_s is not None else turn.now_s
-    if gaze.wanted is None:
-        return gaze.looked >= gaze.looks
-    if list_confirmed(sight, gaze.wanted, since_s):
+    if gaze.act.wanted is None:
+        return gaze.looked >= gaze.act.looks
+    if list_confirmed(sight, gaze.act.wanted, since_s):
         return True
-    unsure = bool(fresh(sight, gaze.wanted, since_s))
-    return gaze.looked >= gaze.looks * (MORE if unsure else 1)
+    unsure = bool(fresh(sight, gaze.act.wanted, since_s))
+    return gaze.looked >= gaze.act.looks * (MORE if unsure else 1)
 
 
 def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> bool:
@@ -157,14 +158,14 @@ def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> b
     if turn.now_s - activity.asked_s < ASK_S:
         return False
     if isinstance(activity, Observing):
-        return activity.watch
+        return activity.act.watch
     # Its way is being searched, or was lost: no new one before it stands.
     busy = activity.manoeuvre is not None or activity.ticket is not None
     if busy or activity.route_when_standing:
         return False
-    if activity.watch or activity.wanted is None:
-        return activity.watch
-    return bool(list_confirmed(sight, activity.wanted, turn.now_s - SEEN_S))
+    if activity.act.watch or activity.act.wanted is None:
+        return activity.act.watch
+    return bool(list_confirmed(sight, activity.act.wanted, turn.now_s - SEEN_S))
 
 
 def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
@@ -175,8 +176,8 @@ def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
     turn.change(asked_s=turn.now_s)
     act = act_of(scene_of(turn, mission))
     if _is_under_way(activity, act):
-        if isinstance(act, (DriveLeg, Observe)) and activity.watch:
-            turn.change(state=act.state, then=act.then)
+        if isinstance(act, (DriveLeg, Observe)) and activity.act.watch:
+            turn.change(act=replace(activity.act, state=act.state, then=act.then))
     elif isinstance(act, DriveLeg) and isinstance(activity, Driving) and _is_one_way(activity, act):
         _lay_anew(turn, activity, act)
     else:
@@ -189,9 +190,9 @@ def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
     """Return whether the running activity already serves this request."""
     if isinstance(activity, Observing):
         return isinstance(act, Observe)
-    if not isinstance(act, DriveLeg) or act.way is not activity.way:
+    if not isinstance(act, DriveLeg) or act.way is not activity.act.way:
         return False
-    goal = activity.goal
+    goal = activity.act.goal
     turned = abs(wrap(act.goal.yaw_rad - goal.yaw_rad))
     if act.way is Way.SPIN:
         return turned <= SAME_RAD
@@ -200,12 +201,13 @@ def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
 
 
 def _is_one_way(leg: Driving, act: DriveLeg) -> bool:
-    return leg.watch and leg.way is Way.ROUTE and act.way is Way.ROUTE
+    return leg.act.watch and leg.act.way is Way.ROUTE and act.way is Way.ROUTE
 
 
 def _lay_anew(turn: Transaction, leg: Driving, act: DriveLeg) -> None:
     """Aim the leg at a goal that has moved; the old horizon streams until the new way is there."""
-    turn.change(
+    laid = replace(
+        leg.act,
         goal=act.goal,
         heading=act.heading,
         state=act.state,
@@ -214,7 +216,8 @@ def _lay_anew(turn: Transaction, leg: Driving, act: DriveLeg) -> None:
         limit_s=_raise_limit(leg.moving_s, act.limit_s),
         limit_m=_raise_limit(leg.metres, act.limit_m),
     )
-    ask_route(turn, detour=False)
+    turn.change(act=laid)
+    ask_route(turn)
 
 
 def _raise_limit(spent: float, limit: float | None) -> float | None:

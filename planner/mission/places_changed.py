@@ -57,9 +57,9 @@ def _end(turn: Transaction, mission: Mission, name: Bilingual, facts: SiteView) 
 def _lay_anew(turn: Transaction, before: SiteView) -> None:
     """Begin the running step again where its place is another point now."""
     leg = turn.driving
-    if turn.running is None or leg is None or leg.target is None:
+    if turn.running is None or leg is None or leg.act.target is None:
         return
-    old, new = before.targets.get(leg.target), turn.book.facts.targets.get(leg.target)
+    old, new = before.targets.get(leg.act.target), turn.book.facts.targets.get(leg.act.target)
     if old is not None and new is not None and old.pose != new.pose:
         settle_activity(turn)
         begin_step(turn)

@@ -149,7 +149,7 @@ def _settle_step(
 
 def skill_state_now(mission: Mission, activity: Activity | None) -> SkillStateBase | None:
     """Return what the running step's skill remembers now; None: nothing yet."""
-    kept = activity.state if isinstance(activity, (Driving, Observing, AskingImage)) else None
+    kept = activity.act.state if isinstance(activity, (Driving, Observing, AskingImage)) else None
     return kept if kept is not None else mission.skill_state
 
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 from math import cos, sin
 
 from planner.mission.account import place_name
-from planner.mission.activity import Driving, Manoeuvre
+from planner.mission.activity import Driving, Manoeuvre, RoutePurpose
 from planner.mission.bridge_status import standing
 from planner.mission.events import Surveyed
 from planner.mission.legs import ask_route
@@ -149,7 +149,7 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
         return
     match rung.recovery:
         case Recovery.REROUTE | Recovery.OTHER_WAY:
-            ask_route(turn, detour=True)
+            ask_route(turn, RoutePurpose.DETOUR)
         case Recovery.GIVE_WAY:
             _give_way(turn, mission, leg, rung)
         case Recovery.LOOK:
@@ -217,7 +217,7 @@ def _manoeuvre(
     until_s = turn.now_s + rung.seconds
     own = Manoeuvre(rung, goal, way, until_s, leg.metres, part, heading_rad)
     turn.change(manoeuvre=own)
-    ask_route(turn, detour=True)
+    ask_route(turn, RoutePurpose.DETOUR)
 
 
 def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:

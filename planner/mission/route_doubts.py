@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.mission.activity import Driving, RouteDoubt
+from planner.mission.activity import Driving, RouteDoubt, RoutePurpose
 from planner.mission.legs import ask_route, new_leg
 from planner.mission.skills import Way
 
@@ -58,18 +58,19 @@ def on_doubted(turn: Transaction, event: RouteDoubted) -> None:
     mission, leg = turn.running, turn.driving
     if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
         return
-    if leg.way is not Way.ROUTE or leg.manoeuvre is not None:
+    if leg.act.way is not Way.ROUTE or leg.manoeuvre is not None:
         return
-    doubt, now_s = leg.doubt, turn.now_s
+    doubt, now_s = leg.doubts.newest, turn.now_s
     lasts = doubt is not None and doubt.leg == event.leg and doubt.code not in _TAKEN
     if doubt is None or not lasts or not now_s - doubt.seen_s <= LASTS_S:
         doubt = RouteDoubt(event.leg, event.at_m, now_s, now_s, DOUBTED)
-    turn.change(doubt=replace(doubt, at_m=event.at_m, seen_s=now_s))
+    doubts = replace(leg.doubts, newest=replace(doubt, at_m=event.at_m, seen_s=now_s))
+    turn.change(doubts=doubts)
     if not _may_search(turn, leg):
         return
-    if now_s - doubt.since_s >= SETTLE_S and now_s - leg.doubt_asked_s >= PERIOD_S:
-        turn.change(doubt_asked_s=now_s)
-        ask_route(turn, detour=False, doubted=True)
+    if now_s - doubt.since_s >= SETTLE_S and now_s - doubts.searched_s >= PERIOD_S:
+        turn.change(doubts=replace(doubts, searched_s=now_s))
+        ask_route(turn, RoutePurpose.DOUBT)
 
 
 def on_oncoming(turn: Transaction, event: Oncoming) -> None:
@@ -77,44 +78,51 @@ def on_oncoming(turn: Transaction, event: Oncoming) -> None:
     mission, leg, now_s = turn.running, turn.driving, turn.now_s
     if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
         return
-    if leg.way is not Way.ROUTE or leg.manoeuvre is not None:
+    if leg.act.way is not Way.ROUTE or leg.manoeuvre is not None:
         return
-    keeps_right = leg.doubt is not None and (leg.doubt.leg, leg.doubt.code) == (leg.leg, RIGHT)
-    is_known = keeps_right and now_s - leg.met_s <= MEETING_S
-    turn.change(met_s=now_s)
-    if is_known or now_s - leg.right_asked_s < PERIOD_S or not _may_search(turn, leg):
+    before = leg.doubts
+    keeps_right = before.newest is not None and (
+        (before.newest.leg, before.newest.code) == (leg.leg, RIGHT)
+    )
+    is_known = keeps_right and now_s - before.met_s <= MEETING_S
+    doubts = replace(before, met_s=now_s)
+    turn.change(doubts=doubts)
+    if is_known or now_s - before.right_searched_s < PERIOD_S or not _may_search(turn, leg):
         return
-    turn.change(doubt=RouteDoubt(event.leg, event.at_m, now_s, now_s, DOUBTED), right_asked_s=now_s)
+    newest = RouteDoubt(event.leg, event.at_m, now_s, now_s, DOUBTED)
+    turn.change(doubts=replace(doubts, newest=newest, right_searched_s=now_s))
     reach_m = MET_SHARE * event.far_m + PASSED_M
-    ask_route(turn, detour=False, doubted=True, keep_right_m=reach_m)
+    ask_route(turn, RoutePurpose.KEEP_RIGHT, keep_right_m=reach_m)
 
 
 def take_doubted(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
     """Take the way that was searched because of a doubt, or keep the leg's own."""
-    doubt = leg.doubt
+    doubt, right = leg.doubts.newest, leg.purpose is RoutePurpose.KEEP_RIGHT
     if doubt is None or leg.leg is None:
         return
     whole = routed.failure is None and routed.short_m <= SHORT_M
-    if leg.ticket_keeps_right and not whole:
+    if right and not whole:
         return
     small = leg.left_m is not None and routed.length_m - leg.left_m <= SMALL_BEND_M
     if whole and (small or turn.now_s - doubt.since_s >= PATIENCE_S):
         new_leg(turn, mission)
         taken = turn.driving or leg
-        code = RIGHT if leg.ticket_keeps_right else BENT
+        code = RIGHT if right else BENT
         bent = replace(doubt, leg=taken.leg or doubt.leg, code=code)
-        turn.change(doubt=bent, bends=leg.bends + 1)
+        turn.change(doubts=replace(leg.doubts, newest=bent, bends=leg.doubts.bends + 1))
     else:
-        turn.change(doubt=replace(doubt, code=KEPT_SHORTER if whole else KEPT))
+        kept = replace(doubt, code=KEPT_SHORTER if whole else KEPT)
+        turn.change(doubts=replace(leg.doubts, newest=kept))
 
 
 def standing_doubt(book: MissionState) -> RouteDoubt | None:
     """Return the doubt of the leg that is streamed: while it lasts, or as long as the bent way."""
     leg = book.activity
-    if not isinstance(leg, Driving) or leg.doubt is None or leg.doubt.leg != leg.leg:
+    doubt = leg.doubts.newest if isinstance(leg, Driving) else None
+    if not isinstance(leg, Driving) or doubt is None or doubt.leg != leg.leg:
         return None
-    lasts = leg.doubt.code in _TAKEN or book.status_s - leg.doubt.seen_s <= LASTS_S
-    return leg.doubt if lasts else None
+    lasts = doubt.code in _TAKEN or book.status_s - doubt.seen_s <= LASTS_S
+    return doubt if lasts else None
 
 
 def _may_search(turn: Transaction, leg: Driving) -> bool:
@@ -123,7 +131,7 @@ def _may_search(turn: Transaction, leg: Driving) -> bool:
     return (
         leg.ticket is None
         and not leg.route_when_standing
-        and leg.bends < MAX_BENDS
+        and leg.doubts.bends < MAX_BENDS
         and status is not None
         and status.base_in_map is not None
         and not (status.blocked or status.limits.by == SLOWED)

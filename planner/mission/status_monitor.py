@@ -6,7 +6,13 @@ nothing. The order is the law: what a person or a fault demands comes before any
 
 from __future__ import annotations
 
-from planner.mission.activity import AskingImage, Driving, Observing, Retrying
+from planner.mission.activity import (
+    AskingImage,
+    Driving,
+    Observing,
+    Retrying,
+    RoutePurpose,
+)
 from planner.mission.bridge_status import (
     GATES,
     amount_done,
@@ -178,7 +184,7 @@ def _held_too_long(turn: Transaction, status: Status) -> bool:
     since_s = activity.row_since_s if activity.row_since_s is not None else turn.now_s
     turn.change(row_since_s=since_s)
     others = [r for r in rows if r.row not in GATES]
-    spare = isinstance(activity, Driving) and activity.otherwise is not None
+    spare = isinstance(activity, Driving) and activity.act.otherwise is not None
     if spare and not others and turn.now_s - since_s > PATIENCE_S:
         fail_step(turn, Fail(Code.BLOCKED, "blocked"))  # the step goes on without this leg
         return True
@@ -221,18 +227,19 @@ def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -
         mission = turn.running
         climbed = mission is not None and mission.recovery.ladders > 0
         again = leg.detours_failed > 0 or leg.occupied_since_s is not None or climbed
-        ask_route(turn, detour=again)
+        ask_route(turn, RoutePurpose.DETOUR if again else RoutePurpose.LEG)
     elif leg.leg is not None:
         _watch_leg(turn, status, leg)
 
 
 def _off_limits(turn: Transaction, leg: Driving) -> bool:
     """End a leg whose place is gone, or that spends more than its skill's budget."""
-    if leg.target is not None and leg.target not in turn.book.facts.targets:
-        fail_step(turn, place_gone(turn.book.facts, leg.target))
-    elif leg.limit_s is not None and not leg.moving_s <= leg.limit_s:
+    act = leg.act
+    if act.target is not None and act.target not in turn.book.facts.targets:
+        fail_step(turn, place_gone(turn.book.facts, act.target))
+    elif act.limit_s is not None and not leg.moving_s <= act.limit_s:
         fail_step(turn, Fail(Code.BLOCKED, "too_slow"))
-    elif leg.limit_m is not None and not leg.metres <= leg.limit_m:
+    elif act.limit_m is not None and not leg.metres <= act.limit_m:
         fail_step(turn, Fail(Code.BLOCKED, "too_far"))
     else:
         return False
@@ -241,7 +248,7 @@ def _off_limits(turn: Transaction, leg: Driving) -> bool:
 
 def _route_standing(turn: Transaction, status: Status) -> None:
     if standing(status) and not shows(status, "POSE_JUMP"):
-        ask_route(turn, detour=False)
+        ask_route(turn)
 
 
 def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
@@ -264,7 +271,7 @@ def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     elif turn.book.nav2:
         if blocked_s is not None and turn.now_s - blocked_s > NAV2_BLOCKED_S:
             fail_step(turn, Fail(Code.BLOCKED, "blocked"))
-    elif driving.way is Way.ROUTE:
+    elif driving.act.way is Way.ROUTE:
         _recover_or_go_on(turn, status)
     elif blocked_s is not None and driving.ticket is None:
         detour_if_due(turn, driving, blocked_s)

@@ -152,40 +152,19 @@ def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
 def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
     more = so_far(act.state)
     note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill, **more)
-    leg = Driving(
-        record=turn.next_entry,
-        goal=act.goal,
-        heading=act.heading,
-        way=act.way,
-        target=act.target,
-        limit_s=act.limit_s,
-        limit_m=act.limit_m,
-        sees=act.sees,
-        sees_from_m=act.sees_from_m,
-        since_s=turn.now_s,
-        asked_s=turn.now_s,
-        state=act.state,
-        then=act.then,
-        otherwise=act.otherwise,
-        wanted=act.wanted,
-        watch=act.watch,
-    )
+    leg = Driving(record=turn.next_entry, act=act, since_s=turn.now_s, asked_s=turn.now_s)
     turn.set(activity=leg)
-    ask_route(turn, detour=False)
+    ask_route(turn)
 
 
 def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
     note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill)
     observing = Observing(
         record=turn.next_entry,
+        act=act,
         since_s=turn.now_s,
         asked_s=turn.now_s,
         until_s=turn.now_s + act.seconds,
-        looks=act.looks,
-        state=act.state,
-        then=act.then,
-        wanted=act.wanted,
-        watch=act.watch,
     )
     turn.set(activity=observing)
 
@@ -196,11 +175,10 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     ticket = turn.book.tickets + 1
     asking = AskingImage(
         record=turn.next_entry,
+        act=act,
         since_s=turn.now_s,
         ticket=ticket,
         until_s=turn.now_s + act.seconds,
-        state=act.state,
-        then=act.then,
     )
     turn.set(tickets=ticket, activity=asking)
     ask = AskEyes(

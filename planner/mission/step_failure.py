@@ -53,8 +53,8 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
     declined ends at once: no other plan is thought about.
     """
     leg = turn.driving
-    if leg is not None and leg.otherwise is not None and cannot.code in SHUT:
-        _drop_leg(turn, leg.otherwise)
+    if leg is not None and leg.act.otherwise is not None and cannot.code in SHUT:
+        _drop_leg(turn, leg.act.otherwise)
         return
     mission = settle_activity(turn)
     if mission is None:

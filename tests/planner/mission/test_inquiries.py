@@ -14,6 +14,7 @@ from planner.mission.effects import AskEyes
 from planner.mission.events import Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
+from planner.mission.skills import AskImage, DriveLeg, Observe
 from planner.mission.skills.perception import ImageAnswer
 from planner.mission.state import MissionState
 from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
@@ -109,9 +110,18 @@ def test_an_answer_is_told_and_a_fault_of_the_eyes_is_one() -> None:
     ("activity", "ticket"),
     [
         (None, None),
-        (AskingImage(record=1, since_s=0.0, ticket=7, until_s=9.0), 7),
-        (Driving(record=1, goal=Pose2(1.0, 0.0, 0.0), since_s=0.0, asked_s=0.0, ticket=7), None),
-        (Observing(record=1, since_s=0.0, asked_s=0.0, until_s=9.0, looks=3), None),
+        (AskingImage(record=1, act=AskImage(), since_s=0.0, ticket=7, until_s=9.0), 7),
+        (
+            Driving(
+                record=1,
+                act=DriveLeg(Pose2(1.0, 0.0, 0.0), heading=False),
+                since_s=0.0,
+                asked_s=0.0,
+                ticket=7,
+            ),
+            None,
+        ),
+        (Observing(record=1, act=Observe(3), since_s=0.0, asked_s=0.0, until_s=9.0), None),
     ],
 )
 def test_the_activity_tells_which_question_waits(

@@ -310,7 +310,7 @@ class World:
             return
         leg = LegReport(mission=wanted.mission, leg=wanted.leg, following=False, reached=True,
                         residual_m=0.0, residual_rad=0.0, refusal=None)  # fmt: skip
-        self.play(("status", {"leg": leg, "base_in_map": driven.goal}, False))
+        self.play(("status", {"leg": leg, "base_in_map": driven.act.goal}, False))
         self.play(("safe", 0))
         self.play(("routed", 0, None))
 
@@ -351,8 +351,8 @@ def test_histories_hold_legs_after_somebody_who_walks() -> None:
     world = World()
     world.play(("follow", "g1", 4.0))
     assert isinstance(leg := world.book.activity, Driving)
-    assert (leg.watch, leg.leg) == (True, 2)
-    assert abs(leg.goal.x_m - 3.8) < 0.01, "it was laid anew"
+    assert (leg.act.watch, leg.leg) == (True, 2)
+    assert abs(leg.act.goal.x_m - 3.8) < 0.01, "it was laid anew"
     assert motion_request(world.book).leg == 2
     for order in (("command", Pause, "g1"), ("command", Resume, "g1"), ("stop",)):
         world.play(order)

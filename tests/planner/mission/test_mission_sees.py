@@ -41,7 +41,7 @@ def find(what: str) -> StepPlan:
 
 def test_a_room_whose_way_is_shut_is_passed_over_and_told(seeing: Seeing) -> None:
     goal = seeing.give(find("cup"))
-    while not isinstance(leg := seeing.book.activity, Driving) or leg.goal.x_m < 3.0:
+    while not isinstance(leg := seeing.book.activity, Driving) or leg.act.goal.x_m < 3.0:
         seeing.see(0.2)
     assert seeing.goal(goal).state is RUNNING
     seeing.bridge.blocked = True
@@ -159,7 +159,7 @@ def test_what_is_known_is_not_driven_up_to_by_eyes_that_fail(seeing: Seeing) -> 
     while seeing.bridge.pose.x_m < 0.6:
         seeing.see(0.2)
     assert isinstance(leg := seeing.book.activity, Driving)
-    assert (leg.wanted, leg.watch) == (None, False)
+    assert (leg.act.wanted, leg.act.watch) == (None, False)
     stands_while_blind(seeing, goal)
 
 
@@ -200,12 +200,12 @@ def test_a_leg_that_is_laid_anew_is_bounded_as_its_skill_says(seeing: Seeing) ->
     seeing.things, seeing.way = (), lambda _: None
     while not isinstance(leg := seeing.book.activity, Driving):
         seeing.see(0.2)
-    assert leg.limit_m is not None
-    assert leg.limit_s is not None
+    assert leg.act.limit_m is not None
+    assert leg.act.limit_s is not None
     seeing.things = (replace(ANNA, x_m=4.5),)
     seeing.see(0.8)
     assert isinstance(leg := seeing.book.activity, Driving)
-    assert (leg.limit_m, leg.limit_s) == (None, None)
+    assert (leg.act.limit_m, leg.act.limit_s) == (None, None)
 
 
 @pytest.mark.parametrize(
