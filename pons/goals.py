@@ -30,6 +30,9 @@ POLL_S = 0.2
 LOST_LIMIT_S = 15.0
 """How long a planner may be away, restarting, before we stop waiting for it."""
 
+LOADING_S = 4.0
+"""A plan that has not come by then may wait for a model that is loaded first."""
+
 EXIT = {"succeeded": 0, "failed": 1, "refused": 3, "cancelled": 4}
 EXIT_NO_FILE = EXIT_NO_ANSWER = 2
 MAX_WAV_BYTES = 3_000_000
@@ -256,7 +259,7 @@ def _asking(goals: list[dict[str, Any]], states: tuple[str, ...]) -> dict[str, A
 def _follow(settings: LaunchSettings, goal_id: str, language: str) -> int:
     """Print each change until the goal ends or needs a person."""
     shown: list[str] = []
-    heard_s = time.monotonic()
+    begun_s = heard_s = time.monotonic()
     try:
         while True:
             try:
@@ -270,6 +273,8 @@ def _follow(settings: LaunchSettings, goal_id: str, language: str) -> int:
             except PlannerProblem as trouble:
                 return _trouble(trouble)
             _print_new(goal, shown)
+            if goal["state"] == "planning" and time.monotonic() - begun_s > LOADING_S:
+                _tell_load(settings, language, shown)
             if goal["state"] in FINAL_STATES | WAITING_STATES:
                 return _conclude(goal, language)
             time.sleep(POLL_S)
@@ -286,6 +291,17 @@ def _print_new(goal: dict[str, Any], shown: list[str]) -> None:
         if line not in shown:
             shown.append(line)
             print(line, flush=True)
+
+
+def _tell_load(settings: LaunchSettings, language: str, shown: list[str]) -> None:
+    """Say once why no plan comes, where the model's server may still be loading it."""
+    from planner.language.catalogue import say as words  # only here: its words are read from a file
+    from planner.plan import Language
+
+    told = f"  {words('model_error.slow').of(Language(language))}"
+    if told not in shown and call(settings, "GET", "/v1/robot")["brain"]["loads"]:
+        shown.append(told)
+        print(told, flush=True)
 
 
 def _conclude(goal: dict[str, Any], language: str) -> int:

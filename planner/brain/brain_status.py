@@ -40,6 +40,7 @@ class Mind(Frozen):
     name: str
     breaker: BreakerState | None = None  # none: no model is set, the offline brain plans alone
     rests_s: float = 0.0  # how much longer the model rests
+    loads: bool = False  # an order waits for a model that may still be loading
     last_error: LastError | None = None  # none once the model has answered well
 
 
@@ -52,6 +53,7 @@ def mind_of(brain: Brain) -> Mind:
         name=brain.tag.name,
         breaker=_state(closed=brain.breaker.is_closed, rests_s=rests_s),
         rests_s=round(rests_s, 1),
+        loads=brain.loads,
         last_error=None if why is None else LastError(code=why, message=reason(why)),
     )
 

@@ -14,7 +14,7 @@ from planner.brain.circuit_breaker import FIRST_REST_S, Breaker
 from planner.brain.errors import BadPlan, BrainDown, OutOfBudget, StillLoading
 from planner.brain.interface import Brain, ThinkRequest, ThinkResult
 from planner.brain.model_error_codes import tell_failure
-from planner.brain.streamed_draft import Hear
+from planner.brain.streamed_draft import Draft, Hear
 from planner.language.grammar.sentence_text import refuse_bad_text
 from planner.plan import AnswerPlan, BrainTag, Clarify, Code, Refuse, StepPlan
 
@@ -38,6 +38,8 @@ class FallbackBrain:
         self.breaker = Breaker(first_rest_s=rest_s)
         self.last_failure: str | None = None
         """Why the model was last not believed; None once it answered."""
+        self.loads = False
+        """A thought waits for the first word of a server that may be loading its model."""
 
     @property
     def tag(self) -> BrainTag:
@@ -94,7 +96,7 @@ class FallbackBrain:
             StillLoading: it loads, and the offline brain has read the sentence surely.
         """
         try:
-            return await self._model.think(request, hear)
+            return await self._model.think(request, hear and self._note_load(hear))
         except StillLoading as cold:
             known = (await self._offline.think(request)).plan
             if isinstance(known, StepPlan | AnswerPlan | Refuse):
@@ -102,6 +104,15 @@ class FallbackBrain:
                 raise
             thought: ThinkResult = await cold.later()
             return thought
+        finally:
+            self.loads = False
+
+    def _note_load(self, hear: Hear) -> Hear:
+        def note(draft: Draft, /) -> None:
+            self.loads = draft.loads
+            hear(draft)
+
+        return note
 
     async def _instead(self, request: ThinkRequest, failure: BrainDown | BadPlan) -> ThinkResult:
         why = failure.why if isinstance(failure, BrainDown) else failure.code

@@ -23,6 +23,8 @@ class Draft(Frozen):
     """As the model writes it, without thoughts, keys and characters that nobody sees."""
     steps: tuple[Step, ...] = ()
     """The leading steps that are written to their end and valid in the closed world."""
+    loads: bool = False
+    """No word came yet: the text is the robot's own, the model's server may be loading."""
 
 
 class Hear(Protocol):

@@ -37,6 +37,9 @@ EN_DURATION = (
     rf"(?P<number>\d{{1,5}}(?:\.\d{{1,3}})?|{_EN_NUMBER}) ?"
     r"(?P<unit>seconds?|secs?|s|minutes?|mins?|hours?)"
 )
+EN_OFTEN = rf"few|several|couple of|{'|'.join(_WORDS[2:])}|[2-9]|1\d|20"
+"""Rounds are at most 20; the word "times" follows."""
+ZH_OFTEN = r"[一二两三四五六七八九十]{1,3}|好?几|\d{1,2}"
 ZH_DURATION = (
     r"(?P<number>\d{1,5}(?:\.\d{1,3})?|[零一二三四五六七八九十两半]{1,4})个?"
     r"(?P<unit>秒|分|小时|钟头)钟?"

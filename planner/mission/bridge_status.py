@@ -11,6 +11,8 @@ STANDING_MPS = 0.02
 STANDING_RADPS = 0.05
 """The bridge's own meaning of standing."""
 GATES = frozenset({"OBSTACLE", "FENCE", "CONTACT"})
+SILENT_SECTOR = "LIDAR_SECTOR"
+"""Holds a way straight on into what returns nothing, and no turn on the spot."""
 MAX_STEP_M = 0.5
 """Odometry moves no farther between two statuses that follow each other."""
 

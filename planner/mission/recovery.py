@@ -27,6 +27,7 @@ class Recovery(StrEnum):
     GIVE_WAY = "give_way"
     BACK_OFF = "back_off"
     OTHER_WAY = "other_way"
+    TURN_OUT = "turn_out"
     GIVE_UP = "give_up"
 
 
@@ -54,6 +55,10 @@ LADDER = (
 )
 """Before a thing 20 s from standing to giving up, of which the robot moves in 10."""
 
+TURN_OUT = LadderRung(Recovery.TURN_OUT, seconds=10.0, turns_rad=(pi / 2,))
+"""No rung of the ladder, which nothing in the way has begun: before a sector of the lidar that is
+silent the bridge lets the robot turn on the spot. A quarter turn points each silent beam of up to
+90 degrees at something else, and 2 s pass before the bridge believes that a turn is asked for."""
 NEW_LADDER_M = 1.0
 """Once it has come so far, what stands in the way now is another matter."""
 MAX_LADDERS = 12
@@ -126,6 +131,8 @@ class RecoveryRecord(Frozen):
     """Times that the ladder was begun anew since somebody was last seen to walk there."""
     given_way: int = 0
     """Times that the robot stood aside."""
+    turned_out_at: tuple[float, float] | None = None
+    """Where it turned before a silent sector last, in ``map`` [m]."""
     approaches: int = 0
     """Times that the goal was found occupied."""
     goal: tuple[float, float] | None = None
@@ -192,6 +199,17 @@ def begin_ladder(record: RecoveryRecord, robot_xy_m: tuple[float, float]) -> Rec
     return record.model_copy(
         update={"rung": 0, "ladders": record.ladders + 1, "began_at": robot_xy_m}
     )
+
+
+def turn_out(record: RecoveryRecord, at_m: tuple[float, float]) -> RecoveryRecord | None:
+    """Return the record of a robot that turns before a silent sector; None where it has.
+
+    Law: one turn tells a hole in the lidar from a black thing; a second one there tells no more.
+    """
+    last = record.turned_out_at
+    if last is not None and not hypot(at_m[0] - last[0], at_m[1] - last[1]) >= NEW_LADDER_M:
+        return None
+    return record.model_copy(update={"turned_out_at": at_m})
 
 
 def climb_again(record: RecoveryRecord) -> RecoveryRecord | None:

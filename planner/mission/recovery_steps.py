@@ -22,6 +22,7 @@ from planner.mission.recovery import (
     LADDER,
     MAX_TOLD,
     PASSING_S,
+    TURN_OUT,
     LadderRung,
     Recovery,
     begin_ladder,
@@ -32,6 +33,7 @@ from planner.mission.recovery import (
     note_open,
     rung_after,
     rung_of,
+    turn_out,
     wait_s,
 )
 from planner.mission.skills import Fail, Way
@@ -93,6 +95,21 @@ def recover(turn: Transaction, leg: Driving, status: Status) -> None:
         next_rung(turn)
 
 
+def leave_silence(turn: Transaction, leg: Driving, status: Status) -> None:
+    """Turn on the spot before a sector of the lidar from which nothing comes, once at a place.
+
+    What is black stays where it is and leaves the sector proven; a hole in the lidar turns along,
+    and the bridge holds the way again.
+    """
+    mission, pose = turn.running, status.base_in_map
+    record = turn_out(mission.recovery, _xy(pose)) if mission is not None and pose else None
+    if mission is None or record is None or pose is None:
+        return
+    mission = turn.put(mission, recovery=record)
+    _note_recovery(turn, mission, Recovery.TURN_OUT)
+    _turn_to_look(turn, leg, TURN_OUT, 0, pose.yaw_rad)
+
+
 def note_unblocked(turn: Transaction) -> None:
     """Note that nothing holds the leg now: what stood on its goal has left."""
     turn.change(occupied_since_s=None)
@@ -113,11 +130,15 @@ def _begin_rung(turn: Transaction) -> float:
     if leg is not None and leg.rung_since_s is not None:
         return leg.rung_since_s
     turn.change(rung_since_s=turn.now_s)
-    if mission is not None and mission.current_step is not None:
-        name = rung_of(mission.recovery).recovery.value
-        told = (*mission.current_step.recoveries, name)
-        note_step(turn, mission, recoveries=told[-MAX_TOLD:])
+    if mission is not None:
+        _note_recovery(turn, mission, rung_of(mission.recovery).recovery)
     return turn.now_s
+
+
+def _note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> None:
+    if mission.current_step is not None:
+        told = (*mission.current_step.recoveries, recovery.value)
+        note_step(turn, mission, recoveries=told[-MAX_TOLD:])
 
 
 def climb_on(turn: Transaction) -> None:
@@ -253,7 +274,10 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
 
 
 def end_manoeuvre(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
-    """Stand, and go on with the next rung: the leg's own path was lost with the manoeuvre."""
+    """Stand, and go on with the next rung: the leg's own path was lost with the manoeuvre.
+
+    A turn out of a silent sector is no rung: the leg's way is searched again.
+    """
     mission = turn.running
     if mission is None:
         return
@@ -261,7 +285,10 @@ def end_manoeuvre(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
     record = mission.recovery.model_copy(update={"metres": round(gone_m, 3)})
     turn.put(mission, recovery=record)
     turn.change(manoeuvre=None, leg=None, ticket=None, blocked_since_s=None)
-    climb_on(turn)
+    if own.rung is TURN_OUT:
+        ask_route(turn, detour=False)
+    else:
+        climb_on(turn)
 
 
 def way_shut(turn: Transaction, mission: Mission) -> Fail:

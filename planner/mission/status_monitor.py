@@ -15,6 +15,7 @@ from planner.mission.activity import (
 )
 from planner.mission.bridge_status import (
     GATES,
+    SILENT_SECTOR,
     amount_done,
     cannot_move,
     driven_m,
@@ -42,7 +43,12 @@ from planner.mission.perception_events import (
     stand_while_blind,
 )
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
-from planner.mission.recovery_steps import note_unblocked, recover, watch_manoeuvre
+from planner.mission.recovery_steps import (
+    leave_silence,
+    note_unblocked,
+    recover,
+    watch_manoeuvre,
+)
 from planner.mission.skills import Fail, Way
 from planner.mission.skills.drive_to_place import place_gone
 from planner.mission.step_execution import begin_step, end_wait_if_due
@@ -281,7 +287,10 @@ def _recover_or_go_on(turn: Transaction, status: Status) -> None:
     leg = turn.driving
     if leg is None or leg.ticket is not None:
         return
-    if any(row.row not in GATES for row in holding_rows(status)):
+    rows = {row.row for row in holding_rows(status)} - GATES
+    if rows == {SILENT_SECTOR}:
+        leave_silence(turn, leg, status)
+    if rows:
         return
     if status.blocked:
         recover(turn, leg, status)

@@ -24,16 +24,21 @@ class Planner:
     heard: list[tuple[str, Any]] = field(default_factory=list)
     held_metal: bool = False
     """It refuses orders without an operator's proof, as before a held robot of metal."""
+    asks_until_planned: int | None = None
+    """How often the goals are asked for while a model loads, which then ends their thought."""
 
     def answer(self, method: str, path: str, body: Any) -> tuple[int, Any]:
         if method == "GET" and path == "/v1/goals":
             return 200, {"goals": self.goals}
         if method == "GET" and path == "/v1/robot":
             held = {"reason": "stop", "id": "stop-1"} if self.held_metal else None
-            return 200, {"status": {"held": held}}
+            return 200, {"status": {"held": held}, "brain": {"loads": self.asks_until_planned}}
         found = next((g for g in self.goals if path.split("/")[3] == g["id"]), None)
         if found is None:
             return 404, {"code": "unknown_goal", "detail": path}
+        if method == "GET" and self.asks_until_planned is not None:
+            self.asks_until_planned -= 1
+            found["state"] = "planning" if self.asks_until_planned else self.done
         if method == "POST":
             self.heard.append((path, body))
             if self.held_metal and "operator" not in body:

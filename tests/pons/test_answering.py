@@ -144,3 +144,23 @@ def test_a_sentence_that_is_too_long_is_told_to_be_in_both_languages(
     assert "goal_too_long: 6000 characters; at most 4000" in told
     assert "too long for an order" in told
     assert "指令太长" in told
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [("nip to the kitchen", "The model may still be loading"), ("溜达去厨房", "模型可能还在加载")],
+)
+def test_a_plan_that_waits_for_a_load_is_explained_once(
+    served: tuple[Planner, LaunchSettings],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    text: str,
+    told: str,
+) -> None:
+    planner, settings = served
+    monkeypatch.setattr(goals, "LOADING_S", 0.0)
+    monkeypatch.setattr(goals, "POLL_S", 0.01)
+    planner.asks_until_planned = 4
+    planner.goals = [goal("g1", "planning", text)]
+    assert goals._follow(settings, "g1", goals.language_of(text)) == 0
+    assert capsys.readouterr().out.count(told) == 1

@@ -113,7 +113,7 @@ class EndpointBrain:
         def tell_slow() -> None:
             if hear is not None:
                 language = request.language or Language.EN
-                hear(Draft(text=say("model_error.slow").of(language)))
+                hear(Draft(text=say("model_error.slow").of(language), loads=True))
 
         return await self._line.turn(request.goal, talk, "plan", tell_slow)
 

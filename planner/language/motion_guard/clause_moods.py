@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from planner.language.motion_guard.clause_cuts import FINITE, strip_openers
 from planner.language.motion_guard.clause_words import CHINESE, ENGLISH, ClauseWords
 from planner.language.motion_guard.mentioned_names import find_places, first_place
+from planner.language.numbers import EN_OFTEN
 from planner.language.person_names import is_given_name
 
 if TYPE_CHECKING:
@@ -27,8 +28,8 @@ _TO_PLACE = re.compile(
     r"(?:to|into|towards?|over to|up to)(?: the| my| our)? $"
 )
 _FILLS = re.compile(
-    r"\b(?:once|twice|(?:\d|two|three|four) times|the|a|my|our|and|too|also|next|by|of|to|in|at"
-    r"|on|up|there|instead|side|i think|it's|(?:one|room|place) (?:with|that has))\b"
+    rf"\b(?:once|twice|thrice|(?:a )?(?:{EN_OFTEN}) times|the|a|my|our|and|too|also|next|by|of|to"
+    r"|in|at|on|up|there|instead|side|i think|it's|(?:one|room|place) (?:with|that has))\b"
     r"|我说的?|有(?=\s*的)|的那?(?:一?[间个]|房间|屋)|[就里间边上儿那和跟与、了吧呀啊哦呢旁面]|[^\w]+"
 )
 _AFTER_ZH = re.compile(r"(?:那?[里边儿上个面]|之间|中间|[的和跟与、]|房间)*")

@@ -307,7 +307,8 @@ def test_teleop_is_passed_on_within_bounds(client: TestClient, services: FakeSer
 
 
 def test_the_robot_says_who_plans(client: TestClient, services: FakeServices) -> None:
-    alone = {"name": "offline", "breaker": None, "rests_s": 0.0, "last_error": None}
+    alone = {"name": "offline", "breaker": None, "rests_s": 0.0, "loads": False}
+    alone |= {"last_error": None}
     assert client.get("/v1/robot").json()["brain"] == alone
     model = ScriptedBrain([BrainDown("401", why="bad_key")])
     services.brain = FallbackBrain(model, OfflineBrain(), clock=lambda: 0.0, rest_s=20.0)

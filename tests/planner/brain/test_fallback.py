@@ -21,6 +21,7 @@ from planner.brain import (
 )
 from planner.brain.circuit_breaker import FIRST_REST_S, HEALS, LONGEST_REST_S, TRIPS, Breaker
 from planner.brain.model_error_codes import REASONS, reason
+from planner.brain.streamed_draft import Draft, Hear
 from planner.language.catalogue import message
 from planner.plan import Code, GoTo, Refuse, StepPlan, Vocabulary, Wait, say_same
 
@@ -107,6 +108,25 @@ def test_a_failing_model_is_rested_visibly_and_heals(home: Vocabulary) -> None:
         assert ask(brain, home).plan == BY_MODEL
     assert brain.breaker.is_closed
     assert (mind_of(brain).breaker, mind_of(brain).last_error) == ("closed", None)
+
+
+def test_a_thought_that_waits_for_a_load_is_shown_while_it_waits(home: Vocabulary) -> None:
+    shown = []
+
+    class Cold(ScriptedBrain):
+        async def think(self, request: ThinkRequest, hear: Hear | None = None) -> ThinkResult:
+            assert hear is not None
+            for loads in (True, False):
+                hear(Draft(text="…", loads=loads))
+                shown.append(mind_of(brain).loads)
+            hear(Draft(text="…", loads=True))
+            return await super().think(request, hear)
+
+    brain = FallbackBrain(Cold([BY_MODEL]), OfflineBrain())
+    request = ThinkRequest(text="go to the kitchen", vocabulary=home)
+    asyncio.run(brain.think(request, lambda _: None))
+    assert shown == [True, False]
+    assert not mind_of(brain).loads, "a thought that has ended waits for nothing"
 
 
 def test_without_a_model_there_is_no_breaker_to_show() -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from itertools import combinations, takewhile
+from operator import eq
 from typing import Any
 
 import pytest
@@ -21,7 +23,7 @@ from planner.brain.situation import (
     Situation,
 )
 from planner.brain.situation_text import MAX_REMEMBERED, tell_situation
-from planner.plan import EVERY_KIND, NEEDS_GROWING_MAP, Language
+from planner.plan import EVERY_KIND, NEEDS_GROWING_MAP, RUNNABLE, Language
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from tests.conftest import ROOT
@@ -168,3 +170,33 @@ def test_recent_goals_give_way_the_oldest_first(
 @pytest.mark.parametrize("text", ["x" * 4000, "去厨房" * 600])
 def test_an_order_of_any_length_leaves_the_newest_goal_told(text: str) -> None:
     assert json.loads(sent(BUSY, text)[1]["content"])["now"]
+
+
+LONG = "look for my keys in the living room and then tell Mum that dinner is ready " * 3
+ORDERS = ("go to the study", "去厨房看看有没有人", LONG, "stop by the bedroom", "是不是")
+
+
+@pytest.mark.parametrize("site", ["home", "two_room"])
+@pytest.mark.parametrize("kinds", [EVERY_KIND, RUNNABLE])
+@pytest.mark.parametrize("goals", [0, 1, MAX_RECENT])
+def test_three_quarters_of_two_requests_are_one_prefix(
+    site: str, kinds: frozenset[str], goals: int
+) -> None:
+    """Bytes that stand first and never change are read once by a server that keeps prefixes."""
+    vocabulary, asked = vocabulary_of(Site.load(ROOT / "sites" / site)), []
+    for n, text in enumerate(ORDERS):
+        recent = (RecentGoal(order=text, outcome="arrived", told="x" * 80),) * goals
+        situation = Situation(
+            time=f"Sun 2026-11-29 02:1{n}",
+            battery=0.9 - n / 100,
+            room=("kitchen", "living_room")[n % 2],
+            recent=recent,
+            remembered=SEEN[:goals],
+        )
+        request = ThinkRequest(
+            text=text, vocabulary=vocabulary, runnable=kinds, situation=situation if goals else None
+        )
+        asked.append("".join(m["content"] for m in Prompt.load().messages(request)).encode())
+    for one, other in combinations(asked, 2):
+        same = sum(takewhile(bool, map(eq, one, other)))
+        assert same >= 0.75 * max(len(one), len(other))

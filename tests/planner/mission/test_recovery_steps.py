@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+from math import pi
+
 import pytest
 
 from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute
 from planner.mission.events import Pause, Resume, Surveyed
 from planner.mission.occupied_goal import OCCUPIED_S
-from planner.mission.recovery import LADDER, MAX_WALKER_LADDERS, Recovery
+from planner.mission.recovery import (
+    FRESH,
+    LADDER,
+    MAX_WALKER_LADDERS,
+    NEW_LADDER_M,
+    Recovery,
+    turn_out,
+)
 from planner.mission.skills import Way
 from planner.navigation.obstruction import Obstruction
 from planner.plan import Code, GoTo, StepPlan
 from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
+from tests.planner.mission.fakes import row
 from tests.planner.mission.lockstep import Together
 from wire import Pose2
 
@@ -311,3 +321,29 @@ def test_a_wait_without_a_way_searches_again_each_second(world: Together) -> Non
     world.way = lambda ask: None
     world.bridge.blocked = False
     world.run_until(goal, SUCCEEDED, limit_s=30.0)
+
+
+def test_a_silent_sector_is_turned_from_once_and_the_way_is_searched_again(world: Together) -> None:
+    goal = driving(world)
+    world.bridge.rows = (row("LIDAR_SECTOR"),)
+    world.run(0.1)
+    assert world.bridge.pose.yaw_rad == pytest.approx(pi / 2), "the fake turns in one status"
+    world.run(0.5)
+    assert told(world, goal) == ("turn_out",)
+    assert [ask.start.yaw_rad for ask in world.routes] == [0.0, pytest.approx(pi / 2)]
+    world.bridge.rows = ()
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_beside_another_row_that_holds_no_turn_is_tried(world: Together) -> None:
+    goal = driving(world)
+    world.bridge.rows = (row("LIDAR_SECTOR"), row("BUMPER"))
+    world.run(5.0)
+    assert told(world, goal) == ()
+
+
+def test_a_metre_on_the_next_silence_is_turned_from_too() -> None:
+    first = turn_out(FRESH, (0.0, 0.0))
+    assert first is not None
+    assert turn_out(first, (0.5, 0.0)) is None
+    assert turn_out(first, (NEW_LADDER_M, 0.0)) is not None

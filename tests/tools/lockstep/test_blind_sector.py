@@ -6,6 +6,8 @@ from math import pi, radians
 
 import pytest
 
+from planner.plan import GoalState
+from sim import Domain
 from sim.hardware import Hardware
 from tools.lockstep import LockstepWorld
 from wire import Mode, Pose2, SimFault
@@ -56,3 +58,34 @@ def test_it_stands_before_what_a_sector_that_goes_silent_hides(
     world.sim.break_down()
     world.sim.remove_obstacle()
     world.run_until(lambda w: w.status.mode is Mode.ACTIVE, 10.0)
+
+
+def before_a_silent_wall(seed: int) -> LockstepWorld:
+    """Return a robot that boots in the dock; a spot aside of its way returns nothing."""
+    return LockstepWorld(site="home", start=DOCK, domain=Domain(seed=seed, lidar_null_patches=12))
+
+
+def test_a_robot_that_boots_before_a_silent_wall_turns_by_itself_and_arrives() -> None:
+    world = before_a_silent_wall(seed=4)
+    goal = world.say("go to the kitchen")
+    world.run_until(lambda w: "LIDAR_SECTOR.0" in w.bridge.state.rows, 5.0)
+    world.run_until(lambda _: goal.has_ended, 90.0)
+    assert goal.state is GoalState.SUCCEEDED
+    plan = goal.record.plan
+    assert plan is not None
+    assert plan.steps[0].recoveries.count("turn_out") == 1
+    assert world.contacts == 0
+
+
+def test_a_hole_turns_along_and_holds_again_after_one_turn() -> None:
+    world = covered(90, 0, 360)
+    world.sim.break_down(SimFault.LIDAR_SECTOR)
+    world.sim.place_obstacle(*CRATE_M)
+    goal = world.say("go to the kitchen")
+    world.run_until(lambda _: goal.state is GoalState.PAUSED, 90.0)
+    plan = goal.record.plan
+    assert plan is not None
+    assert goal.record.reason == "fault(LIDAR_SECTOR)"
+    assert plan.steps[0].recoveries == ("turn_out",)
+    assert world.truth.x_m > DOCK.x_m - 0.3
+    assert world.contacts == 0

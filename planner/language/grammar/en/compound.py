@@ -6,7 +6,7 @@ import re
 
 from planner.language.grammar.compound_forms import CompoundForms
 from planner.language.grammar.en.conditions import PERSON, read_condition, read_memory
-from planner.language.numbers import EN_DURATION, times
+from planner.language.numbers import EN_DURATION, EN_OFTEN, times
 
 _NOT = r"(?:can not|cannot|could not|do not|does not|are not able to|is not)"
 _YOU = r"(?:you|it|that|this|the way|the door|there)"
@@ -140,10 +140,7 @@ ENGLISH_COMPOUND = CompoundForms(
         rf"(?:try to )?(?P<main>.+?)[,;.]? (?:and |but |or )?{_IF} {_FAILS}"
         r"(?:,| then|, then)? (?P<else>.+?)(?: instead)?"
     ),
-    rounds=re.compile(
-        r"(?P<main>.+?),? (?:a )?(?P<times>twice|thrice|couple of times|(?:few|several|two|three"
-        r"|four|five|six|seven|eight|nine|ten|[2-9]|1\d|20) times)"
-    ),
+    rounds=re.compile(rf"(?P<main>.+?),? (?:a )?(?P<times>twice|thrice|(?:{EN_OFTEN}) times)"),
     count=_count,
     waits=(
         re.compile(rf"{_BEFORE}{_STAY}(?: until| till) i say (?P<word>[a-z]+){_GO_ON}"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
-from planner.language.numbers import ZH_DURATION, times
+from planner.language.numbers import ZH_DURATION, ZH_OFTEN, times
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
 _THEN = r"[,，]?(?:那么|那)?(?:就|便|你就)?"
@@ -164,9 +164,7 @@ CHINESE_COMPOUND = CompoundForms(
     failures=re.compile(
         rf"(?P<main>.+?)[,，;；。](?:{_FAILS})[,，]?(?:就|便|再)?(?:改)?(?P<else>.+)"
     ),
-    rounds=re.compile(
-        r"(?P<main>.+?)(?P<times>[一二两三四五六七八九十]|好?几|\d{1,2})(?:次|遍|趟|回)"
-    ),
+    rounds=re.compile(rf"(?P<main>.+?)(?P<times>{ZH_OFTEN})(?:次|遍|趟|回)"),
     count=times,
     waits=(
         re.compile(

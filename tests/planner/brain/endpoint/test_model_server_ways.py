@@ -63,6 +63,7 @@ def test_a_cold_model_is_waited_for_where_the_grammar_is_not_sure(
     assert thought.brain.fallback_from is None
     assert (mock.report()["calls"] - calls, mock.report()["left_load"]) == (1, 0)
     assert "may still be loading" in drafts[0].text
+    assert [draft.loads for draft in drafts] == [True, *[False] * (len(drafts) - 1)]
 
 
 def test_a_sentence_that_the_grammar_reads_surely_waits_for_no_load(
