@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
 from planner.language.schedule import chinese, english
-from planner.language.schedule.about import read_about, read_correction
 from planner.language.schedule.command import (
     CorrectOrder,
     LeaveOutDays,
@@ -22,7 +21,9 @@ from planner.language.schedule.command import (
     RemindAgain,
     ScheduleCommand,
 )
+from planner.language.schedule.corrections import read_correction
 from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
+from planner.language.schedule.kept_orders import read_asked, read_change
 from planner.language.schedule.parts import (
     DayPart,
     Part,
@@ -114,7 +115,9 @@ def _read_command(
     excepted = None if asks else _read_excepting(said, grammar)
     if excepted is not None:
         return excepted
-    about = read_about(said.folded, chinese=is_chinese)
+    about = read_asked(said.folded, chinese=is_chinese) or read_change(
+        said.folded, chinese=is_chinese
+    )
     if about is not None:
         return about
     if not asks and _SEES.fullmatch(said.folded) is not None:
