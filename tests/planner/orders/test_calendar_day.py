@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.orders.calendar_day import JUST_OVER_DAYS
+from planner.orders.rule import JUST_OVER_DAYS
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import OrderQuestion, order_of_text
 from planner.orders.rule import settle

@@ -13,7 +13,7 @@ from planner.language.schedule import OrderCommand
 from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
 from planner.mission.state import Mission
-from planner.orders.changer import SPOKEN_S
+from planner.orders.decision import SPOKEN_S
 from planner.orders.order import StandingOrder
 from planner.plan import (
     AnswerPlan,
