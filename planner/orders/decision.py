@@ -72,7 +72,7 @@ class KeptOrders:
 
 
 @dataclass(frozen=True, slots=True)
-class Edit:
+class OrderEdit:
     """Hold what becomes of one order: its new fields, or None where it is removed."""
 
     order: str
@@ -82,15 +82,15 @@ class Edit:
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class OrderEdits:
     """Hold edits of orders that are kept, and orders that are given again."""
 
-    edits: tuple[Edit, ...] = ()
+    edits: tuple[OrderEdit, ...] = ()
     given: tuple[NewOrder, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class WhichOrder:
     """Ask which of several is meant."""
 
     orders: Orders
@@ -105,7 +105,7 @@ class NoneSuch:
     which: str
 
 
-Decision = Change | Question | NoneSuch | OrderRefusal
+Decision = OrderEdits | WhichOrder | NoneSuch | OrderRefusal
 
 
 def decide(
@@ -130,7 +130,7 @@ def decide(
 
 def pause(
     order: StandingOrder, now_s: float, *, paused: bool, until_s: float | None = None
-) -> Edit:
+) -> OrderEdit:
     """Return an order paused (until then, where that is said), or resumed.
 
     What was due meanwhile is not told. One that is on already gets its skipped days back.
@@ -146,10 +146,10 @@ def pause(
         "paused": paused, "resume_unix_s": until_s if paused else None, "handled_unix_s": handled_s,
         "skipped": order.skipped if order.paused or paused else (),
     }  # fmt: skip
-    return Edit(order.id, fields, "paused" if paused else "resumed")
+    return OrderEdit(order.id, fields, "paused" if paused else "resumed")
 
 
-def skip(order: StandingOrder, day: date, kept: KeptOrders) -> Edit:
+def skip(order: StandingOrder, day: date, kept: KeptOrders) -> OrderEdit:
     """Return an order with a day left out; one that is due on that day alone is removed.
 
     Raises:
@@ -164,11 +164,11 @@ def skip(order: StandingOrder, day: date, kept: KeptOrders) -> Edit:
     if len(skipped) > MOST_SKIPPED:
         raise OrderRefusal("order_skips_full", order.id, most=MOST_SKIPPED)
     if order.is_once:
-        return Edit(order.id, None, "removed")
-    return Edit(order.id, {"skipped": tuple(skipped)}, "skipped")
+        return OrderEdit(order.id, None, "removed")
+    return OrderEdit(order.id, {"skipped": tuple(skipped)}, "skipped")
 
 
-def _move(order: StandingOrder, change: OrderChange, kept: KeptOrders) -> Change:
+def _move(order: StandingOrder, change: OrderChange, kept: KeptOrders) -> OrderEdits:
     """Return an order with another rule, made of the one that it has. Raises OrderRefusal."""
     _judge_live(order)
     rule = correct_rule(order.rule, change, kept.now_s, kept.book.zone)
@@ -177,7 +177,7 @@ def _move(order: StandingOrder, change: OrderChange, kept: KeptOrders) -> Change
         "rule": rule, "handled_unix_s": max(order.handled_unix_s, kept.now_s),
         "text": order.reminder or order.order,  # the sentence would tell the old time
     }  # fmt: skip
-    return Change((Edit(order.id, fields, "changed"),))
+    return OrderEdits((OrderEdit(order.id, fields, "changed"),))
 
 
 def _judge_live(order: StandingOrder) -> None:
@@ -194,7 +194,7 @@ def _select(which: str, kept: KeptOrders, *, reminders: bool = False) -> Orders:
     )
 
 
-def _answered(found: Orders, answer: str | None, kept: KeptOrders) -> Orders:
+def _pick_answer(found: Orders, answer: str | None, kept: KeptOrders) -> Orders:
     if answer is None:
         return found
     return pick(found, answer) or select(
@@ -204,7 +204,7 @@ def _answered(found: Orders, answer: str | None, kept: KeptOrders) -> Orders:
 
 def _change(
     command: ChangeOrders, kept: KeptOrders, answer: str | None
-) -> Change | Question | NoneSuch | None:
+) -> OrderEdits | WhichOrder | NoneSuch | None:
     now_s, zone = kept.now_s, kept.book.zone
     found = _select(command.which, kept, reminders=command.reminders)
     day = None if command.day is None else find_day(command.day, now_s, zone)
@@ -213,23 +213,23 @@ def _change(
         found = due or found
     if command.is_spoken:
         found = kept.spoken_of(found)
-    found = _answered(found, answer, kept)
+    found = _pick_answer(found, answer, kept)
     if not found:
         return NoneSuch(command.which) if command.is_sure else None
     is_one = bool(command.which) or command.is_single or command.is_spoken
     if len(found) > 1 and is_one and not (command.is_every or is_all(answer)):
-        return Question(found, _form_of(command))
+        return WhichOrder(found, _form_of(command))
     if day is not None:
         meant = tuple(order for order in found if order in due)
         if not meant:
             raise OrderRefusal("order_change_none", f"no run on {day}")
-        return Change(tuple(skip(order, day, kept) for order in meant))
+        return OrderEdits(tuple(skip(order, day, kept) for order in meant))
     if command.act == "remove":
-        return Change(tuple(Edit(order.id, None, "removed") for order in found))
+        return OrderEdits(tuple(OrderEdit(order.id, None, "removed") for order in found))
     until = settle(command.until, now_s, zone) if command.until is not None else None
     until_s = until.unix_s if isinstance(until, AtRule) else None
     paused = command.act == "pause"
-    return Change(tuple(pause(o, now_s, paused=paused, until_s=until_s) for o in found))
+    return OrderEdits(tuple(pause(o, now_s, paused=paused, until_s=until_s) for o in found))
 
 
 def _form_of(command: ChangeOrders) -> str:
@@ -243,7 +243,7 @@ def _form_of(command: ChangeOrders) -> str:
 
 def _correct(
     command: CorrectOrder, kept: KeptOrders, answer: str | None
-) -> Change | Question | NoneSuch | None:
+) -> OrderEdits | WhichOrder | NoneSuch | None:
     zone, change = kept.book.zone, command.change
     found = _select(command.which, kept) if command.which else kept.live
     if not command.which and isinstance(change, Retime) and change.instead_of:
@@ -255,16 +255,16 @@ def _correct(
     else:  # one that can't be changed so says why
         recent = tuple(o for o in found if kept.is_recent(o))
         found = kept.spoken_of(tuple(o for o in recent if o in able) or recent or able)
-    found = _answered(found, answer, kept)
+    found = _pick_answer(found, answer, kept)
     if not found:
         return NoneSuch(command.which) if command.is_sure else None
     is_meant = bool(command.which) or answer is not None or kept.is_recent(found[0])
     if len(found) > 1 or not is_meant:
-        return Question(found, f"change order {{id}}: {command.words}")
+        return WhichOrder(found, f"change order {{id}}: {command.words}")
     return _move(found[0], change, kept)
 
 
-def _remind_again(change: RemindAgain, kept: KeptOrders) -> Change | None:
+def _remind_again(change: RemindAgain, kept: KeptOrders) -> OrderEdits | None:
     """Remind again of what was told last; else move the one reminder that is waited for."""
     later = Delay(change.seconds if change.seconds is not None else AGAIN_S)
     reminders = [o for o in kept.book.orders.values() if o.reminder is not None]
@@ -274,7 +274,7 @@ def _remind_again(change: RemindAgain, kept: KeptOrders) -> Change | None:
         waiting = tuple(o for o in reminders if not o.ended and o.is_once)
         meant = kept.spoken_of(waiting)
         return _move(meant[0], later, kept) if len(meant) == 1 and not kept.is_busy else None
-    edits: tuple[Edit, ...] = ()
+    edits: tuple[OrderEdit, ...] = ()
     given: tuple[NewOrder, ...] = ()
     for order in reminders:
         if last_s - told_s[order.id] >= 1.0:
@@ -286,7 +286,7 @@ def _remind_again(change: RemindAgain, kept: KeptOrders) -> Change | None:
         new = NewOrder(InRule(seconds=later.seconds), order.order, order.language, order.text,
                        reminder=order.reminder, source=order.source)  # fmt: skip
         given = (*given, new)
-    return Change(edits, given)
+    return OrderEdits(edits, given)
 
 
 def _is_again(order: StandingOrder, told: StandingOrder, told_s: float) -> bool:

@@ -19,11 +19,11 @@ from planner.mission.events import Planned
 from planner.mission.state import ORDER_SOURCE
 from planner.orders import world
 from planner.orders.decision import (
-    Change,
-    Edit,
     KeptOrders,
     NoneSuch,
-    Question,
+    OrderEdit,
+    OrderEdits,
+    WhichOrder,
     decide,
     pause,
     skip,
@@ -235,18 +235,18 @@ class OrderIntake:
         self, command: ChangeOrders | CorrectOrder, language: Language,
         answer: str | None = None, goal_id: str = "",
     ) -> AnswerPlan | Clarify | Refuse | None:  # fmt: skip
-        """Change what is meant and say so; None where the sentence is about no order."""
+        """OrderEdits what is meant and say so; None where the sentence is about no order."""
         running = self._goals.book.running
         is_busy = running is not None and running != goal_id
         try:
             async with self._keeper.lock:
-                decided = decide(command, replace(self._kept, is_busy=is_busy), answer)
-                told = await self._carry_out(decided) if isinstance(decided, Change) else []
+                decided = decide(command, replace(self._view, is_busy=is_busy), answer)
+                told = await self._carry_out(decided) if isinstance(decided, OrderEdits) else []
             match decided:
-                case Change(given=given):
+                case OrderEdits(given=given):
                     told += [self.tell_one(await self.give(new, goal_id)) for new in given]
                     return AnswerPlan(text=join(told))
-                case Question(orders, form):
+                case WhichOrder(orders, form):
                     return self._telling.ask_which(orders, form)
                 case NoneSuch(which):
                     which = which or ("reminder" if language is Language.EN else "提醒")
@@ -258,7 +258,7 @@ class OrderIntake:
         except OrderRefusal as refused:
             return refused.plan
 
-    async def _carry_out(self, change: Change) -> list[Bilingual]:
+    async def _carry_out(self, change: OrderEdits) -> list[Bilingual]:
         """Write edits, and return what is told of them."""
         lines: defaultdict[str, list[Bilingual]] = defaultdict(list)
         for edit in change.edits:
@@ -281,14 +281,14 @@ class OrderIntake:
     async def skip(self, order_id: str, day: date) -> StandingOrder:
         """Leave a day out of an order. Raises OrderRefusal: as ``decision.skip``."""
         async with self._keeper.lock:
-            return await self._write(skip(self.find(order_id), day, self._kept))
+            return await self._write(skip(self.find(order_id), day, self._view))
 
     async def remove(self, order_id: str) -> StandingOrder:
         """Forget an order. Raises OrderRefusal."""
         async with self._keeper.lock:
-            return await self._write(Edit(order_id, None, "removed"))
+            return await self._write(OrderEdit(order_id, None, "removed"))
 
-    async def _write(self, edit: Edit) -> StandingOrder:
+    async def _write(self, edit: OrderEdit) -> StandingOrder:
         """Write an edit, on disk as this returns.
 
         Raises:
@@ -320,7 +320,7 @@ class OrderIntake:
         return kept[order_id]
 
     @property
-    def _kept(self) -> KeptOrders:
+    def _view(self) -> KeptOrders:
         """Return what a decision rests on now."""
         book, now_s = self._keeper.book, self._keeper.clocks.unix()
         is_fresh = 0.0 <= now_s - self._listed_s <= LISTED_S

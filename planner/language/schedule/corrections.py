@@ -20,7 +20,7 @@ from planner.language.schedule.command import (
 )
 from planner.language.schedule.kept_orders import KIND, KIND_ZH, skip_day
 from planner.language.schedule.parts import OnceDay, WeekDays
-from planner.language.schedule.time_finder import both, seconds_of, time_of
+from planner.language.schedule.time_finder import form_pair, seconds_of, time_of
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import FoundChange
@@ -29,38 +29,38 @@ if TYPE_CHECKING:
 
 _BY_ID = re.compile(r"(?:change order|更改任务) ?(?P<id>o\d{1,6}) ?: ?(?P<rest>.+)")
 """How an offered sentence names its order: "change order o3: make it nine"."""
-_NO = both(
+_NO = form_pair(
     r"(?:(?:no|nope|sorry|oops|wait|actually|i mean)[ ,.!]+)+",
     r"(?:(?:不对|不是|不|错了|抱歉|哦)[,。!]+)+",
 )
 _IT = r"(?:let's )?(?:make|set|put|change|move|shift|push) (?:it|that)"
 _TO = r"(?:to|at|for|until|till)"
 _CHANGE_ZH = r"(?:[改换调挪](?:成|到|为)|推迟到|提前到)"
-_SAID = both(
+_SAID = form_pair(
     rf"(?:{_IT}|(?:let's )?do|i (?:meant?|said)|(?:it|that) (?:should|must) be)(?: {_TO})? ",
     rf"(?:还是|时间|把?它)*{_CHANGE_ZH}|我说的是|应该是",
 )
 _INSTEAD = re.compile(r" (?:instead|rather)$")
-_NOT_THEN = both(
+_NOT_THEN = form_pair(
     r"(?P<t>.+?)(?:,? not| instead of| is better than) (?P<o>.+)|not (?P<o2>.+?)(?:,| but|, but) (?P<t2>.+)",
     r"(?P<t>.+?),?而?不是(?P<o>.+)|不是(?P<o2>.+?),?而?是(?P<t2>.+)",
 )
-_MOVED = both(
+_MOVED = form_pair(
     r"(?:make|put|change|move|shift|push) (?:the|my|that|your) (?P<w>[a-z0-9' -]+)",
     r"[把将](?P<w>.+?)的?(?:时间)?",
 )
-_CUT = both(rf" (?:{_TO} |(?=every |daily|hourly))", _CHANGE_ZH)
-_DAYS = both(
+_CUT = form_pair(rf" (?:{_TO} |(?=every |daily|hourly))", _CHANGE_ZH)
+_DAYS = form_pair(
     r"(?:but |and )?(?:(?P<no>not|never|except)|only|just)(?: (?:on|for|at))?(?: the)? (?P<d>[a-z, ]+)",
     r"(?:但是?)?(?:(?:只要?|就)在?(?P<d>.+?)(?:就行|就好)?|除?了?(?P<no>.+?)(?:(?:就|都|先)?(?:不用|不要|别|免了?|除外)[了叫来做]*))",
 )
-_LATER = both(
+_LATER = form_pair(
     r"(?P<n>.+?) (?P<way>later|earlier)|(?:push|postpone|delay|move|put|bring) (?:it|the (?P<w>.+?)|my (?P<w2>.+?))"
     r"(?: (?P<dir>back|forward))? (?:by )?(?P<n2>(?:\d|an? |half |[a-z]+ (?:minute|hour)).*)",
     r"(?:[把将](?P<w>.+?))??(?P<way>(?:往后)?推迟?|延后|晚|提前|往[后前][推挪移])(?P<n>[^提推挪到]+)(?P<w2>)(?P<dir>)(?P<n2>)",
 )
 _EARLY = frozenset({"earlier", "forward", "提前", "往前推", "往前挪", "往前移"})
-_AGAIN = both(
+_AGAIN = form_pair(
     r"snooze(?: (?:it|that))?(?: for (?P<a>.+))?|(?:remind|wake) me (?:up )?(?:again (?:in (?P<b>.+)|later)|later)"
     r"|not (?:now|yet),? remind me in (?P<c>.+)|(?:give me |just )?(?:another (?P<d>.+?)|(?P<n>[a-z0-9 ]+?) more (?P<unit>[a-z]+))",
     r"再?[再等过](?P<a>.+?)(?:之后|以后|后)?[再就]?(?:叫|提醒)我(?:一下|一次)?|(?P<b>.+?)(?:之后|以后|后)再(?:叫|提醒)我(?:一下|一次)?"

@@ -21,7 +21,7 @@ from planner.language.schedule.parts import (
     WeekDays,
     end_of_pause,
 )
-from planner.language.schedule.time_finder import both, lasting, reads_timing, time_of
+from planner.language.schedule.time_finder import form_pair, lasting, reads_timing, time_of
 
 if TYPE_CHECKING:
     from planner.language.schedule.command import Act
@@ -29,26 +29,24 @@ if TYPE_CHECKING:
 
 KIND = r"(?:(?:standing |recurring |scheduled |daily )?(?:orders?|tasks?|reminders?)|routines?|schedules?|timers?|alarms?)"
 KIND_ZH = r"(?:提醒|定时任务|定时|日程|闹钟)"
-_MY = (
-    r"(?:(?:all(?: of)?|both(?: of)?|every|each) )?(?:(?:the|my|your|our|this|that|these|those) )?"
-)
+_MY = r"(?:(?:all(?: of)?|form_pair(?: of)?|every|each) )?(?:(?:the|my|your|our|this|that|these|those) )?"
 _ALL_ZH = r"(?:所有|全部)?的?(?:我的|你的|这些)?"
 _ID = r"(?:order |reminder |任务|提醒)?(?P<id>o\d{1,6})"
 
-_LIST = both(
+_LIST = form_pair(
     rf"(?:list|show|read|tell)(?: me)? {_MY}{KIND}|(?:what|which)(?: are)? {_MY}{KIND}(?: (?:are (?:there|set)|do i have))?",
     rf"(?:现在|目前|我|都|还)*(?:有|(?:设|定|安排)了)(?:哪些|什么|几个)?{KIND_ZH}|把{_ALL_ZH}{KIND_ZH}都?(?:列出来|念一遍)",
 )
-_OF_TIME = both(
+_OF_TIME = form_pair(
     r"(?:what (?:do you do|are you going to do|(?:have|did) i ask(?:ed)? you to do)"
     r"|(?:what(?:'s| is)|anything|do i have anything)(?: on| planned)?)(?: for| on)? (?P<t>.+)",
     r"(?:我?[让叫要]?你)?(?P<t>.+?)(?:我|你|都|会|要|[让叫]你)*(?:做(?:什么|啥|哪些)|有(?:没有)?(?:什么|啥|哪些)?(?:安排|事|任务|提醒))[吗呢]?",
 )
-_LEFT = both(
+_LEFT = form_pair(
     r"how (?:long|much (?:time|longer))(?: have i got| do i have| is there)? (?:left|to go)",
     r"我?还[有剩]多久",
 )
-_NEXT = both(
+_NEXT = form_pair(
     rf"(?:how (?:long|much (?:time|longer)) (?:is it )?(?:until|till)|(?:when|what time)(?:'s| is)) {_MY}(?:next )?(?P<of>.*?) ?"
     rf"(?P<kind>{KIND})(?: (?:for|about|to|of) (?P<of2>.+?))?(?: (?:due|next|set for|set))*"
     r"|(?:when|what time) (?:will|do) you (?:next )?remind me(?: (?:of|about|to) (?P<of3>.+))?",
@@ -74,12 +72,12 @@ def read_asked(folded: str, *, chinese: bool) -> ListOrders | None:
 
 
 _ACTS: tuple[tuple[Act, tuple[re.Pattern[str], re.Pattern[str]]], ...] = (
-    ("remove", both(
+    ("remove", form_pair(
         r"(?:cancel|delete|remove|drop|stop|end|forget|get rid of|i (?:don't|no longer) need|no more) (?P<a>.+)",
         r"(?:取消|删除|删掉|去掉|停止|关掉)(?P<a>.+)|把(?P<b>.+?)都?(?:取消|删除|删掉|去掉|关掉|停掉)[了吧]?"
         r"|(?P<c>.{1,20}?的?那[个条项])(?:就)?(?:不要|不用|取消|删掉)了?")),
-    ("pause", both(r"(?:pause|suspend|skip) (?P<a>.+)", r"暂停(?P<a>.+)|把(?P<b>.+?)暂停(?P<c>.*)")),
-    ("resume", both(
+    ("pause", form_pair(r"(?:pause|suspend|skip) (?P<a>.+)", r"暂停(?P<a>.+)|把(?P<b>.+?)暂停(?P<c>.*)")),
+    ("resume", form_pair(
         r"(?:resume|continue|restart|start|turn on) (?P<a>.+)",
         r"(?:恢复|继续|重新开始)(?P<a>.+)|把(?P<b>.+?)(?:恢复|打开)(?P<c>)")),
 )  # fmt: skip
@@ -88,7 +86,7 @@ _OFTEN = (
     r"(?:evening|morning|afternoon|night|nightly|daily|hourly|weekly|weekday|weekend|noon|monday|tuesday|wednesday|thursday|friday"
     r"|saturday|sunday|recurring|scheduled|standing)"
 )
-_NAMED = both(
+_NAMED = form_pair(
     rf"(?:{_ID}|{_MY}(?P<kind>{KIND})(?: (?:for(?! now)|about|to|of|at|with) (?P<of>.+?))?|{_MY}(?P<what>.+?) (?P<kind2>{KIND})"
     rf"|(?:the |my |your )?(?P<often>{_OFTEN}(?: (?!again\b)[\w'-]+){{1,3}})|the ones? (?P<one>.+?)"
     rf"|(?:the|my|that|this) (?P<called>.+?) ones?){_TAIL}",
@@ -96,15 +94,15 @@ _NAMED = both(
     r"|(?P<often>(?:每|天天|周末|晚上的|早上的).+)(?P<one>)",
 )
 _CHOICE = re.compile(r"\bor\b|,")
-_UNTIL = both(
+_UNTIL = form_pair(
     r"(?P<a>.+?) (?P<words>(?:until|till) (?P<t>.+)|for (?P<n>.+))",
     r"(?P<a>.+?)(?P<words>到(?P<t>.+?)|(?P<n>[半一二三四五六七八九十两\d]{1,3}个?(?:分钟|小时|天|周|星期)))",
 )
-_NOT_REMIND = both(
+_NOT_REMIND = form_pair(
     rf"(?:stop reminding me|(?:don't|do not|never) remind me)(?: (?:to|about|of|that) (?P<of>.+?))?{_TAIL}",
     r"(?:以后)?(?:不要|不用|别)(?:再)?提醒我?(?P<of>.*?)了?",
 )
-_NEVER_AGAIN = both(
+_NEVER_AGAIN = form_pair(
     rf"(?:(?:don't|do not|never|stop|no more) (?!let me|remind)(?P<t>)(?P<what>.+?)){_TAIL}",
     r"(?:以后|今后)?(?P<t>.*?)(?:都|就)?(?:不要|不用|别)再?(?P<what>[^别不了用要].*?)了?",
 )
@@ -113,7 +111,7 @@ _IN_GENERAL = re.compile(
 )
 _CALLS = re.compile(r"(?:提醒|叫|做|去|来|说|动|吵|跑)(?:我们?)?")
 """What no order is called by: 晚上就别说了 is about talk."""
-_LEAVES_OUT = both(
+_LEAVES_OUT = form_pair(
     r"(?:(?:don't|do not|you needn't|(?:you )?(?:don't|do not) (?:have|need) to|there's no need to|no) (?!more\b|forget\b|let me\b)"
     r"|(?:skip|leave out|cancel|drop) )(?P<rest>.+)",
     r"(?:把|跳过)?(?P<day>今晚|今天|今早|明天|明晚|明早|后天|[这下]?个?(?:周|星期|礼拜)[一二三四五六日天])的?"

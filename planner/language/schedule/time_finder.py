@@ -93,7 +93,7 @@ def split_time(words: str) -> tuple[tuple[Part, ...], str]:
     return (), words
 
 
-def both(words: str, words_zh: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
+def form_pair(words: str, words_zh: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
     """Return a form in both languages; ``[is_chinese]`` picks one."""
     return re.compile(words), re.compile(words_zh)
 

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from planner.language.schedule.parts import OnceDay
 from planner.orders.order import StandingOrder
-from planner.orders.rule import upcoming
-from planner.orders.rule import coming_runs, days_left_out, find_day, next_run, runs_on
+from planner.orders.rule import coming_runs, days_left_out, find_day, next_run, runs_on, upcoming
 from planner.orders.store import OrderStore
 from planner.plan import Clarify
 from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, Rule, WorldEvent
