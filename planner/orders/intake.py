@@ -235,7 +235,7 @@ class OrderIntake:
         self, command: ChangeOrders | CorrectOrder, language: Language,
         answer: str | None = None, goal_id: str = "",
     ) -> AnswerPlan | Clarify | Refuse | None:  # fmt: skip
-        """OrderEdits what is meant and say so; None where the sentence is about no order."""
+        """Change what is meant and say so; None where the sentence is about no order."""
         running = self._goals.book.running
         is_busy = running is not None and running != goal_id
         try:

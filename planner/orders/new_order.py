@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 
 QUIET_LOOKED = 30
 """Runs that must not all lie in the quiet hours."""
-_LOST = frozenset({Code.NOT_UNDERSTOOD, Code.OUT_OF_SCOPE})
+_LOST = frozenset({Code.NOT_UNDERSTOOD, Code.OUT_OF_SCOPE, Code.EMPTY_GOAL})
 _DENIES = re.compile(
     r"(?:^|[,，。;；])\s*(?:你|就|都|也|先|那)*(?:别(?!忘|的|人)|不要|不准|不许|不能|甭|勿)"
     r"|^(?:please )?(?:don't|do not|never)\b(?! forget)",

@@ -224,6 +224,15 @@ def test_a_reminder_that_came_comes_again(tmp_path: Path, text: str) -> None:
     tell(tmp_path, story)
 
 
+@pytest.mark.parametrize("text", ["at nine as well", "and at half past six too", "八点也要"])
+def test_a_time_with_nothing_to_do_is_left_to_a_brain(tmp_path: Path, text: str) -> None:
+    async def story(kept: Kept) -> None:
+        assert await take(kept, text) is None
+        assert orders(kept) == {}
+
+    tell(tmp_path, story)
+
+
 def test_a_reminder_that_waits_comes_later(tmp_path: Path) -> None:
     async def story(kept: Kept) -> None:
         await say(kept, "remind me in 20 minutes to take the cake out")
