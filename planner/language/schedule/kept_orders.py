@@ -109,8 +109,8 @@ _NEVER_AGAIN = form_pair(
 _IN_GENERAL = re.compile(
     r".+ (?:in the (?:morning|afternoon|evening)s?|at (?:night|noon|weekends?))"
 )
-_CALLS = re.compile(r"(?:提醒|叫|做|去|来|说|动|吵|跑)(?:我们?)?")
-"""What no order is called by: 晚上就别说了 is about talk."""
+_CALLS_NONE = re.compile(r"(?P<calls>提醒|叫|喊)?[说做弄去来动跑走吵]?(?:我们?)?")
+"""What no order is called by: 晚上就别说了 is about talk, 周末就别叫了 of the order just given."""
 _LEAVES_OUT = form_pair(
     r"(?:(?:don't|do not|you needn't|(?:you )?(?:don't|do not) (?:have|need) to|there's no need to|no) (?!more\b|forget\b|let me\b)"
     r"|(?:skip|leave out|cancel|drop) )(?P<rest>.+)",
@@ -170,20 +170,20 @@ def _read_until(words: str, chinese: bool) -> ChangeOrders | None:
 def _read_never_again(folded: str, chinese: bool) -> ChangeOrders | None:
     """Read "don't greet people any more", 晚上别再检查门了: never "tonight", which is one day's."""
     found = _NEVER_AGAIN[chinese].fullmatch(folded)
-    if found is None:
+    if found is None or _CHOICE.search(folded) is not None:
         return None
     what = found["what"]
-    if not chinese:
-        again = reads_timing(what, in_chinese=False)
-        named = again or _IN_GENERAL.fullmatch(what) or folded.endswith(("any more", "longer"))
-        return ChangeOrders("remove", what, is_sure=again) if named else None
-    parts = time_of(found["t"] or what, True)
-    if not found["t"]:
-        timed = folded.endswith("了") and reads_timing(what, in_chinese=True)
-        return ChangeOrders("remove", what) if timed else None
+    if not (chinese and found["t"]):
+        again = reads_timing(what, in_chinese=chinese) and (not chinese or folded.endswith("了"))
+        known = _IN_GENERAL.fullmatch(what) or folded.endswith(("any more", "longer"))
+        return ChangeOrders("remove", what, is_sure=again) if again or known else None
+    parts = time_of(found["t"], True)
+    ever = re.search(r"再|以后|今后|了$", folded) is not None
     once = any(isinstance(part, (OnceDay, MonthDay)) for part in parts)
     days = all(isinstance(part, WeekDays) and part.days != EVERY_DAY for part in parts)
-    if once or not parts or (_CALLS.fullmatch(what) and (days or parts != (parts[0],))):
+    daypart = all(isinstance(part, DayPart) for part in parts)
+    bare = _CALLS_NONE.fullmatch(what)
+    if not parts or not ever or once or (bare and (days or (daypart and not bare["calls"]))):
         return None
     again = not all(isinstance(part, (DayPart, TimeOfDay)) for part in parts)
     return ChangeOrders("remove", f"{found['t']}{what}", is_sure=again)
