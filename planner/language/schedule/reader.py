@@ -71,7 +71,9 @@ _TO_EACH = re.compile(
 )
 """Waits for what is read as no event: done now it would be another order."""
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
-_OVER = re.compile(r"\b(?:yesterday|last (?:night|week|month|\w+day))\b|昨天|昨晚|前天")
+_OVER = re.compile(
+    r"(?:yesterday|last (?:night|week|\w+day))\b.*|.*\b(?:yesterday|last (?:night|week|\w+day))|(?:昨天|昨晚|前天).*"
+)
 _WAKES = range(4, 12)
 _QUOTED = re.compile(r'[“"].*?[”"]')
 _DOES = re.compile(
@@ -210,7 +212,7 @@ def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand
     if problem is not None and not order.folded:
         return None  # "every day": nothing is understood
     recurs = isinstance(timing.when, CronRule | EveryRule | EventRule)
-    if _OVER.search(order.folded) is not None:
+    if _OVER.fullmatch(order.folded) is not None:
         problem = "order_in_past"
     elif (recurs or problem == "order_time_missing") and is_limited(
         order.folded, is_interval=isinstance(timing.when, EveryRule)
