@@ -23,7 +23,7 @@ from planner.language.sentence import language_of
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, order_of_text, tell_question
 from planner.orders.order import MAX_ORDERS, Firing, StandingOrder
-from planner.orders.skipping import coming_runs
+from planner.orders.rule import coming_runs
 from planner.orders.telling import say_goal_of_reminder, tell_deed, tell_when
 from planner.orders.zone import name_of
 from planner.plan import Language

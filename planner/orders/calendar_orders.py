@@ -22,8 +22,7 @@ from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder
 from planner.orders.order import MAX_ORDERS
 from planner.orders.retiming import WeeklyTime, read_weekly
-from planner.orders.rule import next_due, upcoming
-from planner.orders.skipping import day_at
+from planner.orders.rule import day_at, next_due, upcoming
 from planner.orders.telling import say_goal_of_reminder
 from planner.orders.zone import name_of
 from planner.plan import Language

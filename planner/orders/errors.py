@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import say
+from planner.language.catalogue import message, say
+from planner.plan import Code, Refuse
 
 if TYPE_CHECKING:
     from planner.plan import Bilingual
@@ -18,3 +19,10 @@ class OrderRefusal(Exception):
         super().__init__(f"{code}: {detail}")
         self.code, self.detail = code, detail
         self.message = say(f"order_refusal.{code}", **facts)
+
+    @property
+    def plan(self) -> Refuse:
+        """Return it as what a goal comes to."""
+        return Refuse(
+            code=Code.ORDER_NOT_KEPT, reason=message(Code.ORDER_NOT_KEPT, why=self.message)
+        )

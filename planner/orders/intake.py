@@ -2,42 +2,51 @@
 
 The one door for sentences, page, command line and API. What the order does each time is found out
 by the very brain and checks that will do it, so that a person hears at once what can't be done, or
-what will be. Nothing moves here.
+what will be. Decisions are pure functions (``decision``, ``new_order``); here they are asked for
+under the lock, written, and told. Nothing moves here.
 """
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
-from planner.language.catalogue import message, say
-from planner.language.schedule import (
-    ChangeOrders,
-    ListOrders,
-    OrderCommand,
-    ScheduleCommand,
-)
+from planner.language.catalogue import join, say
+from planner.language.schedule import ChangeOrders, ListOrders, OrderCommand, ScheduleCommand
 from planner.language.sentence import parse
 from planner.mission.events import Planned
 from planner.mission.state import ORDER_SOURCE
-from planner.orders.changer import OrderChanger
+from planner.orders import world
+from planner.orders.decision import (
+    KeptOrders,
+    NoneSuch,
+    OrderEdit,
+    OrderEdits,
+    WhichOrder,
+    decide,
+    pause,
+    skip,
+)
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import (
     NewOrder,
     OrderQuestion,
     ask_which_day,
+    find_same,
+    is_remark,
+    judge_deed,
+    judge_new,
+    order_of_text,
     put_time_before,
     read_new_order,
 )
-from planner.orders.new_order_judge import NewOrderJudge, is_remark, judge_deed
 from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder, new_nonce
-from planner.orders.skipping import MOST_SKIPPED, days_left_out, runs_on
-from planner.orders.teller import OrderTeller
+from planner.orders.telling import OrderTelling
 from planner.plan import (
     AnswerPlan,
     Bilingual,
     Clarify,
-    Code,
     Language,
     Refuse,
     Say,
@@ -46,18 +55,23 @@ from planner.plan import (
     plan_record,
     words_of,
 )
+from planner.plan.timing import EventRule
 from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from datetime import date
 
+    from planner.language.schedule import CorrectOrder
     from planner.mission.effects import AskBrain
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport
     from planner.orders.keeper import OrderKeeper
     from planner.plan.timing import Rule
     from planner.site.site_view import SiteView
+
+LISTED_S = 600.0
+"""For so long after a list "the second one" is of it."""
 
 
 class Considers(Protocol):
@@ -81,10 +95,10 @@ class OrderIntake:
         report: Callable[[], ObstacleReport | None] = lambda: None,
     ) -> None:
         """Take the keeper, and who thinks about orders."""
-        self._keeper, self._goals = keeper, goals
-        self._judge = NewOrderJudge(keeper, lambda: goals.book, report)
-        self._teller = OrderTeller(keeper, lambda: goals.book.facts)
-        self._changer = OrderChanger(keeper, self, lambda: self._teller.last_list)
+        self._keeper, self._goals, self._report = keeper, goals, report
+        self._spoken: dict[str, float] = {}
+        self._listed: tuple[str, ...] = ()
+        self._listed_s = float("-inf")
 
     # The missions' desk -------------------------------------------------------------------------
 
@@ -95,53 +109,70 @@ class OrderIntake:
         """
         answered = bool(given.replies) and not isinstance(parse(ask.text).intent, OrderCommand)
         if isinstance(command, ListOrders):
-            told = self._teller.tell(command)
+            told = self._answer(command)
             return None if told is None else Planned(ask.id, AnswerPlan(text=told))
         if not isinstance(command, ScheduleCommand):
             answer = ask.text if answered else None
-            running = self._goals.book.running
-            busy = running is not None and running != given.id
-            plan = await self._changer.take(command, ask.language, answer, ask.id, is_busy=busy)
+            plan = await self._change(command, ask.language, answer, given.id)
             if plan is not None or isinstance(command, ChangeOrders) or command.otherwise is None:
                 return None if plan is None else Planned(ask.id, plan)
             command = command.otherwise
         planned = None if answered else await self._consider_deed(command, ask)
         if planned is not None and is_remark(planned):
             return None  # "Tom comes home at six": the whole sentence is a brain's
-        if answered:  # about the order within: its words alone are put in
-            command = replace(command, order=ask.text)
+        command = replace(command, order=ask.text) if answered else command  # of the order within
         return Planned(ask.id, await self._keep(command, ask, given, planned))
+
+    async def change(self, command: ChangeOrders, language: Language) -> Bilingual | None:
+        """Remove, pause or resume the orders that are meant, and say which; None: none is meant."""
+        changed = await self._change(command, language)
+        return None if changed is None else words_of(changed) or say("standing.none")
+
+    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
+        """Return what the standing order of a goal may do; None where it is gone."""
+        order = self._of(source)
+        return order.allowed if order is not None else None
+
+    def sentence_of(self, source: str) -> tuple[str, str | None]:
+        """Return the sentence of a goal's standing order, and a reminder's fixed words."""
+        order = self._of(source)
+        return ("", None) if order is None else (order.text, order.reminder)
+
+    def _of(self, source: str) -> StandingOrder | None:
+        return self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
+
+    def refuse_offer(self, text: str) -> Bilingual | None:
+        """Return why a standing order could not be kept if a person said it now; None: it could."""
+        try:
+            if isinstance(parse(text).intent, ScheduleCommand):
+                self._judge(order_of_text(text, None, "offer"))
+        except OrderRefusal as refused:
+            return refused.message
+        return None
+
+    # Giving -------------------------------------------------------------------------------------
+
+    async def _consider_deed(self, command: ScheduleCommand, ask: AskBrain) -> Planned | None:
+        """Have thought about what is to be done each time; None: that is known without a brain."""
+        said = parse(command.order)
+        known = said.intent is not None or said.consent is not None or said.orders_stop
+        if command.reminder is not None or not command.order.strip() or known:
+            return None
+        return await self._goals.consider(command.order, ask.language, ask.id, ask.text)
 
     async def _keep(
         self, command: ScheduleCommand, ask: AskBrain, given: Mission, planned: Planned | None
     ) -> AnswerPlan | Clarify | Refuse:
         """Keep a new order and tell it, or say why not."""
         try:
-            order = await self.give(read_new_order(command, ask.language, given), ask.id, planned)
+            new = read_new_order(command, ask.language, given.text, given.source)
+            order = await self.give(new, ask.id, planned)
         except OrderRefusal as refused:
-            why = message(Code.ORDER_NOT_KEPT, why=refused.message)
-            return Refuse(code=Code.ORDER_NOT_KEPT, reason=why)
+            return refused.plan
         except OrderQuestion as question:
-            whole = question.is_whole
-            return question.asked if whole else put_time_before(question.asked, command)
+            asked = question.asked
+            return asked if question.is_whole else put_time_before(asked, command.words)
         return AnswerPlan(text=self.tell_one(order))
-
-    async def change(self, command: ChangeOrders, language: Language) -> Bilingual | None:
-        """Remove, pause or resume the orders that are meant, and say which; None: none is meant."""
-        changed = await self._changer.take(command, language, None)
-        return None if changed is None else words_of(changed) or say("standing.none")
-
-    def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
-        """Return what the standing order of a goal may do; None where it is gone."""
-        order = self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
-        return order.allowed if order is not None else None
-
-    def sentence_of(self, source: str) -> tuple[str, str | None]:
-        """Return the sentence of a goal's standing order, and a reminder's fixed words."""
-        order = self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
-        return ("", None) if order is None else (order.text, order.reminder)
-
-    # Giving -------------------------------------------------------------------------------------
 
     async def give(
         self,
@@ -152,181 +183,166 @@ class OrderIntake:
     ) -> StandingOrder:
         """Keep an order, on disk as this returns; the same one again is the one that is kept.
 
-        Args:
-            new: what is wanted.
-            goal_id: to whose account the thought goes.
-            planned: the thought about it, where there was one.
-            allowed: what it may do, where that was weighed already.
+        ``goal_id`` pays for the thought, where neither the thought nor what it may do is known.
 
         Raises:
             OrderRefusal: see ``[order_refusal]`` of the catalogue.
             OrderQuestion: the brain asks about it, or its day may be either of two.
         """
-        book = self._keeper.book
-        now_s = self._keeper.clocks.unix()
-        if (asked := ask_which_day(new, now_s, book.zone)) is not None:
+        keeper, now_s = self._keeper, self._keeper.clocks.unix()
+        if (asked := ask_which_day(new, now_s, keeper.book.zone)) is not None:
             raise OrderQuestion(asked, is_whole=True)
-        rule = self._judge.judge(new, now_s)
+        rule = self._judge(new)
         if allowed is None:
             allowed = judge_deed(new, planned) if planned else await self.weigh(new, goal_id)
-        async with self._keeper.lock:
-            if (same := self._judge.find_same(new, rule)) is not None:
-                self._changer.note(same.id)
-                return same
-            self._judge.judge_room(new, rule)
-            number = self._keeper.last_number + 1
-            order = StandingOrder(
-                id=f"o{number}", number=number, nonce=new_nonce(),
-                text=new.text[:MAX_ORDER_CHARACTERS], order=new.order,
-                language=new.language, rule=rule, reminder=new.reminder,
-                source=new.source, allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
-                skipped=new.skipped, paused=new.paused,
-            )  # fmt: skip
-            try:
-                await self._keeper.keep(order)
-            except StateUnavailable as error:
-                raise OrderRefusal("orders_unwritable", str(error)) from None
-        self._changer.note(order.id)
+        async with keeper.lock:
+            if (order := find_same(new, rule, keeper.book)) is None:
+                self._judge(new)  # of the room that is left by now
+                number = keeper.last_number + 1
+                order = StandingOrder(
+                    id=f"o{number}", number=number, nonce=new_nonce(),
+                    text=new.text[:MAX_ORDER_CHARACTERS], order=new.order,
+                    language=new.language, rule=rule, reminder=new.reminder, source=new.source,
+                    allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
+                    skipped=new.skipped, paused=new.paused,
+                )  # fmt: skip
+                try:
+                    await keeper.keep(order)
+                except StateUnavailable as error:
+                    raise OrderRefusal("orders_unwritable", str(error)) from None
+        self._note(order.id)
         return order
 
-    async def _consider_deed(self, command: ScheduleCommand, ask: AskBrain) -> Planned | None:
-        """Have thought about what is to be done each time; None: that is known without a brain."""
-        said = parse(command.order)
-        known = said.intent is not None or said.consent is not None or said.orders_stop
-        if command.reminder is not None or not command.order.strip() or known:
-            return None
-        return await self._goals.consider(command.order, ask.language, ask.id, ask.text)
-
     async def weigh(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
-        """Return what an order would do each time; nothing is kept.
-
-        Raises:
-            OrderRefusal: it can't be kept.
-            OrderQuestion: the brain asks about it.
-        """
-        self._judge.judge(new, self._keeper.clocks.unix())
+        """Return what an order would do each time. Raises OrderRefusal, OrderQuestion."""
+        self._judge(new)
         if new.reminder:  # its words are fixed: no brain is asked
             return plan_record(StepPlan(steps=(Say(text=new.reminder),))).steps
         return judge_deed(
             new, await self._goals.consider(new.order, new.language, goal_id, new.text)
         )
 
-    def refuse_offer(self, text: str) -> Bilingual | None:
-        """Return why a standing order that a model offers could not be kept; None: it could."""
-        return self._judge.refuse_offer(text)
+    def _judge(self, new: NewOrder) -> Rule:
+        """Return the rule of an order that is given now. Raises OrderRefusal."""
+        lacking = None
+        if isinstance(new.when, EventRule):
+            lacking = world.lacks(self._goals.book, new.when.event, self._report())
+        return judge_new(new, self._keeper.book, self._keeper.clocks.unix(), lacking)
 
     # Changing -----------------------------------------------------------------------------------
 
-    async def pause(
-        self, order_id: str, *, paused: bool = True, until_s: float | None = None
-    ) -> StandingOrder:
-        """Pause an order (until then, where that is said), or resume it.
+    async def _change(
+        self, command: ChangeOrders | CorrectOrder, language: Language,
+        answer: str | None = None, goal_id: str = "",
+    ) -> AnswerPlan | Clarify | Refuse | None:  # fmt: skip
+        """Change what is meant and say so; None where the sentence is about no order."""
+        running = self._goals.book.running
+        is_busy = running is not None and running != goal_id
+        try:
+            async with self._keeper.lock:
+                decided = decide(command, replace(self._view, is_busy=is_busy), answer)
+                told = await self._carry_out(decided) if isinstance(decided, OrderEdits) else []
+            match decided:
+                case OrderEdits(given=given):
+                    told += [self.tell_one(await self.give(new, goal_id)) for new in given]
+                    return AnswerPlan(text=join(told))
+                case WhichOrder(orders, form):
+                    return self._telling.ask_which(orders, form)
+                case NoneSuch(which):
+                    which = which or ("reminder" if language is Language.EN else "提醒")
+                    return AnswerPlan(text=self._telling.tell_no_such(which))
+                case OrderRefusal():
+                    return decided.plan
+                case None:
+                    return None
+        except OrderRefusal as refused:
+            return refused.plan
 
-        What was due meanwhile is not told. One that is on already gets its skipped days back.
+    async def _carry_out(self, change: OrderEdits) -> list[Bilingual]:
+        """Write edits, and return what is told of them."""
+        lines: defaultdict[str, list[Bilingual]] = defaultdict(list)
+        for edit in change.edits:
+            order = await self._write(edit)
+            is_new = edit.told == "changed" and not order.paused
+            lines[edit.told].append(self.tell_one(order) if is_new else self._telling.line(order))
+        return [
+            say("standing.changed", line=join(told))
+            if done == "changed"
+            else say(f"standing.{done}", lines=join(told, "joint.name"))
+            for done, told in lines.items()
+        ]
 
-        Raises:
-            OrderRefusal: ``unknown_order``, ``order_ended``, ``orders_unwritable``.
-        """
+    async def pause(self, order_id: str, *, paused: bool = True) -> StandingOrder:
+        """Pause an order, or resume it. Raises OrderRefusal: as ``decision.pause``."""
         async with self._keeper.lock:
-            order = self.find(order_id)
-            if order.ended:
-                raise OrderRefusal("order_ended", order_id)
-            handled_s = order.handled_unix_s
-            if order.paused and not paused:
-                handled_s = max(handled_s, self._keeper.clocks.unix())
-            try:
-                changed = await self._keeper.revise(
-                    order_id, paused=paused, resume_unix_s=until_s if paused else None,
-                    handled_unix_s=handled_s,
-                    skipped=order.skipped if order.paused or paused else (),
-                )  # fmt: skip
-            except StateUnavailable as error:
-                raise OrderRefusal("orders_unwritable", str(error)) from None
-        self._changer.note(order_id)
-        return changed
+            now_s = self._keeper.clocks.unix()
+            return await self._write(pause(self.find(order_id), now_s, paused=paused))
 
     async def skip(self, order_id: str, day: date) -> StandingOrder:
-        """Leave a day out of an order; one that is due on that day alone is removed.
-
-        Raises:
-            OrderRefusal: ``unknown_order``, ``order_ended``, ``order_change_none`` (it has no run
-                on that day), ``order_skips_full``, ``orders_unwritable``.
-        """
+        """Leave a day out of an order. Raises OrderRefusal: as ``decision.skip``."""
         async with self._keeper.lock:
-            order = self.find(order_id)
-            now_s, zone = self._keeper.clocks.unix(), self._keeper.book.zone
-            if order.ended:
-                raise OrderRefusal("order_ended", order_id)
-            if not runs_on(order, day, now_s, zone):
-                raise OrderRefusal("order_change_none", f"no run on {day}")
-            skipped = days_left_out(order, day, now_s, zone)
-            if len(skipped) > MOST_SKIPPED:
-                raise OrderRefusal("order_skips_full", order_id, most=MOST_SKIPPED)
-            try:
-                if order.is_once:
-                    await self._keeper.remove(order_id)
-                    return order
-                changed = await self._keeper.revise(order_id, skipped=tuple(skipped))
-            except StateUnavailable as error:
-                raise OrderRefusal("orders_unwritable", str(error)) from None
-        self._changer.note(order_id)
-        return changed
-
-    async def move(self, order_id: str, rule: Callable[[Rule], Rule]) -> StandingOrder:
-        """Give an order another rule, made of the one that it has.
-
-        Raises:
-            OrderRefusal: ``unknown_order``, ``order_ended``, as the new rule's,
-                ``order_always_quiet``, ``orders_unwritable``; nothing has changed then.
-        """
-        async with self._keeper.lock:
-            kept, now_s = self.find(order_id), self._keeper.clocks.unix()
-            if kept.ended:
-                raise OrderRefusal("order_ended", order_id)
-            new = rule(kept.rule)
-            self._judge.judge_quiet(new, now_s)
-            words = kept.reminder or kept.order  # the sentence would tell the old time
-            try:
-                changed = await self._keeper.revise(
-                    order_id, rule=new, text=words, handled_unix_s=max(kept.handled_unix_s, now_s)
-                )
-            except StateUnavailable as error:
-                raise OrderRefusal("orders_unwritable", str(error)) from None
-        self._changer.note(order_id)
-        return changed
+            return await self._write(skip(self.find(order_id), day, self._view))
 
     async def remove(self, order_id: str) -> StandingOrder:
-        """Forget an order. Raises OrderRefusal: ``unknown_order``, ``orders_unwritable``."""
+        """Forget an order. Raises OrderRefusal."""
         async with self._keeper.lock:
-            order = self.find(order_id)
-            try:
-                await self._keeper.remove(order_id)
-            except StateUnavailable as error:
-                raise OrderRefusal("orders_unwritable", str(error)) from None
-        return order
+            return await self._write(OrderEdit(order_id, None, "removed"))
+
+    async def _write(self, edit: OrderEdit) -> StandingOrder:
+        """Write an edit, on disk as this returns.
+
+        Raises:
+            OrderRefusal: ``unknown_order``, ``orders_unwritable``.
+        """
+        order = self.find(edit.order)
+        try:
+            if edit.fields is None:
+                await self._keeper.remove(order.id)
+                return order
+            changed = await self._keeper.revise(order.id, **edit.fields)
+        except StateUnavailable as error:
+            raise OrderRefusal("orders_unwritable", str(error)) from None
+        self._note(order.id)
+        return changed
+
+    def _note(self, order_id: str) -> None:
+        """Remember that an order is spoken of now."""
+        live = self._keeper.book.orders
+        self._spoken = {name: s for name, s in self._spoken.items() if name in live}
+        self._spoken[order_id] = self._keeper.clocks.unix()
 
     def find(self, order_id: str) -> StandingOrder:
         """Return an order. Raises OrderRefusal: ``unknown_order``."""
-        order = self._keeper.book.orders.get(order_id)
-        if order is None:
-            known = ", ".join(self._keeper.book.orders) or "none"
-            raise OrderRefusal("unknown_order", f"{order_id[:60]!r}; known: {known}",
-                               id=order_id[:60])  # fmt: skip
-        return order
+        kept = self._keeper.book.orders
+        if order_id not in kept:
+            known, named = ", ".join(kept) or "none", order_id[:60]
+            raise OrderRefusal("unknown_order", f"{named!r}; known: {known}", id=named)
+        return kept[order_id]
+
+    @property
+    def _view(self) -> KeptOrders:
+        """Return what a decision rests on now."""
+        book, now_s = self._keeper.book, self._keeper.clocks.unix()
+        is_fresh = 0.0 <= now_s - self._listed_s <= LISTED_S
+        listed = self._listed if is_fresh and set(self._listed) <= book.orders.keys() else ()
+        return KeptOrders(book, now_s, self._spoken, self._keeper.announcer.told_unix_s, listed)
 
     # Telling ------------------------------------------------------------------------------------
 
-    def tell(self) -> Bilingual:
-        """Return all orders in words."""
-        return self._teller.tell_all()
-
-    def line(self, order: StandingOrder) -> Bilingual:
-        """Return an order in one line."""
-        return self._teller.line(order)
+    def _answer(self, asked: ListOrders) -> Bilingual | None:
+        told, listed = self._telling.answer(asked)
+        if listed is not None:
+            self._listed = tuple(order.id for order in listed)
+            self._listed_s = self._keeper.clocks.unix()
+        return told
 
     def tell_one(self, order: StandingOrder) -> Bilingual:
         """Return what a person hears when an order is taken."""
-        return self._teller.tell_one(order)
+        return self._telling.tell_one(order)
+
+    @property
+    def _telling(self) -> OrderTelling:
+        return OrderTelling(self.facts, self._keeper.book, self._keeper.clocks.unix())
 
     @property
     def facts(self) -> SiteView:

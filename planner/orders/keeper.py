@@ -77,7 +77,7 @@ class OrderKeeper:
         self._store, self.goals = store, goals
         self._ledger = FiringLedger(store, lambda: self.book.orders)
         self.clocks, self._report = clocks or OrderClocks(), report
-        self._announcer = OrderAnnouncer(goals.publish, notifier, zone, self._unix_s)
+        self.announcer = OrderAnnouncer(goals.publish, notifier, zone, self._unix_s)
         self._open: dict[str, Firing] = {}
         self._asked: set[str] = set()
         self._watch = Watch()
@@ -117,7 +117,7 @@ class OrderKeeper:
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
-        await self._announcer.close()
+        await self.announcer.close()
 
     async def _guard(self, work: Any) -> None:
         try:
@@ -147,7 +147,7 @@ class OrderKeeper:
         if given != firing:
             self._ledger.ask(End(order, given))
         if order.reminder is not None and self.goals.outcome(goal) is None:
-            self._announcer.tell_reminder(order, given)  # it may not have been said to its end
+            self.announcer.tell_reminder(order, given)  # it may not have been said to its end
 
     def _unix_s(self) -> float:
         return self.clocks.unix()
@@ -214,7 +214,7 @@ class OrderKeeper:
             case Note(_, firing):
                 new = entry.kept is None or entry.kept.count == firing.count  # first in a row
                 if firing.state is FiringState.MISSED and new:
-                    self._announcer.tell_missed(order, firing)
+                    self.announcer.tell_missed(order, firing)
                 if not entry.is_written:
                     self._ledger.ask_again(End(order, firing))
             case Keep() | End() if not entry.is_written:
@@ -235,7 +235,7 @@ class OrderKeeper:
         self._open[order.id] = given
         self._ledger.ask(End(order, given))
         if order.reminder is not None:
-            self._announcer.tell_reminder(order, firing)
+            self.announcer.tell_reminder(order, firing)
 
     def _miss(self, order: StandingOrder, firing: Firing, why: str) -> None:
         """Tell that a run which was begun is missed after all, and count it so."""
@@ -246,7 +246,7 @@ class OrderKeeper:
         )
         self.book = replace(self.book, orders={**self.book.orders, order.id: counted})
         self._ledger.ask(End(counted, missed))
-        self._announcer.tell_missed(counted, missed)
+        self.announcer.tell_missed(counted, missed)
 
     def _follow_goals(self) -> None:
         """Note the firings whose goals have ended, and tell those that wait for a word."""
@@ -266,7 +266,7 @@ class OrderKeeper:
                 asking = self.goals.book.missions[firing.goal].outcome
                 if asking is not None:
                     words = asking.message
-                    self._announcer.tell_outcome(order, "asks", asking.code.value, words, firing)
+                    self.announcer.tell_outcome(order, "asks", asking.code.value, words, firing)
 
     def _end(self, order: StandingOrder, firing: Firing, mission: Mission) -> None:
         outcome = mission.outcome
@@ -278,7 +278,7 @@ class OrderKeeper:
         done = mission.state is GoalState.SUCCEEDED
         if not (done and order.reminder is not None):  # its words were told as it fired
             kind = "done" if done else "failed"
-            self._announcer.tell_outcome(order, kind, code, words, firing)
+            self.announcer.tell_outcome(order, kind, code, words, firing)
         self.publish_change()
 
     async def _note_clock(self) -> None:
@@ -331,7 +331,7 @@ class OrderKeeper:
         await self._ledger.remove(order_id)
         self.book = drop(self.book, order_id)
         self._open.pop(order_id, None)
-        self._announcer.told_unix_s.pop(order_id, None)
+        self.announcer.told_unix_s.pop(order_id, None)
         self.publish_change()
 
     async def history(self, order_id: str, most: int) -> tuple[Firing, ...]:
@@ -339,10 +339,6 @@ class OrderKeeper:
         return await asyncio.to_thread(self._store.history, order_id, most)
 
     # Telling ------------------------------------------------------------------------------------
-
-    def reminded_unix_s(self, order_id: str) -> float:
-        """Return when a reminder's words were last told; before all time where they were not."""
-        return self._announcer.told_unix_s.get(order_id, float("-inf"))
 
     def publish_change(self) -> None:
         """Have pages ask for the orders anew."""

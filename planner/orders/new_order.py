@@ -1,7 +1,7 @@
-"""Hold what somebody wants kept as a standing order, and judge its words. Pure.
+"""Hold what somebody wants kept as a standing order, and judge it: words, time, quiet hours, room.
 
-Law: an order that stops, that is about what runs now, or that is a standing order itself is none:
-each firing gives its words as a goal, and they must mean the same then as now.
+Pure. Law: an order that stops, that is about what runs now, or that is a standing order itself is
+none: each firing gives its words as a goal, and they must mean the same then as now.
 """
 
 from __future__ import annotations
@@ -16,17 +16,41 @@ from planner.language.catalogue import build, join, raw, say
 from planner.language.schedule import ScheduleCommand
 from planner.language.schedule.reader import MAX_READ
 from planner.language.sentence import language_of, parse
-from planner.orders.calendar_day import days_of_next
 from planner.orders.errors import OrderRefusal
-from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_REMINDER_CHARACTERS
+from planner.orders.order import MAX_ORDER_CHARACTERS, MAX_ORDERS, MAX_REMINDER_CHARACTERS
+from planner.orders.rule import days_of_next, is_quiet, settle, upcoming
 from planner.orders.telling import say_goal_of_reminder
-from planner.plan import Bilingual, Clarify, Code, Language, Option, say_same
-from planner.plan.timing import AtRule, DayTime, SpokenRule
+from planner.plan import (
+    AnswerPlan,
+    Bilingual,
+    Clarify,
+    Code,
+    Language,
+    Option,
+    Refuse,
+    plan_record,
+    say_same,
+    words_of,
+)
+from planner.plan.timing import AtRule, CronRule, DayTime, EventRule, EveryRule, SpokenRule
 
 if TYPE_CHECKING:
     from datetime import date, tzinfo
 
-    from planner.mission.state import Mission
+    from planner.mission.events import Planned
+    from planner.orders.order import StandingOrder
+    from planner.orders.scheduler import OrderBook
+    from planner.plan import StepRecord
+    from planner.plan.timing import Rule
+
+QUIET_LOOKED = 30
+"""Runs that must not all lie in the quiet hours."""
+_LOST = frozenset({Code.NOT_UNDERSTOOD, Code.OUT_OF_SCOPE, Code.EMPTY_GOAL})
+_DENIES = re.compile(
+    r"(?:^|[,，。;；])\s*(?:你|就|都|也|先|那)*(?:别(?!忘|的|人)|不要|不准|不许|不能|甭|勿)"
+    r"|^(?:please )?(?:don't|do not|never)\b(?! forget)",
+    re.IGNORECASE,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,29 +77,57 @@ class OrderQuestion(Exception):
         self.asked, self.is_whole = asked, is_whole
 
 
-def read_new_order(command: ScheduleCommand, language: Language, given: Mission) -> NewOrder:
+def read_new_order(
+    command: ScheduleCommand, language: Language, text: str, source: str
+) -> NewOrder:
     """Return what a sentence wants kept.
 
     Raises:
-        OrderRefusal: its time is none that can be kept, or there is nothing to do.
+        OrderRefusal: its time is none that can be kept.
     """
-    if command.problem is not None:
-        raise OrderRefusal(command.problem, given.text[:200])
-    if command.when is None:
-        raise OrderRefusal("order_malformed", given.text[:200])
+    if command.problem is not None or command.when is None:
+        raise OrderRefusal(command.problem or "order_malformed", text[:200])
     order = command.order
     if command.reminder is not None:
         order = say_goal_of_reminder(language.value, command.reminder)
-    return NewOrder(
-        command.when, order, language, given.text, command.words, command.reminder, given.source
-    )
+    return NewOrder(command.when, order, language, text, command.words, command.reminder, source)
 
 
-_DENIES = re.compile(
-    r"(?:^|[,，。;；])\s*(?:你|就|都|也|先|那)*(?:别(?!忘|的|人)|不要|不准|不许|不能|甭|勿)"
-    r"|^(?:please )?(?:don't|do not|never)\b(?! forget)",
-    re.IGNORECASE,
-)
+def order_of_text(text: str, language: Language | None, source: str) -> NewOrder:
+    """Return what a whole sentence wants kept, for whoever has no goal of it.
+
+    Raises:
+        OrderRefusal: ``order_too_long``, ``order_malformed`` where it is no standing order, else
+            as its time is.
+    """
+    _judge_length(text, MAX_READ)  # a longer one is not read, which is not to say that it is wrong
+    command = parse(text).intent
+    if not isinstance(command, ScheduleCommand):
+        raise OrderRefusal("order_malformed", f"{text[:120]!r} names no time")
+    return read_new_order(command, language or language_of(text), text, source)
+
+
+def judge_new(new: NewOrder, book: OrderBook, now_s: float, lacking: str | None = None) -> Rule:
+    """Return the rule of an order that is given now.
+
+    Args:
+        new: the order.
+        book: the orders that are kept, and the quiet hours.
+        now_s: the time.
+        lacking: why the robot can't notice its event, where it can't.
+
+    Raises:
+        OrderRefusal: it can't be kept.
+    """
+    judge_words(new)
+    if lacking is not None:
+        raise OrderRefusal("order_no_eyes", lacking, why=say(f"order_lacks.{lacking}"))
+    rule = settle(new.when, now_s, book.zone)
+    judge_quiet(rule, book, now_s)
+    kept = [order for order in book.orders.values() if not order.ended]
+    if len(kept) >= MAX_ORDERS and find_same(new, rule, book) is None:
+        raise OrderRefusal("orders_full", f"{MAX_ORDERS} are kept", most=MAX_ORDERS)
+    return rule
 
 
 def judge_words(new: NewOrder) -> None:
@@ -92,53 +144,87 @@ def judge_words(new: NewOrder) -> None:
     _judge_length(new.reminder or "", MAX_REMINDER_CHARACTERS)
     if new.reminder is not None:
         return  # its words are said, and are nobody's order
-    if _DENIES.search(order):
-        raise OrderRefusal("order_denies", order[:120], order=order[:120])
     said = parse(order)
-    if said.orders_stop or said.may_mean_stop:
-        raise OrderRefusal("order_stops", order[:120], order=order[:120])
-    if isinstance(said.intent, ScheduleCommand):
-        raise OrderRefusal("order_nested", order[:120])
-    if said.intent is not None or said.consent is not None:
-        raise OrderRefusal("order_is_command", order[:120], order=order[:120])
-
-
-def put_time_before(asked: Clarify, command: ScheduleCommand) -> Clarify:
-    """Return a brain's question about the order within, its options with the time before them."""
-    options = tuple(
-        Option(label=each.label, text=f"{command.words} {each.text}".strip()[:2000])
-        for each in asked.options
-        if command.words
-    )
-    if options:
-        return Clarify(code=asked.code, question=asked.question, options=options)
-    return Clarify(code=asked.code, question=say("standing.say_whole", question=asked.question))
-
-
-def order_of_text(text: str, language: Language | None, source: str) -> NewOrder:
-    """Return what a whole sentence wants kept, for whoever has no goal of it.
-
-    Raises:
-        OrderRefusal: ``order_too_long``, ``order_malformed`` where it is no standing order, else
-            as its time is.
-    """
-    _judge_length(text, MAX_READ)  # a longer one is not read, which is not to say that it is wrong
-    command = parse(text).intent
-    spoken = language or language_of(text)
-    if not isinstance(command, ScheduleCommand):
-        raise OrderRefusal("order_malformed", f"{text[:120]!r} names no time")
-    if command.problem is not None or command.when is None:
-        raise OrderRefusal(command.problem or "order_malformed", text[:120])
-    order = command.order
-    if command.reminder is not None:
-        order = say_goal_of_reminder(spoken.value, command.reminder)
-    return NewOrder(command.when, order, spoken, text, command.words, command.reminder, source)
+    if _DENIES.search(order):
+        code = "order_denies"
+    elif said.orders_stop or said.may_mean_stop:
+        code = "order_stops"
+    elif isinstance(said.intent, ScheduleCommand):
+        code = "order_nested"
+    elif said.intent is not None or said.consent is not None:
+        code = "order_is_command"
+    else:
+        return
+    raise OrderRefusal(code, order[:120], order=order[:120])
 
 
 def _judge_length(text: str, most: int) -> None:
     if not len(text) <= most:
         detail = f"{len(text)} characters; at most {most}"
         raise OrderRefusal("order_too_long", detail, most=most)
+
+
+def judge_quiet(rule: Rule, book: OrderBook, now_s: float) -> None:
+    """Refuse a rule all of whose runs are left out. Raises OrderRefusal."""
+    quiet, zone = book.quiet, book.zone
+    if quiet is None or not isinstance(rule, (CronRule, EveryRule)):
+        return
+    if all(is_quiet(quiet, run_s, zone) for run_s in upcoming(rule, now_s, zone, QUIET_LOOKED)):
+        raise OrderRefusal("order_always_quiet", quiet.text, quiet=quiet.text)
+
+
+def find_same(new: NewOrder, rule: Rule, book: OrderBook) -> StandingOrder | None:
+    """Return the order that is this very one already; "in 20 minutes" twice are two."""
+    if not isinstance(rule, (CronRule, EventRule)):
+        return None
+    wanted = (rule, new.order, False)
+    return next((o for o in book.orders.values() if (o.rule, o.order, o.paused) == wanted), None)
+
+
+def is_remark(planned: Planned) -> bool:
+    """Tell whether a thought finds nothing that the robot could do: "pizza tonight" is no order."""
+    plan = planned.plan
+    lost = isinstance(plan, Clarify | Refuse) and plan.code in _LOST
+    return isinstance(plan, AnswerPlan) or (lost and not getattr(plan, "options", ()))
+
+
+def judge_deed(new: NewOrder, planned: Planned) -> tuple[StepRecord, ...]:
+    """Return the steps that an order may do each time.
+
+    Raises:
+        OrderRefusal: it can't be kept.
+        OrderQuestion: the brain asks about it.
+    """
+    plan, order = planned.plan, new.order[:120]
+    if isinstance(plan, Clarify):
+        raise OrderQuestion(plan)
+    if isinstance(plan, AnswerPlan):
+        raise OrderRefusal("order_no_deed", order, order=order)
+    if plan is None or isinstance(plan, Refuse):
+        failed = planned.failure.message if planned.failure is not None else None
+        why = failed or words_of(plan) or say("standing.none")
+        raise OrderRefusal("order_not_understood", why.en, order=order, why=why)
+    if planned.unasked:
+        raise OrderRefusal("order_unasked", "motion that nobody said", order=order)
+    steps = plan_record(plan).steps
+    first = next((s for s in steps if s.kind in ("come_back", "go_to", "patrol")), None)
+    if first is not None and first.kind == "come_back":
+        raise OrderRefusal("order_leans", "come back to where?")
+    return steps
+
+
+# Questions ----------------------------------------------------------------------------------------
+
+
+def put_time_before(asked: Clarify, words: str) -> Clarify:
+    """Return a brain's question about the order within, its options with the time before them."""
+    if not words or not asked.options:
+        return Clarify(code=asked.code, question=say("standing.say_whole", question=asked.question))
+    options = tuple(
+        Option(label=each.label, text=f"{words} {each.text}".strip()[:2000])
+        for each in asked.options
+    )
+    return Clarify(code=asked.code, question=asked.question, options=options)
 
 
 def tell_question(asked: Clarify) -> Bilingual:
@@ -149,36 +235,35 @@ def tell_question(asked: Clarify) -> Bilingual:
     return join((asked.question, offers))
 
 
-def ask_which_day(new: NewOrder, now_unix_s: float, zone: tzinfo) -> Clarify | None:
+def ask_which_day(new: NewOrder, now_s: float, zone: tzinfo) -> Clarify | None:
     """Return the question about an order's day ("next Friday"); None where it is beyond doubt.
 
     Each offer is the whole order again with its date, so that a yes to it is beyond doubt.
     """
-    if not isinstance(new.when, DayTime):
-        return None
-    both = days_of_next(new.when, datetime.fromtimestamp(now_unix_s, zone))
-    if both is None:
-        return None
     when = new.when
+    both = (
+        days_of_next(when, datetime.fromtimestamp(now_s, zone))
+        if isinstance(when, DayTime)
+        else None
+    )
+    if both is None or not isinstance(when, DayTime):
+        return None
+    clock = f"{when.hour:02}:{when.minute:02}"
     options = tuple(
-        Option(
-            label=build(partial(_date, day, when)),
-            text=_sentence(new, day, when),
-        )
+        Option(label=build(partial(_date, day, clock)), text=_sentence(new, day, clock))
         for day in both
     )
     question = say("standing.which_day", first=options[0].label, second=options[1].label)
     return Clarify(code=Code.AMBIGUOUS, question=question, options=options)
 
 
-def _date(day: date, when: DayTime, language: str) -> str:
+def _date(day: date, clock: str, language: str) -> str:
     weekday = raw(f"standing.day_{day.isoweekday() % 7}", language)
-    return f"{weekday} {day.isoformat()} {when.hour:02}:{when.minute:02}"
+    return f"{weekday} {day.isoformat()} {clock}"
 
 
-def _sentence(new: NewOrder, day: date, when: DayTime) -> str:
+def _sentence(new: NewOrder, day: date, clock: str) -> str:
     code = "standing.dated_order" if new.reminder is None else "standing.dated_reminder"
     words = new.order if new.reminder is None else new.reminder
-    time = f"{when.hour:02}:{when.minute:02}"
-    said = raw(code, new.language.value).format(date=day.isoformat(), time=time, order=words)
+    said = raw(code, new.language.value).format(date=day.isoformat(), time=clock, order=words)
     return said.strip()[:2000]

@@ -51,7 +51,7 @@ class StandingOrder(Frozen):
     resume_unix_s: float | None = None
     """A pause ends by itself then."""
     skipped: tuple[date, ...] = ()
-    """Days that are left out, by the robot's own calendar (``planner.orders.skipping``)."""
+    """Days that are left out, by the robot's own calendar (``planner.orders.rule``)."""
     ended: bool = False
     """It was due once, and that is over."""
     created_unix_s: float

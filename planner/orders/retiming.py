@@ -31,7 +31,6 @@ from planner.orders.rule import judge, settle
 from planner.plan.timing import AtRule, CronRule, DayTime, EventRule, EveryRule, InRule
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
     from datetime import tzinfo
 
     from planner.language.schedule import OrderChange
@@ -110,27 +109,41 @@ def _retime_rule(rule: Rule, parts: tuple[Part, ...], now_unix_s: float, zone: t
     others = [p for p in parts if not isinstance(p, (TimeOfDay, DayPart))]
     if len(others) > 1:
         raise OrderRefusal("order_nested", "several times")
-    match others[0] if others else None:
-        case None:
-            return _at_hour(rule, clock, part, zone)
-        case WeekDays(days=days):
-            weekly = read_weekly(rule)
-            if parts[0] == clock and weekly is not None and days < weekly.days:
-                raise _unfit(rule)  # "to seven on Fridays" leaves the other days as they are
-            return _weekly(rule, days, clock, part, zone)
-        case Interval():
-            timing = combine(parts)
-            if timing is None or timing.when is None:
-                raise OrderRefusal("order_nested", "an hour and an interval")
+    at = _hour_minute(_time_of(rule, zone), clock, part)
+    if not others:
+        return _at_hour(rule, at, zone)
+    weekly = read_weekly(rule)
+    match others[0]:
+        case WeekDays(days=days) if not (parts[0] == clock and weekly and days < weekly.days):
+            # "to seven on Fridays" leaves the other days as they are
+            if at is not None:
+                return WeeklyTime(at[1], at[0], days).rule
+            if weekly is not None:  # every hour
+                return WeeklyTime(weekly.minute, None, days).rule
+        case Interval() if len(parts) == 1 and (timing := combine(parts)) and timing.when:
             return settle(timing.when, now_unix_s, zone)
         case After(seconds=seconds, days=None) if isinstance(rule, AtRule):
             return settle(InRule(seconds=seconds), now_unix_s, zone)
-        case OnceDay() | MonthDay() | After() as day:
-            return _on_day(rule, day, parts, now_unix_s, zone)
-        case EventPart():
-            raise _unfit(rule)
-        case _:
-            raise _unfit(rule)
+        case OnceDay(weekday=int(weekday), week=None) if weekly and len(weekly.days) == 1 and at:
+            return WeeklyTime(at[1], at[0], frozenset({(weekday + 1) % 7})).rule
+        case OnceDay() | MonthDay() | After() as day if isinstance(rule, AtRule) and at is not None:
+            timing = combine((day, TimeOfDay(at[0], at[1], sure=True)))
+            if timing is None or not isinstance(timing.when, DayTime):
+                raise OrderRefusal((timing and timing.problem) or "order_malformed", "no day")
+            return settle(timing.when, now_unix_s, zone)
+    raise _unfit(rule)
+
+
+def _at_hour(rule: Rule, at: tuple[int, int] | None, zone: tzinfo) -> Rule:
+    weekly = read_weekly(rule)
+    if at is not None and weekly is not None and weekly.hour is not None:
+        return WeeklyTime(at[1], at[0], weekly.days).rule
+    if at is None or not isinstance(rule, AtRule):
+        raise _unfit(rule)
+    due = datetime.fromtimestamp(rule.unix_s, zone)
+    said = DayTime(hour=at[0], minute=at[1], year=due.year, month=due.month, day=due.day)
+    midnight = due.replace(hour=0, minute=0).timestamp()
+    return settle(said, midnight - DAY_MINUTES * 60.0, zone)  # the past is judged by now, later
 
 
 def _hour_minute(
@@ -163,65 +176,6 @@ def _time_of(rule: Rule, zone: tzinfo) -> tuple[int, int] | None:
         due = datetime.fromtimestamp(rule.unix_s, zone)
         return due.hour, due.minute
     return None
-
-
-def _at_hour(rule: Rule, clock: TimeOfDay | None, part: DayPart | None, zone: tzinfo) -> Rule:
-    at = _hour_minute(_time_of(rule, zone), clock, part)
-    weekly = read_weekly(rule)
-    if at is None or not (isinstance(rule, AtRule) or (weekly and weekly.hour is not None)):
-        raise _unfit(rule)
-    if weekly is not None:
-        return WeeklyTime(at[1], at[0], weekly.days).rule
-    due = datetime.fromtimestamp(_at(rule).unix_s, zone)
-    said = DayTime(hour=at[0], minute=at[1], year=due.year, month=due.month, day=due.day)
-    noon = due.replace(hour=0, minute=0).timestamp()
-    return settle(said, noon - DAY_MINUTES * 60.0, zone)  # the past is judged by now, later
-
-
-def _at(rule: Rule) -> AtRule:
-    if not isinstance(rule, AtRule):
-        raise _unfit(rule)
-    return rule
-
-
-def _weekly(
-    rule: Rule, days: frozenset[int], clock: TimeOfDay | None, part: DayPart | None, zone: tzinfo
-) -> Rule:
-    weekly = read_weekly(rule)
-    if weekly is not None and weekly.hour is None and clock is None and part is None:
-        return WeeklyTime(weekly.minute, None, days).rule
-    at = _hour_minute(_time_of(rule, zone), clock, part)
-    if at is None:
-        raise _unfit(rule) if clock is None and part is None else _missing()
-    return WeeklyTime(at[1], at[0], days).rule
-
-
-def _missing() -> OrderRefusal:
-    return OrderRefusal("order_time_missing", "no hour")
-
-
-def _on_day(
-    rule: Rule,
-    day: OnceDay | MonthDay | After,
-    parts: Iterable[Part],
-    now_unix_s: float,
-    zone: tzinfo,
-) -> Rule:
-    """Return a single order on another day, or one of one day a week on another of these."""
-    clock = next((p for p in parts if isinstance(p, TimeOfDay)), None)
-    part = next((p for p in parts if isinstance(p, DayPart)), None)
-    at = _hour_minute(_time_of(rule, zone), clock, part)
-    weekly = read_weekly(rule)
-    if weekly is not None and isinstance(day, OnceDay) and day.weekday is not None and at:
-        if len(weekly.days) != 1 or day.week is not None:
-            raise _unfit(rule)
-        return WeeklyTime(at[1], at[0], frozenset({(day.weekday + 1) % 7})).rule
-    if not isinstance(rule, AtRule) or at is None:
-        raise _unfit(rule)
-    timing = combine((day, TimeOfDay(at[0], at[1], sure=True)))
-    if timing is None or not isinstance(timing.when, DayTime):
-        raise OrderRefusal((timing.problem if timing else None) or "order_malformed", "no day")
-    return settle(timing.when, now_unix_s, zone)
 
 
 def _on_days(rule: Rule, change: LeaveOutDays) -> Rule:
@@ -265,34 +219,27 @@ def _has(
     rule: Rule, part: Part, due_s: float | None, zone: tzinfo, now_unix_s: float | None
 ) -> bool:
     due = datetime.fromtimestamp(due_s, zone) if due_s is not None else None
-    now = datetime.fromtimestamp(now_unix_s, zone) if now_unix_s is not None else None
-    weekly = read_weekly(rule)
+    at, weekly = _time_of(rule, zone), read_weekly(rule)
     match part:
         case TimeOfDay(hour=hour, minute=minute, sure=sure):
-            at = _time_of(rule, zone)
             dial = 24 if sure or not 1 <= hour <= 12 else 12
             return at is not None and (at[0] - hour) % dial == 0 and at[1] == minute
         case DayPart():
-            at = _time_of(rule, zone)
             return at is not None and at[0] in _HOURS_OF[part]
         case WeekDays(days=days):
             return weekly is not None and weekly.days == days
+        case Interval(seconds=seconds) if isinstance(rule, EveryRule):
+            return rule.seconds == seconds
         case Interval(seconds=seconds):
-            every = rule.seconds if isinstance(rule, EveryRule) else None
-            return every == seconds or (seconds == 3600.0 and bool(weekly) and _is_hourly(rule))
+            return seconds == 3600.0 and weekly is not None and weekly.hour is None
         case EventPart(event=event):
             return isinstance(rule, EventRule) and rule.event is event
-        case OnceDay(ahead=int(ahead)) if due is not None and now is not None:
-            return (due.date() - now.date()).days == ahead
+        case OnceDay(ahead=int(ahead)) if due is not None and now_unix_s is not None:
+            return (due.date() - datetime.fromtimestamp(now_unix_s, zone).date()).days == ahead
         case OnceDay(weekday=int(weekday), week=None):
             return due is not None and due.weekday() == weekday
         case _:
             return False
-
-
-def _is_hourly(rule: Rule) -> bool:
-    weekly = read_weekly(rule)
-    return weekly is not None and weekly.hour is None
 
 
 _HOURS_OF = {

@@ -1,21 +1,22 @@
-"""Work out when a rule is due next, and refuse rules that never are, or all the time.
+"""Work out when a rule is due next and which day is named, and refuse rules that never are due.
 
 The only place that knows cronsim and time zones. Pure: told the instant and the zone. Daylight
 saving as Debian's cron: a time of day that a spring night leaves out is due when it ends (02:30 at
 03:00), one that an autumn night has twice is due once, the first time; "every hour" is due each
-hour that passes.
+hour that passes. Law: a day that is said whole and is over is never taken for another one; where
+a part of it is said ("on the 5th", "on Friday"), it is the next such day. The runs of a day left
+out (iCalendar's EXDATE) are neither due nor missed, and no others.
 """
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
+from datetime import UTC, date, datetime, time, timedelta
 from itertools import pairwise
 from math import ceil, isfinite
 from typing import TYPE_CHECKING
 
 from cronsim import CronSim, CronSimError
 
-from planner.orders.calendar_day import day_of
 from planner.orders.errors import OrderRefusal
 from planner.plan.timing import (
     MAX_AHEAD_S,
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from datetime import tzinfo
 
+    from planner.language.schedule.parts import OnceDay
+    from planner.orders.order import StandingOrder
     from planner.plan import QuietHours
 
 MIN_APART_S = 300.0
@@ -40,6 +43,11 @@ MIN_APART_S = 300.0
 RUNS_JUDGED = 50
 """So many runs of a new rule are looked at: over two days of an hourly one."""
 _CRON_FIELDS = 5
+JUST_OVER_DAYS = 31
+"""A date without a year that is over for so long at most was meant; an older one is next year's."""
+_LONGEST_GAP = 3
+"""Months that are looked at for the 31st: no two in a row lack it."""
+_JUST_BEFORE_S = 1e-3
 
 
 def settle(said: SpokenRule | AtRule, now_unix_s: float, zone: tzinfo) -> Rule:
@@ -159,3 +167,134 @@ def is_quiet(quiet: QuietHours, unix_s: float, zone: tzinfo) -> bool:
         return True
     now = datetime.fromtimestamp(unix_s, zone)
     return quiet.holds(now.hour * 60 + now.minute)
+
+
+def day_of(said: DayTime, now: datetime, hour: int) -> date:
+    """Return the day of a time of day that is said now.
+
+    Args:
+        said: the time.
+        now: in the owner's time zone.
+        hour: of the two that a dial's hour may be, the one that is judged.
+
+    Raises:
+        OrderRefusal: ``order_no_such_date``.
+    """
+    today = now.date()
+    over = (hour, said.minute) <= (now.hour, now.minute)
+    if said.day is not None:
+        return (
+            _find_date(said, today)
+            if said.month is not None
+            else _find_day_number(said, today, over=over)
+        )
+    if said.days_ahead is not None:
+        return today + timedelta(days=said.days_ahead)
+    if said.weekday is None:
+        return today + timedelta(days=int(over))
+    if said.week is not None:
+        monday = today - timedelta(days=today.weekday())
+        return monday + timedelta(days=7 * said.week + said.weekday)
+    ahead = (said.weekday - today.weekday()) % 7
+    return today + timedelta(days=7 if ahead == 0 and over else ahead)
+
+
+def days_of_next(said: DayTime, now: datetime) -> tuple[date, date] | None:
+    """Return both days that "next Friday" may be, said now; None where there is one alone."""
+    if not said.either_week or said.weekday is None:
+        return None
+    ahead = (said.weekday - now.weekday()) % 7
+    coming = now.date() + timedelta(days=ahead or 7)
+    after = day_of(said, now, said.hour)
+    return (coming, after) if coming != after else None
+
+
+def _find_date(said: DayTime, today: date) -> date:
+    """Return the day of a month that is named."""
+    month, day = said.month or 1, said.day or 1
+    if said.year is not None or said.years_ahead is not None:
+        return _make(said.year or today.year + (said.years_ahead or 0), month, day)
+    since = today - timedelta(days=0 if said.coming else JUST_OVER_DAYS)
+    is_of_that_year = (month, day) >= (since.month, since.day)
+    return _make(since.year + int(not is_of_that_year), month, day)
+
+
+def _find_day_number(said: DayTime, today: date, *, over: bool) -> date:
+    """Return the day of which only the number is said: of this month, of the next one, or next."""
+    day = said.day or 1
+    if said.months_ahead is not None:
+        return _make(*_month_on(today, said.months_ahead), day)
+    first = int(day < today.day or (day == today.day and over))
+    for ahead in range(first, first + _LONGEST_GAP):
+        year, month = _month_on(today, ahead)
+        try:
+            return date(year, month, day)
+        except ValueError:  # it has fewer days
+            continue
+    raise OrderRefusal("order_no_such_date", f"no month near {today} has a day {day}")
+
+
+def _month_on(today: date, ahead: int) -> tuple[int, int]:
+    months = today.year * 12 + today.month - 1 + ahead
+    return months // 12, months % 12 + 1
+
+
+def _make(year: int, month: int, day: int) -> date:
+    try:
+        return date(year, month, day)
+    except ValueError:
+        raise OrderRefusal(
+            "order_no_such_date", f"there is no {year}-{month:02}-{day:02}"
+        ) from None
+
+
+def next_run(order: StandingOrder, after_unix_s: float, zone: tzinfo) -> float | None:
+    """Return the first run after this instant that lies on no day left out; None: there is none."""
+    due_s = next_due(order.rule, after_unix_s, zone)
+    while due_s is not None and (day := day_at(due_s, zone)) in order.skipped:
+        due_s = next_due(order.rule, _begin_s(day + timedelta(days=1), zone), zone)
+    return due_s
+
+
+def coming_runs(
+    order: StandingOrder, after_unix_s: float, zone: tzinfo, count: int
+) -> Iterator[float]:
+    """Yield the next runs of an order, ``count`` at most."""
+    due_s: float | None = after_unix_s
+    for _ in range(count):
+        due_s = next_run(order, due_s if due_s is not None else after_unix_s, zone)
+        if due_s is None:
+            return
+        yield due_s
+
+
+def runs_on(order: StandingOrder, day: date, now_unix_s: float, zone: tzinfo) -> bool:
+    """Tell whether an order may still run on a day; one upon an event may on any from today on."""
+    if isinstance(order.rule, EventRule):
+        return day >= day_at(now_unix_s, zone) and day not in order.skipped
+    since_s = max(now_unix_s, order.handled_unix_s, _begin_s(day, zone))
+    due_s = next_run(order, since_s, zone)
+    return due_s is not None and day_at(due_s, zone) == day
+
+
+def days_left_out(order: StandingOrder, day: date, now_unix_s: float, zone: tzinfo) -> list[date]:
+    """Return an order's days that are left out, with one more and without those that are over."""
+    today = day_at(now_unix_s, zone)
+    return sorted({day, *(each for each in order.skipped if each >= today)})
+
+
+def find_day(said: OnceDay, now_unix_s: float, zone: tzinfo) -> date:
+    """Return the day that is named now, today as well."""
+    wanted = DayTime(hour=23, minute=59, days_ahead=said.ahead, weekday=said.weekday,
+                     week=said.week)  # fmt: skip
+    return day_of(wanted, datetime.fromtimestamp(now_unix_s, zone), 23)
+
+
+def day_at(unix_s: float, zone: tzinfo) -> date:
+    """Return the day of an instant."""
+    return datetime.fromtimestamp(unix_s, zone).date()
+
+
+def _begin_s(day: date, zone: tzinfo) -> float:
+    """Return the instant before a day, so that a run at midnight is after it."""
+    return datetime.combine(day, time(), zone).timestamp() - _JUST_BEFORE_S

@@ -19,8 +19,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from planner.orders.order import COOLDOWN_S, Firing, FiringState, StandingOrder, end_pauses
-from planner.orders.rule import is_quiet
-from planner.orders.skipping import day_at, next_run
+from planner.orders.rule import day_at, is_quiet, next_run
 from planner.plan import QuietHours
 from planner.plan.timing import AtRule, EventRule, EveryRule, WorldEvent
 

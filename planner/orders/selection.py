@@ -24,63 +24,13 @@ if TYPE_CHECKING:
     from planner.orders.order import StandingOrder
 
 _WORD = re.compile(r"[a-z0-9:']+")
-_LITTLE = frozenset(
-    [
-        "the",
-        "a",
-        "an",
-        "my",
-        "your",
-        "our",
-        "to",
-        "at",
-        "in",
-        "on",
-        "of",
-        "for",
-        "about",
-        "every",
-        "each",
-        "day",
-        "and",
-        "me",
-        "i",
-        "you",
-        "it",
-        "one",
-        "ones",
-        "please",
-        "any",
-        "more",
-        "again",
-        "now",
-        "check",
-        "checks",
-        "order",
-        "orders",
-        "reminder",
-        "reminders",
-        "checking",
-        "do",
-        "doing",
-        "run",
-        "runs",
-        "trip",
-        "trips",
-        "visit",
-        "visits",
-        "patrol",
-        "patrols",
-        "round",
-        "rounds",
-        "task",
-        "tasks",
-        "job",
-        "saying",
-        "when",
-        "if",
-    ]
-)
+_LITTLE = frozenset((
+    "the", "a", "an", "my", "your", "our", "to", "at", "in", "on", "of", "for", "about", "every",
+    "each", "day", "and", "me", "i", "you", "it", "one", "ones", "please", "any", "more",
+    "again", "now", "check", "checks", "order", "orders", "reminder", "reminders", "checking",
+    "do", "doing", "run", "runs", "trip", "trips", "visit", "visits", "patrol", "patrols",
+    "round", "rounds", "task", "tasks", "job", "saying", "when", "if"
+))  # fmt: skip
 """Words that name none by themselves; what they name besides is weighed."""
 _KIND = frozenset(["check", "checks", "checking", "patrol", "patrols", "round", "rounds"])
 _CALLED = re.compile(r"\bwake[- ]?up (?:calls?|alarms?|service)\b")

@@ -1,13 +1,16 @@
-"""Say what a standing order is, when it comes next and what became of it. Pure."""
+"""Say what a standing order is, when it comes next, what became of it, and which are kept. Pure."""
 
 from __future__ import annotations
 
-from datetime import datetime
+from dataclasses import dataclass
+from datetime import datetime, time, timedelta
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import build, join, list_names, raw, say, say_or_quote
 from planner.language.plan_words import tell_steps
-from planner.plan import CONTROL, Bilingual, say_same
+from planner.orders.rule import coming_runs, find_day, next_run
+from planner.orders.selection import select
+from planner.plan import CONTROL, Bilingual, Clarify, Code, Option, say_same
 from planner.plan.slots import steps_of
 from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule
 
@@ -15,13 +18,18 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from datetime import date, tzinfo
 
+    from planner.language.schedule import ListOrders
+    from planner.language.schedule.parts import OnceDay
     from planner.orders.order import Firing, StandingOrder
+    from planner.orders.scheduler import OrderBook
     from planner.plan import StepRecord
     from planner.plan.timing import Rule
     from planner.site.site_view import SiteView
 
 MOST_TOLD = 8
 """Orders that are listed in words; the page shows all."""
+MOST_A_DAY = 3
+"""Runs of one order that are told one by one; of more the rule is told."""
 _FEW = 2
 _WORKDAYS, _WEEKEND = "1-5", ("0,6", "6,0")
 
@@ -129,38 +137,6 @@ def tell_deed(facts: SiteView, order: StandingOrder) -> Bilingual:
     return tell_record(facts, order.allowed)
 
 
-def tell_kept(
-    facts: SiteView, order: StandingOrder, due_s: float | None, zone: tzinfo, now_unix_s: float
-) -> Bilingual:
-    """Return what a person hears when an order is taken."""
-    when = capitalise(tell_when(order, zone, now_unix_s))
-    said = say("standing.kept", when=when, deed=tell_deed(facts, order))
-    if due_s is None or order.is_once:
-        return said
-    following = say("standing.next", time=tell_time(due_s, zone, now_unix_s))
-    return join((said, following))
-
-
-def tell_order(facts: SiteView, order: StandingOrder, zone: tzinfo, now_unix_s: float) -> Bilingual:
-    """Return an order in one line: "o3: every day at 20:00: look. (paused)"."""
-    code = "standing.line_paused" if order.paused else "standing.line"
-    when = tell_when(order, zone, now_unix_s)
-    if order.paused and order.resume_unix_s is not None:
-        until, deed = tell_time(order.resume_unix_s, zone, now_unix_s), tell_deed(facts, order)
-        return say("standing.line_paused_until", id=order.id, until=until, when=when, deed=deed)
-    return say(code, id=order.id, when=when, deed=tell_deed(facts, order))
-
-
-def tell_list(lines: tuple[Bilingual, ...]) -> Bilingual:
-    """Return all orders in words; of many the first."""
-    if not lines:
-        return say("standing.none")
-    shown = list(lines[:MOST_TOLD])
-    if len(lines) > MOST_TOLD:
-        shown.append(say("standing.more", count=len(lines) - MOST_TOLD))
-    return say("standing.list", lines=list_names(shown, "joint.name"))
-
-
 def tell_missed(order: StandingOrder, firing: Firing, zone: tzinfo, now_unix_s: float) -> Bilingual:
     """Return that a run was missed, and why; a reminder's words are in it."""
     why = say_or_quote("order_reason", firing.reason or "late")
@@ -182,12 +158,155 @@ def tell_reminder(order: StandingOrder) -> Bilingual:
     )
 
 
-def capitalise(said: Bilingual) -> Bilingual:
-    """Return a text with a capital at its beginning, where its language has them."""
-    return build(lambda language: said.of(language)[:1].upper() + said.of(language)[1:])
-
-
 def say_goal_of_reminder(order_language: str, words: str) -> str:
     """Return the order that a reminder is as a goal, in its own language."""
     spoken = words or raw("standing.time_is_over", order_language)
     return raw("standing.say_words", order_language).format(words=spoken)
+
+
+def tell_left(seconds: float) -> Bilingual:
+    """Return how long it is until then, in words."""
+    minutes = round(seconds / 60.0)
+    if seconds < 60.0:
+        return say("standing.left_seconds", seconds=max(0, round(seconds)))
+    if minutes < 60:
+        return say("standing.left_minutes", minutes=minutes)
+    hours, rest = divmod(minutes, 60)
+    if hours >= 48:
+        return say("standing.left_days", days=round(hours / 24.0))
+    if not rest:
+        return say("standing.left_whole_hours", hours=hours)
+    return say("standing.left_hours", hours=hours, minutes=rest)
+
+
+@dataclass(frozen=True, slots=True)
+class OrderTelling:
+    """Tell the orders of a book, as they are at an instant."""
+
+    facts: SiteView
+    book: OrderBook
+    now_s: float
+
+    @property
+    def live(self) -> tuple[StandingOrder, ...]:
+        """Return the orders that have not ended."""
+        return tuple(order for order in self.book.orders.values() if not order.ended)
+
+    def line(self, order: StandingOrder) -> Bilingual:
+        """Return an order in one line: "o3: every day at 20:00: look. (paused)"."""
+        when = tell_when(order, self.book.zone, self.now_s)
+        deed = tell_deed(self.facts, order)
+        if order.paused and order.resume_unix_s is not None:
+            until = tell_time(order.resume_unix_s, self.book.zone, self.now_s)
+            return say("standing.line_paused_until", id=order.id, until=until, when=when, deed=deed)
+        code = "standing.line_paused" if order.paused else "standing.line"
+        return say(code, id=order.id, when=when, deed=deed)
+
+    def tell_one(self, order: StandingOrder) -> Bilingual:
+        """Return what a person hears when an order is taken or has changed."""
+        zone = self.book.zone
+        when = tell_when(order, zone, self.now_s)
+        when = build(lambda language: when.of(language)[:1].upper() + when.of(language)[1:])
+        said = say("standing.kept", when=when, deed=tell_deed(self.facts, order))
+        due_s = self.book.due.get(order.id, next_run(order, self.now_s, zone))
+        if due_s is None or order.is_once:
+            return said
+        return join((said, say("standing.next", time=tell_time(due_s, zone, self.now_s))))
+
+    def tell_all(self, orders: tuple[StandingOrder, ...] | None = None) -> Bilingual:
+        """Return orders in words; of many the first."""
+        lines = [self.line(order) for order in (self.live if orders is None else orders)]
+        if not lines:
+            return say("standing.none")
+        shown = lines[:MOST_TOLD]
+        if len(lines) > MOST_TOLD:
+            shown.append(say("standing.more", count=len(lines) - MOST_TOLD))
+        return say("standing.list", lines=list_names(shown, "joint.name"))
+
+    def answer(
+        self, asked: ListOrders
+    ) -> tuple[Bilingual | None, tuple[StandingOrder, ...] | None]:
+        """Return the answer to a question, and the orders that it lists, where it is a list.
+
+        None where it may be about something else, and no order fits.
+        """
+        if asked.day is not None:
+            return self._tell_day(asked.day, is_sure=asked.is_sure), None
+        named = bool(asked.which or asked.reminders)
+        zone, found = self.book.zone, self.live
+        if named:
+            found = select(found, asked.which, zone, reminders=asked.reminders)
+        if asked.next_runs:
+            return self._tell_next(found, asked), None
+        if not found and asked.which and self.live:
+            return self.tell_no_such(asked.which), None
+        return self.tell_all(found), found
+
+    def _tell_next(self, found: tuple[StandingOrder, ...], asked: ListOrders) -> Bilingual | None:
+        """Return when these are due next, the soonest first."""
+        due = self.book.due
+        waiting = sorted((o for o in found if o.id in due), key=lambda o: (due[o.id], o.number))
+        if not (asked.is_sure or asked.which):  # "how long is left?": of what was asked for once
+            waiting = [order for order in waiting if order.is_once]
+        if waiting:
+            lines = [self._line_left(order, due[order.id]) for order in waiting[:MOST_TOLD]]
+            return say("standing.next_runs", lines=list_names(lines, "joint.name"))
+        if not asked.is_sure:
+            return None
+        if found:  # paused, or upon an event
+            return self.tell_all(found)
+        return say("standing.no_reminders") if asked.reminders else self.tell_all()
+
+    def _line_left(self, order: StandingOrder, due_s: float) -> Bilingual:
+        when = tell_time(due_s, self.book.zone, self.now_s)
+        left, deed = tell_left(due_s - self.now_s), tell_deed(self.facts, order)
+        return say("standing.line_left", id=order.id, when=when, left=left, deed=deed)
+
+    def _tell_day(self, said: OnceDay, *, is_sure: bool) -> Bilingual | None:
+        """Return what is due on one day, in its order."""
+        zone, now_s = self.book.zone, self.now_s
+        day, today = find_day(said, now_s, zone), datetime.fromtimestamp(now_s, zone).date()
+        begin_s = max(now_s, datetime.combine(day, time(), zone).timestamp() - 1e-3)
+        end_s = datetime.combine(day + timedelta(days=1), time(), zone).timestamp()
+        told: list[tuple[float, Bilingual]] = []
+        for order in self.live:
+            resume_s = order.resume_unix_s or 0.0
+            if order.paused and not 0.0 < resume_s < end_s:
+                continue
+            since_s = max(begin_s, order.handled_unix_s, resume_s)
+            runs = [s for s in coming_runs(order, since_s, zone, MOST_A_DAY + 1) if s < end_s]
+            told += self._lines_of_day(order, runs)
+        ahead = (day - today).days
+        codes = {0: "standing.day_today", 1: "standing.day_tomorrow"}
+        name = say(codes[ahead]) if ahead in codes else _tell_day(day)
+        if not told:
+            return say("standing.day_free", day=name) if is_sure or self.live else None
+        lines = [line for _, line in sorted(told, key=lambda each: each[0])]
+        return say("standing.day_list", day=name, lines=list_names(lines, "joint.name"))
+
+    def _lines_of_day(
+        self, order: StandingOrder, runs: list[float]
+    ) -> list[tuple[float, Bilingual]]:
+        zone, deed = self.book.zone, tell_deed(self.facts, order)
+        if len(runs) > MOST_A_DAY:
+            rule = tell_rule(order.rule, zone, self.now_s)
+            return [(runs[0], say("standing.line", id=order.id, when=rule, deed=deed))]
+        clock = [f"{datetime.fromtimestamp(run_s, zone):%H:%M}" for run_s in runs]
+        return [
+            (run_s, say("standing.line", id=order.id, when=at, deed=deed))
+            for run_s, at in zip(runs, clock, strict=True)
+        ]
+
+    def ask_which(self, orders: Sequence[StandingOrder], form: str) -> Clarify:
+        """Return the question which of several is meant; each offer names its order."""
+        options = tuple(
+            Option(label=self.line(order), text=form.format(id=order.id).strip())
+            for order in orders[:MOST_TOLD]
+        )
+        lines = join((option.label for option in options), "joint.name")
+        question = say("standing.which", lines=lines)
+        return Clarify(code=Code.AMBIGUOUS, question=question, options=options)
+
+    def tell_no_such(self, which: str) -> Bilingual:
+        """Return that no order is called so, with those that are kept."""
+        return say("standing.no_such", which=which[:80], known=self.tell_all())

@@ -151,16 +151,6 @@ ASKS = re.compile(
     r"|have (?:you|i|we)|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
 )
 """A question, or a condition that is no event."""
-_GONE = (
-    r"(?:yesterday|last (?:night|week|month|year|(?:mon|tues|wednes|thurs|fri|satur|sun)day))"
-    r"(?: (?:morning|afternoon|evening|night))?(?: at [a-z0-9: ]{1,20})?"
-)
-PAST = re.compile(
-    rf"(?:(?:at|around|about) [a-z0-9: ]{{1,16}}? )?{_GONE}[ ,]+(?:please )?(?:go|drive|come|look|check|find|remind me|patrol|turn|wait|follow|visit)"
-    rf"\b.*|(?:remind me|go|drive|come back|patrol)\b(?:(?!\b(?:you|i|we)\b)[^,])*? {_GONE}"
-    rf"|remind me {_GONE}\b.*"
-)
-"""An order whose time is over."""
 REMARK = re.compile(
     r"(?:not (?:the|my|our|at|in)|see (?:you|ya)|(?:talk|speak|chat) to you"
     r"|it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"
@@ -178,7 +168,6 @@ TIMER = re.compile(
     re.IGNORECASE,
 )
 """A timer is "for ten minutes", which come after them."""
-TWO_HOURS = re.compile(rf"\b(?:and|or)[ ,]*$|\bat (?:{_H}) (?:and|or) (?:{_H})$")
 TIMELESS = re.compile(
     r"(?:remind me|set a reminder(?: for me)?|give me a reminder)[ ,:]+(?:to|about|of|for)\b"
     r"|(?:don't|do not) let me forget\b"

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from planner.language.folding import fold_script, fold_width, has_chinese
 from planner.language.schedule.english import TIMER
-from planner.language.schedule.statements import put_time_first
 
 ENDS = " .!,;:。~…，；！、"
 """What may stand about a sentence or its order."""
@@ -46,7 +45,7 @@ class FoldedSentence:
 def fold_sentence(text: str) -> FoldedSentence:
     """Return a sentence folded, with its spaces and marks made alike."""
     spaced = _SPACES.sub(" ", fold_width(text).translate(_MARKS)).strip()
-    spaced = put_time_first(_DAYS_ER.sub(r"\1天", spaced))
+    spaced = _DAYS_ER.sub(r"\1天", spaced)
     if has_chinese(spaced):  # spaces between characters mean nothing; between Latin words they do
         spaced = re.sub(r"(?<![A-Za-z0-9]) | (?![A-Za-z0-9])", "", spaced)
     spaced = TIMER.sub(_turn_timer, spaced)

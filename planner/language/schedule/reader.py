@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 
 from planner.language.folding import has_chinese
 from planner.language.schedule import chinese, english
-from planner.language.schedule.about import read_about, read_correction
 from planner.language.schedule.command import (
     CorrectOrder,
     LeaveOutDays,
@@ -22,7 +21,9 @@ from planner.language.schedule.command import (
     RemindAgain,
     ScheduleCommand,
 )
+from planner.language.schedule.corrections import read_correction
 from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold_sentence
+from planner.language.schedule.kept_orders import read_asked, read_change
 from planner.language.schedule.parts import (
     DayPart,
     Part,
@@ -39,9 +40,6 @@ from planner.language.schedule.statements import (
     begins_with_statement,
     ends_in_statement,
     ends_in_told_words,
-    goes_on_until,
-    has_end,
-    is_filler,
     is_limited,
 )
 from planner.language.schedule.time_finder import (
@@ -68,28 +66,22 @@ _TELL_ME = re.compile(
 )
 MAX_READ = 300
 """Characters; a longer sentence is no standing order."""
-_SEES = re.compile(
-    r"(?:if|when(?:ever)?|any ?time|each time|every time) (?:you )?(?:ever )?(?:see|spot|notice|detect) .+"
-    r" (?:at night|after dark|while (?:i'm|i am|we're|we are) .+?), (?:please )?(?:let|tell|call|warn) me\b.*"
-)
 _TO_EACH = re.compile(
-    r".+ (?:every(?:body|one)|any(?:body|one)|whoever|(?:each|any|all) (?:person|guests?|visitors?)|people)"
-    r"(?: who| that)? (?:comes?|coming|arriv(?:es?|ing)|enters?|walks?|walking) ?(?:in|by|home|past)?\b.*"
+    r".*\b(?:every(?:body|one)|each \w+|anybody who|anyone who|people who)(?: who| that)? (?:comes?|arrives?|enters?)\b.*"
 )
-_ZH_COMES = re.compile(
-    r"(?:当|等|等到|只要|一旦|每次|每当)[^,]{1,8}?(?:回来|回家|到家|进门|进屋|进来)(?:了|的时候|之后|以后|时|后)*,?"
-    r"(?:就|你|请)*(?:说|告诉|提醒|通知|[跟和给对].{1,3}(?:说|讲)).+"
-)
-"""With ``_SEES``: waits for what is read as no event: done now it would be another order."""
+"""Waits for what is read as no event: done now it would be another order."""
 _NOT_NOW = re.compile(r"not (?:now|yet)[, ]+(?:but )?")
+_OVER = re.compile(
+    r"(?:yesterday|last (?:night|week|\w+day))\b.*|.*\b(?:yesterday|last (?:night|week|\w+day))|(?:昨天|昨晚|前天).*"
+)
 _WAKES = range(4, 12)
 _QUOTED = re.compile(r'[“"].*?[”"]')
 _DOES = re.compile(
-    r"(?:please |just )*(?:go|drive|come|head|look|check|patrol|visit|search|find|count|turn|do|have|take|make)\b"
+    r"(?:please )?(?:go|drive|come|look|check|patrol|visit|search|find|count|turn|do|have|take|make)\b"
 )
 _THEN = re.compile(r"(?:and|then)\b")
 _UNTIL = re.compile(r"\b(?:until|till)$")
-_CLAUSE = re.compile(r"[,;.]+ *(?:but |and |although )?")
+_CLAUSE = re.compile(r"[,;.]+ *(?:but |and )?")
 _TELLS = re.compile(r"(?: and|,|;) (?:then )?(?:tell|let|call|warn|say|ask|shout|remind|alert)\b")
 """Of two orders the one that waits for the event behind them."""
 
@@ -101,60 +93,43 @@ def read_order_command(text: str) -> OrderCommand | None:
         return None
     said = fold_sentence(text)
     asks = said.folded.rstrip(ENDS).endswith("?")
-    grammar = chinese if has_chinese(said.folded) else english
+    courteous = asks and said.folded.startswith(("can", "could", "will", "would"))
+    chinese_said = has_chinese(said.folded)
+    grammar = chinese if chinese_said else english
     said = FoldedSentence(said.folded.replace("?", " "), said.written)
     said = said.bare().strip(grammar.POLITE).strip_end(grammar.POLITE_END).bare()
-    return _read_command(said, grammar, text, asks=asks)
-
-
-def _read_command(
-    said: FoldedSentence, grammar: ModuleType, text: str, *, asks: bool
-) -> OrderCommand | None:
-    is_chinese = grammar is chinese
-    excepted = None if asks else _read_excepting(said, grammar)
-    if excepted is not None:
+    if not asks and (excepted := _read_excepting(said, grammar)) is not None:
         return excepted
-    about = read_about(said.folded, chinese=is_chinese)
+    about = read_asked(said.folded, chinese=chinese_said) or read_change(
+        said.folded, chinese=chinese_said
+    )
     if about is not None:
         return about
-    if not asks and _SEES.fullmatch(said.folded) is not None:
-        return ScheduleCommand(None, said.written, "", problem="order_no_event")
-    courteous = (
-        asks and grammar is english and fold_sentence(text).folded.startswith(("can", "could", "w"))
-    )
     if (asks and not courteous) or grammar.ASKS.match(said.folded) is not None:
         return None
-    if grammar.PAST.fullmatch(said.folded) is not None:
-        return ScheduleCommand(None, said.written, "", problem="order_in_past")
-    corrects = read_correction(said.folded, chinese=is_chinese)
+    corrects = read_correction(said.folded, chinese=chinese_said)
     if isinstance(corrects, CorrectOrder) and isinstance(corrects.change, RemindAgain):
-        return replace(
-            corrects, otherwise=_read(said.strip(_NOT_NOW), grammar)
-        )  # "… again in five"
+        otherwise = _read(said.strip(_NOT_NOW), grammar)  # "… again in five"
+        return replace(corrects, otherwise=otherwise)
     order = corrects or _read(said, grammar)
-    if order is None and not asks and (problem := _problem_of(said, grammar)) is not None:
-        return ScheduleCommand(None, said.written, "", problem=problem)
-    return order
+    if order is not None or asks or chinese_said:
+        return order
+    problem = _problem_of(_QUOTED.sub(lambda found: " " * len(found[0]), said.folded))
+    return None if problem is None else ScheduleCommand(None, said.written, "", problem=problem)
 
 
-def _problem_of(said: FoldedSentence, grammar: ModuleType) -> Problem | None:
-    """Return why a sentence is no order of now either; None: it may be one.
+def _problem_of(said: str) -> Problem | None:
+    """Return why an English sentence is no order of now either; None: it may be one.
 
     A time that comes again and stands in the middle is passed over by nobody: "look round at ten
     every night, and tell me who is in" is not done at once.
     """
-    if grammar is chinese:
-        return "order_no_event" if _ZH_COMES.fullmatch(said.folded) is not None else None
-    if _TO_EACH.fullmatch(said.folded) is not None:
+    if _TO_EACH.fullmatch(said) is not None:
         return "order_no_event"
-    plain = _QUOTED.sub(lambda found: " " * len(found[0]), said.folded)
-    if _DOES.match(plain) is None:
-        return None
-    for cut in re.finditer(r"(?<=[ ,])(?=every |each |daily)", plain):
-        parts = first_parts(plain[cut.start() :], grammar).parts
-        if any(isinstance(part, WeekDays) for part in parts):
-            return "order_time_within"
-    return None
+    cuts = re.finditer(r"(?<=[ ,])(?=every |each |daily)", said) if _DOES.match(said) else ()
+    again = (first_parts(said[cut.start() :], english).parts for cut in cuts)
+    found = any(isinstance(part, WeekDays) for parts in again for part in parts)
+    return "order_time_within" if found else None
 
 
 def _read_excepting(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
@@ -177,62 +152,48 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     before = first_parts(said.folded, grammar)
     rest = said.part(before.at).strip(grammar.LEAD)
     remind = grammar.REMIND.match(rest.folded)
+    woken = remind is not None and bool(remind["wake"])
     if remind is not None:
         inner = rest.part(remind.end())
         middle = first_parts(inner.folded.lstrip(" ,"), grammar)
         if middle.parts:
-            shift = len(inner.folded) - len(inner.folded.lstrip(" ,"))
-            inner = inner.part(shift + middle.at)
-        parts = (*before.parts, *middle.parts)
-        rest, before = inner, FoundTime(_by_morning(parts) if remind["wake"] else parts, before.at)
+            inner = inner.part(len(inner.folded) - len(inner.folded.lstrip(" ,")) + middle.at)
+        rest, before = inner, FoundTime((*before.parts, *middle.parts), before.at)
     elif before.parts:
         rest = rest.strip(grammar.POLITE)
     after = _time_behind(rest, before, grammar, reminds=remind is not None)
-    order = rest.part(0, after.at) if after.parts else rest
-    if (
-        after.parts and english.TWO_HOURS.search(order.folded.rstrip()) is not None
-    ):  # "at eight and at six"
-        return ScheduleCommand(None, said.written, "", problem="order_nested")
-    woken = remind is not None and bool(remind["wake"])
+    order = (rest.part(0, after.at) if after.parts else rest).bare()
     parts = (*before.parts, *after.parts)
     timing = combine(_by_morning(parts) if woken else parts)
-    if (
-        after.parts
-        and timing
-        and isinstance(timing.when, EventRule)
-        and _TELLS.search(order.folded)
-    ):
-        return None  # "go to the kitchen and tell me when somebody comes": the telling waits
     if timing is None:
-        lacks = remind is not None and not (before.parts or after.parts or remind["wake"])
+        lacks = remind is not None and not parts and not woken
         return _read_timeless(order, remind[0], grammar) if lacks and remind is not None else None
     words = _words(said, rest, before, after)
     if remind is not None:
         return _reminder(order, timing, words, grammar, woken=woken)
-    said_first = order.bare().folded
-    remark = grammar.REMARK.match(said_first) is not None
     once = isinstance(timing.when, DayTime | InRule) and before.parts
-    if remark or (once and begins_with_statement(said_first, chinese=grammar is chinese)):
+    states = once and begins_with_statement(order.folded, chinese=grammar is chinese)
+    tells = after.parts and isinstance(timing.when, EventRule) and _TELLS.search(order.folded)
+    if tells or states or grammar.REMARK.match(order.folded) is not None:
         return None  # "it's cold tonight", "at nine the doctor comes, …": a time, and no order
-    return _order(order.bare(), timing, words)
+    return _order(order, timing, words)
 
 
 def _time_behind(
     rest: FoldedSentence, before: FoundTime, grammar: ModuleType, *, reminds: bool
 ) -> FoundTime:
     """Return the time that an order ends with, where it is the order's."""
+    none = FoundTime((), len(rest.folded))
     after = last_parts(rest.folded, grammar)
     if before.parts and after.parts and not reminds and combine(before.parts) is not None:
         joined = combine((*before.parts, *after.parts))
         if joined is None or (joined.problem == "order_nested" and combine(after.parts) is None):
-            after = FoundTime((), len(rest.folded))  # "every day at eight say good night at ten"
+            return none  # "every day at eight say good night at ten"
     if after.parts and grammar is english and not lacks_time(before.parts):
         words = rest.folded[: after.at].rstrip(" ")
         told = not reminds and is_once(after.parts) and ends_in_told_words(words)
         if told or ends_in_statement(words, reminds=reminds) or _UNTIL.search(words):
-            after = FoundTime(
-                (), len(rest.folded)
-            )  # "…, I'm on in two minutes"; "wait until 18:30"
+            return none  # "…, I'm on in two minutes"; "wait until 18:30"
     return after
 
 
@@ -247,26 +208,28 @@ def _by_morning(parts: tuple[Part, ...]) -> tuple[Part, ...]:
 
 
 def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand | None:
-    empty = timing.problem is not None and not order.folded  # "every day": nothing is understood
-    ends = isinstance(timing.when, EveryRule) and has_end(order.folded)
-    if empty or ends or is_filler(order.folded):
-        return None
-    if goes_on_until(order.folded):
-        return ScheduleCommand(None, order.written, "", problem="order_nested")
+    problem: Problem | None = timing.problem
+    if problem is not None and not order.folded:
+        return None  # "every day": nothing is understood
     recurs = isinstance(timing.when, CronRule | EveryRule | EventRule)
-    if (recurs or timing.problem == "order_time_missing") and is_limited(order.folded):
-        return ScheduleCommand(None, order.written, "", problem="order_no_end")
-    if isinstance(timing.when, EventRule) and timing.problem is None:
-        news = NEWS[timing.when.event] if _TELL_ME.fullmatch(order.folded) else None
-        return ScheduleCommand(timing.when, order.written.strip(), words, reminder=news)
-    return ScheduleCommand(timing.when, order.written.strip(), words, problem=timing.problem)
+    if _OVER.fullmatch(order.folded) is not None:
+        problem = "order_in_past"
+    elif (recurs or problem == "order_time_missing") and is_limited(
+        order.folded, is_interval=isinstance(timing.when, EveryRule)
+    ):
+        problem = "order_no_end"
+    news = None
+    if isinstance(timing.when, EventRule) and _TELL_ME.fullmatch(order.folded):
+        news = NEWS[timing.when.event]
+    when = timing.when if problem is None else None
+    return ScheduleCommand(when, order.written.strip(), words, reminder=news, problem=problem)
 
 
 def _read_timeless(order: FoldedSentence, verb: str, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a reminder without its time, which is then asked for: "remind me to ring the doctor"."""
-    if grammar.OPEN.search(order.folded) or not grammar.TIMELESS.match(f"{verb}{order.folded}"):
+    if grammar.OPEN.search(order.folded) or not grammar.TIMELESS.match(f"{verb} {order.folded}"):
         return None
-    what = order.bare().strip(grammar.OF).bare().written.strip()
+    what = order.strip(grammar.OF).bare().written.strip()
     missing: Problem = "order_time_missing"
     return ScheduleCommand(None, what, "", reminder=what, problem=missing) if what else None
 
@@ -274,16 +237,15 @@ def _read_timeless(order: FoldedSentence, verb: str, grammar: ModuleType) -> Sch
 def _reminder(
     order: FoldedSentence, timing: Timing, words: str, grammar: ModuleType, *, woken: bool
 ) -> ScheduleCommand | None:
-    bare = order.bare()
-    if _THEN.match(bare.folded) is not None:
+    if _THEN.match(order.folded) is not None:
         return None  # "remind me at six, and then go to the kitchen"
-    what = bare.strip(grammar.OF).bare().written.strip()
-    if woken and grammar is english and what and what == bare.written:
-        whole = f"wake me up {bare.written}"  # "wake me at nine, like actually come in"
+    what = order.strip(grammar.OF).bare().written.strip()
+    if woken and grammar is english and what and what == order.written:
+        whole = f"wake me up {what}"  # "wake me at nine, like actually come in"
         return ScheduleCommand(timing.when, whole, words, problem=timing.problem)
-    if woken and not what:
+    if not what and woken:
         what = grammar.WAKE_UP
-    if isinstance(timing.when, EventRule) and not what:
+    elif not what and isinstance(timing.when, EventRule):
         what = NEWS[timing.when.event]
     return ScheduleCommand(timing.when, what, words, reminder=what, problem=timing.problem)
 

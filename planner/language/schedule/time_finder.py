@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from planner.language.folding import has_chinese
 from planner.language.schedule import chinese, english
 from planner.language.schedule.folded_sentence import ENDS
-from planner.language.schedule.parts import EventPart, Part, combine
+from planner.language.schedule.parts import After, EventPart, Part, combine
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -91,3 +91,27 @@ def split_time(words: str) -> tuple[tuple[Part, ...], str]:
         if found.parts and not words[each.start() + found.at :].strip(ENDS):
             return found.parts, words[: each.start()].strip(ENDS)
     return (), words
+
+
+def form_pair(words: str, words_zh: str) -> tuple[re.Pattern[str], re.Pattern[str]]:
+    """Return a form in both languages; ``[is_chinese]`` picks one."""
+    return re.compile(words), re.compile(words_zh)
+
+
+def time_of(words: str, chinese: bool, *forms: str) -> tuple[Part, ...]:
+    """Return the parts of the time that words are, which may be said without its "at"."""
+    forms = forms or (("{}",) if chinese else ("{}", "at {}", "on {}", "in {}"))
+    found = (whole_parts(form.format(words), in_chinese=chinese) for form in forms)
+    return next((parts for parts in found if parts), ())
+
+
+def lasting(words: str, chinese: bool) -> tuple[Part, ...]:
+    """Return the time after so long, as "ten minutes" or "hour"."""
+    words = re.sub(r"^(?=(?:hour|minute)s?$)", "one ", words)
+    return time_of(words, chinese, "{}后" if chinese else "in {}")
+
+
+def seconds_of(words: str, chinese: bool) -> float | None:
+    """Return how long that is [s]; None where words are no length."""
+    parts = lasting(words, chinese)
+    return parts[0].seconds if len(parts) == 1 and isinstance(parts[0], After) else None

@@ -10,10 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.orders.calendar_day import JUST_OVER_DAYS
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import OrderQuestion, order_of_text
-from planner.orders.rule import settle
+from planner.orders.rule import JUST_OVER_DAYS, settle
 from planner.plan.timing import AtRule, DayTime
 from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, MovedClocks, kept_in
 

@@ -17,12 +17,12 @@ from planner.orders.calendar_text import read_components, write_lines
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder
 from planner.orders.order import StandingOrder
-from planner.orders.skipping import coming_runs
+from planner.orders.rule import coming_runs
 from planner.plan import Language
 from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, Rule, WorldEvent
 from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, Kept, kept_in
 from tests.planner.orders.player import order
-from tests.planner.orders.test_corrector import say, tell
+from tests.planner.orders.test_intake import say, tell
 
 TODAY = date(2027, 1, 15)
 DAYS = st.sets(st.integers(0, 6), min_size=1)

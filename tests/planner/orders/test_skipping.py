@@ -11,15 +11,14 @@ from hypothesis import strategies as st
 
 from planner.language.schedule.parts import OnceDay
 from planner.orders.order import StandingOrder
-from planner.orders.rule import upcoming
-from planner.orders.skipping import coming_runs, days_left_out, find_day, next_run, runs_on
+from planner.orders.rule import coming_runs, days_left_out, find_day, next_run, runs_on, upcoming
 from planner.orders.store import OrderStore
 from planner.plan import Clarify
 from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, Rule, WorldEvent
 from planner.state_database import StateDatabase
 from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, Kept, kept_in
 from tests.planner.orders.player import Player, order
-from tests.planner.orders.test_corrector import say, take, tell
+from tests.planner.orders.test_intake import say, take, tell
 
 DAY_S = 86_400.0
 TODAY = date(2027, 1, 15)

@@ -53,15 +53,25 @@ def test_bedtime_in_a_name_is_no_time(text: str) -> None:
     assert not isinstance(read_order_command(text), ScheduleCommand)
 
 
-@given(
-    sampled_from(("去客厅看", "巡逻", "在客厅守着", "陪奶奶坐着", "跟着我一直")),
-    sampled_from(("到九点", "到晚上九点", "到了九点半", "到天黑")),
-)
-def test_a_deed_that_goes_on_until_an_hour_is_not_kept(deed: str, until: str) -> None:
-    command = read_order_command(f"每天晚上八点{deed}{until}")
-    assert command is None or (
-        isinstance(command, ScheduleCommand) and command.problem == "order_nested"
-    )
+@pytest.mark.parametrize("verb", ["一定要去", "一直看着", "三个人都叫来", "二号房间去看看"])
+def test_a_digit_behind_the_hour_is_no_minute(verb: str) -> None:
+    command = read(f"明晚七点{verb}")
+    assert (command.when, command.order) == (DayTime(hour=19, days_ahead=1), verb)
+
+
+@given(sampled_from(("零五", "五分", "十", "二十五", "05")), DEEDS)
+def test_a_minute_is_of_the_hour(minute: str, deed: str) -> None:
+    minutes = {"零五": 5, "五分": 5, "十": 10, "二十五": 25, "05": 5}[minute]
+    assert read(f"明晚七点{minute}{deed}").when == DayTime(hour=19, minute=minutes, days_ahead=1)
+
+
+@given(sampled_from((("每周二和周四五点", "0 17 * * 2,4"), ("每周一三五八点", "0 8 * * 1,3,5"),
+                     ("每周四五点半", "30 17 * * 4"))), DEEDS)  # fmt: skip
+def test_an_hour_behind_days_of_the_week_is_none_of_them(said: tuple[str, str], deed: str) -> None:
+    command = read(f"{said[0]}{deed}")
+    assert isinstance(command.when, CronRule)
+    assert command.when.cron.split()[-1] == said[1].split()[-1]
+    assert int(command.when.cron.split()[1]) % 12 == int(said[1].split()[1]) % 12
 
 
 def test_an_hour_in_words_that_are_said_is_no_end() -> None:

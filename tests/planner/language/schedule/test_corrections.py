@@ -181,7 +181,11 @@ def test_words_that_remove_or_pause_are_read(text: str, command: ChangeOrders) -
 
 
 @pytest.mark.parametrize("text", ["cancel the drive", "cancel it", "周末就不用了", "别再去厨房了",
-                                  "don't go to the kitchen", "pause until Monday"])  # fmt: skip
+                                  "don't go to the kitchen", "pause until Monday",
+                                  "晚上就别说了", "周末就别叫我了", "晚上别去厨房",
+                                  "任务失败的时候，别难过，就喊吃饭了",
+                                  "有人来的时候别害怕",
+                                  "don't be sad, say dinner any more"])  # fmt: skip
 def test_what_names_no_order_removes_none(text: str) -> None:
     assert not isinstance(read_order_command(text), ChangeOrders)
 

@@ -126,16 +126,6 @@ def test_the_time_until_which_somebody_waits_is_no_time_of_the_order(order: str,
         assert not isinstance(read_order_command(text), ScheduleCommand), text
 
 
-@given(
-    sampled_from(("tell Emma", "let Mum know", "announce")),
-    TIMES.filter(lambda t: t[:2] in ("at", "in")),
-)
-def test_a_time_before_that_is_the_orders(verb: str, time: str) -> None:
-    command = read_order_command(f"{verb} {time} that dinner's ready")
-    assert isinstance(command, ScheduleCommand)
-    assert command.order == f"{verb} that dinner's ready"
-
-
 @pytest.mark.parametrize("words", ["he sees the doctor", "the film starts", "dinner is ready",
                                    "she has to leave"])  # fmt: skip
 @pytest.mark.parametrize("told", ["remind him", "remind Tom in the study", "tell Emma",

@@ -13,7 +13,7 @@ from planner.language.schedule import OrderCommand
 from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
 from planner.mission.state import Mission
-from planner.orders.changer import SPOKEN_S
+from planner.orders.decision import SPOKEN_S
 from planner.orders.order import StandingOrder
 from planner.plan import (
     AnswerPlan,
@@ -220,6 +220,15 @@ def test_a_reminder_that_came_comes_again(tmp_path: Path, text: str) -> None:
         assert again.rule.unix_s == pytest.approx(kept.clock.unix_s + 600.0)
         await kept.run_s(620.0, 10.0)
         assert kept.missions.told() == [("reminder", "reminder")] * 2
+
+    tell(tmp_path, story)
+
+
+@pytest.mark.parametrize("text", ["at nine as well", "and at half past six too", "八点也要"])
+def test_a_time_with_nothing_to_do_is_left_to_a_brain(tmp_path: Path, text: str) -> None:
+    async def story(kept: Kept) -> None:
+        assert await take(kept, text) is None
+        assert orders(kept) == {}
 
     tell(tmp_path, story)
 

@@ -9,7 +9,7 @@ import pytest
 from planner.language.schedule.parts import OnceDay
 from planner.plan.timing import CronRule
 from tests.planner.orders.fakes import Kept
-from tests.planner.orders.test_corrector import say, take, tell
+from tests.planner.orders.test_intake import say, take, tell
 
 DAY_S = 86_400.0
 TOMORROW, SUNDAY = OnceDay(ahead=1), OnceDay(weekday=6)
