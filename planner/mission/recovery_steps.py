@@ -286,7 +286,7 @@ def end_manoeuvre(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
     turn.put(mission, recovery=record)
     turn.change(manoeuvre=None, leg=None, ticket=None, blocked_since_s=None)
     if own.rung is TURN_OUT:
-        ask_route(turn, detour=False)
+        ask_route(turn)
     else:
         climb_on(turn)
 
