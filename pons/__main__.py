@@ -68,7 +68,7 @@ def _run_command(words: list[str]) -> int:
     if words in (["stop"], ["estop"], ["disarm"]):  # before argparse: nothing may slow this down
         from pons import stop
 
-        return stop.run(load(forgiving=True), words[0])  # type: ignore[arg-type]  # one of the three
+        stop.leave(stop.run(load(forgiving=True), words[0]))  # type: ignore[arg-type]  # one of them
     settings = load(starts=words[:1] == ["up"])
     if words and words[0] in _FOLLOW and not is_robot_named():
         from pons.running import of_this_user

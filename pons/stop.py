@@ -10,8 +10,10 @@ meant, every robot that runs on this machine is told, and each is named.
 
 from __future__ import annotations
 
+import os
 import sys
 import threading
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -19,7 +21,7 @@ from pons.http import PlannerDown, PlannerProblem, call
 from pons.settings import asker, is_robot_named
 
 if TYPE_CHECKING:
-    from typing import Literal
+    from typing import Literal, NoReturn
 
     from pons.settings import LaunchSettings
 
@@ -70,6 +72,19 @@ def run(settings: LaunchSettings, word: Halt = "stop") -> int:
         told = f"{describe_robot(order.robot)}: {order.outcome.text}"
         print(told, file=sys.stderr if order.outcome.status else sys.stdout, flush=True)
     return status
+
+
+def leave(status: int) -> NoReturn:
+    """End the process with a status, and with nothing in between.
+
+    The thread that a hung planner keeps, and those of the wire, may still run. Ended by the
+    interpreter, one of them aborted the process now and then: a stop that was confirmed then had
+    the status of one that was not.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError):  # nobody reads it any more
+            stream.flush()
+    os._exit(status)
 
 
 def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> HaltOutcome:

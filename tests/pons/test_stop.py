@@ -336,3 +336,25 @@ def test_the_stop_that_the_planner_takes_loads_neither_numpy_nor_pydantic_nor_ze
         [sys.executable, "-c", LIGHT], cwd=ROOT, capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == "[]"
+
+
+def test_what_breaks_at_the_interpreters_end_does_not_change_the_status(
+    tmp_path: Path, home: Path, bridge: StandingBridge
+) -> None:
+    (tmp_path / "breaks_at_exit.py").write_text(
+        "import atexit, os, runpy, sys\n"
+        "atexit.register(os.abort)\n"
+        "sys.argv = ['pons', 'stop']\n"
+        "runpy.run_module('pons', run_name='__main__')\n",
+        "utf-8",
+    )
+    done = subprocess.run(
+        [sys.executable, str(tmp_path / "breaks_at_exit.py")],
+        cwd=ROOT,
+        env={**os.environ, "PONS_HOME": str(home), "PONS_PORT": "1", "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=30,
+    )
+    assert_taken(done, "stop")
