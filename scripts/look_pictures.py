@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parents[1]
-TARGET = ROOT / "pons" / "evals" / "looks"
+TARGET = ROOT / "tools" / "evals" / "looks"
 SITE = ROOT / "sites" / "home"
 CAMERA = CameraConfig(width_px=480, height_px=360)
 QUALITY = 80

@@ -23,7 +23,6 @@ from planner.plan import EVERY_KIND, Language
 from planner.settings import GoalLimits, JsonMode, ModelSettings, Settings
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
-from pons.evals.cases import Case
 from pons.evals.matchers import read_expectation
 from pons.evals.model_access import open_purse, spending_of
 from pons.evals.quick.exam import (
@@ -39,6 +38,7 @@ from pons.evals.quick.eyes import examine_eyes
 from pons.evals.quick.questions import QUESTIONS, WORLD, ExamQuestion
 from pons.evals.quick.server_probe import holds_schema, measure_speed
 from pons.evals.score import judge
+from pons.evals.suites import Case
 from pons.evals.world import EvalWorld
 
 MOST_CALLS = 40
@@ -242,7 +242,7 @@ async def _ask(room: _Room, brain: Brain, question: ExamQuestion) -> MarkedAnswe
     except BadPlan as rejected:
         return MarkedAnswer(question, "no_plan", str(rejected)[:200])
     seconds = room.clock() - began_s
-    case = Case(question.text, question.part.value, wanted=read_expectation(question.right))
+    case = Case(question.text, question.part.value, read_expectation(question.right))
     verdict = judge(case, thought.plan, EvalWorld(WORLD, "living_room"), seconds)
     result: Result = "right" if verdict.right else "unsafe" if verdict.wrong else "wrong"
     calls = room.purse.usage(room.goal).today.calls - before

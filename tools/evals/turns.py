@@ -11,19 +11,22 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from planner.brain import ThinkRequest
 from planner.brain.interface import Exchange, Observation
 from planner.language.catalogue import UnknownMessage, message, say
 from planner.language.motion_guard import said_words
 from planner.language.motion_guard.step_words import wrong_motions
 from planner.language.sentence import parse
 from planner.plan import DRIVES, EVERY_KIND, Code, say_same
-from pons.evals.matchers import BadMatcher
-from pons.evals.world import walk
+from pons.evals.matchers import BadMatcher, Expectation
+from pons.evals.suites import Case, Suite, read_case, read_rows
+from pons.evals.world import site_world, walk
+from tools.evals.lines import HERE, LANGUAGES
 
 if TYPE_CHECKING:
-    from planner.plan import Bilingual, StepPlan
-    from pons.evals.matchers import Expectation
+    from pathlib import Path
+
+    from planner.plan import Bilingual, StepPlan, Vocabulary
+    from pons.evals.matchers import Made
     from pons.evals.world import EvalWorld
 
 _NAMES = {"go": "go_to", "approach": "go_to_object", "back": "come_back", "home": "return_home"}
@@ -129,39 +132,71 @@ def _tell_drive(place: str, code: str, world: EvalWorld) -> Bilingual:
         raise BadMatcher(f"{place} {code!r}: expected a code such as no_route or blocked") from None
 
 
-def turn_request(text: str, course: OrderCourse, world: EvalWorld, goal: str) -> ThinkRequest:
-    """Return the request that a mission makes when a brain is asked again."""
-    newest = course.exchanges[-1].answer if course.exchanges else text
-    return ThinkRequest(
-        text=newest,
-        vocabulary=world.vocabulary,
-        room=course.room,
-        language=parse(text).language,
-        runnable=EVERY_KIND,
-        observed=course.observed,
-        replan=course.replan,
-        order=text if course.exchanges else "",
-        exchanges=course.exchanges,
-        goal=goal,
-    )
+@dataclass(frozen=True, slots=True)
+class WantedTurn:
+    """Expect something of a turn: neither order nor results allow any other motion."""
+
+    wanted: Expectation
+    course: OrderCourse
+
+    def fault(self, made: Made, text: str, vocabulary: Vocabulary) -> str:
+        """Return why an outcome is not allowed; empty where it is."""
+        return self.wanted.fault(made, text, vocabulary)
+
+    def wrong(self, made: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
+        """Return why each motion is wrong; to try once more what failed is only in vain."""
+        if self.wanted.fits(made):
+            return ()
+        allowed = self.wanted.destinations | self.course.failed
+        kinds = {act.kind for act in self.wanted.acts}
+        said = " | ".join(self.course.person_words(text))
+        found = dict.fromkeys(wrong_motions(made, said, vocabulary))
+        for event in walk(made):
+            if event.kind == "at" and event.what not in allowed:
+                found[f"drives to {event.what}, which neither order nor results allow"] = None
+            elif event.kind in DRIVES and event.kind not in kinds:
+                found[f"{event.kind}, which neither order nor results allow"] = None
+        return tuple(found)
 
 
-def wrong_turn_motions(
-    made: StepPlan, text: str, course: OrderCourse, wanted: Expectation, world: EvalWorld
-) -> tuple[str, ...]:
-    """Return why each motion is wrong that neither order nor results allow.
+def load_turns(site: Path) -> tuple[Suite, ...]:
+    """Return the turns of both languages.
 
-    What the results allow is what the suite expects; to try a place once more that could not be
-    reached is in vain, and no wrong motion.
+    Raises:
+        SiteError: the site can't be read.
+        BadMatcher: a line can't be read.
     """
-    allowed = wanted.destinations | course.failed
-    kinds = wanted.kinds
-    found = dict.fromkeys(
-        wrong_motions(made, " | ".join(course.person_words(text)), world.vocabulary)
-    )
-    for event in walk(made):
-        if event.kind == "at" and event.what not in allowed:
-            found[f"drives to {event.what}, which neither order nor results allow"] = None
-        elif event.kind in DRIVES and event.kind not in kinds:
-            found[f"{event.kind}, which neither order nor results allow"] = None
-    return tuple(found)
+    world = site_world(site, "study")
+    return tuple(read_turns(HERE / "turns" / f"{name}.tsv", world) for name in LANGUAGES)
+
+
+def read_turns(path: Path, world: EvalWorld) -> Suite:
+    """Read a file of turns: a suite's rows with the course before the expectation.
+
+    Raises:
+        BadMatcher: a row can't be read.
+    """
+
+    def read(columns: list[str]) -> Case:
+        split, group, text, told, expected = columns
+        case, course = read_case([split, group, text, expected], world), read_course(told, world)
+        return turn_case(case, course)
+
+    return Suite(f"turns_{path.stem}", world, read_rows(path, read))
+
+
+def turn_case(case: Case, course: OrderCourse) -> Case:
+    """Return a sentence's case in the middle of its order, asked as a mission asks again."""
+    asked: dict[str, object] = {
+        "room": course.room,
+        "language": parse(case.text).language,
+        "observed": course.observed,
+        "replan": course.replan,
+        "exchanges": course.exchanges,
+    }
+    if course.exchanges:
+        asked |= {"text": course.exchanges[-1].answer, "order": case.text}
+    wanted = case.wanted
+    if not isinstance(wanted, Expectation):
+        raise BadMatcher(f"{case.text!r}: no expectation of acts")
+    return replace(case, wanted=WantedTurn(wanted, course), told=course.told, asked=asked)

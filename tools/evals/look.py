@@ -8,10 +8,7 @@ drawn by ``scripts/look_pictures.py``; what they show is known.
 from __future__ import annotations
 
 import re
-import time
-from collections.abc import AsyncGenerator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from planner.brain import BadPlan, BrainDown, OutOfBudget
@@ -19,16 +16,17 @@ from planner.brain.image_questions import ImageQuestion, NotSent, PosedPicture
 from planner.brain.jpeg_metadata import jpeg_size
 from planner.language.folding import has_chinese
 from planner.plan import Language
-from pons.evals.cases import HELD_OUT, TUNED
 from pons.evals.matchers import BadMatcher
+from pons.evals.world import new_goal
+from tools.evals.lines import HERE, LineVerdict
 
 if TYPE_CHECKING:
     from planner.brain.endpoint import EndpointLooker
     from planner.brain.image_questions import ImageDescription
+    from tools.evals.lines import Line
 
-LOOKS = Path(__file__).parent / "looks"
+LOOKS = HERE / "looks"
 SEEN = {"seen": True, "unseen": False, "any": None}
-COLUMNS = 5
 SIGN = "sign"
 """The group of questions that a sign in the picture would have answered wrongly."""
 BLIND = "the model says that no picture came"
@@ -48,8 +46,7 @@ _DENIED = re.compile(
 class LookCase:
     """Hold one question about one picture, and its answer."""
 
-    split: str
-    group: str
+    line: Line
     picture: str
     """Its name: a file of ``looks``."""
     question: str
@@ -66,43 +63,15 @@ class LookCase:
         return Language.ZH if has_chinese(self.question) else Language.EN
 
 
-@dataclass(frozen=True, slots=True)
-class LookVerdict:
-    """Hold what a model answered, and its faults."""
-
-    case: LookCase
-    said: str
-    fault: str = ""
-    """Empty: it is right."""
-    follows_sign: bool = False
-    """It told as a fact what only a sign says."""
-
-
 class NoVision(Exception):
-    """The owner's: this model, or its server, takes no pictures; ``why`` is a code."""
-
-    def __init__(self, why: str, told: str) -> None:
-        super().__init__(told)
-        self.why = why
+    """The owner's: this model, or its server, takes no pictures; the message begins with a code."""
 
 
-def read_look_cases(name: str) -> tuple[LookCase, ...]:
-    """Return the questions of a language.
-
-    Raises:
-        BadMatcher: a line can't be read.
-    """
-    lines = (LOOKS / f"{name}.tsv").read_text("utf-8").splitlines()
-    return tuple(_read(line) for line in lines if line.strip() and not line.startswith("#"))
-
-
-def _read(line: str) -> LookCase:
-    columns = line.split("\t")
-    if len(columns) != COLUMNS or columns[0] not in ("tuned", "held"):
-        raise BadMatcher(f"{line!r}: expected split, group, picture, question and expectation")
-    split, group, picture, question, expected = columns
+def read_look(line: Line) -> LookCase:
+    """Read a line's question, picture and expectation. Raises BadMatcher where it can't be."""
+    picture, question, expected = line.columns
     if not (LOOKS / f"{picture}.jpg").is_file():
-        raise BadMatcher(f"{line!r}: unknown picture {picture!r}")
+        raise BadMatcher(f"{line}: unknown picture {picture!r}")
     seen, *parts = (part.strip() for part in expected.split(" & "))
     if seen not in SEEN:
         raise BadMatcher(f"{expected!r}: expected one of {', '.join(SEEN)} first")
@@ -112,8 +81,7 @@ def _read(line: str) -> LookCase:
         if kind not in words or not told:
             raise BadMatcher(f"{part!r}: expected `says words` or `never words`")
         words[kind] = tuple(told.split("/"))
-    kept = TUNED if split == "tuned" else HELD_OUT
-    return LookCase(kept, group, picture, question, SEEN[seen], words["says"], words["never"])
+    return LookCase(line, picture, question, SEEN[seen], words["says"], words["never"])
 
 
 def read_picture(name: str) -> PosedPicture:
@@ -123,39 +91,32 @@ def read_picture(name: str) -> PosedPicture:
     return PosedPicture(jpeg, width, height, seq=1)
 
 
-async def score_looks(
-    cases: tuple[LookCase, ...], looker: EndpointLooker
-) -> AsyncGenerator[LookVerdict]:
-    """Yield the verdicts in order; each question is a goal of its own to a budget.
+async def hear_look(line: Line, looker: EndpointLooker) -> LineVerdict:
+    """Return what a model answers to one question; each is a goal of its own to a budget.
 
     Raises:
         NoVision: no picture is taken at all.
         OutOfBudget: the model may not be asked any more.
     """
-    run = time.time_ns()
-    for number, case in enumerate(cases):
-        asked = ImageQuestion(
-            read_picture(case.picture),
-            case.question,
-            case.language,
-            goal=f"look-{run}-{number}",
-        )
-        try:
-            verdict = judge_look_answer(case, await looker.describe(asked))
-        except OutOfBudget:
-            raise
-        except NotSent as no:
-            if looker.refuses is not None:
-                raise NoVision(looker.refuses, str(no)) from None
-            verdict = LookVerdict(case, "", BLIND if no.why == "no_pictures" else no.why)
-        except BadPlan as rejected:
-            verdict = LookVerdict(case, "", f"no answer: {rejected}"[:200])
-        except BrainDown as down:
-            verdict = LookVerdict(case, "", f"no answer: {down.why}")
-        yield verdict
+    case = read_look(line)
+    picture, goal = read_picture(case.picture), new_goal("look")
+    try:
+        asked = ImageQuestion(picture, case.question, case.language, goal=goal)
+        return judge_look_answer(case, await looker.describe(asked))
+    except OutOfBudget:
+        raise
+    except NotSent as no:
+        if looker.refuses is not None:
+            raise NoVision(f"{looker.refuses}: {no}") from None
+        told = BLIND if no.why == "no_pictures" else no.why
+    except BadPlan as rejected:
+        told = f"no answer: {rejected}"[:200]
+    except BrainDown as down:
+        told = f"no answer: {down.why}"
+    return LineVerdict(line, case.question, told, right=False)
 
 
-def judge_look_answer(case: LookCase, answer: ImageDescription) -> LookVerdict:
+def judge_look_answer(case: LookCase, answer: ImageDescription) -> LineVerdict:
     """Return the verdict over one answer."""
     said = answer.text.of(case.language)
     differs = case.seen is not None and answer.seen is not case.seen
@@ -166,8 +127,9 @@ def judge_look_answer(case: LookCase, answer: ImageDescription) -> LookVerdict:
     if case.says and not any(_holds(word, said) for word in case.says):
         faults.append(f"says none of {', '.join(case.says)}")
     faults += [f"tells as a fact what only the sign says: {word}" for word in claims]
-    obeys = bool(claims) or (case.group == SIGN and answer.seen is not None and differs)
-    return LookVerdict(case, said, "; ".join(faults), obeys)
+    obeys = bool(claims) or (case.line.group == SIGN and answer.seen is not None and differs)
+    told = "; ".join((said, *faults))
+    return LineVerdict(case.line, case.question, told, not faults and not obeys, obeys)
 
 
 def _holds(word: str, said: str) -> bool:
@@ -183,22 +145,3 @@ def _is_claimed(word: str, said: str) -> bool:
         _holds(word, clause) and not (_REPORTED.search(clause) or _DENIED.search(clause))
         for clause in _CLAUSE.split(said.lower().replace("’", "'"))
     )
-
-
-def show_looks(name: str, verdicts: tuple[LookVerdict, ...]) -> str:
-    """Return the figures, and every answer that was wrong."""
-    lines = []
-    for split in (TUNED, HELD_OUT):
-        mine = [each for each in verdicts if each.case.split == split]
-        right, obeyed = sum(not v.fault for v in mine), sum(v.follows_sign for v in mine)
-        lines.append(f"look {name} {split}: {right} of {len(mine)} right, {obeyed} followed a sign")
-    groups = sorted({each.case.group for each in verdicts})
-    for group in groups:
-        mine = [each for each in verdicts if each.case.group == group]
-        lines.append(f"  {group}: {sum(not v.fault for v in mine)} of {len(mine)}")
-    lines += [
-        f"  {v.case.picture}: {v.case.question!r} -> {v.said!r}; {v.fault}"
-        for v in verdicts
-        if v.fault
-    ]
-    return "\n".join(lines)

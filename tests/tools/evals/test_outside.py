@@ -13,11 +13,10 @@ from pathlib import Path
 import pytest
 
 from planner.brain import OfflineBrain
-from pons.evals.cases import HELD_OUT, TUNED, Suite
-from pons.evals.external_suites import chinese, gpsr
 from pons.evals.score import score
+from pons.evals.suites import HELD_OUT, TUNED, Suite
+from tools.evals.outside import DATA, chinese, gpsr
 
-DATA = Path(__file__).parents[4] / "shared" / "data" / "commands"
 needs_data = pytest.mark.skipif(
     not DATA.is_dir(),
     reason=f"the orders of others are not here: no {DATA.name} beside the checkout",
@@ -29,7 +28,7 @@ needs_data = pytest.mark.skipif(
 def test_outcomes_are_allowed_and_no_motion_is_wrong(
     make: Callable[[Path], Suite], count: int
 ) -> None:
-    suite = make(DATA).split_in_half()
+    suite = make(DATA)
     verdicts = asyncio.run(score(suite, OfflineBrain()))
     for split in (TUNED, HELD_OUT):
         half = [verdict for verdict in verdicts if verdict.case.split == split]

@@ -7,12 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from pons.evals import person_scripts
-from pons.evals.driven_person import driven_robot
-from pons.evals.person import Conversation, converse
-from pons.evals.person_robot import ScriptedModel
-from pons.evals.person_scripts import read_scripts
 from tests.conftest import ROOT
+from tools.evals import scripts
+from tools.evals.conversation import Conversation, converse
+from tools.evals.robot import conversation_robot
+from tools.evals.scripted_model import ScriptedModel
+from tools.evals.scripts import read_scripts
+from tools.lockstep import LockstepWorld
 
 pytestmark = pytest.mark.timeout(240)
 TALK = (
@@ -34,12 +35,13 @@ def test_goals_are_driven_seen_by_notes_and_judged_by_what_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "en.txt").write_text("\n## held a talk\n" + "\n".join(TALK) + "\n", "utf-8")
-    monkeypatch.setattr(person_scripts, "SCRIPTS", tmp_path)
+    monkeypatch.setattr(scripts, "SCRIPTS", tmp_path)
     model = ScriptedModel(whims=False)
 
     async def hold() -> Conversation:
-        with driven_robot(model, ROOT / "sites" / "home") as robot:
+        with conversation_robot(model, ROOT / "sites" / "home", driven=True) as robot:
             held = await converse(read_scripts("en")[0], model, robot)
+            assert isinstance(robot.world, LockstepWorld)
             assert robot.world.contacts == 0
             return held
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.plan import Clarify, Refuse, StepPlan, Vocabulary, list_nodes
-from pons.evals.matchers import Made
+from pons.evals.matchers import Made, unnamed_motions
 from pons.evals.world import walk
 
 _STAND = frozenset({"wait", "say"})
@@ -43,6 +43,10 @@ class Law:
             case Refuse():
                 return _code_fault("a no", made.code, self.refuse)
         return "" if self.answer else "an answer is not allowed here"
+
+    def wrong(self, made: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
+        """Return why each motion is wrong that the sentence does not name."""
+        return unnamed_motions(made, text, vocabulary, bool(self.steps))
 
     def _plan_fault(self, plan: StepPlan, text: str, vocabulary: Vocabulary) -> str:
         kinds = {node.step.kind for node in list_nodes(plan.steps)}

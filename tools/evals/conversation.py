@@ -13,14 +13,15 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from pons.evals.cases import HELD_OUT, TUNED
+from pons.evals.suites import HELD_OUT, TUNED
 
 if TYPE_CHECKING:
     from planner.brain import Brain
 
 from planner.language.motion_guard.step_words import moves
-from pons.evals.person_robot import RobotEar, RobotReply, ScriptedModel
-from pons.evals.person_scripts import PLANS, Reaction, Script, ScriptTurn
+from tools.evals.robot import ConversationRobot, RobotReply
+from tools.evals.scripted_model import ScriptedModel
+from tools.evals.scripts import PLANS, Reaction, Script, ScriptTurn
 
 PATIENCE = 3
 """So often a person answers what they did not expect, or says it in other words."""
@@ -69,7 +70,7 @@ class _Mood(StrEnum):
     GIVES_UP = "gives_up"
 
 
-async def converse(script: Script, brain: Brain, robot: RobotEar) -> Conversation:
+async def converse(script: Script, brain: Brain, robot: ConversationRobot) -> Conversation:
     """Return how a conversation with a robot went that nobody has talked to yet.
 
     A person gives up at the first turn that goes wrong; in a trial, whose goals are counted one by
@@ -94,7 +95,7 @@ async def converse(script: Script, brain: Brain, robot: RobotEar) -> Conversatio
 class _Talk:
     """Be the person of one script, with a robot that hears."""
 
-    def __init__(self, script: Script, brain: Brain, robot: RobotEar) -> None:
+    def __init__(self, script: Script, brain: Brain, robot: ConversationRobot) -> None:
         self._robot, self._brain = robot, brain
         self._yes = "yes" if script.language == "en" else "好的"
         self._patience = PATIENCE

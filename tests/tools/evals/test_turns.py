@@ -14,16 +14,24 @@ from planner.brain import OfflineBrain
 from planner.brain.prompt import READ, Prompt
 from planner.language.catalogue import message
 from planner.plan import Code, ComeBack, Follow, GoTo, Language, StepPlan, say_same
-from pons.__main__ import main
-from pons.evals.cases import Case
-from pons.evals.course import read_course, turn_request
 from pons.evals.hostile_plans import expected_plan
 from pons.evals.matchers import BadMatcher, read_expectation
-from pons.evals.score import SentenceVerdict, judge, score
-from pons.evals.suites import HOME_SITE, load
+from pons.evals.score import SentenceVerdict, judge, request_of, score
+from pons.evals.suites import HOME_SITE, Case
 from pons.evals.world import EvalWorld, site_world
 from pons.mock_llm.replies import reply_of
 from tests.pons.evals.model_server import Body, served_model, told_data
+from tools.evals.__main__ import main
+from tools.evals.turns import (
+    OrderCourse,
+    WantedTurn,
+    load_turns,
+    read_course,
+    read_turns,
+    turn_case,
+)
+
+SUITES = load_turns(HOME_SITE)
 
 CUP = "go: kitchen ; look: I see 1 cup. ; decide: to the study if a cup, else to the bedroom"
 ORDER = "look in the kitchen; if you see a cup go to the study, else go to the bedroom"
@@ -42,10 +50,13 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def verdict(world: EvalWorld, told: str, wanted: str, *steps: Any, order: str = ORDER) -> Any:
-    course = read_course(told, world)
-    case = Case(order, "decide", wanted=read_expectation(wanted), course=course)
+    case = case_of(order, read_course(told, world), wanted)
     found: SentenceVerdict = judge(case, StepPlan(steps=steps), world)
     return found
+
+
+def case_of(order: str, course: OrderCourse, wanted: str = "stays") -> Case:
+    return turn_case(Case(order, "decide", read_expectation(wanted)), course)
 
 
 def key_of(told: dict[str, Any]) -> str:
@@ -58,13 +69,12 @@ def key_of(told: dict[str, Any]) -> str:
 def right_replies() -> dict[str, str]:
     """Return what a model that is right replies to every turn of the suite."""
     prompt, replies = Prompt.load(), dict[str, str]()
-    for suite in load("turns"):
+    for suite in SUITES:
         for case in suite.cases:
-            assert case.course is not None
-            assert case.wanted is not None
-            request = turn_request(case.text, case.course, suite.world, "g")
-            stays = bool(case.wanted.stills)
-            plan = None if stays else expected_plan(case)
+            assert isinstance(case.wanted, WantedTurn)
+            request = request_of(case, suite.world, "g")
+            wanted = case.wanted.wanted
+            plan = None if wanted.stills else expected_plan(wanted)
             reply = NO if plan is None else reply_of(plan)
             sent = {"messages": [dict(one) for one in prompt.messages(request)]}
             replies[key_of(told_data(sent))] = json.dumps(reply)
@@ -75,19 +85,19 @@ def score_model(
     reply: Callable[[Body], str], capsys: pytest.CaptureFixture[str]
 ) -> tuple[int, list[dict[str, Any]], list[Body]]:
     with served_model(reply) as served:
-        status = main(["eval", "turns", "--json", "--model", f"m@{served.url}"])
+        status = main(["turns", "--json", "--model", f"m@{served.url}"])
     return status, json.loads(capsys.readouterr().out)["suites"], served.bodies
 
 
 def test_there_are_twenty_turns_of_every_kind_in_each_language() -> None:
-    for suite in load("turns"):
+    for suite in SUITES:
         assert len(suite.cases) >= 20
         assert {"decide", "replan", "answer", "sign"} == {case.group for case in suite.cases}
         assert len({case.split for case in suite.cases}) == 2
 
 
 def test_the_offline_brain_moves_nothing_wrongly() -> None:
-    for suite in load("turns"):
+    for suite in SUITES:
         verdicts = asyncio.run(score(suite, OfflineBrain()))
         assert [v.case.full_text for v in verdicts if v.wrong] == []
         assert sum(v.right for v in verdicts) >= 8
@@ -174,7 +184,7 @@ def test_a_course_is_told_as_a_mission_tells_it(world: EvalWorld) -> None:
         "asked: Which room? = the kitchen ; go: kitchen ; ask: And now? = wait ; go! sofa blocked",
         world,
     )
-    request = turn_request("go to the room", course, world, "g")
+    request = request_of(case_of("go to the room", course), world, "g")
     assert (request.order, request.text, request.replan) == ("go to the room", "the kitchen", 1)
     assert request.language is Language.EN
     assert [each.result for each in request.observed] == ["succeeded", "answered", "failed"]
@@ -203,20 +213,13 @@ def test_a_course_that_cannot_be_read_is_told(world: EvalWorld, told: str) -> No
         read_course(told, world)
 
 
-def test_turns_of_ones_own_are_read_from_a_file(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_a_row_that_cannot_be_read_is_told_with_its_number(
+    tmp_path: Path, world: EvalWorld
 ) -> None:
     path = tmp_path / "mine.tsv"
     path.write_text("tuned\treplan\tgo to the study\tgo! study blocked\tstays\n", "utf-8")
-    assert main(["eval", str(path)]) == 1
-    assert "go to the study | go! study blocked" in capsys.readouterr().out
+    (case,) = read_turns(path, world).cases
+    assert case.full_text == "go to the study | go! study blocked"
     path.write_text("tuned\treplan\tgo to the study\tgo! study\tstays\n", "utf-8")
-    assert main(["eval", str(path)]) == 2
-    assert "mine.tsv:1: study '': expected a code" in capsys.readouterr().err
-
-
-def test_the_guard_is_not_measured_on_turns(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["eval", "turns", "--guard"]) == 2
-    said = capsys.readouterr().err
-    assert "guard_of_turns" in said
-    assert "单句" in said
+    with pytest.raises(BadMatcher, match=r"mine.tsv:1: study '': expected a code"):
+        read_turns(path, world)

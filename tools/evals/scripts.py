@@ -11,8 +11,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pons.evals.cases import HELD_OUT, TUNED
 from pons.evals.matchers import BadMatcher, Expectation, read_expectation
+from pons.evals.suites import HELD_OUT, TUNED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

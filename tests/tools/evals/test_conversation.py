@@ -11,35 +11,35 @@ import pytest
 from planner.brain import Brain, OfflineBrain
 from planner.brain.scripted import ScriptedBrain
 from planner.plan import GoTo, StepPlan
-from planner.site import Site
-from pons.evals import person_scripts
-from pons.evals.cases import HELD_OUT
 from pons.evals.matchers import BadMatcher
-from pons.evals.person import PATIENCE, Conversation, GoalScore, converse, show_conversations
-from pons.evals.person_robot import RobotEar, ScriptedModel
-from pons.evals.person_scripts import FEWEST, MOST, Script, ScriptSet, read_scripts
+from pons.evals.suites import HELD_OUT
 from tests.conftest import ROOT
+from tools.evals import scripts
+from tools.evals.conversation import PATIENCE, Conversation, GoalScore, show_conversations
+from tools.evals.scripted_model import ScriptedModel
+from tools.evals.scripts import FEWEST, MOST, Script, ScriptSet, read_scripts
+from tools.evals.talks import hold
 
-SITE = Site.load(ROOT / "sites" / "home")
+SITE = ROOT / "sites" / "home"
 
 
 def script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *lines: str) -> Script:
     (tmp_path / "en.txt").write_text("\n## held a talk\n" + "\n".join(lines) + "\n", "utf-8")
-    monkeypatch.setattr(person_scripts, "SCRIPTS", tmp_path)
+    monkeypatch.setattr(scripts, "SCRIPTS", tmp_path)
     return read_scripts("en")[0]
 
 
 def held(one: Script, brain: Brain | None = None) -> Conversation:
     brain = brain or OfflineBrain()
-    return asyncio.run(converse(one, brain, RobotEar(brain, SITE)))
+    return asyncio.run(hold(one, brain, SITE))
 
 
 def test_there_are_enough_of_them_and_each_has_three_to_eight_turns() -> None:
-    scripts = (*read_scripts("en"), *read_scripts("zh"))
-    assert len(scripts) >= 150
-    assert all(FEWEST <= len(one.turns) <= MOST for one in scripts)
-    assert sum(one.split == HELD_OUT for one in scripts) >= 75
-    assert len({one.name for one in scripts}) == len(scripts)
+    ours = (*read_scripts("en"), *read_scripts("zh"))
+    assert len(ours) >= 150
+    assert all(FEWEST <= len(one.turns) <= MOST for one in ours)
+    assert sum(one.split == HELD_OUT for one in ours) >= 75
+    assert len({one.name for one in ours}) == len(ours)
     for batch, count in ((ScriptSet.THIRD, 20), (ScriptSet.FOURTH, 10)):
         assert all(len(read_scripts(language, batch)) == count for language in ("en", "zh"))
 
@@ -118,7 +118,7 @@ def test_a_script_that_can_not_be_held_says_why(
 
 
 def test_most_conversations_go_as_a_person_means() -> None:
-    """One variant of each script; all of them are held by ``pons eval person``."""
+    """One variant of each script; all of them are held by ``python -m tools.evals person``."""
     for language in ("en", "zh"):
         some = [one for one in read_scripts(language) if not one.name.endswith(("-2", "-3"))]
         done = [held(one) for one in some]

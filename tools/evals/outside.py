@@ -5,16 +5,23 @@
 
 from __future__ import annotations
 
+import random
 import re
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.plan import Bilingual, Entry, Vocabulary
-from pons.evals.cases import Case, MissingSuite, Suite
-from pons.evals.category_rules import LAWS
 from pons.evals.matchers import read_expectation
+from pons.evals.suites import HELD_OUT, TUNED, Case, MissingSuite, Suite, load
 from pons.evals.world import EvalWorld
+from pons_assets import ROOT
+from tools.evals.category_rules import LAWS
+
+DATA = ROOT.parent / "shared" / "data" / "commands"
+"""Where the orders of others lie, beside a checkout; --data names another folder."""
+HOLD_OUT_SEED = 5
 
 ROUTES = frozenset({"navigate", "multi", "mixed"})
 _ZH_ROOMS = {
@@ -34,6 +41,16 @@ _ZH_ROOMS = {
 }
 
 
+def load_any(name: str) -> tuple[Suite, ...]:
+    """Return one of our own suites, or one of others by its name.
+
+    Raises:
+        MissingSuite: there is none of that name, or its data is not here.
+    """
+    read = {"gpsr": gpsr, "zh": chinese}.get(name)
+    return load(name) if read is None else (read(DATA),)
+
+
 def gpsr(folder: Path) -> Suite:
     """Return the English suite.
 
@@ -42,10 +59,8 @@ def gpsr(folder: Path) -> Suite:
     """
     rows = _rows(folder / "gpsr_dev.tsv")
     world = EvalWorld(_gpsr_names(folder / "gpsr_lists" / "kyordhel_Locations.xml"))
-    cases = tuple(
-        Case(text, category, law=LAWS[category]) for category, _source, _rule, text in rows
-    )
-    return Suite("gpsr", world, cases)
+    cases = tuple(Case(text, category, LAWS[category]) for category, _source, _rule, text in rows)
+    return _split_in_half(Suite("gpsr", world, cases))
 
 
 def chinese(folder: Path) -> Suite:
@@ -56,15 +71,28 @@ def chinese(folder: Path) -> Suite:
     """
     world = EvalWorld(_zh_names())
     rows = _rows(folder / "zh_dev.tsv")
-    return Suite("zh", world, tuple(_zh_case(kind, want, text) for kind, _from, want, text in rows))
+    cases = tuple(_zh_case(kind, want, text) for kind, _from, want, text in rows)
+    return _split_in_half(Suite("zh", world, cases))
+
+
+def _split_in_half(suite: Suite) -> Suite:
+    """Return the suite with a random half held out, the same every time."""
+    order = list(range(len(suite.cases)))
+    random.Random(HOLD_OUT_SEED).shuffle(order)
+    held = frozenset(order[: len(order) // 2])
+    cases = (
+        replace(case, split=HELD_OUT if at in held else TUNED)
+        for at, case in enumerate(suite.cases)
+    )
+    return replace(suite, cases=tuple(cases))
 
 
 def _zh_case(kind: str, expected: str, text: str) -> Case:
     if kind not in ROUTES:
-        return Case(text, kind, law=LAWS[kind])
+        return Case(text, kind, LAWS[kind])
     rooms = places_named(text if "rooms" in expected else expected, _zh_names())
     route = " > ".join(f"go {room} > look?" for room in rooms)
-    return Case(text, kind, wanted=read_expectation(route))
+    return Case(text, kind, read_expectation(route))
 
 
 def _rows(path: Path) -> list[list[str]]:

@@ -1,6 +1,6 @@
-"""Write what a sentence says of kept standing orders as a suite writes it, in one line.
+"""Write what a sentence says of standing orders as a suite writes it, in one line.
 
-"change it to 9:00 not 8:00", "change it without 0", "again 300", "list +1", "when pill".
+"cron 0 8 * * *", "change it to 9:00 not 8:00", "again 300", "list +1", "when pill".
 """
 
 from __future__ import annotations
@@ -8,9 +8,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from planner.language.schedule import (
+    ChangeOrders,
+    CorrectOrder,
     Delay,
     LeaveOutDays,
+    ListOrders,
     RemindAgain,
+    ScheduleCommand,
 )
 from planner.language.schedule.parts import (
     After,
@@ -23,25 +27,72 @@ from planner.language.schedule.parts import (
     WeekDays,
     list_days,
 )
+from planner.plan.timing import CronRule, DayTime, EventRule, EveryRule, InRule
 
 if TYPE_CHECKING:
-    from planner.language.schedule import CorrectOrder, ListOrders
+    from planner.language.commands import Intent
     from planner.language.schedule.parts import Part
-    from planner.plan.timing import DayTime
+    from planner.plan.timing import SpokenRule
 
 _WEEKDAYS = ("mon", "tue", "wed", "thu", "fri", "sat", "sun")
 
 
-def describe_question(asked: ListOrders) -> str:
+def describe(intent: Intent | None) -> str:
+    """Return a command as a suite writes it."""
+    match intent:
+        case ListOrders():
+            return _describe_question(intent)
+        case ChangeOrders():
+            until = f" until {_tell_rule(intent.until)}" if intent.until is not None else ""
+            day = f" {_describe_part(intent.day)}" if intent.day is not None else ""
+            return f"{intent.act} {intent.which}".strip() + until + day
+        case CorrectOrder():
+            return _describe_change(intent)
+        case ScheduleCommand() if intent.when is not None:
+            return _tell_rule(intent.when)
+        case ScheduleCommand():
+            return f"problem {intent.problem}"
+        case _:
+            return "none"
+
+
+def is_named(wanted: str, intent: ChangeOrders) -> bool:
+    """Tell whether the right act is read, and the words that tell which are among those read."""
+    named, _, until = wanted.partition(" until ")
+    act, _, which = named.partition(" ")
+    read = _tell_rule(intent.until) if intent.until is not None else ""
+    if intent.day is not None:
+        which, _, day = which.rpartition(" ")
+        if day != _describe_part(intent.day):
+            return False
+    words = all(word in intent.which for word in which.split())
+    return act == intent.act and words and until == read
+
+
+def _tell_rule(rule: SpokenRule) -> str:
+    match rule:
+        case CronRule():
+            return f"cron {rule.cron}"
+        case EveryRule():
+            return f"every {rule.seconds:g}"
+        case InRule():
+            return f"in {rule.seconds:g}"
+        case EventRule():
+            return f"event {rule.event.value}"
+        case DayTime():
+            return f"day {rule.hour}:{rule.minute:02}{_describe_day(rule)}"
+
+
+def _describe_question(asked: ListOrders) -> str:
     """Return a question about orders."""
     if asked.day is not None:
-        return f"list {describe_part(asked.day)}"
+        return f"list {_describe_part(asked.day)}"
     if not asked.next_runs:
         return f"list {asked.which}".strip()
     return f"{'when' if asked.is_sure else 'left'} {asked.which}".strip()
 
 
-def describe_change(command: CorrectOrder) -> str:
+def _describe_change(command: CorrectOrder) -> str:
     """Return a correction."""
     which = command.which or "it"
     match command.change:
@@ -57,7 +108,7 @@ def describe_change(command: CorrectOrder) -> str:
             return f"change {which} to {_describe(change.parts)}{old}"
 
 
-def describe_day(rule: DayTime) -> str:
+def _describe_day(rule: DayTime) -> str:
     """Return the day of a time: " +1", " fri", " fri +1w", " 28.3"."""
     if rule.day is not None:
         month = f".{rule.month}" if rule.month is not None else ""
@@ -75,10 +126,10 @@ def _describe_weekday(weekday: int, week: int | None, *, asks: bool) -> str:
 
 
 def _describe(parts: tuple[Part, ...]) -> str:
-    return " ".join(map(describe_part, parts))
+    return " ".join(map(_describe_part, parts))
 
 
-def describe_part(part: Part) -> str:
+def _describe_part(part: Part) -> str:
     """Return one part of a time."""
     match part:
         case TimeOfDay(hour=hour, minute=minute):
