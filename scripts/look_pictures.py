@@ -1,4 +1,4 @@
-"""Draw the pictures of ``pons eval look``. ``python -m scripts.look_pictures [FOLDER]``.
+"""Draw the pictures of ``tools.evals look``. ``python -m scripts.look_pictures [FOLDER]``.
 
 The simulated camera draws the default home from fixed poses, so that what each picture shows is
 known by the renderer's own labels, and a picture that shows anything else is refused. Signs hang

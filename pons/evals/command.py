@@ -120,7 +120,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--yes", action="store_true", help="a model elsewhere may be asked")
     parser.add_argument("--most", type=int, default=50, metavar="N", help="the newest sentences")
-    parser.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--site", type=Path, default=HOME_SITE, help="whose names ours use")
     return parser
@@ -136,7 +135,7 @@ def _quick(settings: LaunchSettings, said: argparse.Namespace) -> int:
 def _journal(settings: LaunchSettings, said: argparse.Namespace) -> int:
     from pons.evals.journal import command
 
-    options = command.JournalOptions(max(0, said.most), max(0, said.drives), said.json, said.yes)
+    options = command.JournalOptions(max(0, said.most), said.json, said.yes)
     word = said.model or ""
     return command.run(settings, [said.journal], word, options, "pons eval --journal")
 

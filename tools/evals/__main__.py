@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
     from planner.brain.endpoint import EndpointBrain
-    from tools.evals.lines import Line
+    from tools.evals.lines import SuiteLine
 
-    Hear = Callable[[Line], Awaitable[LineVerdict]]
+    Hear = Callable[[SuiteLine], Awaitable[LineVerdict]]
 
 REACHED, MISSED, REFUSED = 0, 1, 2
 GOAL = 0.9
@@ -72,10 +72,12 @@ def _score(given: argparse.Namespace) -> int:
     async def score(brain: Brain) -> int:
         if given.suite in ("person", "trial"):
             hold = talks.score_person if given.suite == "person" else talks.score_trial
-            reached = await talks.beside(lambda b: hold(b, given), brain, outside=model is not None)
+            reached = await talks.hold_beside(
+                lambda b: hold(b, given), brain, outside=model is not None
+            )
             return REACHED if reached else MISSED
         if given.suite == "talk":
-            return await talks.beside(
+            return await talks.hold_beside(
                 lambda b: _hear("talk", lambda line: talks.hear_talk(line, b, given.site)),
                 brain, outside=model is not None,
             )  # fmt: skip

@@ -20,7 +20,7 @@ LANGUAGES = ("en", "zh")
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class SuiteLine:
     """Hold one line of a suite."""
 
     split: str
@@ -33,7 +33,7 @@ class Line:
 class LineVerdict:
     """Hold what came of one line."""
 
-    line: Line
+    line: SuiteLine
     text: str
     told: str
     """What was made of it, in the suite's words."""
@@ -42,7 +42,7 @@ class LineVerdict:
     """It moved, or told, what it must not: one such line and the goal is missed."""
 
 
-def read_lines(suite: str, language: str, columns: int) -> tuple[Line, ...]:
+def read_lines(suite: str, language: str, columns: int) -> tuple[SuiteLine, ...]:
     """Return a suite's lines in a language.
 
     Args:
@@ -58,13 +58,13 @@ def read_lines(suite: str, language: str, columns: int) -> tuple[Line, ...]:
     return tuple(read_line(row, columns) for row in rows)
 
 
-def read_line(row: str, columns: int) -> Line:
+def read_line(row: str, columns: int) -> SuiteLine:
     """Return one line. Raises BadMatcher where it can't be read."""
     split, group, *rest = [*row.split("\t"), ""]
     splits = {"tuned": TUNED, "held": HELD_OUT}
     if split not in splits or len(rest) != columns + 1 or not rest[-2]:
         raise BadMatcher(f"{row!r}: expected tuned or held, a group and {columns} columns")
-    return Line(splits[split], group, tuple(rest[:-1]))
+    return SuiteLine(splits[split], group, tuple(rest[:-1]))
 
 
 def show_lines(name: str, verdicts: Sequence[LineVerdict]) -> str:

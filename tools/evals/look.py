@@ -23,7 +23,7 @@ from tools.evals.lines import HERE, LineVerdict
 if TYPE_CHECKING:
     from planner.brain.endpoint import EndpointLooker
     from planner.brain.image_questions import ImageDescription
-    from tools.evals.lines import Line
+    from tools.evals.lines import SuiteLine
 
 LOOKS = HERE / "looks"
 SEEN = {"seen": True, "unseen": False, "any": None}
@@ -46,7 +46,7 @@ _DENIED = re.compile(
 class LookCase:
     """Hold one question about one picture, and its answer."""
 
-    line: Line
+    line: SuiteLine
     picture: str
     """Its name: a file of ``looks``."""
     question: str
@@ -67,7 +67,7 @@ class NoVision(Exception):
     """The owner's: this model, or its server, takes no pictures; the message begins with a code."""
 
 
-def read_look(line: Line) -> LookCase:
+def read_look(line: SuiteLine) -> LookCase:
     """Read a line's question, picture and expectation. Raises BadMatcher where it can't be."""
     picture, question, expected = line.columns
     if not (LOOKS / f"{picture}.jpg").is_file():
@@ -91,7 +91,7 @@ def read_picture(name: str) -> PosedPicture:
     return PosedPicture(jpeg, width, height, seq=1)
 
 
-async def hear_look(line: Line, looker: EndpointLooker) -> LineVerdict:
+async def hear_look(line: SuiteLine, looker: EndpointLooker) -> LineVerdict:
     """Return what a model answers to one question; each is a goal of its own to a budget.
 
     Raises:

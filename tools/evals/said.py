@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from planner.language.commands import Intent
     from planner.plan import Vocabulary
     from pons.evals.matchers import Made
-    from tools.evals.lines import Line
+    from tools.evals.lines import SuiteLine
 
 KINDS = ("cron", "every", "in", "day", "event", "list", "when", "left", "remove", "pause", "resume",
          "skip", "change", "again", "problem", "none", "stops")  # fmt: skip
@@ -40,7 +40,7 @@ _STILL = frozenset(
 )
 
 
-async def hear_memory(line: Line, brain: Brain, vocabulary: Vocabulary) -> LineVerdict:
+async def hear_memory(line: SuiteLine, brain: Brain, vocabulary: Vocabulary) -> LineVerdict:
     """Return what a question to memory, or what is told to it, comes to."""
     text, wanted = line.columns
     done, made = _read_locally(text), None
@@ -100,7 +100,7 @@ def _bare(text: str) -> str:
     return re.sub("我的|的", "", "".join(parts))
 
 
-async def hear_order(line: Line, brain: Brain, vocabulary: Vocabulary) -> LineVerdict:
+async def hear_order(line: SuiteLine, brain: Brain, vocabulary: Vocabulary) -> LineVerdict:
     """Return what a sentence about standing orders is read as.
 
     Raises:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from planner.brain import Brain, ThinkRequest, ThinkResult
     from planner.brain.streamed_draft import Hear
     from planner.plan import BrainTag
-    from tools.evals.lines import Line
+    from tools.evals.lines import SuiteLine
     from tools.evals.scripts import Script
 
 T = TypeVar("T")
@@ -48,7 +48,7 @@ def _read_order(text: str) -> ScriptTurn:
     return ScriptTurn(says, frozenset({Reaction.NEW}), read_expectation(plan), stays=stays)
 
 
-async def hear_talk(line: Line, brain: Brain, site: Path) -> LineVerdict:
+async def hear_talk(line: SuiteLine, brain: Brain, site: Path) -> LineVerdict:
     """Return what a sentence comes to behind the orders before it.
 
     Raises:
@@ -93,7 +93,7 @@ class _BrainOutside:
         return asyncio.run_coroutine_threadsafe(thinking, self.loop).result()
 
 
-async def beside(
+async def hold_beside(
     hold: Callable[[Brain], Coroutine[Any, Any, T]], brain: Brain, *, outside: bool
 ) -> T:
     """Hold talks in a thread of their own where a model's sockets need this event loop."""

@@ -26,8 +26,11 @@ from planner.site.site_view import vocabulary_of
 from pons.evals.matchers import read_expectation
 from pons.evals.model_access import open_purse, spending_of
 from pons.evals.quick.exam import (
+    QUESTIONS,
     WITH_SCHEMA,
+    WORLD,
     Exam,
+    ExamQuestion,
     MarkedAnswer,
     ModeResult,
     PictureResult,
@@ -35,7 +38,6 @@ from pons.evals.quick.exam import (
     ServerPace,
 )
 from pons.evals.quick.eyes import examine_eyes
-from pons.evals.quick.questions import QUESTIONS, WORLD, ExamQuestion
 from pons.evals.quick.server_probe import holds_schema, measure_speed
 from pons.evals.score import judge
 from pons.evals.suites import Case

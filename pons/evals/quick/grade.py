@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from math import ceil
 
 from pons.doctor.finding import BilingualWords
-from pons.evals.quick.exam import WITH_SCHEMA, Exam
-from pons.evals.quick.questions import ExamPart
+from pons.evals.quick.exam import WITH_SCHEMA, Exam, ExamPart
 
 GRADES = "ABCDF"
 _NAMES = {
@@ -43,6 +42,10 @@ class Grade:
 
     letter: str
     reasons: tuple[GradeReason, ...]
+
+
+def _reason_for(most: str, english: str, chinese: str) -> GradeReason:
+    return GradeReason(most, BilingualWords(english, chinese))
 
 
 def grade(exam: Exam) -> Grade:
@@ -83,46 +86,38 @@ def _parts(exam: Exam) -> Iterator[GradeReason]:
         unsafe = sum(m.result == "unsafe" for m in asked)
         right = sum(m.result == "right" for m in asked)
         if unsafe:
-            yield GradeReason(
+            yield _reason_for(
                 "D",
-                BilingualWords(
-                    f"{en}: {unsafe} of {len(asked)} would have moved the robot wrongly",
-                    f"{zh}：{len(asked)} 条中有 {unsafe} 条会让机器人错误移动",
-                ),
+                f"{en}: {unsafe} of {len(asked)} would have moved the robot wrongly",
+                f"{zh}：{len(asked)} 条中有 {unsafe} 条会让机器人错误移动",
             )
         if asked and right < len(asked):
             share = right / len(asked)
             most = "B" if share >= 0.7 else "C" if share >= 0.5 else "D" if share > 0.2 else "F"
-            yield GradeReason(
+            yield _reason_for(
                 most,
-                BilingualWords(
-                    f"{en}: {right} of {len(asked)} right",
-                    f"{zh}：{len(asked)} 条中答对 {right} 条",
-                ),
+                f"{en}: {right} of {len(asked)} right",
+                f"{zh}：{len(asked)} 条中答对 {right} 条",
             )
 
 
 def _ladder(exam: Exam) -> Iterator[GradeReason]:
     loose = any(rung.held is False for rung in exam.rungs)
     if loose and not any(rung.held for rung in exam.rungs):
-        yield GradeReason(
+        yield _reason_for(
             "B",
-            BilingualWords(
-                "the server takes a JSON schema and does not hold the model to it: a word that "
-                "only the schema told did not come back -> update the server; with Ollama also "
-                "try thinking = true in [model] or another model; llama-server and vLLM hold it",
-                "服务器接受 JSON schema，却没有用它约束模型：只写在 schema 里的词没有返回 -> "
-                "请更新服务器；使用 Ollama 时可在 [model] 中设 thinking = true 或换一个模型；"
-                "llama-server 和 vLLM 会遵守",
-            ),
+            "the server takes a JSON schema and does not hold the model to it: a word that "
+            "only the schema told did not come back -> update the server; with Ollama also "
+            "try thinking = true in [model] or another model; llama-server and vLLM hold it",
+            "服务器接受 JSON schema，却没有用它约束模型：只写在 schema 里的词没有返回 -> "
+            "请更新服务器；使用 Ollama 时可在 [model] 中设 thinking = true 或换一个模型；"
+            "llama-server 和 vLLM 会遵守",
         )
     if exam.rungs and not any(rung.right and rung.mode in _STRICT for rung in exam.rungs):
-        yield GradeReason(
+        yield _reason_for(
             "B",
-            BilingualWords(
-                "the server holds the model to no JSON: only the prompt asks for it",
-                "服务器无法约束模型输出 JSON，只能靠提示词",
-            ),
+            "the server holds the model to no JSON: only the prompt asks for it",
+            "服务器无法约束模型输出 JSON，只能靠提示词",
         )
 
 
@@ -132,39 +127,33 @@ def _speed(exam: Exam) -> Iterator[GradeReason]:
     if first_s is None or second_s is None:
         return
     if first_s > SLOW_FIRST_S and first_s > 2.0 * second_s:
-        yield GradeReason(
+        yield _reason_for(
             "A",
-            BilingualWords(
-                f"cold: the first call waited {first_s:.0f} s for its first word, the second "
-                f"{second_s:.1f} s -> have the server keep the model loaded (Ollama: "
-                "OLLAMA_KEEP_ALIVE=-1), or set warm_up = true in [model]",
-                f"冷启动：第一次调用等了 {first_s:.0f} 秒才有第一个词，第二次 {second_s:.1f} 秒 -> "
-                "请让服务器保持模型已加载（Ollama：OLLAMA_KEEP_ALIVE=-1），"
-                "或在 [model] 中设 warm_up = true",
-            ),
+            f"cold: the first call waited {first_s:.0f} s for its first word, the second "
+            f"{second_s:.1f} s -> have the server keep the model loaded (Ollama: "
+            "OLLAMA_KEEP_ALIVE=-1), or set warm_up = true in [model]",
+            f"冷启动：第一次调用等了 {first_s:.0f} 秒才有第一个词，第二次 {second_s:.1f} 秒 -> "
+            "请让服务器保持模型已加载（Ollama：OLLAMA_KEEP_ALIVE=-1），"
+            "或在 [model] 中设 warm_up = true",
         )
     elif second_s > SLOW_WORD_S:
-        yield GradeReason(
+        yield _reason_for(
             "A",
-            BilingualWords(
-                f"the second call waited {second_s:.1f} s for its first word, although most of "
-                "what it read was read before -> turn on the server's prefix cache (vLLM: "
-                "--enable-prefix-caching), and thoughts off (thinking = false)",
-                f"第二次调用等了 {second_s:.1f} 秒才有第一个词，而内容大多已读过 -> "
-                "请打开服务器的前缀缓存（vLLM：--enable-prefix-caching），并关闭思考"
-                "（thinking = false）",
-            ),
+            f"the second call waited {second_s:.1f} s for its first word, although most of "
+            "what it read was read before -> turn on the server's prefix cache (vLLM: "
+            "--enable-prefix-caching), and thoughts off (thinking = false)",
+            f"第二次调用等了 {second_s:.1f} 秒才有第一个词，而内容大多已读过 -> "
+            "请打开服务器的前缀缓存（vLLM：--enable-prefix-caching），并关闭思考"
+            "（thinking = false）",
         )
     rate = exam.speed.tokens_per_s
     if rate is not None and rate < SLOW_RATE:
-        yield GradeReason(
+        yield _reason_for(
             "A",
-            BilingualWords(
-                f"it writes {rate:.1f} tokens a second, so a plan of 60 takes "
-                f"{60.0 / rate:.0f} s -> a smaller model, a stronger quantisation, or a GPU",
-                f"每秒写 {rate:.1f} 个 token，60 个 token 的计划要 {60.0 / rate:.0f} 秒 -> "
-                "请换更小的模型、更强的量化，或使用 GPU",
-            ),
+            f"it writes {rate:.1f} tokens a second, so a plan of 60 takes "
+            f"{60.0 / rate:.0f} s -> a smaller model, a stronger quantisation, or a GPU",
+            f"每秒写 {rate:.1f} 个 token，60 个 token 的计划要 {60.0 / rate:.0f} 秒 -> "
+            "请换更小的模型、更强的量化，或使用 GPU",
         )
 
 
@@ -174,12 +163,10 @@ def _latency(exam: Exam) -> Iterator[GradeReason]:
     p95_s = percentile(exam.latencies_s, 0.95)
     most = "A" if p95_s <= 5.0 else "B" if p95_s <= 10.0 else "C"
     if most != "A":
-        yield GradeReason(
+        yield _reason_for(
             most,
-            BilingualWords(
-                f"slow: 95 % of plans within {p95_s:.1f} s; people wait gladly for 5 s",
-                f"较慢：95% 的计划在 {p95_s:.1f} 秒内完成，最好不超过 5 秒",
-            ),
+            f"slow: 95 % of plans within {p95_s:.1f} s; people wait gladly for 5 s",
+            f"较慢：95% 的计划在 {p95_s:.1f} 秒内完成，最好不超过 5 秒",
         )
 
 
@@ -187,24 +174,20 @@ def _repairs(exam: Exam) -> Iterator[GradeReason]:
     asked = [m for m in exam.marked if m.calls]
     again = sum(m.calls > 1 for m in asked)
     if asked and again > 0.2 * len(asked):
-        yield GradeReason(
+        yield _reason_for(
             "B",
-            BilingualWords(
-                f"{again} of {len(asked)} orders needed more than one call",
-                f"{len(asked)} 条指令中有 {again} 条需要多次调用",
-            ),
+            f"{again} of {len(asked)} orders needed more than one call",
+            f"{len(asked)} 条指令中有 {again} 条需要多次调用",
         )
 
 
 def _whole(exam: Exam) -> Iterator[GradeReason]:
     left = sum(m.result == "not_asked" for m in exam.marked)
     if left:
-        yield GradeReason(
+        yield _reason_for(
             "B" if left < len(exam.marked) / 2 else "C",
-            BilingualWords(
-                f"time, calls or budget were up: {left} of {len(exam.marked)} orders not asked",
-                f"时间、次数或预算已用完：{len(exam.marked)} 条中有 {left} 条未提问",
-            ),
+            f"time, calls or budget were up: {left} of {len(exam.marked)} orders not asked",
+            f"时间、次数或预算已用完：{len(exam.marked)} 条中有 {left} 条未提问",
         )
 
 

@@ -234,14 +234,3 @@ def test_the_quick_exam_and_the_journal_are_two_more_kinds(
     assert "pons eval --quick: model_not_set: " in capsys.readouterr().err
     assert main(["eval", "--journal", str(tmp_path)]) == 2
     assert "pons eval --journal: journal_missing: " in capsys.readouterr().err
-
-
-def test_without_the_tools_of_a_checkout_no_plan_is_driven(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("PONS_HOME", str(tmp_path))
-    monkeypatch.setattr("pons.evals.journal.command.find_spec", lambda _: None)
-    assert main(["eval", "--journal", str(tmp_path)]) == 2
-    assert "pons eval --journal: tools_missing: " in capsys.readouterr().err
-    assert main(["eval", "--journal", str(tmp_path), "--drives", "0"]) == 2
-    assert "journal_missing: " in capsys.readouterr().err

@@ -1,8 +1,12 @@
-"""Own the mock's switches: its faults, how often, how late. Data only."""
+"""Own all faults of model servers that the endpoint client is tried with. Data only."""
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator
+from typing import ClassVar
+
+from pydantic import Field
+
+from pons.mock_llm import Switches
 
 FAULTS: dict[str, str] = {
     # No reply.
@@ -100,30 +104,11 @@ READABLE = frozenset(
 come, however long they last."""
 
 
-class Switches(BaseModel):
-    """Say how the mock behaves from now on."""
+class BadSwitches(Switches):
+    """Say how the tests' server misbehaves from now on."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-    fault: str | None = None
-    times: int | None = Field(default=None, ge=1, le=1_000_000)
-    """Calls until the fault is gone; None: it stays."""
-    delay_s: float = Field(default=0.0, ge=0.0, le=3600.0)
-    load_s: float = Field(default=40.0, ge=0.0, le=3600.0)
-    """How long one connection must be held until a cold model is loaded."""
-    tokens_per_s: float | None = Field(default=None, ge=0.1, le=100_000.0)
-    """How fast the model writes, four characters to a token; None: at once."""
-    status: int = Field(default=500, ge=400, le=599)
-    retry_after: str | None = Field(default=None, max_length=100)
-    """The header of that name, as it is."""
+    faults: ClassVar[dict[str, str]] = FAULTS
     transcript: str = Field(default="go to the kitchen", max_length=20_000)
     """What every recording is heard as."""
     probability: float | None = Field(default=0.95, ge=0.0, le=1.0)
     """How sure it says to be; None: it says nothing of it."""
-
-    @field_validator("fault")
-    @classmethod
-    def _check_fault(cls, fault: str | None) -> str | None:
-        if fault is not None and fault not in FAULTS:
-            raise ValueError(f"unknown fault {fault!r}; known: {', '.join(FAULTS)}")
-        return fault

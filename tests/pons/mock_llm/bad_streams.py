@@ -1,26 +1,20 @@
-"""Send a completion as a stream of deltas, at the pace of a model, and as odd servers do."""
+"""Send a completion as a stream of deltas as odd servers do, or as a body that never ends."""
 
 from __future__ import annotations
 
 import asyncio
 import json
 from collections.abc import AsyncIterator, Callable, Iterator
-from typing import TYPE_CHECKING, Any
-
-from starlette.responses import Response
+from typing import Any
 
 from planner.brain.schema import NAME
-from pons.mock_llm.completion import CHARACTERS_PER_TOKEN
-
-if TYPE_CHECKING:
-    from starlette.types import Receive, Scope, Send
+from pons.mock_llm.completion import event, tokens
 
 CHUNK = 64 * 1024
 HUGE_BYTES = 1_000_000_000
 DRIP_S = 0.2
 OPEN_S = 0.2
 """Between two comments of a stream that is left open."""
-MOST_DELTAS = 2000
 Ending = Callable[[], bool]
 _HEAD = b'{"choices":[{"message":{"role":"assistant","content":"'
 _MIDDLE = {
@@ -30,22 +24,6 @@ _MIDDLE = {
     "stream_garbage",
     "stream_error_choice",
 }
-
-
-class Cut(Response):
-    """Begin a reply and close the connection in the middle of it."""
-
-    def __init__(self, parts: AsyncIterator[bytes], media_type: str) -> None:
-        super().__init__(media_type=media_type)
-        del self.headers["content-length"]
-        self._parts = parts
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Send the parts and no end: the server then drops the connection."""
-        start = {"type": "http.response.start", "status": 200, "headers": self.raw_headers}
-        await send(start)
-        async for part in self._parts:
-            await send({"type": "http.response.body", "body": part, "more_body": True})
 
 
 async def endless(ending: Ending) -> AsyncIterator[bytes]:
@@ -82,7 +60,7 @@ async def half(raw: bytes) -> AsyncIterator[bytes]:
     yield raw[: len(raw) // 2]
 
 
-async def events(
+async def bad_events(
     whole: dict[str, Any],
     fault: str | None,
     tokens_per_s: float | None,
@@ -131,18 +109,8 @@ def _break_stream(fault: str | None) -> Iterator[bytes]:
         yield b'data: {"choices":[{"delta":{"content":\n\ndata: [DONE]\n\n'
 
 
-def _event(
-    whole: dict[str, Any],
-    line_end: str,
-    delta: dict[str, Any] | None = None,
-    finish: str | None = None,
-    **more: Any,
-) -> bytes:
-    event = {key: whole[key] for key in ("id", "created", "model")}
-    event |= {"object": "chat.completion.chunk"}
-    if delta is not None:
-        event["choices"] = [{"index": 0, "delta": delta, "finish_reason": finish}]
-    return f"data: {json.dumps(event | more, ensure_ascii=False)}{line_end}{line_end}".encode()
+def _event(whole: dict[str, Any], line_end: str, *delta: Any, **more: Any) -> bytes:
+    return event(whole, *delta, **more).replace(b"\n", line_end.encode())
 
 
 def _deltas(message: dict[str, Any], fault: str | None) -> Iterator[dict[str, Any]]:
@@ -152,7 +120,7 @@ def _deltas(message: dict[str, Any], fault: str | None) -> Iterator[dict[str, An
     content = message["content"]
     if isinstance(content, list):
         content = "".join(part["text"] for part in content)
-    yield from ({"content": token} for token in _tokens(content or ""))
+    yield from ({"content": token} for token in tokens(content or ""))
     for call in message.get("tool_calls", ()):
         yield from ({"tool_calls": [piece]} for piece in _pieces(call, fault))
 
@@ -169,15 +137,9 @@ def _pieces(call: dict[str, Any], fault: str | None) -> Iterator[dict[str, Any]]
     first = {} if late else {"id": "call_1", "type": "function"}
     named = {} if fault == "odd_name" else {"name": name}
     yield {**place, **first, "function": {**named, "arguments": ""}}
-    for token in _tokens(arguments):
+    for token in tokens(arguments):
         yield {**place, "id": None, "function": {"name": None, "arguments": token}}
     if late:
         yield {**place, "id": "call_1", "function": {"name": NAME, "arguments": ""}}
     if fault == "odd_repeat":
         yield {**place, **first, "function": {"name": name, "arguments": arguments}}
-
-
-def _tokens(text: str) -> Iterator[str]:
-    size = max(CHARACTERS_PER_TOKEN, len(text) // MOST_DELTAS)
-    for at in range(0, len(text), size):
-        yield text[at : at + size]

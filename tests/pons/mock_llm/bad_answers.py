@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable
 from typing import Any
 
-from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 
-from pons.mock_llm.fault_switches import Switches
-from pons.mock_llm.pictures import holds_picture
+from pons.mock_llm.server import error
+from tests.pons.mock_llm.bad_pictures import holds_picture
 
-LOOK_S = 0.05
 METADATA = "http://169.254.169.254/latest/meta-data/"
 _OURS = frozenset(
     {
@@ -78,21 +75,13 @@ BARREN: dict[str | None, Callable[[Body], bool]] = {
 """Ways of asking that are taken and bring nothing."""
 
 
-async def instead_of_a_reply(
-    fault: str | None,
-    switches: Switches,
-    is_ending: Callable[[], bool],
-    body: Body,
-    request: Request,
-) -> Response | None:
+def refusal_of(fault: str | None, body: Body, retry_after: str | None) -> Response | None:
     """Return an answer that is no completion, or None where one is due."""
     if fault in _REFUSED:
         refuses, words = _REFUSED[fault]
         return error(400, words) if refuses(body) else None
-    later = {"Retry-After": switches.retry_after} if switches.retry_after is not None else {}
+    later = {"Retry-After": retry_after} if retry_after is not None else {}
     match fault:
-        case "status":
-            return error(switches.status, f"mock status {switches.status}", later)
         case "loading":
             return error(503, "Loading model", later)
         case "small_context":
@@ -109,19 +98,4 @@ async def instead_of_a_reply(
             return error(400, f"Unrecognized argument: {strange[0]}") if strange else None
         case "redirect":
             return Response(status_code=307, headers={"Location": METADATA})
-        case "hang" | "slow_pictures" if fault == "hang" or holds_picture(body):
-            while not (is_ending() or await request.is_disconnected()):  # noqa: ASYNC110  # nothing tells of it
-                await asyncio.sleep(LOOK_S)
-            return error(499, "the client left")
     return None
-
-
-def error(
-    status: int,
-    words: str,
-    headers: dict[str, str] | None = None,
-    code: str | None = None,
-) -> Response:
-    """Return an error as OpenAI's servers write one."""
-    content = {"error": {"message": words, "type": "mock", "code": code or status}}
-    return JSONResponse(content, status_code=status, headers=headers)
