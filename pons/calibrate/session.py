@@ -8,6 +8,7 @@ code drives real processes and a lockstep world.
 from __future__ import annotations
 
 from collections import deque
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from pons.calibrate.errors import CalibrationRefusal, RunLost
@@ -29,7 +30,7 @@ from wire import (
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, ODOM, SCAN, SIM_TRUTH, STATUS, TELEOP
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from wire.session import Session
 
@@ -184,6 +185,27 @@ class CalibrationRig:
             self._raise_why()
             raise RunLost("run_lost", "the bridge did not give the stick over")
 
+    @contextmanager
+    def hold(
+        self,
+        track: DriveTrack | None = None,
+        odometry: list[Odometry] | None = None,
+        stands_s: float = 0.0,
+    ) -> Iterator[None]:
+        """Hold the stick for one run, keeping what is heard; the robot stands when it ends.
+
+        Raises:
+            CalibrationRefusal, RunLost: the bridge does not give it.
+        """
+        self.track, self.odometry = track, odometry
+        try:
+            self._for(stands_s)
+            self.take()
+            yield
+        finally:
+            self.let_go()
+            self.track = self.odometry = None
+
     def is_driving(self) -> bool:
         """Tell whether this hand moves the robot."""
         return self._is_mode({Mode.TELEOP})
@@ -232,10 +254,6 @@ class CalibrationRig:
         self._until(lambda: not self.is_driving() and self.stands(), STAND_S)
         self._for(STANDS_S)
         self._wish = None
-
-    def stand(self, seconds: float) -> None:
-        """Let time pass, asking for nothing."""
-        self._for(seconds)
 
     def settle(self, patience_s: float) -> bool:
         """Wait for the drive's rows to clear, then for a person to arm; tell whether one did.
