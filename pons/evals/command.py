@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from maps.errors import SiteError
 from planner.brain import Brain, OfflineBrain, OutOfBudget
-from pons.evals.brain_choice import with_brain
 from pons.evals.matchers import BadMatcher
+from pons.evals.model_access import with_brain
 from pons.evals.report import as_json, content, has_passed, table
 from pons.evals.score import SentenceVerdict, score_each
 from pons.evals.suites import HOME_SITE, MissingSuite, Suite, load, suite_names

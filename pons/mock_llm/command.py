@@ -66,7 +66,6 @@ def _grammar() -> argparse.ArgumentParser:
     option("--host", default="127.0.0.1")
     option("--port", type=_port, default=0, help="0 takes a free one")
     option("--delay", dest="delay_s", type=float, metavar="S", help="before each reply")
-    option("--load-s", type=float, metavar="S", help="with --cold: 40")
     option("--tokens-per-s", type=float, metavar="N", help="how fast it writes")
     option("--times", type=int, metavar="N", help="calls until the fault is gone")
     option("--retry-after", metavar="S", help="the header, with --status")

@@ -18,7 +18,6 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 from planner.brain import OfflineBrain, ThinkRequest
 from pons.mock_llm.completion import EVENTS, Cut, completion, events
 from pons.mock_llm.replies import GARBAGE, reply_of
-from pons.mock_llm.request_parser import only_reply
 
 if TYPE_CHECKING:
     from starlette.requests import Request
@@ -28,7 +27,6 @@ LOOK_S = 0.05
 FAULTS: dict[str, str] = {
     "status": "answer with an HTTP status, 500 unless --status says which",
     "hang": "take the request and never answer",
-    "cold": "load the model for --load-s first, and begin again where the client leaves",
     "garbage": "reply with prose and broken JSON",
     "stream_breaks": "close the connection in the middle of a stream",
 }
@@ -44,8 +42,6 @@ class Switches(BaseModel):
     times: int | None = Field(default=None, ge=1, le=1_000_000)
     """Calls until the fault is gone; None: it stays."""
     delay_s: float = Field(default=0.0, ge=0.0, le=3600.0)
-    load_s: float = Field(default=40.0, ge=0.0, le=3600.0)
-    """How long one connection must be held until a cold model is loaded."""
     tokens_per_s: float | None = Field(default=None, ge=0.1, le=100_000.0)
     """How fast the model writes, four characters to a token; None: at once."""
     status: int = Field(default=500, ge=400, le=599)
@@ -67,10 +63,6 @@ class MockServer:
         self.switches, self.brain = switches, OfflineBrain()
         self.calls, self.left = 0, switches.times
         self.served: Counter[str] = Counter()
-        self.is_loaded = False
-        """Told of a cold model alone."""
-        self.left_load = 0
-        """Clients that left while it loaded, and so ended the load."""
         self.wrote_s: deque[float] = deque(maxlen=KEPT)
         """When the last token of each stream was sent, on the monotonic clock of this machine."""
         self.ending: Callable[[], bool] = lambda: False
@@ -78,7 +70,7 @@ class MockServer:
 
     def set(self, switches: Switches) -> None:
         """Behave so from now on; counts go on, the fault's number of times begins anew."""
-        self.switches, self.left, self.is_loaded = switches, switches.times, False
+        self.switches, self.left = switches, switches.times
 
     def next_fault(self) -> str | None:
         """Return the fault of this call."""
@@ -92,7 +84,7 @@ class MockServer:
     def report(self) -> dict[str, Any]:
         """Return switches and counts."""
         shown = self.switches.model_dump(mode="json")
-        counts = {"calls": self.calls, "served": dict(self.served), "left_load": self.left_load}
+        counts = {"calls": self.calls, "served": dict(self.served)}
         return {"switches": shown, **counts, "wrote_s": list(self.wrote_s)}
 
     async def instead(
@@ -105,8 +97,6 @@ class MockServer:
             return error(self.switches.status, f"mock status {self.switches.status}", later)
         if fault == "hang":
             return await self.hang(request)
-        if fault == "cold":
-            await self._load(request)
         return None
 
     async def hang(self, request: Request) -> Response:
@@ -114,16 +104,6 @@ class MockServer:
         while not (self.ending() or await request.is_disconnected()):  # noqa: ASYNC110  # nothing tells of it
             await asyncio.sleep(LOOK_S)
         return error(499, "the client left")
-
-    async def _load(self, request: Request) -> None:
-        """Load a cold model while this client stays; one that leaves ends the load."""
-        began_s = time.monotonic()
-        while not (self.is_loaded or self.ending()):
-            if await request.is_disconnected():
-                self.left_load += 1
-                return
-            self.is_loaded = time.monotonic() - began_s >= self.switches.load_s
-            await asyncio.sleep(LOOK_S)
 
     def tell_picture(self, fault: str | None, body: dict[str, Any], place: str) -> str | None:
         """Return the reply to a question about a picture; None where an order is given.
@@ -137,8 +117,8 @@ class MockServer:
         self, fault: str | None, asked: ThinkRequest, body: dict[str, Any]
     ) -> dict[str, Any]:
         """Return the reply to an order."""
-        del fault
-        return only_reply(body) or reply_of((await self.brain.think(asked)).plan, asked.text)
+        del fault, body
+        return reply_of((await self.brain.think(asked)).plan, asked.text)
 
     def write(
         self, fault: str | None, good: str, place: str, body: dict[str, Any], request: Request

@@ -12,9 +12,9 @@ from maps.errors import SiteError
 from planner.brain import Brain, OutOfBudget
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
-from pons.evals.brain_choice import with_brain, with_model
 from pons.evals.command import score_and_show
 from pons.evals.matchers import BadMatcher
+from pons.evals.model_access import with_brain, with_model
 from pons.evals.suites import HOME_SITE, MissingSuite
 from pons.settings import load
 from tools.evals import look, outside, said, talks

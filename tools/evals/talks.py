@@ -105,22 +105,23 @@ async def hold_beside(
 
 async def score_person(brain: Brain, said: argparse.Namespace) -> bool:
     """Hold conversations with a brain and, where no model is named, with a scripted one too."""
-    brains = (brain,) if said.model is not None else (brain, ScriptedModel())
+    brains = (lambda: brain,) if said.model is not None else (lambda: brain, ScriptedModel)
     return await _score(brains, (ScriptSet.OWN, ScriptSet.THIRD, ScriptSet.FOURTH), said)
 
 
 async def score_trial(brain: Brain, said: argparse.Namespace) -> bool:
     """Hold the trial, which is for models: what it asks is beyond a grammar."""
-    scripted = (ScriptedModel(whims=False), ScriptedModel())[: 1 if said.drive else 2]
-    brains = (brain,) if said.model is not None else scripted
+    scripted = (lambda: ScriptedModel(whims=False), ScriptedModel)[: 1 if said.drive else 2]
+    brains = (lambda: brain,) if said.model is not None else scripted
     return await _score(brains, (ScriptSet.TRIAL,), said)
 
 
 async def _score(
-    brains: Sequence[Brain], sets: tuple[ScriptSet, ...], said: argparse.Namespace
+    brains: Sequence[Callable[[], Brain]], sets: tuple[ScriptSet, ...], said: argparse.Namespace
 ) -> bool:
     right = count = wrong = 0
-    for name, script_set, brain in product(("en", "zh"), sets, brains):
+    for name, script_set, make in product(("en", "zh"), sets, brains):
+        brain = make()
         held = tuple(
             [await hold(one, brain, said.site, driven=said.drive)
              for one in read_scripts(name, script_set)]

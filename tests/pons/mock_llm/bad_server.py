@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+import asyncio
 import itertools
 import json
+import time
 from typing import TYPE_CHECKING, Any
 
 from starlette.responses import Response, StreamingResponse
 
 from planner.brain import ThinkRequest
 from planner.plan import StepPlan
-from pons.mock_llm import MockServer
+from pons.mock_llm import MockServer, Switches
 from pons.mock_llm.completion import EVENTS, Cut
 from pons.mock_llm.replies import reply_of
+from pons.mock_llm.server import LOOK_S
 from tests.pons.mock_llm import bad_pictures, bad_streams
 from tests.pons.mock_llm.bad_answers import BARREN, refusal_of
 from tests.pons.mock_llm.bad_completion import bad_completion, bytes_of
 from tests.pons.mock_llm.bad_replies import hallucinate, hostile, shape_reply
 from tests.pons.mock_llm.faults import BadSwitches
-from tests.pons.mock_llm.pictures import asked_of
+from tests.pons.mock_llm.pictures import asked_of, dicts
 
 if TYPE_CHECKING:
     from starlette.requests import Request
@@ -35,12 +38,36 @@ class BadServer(MockServer):
     def __init__(self, switches: BadSwitches | None = None) -> None:
         super().__init__(switches or BadSwitches())
         self._hostile, self._badly = itertools.count(), itertools.count()
+        self.is_loaded = False
+        """Told of a cold model alone."""
+        self.left_load = 0
+        """Clients that left while it loaded, and so ended the load."""
 
     async def instead(self, fault: str | None, body: Body, request: Request) -> Response | None:
         if fault == "slow_pictures" and bad_pictures.holds_picture(body):
             return await self.hang(request)
+        if fault == "cold":
+            await self._load(request)
         refused = refusal_of(fault, body, self.switches.retry_after)
         return refused or await super().instead(fault, body, request)
+
+    async def _load(self, request: Request) -> None:
+        """Load a cold model while this client stays; one that leaves ends the load."""
+        assert isinstance(self.switches, BadSwitches)
+        began_s, load_s = time.monotonic(), self.switches.load_s
+        while not (self.is_loaded or self.ending()):
+            if await request.is_disconnected():
+                self.left_load += 1
+                return
+            self.is_loaded = time.monotonic() - began_s >= load_s
+            await asyncio.sleep(LOOK_S)
+
+    def set(self, switches: Switches) -> None:
+        super().set(switches)
+        self.is_loaded = False
+
+    def report(self) -> dict[str, Any]:
+        return {**super().report(), "left_load": self.left_load}
 
     def tell_picture(self, fault: str | None, body: Body, place: str) -> str | None:
         about = asked_of(body)
@@ -53,7 +80,7 @@ class BadServer(MockServer):
             asked = await self._obey(asked, bad_pictures.words_read(body))
         if fault in ("obeys_pictures", "schema_ignored"):
             return reply_of((await self.brain.think(asked)).plan, asked.text)
-        return await super().plan(fault, asked, body)
+        return only_reply(body) or await super().plan(fault, asked, body)
 
     async def _obey(self, asked: ThinkRequest, told: list[str]) -> ThinkRequest:
         """Return the order that a planner follows which takes what it reads for orders."""
@@ -104,3 +131,30 @@ class BadServer(MockServer):
             parts = bad_streams.bad_events(whole, fault, rate, self.ending, self.wrote)
             return StreamingResponse(parts, media_type=EVENTS)
         return Response(raw, media_type=json_type, headers=headers)
+
+
+def only_reply(body: dict[str, Any]) -> dict[str, Any] | None:
+    """Return the one reply that the request's schema allows, or None where it leaves a choice.
+
+    The mock's model is none that a schema could hold, but for one that leaves nothing to it.
+    """
+    form, tools = body.get("response_format"), dicts(body.get("tools"))
+    schema = form.get("json_schema", {}).get("schema") if isinstance(form, dict) else None
+    if schema is None and tools:
+        schema = tools[0].get("function", {}).get("parameters")
+    if not isinstance(schema, dict):
+        return None
+    fields, required = schema.get("properties"), schema.get("required")
+    if not isinstance(fields, dict) or not isinstance(required, list):
+        return None
+    filled = {name: _only_value(shape) for name, shape in fields.items() if name in required}
+    return filled if filled and None not in filled.values() else None
+
+
+def _only_value(shape: object) -> object:
+    if not isinstance(shape, dict):
+        return None
+    words = shape.get("enum")
+    if isinstance(words, list) and len(words) == 1:
+        return words[0]
+    return False if shape.get("type") == "boolean" else None

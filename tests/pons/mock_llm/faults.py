@@ -108,6 +108,8 @@ class BadSwitches(Switches):
     """Say how the tests' server misbehaves from now on."""
 
     faults: ClassVar[dict[str, str]] = FAULTS
+    load_s: float = Field(default=40.0, ge=0.0, le=3600.0)
+    """How long one connection must be held until a cold model is loaded."""
     transcript: str = Field(default="go to the kitchen", max_length=20_000)
     """What every recording is heard as."""
     probability: float | None = Field(default=0.95, ge=0.0, le=1.0)

@@ -339,7 +339,8 @@ def test_the_command_prints_its_url_and_ends_clean() -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [["--port", "x"], ["--status", "200"], ["--delay", "-1"], ["--hang", "--cold"], ["x"]]
+    "words",
+    [["--port", "x"], ["--status", "200"], ["--delay", "-1"], ["--hang", "--garbage"], ["x"]],
 )
 def test_wrong_words_end_with_2(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     from pons.__main__ import main
