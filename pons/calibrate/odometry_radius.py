@@ -7,7 +7,6 @@ faces the way itself no more than it fits motors: a person puts it before a wall
 
 from __future__ import annotations
 
-from itertools import pairwise
 from math import copysign
 from typing import TYPE_CHECKING
 
@@ -105,24 +104,10 @@ def _run(
     target_m = abs(metres) - stopping_m(mps, robot)
     before, limit_s = rig.look(), 6.0 + 2.0 * abs(metres) / SLOWEST_MPS
     said: list[Odometry] = []
-    way = _WayCount(said)
     with rig.hold(odometry=said):
-        rig.steer(copysign(mps, metres), 0.0, lambda: way.metres() >= target_m, limit_s)
+        began_m = rig.way_m
+        rig.steer(copysign(mps, metres), 0.0, lambda: rig.way_m - began_m >= target_m, limit_s)
     reckoned = reckoned_m(said)
     if not reckoned >= SHORTEST_M / 2:
         raise RunLost("run_lost", f"odometry says {reckoned:.2f} m")
     return went_m(reference, before, rig.look(), robot, ask_m), reckoned
-
-
-class _WayCount:
-    """Add up the way that odometry says, as it comes."""
-
-    def __init__(self, said: Sequence[Odometry]) -> None:
-        self._said, self._at, self._m = said, 1, 0.0
-
-    def metres(self) -> float:
-        """Return the way [m], without sign."""
-        for before, now in pairwise(self._said[max(0, self._at - 1) :]):
-            self._m += distance(before.base_in_odom, now.base_in_odom)
-        self._at = max(1, len(self._said))
-        return self._m

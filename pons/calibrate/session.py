@@ -80,7 +80,8 @@ class CalibrationRig:
         self.odometry: list[Odometry] | None = None
         """Where what the bridge reckons is kept; None keeps nothing."""
         self._odom: Pose2 | None = None
-        self._way_m = 0.0
+        self.way_m = 0.0
+        """What odometry has come since the rig was made, back and forth."""
         self._heard_s = clock()
         self._said_s = 0.0
         self._seq = 0
@@ -130,7 +131,7 @@ class CalibrationRig:
         for odometry in self._odometry.drain().items:
             if isinstance(odometry, Odometry):
                 pose = odometry.base_in_odom
-                self._way_m += distance(self._odom, pose) if self._odom is not None else 0.0
+                self.way_m += distance(self._odom, pose) if self._odom is not None else 0.0
                 self._odom = pose
                 if self.odometry is not None:
                     self.odometry.append(odometry)
@@ -245,7 +246,7 @@ class CalibrationRig:
     def _angles(self) -> tuple[float, float]:
         state = self.state
         if state is None:  # a drive in the bridge itself says nothing here; its odometry moves
-            return (self._odom.yaw_rad if self._odom is not None else 0.0), self._way_m
+            return (self._odom.yaw_rad if self._odom is not None else 0.0), self.way_m
         return state.left_rad, state.right_rad
 
     def let_go(self) -> None:
