@@ -136,7 +136,6 @@ def _replay(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="FILE is a journal (missions.db) or a home folder: think its sentences again",
     )
     again.add_argument("--most", type=int, default=50, metavar="N", help="the newest sentences")
-    again.add_argument("--drives", type=int, default=3, metavar="N", help="plans to drive, of new")
     again.add_argument("--json", action="store_true", help="with --with-model")
     again.add_argument("--yes", action="store_true", help="with --with-model: do not ask")
 

@@ -42,5 +42,5 @@ def with_model(settings: LaunchSettings, said: argparse.Namespace) -> int:
     """Think recorded sentences again with the model that was named."""
     from pons.evals.journal import command
 
-    options = command.JournalOptions(max(0, said.most), max(0, said.drives), said.json, said.yes)
+    options = command.JournalOptions(max(0, said.most), said.json, said.yes)
     return command.run(settings, said.files, said.with_model, options)

@@ -1,4 +1,4 @@
-"""Draw the pictures of ``pons eval look``. ``python -m scripts.look_pictures [FOLDER]``.
+"""Draw the pictures of ``tools.evals look``. ``python -m scripts.look_pictures [FOLDER]``.
 
 The simulated camera draws the default home from fixed poses, so that what each picture shows is
 known by the renderer's own labels, and a picture that shows anything else is refused. Signs hang
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parents[1]
-TARGET = ROOT / "pons" / "evals" / "looks"
+TARGET = ROOT / "tools" / "evals" / "looks"
 SITE = ROOT / "sites" / "home"
 CAMERA = CameraConfig(width_px=480, height_px=360)
 QUALITY = 80

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from pons.calibrate.errors import CalibrationRefusal, RunLost
 from pons.calibrate.findings import CalibrationFinding, check_limits, close
-from pons.calibrate.procedure import ready, retry_lost
+from pons.calibrate.procedure import ready, take_runs
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -45,6 +45,11 @@ class TurnSeen:
     by_wheels_rad: float
     by_gyro_rad: float
 
+    @property
+    def ratio(self) -> float:
+        """Return how much more the wheels say than the gyro."""
+        return self.by_wheels_rad / self.by_gyro_rad
+
 
 def find_track(
     rig: CalibrationRig,
@@ -62,16 +67,12 @@ def find_track(
         raise CalibrationRefusal("no_gyro", "inputs.imu is false")
     ready(rig.listen(needs_senses=False), robot)
     was_m = robot.base.wheel_separation_m
-    tracks: list[float] = []
-    for count in range(plan.turns):
-        sign = 1.0 if count % 2 == 0 else -1.0
-        seen = retry_lost(rig, plan, say, lambda s=sign: _turn(rig, robot, s))  # type: ignore[misc]  # the default binds the loop's sign
-        tracks.append(was_m * seen.by_wheels_rad / seen.by_gyro_rad)
-        say(
-            f"turn {count + 1}/{plan.turns}: wheels {seen.by_wheels_rad:+.2f} rad, gyro "
-            f"{seen.by_gyro_rad:+.2f} rad, track {tracks[-1]:.4f} m"
-        )
-    return _finding(tracks, robot, when)
+    turns = take_runs(
+        rig, plan, say, "turn", plan.turns, lambda sign: _turn(rig, robot, sign),
+        lambda seen: f"wheels {seen.by_wheels_rad:+.2f} rad, gyro {seen.by_gyro_rad:+.2f} rad, "
+        f"track {was_m * seen.ratio:.4f} m",
+    )  # fmt: skip
+    return _finding([was_m * seen.ratio for seen in turns], robot, when)
 
 
 def seen_in(said: Sequence[Odometry]) -> TurnSeen:
@@ -113,16 +114,10 @@ def _turn(rig: CalibrationRig, robot: RobotDescription, sign: float) -> TurnSeen
     """
     radps = min(TURN_RADPS, TURN_SHARE * robot.limits.max_turn_radps)
     said: list[Odometry] = []
-    rig.odometry = said
-    try:
-        rig.stand(STANDS_S)
-        rig.take()
-        limit_s = 5.0 + 3.0 * ROUND_RAD / radps
-        turned = _TurnCount(said)
+    turned = _TurnCount(said)
+    limit_s = 5.0 + 3.0 * ROUND_RAD / radps
+    with rig.hold(odometry=said, stands_s=STANDS_S):
         rig.steer(0.0, sign * radps, lambda: turned.radians() >= ROUND_RAD, limit_s)
-    finally:
-        rig.let_go()
-        rig.odometry = None
     return believable(seen_in(said))
 
 

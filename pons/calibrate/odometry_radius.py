@@ -7,19 +7,10 @@ faces the way itself no more than it fits motors: a person puts it before a wall
 
 from __future__ import annotations
 
-from itertools import pairwise
+from math import copysign
 from typing import TYPE_CHECKING
 
-from pons.calibrate.clearance import (
-    BEHIND_M,
-    END_M,
-    LONGEST_M,
-    OFF,
-    SHORTEST_M,
-    free_m,
-    needed_m,
-    points_of,
-)
+from pons.calibrate.clearance import SHORTEST_M, best_way
 from pons.calibrate.errors import CalibrationRefusal, RunLost
 from pons.calibrate.findings import (
     RADIUS_SPREAD,
@@ -28,9 +19,9 @@ from pons.calibrate.findings import (
     close,
     plausible,
 )
-from pons.calibrate.procedure import ready, retry_lost
+from pons.calibrate.procedure import clear_metres, points_ahead, ready, take_runs
 from pons.calibrate.reference import LIDAR, SPOKEN, TRUTH, went_m
-from pons.calibrate.runs import FAST_MPS, FAST_SHARE
+from pons.calibrate.runs import FAST_MPS, FAST_SHARE, stopping_m
 from wire import distance
 
 if TYPE_CHECKING:
@@ -62,20 +53,16 @@ def find_radius(
     reference = plan.reference or LIDAR
     if reference == TRUTH:
         raise CalibrationRefusal("no_truth")
-    run_m = _room(rig, robot)
-    say(f"runs of {run_m:.2f} m; distances by {SPOKEN[reference]}; the wheels by odometry")
-    radii: list[float] = []
-    for count in range(2 * plan.shuttles):
-        metres = run_m if count % 2 == 0 else -run_m
-        went, reckoned = retry_lost(
-            rig, plan, say, lambda m=metres: _run(rig, robot, m, reference, ask_m)  # type: ignore[misc]  # the default binds the loop's metres
-        )  # fmt: skip
-        radii.append(robot.base.wheel_radius_m * went / reckoned)
-        say(
-            f"run {count + 1}/{2 * plan.shuttles}: odometry {reckoned:.3f} m, truly {went:.3f} m, "
-            f"radius {radii[-1]:.4f} m"
-        )
     was_m = robot.base.wheel_radius_m
+    run_m = best_way(points_ahead(rig, robot), robot.base.radius_m, (0.0,)).run_m
+    say(f"runs of {run_m:.2f} m; distances by {SPOKEN[reference]}; the wheels by odometry")
+    runs = take_runs(
+        rig, plan, say, "run", 2 * plan.shuttles,
+        lambda sign: _run(rig, robot, sign * run_m, reference, ask_m),
+        lambda run: f"odometry {run[1]:.3f} m, truly {run[0]:.3f} m, "
+        f"radius {was_m * run[0] / run[1]:.4f} m",
+    )  # fmt: skip
+    radii = [was_m * went / reckoned for went, reckoned in runs]
     radius_m = close("base.wheel_radius_m", radii, RADIUS_SPREAD)
     plausible("base.wheel_radius_m", radius_m, was_m)
     evidence = (
@@ -100,27 +87,6 @@ def reckoned_m(said: Sequence[Odometry]) -> float:
     return distance(said[0].base_in_odom, said[-1].base_in_odom)
 
 
-def _room(rig: CalibrationRig, robot: RobotDescription) -> float:
-    """Return how long a run may be, as the robot stands.
-
-    Raises:
-        CalibrationRefusal: ``no_room``.
-    """
-    ahead_m, behind_m = _free_m(rig, robot)
-    run_m = min(LONGEST_M, (ahead_m - END_M) / OFF)
-    if not (run_m >= SHORTEST_M and behind_m >= BEHIND_M):
-        text = (
-            f"{ahead_m:.2f} m are free ahead and {behind_m:.2f} m behind; a run needs "
-            f"{needed_m(SHORTEST_M):.2f} m and {BEHIND_M:.2f} m"
-        )
-        raise CalibrationRefusal("no_room", text)
-    return run_m
-
-
-def _free_m(rig: CalibrationRig, robot: RobotDescription) -> tuple[float, float]:
-    return free_m(points_of(rig.look().scans[-1], robot), robot.base.radius_m)
-
-
 def _run(
     rig: CalibrationRig,
     robot: RobotDescription,
@@ -133,40 +99,15 @@ def _run(
     Raises:
         CalibrationRefusal, RunLost: it was none.
     """
-    ahead_m, behind_m = _free_m(rig, robot)
-    if metres > 0.0 and not ahead_m >= needed_m(metres):
-        raise CalibrationRefusal("no_room", f"{ahead_m:.2f} m are free ahead")
-    if metres < 0.0 and not behind_m >= abs(metres):
-        raise CalibrationRefusal("no_room", f"{behind_m:.2f} m are free behind")
+    metres = clear_metres(rig, robot, metres)
     mps = max(SLOWEST_MPS, min(FAST_MPS, FAST_SHARE * robot.limits.max_speed_mps))
-    stop_m = 0.1 * mps + mps * mps / (2 * robot.limits.max_decel_mps2) + 0.02
-    before = rig.look()
+    target_m = abs(metres) - stopping_m(mps, robot)
+    before, limit_s = rig.look(), 6.0 + 2.0 * abs(metres) / SLOWEST_MPS
     said: list[Odometry] = []
-    rig.odometry = said
-    try:
-        rig.take()
-        way = _WayCount(said)
-        limit_s = 6.0 + 2.0 * abs(metres) / SLOWEST_MPS
-        sign = 1.0 if metres > 0.0 else -1.0
-        rig.steer(sign * mps, 0.0, lambda: way.metres() >= abs(metres) - stop_m, limit_s)
-    finally:
-        rig.let_go()
-        rig.odometry = None
+    with rig.hold(odometry=said):
+        began_m = rig.way_m
+        rig.steer(copysign(mps, metres), 0.0, lambda: rig.way_m - began_m >= target_m, limit_s)
     reckoned = reckoned_m(said)
     if not reckoned >= SHORTEST_M / 2:
         raise RunLost("run_lost", f"odometry says {reckoned:.2f} m")
     return went_m(reference, before, rig.look(), robot, ask_m), reckoned
-
-
-class _WayCount:
-    """Add up the way that odometry says, as it comes."""
-
-    def __init__(self, said: Sequence[Odometry]) -> None:
-        self._said, self._at, self._m = said, 1, 0.0
-
-    def metres(self) -> float:
-        """Return the way [m], without sign."""
-        for before, now in pairwise(self._said[max(0, self._at - 1) :]):
-            self._m += distance(before.base_in_odom, now.base_in_odom)
-        self._at = max(1, len(self._said))
-        return self._m

@@ -7,6 +7,7 @@ a person measures comes through ``ask_m``.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from math import pi
 from typing import TYPE_CHECKING, TypeVar
 
@@ -80,21 +81,16 @@ def calibrate(
         raise CalibrationRefusal("no_truth")
     run_m = _face_the_way(rig, robot, plan, say)
     say(f"runs of {run_m:.2f} m; distances by {SPOKEN[reference]}")
-    straights: list[StraightRun] = []
-    for count in range(2 * plan.shuttles):
-        metres = run_m if count % 2 == 0 else -run_m
-        straights.append(
-            retry_lost(rig, plan, say, lambda m=metres: _straight(rig, robot, m, reference, ask_m))  # type: ignore[misc]  # the default binds the loop's metres
-        )
-        say(f"run {count + 1}/{2 * plan.shuttles}: {_run_line(straights[-1])}")
+    straights = take_runs(
+        rig, plan, say, "run", 2 * plan.shuttles,
+        lambda sign: _straight(rig, robot, sign * run_m, reference, ask_m), _run_line,
+    )  # fmt: skip
     radius_m = radius_of(straights, robot)  # before the turns, which a wrong one would spoil
-    separations: list[float] = []
-    for count in range(plan.turns):
-        angle = ROUND_RAD if count % 2 == 0 else -ROUND_RAD
-        separations.append(
-            retry_lost(rig, plan, say, lambda a=angle: _turn(rig, robot, a, reference, radius_m))  # type: ignore[misc]  # likewise
-        )
-        say(f"turn {count + 1}/{plan.turns}: separation {separations[-1]:.4f} m")
+    separations = take_runs(
+        rig, plan, say, "turn", plan.turns,
+        lambda sign: _turn(rig, robot, sign * ROUND_RAD, reference, radius_m),
+        lambda separation_m: f"separation {separation_m:.4f} m",
+    )  # fmt: skip
     by = SPOKEN[reference]
     if reference == MEASURED:
         by = f"{by} of distances and {SPOKEN[LIDAR]} in turns"
@@ -128,14 +124,14 @@ def _face_the_way(
         way = retry_lost(rig, plan, say, lambda: _turn_nearer(rig, robot, say))
         if not way.turns_rad:
             return way.run_m
-    return best_way(_points(rig, robot), robot.base.radius_m, (0.0,)).run_m
+    return best_way(points_ahead(rig, robot), robot.base.radius_m, (0.0,)).run_m
 
 
 def _turn_nearer(
     rig: CalibrationRig, robot: RobotDescription, say: Callable[[str], None]
 ) -> ClearWay:
     """Look, choose a way and, unless it is ahead, take the first turn that leads there."""
-    way = best_way(_points(rig, robot), robot.base.radius_m)
+    way = best_way(points_ahead(rig, robot), robot.base.radius_m)
     say(
         f"needs {needed_m(way.run_m):.2f} m ahead of the robot's edge and a turn of "
         f"{way.heading_rad * 180 / pi:.0f} degrees to face it"
@@ -145,18 +141,18 @@ def _turn_nearer(
     return way
 
 
-def _points(rig: CalibrationRig, robot: RobotDescription) -> Points:
+def points_ahead(rig: CalibrationRig, robot: RobotDescription) -> Points:
+    """Return where beams of a fresh scan came back, in ``base`` [m]."""
     return points_of(rig.look().scans[-1], robot)
 
 
-def _straight(
-    rig: CalibrationRig,
-    robot: RobotDescription,
-    metres: float,
-    reference: str,
-    ask_m: Callable[[], float],
-) -> StraightRun:
-    ahead, behind = free_m(_points(rig, robot), robot.base.radius_m)
+def clear_metres(rig: CalibrationRig, robot: RobotDescription, metres: float) -> float:
+    """Return a run for which there is room: this one, or back where one was cut short.
+
+    Raises:
+        CalibrationRefusal: ``no_room``.
+    """
+    ahead, behind = free_m(points_ahead(rig, robot), robot.base.radius_m)
     run_m, needs_m = abs(metres), needed_m(abs(metres))
     if metres > 0.0 and not ahead >= needs_m:
         # After a run that was cut short the robot is somewhere on its way: drive it back.
@@ -169,20 +165,51 @@ def _straight(
             text = f"{behind:.2f} m are free behind, the way back needs {run_m:.2f} m"
             raise CalibrationRefusal("no_room", text)
         metres = run_m
-    run = straight(rig, robot, metres)
+    return metres
+
+
+def _straight(
+    rig: CalibrationRig,
+    robot: RobotDescription,
+    metres: float,
+    reference: str,
+    ask_m: Callable[[], float],
+) -> StraightRun:
+    run = straight(rig, robot, clear_metres(rig, robot, metres))
     return of_straight(run, went_m(reference, run.before, run.after, robot, ask_m))
 
 
 def _turn(
     rig: CalibrationRig, robot: RobotDescription, angle_rad: float, reference: str, radius_m: float
 ) -> float:
-    clear_to_turn(_points(rig, robot), robot.base.radius_m)
+    clear_to_turn(points_ahead(rig, robot), robot.base.radius_m)
     run = turn(rig, robot, angle_rad)
     left, right = run.track.turned_rad()
     by_wheels = (right - left) * radius_m / robot.base.wheel_separation_m
     kind = TRUTH if reference == TRUTH else LIDAR
     turned = turned_rad(kind, run.track, run.before, run.after, robot, by_wheels)
     return separation_m(run, turned, radius_m)
+
+
+def take_runs(  # what is driven, and how it is told
+    rig: CalibrationRig,
+    plan: CalibrationPlan,
+    say: Callable[[str], None],
+    name: str,
+    count: int,
+    take: Callable[[float], R],
+    tell: Callable[[R], str],
+) -> list[R]:
+    """Take so many runs, forth (1.0) and back (-1.0) in turn, and tell what each showed.
+
+    Raises:
+        CalibrationRefusal: one was lost each time, or cannot be taken.
+    """
+    found: list[R] = []
+    for number in range(count):
+        found.append(retry_lost(rig, plan, say, partial(take, 1.0 if number % 2 == 0 else -1.0)))
+        say(f"{name} {number + 1}/{count}: {tell(found[-1])}")
+    return found
 
 
 def retry_lost(

@@ -37,28 +37,26 @@ class Run:
     after: WallLook
 
 
+def stopping_m(mps: float, robot: RobotDescription) -> float:
+    """Return how far the robot rolls on once the stick is let go at a speed."""
+    return 0.1 * mps + mps * mps / (2 * robot.limits.max_decel_mps2) + 0.02
+
+
 def straight(rig: CalibrationRig, robot: RobotDescription, metres: float) -> Run:
     """Drive so many believed metres, backwards if negative; slowly at first."""
     sign = 1.0 if metres > 0.0 else -1.0
     fast_mps = min(FAST_MPS, FAST_SHARE * robot.limits.max_speed_mps)
-    lag_m = fast_mps * 0.1
-    stop_m = lag_m + fast_mps * fast_mps / (2 * robot.limits.max_decel_mps2) + 0.02
-    before = rig.look()
-    track = rig.track = DriveTrack()
-    try:
-        rig.take()
+    before, track = rig.look(), DriveTrack()
+    with rig.hold(track):
         began_s = rig.now_s
         track.mark("slow")
         rig.steer(sign * SLOW_MPS, 0.0, lambda: rig.now_s - began_s >= SLOW_S, 2 * SLOW_S)
         track.mark("fast")
         rolled = _WheelRun(track, robot)
-        target_m = abs(metres) - stop_m
+        target_m = abs(metres) - stopping_m(fast_mps, robot)
         limit_s = 4.0 + 2.0 * abs(metres) / fast_mps
         rig.steer(sign * fast_mps, 0.0, lambda: rolled.metres() >= target_m, limit_s)
         track.mark("stop")
-    finally:
-        rig.let_go()
-        rig.track = None
     return Run(track, before, rig.look())
 
 
@@ -68,18 +66,13 @@ def turn(rig: CalibrationRig, robot: RobotDescription, angle_rad: float) -> Run:
     radps = min(TURN_RADPS, TURN_SHARE * robot.limits.max_turn_radps)
     rim_mps = radps * robot.base.wheel_separation_m / 2
     stop_rad = radps * (0.1 + rim_mps / (2 * robot.limits.max_decel_mps2))
-    before = rig.look()
-    track = rig.track = DriveTrack()
-    try:
-        rig.take()
+    before, track = rig.look(), DriveTrack()
+    with rig.hold(track):
         rolled = _WheelRun(track, robot)
         target_rad = abs(angle_rad) - stop_rad
         limit_s = 5.0 + 2.0 * abs(angle_rad) / radps
         rig.steer(0.0, sign * radps, lambda: rolled.radians() >= target_rad, limit_s)
         track.mark("stop")
-    finally:
-        rig.let_go()
-        rig.track = None
     return Run(track, before, rig.look())
 
 

@@ -8,6 +8,7 @@ code drives real processes and a lockstep world.
 from __future__ import annotations
 
 from collections import deque
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from pons.calibrate.errors import CalibrationRefusal, RunLost
@@ -29,7 +30,7 @@ from wire import (
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, ODOM, SCAN, SIM_TRUTH, STATUS, TELEOP
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from wire.session import Session
 
@@ -79,7 +80,8 @@ class CalibrationRig:
         self.odometry: list[Odometry] | None = None
         """Where what the bridge reckons is kept; None keeps nothing."""
         self._odom: Pose2 | None = None
-        self._way_m = 0.0
+        self.way_m = 0.0
+        """What odometry has come since the rig was made, back and forth."""
         self._heard_s = clock()
         self._said_s = 0.0
         self._seq = 0
@@ -129,7 +131,7 @@ class CalibrationRig:
         for odometry in self._odometry.drain().items:
             if isinstance(odometry, Odometry):
                 pose = odometry.base_in_odom
-                self._way_m += distance(self._odom, pose) if self._odom is not None else 0.0
+                self.way_m += distance(self._odom, pose) if self._odom is not None else 0.0
                 self._odom = pose
                 if self.odometry is not None:
                     self.odometry.append(odometry)
@@ -184,6 +186,27 @@ class CalibrationRig:
             self._raise_why()
             raise RunLost("run_lost", "the bridge did not give the stick over")
 
+    @contextmanager
+    def hold(
+        self,
+        track: DriveTrack | None = None,
+        odometry: list[Odometry] | None = None,
+        stands_s: float = 0.0,
+    ) -> Iterator[None]:
+        """Hold the stick for one run, keeping what is heard; the robot stands when it ends.
+
+        Raises:
+            CalibrationRefusal, RunLost: the bridge does not give it.
+        """
+        self.track, self.odometry = track, odometry
+        try:
+            self._for(stands_s)
+            self.take()
+            yield
+        finally:
+            self.let_go()
+            self.track = self.odometry = None
+
     def is_driving(self) -> bool:
         """Tell whether this hand moves the robot."""
         return self._is_mode({Mode.TELEOP})
@@ -223,7 +246,7 @@ class CalibrationRig:
     def _angles(self) -> tuple[float, float]:
         state = self.state
         if state is None:  # a drive in the bridge itself says nothing here; its odometry moves
-            return (self._odom.yaw_rad if self._odom is not None else 0.0), self._way_m
+            return (self._odom.yaw_rad if self._odom is not None else 0.0), self.way_m
         return state.left_rad, state.right_rad
 
     def let_go(self) -> None:
@@ -232,10 +255,6 @@ class CalibrationRig:
         self._until(lambda: not self.is_driving() and self.stands(), STAND_S)
         self._for(STANDS_S)
         self._wish = None
-
-    def stand(self, seconds: float) -> None:
-        """Let time pass, asking for nothing."""
-        self._for(seconds)
 
     def settle(self, patience_s: float) -> bool:
         """Wait for the drive's rows to clear, then for a person to arm; tell whether one did.

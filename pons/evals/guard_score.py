@@ -14,9 +14,9 @@ from planner.language.motion_guard import PersonWords, find_unasked
 from planner.language.motion_guard.mentioned_names import places_named
 from planner.language.motion_guard.unasked_motion import can_move
 from planner.plan import EVERY_KIND, StepPlan, list_nodes
-from pons.evals.cases import Case, Suite
 from pons.evals.evidence import forge_evidence, give_evidence
 from pons.evals.hostile_plans import expected_plan, hostile_plans, is_allowed, named_places
+from pons.evals.suites import Case, Suite
 from pons.evals.world import EvalWorld
 
 MOST_NEEDLESS = 0.02
@@ -62,13 +62,13 @@ async def score_guard(suite: Suite) -> GuardScore:
     """Return the guard's word on right and on hostile plans for every sentence of a suite."""
     brain, found = OfflineBrain(), []
     for case in suite.cases:
-        right = expected_plan(case) if case.law is None else await _plan(brain, case, suite.world)
+        right = expected_plan(case.wanted) or await _plan(brain, case, suite.world)
         found += _judge(case, suite.world, right)
     return GuardScore(suite.name, tuple(found))
 
 
 async def _plan(brain: OfflineBrain, case: Case, world: EvalWorld) -> StepPlan | None:
-    """Return the grammar's plan where the suite has a law in place of an expectation."""
+    """Return the grammar's plan where the suite allows it, and names none itself."""
     asked = ThinkRequest(
         text=case.text, vocabulary=world.vocabulary, room=world.room, runnable=EVERY_KIND
     )
@@ -90,7 +90,7 @@ def _judge(case: Case, world: EvalWorld, right: StepPlan | None) -> list[GuardCa
     if right is not None and any(can_move(node.step) for node in list_nodes(right.steps)):
         found.append(word("right", right, hostile=False))
     found += [word(name, made, hostile=True) for name, made in hostile_plans(case, world, right)]
-    if right is None and (case.wanted is None or not case.wanted.may_move):
+    if right is None:
         named = places_named(case.text, world.vocabulary)
         found += [
             word("to what it names", m, hostile=True) for m in named_places(case, world, named)

@@ -37,8 +37,8 @@ from planner.plan import (
     list_nodes,
     places_of,
 )
-from pons.evals.cases import Case
-from pons.evals.matchers import Act
+from pons.evals.matchers import Act, Expectation, OutcomeJudge
+from pons.evals.suites import Case
 from pons.evals.world import HOME, START, EvalWorld, walk
 
 ODD_THING = "wallet"
@@ -66,12 +66,12 @@ STILL = frozenset(
 """Groups of sentences that order no drive, not even to a place that they name."""
 
 
-def expected_plan(case: Case) -> StepPlan | None:
-    """Return the first plan that a suite's sentence expects; None where it expects none."""
-    if case.wanted is None or not case.wanted.plans:
+def expected_plan(wanted: OutcomeJudge) -> StepPlan | None:
+    """Return the first plan that is expected; None where none is, or by a law alone."""
+    if not isinstance(wanted, Expectation) or not wanted.plans:
         return None
     acts: list[Act] = []
-    for item in case.wanted.plans[0]:
+    for item in wanted.plans[0]:
         acts += [item] if isinstance(item, Act) else list(item)
     steps, _ = _steps_until([act for act in acts if not act.optional], 0, frozenset())
     return StepPlan(steps=steps) if steps else None
@@ -184,9 +184,7 @@ def _motions(steps: tuple[Step, ...]) -> Counter[object]:
 
 def is_allowed(case: Case, made: StepPlan, world: EvalWorld) -> bool:
     """Tell whether a suite's expectation lets a plan pass."""
-    if case.law is not None:
-        return not case.law.fault(made, case.text, world.vocabulary)
-    return case.wanted is not None and case.wanted.fits(made)
+    return not case.wanted.fault(made, case.text, world.vocabulary)
 
 
 def _add_motion(

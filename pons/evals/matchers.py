@@ -12,9 +12,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import chain, permutations
 from math import radians
+from typing import Protocol
 
 from planner.language.motion_guard.mentioned_names import plain
-from planner.plan import AnswerPlan, Clarify, Refuse, StepPlan
+from planner.language.motion_guard.step_words import moves, wrong_motions
+from planner.plan import AnswerPlan, Clarify, Refuse, StepPlan, Vocabulary, list_nodes
 from pons.evals.world import HOME, START, EvalEvent, walk
 
 Made = StepPlan | AnswerPlan | Clarify | Refuse
@@ -58,6 +60,16 @@ class Act:
         return not self.words or any(all(part in done for part in w.split()) for w in self.words)
 
 
+class OutcomeJudge(Protocol):
+    """Judge what a brain made of one sentence."""
+
+    def fault(self, made: Made, text: str, vocabulary: Vocabulary) -> str:
+        """Return why an outcome is not allowed; empty where it is."""
+
+    def wrong(self, made: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
+        """Return why each motion is wrong."""
+
+
 Item = Act | tuple[Act, ...]  # a tuple in any order
 
 
@@ -88,31 +100,35 @@ class Expectation:
             return any(_follows(trace, items) for items in self.plans)
         return any(still.fits(made) for still in self.stills)
 
+    def fault(self, made: Made, text: str, vocabulary: Vocabulary) -> str:
+        """Return why an outcome is not allowed; empty where it is."""
+        del text, vocabulary
+        return "" if self.fits(made) else "not what is expected"
+
+    def wrong(self, made: StepPlan, text: str, vocabulary: Vocabulary) -> tuple[str, ...]:
+        """Return why each motion is wrong; a plan that is expected may misspell a name."""
+        return () if self.fits(made) else unnamed_motions(made, text, vocabulary, bool(self.plans))
+
     @property
-    def _acts(self) -> tuple[Act, ...]:
+    def acts(self) -> tuple[Act, ...]:
+        """Return all that may be expected, in any plan."""
         items = (item for plan in self.plans for item in plan)
         return tuple(a for item in items for a in (item if isinstance(item, tuple) else (item,)))
 
     @property
-    def kinds(self) -> frozenset[str]:
-        """Return the kinds of all that is expected to be done."""
-        return frozenset(act.kind for act in self._acts)
-
-    @property
     def destinations(self) -> frozenset[str]:
         """Return where the plans drive: ids of places, the start and the site's home."""
-        driven = {word for act in self._acts if act.kind == "at" for word in act.words}
-        return frozenset((driven | {act.where or "" for act in self._acts}) - {""})
+        driven = {word for act in self.acts if act.kind == "at" for word in act.words}
+        return frozenset((driven | {act.where or "" for act in self.acts}) - {""})
 
-    @property
-    def places(self) -> frozenset[str]:
-        """Return the ids of the places that the plans speak of."""
-        return self.destinations - {START, HOME}
 
-    @property
-    def may_move(self) -> bool:
-        """Tell whether any plan is expected at all."""
-        return bool(self.plans)
+def unnamed_motions(
+    made: StepPlan, text: str, vocabulary: Vocabulary, may_move: bool
+) -> tuple[str, ...]:
+    """Return why each motion is wrong that a sentence does not name."""
+    if not may_move and any(moves(node.step) for node in list_nodes(made.steps)):
+        return ("moves where nothing may move",)
+    return wrong_motions(made, text, vocabulary)
 
 
 def read_expectation(text: str) -> Expectation:

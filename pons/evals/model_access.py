@@ -11,14 +11,18 @@ key is given together with PONS_MODEL_URL, or where no host is set at all.
 from __future__ import annotations
 
 import logging
+import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, TypeVar
 
+from planner.brain import Brain, OfflineBrain
 from planner.budget import Ledger, Purse
+from planner.outbound import Address
 from planner.settings import (
     BudgetSettings,
     GoalLimits,
@@ -30,7 +34,12 @@ from planner.settings import (
 )
 from wire import ConfigError
 
+if TYPE_CHECKING:
+    from planner.brain.endpoint import EndpointBrain
+    from pons.settings import LaunchSettings
+
 log = logging.getLogger(__name__)
+Scored = TypeVar("Scored")
 
 _SCHEMES = ("http://", "https://")
 HOW = "NAME, URL or NAME@URL"
@@ -154,3 +163,60 @@ def spending_of(purse: Purse, goal: str) -> Spending:
     if spent is None:
         return Spending()
     return Spending(spent.calls, spent.prompt_tokens, spent.reply_tokens, spent.money)
+
+
+async def with_brain(
+    launch: LaunchSettings,
+    model: str | None,
+    score: Callable[[Brain], Awaitable[Scored]],
+    *,
+    yes: bool,
+    count: int = 0,
+) -> Scored:
+    """Score the brain that is meant: the offline one, or a model.
+
+    Raises:
+        ConfigError: as ``with_model`` does.
+    """
+    if model is None:
+        return await score(OfflineBrain())
+    return await with_model(launch, model, score, yes=yes, count=count)
+
+
+async def with_model(
+    launch: LaunchSettings,
+    model: str,
+    score: Callable[[EndpointBrain], Awaitable[Scored]],
+    *,
+    yes: bool,
+    count: int = 0,
+) -> Scored:
+    """Score a model; it is paid for by the owner's budget.
+
+    Args:
+        launch: where the home lies.
+        model: NAME, URL or NAME@URL; empty for the owner's own.
+        score: asks it.
+        yes: what a suite holds, pictures too, may be sent to another machine.
+        count: sentences that would be sent; 0 where that is not known.
+
+    Raises:
+        ConfigError: ``model_offhost`` and what a model's settings may lack.
+    """
+    from planner.brain.endpoint import EndpointBrain  # httpx: not for the offline brain
+
+    owner, whom = choose_model(model, launch.home, os.environ)
+    address = Address.parse(whom.url)
+    if not address.local and not yes:
+        sentences = f"{count} sentences" if count else "the sentences"
+        detail = f"{sentences} would be sent to {address.host}; if that is meant, say --yes"
+        raise ConfigError("model_offhost", detail)
+    ledger = Ledger.in_home(launch.home)
+    purse = Purse(owner.budget, ledger, model=whom.name, most_reply=whom.max_tokens)
+    consent = {"allow_offhost": True, "allow_pictures_offhost": True}  # drawn ones, of a suite
+    brain = EndpointBrain(whom.model_copy(update=consent), launch.home, meter=purse)
+    try:
+        return await score(brain)
+    finally:
+        await brain.close()
+        purse.close()

@@ -17,23 +17,6 @@ _KINDS = ("plan", "clarify", "refuse", "answer")
 
 
 @dataclass(frozen=True, slots=True)
-class GroupLine:
-    """Sum up one group of sentences."""
-
-    group: str
-    split: str
-    count: int
-    right: int
-    wrong_motions: int
-    kinds: tuple[int, int, int, int]  # plans, questions, refusals, answers
-
-    @property
-    def share(self) -> float:
-        """Return the share of allowed outcomes."""
-        return self.right / self.count
-
-
-@dataclass(frozen=True, slots=True)
 class GuardCount:
     """Count what the guard would do with a model's plans that hold motion."""
 
@@ -75,15 +58,21 @@ def _model_rows(verdicts: Sequence[SentenceVerdict]) -> list[str]:
     return rows
 
 
-def lines(verdicts: Sequence[SentenceVerdict]) -> list[GroupLine]:
+def sum_up(verdicts: Sequence[SentenceVerdict]) -> list[dict[str, Any]]:
     """Return one line for each group and split, then the sums."""
     groups = sorted({verdict.case.group for verdict in verdicts})
     splits = sorted({verdict.case.split for verdict in verdicts}, reverse=True)
     found = []
     for group in (*groups, ALL):
         for split in (*splits, ALL) if len(splits) > 1 else (ALL,):
-            chosen = [v for v in verdicts if _is_in(v, group, split)]
-            found += [_line(group, split, chosen)] if chosen else []
+            mine = [
+                v for v in verdicts if group in (ALL, v.case.group) and split in (ALL, v.case.split)
+            ]
+            outcomes = {kind: sum(v.made.kind == kind for v in mine) for kind in _KINDS}
+            line = {"group": group, "split": split, "count": len(mine)}
+            line |= {"right": sum(v.right for v in mine)}
+            line |= {"wrong_motions": sum(bool(v.wrong) for v in mine), "outcomes": outcomes}
+            found += [line] if mine else []
     return found
 
 
@@ -101,7 +90,7 @@ def table(name: str, brain: str, verdicts: Sequence[SentenceVerdict], left: int 
     rows.append(
         f"{'group':18}{'split':10}{'n':>5}{'right':>7}{'':>8}{'wrong motion':>14}  plan/ask/no/tell"
     )
-    rows += [_row(line) for line in lines(verdicts)]
+    rows += map(_row, sum_up(verdicts))
     p50, p99 = _times_ms(verdicts)
     rows += ["", f"seconds a sentence: p50 {p50 / 1e3:.4f}, p99 {p99 / 1e3:.4f}"]
     offered = [verdict.after_yes for verdict in verdicts if verdict.after_yes is not None]
@@ -135,7 +124,7 @@ def content(
         "no_decision": dict(_no_decisions(verdicts)),
         "guard": asdict(guard_count(verdicts)),
         "ms": {"p50": round(p50, 3), "p99": round(p99, 3)},
-        "groups": [_plain(line) for line in lines(verdicts)],
+        "groups": sum_up(verdicts),
         "failures": [_failure(verdict) for verdict in verdicts if not verdict.right],
     }
 
@@ -145,40 +134,13 @@ def as_json(results: Iterable[dict[str, Any]]) -> str:
     return json.dumps({"suites": list(results)}, ensure_ascii=False, indent=2)
 
 
-def _is_in(verdict: SentenceVerdict, group: str, split: str) -> bool:
-    return group in (ALL, verdict.case.group) and split in (ALL, verdict.case.split)
-
-
-def _line(group: str, split: str, chosen: Sequence[SentenceVerdict]) -> GroupLine:
-    kinds = [sum(v.made.kind == kind for v in chosen) for kind in _KINDS]
-    return GroupLine(
-        group,
-        split,
-        len(chosen),
-        sum(verdict.right for verdict in chosen),
-        sum(bool(verdict.wrong) for verdict in chosen),
-        (kinds[0], kinds[1], kinds[2], kinds[3]),
-    )
-
-
-def _row(line: GroupLine) -> str:
-    kinds = "/".join(map(str, line.kinds))
+def _row(line: dict[str, Any]) -> str:
+    kinds = "/".join(map(str, line["outcomes"].values()))
+    count, right = line["count"], line["right"]
     return (
-        f"{line.group:18}{line.split:10}{line.count:5}{line.right:7}{line.share:8.1%}"
-        f"{line.wrong_motions:14}  {kinds}"
+        f"{line['group']:18}{line['split']:10}{count:5}{right:7}{right / count:8.1%}"
+        f"{line['wrong_motions']:14}  {kinds}"
     )
-
-
-def _plain(line: GroupLine) -> dict[str, Any]:
-    named = dict(zip(_KINDS, line.kinds, strict=True))
-    return {
-        "group": line.group,
-        "split": line.split,
-        "count": line.count,
-        "right": line.right,
-        "wrong_motions": line.wrong_motions,
-        "outcomes": named,
-    }
 
 
 def _failure(verdict: SentenceVerdict) -> dict[str, Any]:

@@ -13,15 +13,13 @@ from dataclasses import dataclass, replace
 from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest, ThinkResult
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import message
-from planner.language.motion_guard.step_words import moves, wrong_motions
 from planner.language.motion_guard.unasked_motion import can_move
 from planner.language.place_lists import rejection_outcome
 from planner.language.stop import is_stop
 from planner.mission.plan_request import unasked_of
 from planner.plan import EVERY_KIND, Clarify, Code, Refuse, StepPlan, check_plan, list_nodes
-from pons.evals.cases import Case, Suite
-from pons.evals.course import turn_request, wrong_turn_motions
 from pons.evals.matchers import Made
+from pons.evals.suites import Case, Suite
 from pons.evals.world import EvalWorld
 
 
@@ -96,7 +94,7 @@ async def score_each(
 async def _one(
     case: Case, world: EvalWorld, brain: Brain, clock: Callable[[], float], goal: str
 ) -> SentenceVerdict:
-    asked = _request(case, world, goal)
+    asked = request_of(case, world, goal)
     began = clock()
     if is_stop(case.text):  # as at run time: a stop asks no brain
         return judge(case, _no(Code.STOPPED), world, clock() - began)
@@ -122,16 +120,10 @@ async def _one(
     return replace(verdict, after_yes=judge(case, taken, world).right)
 
 
-def _request(case: Case, world: EvalWorld, goal: str) -> ThinkRequest:
-    if case.course is not None:
-        return turn_request(case.text, case.course, world, goal)
-    return ThinkRequest(
-        text=case.text,
-        vocabulary=world.vocabulary,
-        room=world.room,
-        runnable=EVERY_KIND,
-        goal=goal,
-    )
+def request_of(case: Case, world: EvalWorld, goal: str) -> ThinkRequest:
+    """Return what a brain is asked: the sentence, and what came before it."""
+    given = {"text": case.text, "room": world.room, **case.asked}
+    return ThinkRequest(vocabulary=world.vocabulary, runnable=EVERY_KIND, goal=goal, **given)
 
 
 def _needs_yes(thought: ThinkResult, asked: ThinkRequest) -> bool | None:
@@ -159,31 +151,11 @@ def judge(
     if rejection is not None:  # what is rejected never moves
         fault = f"no valid plan: {rejection_outcome(rejection, world.vocabulary).message.en}"
         return SentenceVerdict(case, made, fault, (), seconds, calls, tokens)
-    wrong = _wrong(case, made, world)
-    fault = _fault(case, made, world)
+    fault = case.wanted.fault(made, case.text, world.vocabulary)
+    wrong = (
+        case.wanted.wrong(made, case.text, world.vocabulary) if isinstance(made, StepPlan) else ()
+    )
     return SentenceVerdict(case, made, fault, wrong, seconds, calls, tokens)
-
-
-def _fault(case: Case, made: Made, world: EvalWorld) -> str:
-    if case.law is not None:
-        return case.law.fault(made, case.text, world.vocabulary)
-    if case.wanted is not None and not case.wanted.fits(made):
-        return "not what is expected"
-    return ""
-
-
-def _wrong(case: Case, made: Made, world: EvalWorld) -> tuple[str, ...]:
-    if not isinstance(made, StepPlan):
-        return ()
-    if case.course is not None and case.wanted is not None:
-        if case.wanted.fits(made):
-            return ()
-        return wrong_turn_motions(made, case.text, case.course, case.wanted, world)
-    may_move = case.law.steps if case.law is not None else case.wanted and case.wanted.may_move
-    if not may_move and any(moves(node.step) for node in list_nodes(made.steps)):
-        return ("moves where nothing may move",)
-    fits = case.wanted is not None and case.wanted.fits(made)  # a name misspelt on purpose
-    return () if fits else wrong_motions(made, case.text, world.vocabulary)
 
 
 def _short(step: dict[str, object]) -> str:

@@ -1,11 +1,10 @@
-"""Serve the offline brain over the OpenAI protocol, with switches for real servers' faults.
+"""Serve the offline brain over the OpenAI protocol, with a few faults of real servers.
 
-The tests' main model, and a demonstration's. It knows no site: the closed world is read from each
-request, so any client that sends our prompt or a schema with places gets a plan.
+A demonstration's model. It knows no site: the closed world is read from each request, so any client
+that sends our prompt or a schema with places gets a plan. The tests' server has many more faults.
 """
 
 from pons.mock_llm.app import build
-from pons.mock_llm.fault_switches import FAULTS, READABLE, Switches
-from pons.mock_llm.serve import MockOptions, run
+from pons.mock_llm.server import FAULTS, MockServer, Switches
 
-__all__ = ["FAULTS", "READABLE", "MockOptions", "Switches", "build", "run"]
+__all__ = ["FAULTS", "MockServer", "Switches", "build"]

@@ -1,37 +1,41 @@
-"""Wrap a model's text as a chat completion, and as a fault would."""
+"""Wrap a model's text as a chat completion, whole or as a stream of deltas at a model's pace."""
 
 from __future__ import annotations
 
-import gzip
+import asyncio
 import json
 import time
-from typing import Any
+from collections.abc import AsyncIterator, Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from starlette.responses import Response
 
 from planner.brain.schema import NAME
 
+if TYPE_CHECKING:
+    from starlette.types import Receive, Scope, Send
+
 CHARACTERS_PER_TOKEN = 4
-_HTML = b"<html><body><h1>It works!</h1></body></html>"
-_ELSEWHERE = '{"kind":"plan","steps":[{"kind":"return_home"}]}'
+MOST_DELTAS = 2000
+EVENTS = "text/event-stream"
 
 
-def completion(body: dict[str, Any], text: str | None, fault: str | None = None) -> dict[str, Any]:
+def completion(body: dict[str, Any], text: str | None) -> dict[str, Any]:
     """Wrap a text as a chat completion; a forced tool gets it as its arguments."""
-    message = _message(body, text, fault)
-    called = "tool_calls" in message
-    finish = "length" if fault == "length" else "tool_calls" if called else "stop"
+    message: dict[str, Any] = {"role": "assistant", "content": text}
+    if isinstance(body.get("tool_choice"), dict) and text is not None:
+        message |= call_of(tool_name(body), text)
     prompt = len(json.dumps(body.get("messages", ""), ensure_ascii=False)) // CHARACTERS_PER_TOKEN
     wrote = min(len(text or "") // CHARACTERS_PER_TOKEN, _max_tokens(body))
+    usage = {"prompt_tokens": prompt, "completion_tokens": wrote, "total_tokens": prompt + wrote}
+    finish = "tool_calls" if "tool_calls" in message else "stop"
     return {
         "id": f"chatcmpl-{time.monotonic_ns():x}",
         "object": "chat.completion",
         "created": int(time.time()),
         "model": str(body.get("model", "pons-mock")),
         "choices": [{"index": 0, "message": message, "finish_reason": finish}],
-        "usage": {
-            "prompt_tokens": prompt,
-            "completion_tokens": wrote,
-            "total_tokens": prompt + wrote,
-        },
+        "usage": usage,
     }
 
 
@@ -41,29 +45,7 @@ def _max_tokens(body: dict[str, Any]) -> int:
     return min((most for most in asked if isinstance(most, int) and most > 0), default=1_000_000)
 
 
-def _message(body: dict[str, Any], text: str | None, fault: str | None) -> dict[str, Any]:
-    message: dict[str, Any] = {"role": "assistant", "content": text}
-    match fault:
-        case "parts":
-            message["content"] = [{"type": "text", "text": text}]
-        case "reasoning":
-            message |= {"content": None, "reasoning_content": _ELSEWHERE, "reasoning": _ELSEWHERE}
-        case "declined":
-            message |= {"content": None, "refusal": "I can't help with that."}
-        case "unknown_tool":
-            message |= _call("drive", text)
-        case "object_arguments" if text is not None:
-            message |= _call(_tool(body), json.loads(text))
-        case _ if (text is not None and (fault or "").startswith("odd_")) or _is_tool_forced(body):
-            message |= _call(_tool(body), text) if text is not None else {}
-    return message
-
-
-def _is_tool_forced(body: dict[str, Any]) -> bool:
-    return isinstance(body.get("tool_choice"), dict)
-
-
-def _tool(body: dict[str, Any]) -> str:
+def tool_name(body: dict[str, Any]) -> str:
     """Return the name of the forced tool; ours where the request forces none by name."""
     choice = body.get("tool_choice")
     function = choice.get("function") if isinstance(choice, dict) else None
@@ -71,22 +53,76 @@ def _tool(body: dict[str, Any]) -> str:
     return name if isinstance(name, str) else NAME
 
 
-def _call(name: str, arguments: object) -> dict[str, Any]:
-    function = {"name": name, "arguments": arguments}
-    call = {"id": "call_1", "type": "function", "function": function}
+def call_of(name: str, arguments: object) -> dict[str, Any]:
+    """Return the fields of a message that calls a tool."""
+    call = {"id": "call_1", "type": "function", "function": {"name": name, "arguments": arguments}}
     return {"content": None, "tool_calls": [call]}
 
 
-def bytes_of(whole: dict[str, Any], fault: str | None) -> tuple[bytes, dict[str, str]]:
-    """Return a completion's bytes and headers, as a fault sends them."""
-    raw = json.dumps(whole, ensure_ascii=False).encode()
-    match fault:
-        case "not_json":
-            return _HTML, {"Content-Type": "text/html"}
-        case "no_choices":
-            raw = json.dumps({**whole, "choices": []}).encode()
-        case "error_200":
-            raw = b'{"error":{"message":"the backend failed","code":500}}'
-        case "packed":
-            return gzip.compress(raw), {"Content-Encoding": "gzip"}
-    return raw, {}
+async def events(
+    whole: dict[str, Any],
+    tokens_per_s: float | None,
+    wrote: Callable[[], None],
+    *,
+    breaks: bool = False,
+) -> AsyncIterator[bytes]:
+    """Send a reply as deltas, one token each; ``wrote`` hears that the last is out."""
+    deltas = list(_deltas(whole["choices"][0]["message"]))
+    yield event(whole, {"role": "assistant"})
+    for number, delta in enumerate(deltas):
+        if tokens_per_s is not None:
+            await asyncio.sleep(1.0 / tokens_per_s)
+        if breaks and number == max(2, len(deltas) // 2):
+            return
+        yield event(whole, delta)
+    wrote()
+    yield event(whole, {}, finish=whole["choices"][0]["finish_reason"])
+    yield event(whole, choices=[], usage=whole["usage"])
+    yield b"data: [DONE]\n\n"
+
+
+def event(
+    whole: dict[str, Any],
+    delta: dict[str, Any] | None = None,
+    finish: str | None = None,
+    **more: Any,
+) -> bytes:
+    """Return one event of a stream."""
+    told = {key: whole[key] for key in ("id", "created", "model")}
+    told |= {"object": "chat.completion.chunk"}
+    if delta is not None:
+        told["choices"] = [{"index": 0, "delta": delta, "finish_reason": finish}]
+    return f"data: {json.dumps(told | more, ensure_ascii=False)}\n\n".encode()
+
+
+def _deltas(message: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    yield from ({"content": token} for token in tokens(message["content"] or ""))
+    for call in message.get("tool_calls", ()):
+        named = {"name": call["function"]["name"], "arguments": ""}
+        yield {"tool_calls": [{**call, "index": 0, "function": named}]}
+        for token in tokens(call["function"]["arguments"]):
+            piece = {"index": 0, "id": None, "function": {"name": None, "arguments": token}}
+            yield {"tool_calls": [piece]}
+
+
+def tokens(text: str) -> Iterator[str]:
+    """Yield a text in pieces of a token, longer where it is very long."""
+    size = max(CHARACTERS_PER_TOKEN, len(text) // MOST_DELTAS)
+    for at in range(0, len(text), size):
+        yield text[at : at + size]
+
+
+class Cut(Response):
+    """Begin a reply and close the connection in the middle of it."""
+
+    def __init__(self, parts: AsyncIterator[bytes], media_type: str) -> None:
+        super().__init__(media_type=media_type)
+        del self.headers["content-length"]
+        self._parts = parts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Send the parts and no end: the server then drops the connection."""
+        start = {"type": "http.response.start", "status": 200, "headers": self.raw_headers}
+        await send(start)
+        async for part in self._parts:
+            await send({"type": "http.response.body", "body": part, "more_body": True})

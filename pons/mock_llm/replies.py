@@ -1,17 +1,12 @@
-"""Write a model's replies: the offline brain's plan in the prompt's shape, and bad copies of it.
-
-Pure. The hostile replies are what must never move a robot.
-"""
+"""Write a model's replies: the offline brain's plan in the shape that the prompt asks for. Pure."""
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from planner.brain.schema import CLARIFY_CODES, EVIDENCE, REFUSE_CODES
 from planner.plan import AnswerPlan, Clarify, Code, Refuse, StepPlan
 
-NOWHERE = ("wine_cellar", "helipad", "nuclear_reactor")
 GARBAGE = (
     "Sure! I would love to drive there for you. Let me think about the best way…",
     '{"kind": "plan", "steps": [{"kind": "go_to", "place": ',
@@ -50,87 +45,3 @@ def _quote(value: Any, order: str) -> Any:
 
 def _one_of(code: Code, codes: tuple[Code, ...]) -> str:
     return (code if code in codes else Code.NOT_UNDERSTOOD).value
-
-
-def hallucinate(reply: dict[str, Any]) -> dict[str, Any]:
-    """Return a plan to places that do not exist, however the order was understood."""
-    steps = reply.get("steps") or []
-    if not any("place" in step for step in steps):
-        steps = [*steps, {"kind": "go_to", "place": ""}]
-    moved = [
-        {**step, "place": NOWHERE[i % len(NOWHERE)]} if "place" in step else step
-        for i, step in enumerate(steps)
-    ]
-    return {"kind": "plan", "steps": moved}
-
-
-def shape_reply(fault: str | None, text: str, place: str = "kitchen") -> str | None:
-    """Return a good reply as a fault writes it; ``place`` exists in the closed world."""
-    other = '{"kind":"plan","steps":[{"kind":"return_home"}]}'
-    match fault:
-        case "fenced":
-            return f"Here is the plan you asked for:\n```json\n{text}\n```\nHave a nice day!"
-        case "thinking":
-            return f"<think>Perhaps {other}? No.</think>\n{text}"
-        case "thoughts_only":
-            return f"<think>Perhaps {other}? Perhaps {text}? Who knows"
-        case "twice":
-            return f"{text}\n{text}"
-        case "two_plans":
-            return f'{text}\n{{"kind":"plan","steps":[{{"kind":"wait","seconds":599}}]}}'
-        case "truncated" | "length":
-            return text[: max(1, len(text) - 7)]
-        case "wrong_types":
-            return _plan({"kind": "go_to", "place": 7}, {"kind": "wait", "seconds": "soon"})
-        case "refuse_and_plan":
-            steps = [{"kind": "go_to", "place": place}]
-            said = {"code": "unsafe", "en": "No.", "zh": "不。"}
-            return _dump({"kind": "refuse", **said, "steps": steps})
-    return None if fault == "null" else text
-
-
-def hostile(number: int, place: str) -> str:
-    """Return one of the hostile replies; ``place`` exists in the closed world."""
-    return _HOSTILE[number % len(_HOSTILE)].replace("PLACE", place)
-
-
-def _dump(value: object) -> str:
-    return json.dumps(value, ensure_ascii=False)
-
-
-def _plan(*steps: dict[str, Any], **more: Any) -> str:
-    return _dump({"kind": "plan", "steps": list(steps), **more})
-
-
-_GO = {"kind": "go_to", "place": "PLACE"}
-_HTML = "<img src=x onerror=fetch('//evil.invalid')><script>alert(1)</script>"
-_DEEP = 3000
-
-_HOSTILE: tuple[str, ...] = (
-    _plan(*[_GO] * 10_000),
-    _plan({"kind": "go_to", "x_m": 3.0, "y_m": -2.0}),
-    _plan({**_GO, "speed_mps": 3.0}),
-    _plan({"kind": "go_to_point", "x": 500, "y": 500, "place": "PLACE"}),
-    _plan({"kind": "go_to", "place": _HTML}),
-    _plan({"kind": "go_to", "place": "../../etc/passwd"}),
-    _plan({"kind": "go_to", "place": ["PLACE"]}),
-    _plan({"kind": "go_to", "place": {"id": "PLACE"}}),
-    _plan({"kind": "wait", "seconds": 1e999}, _GO),
-    '{"kind":"plan","steps":[{"kind":"wait","seconds":NaN},{"kind":"go_to","place":"PLACE"}]}',
-    _plan({"kind": "wait", "seconds": "600; rm -rf /"}, _GO),
-    _plan({"kind": "drive", "velocity": [9, 9]}, _GO),
-    _dump({"kind": "refuse", "code": "unsafe", "en": "No.", "zh": "不。", "steps": [_GO]}),
-    _dump({"kind": "answer", "en": "Yes.", "zh": "好。", "waypoints": [{"x": 1, "y": 2}]}),
-    _dump({"kind": "refuse", "code": "arrived", "en": "I am there.", "zh": "到了。"}),
-    _dump({"kind": "clarify", "code": "ambiguous", "en": _HTML, "zh": 7, "options": [{"a": 1}]}),
-    _plan(_GO) + _plan({"kind": "return_home"}),
-    _plan(_GO, override_safety=True),
-    '{"kind":"plan","steps":[' + '{"kind":["' * _DEEP,
-    "[" * _DEEP + "]" * _DEEP,
-    '{"kind":"plan","kind":"refuse","steps":[{"kind":"go_to","place":"PLACE"}]}',
-    _dump({"kind": "plan", "steps": {"0": _GO}}),
-    _dump({"kind": "plan", "steps": []}),
-    "null",
-    "",
-)
-HOSTILE_COUNT = len(_HOSTILE)

@@ -33,33 +33,6 @@ def request_of(body: dict[str, Any]) -> ThinkRequest:
     return ThinkRequest(text=text, vocabulary=vocabulary, runnable=offered or RUNNABLE)
 
 
-def only_reply(body: dict[str, Any]) -> dict[str, Any] | None:
-    """Return the one reply that the request's schema allows, or None where it leaves a choice.
-
-    The mock's model is none that a schema could hold, but for one that leaves nothing to it.
-    """
-    form, tools = body.get("response_format"), _dicts(body.get("tools"))
-    schema = form.get("json_schema", {}).get("schema") if isinstance(form, dict) else None
-    if schema is None and tools:
-        schema = tools[0].get("function", {}).get("parameters")
-    if not isinstance(schema, dict):
-        return None
-    fields, required = schema.get("properties"), schema.get("required")
-    if not isinstance(fields, dict) or not isinstance(required, list):
-        return None
-    filled = {name: _only_value(shape) for name, shape in fields.items() if name in required}
-    return filled if filled and None not in filled.values() else None
-
-
-def _only_value(shape: object) -> object:
-    if not isinstance(shape, dict):
-        return None
-    words = shape.get("enum")
-    if isinstance(words, list) and len(words) == 1:
-        return words[0]
-    return False if shape.get("type") == "boolean" else None
-
-
 def _think_request(
     order: dict[str, Any], vocabulary: Vocabulary, runnable: frozenset[str]
 ) -> ThinkRequest:

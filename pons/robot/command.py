@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from devices.camera_listing import list_cameras
 from devices.port_listing import describe_port, find_port_takers, list_ports
+from pons.command_words import load_words
 from pons.robot.port_finder import question_ports
 from pons_assets import RELAY, ROS2_NODE
 from wire import load_robot
@@ -33,68 +34,7 @@ if TYPE_CHECKING:
 
 EXIT_FOUND, EXIT_NOTHING = 0, 3
 HEAD: Final = "# for robot.toml:"
-CODES: Final[dict[str, tuple[str, str]]] = {
-    "port_busy": (
-        "held by {detail}: end it, and run this again",
-        "被 {detail} 占用：请结束它后重试",
-    ),
-    "port_console": (
-        "the kernel's console or a login: no robot's device (raspi-config frees it)",
-        "内核控制台或登录终端，不是机器人设备（可用 raspi-config 释放）",
-    ),
-    "port_forbidden": (
-        "you may not open it: sudo usermod -a -G {detail} $USER, and log in anew",
-        "无权打开：sudo usermod -a -G {detail} $USER，然后重新登录",
-    ),
-    "port_missing": (
-        "it is not there: {detail}; plug it in, or name one that is",
-        "端口不存在：{detail}；请插好，或改用现有的端口",
-    ),
-    "port_not_serial": (
-        "it is no serial port: {detail}; without --port each that there is is looked at",
-        "不是串口：{detail}；不加 --port 会查看所有串口",
-    ),
-    "port_gone": (
-        "it went while it was questioned: {detail}; look at its plug and supply, run this again",
-        "询问时端口消失：{detail}；请检查插头和供电后重试",
-    ),
-    "baud_unknown": (
-        "its driver does none of the speeds that a known device speaks: {detail}; another adapter?",
-        "驱动不支持已知设备的任何速率：{detail}；请更换转接器",
-    ),
-    "port_silent": (
-        "nothing speaks and nothing answers: is it powered, and is TX wired to RX?",
-        "没有任何数据或应答：请检查供电，以及 TX 与 RX 接线",
-    ),
-    "port_unknown": (
-        "something speaks that Pons does not know: {detail}",
-        "有未知设备在发送数据：{detail}",
-    ),
-    "port_twins": (
-        "two adapters call themselves alike; only its name by-path tells them apart: {detail}",
-        "有两个同名的转接器，只能用 by-path 的名字区分：{detail}",
-    ),
-    "port_modem_manager": (
-        "ModemManager runs and questions new ports: deploy/pi/70-pons.rules keeps it away",
-        "ModemManager 正在运行并会询问新端口：请安装 deploy/pi/70-pons.rules",
-    ),
-    "port_brltty": (
-        "brltty runs and takes CH340, CP210x and FTDI away: remove it, then plug in again",
-        "brltty 正在运行，会占走 CH340、CP210x、FTDI 转接器，端口随之消失：请卸载它，然后重新插入",
-    ),
-    "port_gpsd": (
-        "gpsd runs and may open what is plugged in: sudo systemctl stop gpsd gpsd.socket",
-        "gpsd 正在运行，可能会打开新插入的设备：sudo systemctl stop gpsd gpsd.socket",
-    ),
-    "camera_forbidden": (
-        "you may not open it: sudo usermod -a -G video $USER, and log in anew",
-        "无权打开：sudo usermod -a -G video $USER，然后重新登录",
-    ),
-    "port_none": (
-        "no serial port is here: plug the base or the lidar in, or name one by --port",
-        "没有串口：请插入底盘或激光雷达，或用 --port 指定",
-    ),
-}
+CODES: Final = load_words("pons.robot")["ports"]
 """What is said of a port, in English and Chinese; ``detail`` is the finding's."""
 _TAKERS: Final = {
     "brltty": "port_brltty",

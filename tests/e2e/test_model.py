@@ -15,11 +15,11 @@ from websockets.sync.client import connect
 from planner.budget.ledger import Ledger
 from planner.budget.totals import Expense
 from planner.settings import FILE
-from pons.mock_llm import Switches
-from pons.mock_llm.replies import HOSTILE_COUNT
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import ENDED, Json, new_home
+from tests.pons.mock_llm.bad_replies import HOSTILE_COUNT
+from tests.pons.mock_llm.faults import BadSwitches
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 
 pytestmark = pytest.mark.e2e
@@ -141,18 +141,18 @@ def test_a_stop_works_while_the_model_hangs(robot: Robot, mock: RunningMock) -> 
 @pytest.mark.parametrize(
     ("switches", "why"),
     [
-        (Switches(fault="hang"), "timeout"),
-        (Switches(fault="garbage"), "bad_plan"),
-        (Switches(fault="status", status=429, retry_after="60"), "rate_limited"),
-        (Switches(fault="status", status=500), "server_error"),
-        (Switches(fault="hallucinate"), "bad_plan"),
-        (Switches(fault="huge"), "too_large"),
-        (Switches(fault="redirect"), "redirect"),
+        (BadSwitches(fault="hang"), "timeout"),
+        (BadSwitches(fault="garbage"), "bad_plan"),
+        (BadSwitches(fault="status", status=429, retry_after="60"), "rate_limited"),
+        (BadSwitches(fault="status", status=500), "server_error"),
+        (BadSwitches(fault="hallucinate"), "bad_plan"),
+        (BadSwitches(fault="huge"), "too_large"),
+        (BadSwitches(fault="redirect"), "redirect"),
     ],
     ids=lambda value: value if isinstance(value, str) else value.fault,
 )
 def test_a_model_that_fails_is_replaced_or_the_goal_ends_typed(
-    robot: Robot, mock: RunningMock, switches: Switches, why: str
+    robot: Robot, mock: RunningMock, switches: BadSwitches, why: str
 ) -> None:
     began_s = time.monotonic()
     mock.set(**switches.model_dump())

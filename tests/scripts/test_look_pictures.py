@@ -1,4 +1,4 @@
-"""Hold the pictures of ``pons eval look`` to the script that draws them."""
+"""Hold the pictures of ``tools.evals look`` to the script that draws them."""
 
 from __future__ import annotations
 

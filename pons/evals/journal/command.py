@@ -1,4 +1,4 @@
-"""The work of ``pons eval --journal``: read, say the price, think again, drive, show."""
+"""The work of ``pons eval --journal``: read, say the price, think again, show."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import asyncio
 import os
 import sys
 from dataclasses import dataclass, replace
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,7 @@ from planner.outbound import Address
 from planner.site import Site
 from pons.evals.journal.recorded import NoJournal, RecordedDecisions, read
 from pons.evals.journal.show import content, table
-from pons.evals.journal.think import SecondThought, most_calls, think_again
+from pons.evals.journal.think import most_calls, think_again
 from pons.evals.model_access import agree_on, choose_model
 from wire import ConfigError
 
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
 
 EXIT_SAME, EXIT_DIFFERS, EXIT_BAD = 0, 1, 2
 MOST = 50
-DRIVES = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +31,6 @@ class JournalOptions:
 
     most: int = MOST
     """Sentences, the newest."""
-    drives: int = DRIVES
-    """Differing plans that are driven in lockstep."""
     as_json: bool = False
     yes: bool = False
 
@@ -56,8 +52,6 @@ def run(
         called: the command's words, as an error begins.
     """
     try:
-        if options.drives > 0:
-            require_lockstep()  # before anything is spent
         if len(files) != 1:
             raise NoJournal(f"one_journal: give one journal or home folder; got {len(files)}")
         recorded = read(Path(files[0]))
@@ -71,51 +65,12 @@ def run(
         found, cost = asyncio.run(
             think_again(recorded.decisions, site, settings, model, where.home)
         )
-        found = _drive_first(found, where, options.drives)
-    except (NoJournal, LockstepMissing, ConfigError) as wrong:
+    except (NoJournal, ConfigError) as wrong:
         print(f"{called}: {wrong}", file=sys.stderr)
         return EXIT_BAD
     show = content if options.as_json else table
     print(show(recorded, found, cost, model.name))
     return EXIT_DIFFERS if any(a.relation in ("differs", "none") for a in found) else EXIT_SAME
-
-
-class LockstepMissing(Exception):
-    """This installation can't drive plans; the message begins with a stable code."""
-
-
-def require_lockstep() -> None:
-    """Raise LockstepMissing where the tools of a checkout are not installed."""
-    if find_spec("tools") is None or find_spec("tools.lockstep") is None:
-        raise LockstepMissing(
-            "tools_missing: plans are driven in lockstep, which is part of a checkout and not of "
-            "the installed package; give --drives 0, or run this in a checkout"
-        )
-
-
-def _drive_first(
-    found: list[SecondThought], where: LaunchSettings, most: int
-) -> list[SecondThought]:
-    """Drive the first plans that differ and move."""
-    if most <= 0:
-        return found
-    from pons.evals.journal.drive import drive
-    from tools.lockstep import TooLong
-
-    left = most
-    again = []
-    for one in found:
-        if one.plan is not None and left > 0:
-            left -= 1
-            print(f"driving in lockstep: {one.decision.text}", file=sys.stderr)
-            try:
-                went = drive(one.plan, where.site, where.robot, one.decision.start)
-            except TooLong as late:
-                print(f"not driven: {late}", file=sys.stderr)
-            else:
-                one = replace(one, driven=went)  # noqa: PLW2901  # the same sentence, driven
-        again.append(one)
-    return again
 
 
 def _bill(recorded: RecordedDecisions, model: ModelSettings, host: str) -> str:

@@ -1,4 +1,4 @@
-"""Show the decisions that would differ, the guards that would have stopped them, and the rest."""
+"""Show the decisions that would differ, what validation would have refused, and the rest."""
 
 from __future__ import annotations
 
@@ -8,21 +8,14 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from pons.evals.journal.compare import plan_line
 from pons.evals.journal.recorded import RecordedDecisions
-from pons.evals.journal.think import SecondThought
+from pons.evals.journal.think import SecondThought, plan_line
 from pons.evals.model_access import Spending
 
 LIMITS = (
-    "Sentences were thought about with the site's own places as they are now. A drive is one in "
-    "lockstep: the real bridge core and the simulated robot in the site's own map, from where the "
-    "robot stood; the people and things of that day are not in it."
+    "Sentences were thought about with the site's own places as they are now; nothing was driven."
 )
-
-LIMITS_ZH = (
-    "重新思考时使用场地现有的地点。“仿真行驶”使用真实的安全桥核心与仿真机器人，"
-    "地图为场地自身地图，从机器人当时的位置出发，不含当天的人和物品。"
-)
+LIMITS_ZH = "重新思考时使用场地现有的地点；机器人没有行驶。"
 
 
 def verdict(again: SecondThought) -> str:
@@ -33,17 +26,7 @@ def verdict(again: SecondThought) -> str:
         return f"refused by validation ({again.refused}): nothing would have moved"
     if again.relation != "differs":
         return ""
-    if again.plan is None:
-        return "valid, and moves nothing"
-    if again.driven is None:
-        return "valid, and moves; not driven here"
-    drive = again.driven
-    bound = f"the bridge bound by {', '.join(drive.held)}" if drive.held else "no row bound it"
-    broken = f"; BROKEN: {', '.join(drive.broken)}" if drive.broken else "; no law was broken"
-    return (
-        f"driven: {drive.state} {drive.code} after {drive.seconds:g} s, {drive.metres:g} m; "
-        f"{bound}{broken}"
-    )
+    return "valid, and moves; not driven here" if again.moves else "valid, and moves nothing"
 
 
 def table(
@@ -83,7 +66,6 @@ def content(
                 "recorded": {"brain": again.decision.brain, "plan": plan_line(again.decision.plan)},
                 "made": again.made,
                 "refused": again.refused,
-                "driven": None if again.driven is None else asdict(again.driven),
                 "verdict": verdict(again),
             }
             for again in found
@@ -105,9 +87,7 @@ def _counts(found: Sequence[SecondThought]) -> dict[str, int]:
         "differs": counts["differs"],
         "none": counts["none"],
         "refused_by_validation": sum(bool(again.refused) for again in found),
-        "driven": sum(again.driven is not None for again in found),
-        "bound_by_the_bridge": sum(bool(a.driven and a.driven.held) for a in found),
-        "laws_broken": sum(bool(a.driven and a.driven.broken) for a in found),
+        "moves": sum(again.moves for again in found),
     }
 
 
@@ -117,11 +97,7 @@ def _summary(recorded: RecordedDecisions, found: Sequence[SecondThought], cost: 
         f"{len(found)} sentences: {n['same']} the same, {n['words']} in words alone, "
         f"{n['differs']} differ, {n['none']} without a plan"
     )
-    stopped = (
-        f"{n['refused_by_validation']} refused by validation, {n['driven']} driven in lockstep, "
-        f"of these {n['bound_by_the_bridge']} bound by the bridge and {n['laws_broken']} with a "
-        "law of motion broken"
-    )
+    stopped = f"{n['refused_by_validation']} refused by validation, {n['moves']} valid and moving"
     spent = f"{cost.calls} calls, {cost.prompt_tokens} tokens sent, {cost.reply_tokens} written"
     parts = [thought, stopped, spent]
     if left := _count_left(recorded, found):
@@ -140,6 +116,5 @@ def _summary_zh(found: Sequence[SecondThought], cost: Spending) -> str:
         f"{len(found)} 条指令：{n['same']} 条相同，{n['words']} 条仅措辞不同，"
         f"{n['differs']} 条不同，{n['none']} 条没有计划；"
         f"{n['refused_by_validation']} 条会被校验拒绝，"
-        f"{n['driven']} 条做了仿真行驶，其中安全桥干预 {n['bound_by_the_bridge']} 条，"
-        f"违反运动规则 {n['laws_broken']} 条；共 {cost.calls} 次调用"
+        f"{n['moves']} 条有效且会移动；共 {cost.calls} 次调用"
     )

@@ -1,22 +1,24 @@
 """Have the other model think about each recorded sentence, and say how its decision differs.
 
-One goal of the home's budget: the day's limits hold, and what it cost is counted with the rest.
+Steps are compared by what they do. The words of an answer, a question or a ``say`` may differ
+without the robot doing anything else, so that counts apart. All of it is one goal of the home's
+budget: the day's limits hold, and what it cost is counted with the rest.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from pathlib import Path
 
 from planner.brain import BadPlan, Brain, BrainDown, OutOfBudget, ThinkRequest
 from planner.brain.endpoint import EndpointBrain
-from planner.plan import StepPlan, check_plan, plan_record
+from planner.plan import PlanRecord, StepRecord, check_plan, plan_record
 from planner.settings import GoalLimits, ModelSettings, Settings
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
-from pons.evals.journal.compare import Difference, difference, plan_line
 from pons.evals.journal.recorded import RecordedDecision
 from pons.evals.model_access import Spending, open_purse, spending_of
 
@@ -31,18 +33,13 @@ MOTION = frozenset(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class DriveResult:
-    """How a drive in lockstep went."""
+class Difference(StrEnum):
+    """How two decisions relate."""
 
-    state: str
-    code: str
-    seconds: float
-    metres: float
-    held: tuple[str, ...]
-    """Rows and gates of the bridge that bound while the robot was to move, with their counts."""
-    broken: tuple[str, ...]
-    """Laws of motion that the drive broke: none, whatever the plan says."""
+    SAME = "same"
+    WORDS = "words"
+    """The same acts and codes, other words."""
+    DIFFERS = "differs"
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,9 +53,8 @@ class SecondThought:
     """What the model decided, in a line, or why it decided nothing."""
     refused: str = ""
     """Code of the validation that would have refused the plan, so that nothing had moved."""
-    plan: StepPlan | None = None
-    """A valid plan of motion that differs: what could be driven."""
-    driven: DriveResult | None = None
+    moves: bool = False
+    """It is valid, differs, and moves the robot."""
 
 
 def most_calls(sentences: int) -> int:
@@ -72,7 +68,6 @@ async def think_again(
     settings: Settings,
     model: ModelSettings,
     home: Path,
-    tell: Callable[[int], None] = lambda _: None,
 ) -> tuple[list[SecondThought], Spending]:
     """Return each sentence's second decision, and the bill.
 
@@ -89,8 +84,7 @@ async def think_again(
     with open_purse(settings, model, home, limits) as (purse, folder):
         brain = EndpointBrain(model, folder, meter=purse)
         try:
-            for number, decision in enumerate(decisions):
-                tell(number)
+            for decision in decisions:
                 found.append(await _think_again(brain, decision, site, goal))
         except OutOfBudget:
             pass
@@ -127,7 +121,43 @@ async def _think_again(
     rejection = check_plan(plan, vocabulary)
     if rejection is not None:
         return replace(again, refused=rejection.first.code.value)
-    moves = isinstance(plan, StepPlan) and any(step.kind in MOTION for step in record.steps)
-    if relation is Difference.DIFFERS and isinstance(plan, StepPlan) and moves:
-        return replace(again, plan=plan)
-    return again
+    moves = any(step.kind in MOTION for step in record.steps)
+    return replace(again, moves=moves and relation is Difference.DIFFERS)
+
+
+_NUMBERS = ("seconds", "angle_rad", "distance_m")
+
+
+def difference(one: PlanRecord, other: PlanRecord) -> Difference:
+    """Return how two plans relate."""
+    if _deed(one) != _deed(other):
+        return Difference.DIFFERS
+    return Difference.SAME if _words(one) == _words(other) else Difference.WORDS
+
+
+def _deed(plan: PlanRecord) -> tuple[object, ...]:
+    code = plan.code.value if plan.code is not None else ""
+    return (plan.kind, code, *map(_act, plan.steps))
+
+
+def _words(plan: PlanRecord) -> tuple[object, ...]:
+    said = (plan.text.en, plan.text.zh) if plan.text is not None else ()
+    return (*said, *(step.text for step in plan.steps))
+
+
+def plan_line(plan: PlanRecord) -> str:
+    """Return a plan in a line."""
+    if plan.kind != "plan":
+        return f"{plan.kind} {plan.code.value if plan.code is not None else ''}".strip()
+    return " > ".join(_step(step) for step in plan.steps)
+
+
+def _act(step: StepRecord) -> tuple[object, ...]:
+    numbers = (None if (n := getattr(step, name)) is None else round(n, 2) for name in _NUMBERS)
+    return (step.kind, step.place, step.places, step.object, *numbers)
+
+
+def _step(step: StepRecord) -> str:
+    numbers = (f"{n:g}" for name in _NUMBERS if (n := getattr(step, name)) is not None)
+    named = (step.place, *step.places, step.object, *numbers)
+    return " ".join([step.kind, *(word for word in named if word)])

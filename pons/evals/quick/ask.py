@@ -19,16 +19,18 @@ from planner.brain.prompt import Prompt
 from planner.brain.prompt_tokens import tokens
 from planner.budget import Purse
 from planner.outbound import Address
-from planner.plan import EVERY_KIND, Language
+from planner.plan import Language
 from planner.settings import GoalLimits, JsonMode, ModelSettings, Settings
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
-from pons.evals.cases import Case
 from pons.evals.matchers import read_expectation
 from pons.evals.model_access import open_purse, spending_of
 from pons.evals.quick.exam import (
+    QUESTIONS,
     WITH_SCHEMA,
+    WORLD,
     Exam,
+    ExamQuestion,
     MarkedAnswer,
     ModeResult,
     PictureResult,
@@ -36,9 +38,9 @@ from pons.evals.quick.exam import (
     ServerPace,
 )
 from pons.evals.quick.eyes import examine_eyes
-from pons.evals.quick.questions import QUESTIONS, WORLD, ExamQuestion
 from pons.evals.quick.server_probe import holds_schema, measure_speed
-from pons.evals.score import judge
+from pons.evals.score import judge, request_of
+from pons.evals.suites import Case
 from pons.evals.world import EvalWorld
 
 MOST_CALLS = 40
@@ -48,6 +50,7 @@ RUNGS_SHARE = 1 / 3
 PROMPT_TOKENS = 3500
 """What a call may send, taken over all calls: some 1 700, and in a repair the reply once more."""
 GOAL = "exam"
+_EXAM_WORLD = EvalWorld(WORLD, "living_room")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,9 +76,14 @@ class _Room:
     def left_s(self) -> float:
         return self.end_s - self.clock()
 
-    def brain(self, mode: JsonMode | None) -> EndpointBrain:
-        """Return a brain that asks in one way, patient to the end of the exam at most."""
-        return EndpointBrain(self._asked_by(mode), self.home, meter=self.purse)
+    @asynccontextmanager
+    async def brain(self, mode: JsonMode | None) -> AsyncIterator[EndpointBrain]:
+        """Lend a brain that asks in one way, patient to the end of the exam at most."""
+        brain = EndpointBrain(self._asked_by(mode), self.home, meter=self.purse)
+        try:
+            yield brain
+        finally:
+            await brain.close()
 
     @asynccontextmanager
     async def line(self, mode: JsonMode | None) -> AsyncIterator[Line]:
@@ -179,11 +187,8 @@ def _not_tried(mode: JsonMode) -> ModeResult:
 async def _try_mode(room: _Room, mode: JsonMode) -> ModeResult:
     if room.left_s <= 0.0:
         return _not_tried(mode)
-    brain = room.brain(mode)
-    try:
+    async with room.brain(mode) as brain:
         marked = await _ask(room, brain, QUESTIONS[0])
-    finally:
-        await brain.close()
     right, taken = marked.result == "right", marked.result not in ("no_answer", "not_asked")
     asked = marked.result != "not_asked"
     return ModeResult(mode.value, taken, right, "" if right else marked.made, asked)
@@ -192,42 +197,26 @@ async def _try_mode(room: _Room, mode: JsonMode) -> ModeResult:
 async def _answers(room: _Room, mode: JsonMode | None) -> tuple[MarkedAnswer, ...]:
     if mode is None:  # nothing was taken: to ask the rest would be more of the same
         return tuple(MarkedAnswer(question, "not_asked") for question in QUESTIONS)
-    marked = []
-    brain = room.brain(mode)
-    try:
-        for question in QUESTIONS:
-            if room.left_s <= 0.0:
-                marked.append(MarkedAnswer(question, "not_asked"))
-                continue
-            marked.append(await _ask(room, brain, question))
-    finally:
-        await brain.close()
-    return tuple(marked)
+    async with room.brain(mode) as brain:
+        return tuple([await _ask(room, brain, question) for question in QUESTIONS])
 
 
 async def _eyes(room: _Room, mode: JsonMode | None) -> PictureResult:
     if mode is None or room.left_s <= 0.0:
         return PictureResult()
-    brain = room.brain(mode)
     try:
-        async with asyncio.timeout(room.left_s):
+        async with room.brain(mode) as brain, asyncio.timeout(room.left_s):
             return await examine_eyes(brain.looker(), room.goal)
     except TimeoutError:
         return PictureResult("not_asked", "the time was up")
-    finally:
-        await brain.close()
 
 
 async def _ask(room: _Room, brain: Brain, question: ExamQuestion) -> MarkedAnswer:
-    request = ThinkRequest(
-        text=question.text,
-        vocabulary=WORLD,
-        room="living_room",
-        language=question.language,
-        runnable=EVERY_KIND,
-        observed=question.observed,
-        goal=room.goal,
-    )
+    if room.left_s <= 0.0:
+        return MarkedAnswer(question, "not_asked")
+    asked = {"language": question.language, "observed": question.observed}
+    case = Case(question.text, question.part.value, read_expectation(question.right), asked=asked)
+    request = request_of(case, _EXAM_WORLD, room.goal)
     before = room.purse.usage(room.goal).today.calls
     began_s = room.clock()
     try:
@@ -242,8 +231,7 @@ async def _ask(room: _Room, brain: Brain, question: ExamQuestion) -> MarkedAnswe
     except BadPlan as rejected:
         return MarkedAnswer(question, "no_plan", str(rejected)[:200])
     seconds = room.clock() - began_s
-    case = Case(question.text, question.part.value, wanted=read_expectation(question.right))
-    verdict = judge(case, thought.plan, EvalWorld(WORLD, "living_room"), seconds)
+    verdict = judge(case, thought.plan, _EXAM_WORLD, seconds)
     result: Result = "right" if verdict.right else "unsafe" if verdict.wrong else "wrong"
     calls = room.purse.usage(room.goal).today.calls - before
     return MarkedAnswer(question, result, thought.plan.model_dump_json()[:300], seconds, calls)

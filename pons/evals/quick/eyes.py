@@ -6,8 +6,8 @@ camera's picture leaves by it; a server that drops pictures without a word is fo
 
 from __future__ import annotations
 
-import base64
 from math import hypot
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from planner.brain import BadPlan, BrainDown
@@ -17,28 +17,7 @@ from pons.evals.quick.exam import PictureResult
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
 
-PICTURE = PosedPicture(
-    base64.b64decode(
-        "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAA0JCgsKCA0LCgsODg0PEyAVExISEyccHhcgLikxMC4pLSwzOko+MzZG"
-        "NywtQFdBRkxOUlNSMj5aYVpQYEpRUk//2wBDAQ4ODhMREyYVFSZPNS01T09PT09PT09PT09PT09PT09PT09PT09P"
-        "T09PT09PT09PT09PT09PT09PT09PT09PT0//wAARCABIAGADASIAAhEBAxEB/8QAGwABAQADAQEBAAAAAAAAAAAA"
-        "AAcEBQYBAgP/xAA4EAACAQMCAwILBgcAAAAAAAAAAQIDBBEFIQYSQTFRBxM1NmF0gYORsrMUFiJUktIVQmJxoeHw"
-        "/8QAGgEBAAMBAQEAAAAAAAAAAAAAAAIDBAUBBv/EACwRAAICAQIDBAsAAAAAAAAAAAABAgMRBBIFEzEhMjNBFBUi"
-        "UVJhYnGhweH/2gAMAwEAAhEDEQA/AKcAAAAAAAAAAAAAAAAAAAAAYMta0qLinqNp+J4WKsX0b3327OpxPFfENTUK"
-        "87K1ly2dOWG08+Nafblfy93x7sc4Z534eEdjT8Kc4brHjPkWK3uaF1Bztq9KtBPDlTmpJPu2P1JDp1/c6beQurSf"
-        "LOOzT7JLqmuqKjpGpUtV06nd0ly820oZTcJLtT/7saJ12qfYZtZoZaf2k8ozQCUcbedd77v6cTbpqOfPbnBzZz2r"
-        "JVwQsG31Z9f4/pXz/kXQE38HPl+v6rL5oFIMOop5M9mclsJblkHk3JQk6cYynh8qk8Jv0vDx8D0FBIjAN1xLodXS"
-        "LyU4RzZ1ZPxUlnEf6X6V/n440pzmmnhn2ddkbIqcX2MHf8AOX8HuE4x5PtDw87t8sc7Y/t1/3wttb1ru4hb21OVS"
-        "rUeIxXUqGgaWtI0uFs5RlUbc6so5w5Puz6El7C2hPdk53FbIqrZ5s2RKONvOu9939OJVyUcbedd77v6cTucN8V/b"
-        "9o+Xu7pogAdszHWeDny/X9Vl80CkE38HPl+v6rL5oFIODxDxjVV3QADEWnxWo0q9J0q9OFWnLthOKkn7GaeXCWiN"
-        "xatJR5XlpVZ/i2ez39u3cbsHjin1RZC6yvuSaMLT9J0/TeZ2VrClKXbLeUsbbZe+NlsZoASS6EZSlJ5k8sHP6pwh"
-        "p2qahVvbitdRqVcZUJRS2SXWL7joAWQslW8xeCDSfU5T7gaT+Yvf1w/aPuBpP5i9/XD9p1YLfS7viI8uPuNJovDF"
-        "jot5O5tatxOc6bptVJRaw2n0S7jdgFU5ym8yeWSSS6AAED0AAAAAAAAAAAAAAA//2Q=="
-    ),
-    width=96,
-    height=72,
-    seq=1,
-)
+PICTURE = PosedPicture((Path(__file__).parent / "disc.jpg").read_bytes(), 96, 72, seq=1)
 QUESTION = "What colour is the round thing?"
 DISC = (302, 500)
 NEAR = 120

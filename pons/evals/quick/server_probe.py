@@ -19,8 +19,7 @@ from planner.brain.prompt_tokens import count_tokens
 from planner.brain.response_format import ReplyForm
 from planner.brain.schema import Message, schema_of
 from planner.plan import EVERY_KIND
-from pons.evals.quick.exam import ServerPace
-from pons.evals.quick.questions import QUESTIONS, WORLD
+from pons.evals.quick.exam import QUESTIONS, WORLD, ServerPace
 
 if TYPE_CHECKING:
     from collections.abc import Callable

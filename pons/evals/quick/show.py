@@ -6,9 +6,8 @@ import json
 from dataclasses import asdict
 from typing import Any
 
-from pons.evals.quick.exam import Exam, ModeResult
+from pons.evals.quick.exam import Exam, ExamPart, ModeResult
 from pons.evals.quick.grade import Grade, percentile
-from pons.evals.quick.questions import ExamPart
 
 
 def table(exam: Exam, found: Grade, currency: str | None) -> str:

@@ -9,13 +9,12 @@ import pytest
 
 from planner.plan import GoTo, StepPlan
 from pons.__main__ import main
-from pons.evals.cases import Case
 from pons.evals.guard_score import GuardScore, score_guard, show
 from pons.evals.hostile_plans import expected_plan, hostile_plans, is_allowed
 from pons.evals.matchers import read_expectation
-from pons.evals.suites import load
+from pons.evals.suites import Case, load
 
-KITCHEN = Case("go to the kitchen", "drive", wanted=read_expectation("go kitchen"))
+KITCHEN = Case("go to the kitchen", "drive", read_expectation("go kitchen"))
 
 
 @pytest.fixture(scope="module", params=("home_en", "home_zh", "guard_en", "guard_zh"))
@@ -37,7 +36,7 @@ def test_little_is_asked_in_vain(score: GuardScore) -> None:
 
 def test_hostile_plans_hold_more_than_the_expectation_allows() -> None:
     world = load("home_en")[0].world
-    right = expected_plan(KITCHEN)
+    right = expected_plan(KITCHEN.wanted)
     assert right == StepPlan(steps=(GoTo(place="kitchen"),))
     made = list(hostile_plans(KITCHEN, world, right))
     assert len({name for name, _ in made}) >= 8

@@ -20,12 +20,11 @@ from planner.plan import (
     Vocabulary,
     say_same,
 )
-from pons.evals.cases import Case, MissingSuite, read_tsv
-from pons.evals.category_rules import LAWS
 from pons.evals.matchers import BadMatcher, read_expectation
 from pons.evals.score import judge
-from pons.evals.suites import load, suite_names
+from pons.evals.suites import Case, MissingSuite, load, read_tsv
 from pons.evals.world import EvalWorld
+from tools.evals.category_rules import LAWS
 
 NAMES = Vocabulary(
     entries=tuple(
@@ -159,7 +158,7 @@ def test_motion_that_the_sentence_does_not_name(
     ],
 )  # fmt: skip
 def test_law(category: str, text: str, made: StepPlan, right: bool, wrong: bool) -> None:
-    verdict = judge(Case(text, category, law=LAWS[category]), made, WORLD)
+    verdict = judge(Case(text, category, LAWS[category]), made, WORLD)
     assert (verdict.right, bool(verdict.wrong)) == (right, wrong), verdict.explanation
 
 
@@ -182,4 +181,3 @@ def test_our_suites_load_and_a_broken_one_tells_its_line(tmp_path: Path) -> None
         read_tsv(broken, WORLD)
     with pytest.raises(MissingSuite, match="home_en"):
         load("nothing")
-    assert "gpsr" in suite_names()

@@ -21,8 +21,8 @@ from planner.plan import DRIVES, Language, StepPlan, Vocabulary, check_plan, lis
 from planner.settings import ModelSettings
 from planner.site import Site
 from planner.site.site_view import facts_of, vocabulary_of
-from pons.mock_llm import READABLE
 from pons.settings import CHECKOUT
+from tests.pons.mock_llm.faults import READABLE
 
 if TYPE_CHECKING:
     from pathlib import Path

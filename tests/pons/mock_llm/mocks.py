@@ -11,7 +11,10 @@ from typing import Any
 import httpx
 import uvicorn
 
-from pons.mock_llm import Switches, build
+from pons.mock_llm import build
+from tests.pons.mock_llm.bad_server import BadServer
+from tests.pons.mock_llm.faults import BadSwitches
+from tests.pons.mock_llm.voices import add_voices
 
 START_LIMIT_S = 20.0
 
@@ -39,12 +42,14 @@ class RunningMock:
 
 
 @contextmanager
-def running_mock(switches: Switches | None = None) -> Iterator[RunningMock]:
+def running_mock(switches: BadSwitches | None = None) -> Iterator[RunningMock]:
     """Serve until the block ends; what hangs lets go."""
-    app = build(switches)
+    mock = BadServer(switches)
+    app = build(mock)
+    add_voices(app, mock)
     config = uvicorn.Config(app, log_level="error", timeout_graceful_shutdown=0)
     server = uvicorn.Server(config)
-    app.state.mock.ending = lambda: server.should_exit
+    mock.ending = lambda: server.should_exit
     with socket.socket() as ears:
         ears.bind(("127.0.0.1", 0))
         ears.listen(64)

@@ -30,8 +30,8 @@ from planner.brain import (
 from planner.brain.endpoint import EndpointBrain
 from planner.plan import GoTo, StepPlan, list_nodes
 from planner.settings import ModelSettings
-from pons.mock_llm import FAULTS, READABLE, Switches
 from tests.planner.brain.conftest import HOME
+from tests.pons.mock_llm.faults import FAULTS, READABLE, BadSwitches
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),), asked_by=("go to the kitchen",))
@@ -288,7 +288,7 @@ def test_switches_are_checked_and_counted(mock: RunningMock) -> None:
 
 
 def test_every_fault_is_described() -> None:
-    assert all(Switches(fault=fault) for fault in FAULTS)
+    assert all(BadSwitches(fault=fault) for fault in FAULTS)
     assert all(FAULTS.values())
 
 
@@ -339,7 +339,8 @@ def test_the_command_prints_its_url_and_ends_clean() -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [["--port", "x"], ["--status", "200"], ["--delay", "-1"], ["--hang", "--drip"], ["x"]]
+    "words",
+    [["--port", "x"], ["--status", "200"], ["--delay", "-1"], ["--hang", "--garbage"], ["x"]],
 )
 def test_wrong_words_end_with_2(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     from pons.__main__ import main

@@ -29,9 +29,9 @@ from planner.budget import Ledger, Purse
 from planner.perception import Detection
 from planner.plan import GoTo, StepPlan, say_same
 from planner.settings import BudgetSettings, ModelSettings
-from pons.mock_llm.pictures import NUMBER_OF_BAD_POINTS, with_words
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.pictures import jpeg
+from tests.pons.mock_llm.bad_pictures import NUMBER_OF_BAD_POINTS, with_words
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 
 T = TypeVar("T")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from pathlib import Path
 
-from pons.mock_llm import FAULTS, READABLE
+from tests.pons.mock_llm.faults import FAULTS, READABLE
 from tests.pons.mock_llm.mock_faults import try_fault
 from tests.pons.mock_llm.mocks import running_mock
 

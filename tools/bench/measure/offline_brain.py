@@ -10,10 +10,10 @@ import asyncio
 from typing import TYPE_CHECKING
 
 from planner.brain import OfflineBrain
-from pons.evals.cases import MissingSuite
 from pons.evals.score import score
-from pons.evals.suites import load
+from pons.evals.suites import MissingSuite
 from tools.bench.report import ReportRow, row_of
+from tools.evals.outside import load_any
 
 if TYPE_CHECKING:
     from pons.evals.score import SentenceVerdict
@@ -33,7 +33,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     rows: list[ReportRow] = []
     for name in SUITES:
         try:
-            (suite,) = load(name)
+            (suite,) = load_any(name)
         except MissingSuite as missing:
             rows.append(
                 ReportRow(f"{name}", "", GOAL_RIGHT, value="not measured", note=str(missing))

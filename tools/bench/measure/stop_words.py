@@ -9,10 +9,10 @@ from __future__ import annotations
 import time
 
 from planner.language.stop import StopReading, read_stop
-from pons.evals.cases import Case, MissingSuite
-from pons.evals.suites import load
+from pons.evals.suites import Case, MissingSuite
 from tools.bench.context import BenchLab
 from tools.bench.report import ReportRow, row_of
+from tools.evals.outside import load_any
 
 NAME = "stop_words"
 TITLE = "stop lane: us a sentence, orders taken for a stop"
@@ -29,7 +29,7 @@ def measure(lab: BenchLab) -> list[ReportRow]:
     cases: list[Case] = []
     for name in SUITES:
         try:
-            (suite,) = load(name)
+            (suite,) = load_any(name)
         except MissingSuite:
             continue
         cases += suite.cases

@@ -29,9 +29,10 @@ from planner.plan import (
     check_plan,
     places_of,
 )
-from pons.mock_llm.replies import GARBAGE, HOSTILE_COUNT, hallucinate, hostile
+from pons.mock_llm.replies import GARBAGE
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.endpoint.servers import GO
+from tests.pons.mock_llm.bad_replies import HOSTILE_COUNT, hallucinate, hostile
 
 NO = '{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}'
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))

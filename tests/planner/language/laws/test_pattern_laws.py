@@ -68,7 +68,7 @@ for package in PACKAGES:
 from pathlib import Path
 from tests.planner.language.laws.test_pattern_laws import at_the_door
 from tests.planner.language.laws.test_suite_replies import sentences
-for said in sentences(Path("pons/evals"))[::EACH]:  # much is compiled when it is first needed
+for said in sentences(Path())[::EACH]:  # much is compiled when it is first needed
     at_the_door(said)
 json.dump([(name, *key) for key, name in found.items()], sys.stdout)
 """

@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 from planner.language.commands import CancelCommand, PauseCommand, Replace, intent_of
 from planner.language.script_table import SIMPLIFIED, TRADITIONAL
 from planner.language.stop import MAX_READ, StopReading, is_stop, read_stop
-from pons.evals.cases import MissingSuite
-from pons.evals.suites import DATA, HOME_SITE, load
+from pons.evals.suites import MissingSuite
 from tests.laws import at_least
+from tools.evals.outside import DATA, load_any
 
 NONE = StopReading.NONE
 _BACK = {simple: old for old, simple in zip(TRADITIONAL, SIMPLIFIED, strict=True)}
@@ -288,7 +288,7 @@ def orders() -> list[tuple[str, str]]:
     found: list[tuple[str, str]] = []
     for name in ("home_en", "home_zh", "gpsr", "zh"):
         try:
-            suites = load(name, DATA, HOME_SITE)
+            suites = load_any(name)
         except MissingSuite:
             continue
         found += [(case.text, case.group) for suite in suites for case in suite.cases]

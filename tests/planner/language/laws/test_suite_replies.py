@@ -24,11 +24,12 @@ LISTED = 250
 """Characters of an answer that lists places or things."""
 
 
-def sentences(folder: Path) -> list[str]:
+def sentences(repository: Path) -> list[str]:
     """Return the orders of every suite: the column behind its split and its group."""
     lines = (
         line.split("\t")
-        for path in sorted(folder.glob("*/*.tsv"))
+        for room in ("pons", "tools")
+        for path in sorted((repository / room / "evals").glob("*/*.tsv"))
         if path.parent.name != "looks"
         for line in path.read_text("utf-8").splitlines()
         if line.strip() and not line.startswith("#")
@@ -41,7 +42,7 @@ def test_replies_to_all_suites_are_short_of_one_language_and_without_inner_words
     repository: Path,
 ) -> None:
     said, wrong = 0, []
-    for text in sentences(repository / "pons" / "evals"):
+    for text in sentences(repository):
         language = Language.ZH if is_chinese(text) else Language.EN
         request = ThinkRequest(text=text, vocabulary=HOME, language=language, runnable=RUNS)
         plan = asyncio.run(OfflineBrain().think(request)).plan

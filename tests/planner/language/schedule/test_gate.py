@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-import pons.evals
 from planner.language.commands.parser import may_concern_orders
 from planner.language.schedule import read_order_command
+from tests.conftest import ROOT
 
-SUITES = Path(pons.evals.__file__).parent
 SENTENCES = tuple(
     part
-    for folder in ("orders", "suites", "memory", "talks", "turns")
-    for path in sorted((SUITES / folder).glob("*.tsv"))
+    for folder in ("tools/evals", "pons/evals")
+    for path in sorted((ROOT / folder).glob("[!l]*/*.tsv"))
     for line in path.read_text().splitlines()
     for part in line.split("\t")
     if part.strip()

@@ -39,10 +39,18 @@ from pons.evals.matchers import read_expectation
 from pons.evals.model_access import choose_model
 from pons.evals.quick import command, show
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
-from pons.evals.quick.exam import Exam, MarkedAnswer, ModeResult, Result, ServerPace
+from pons.evals.quick.exam import (
+    QUESTIONS,
+    WORLD,
+    Exam,
+    ExamPart,
+    MarkedAnswer,
+    ModeResult,
+    Result,
+    ServerPace,
+)
 from pons.evals.quick.eyes import DISC, PICTURE, examine_eyes
 from pons.evals.quick.grade import grade
-from pons.evals.quick.questions import QUESTIONS, WORLD, ExamPart
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 from wire import ConfigError
 
@@ -314,7 +322,7 @@ def test_the_grade_is_the_worst_that_was_found(exam: Exam, letter: str, told: st
 def test_every_part_is_asked_early_and_every_place_exists() -> None:
     assert {question.part for question in QUESTIONS[:4]} == set(ExamPart)
     for question in QUESTIONS:
-        assert read_expectation(question.right).may_move == (question.right != "still")
+        assert bool(read_expectation(question.right).plans) == (question.right != "still")
     assert {"kitchen", "bedroom", "noticeboard"} <= WORLD.by_id.keys()
 
 
