@@ -29,7 +29,9 @@ if TYPE_CHECKING:
 
 KIND = r"(?:(?:standing |recurring |scheduled |daily )?(?:orders?|tasks?|reminders?)|routines?|schedules?|timers?|alarms?)"
 KIND_ZH = r"(?:提醒|定时任务|定时|日程|闹钟)"
-_MY = r"(?:(?:all(?: of)?|form_pair(?: of)?|every|each) )?(?:(?:the|my|your|our|this|that|these|those) )?"
+_MY = (
+    r"(?:(?:all(?: of)?|both(?: of)?|every|each) )?(?:(?:the|my|your|our|this|that|these|those) )?"
+)
 _ALL_ZH = r"(?:所有|全部)?的?(?:我的|你的|这些)?"
 _ID = r"(?:order |reminder |任务|提醒)?(?P<id>o\d{1,6})"
 
