@@ -152,10 +152,6 @@ REMIND = re.compile(
     rf"(?:再)?来?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我们?)|(?:叫|喊)我们?(?!{KIN}|们)(?:一声|一下|一次)?)"
 )
 TIMELESS = re.compile(r"(?:再)?提醒(?:一下)?我(?:一下|一声)?(?!.?$)(?!了|过|的|说)")
-OPEN = re.compile(
-    r"如果|要是|的话|的时候|时候|之后|以后|之前|以前|再|完|先|等|什么|哪|谁|几|[吗呢?“\"]|会儿|每|然后|,"
-)
-"""With these it is not the time alone that is missing."""
 OF = re.compile(r"[,:]*(?:要|该|说)?[,:]*")
 WAKE_UP = "该起床了"
 LEAD = re.compile(r"[,:、]*(?:就|都|要(?!是)|再|请|帮我|你|给我)*")

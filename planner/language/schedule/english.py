@@ -161,11 +161,6 @@ TIMELESS = re.compile(
     r"(?:remind me|set a reminder(?: for me)?|give me a reminder)[ ,:]+(?:to|about|of|for)\b"
     r"|(?:don't|do not) let me forget\b"
 )
-OPEN = re.compile(
-    r"\b(?:if|when|whenever|once|until|till|unless|before|after|what|where|who|how|which|whether|why"
-    r"|while|as soon|next time|every|again|later)\b|[?,;\"]"
-)
-"""With these it is not the time alone that is missing."""
 OF = re.compile(r"[ ,:]*(?:(?:to|about|of|that|for|with|saying)(?![\w'])[ ,:]*)?")
 WAKE_UP = "time to get up"
 LEAD = re.compile(

@@ -227,7 +227,7 @@ def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand
 
 def _read_timeless(order: FoldedSentence, verb: str, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a reminder without its time, which is then asked for: "remind me to ring the doctor"."""
-    if grammar.OPEN.search(order.folded) or not grammar.TIMELESS.match(f"{verb} {order.folded}"):
+    if not grammar.TIMELESS.match(f"{verb} {order.folded}"):
         return None
     what = order.strip(grammar.OF).bare().written.strip()
     missing: Problem = "order_time_missing"
