@@ -93,7 +93,7 @@ def test_a_chinese_statement_that_begins_with_a_time_keeps_it(
         "Right, study please, and quietly, I'm on in two minutes.",
         "Right study please and quietly I'm on in two minutes",
         "At nine the doctor comes, find my keys",
-        "so listen, Sunday, half nine, you remind us: Mass is at ten.",
+        "I have a tray, Sunday, half nine, you remind us: Mass is at ten.",
         "go to the study, breakfast starts at eight",
         "晚上十点，那个，每晚十点，去厨房",
         "at ten, you know, every evening at ten, go to the kitchen",
