@@ -10,13 +10,37 @@ import re
 
 from planner.language.catalogue import say
 from planner.language.folding import fold_words, has_chinese
-from planner.language.schedule import ChangeOrders, CorrectOrder, Retime, ScheduleCommand
+from planner.language.schedule import (
+    ChangeOrders,
+    CorrectOrder,
+    ListOrders,
+    Retime,
+    ScheduleCommand,
+)
 from planner.language.sentence import parse
 from planner.plan import Clarify, Code, Option, say_same
 from planner.plan.base import Frozen
 from planner.plan.order_steps import OrderAdd, OrderChange, OrderRemove
 
 _ID = re.compile(r"o\d{1,6}")
+_NAMED = {
+    "orders": ("list the {which} orders", "列出{which}的定时任务"),
+    "order_remove": ("remove the {which} one", "取消{which}那个"),
+    "order_pause": ("pause the {which} one", "暂停{which}那个"),
+    "order_resume": ("resume the {which} one", "恢复{which}那个"),
+    "order_skip": ("skip the {which} {due}", "{due}的{which}跳过"),
+    "order_move": ("move the {which} one to {due}", "把{which}那个改成{due}"),
+}
+_NAMELESS = {
+    "orders": ("tell me what is on for {due}", "{due}有什么安排"),
+    "order_remove": ("remove the order", "取消定时任务"),
+    "order_skip": ("not {due}", "{due}不用"),
+    "order_move": ("make it {due}", "改成{due}"),
+}
+"""Of the one that was spoken of last, or asked about."""
+_LIST = ("list your standing orders", "有哪些定时任务")
+_CALLED = re.compile(r"^(?:the|my|that|your) | ?\bones?$|的?那一?[个项条]$|的$")
+"""What stands about a name: "the pills one" is "pills"."""
 
 
 def offer_order(text: str) -> Clarify:
@@ -39,6 +63,31 @@ def is_order_sentence(text: str, step: Frozen) -> bool:
     return False
 
 
+def offer_kept(form: str, which: str, due: str, *, chinese: bool) -> Clarify | None:
+    """Return the question about what is kept, of a form of the learned reader; None: it is unread.
+
+    Args:
+        form: as ``order_skip``; see ``plan_grammar.ALONE``.
+        which: the words that name an order; empty: the one that was spoken of.
+        due: its new time, or the day; empty where none was said.
+        chinese: the language of the sentence.
+    """
+    which = _CALLED.sub("", _CALLED.sub("", which.strip()))
+    forms = _NAMED if which else _NAMELESS
+    said = _LIST if form == "orders" and not (which or due) else forms.get(form, ("", ""))
+    text = said[chinese].format(which=which, due=due)
+    match parse(text).intent:
+        case ListOrders() if form == "orders":
+            is_read = True
+        case CorrectOrder(change=Retime()):
+            is_read = form == "order_move"
+        case ChangeOrders(act=act):
+            is_read = form == f"order_{act}"
+        case _:
+            is_read = False
+    return offer_order(text) if is_read else None
+
+
 def write_order(step: Frozen) -> str:
     """Return the sentence of an ``OrderAdd``, ``OrderChange`` or ``OrderRemove``."""
     match step:
@@ -50,10 +99,9 @@ def write_order(step: Frozen) -> str:
                 f"更改任务{which}：改成{due}" if chinese else f"change order {which}: make it {due}"
             )
         case OrderChange(which=which, due=due):
-            chinese = has_chinese(which)
-            return f"把{which}那个改成{due}" if chinese else f"move the {which} one to {due}"
+            return _NAMED["order_move"][has_chinese(which)].format(which=which, due=due)
         case OrderRemove(which=which) if _ID.fullmatch(which):
             return f"remove order {which}"
         case OrderRemove(which=which):
-            return f"取消{which}那个" if has_chinese(which) else f"remove the {which} one"
+            return _NAMED["order_remove"][has_chinese(which)].format(which=which)
     return ""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from planner.orders.calendar_orders import read_orders
 from planner.orders.errors import OrderRefusal
@@ -19,20 +19,11 @@ from planner.plan.timing import EventRule
 if TYPE_CHECKING:
     from datetime import tzinfo
 
+    from planner.orders.intake import OrderIntake
     from planner.orders.keeper import OrderKeeper
     from planner.orders.order import StandingOrder
     from planner.plan import StepRecord
     from planner.plan.timing import Rule
-
-
-class ImportDesk(Protocol):
-    """Weigh and keep orders, as ``OrderIntake`` does."""
-
-    async def weigh(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]: ...
-
-    async def give(
-        self, new: NewOrder, goal_id: str, *, allowed: tuple[StepRecord, ...] | None = None
-    ) -> StandingOrder: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +46,7 @@ class ImportedCalendar:
 
 
 async def propose(
-    text: str, keeper: OrderKeeper, desk: ImportDesk, source: str, goal_id: str
+    text: str, keeper: OrderKeeper, desk: OrderIntake, source: str, goal_id: str
 ) -> ImportedCalendar:
     """Return what a file wants kept; nothing is.
 
@@ -96,7 +87,7 @@ def _is_same(order: StandingOrder, new: NewOrder, rule: Rule, zone: tzinfo, now_
 
 
 async def keep_proposed(
-    imported: ImportedCalendar, digest: str, desk: ImportDesk, goal_id: str
+    imported: ImportedCalendar, digest: str, desk: OrderIntake, goal_id: str
 ) -> tuple[StandingOrder, ...]:
     """Keep what was told and agreed to; what is kept already stays as it is.
 

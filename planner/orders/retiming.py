@@ -225,7 +225,7 @@ def _has(
             dial = 24 if sure or not 1 <= hour <= 12 else 12
             return at is not None and (at[0] - hour) % dial == 0 and at[1] == minute
         case DayPart():
-            return at is not None and at[0] in _HOURS_OF[part]
+            return at is not None and at[0] in HOURS_CALLED[part]
         case WeekDays(days=days):
             return weekly is not None and weekly.days == days
         case Interval(seconds=seconds) if isinstance(rule, EveryRule):
@@ -242,10 +242,11 @@ def _has(
             return False
 
 
-_HOURS_OF = {
+HOURS_CALLED = {
     DayPart.MORNING: range(4, 12),
     DayPart.NOON: range(11, 15),
     DayPart.AFTERNOON: range(12, 19),
     DayPart.EVENING: range(17, 24),
     DayPart.NIGHT: (*range(20, 24), *range(6)),
 }
+"""Hours of the day that people call so, where they name an order by them."""

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 from planner.language.folding import fold, fold_words, has_chinese
 from planner.language.schedule import split_time
-from planner.orders.retiming import fits_time
+from planner.language.schedule.parts import DayPart
+from planner.orders.retiming import HOURS_CALLED, fits_time
 from planner.orders.rule import next_due
 from planner.plan.timing import CronRule
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from datetime import tzinfo
 
-    from planner.language.schedule.parts import Part
     from planner.orders.order import StandingOrder
 
 _WORD = re.compile(r"[a-z0-9:']+")
@@ -37,23 +37,17 @@ _CALLED = re.compile(r"\bwake[- ]?up (?:calls?|alarms?|service)\b")
 """What people call the order to wake them."""
 _WAKES = frozenset(("time to get up", "该起床了"))
 _LITTLE_ZH = re.compile(r"[的了我你把去来在每天一下个次提醒任务定时,、。]")
-_PARTS = (
-    (5, 11, "morning 早上 早晨 上午 每早"),
-    (11, 14, "noon 中午"),
-    (13, 18, "afternoon 下午"),
-    (17, 24, "evening 晚上 每晚 傍晚 今晚"),
-    (20, 24, "night nightly 夜里"),
-    (0, 5, "night nightly 夜里 凌晨"),
-)
+_PARTS = {
+    DayPart.MORNING: "morning 早上 早晨 上午 每早",
+    DayPart.NOON: "noon 中午",
+    DayPart.AFTERNOON: "afternoon 下午",
+    DayPart.EVENING: "evening 晚上 每晚 傍晚 今晚",
+    DayPart.NIGHT: "night nightly 夜里 凌晨",
+}
 _DAYS = (
-    "sunday 周日 星期天 周末 weekend",
-    "monday 周一",
-    "tuesday 周二",
-    "wednesday 周三",
-    "thursday 周四",
-    "friday 周五",
-    "saturday 周六 周末 weekend",
-)
+    "sunday 周日 星期天 周末 weekend", "monday 周一", "tuesday 周二", "wednesday 周三",
+    "thursday 周四", "friday 周五", "saturday 周六 周末 weekend",
+)  # fmt: skip
 
 
 def select(
@@ -73,9 +67,16 @@ def select(
     if by_id:
         return tuple(by_id)
     parts, rest = split_time(words)
-    return tuple(
-        o for o in kept if _fits(o, words, zone) or _is_then(o, parts, rest, zone, now_unix_s)
-    )
+
+    def fits(order: StandingOrder) -> bool:
+        """Return whether words name an order, or a time at which it is due and words beside it."""
+        due_s = next_due(order.rule, order.handled_unix_s, zone)
+        if _fits(order, words, zone):
+            return True
+        is_then = fits_time(order.rule, parts, due_s, zone, now_unix_s)
+        return is_then and (not _weigh_words(rest) or _fits(order, rest, zone))
+
+    return tuple(filter(fits, kept))
 
 
 _FIRSTS = (
@@ -104,20 +105,6 @@ def is_all(answer: str | None) -> bool:
     return answer is not None and _ALL.fullmatch(fold_words(answer)) is not None
 
 
-def _is_then(
-    order: StandingOrder,
-    parts: tuple[Part, ...],
-    rest: str,
-    zone: tzinfo,
-    now_unix_s: float | None,
-) -> bool:
-    """Return whether an order is due at the time that is said, and fits the words beside it."""
-    due_s = next_due(order.rule, order.handled_unix_s, zone)
-    if not fits_time(order.rule, parts, due_s, zone, now_unix_s):
-        return False
-    return not _weigh_words(rest) or _fits(order, rest, zone)
-
-
 def _weigh_words(words: str) -> list[str]:
     if has_chinese(words):
         return [bare] if (bare := _LITTLE_ZH.sub("", words)) else []
@@ -131,29 +118,26 @@ def _fits(order: StandingOrder, words: str, zone: tzinfo) -> bool:
     if has_chinese(words):
         return _fits_chinese(words, hay)
     stems = {_stem(word) for word in _WORD.findall(hay)}
-    said = _WORD.findall(words)
-    weighed = [w for w in said if w not in _LITTLE]
-    kinds = [w for w in said if w in _KIND]
+    weighed = _weigh_words(words)
+    kinds = [word for word in _WORD.findall(words) if word in _KIND]
     if not weighed:
-        return any(_stem(w) in stems for w in kinds)
-    return all(_stem(w) in stems for w in weighed)
+        return any(_stem(word) in stems for word in kinds)
+    return all(_stem(word) in stems for word in weighed)
 
 
 def _fits_chinese(words: str, hay: str) -> bool:
     """Return whether most of the telling characters stand in the order, two by two."""
-    parts = [part for part in re.split("的", words) if part]
-    telling = [_LITTLE_ZH.sub("", part) for part in parts]
-    left = [(part, bare) for part, bare in zip(parts, telling, strict=True) if bare]
-    if not left:
+    parts = [part for part in words.split("的") if part]
+    telling = [(part, _LITTLE_ZH.sub("", part)) for part in parts]
+    if not any(bare for _, bare in telling):
         return all(part in hay for part in parts)
-    return all(part in hay or bare in hay or _overlap(bare, hay) for part, bare in left)
+    return all(part in hay or _overlaps(bare, hay) for part, bare in telling if bare)
 
 
-def _overlap(bare: str, hay: str) -> bool:
-    if len(bare) < 2:  # one character is no proof
-        return bare in hay
-    pairs = [bare[i : i + 2] for i in range(len(bare) - 1)]
-    return sum(pair in hay for pair in pairs) >= 0.6 * len(pairs)
+def _overlaps(bare: str, hay: str) -> bool:
+    pairs = [bare[at : at + 2] for at in range(len(bare) - 1)]
+    most = bool(pairs) and sum(pair in hay for pair in pairs) >= 0.6 * len(pairs)
+    return bare in hay or most  # one character alone is no proof
 
 
 def _stem(word: str) -> str:
@@ -173,10 +157,10 @@ def _time_words(order: StandingOrder, zone: tzinfo) -> str:
         return order.rule.kind
     due = datetime.fromtimestamp(due_s, zone)
     words = [f"{due.hour}:{due.minute:02}", f"{due.hour:02}:{due.minute:02}"]
-    words += [names for begin, end, names in _PARTS if begin <= due.hour < end]
+    words += [names for part, names in _PARTS.items() if due.hour in HOURS_CALLED[part]]
     if isinstance(order.rule, CronRule):
-        fields = order.rule.cron.split()
-        words.append("daily 每天 每日" if fields[4] == "*" else "weekly 每周 工作日 weekday")
-        words += [names for day, names in enumerate(_DAYS) if str(day) in fields[4]]
-        words += ["hourly hour 每小时"] if fields[1] == "*" else []
+        _, hour, _, _, week = order.rule.cron.split()
+        words.append("daily 每天 每日" if week == "*" else "weekly 每周 工作日 weekday")
+        words += [names for day, names in enumerate(_DAYS) if str(day) in week]
+        words += ["hourly hour 每小时"] if hour == "*" else []
     return " ".join(words)

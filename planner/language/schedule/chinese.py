@@ -9,7 +9,6 @@ import re
 from typing import TYPE_CHECKING
 
 from planner.language.numbers import ZH_DURATION, chinese_number, seconds
-from planner.language.schedule.chinese_dates import DATES
 from planner.language.schedule.parts import (
     EVERY_DAY,
     WEEKEND,
@@ -18,16 +17,21 @@ from planner.language.schedule.parts import (
     DayPart,
     EventPart,
     Interval,
+    MonthDay,
     OnceDay,
     Part,
     TimeOfDay,
     WeekDays,
+    after_of,
     hour_in,
+    interval_of,
 )
 from planner.plan.timing import WorldEvent
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from planner.language.schedule.parts import PartForm
 
 KIN = (
     r"(?:和|跟|与|家|爸|妈|爹|娘|爷|奶|姥|外[公婆]|阿[公婆姨爷嬷]|儿子|女儿|闺女|孩子|小孩|宝|囡|孙|老[公婆爸妈]|丈夫|妻子"
@@ -86,6 +90,31 @@ _IN = re.compile(
     rf"{_LASTS}(?:之后|以后|过后|后)|(?:过|再过){_LASTS.replace('?P<', '?P<x')}(?:之后|以后|后)?"
 )
 
+# Days by the calendar: a number alone (五号) is one only where a time follows it: 三号房间 is a room.
+_NUM = r"\d{1,2}|[一二三四五六七八九十]{1,3}"
+_COUNT = r"\d{1,3}|[一二三四五六七八九十两]{1,3}"
+_BEFORE_TIME = r"(?=,|的?(?:清晨|早|上午|中午|正午|下午|傍晚|晚|夜|凌晨|半夜|午夜)|[零一二三四五六七八九十两\d]{1,3}[点:时]|提醒|叫我)"
+
+_DATE = re.compile(
+    rf"在?(?:(?P<year>20\d\d)年|(?P<nextyear>明年)|今年)?的?(?P<month>{_NUM})月(?P<day>{_NUM})[号日]"
+)
+_ISO = re.compile(r"在?(?P<year>20\d\d)-(?P<month>\d\d)-(?P<day>\d\d)")
+_OF_MONTH = re.compile(rf"在?(?:(?P<next>下个?月)|这个?月|本月)的?(?P<day>{_NUM})[号日]")
+_DAY_NUMBER = re.compile(rf"在?(?P<day>{_NUM})[号日]{_BEFORE_TIME}")
+_FEASTS = {"平安夜": (12, 24), "圣诞节": (12, 25), "圣诞": (12, 25), "元旦": (1, 1),
+           "情人节": (2, 14), "劳动节": (5, 1), "儿童节": (6, 1), "国庆节": (10, 1),
+           "国庆": (10, 1)}  # fmt: skip
+"""Those that lie on the same date each year."""
+_FEAST = re.compile(
+    rf"在?(?P<nextyear>明年)?的?(?P<feast>{'|'.join(_FEASTS)})(?:那天|当天)?{_BEFORE_TIME}"
+)
+_WEEKDAY = re.compile(rf"在?(?P<which>下下个?|下个?|这个?|本){_WEEK}(?P<day>[一二三四五六日天])")
+_LATER = re.compile(
+    rf"(?P<n>{_COUNT})(?:(?P<week>个?(?:星期|礼拜)|周)|天)(?:之后|以后|过后|后)"
+    rf"|(?:再?过)(?P<n2>{_COUNT})(?:(?P<week2>个?(?:星期|礼拜)|周)|天)(?:之后|以后|后)?"
+    r"|(?P<after>大后天)"
+)
+
 _OPENS = r"(?:当|只要|一旦|每当|每次|一|要是一)?(?:你)?"
 _CLOSES = r"(?:了)?(?P<end>的时候|之后|以后|时|后)?,?(?:你?就|都|请)?"
 _SOMEBODY = r"(?:有人|有客人|客人|来人|谁|人)"
@@ -102,9 +131,7 @@ _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
     (r"(?:任务|目标)(?:完成|结束|做完)", WorldEvent.GOAL_DONE),
     (r"(?:回到|到)(?:了)?家", WorldEvent.ARRIVED_HOME),
 )  # fmt: skip
-_UPON = tuple(
-    (re.compile(rf"(?P<open>{_OPENS})(?:{pattern}){_CLOSES}"), event) for pattern, event in _EVENTS
-)
+
 
 POLITE = re.compile(
     r"(?:请问?|麻烦|劳驾|拜托|机器人|小车|喂|嗨|你好|帮我|我要你|我想让你|我想要你|我希望你|你要|你得|你"
@@ -125,10 +152,6 @@ REMIND = re.compile(
     rf"(?:再)?来?(?:提醒(?:一下)?我(?:一下|一声)?|(?P<wake>叫醒我们?)|(?:叫|喊)我们?(?!{KIN}|们)(?:一声|一下|一次)?)"
 )
 TIMELESS = re.compile(r"(?:再)?提醒(?:一下)?我(?:一下|一声)?(?!.?$)(?!了|过|的|说)")
-OPEN = re.compile(
-    r"如果|要是|的话|的时候|时候|之后|以后|之前|以前|再|完|先|等|什么|哪|谁|几|[吗呢?“\"]|会儿|每|然后|,"
-)
-"""With these it is not the time alone that is missing."""
 OF = re.compile(r"[,:]*(?:要|该|说)?[,:]*")
 WAKE_UP = "该起床了"
 LEAD = re.compile(r"[,:、]*(?:就|都|要(?!是)|再|请|帮我|你|给我)*")
@@ -211,50 +234,77 @@ def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
     return (OnceDay(ahead=_AHEAD[day[0]]), *part)
 
 
-def _in(found: re.Match[str]) -> tuple[Part, ...]:
-    group = {name.removeprefix("x"): text for name, text in found.groupdict().items()
-             if text is not None}  # fmt: skip
-    if "and" in group:
-        hours = _number(group["and"])
-        return () if hours is None else (After(hours * 3600.0 + 1800.0),)
-    if "halfhour" in group:
-        return (After(1800.0),)
-    if "quarter" in group:
-        return (After(900.0),)
-    lasts_s = seconds(group["number"], group["unit"])
-    return () if lasts_s is None else (After(lasts_s),)
-
-
-def _interval(found: re.Match[str]) -> tuple[Part, ...]:
-    lasts_s = seconds(found["number"], found["unit"])
-    return () if lasts_s is None else (Interval(lasts_s),)
-
-
-def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
-    def make(found: re.Match[str]) -> tuple[Part, ...]:
+def _event(event: WorldEvent) -> Callable[[re.Match[str]], Part | None]:
+    def make(found: re.Match[str]) -> Part | None:
         """Take it where a word says "when" or "then": 有人来 alone tells a fact."""
-        said = found.group()
-        marked = (
-            found["open"].removesuffix("你") or found["end"] or said.endswith((",", "就", "都"))
+        ends = found.group().endswith((",", "就", "都"))
+        return (
+            EventPart(event) if found["open"].removesuffix("你") or found["end"] or ends else None
         )
-        return (EventPart(event),) if marked else ()
 
     return make
 
 
-PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
-    *((pattern, _event(event)) for pattern, event in _UPON),
+def _whole(word: str) -> int:
+    return _number(word) or 0
+
+
+def _read_date(found: re.Match[str]) -> tuple[Part, ...]:
+    group = found.groupdict()
+    year = int(group["year"]) if group["year"] else None
+    ahead = 1 if group.get("nextyear") else None
+    return (MonthDay(_whole(found["day"]), _whole(found["month"]), year, years_ahead=ahead),)
+
+
+def _of_month(found: re.Match[str]) -> tuple[Part, ...]:
+    return (MonthDay(_whole(found["day"]), months_ahead=1 if found["next"] else 0),)
+
+
+def _read_day_number(found: re.Match[str]) -> tuple[Part, ...]:
+    return (MonthDay(_whole(found["day"])),)
+
+
+def _feast(found: re.Match[str]) -> tuple[Part, ...]:
+    month, day = _FEASTS[found["feast"]]
+    ahead = 1 if found["nextyear"] else None
+    return (MonthDay(day, month, years_ahead=ahead, coming=True),)
+
+
+def _that_weekday(found: re.Match[str]) -> tuple[Part, ...]:
+    weekday = (_WEEKDAYS.index(found["day"].replace("天", "日")) - 1) % 7
+    return (OnceDay(weekday=weekday, week=found["which"].count("下")),)
+
+
+def _days_on(found: re.Match[str]) -> tuple[Part, ...]:
+    if found["after"]:
+        return (OnceDay(ahead=3),)
+    week = found["week"] or found["week2"]
+    days = _whole(found["n"] or found["n2"]) * (7 if week else 1)
+    return (After(days * 86_400.0, days),) if days > 0 else ()
+
+
+PARTS: tuple[PartForm, ...] = (
+    *(
+        (re.compile(rf"(?P<open>{_OPENS})(?:{pattern}){_CLOSES}"), _event(event))
+        for pattern, event in _EVENTS
+    ),
     (_BEDTIME, _bedtime),
-    *DATES,
-    (_IN, _in),
-    (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
-    (_EVERY_SO, _interval),
-    (_EVERY_ONE, lambda found: (Interval(60.0 if found["minute"] else 1.0),)),
+    (_DATE, _read_date),
+    (_ISO, _read_date),
+    (_OF_MONTH, _of_month),
+    (_DAY_NUMBER, _read_day_number),
+    (_FEAST, _feast),
+    (_WEEKDAY, _that_weekday),
+    (_LATER, _days_on),
+    (_IN, lambda found: after_of(found, _number)),
+    (_HOURLY, lambda found: Interval(1800.0 if found["half"] else 3600.0)),
+    (_EVERY_SO, lambda found: interval_of(seconds(found["number"], found["unit"]))),
+    (_EVERY_ONE, lambda found: Interval(60.0 if found["minute"] else 1.0)),
     (_WEEK_SPAN, _week_span),
     (_WEEKLY, _weekly),
     (_EVERY, _every),
     (_ONE_DAY, _one_day),
     (_CLOCK, _clock),
-    (_DAYPART, lambda found: (_PARTS[found["part"]],)),
+    (_DAYPART, lambda found: _PARTS[found["part"]]),
 )
-"""What begins a part, and the parts that it makes; empty: it is none after all."""
+"""What begins a part, and the parts that it makes; none: it is none after all."""

@@ -14,7 +14,6 @@ from planner.language.schedule.parts import (
     EVERY_DAY,
     WEEKEND,
     WORKDAYS,
-    After,
     DayPart,
     EventPart,
     Interval,
@@ -22,28 +21,18 @@ from planner.language.schedule.parts import (
     Part,
     TimeOfDay,
     WeekDays,
+    after_of,
+    interval_of,
 )
 from planner.plan.timing import WorldEvent
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from planner.language.schedule.parts import PartForm
 
 GAP = re.compile(r"[ ,]*(?:and )?")
 """Between two parts."""
-_NUMBERS = [
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-]
+_NUMBERS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven",
+            "twelve")  # fmt: skip
 _HOURS = {word: number for number, word in enumerate(_NUMBERS, 1)}
 _MINUTES = {"five": 5, "ten": 10, "fifteen": 15, "twenty": 20, "twenty five": 25, "twenty-five": 25,
             "thirty": 30, "forty": 40, "forty five": 45, "forty-five": 45, "fifty": 50,
@@ -102,8 +91,8 @@ _ONE_DAY = re.compile(
     rf"|(?P<tomorrow>tomorrow)|(?:on |next |this |coming )?(?P<day>{_DAY}))(?: (?P<part>{_PART}))?{_END}"
 )
 _LASTS = (
-    rf"(?:(?:an|one|1) hour and (?:a half|30 minutes)(?P<oneandhalf>)|half an hour(?P<halfhour>)"
-    rf"|(?:a )?quarter of an hour(?P<quarter>)|(?P<n>{_H}) and a half hours|{EN_DURATION})"
+    rf"(?:(?P<and>an|{_H}) (?:hours? and (?:a half|30 minutes)|and a half hours)|half an hour(?P<halfhour>)"
+    rf"|(?:a )?quarter of an hour(?P<quarter>)|{EN_DURATION})"
 )
 _IN = re.compile(
     rf"(?:in|after) (?:about |around |roughly |just )?{_LASTS}(?:'s? time\b| time\b)?{_END}|{_LASTS.replace('?P<', '?P<x')} from now{_END}"
@@ -134,7 +123,7 @@ _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
     (rf"{_WHEN} you(?:'re| are| get| come| arrive| return)(?: back)? (?:at )?home(?: again)?",
      WorldEvent.ARRIVED_HOME),
 )  # fmt: skip
-_UPON = tuple((re.compile(rf"(?:{pattern}){_END}"), event) for pattern, event in _EVENTS)
+
 
 POLITE = re.compile(
     r"(?:(?:please|pls|hey|hi|ok|okay|so|well|you know what|listen|robot|pons|kindly|now|and|then|(?:can|could|would|will)"
@@ -172,11 +161,6 @@ TIMELESS = re.compile(
     r"(?:remind me|set a reminder(?: for me)?|give me a reminder)[ ,:]+(?:to|about|of|for)\b"
     r"|(?:don't|do not) let me forget\b"
 )
-OPEN = re.compile(
-    r"\b(?:if|when|whenever|once|until|till|unless|before|after|what|where|who|how|which|whether|why"
-    r"|while|as soon|next time|every|again|later)\b|[?,;\"]"
-)
-"""With these it is not the time alone that is missing."""
 OF = re.compile(r"[ ,:]*(?:(?:to|about|of|that|for|with|saying)(?![\w'])[ ,:]*)?")
 WAKE_UP = "time to get up"
 LEAD = re.compile(
@@ -214,7 +198,7 @@ def _bare(found: re.Match[str]) -> Part | None:
 
 
 def _number(word: str) -> int:
-    return _HOURS[word] if word in _HOURS else int(word)
+    return 1 if word == "an" else _HOURS[word] if word in _HOURS else int(word)
 
 
 def _every(found: re.Match[str]) -> tuple[Part, ...]:
@@ -254,57 +238,19 @@ def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
     return (OnceDay(ahead=1 if found["tomorrow"] else 2), *part)
 
 
-def _lasts(found: re.Match[str]) -> float | None:
-    group = {name.removeprefix("x"): text for name, text in found.groupdict().items()
-             if text is not None}  # fmt: skip
-    if "oneandhalf" in group:
-        return 5400.0
-    if "halfhour" in group:
-        return 1800.0
-    if "quarter" in group:
-        return 900.0
-    if "n" in group:
-        return _number(group["n"]) * 3600.0 + 1800.0
-    return seconds(group["number"], group["unit"])
-
-
-def _in(found: re.Match[str]) -> tuple[Part, ...]:
-    lasts_s = _lasts(found)
-    return () if lasts_s is None else (After(lasts_s),)
-
-
-def _interval(found: re.Match[str]) -> tuple[Part, ...]:
-    lasts_s = seconds(found["number"], found["unit"])
-    return () if lasts_s is None else (Interval(lasts_s),)
-
-
-def _event(event: WorldEvent) -> Callable[[re.Match[str]], tuple[Part, ...]]:
-    return lambda _: (EventPart(event),)
-
-
-def _one(
-    make: Callable[[re.Match[str]], Part | None],
-) -> Callable[[re.Match[str]], tuple[Part, ...]]:
-    def several(found: re.Match[str]) -> tuple[Part, ...]:
-        part = make(found)
-        return () if part is None else (part,)
-
-    return several
-
-
-PARTS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
-    *((pattern, _event(event)) for pattern, event in _UPON),
+PARTS: tuple[PartForm, ...] = (
+    *((re.compile(rf"(?:{pattern}){_END}"), EventPart(event)) for pattern, event in _EVENTS),
     *DATES,
-    (_HOURLY, lambda found: (Interval(1800.0 if found["half"] else 3600.0),)),
-    (_EVERY_SO, _interval),
-    (_EVERY_ONE, lambda found: (Interval(60.0 if found["minute"] else 1.0),)),
+    (_HOURLY, lambda found: Interval(1800.0 if found["half"] else 3600.0)),
+    (_EVERY_SO, lambda found: interval_of(seconds(found["number"], found["unit"]))),
+    (_EVERY_ONE, lambda found: Interval(60.0 if found["minute"] else 1.0)),
     (_EVERY, _every),
     (_WEEKDAYS, _weekdays),
-    (_AT_NOON, lambda _: (TimeOfDay(12, 0, sure=True),)),
-    (_IN_THE, lambda found: (DayPart(found["a"] or found["b"]),)),
-    (_IN, _in),
-    (_CLOCK, _one(_clock)),
-    (_AT, _one(_bare)),
+    (_AT_NOON, TimeOfDay(12, 0, sure=True)),
+    (_IN_THE, lambda found: DayPart(found["a"] or found["b"])),
+    (_IN, lambda found: after_of(found, _number)),
+    (_CLOCK, _clock),
+    (_AT, _bare),
     (_ONE_DAY, _one_day),
 )
-"""What begins a part, and the parts that it makes; empty: it is none after all."""
+"""What begins a part, and the parts that it makes; none: it is none after all."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from planner.language.schedule.parts import After, DayPart, MonthDay, OnceDay, Part
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from planner.language.schedule.parts import PartForm
 
 DAYS = ("sunday", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday")
 _DAY = "|".join(DAYS)
@@ -122,7 +122,7 @@ def _days_on(found: re.Match[str]) -> tuple[Part, ...]:
     return (After(days * 86_400.0, days),) if days else ()
 
 
-DATES: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], tuple[Part, ...]]], ...] = (
+DATES: tuple[PartForm, ...] = (
     (_DAY_MONTH, _read_date),
     (_MONTH_DAY, _read_date),
     (_ISO, _read_date),

@@ -29,17 +29,19 @@ if TYPE_CHECKING:
 
 KIND = r"(?:(?:standing |recurring |scheduled |daily )?(?:orders?|tasks?|reminders?)|routines?|schedules?|timers?|alarms?)"
 KIND_ZH = r"(?:提醒|定时任务|定时|日程|闹钟)"
-_MY = r"(?:(?:all(?: of)?|form_pair(?: of)?|every|each) )?(?:(?:the|my|your|our|this|that|these|those) )?"
+_MY = (
+    r"(?:(?:all(?: of)?|both(?: of)?|every|each) )?(?:(?:the|my|your|our|this|that|these|those) )?"
+)
 _ALL_ZH = r"(?:所有|全部)?的?(?:我的|你的|这些)?"
 _ID = r"(?:order |reminder |任务|提醒)?(?P<id>o\d{1,6})"
 
 _LIST = form_pair(
-    rf"(?:list|show|read|tell)(?: me)? {_MY}{KIND}|(?:what|which)(?: are)? {_MY}{KIND}(?: (?:are (?:there|set)|do i have))?",
-    rf"(?:现在|目前|我|都|还)*(?:有|(?:设|定|安排)了)(?:哪些|什么|几个)?{KIND_ZH}|把{_ALL_ZH}{KIND_ZH}都?(?:列出来|念一遍)",
+    rf"(?:list|show|read|tell)(?: me)? {_MY}(?:(?P<of>.+?) )??{KIND}|(?:what|which)(?: are)? {_MY}{KIND}(?: (?:are (?:there|set)|do i have))?",
+    rf"(?:现在|目前|我|都|还)*(?:有|(?:设|定|安排)了)(?:哪些|什么|几个)?{KIND_ZH}|[把列出]+{_ALL_ZH}(?P<of>.*?)的?{KIND_ZH}都?(?:列出来|念一遍)?",
 )
 _OF_TIME = form_pair(
     r"(?:what (?:do you do|are you going to do|(?:have|did) i ask(?:ed)? you to do)"
-    r"|(?:what(?:'s| is)|anything|do i have anything)(?: on| planned)?)(?: for| on)? (?P<t>.+)",
+    r"|(?:what(?:'s| is)|anything|do i have anything)(?: on| planned)?|tell me what is on)(?: for| on)? (?P<t>.+)",
     r"(?:我?[让叫要]?你)?(?P<t>.+?)(?:我|你|都|会|要|[让叫]你)*(?:做(?:什么|啥|哪些)|有(?:没有)?(?:什么|啥|哪些)?(?:安排|事|任务|提醒))[吗呢]?",
 )
 _LEFT = form_pair(
@@ -57,8 +59,8 @@ _NEXT = form_pair(
 
 def read_asked(folded: str, *, chinese: bool) -> ListOrders | None:
     """Return what a sentence asks about standing orders; None where it asks nothing of them."""
-    if _LIST[chinese].fullmatch(folded) is not None:
-        return ListOrders()
+    if (asked := _LIST[chinese].fullmatch(folded)) is not None:
+        return ListOrders(asked["of"] or "")
     if (asked := _OF_TIME[chinese].fullmatch(folded)) is not None:
         words = re.sub(r"\b(morning|afternoon|evening|night)s\b", r"\1", asked["t"])
         return ask_days(time_of(words, chinese, "{}", "every {}"), words)

@@ -5,11 +5,14 @@ A language finds the parts (``english``, ``chinese``); what they mean together i
 
 from __future__ import annotations
 
+import re
 from calendar import monthrange
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Literal
 
+from planner.language.numbers import seconds
 from planner.plan.timing import (
     MAX_AHEAD_S,
     CronRule,
@@ -39,13 +42,7 @@ class DayPart(StrEnum):
     NIGHT = "night"
 
 
-USUAL_HOUR = {
-    DayPart.MORNING: 8,
-    DayPart.NOON: 12,
-    DayPart.AFTERNOON: 15,
-    DayPart.EVENING: 20,
-    DayPart.NIGHT: 22,
-}
+USUAL_HOUR = dict(zip(DayPart, (8, 12, 15, 20, 22), strict=True))
 """What "every evening" means where no hour is said; the answer tells it."""
 HOURS_OF = {
     DayPart.MORNING: "05:00-12:00",
@@ -125,6 +122,26 @@ class EventPart:
 
 
 Part = WeekDays | Interval | OnceDay | MonthDay | After | TimeOfDay | EventPart | DayPart
+PartForm = tuple[re.Pattern[str], Part | Callable[[re.Match[str]], Part | tuple[Part, ...] | None]]
+"""What begins a part, and the parts that it makes."""
+
+
+def after_of(found: re.Match[str], number: Callable[[str], int | None]) -> After | None:
+    """Return the time after a length that was matched; None where it is none."""
+    group = {name.removeprefix("x"): text for name, text in found.groupdict().items()
+             if text is not None}  # fmt: skip
+    if "and" in group:
+        hours = number(group["and"])
+        return None if hours is None else After(hours * 3600.0 + 1800.0)
+    if "halfhour" in group or "quarter" in group:
+        return After(1800.0 if "halfhour" in group else 900.0)
+    lasts_s = seconds(group["number"], group["unit"])
+    return None if lasts_s is None else After(lasts_s)
+
+
+def interval_of(lasts_s: float | None) -> Interval | None:
+    """Return what comes again after so long [s]."""
+    return None if lasts_s is None else Interval(lasts_s)
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,13 +245,8 @@ def _by_day(hour: int, clock: TimeOfDay | None, daypart: DayPart | None) -> int:
 
 def list_days(days: frozenset[int]) -> str:
     """Return days of the week as cron writes them."""
-    return (
-        "*"
-        if days == EVERY_DAY
-        else "1-5"
-        if days == WORKDAYS
-        else ",".join(map(str, sorted(days)))
-    )
+    named = {EVERY_DAY: "*", WORKDAYS: "1-5"}
+    return named.get(days) or ",".join(map(str, sorted(days)))
 
 
 def read_days(week: str) -> frozenset[int]:

@@ -174,6 +174,10 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     once = isinstance(timing.when, DayTime | InRule) and before.parts
     states = once and begins_with_statement(order.folded, chinese=grammar is chinese)
     tells = after.parts and isinstance(timing.when, EventRule) and _TELLS.search(order.folded)
+    cuts = (found.end() for found in _CLAUSE.finditer(order.folded))
+    others = (part for cut in cuts for part in first_parts(order.folded[cut:], grammar).parts)
+    if any(isinstance(part, WeekDays) for part in others):
+        return None  # 晚上十点，那个，每晚十点，…: all of it, or none
     if tells or states or grammar.REMARK.match(order.folded) is not None:
         return None  # "it's cold tonight", "at nine the doctor comes, …": a time, and no order
     return _order(order, timing, words)
@@ -227,7 +231,7 @@ def _order(order: FoldedSentence, timing: Timing, words: str) -> ScheduleCommand
 
 def _read_timeless(order: FoldedSentence, verb: str, grammar: ModuleType) -> ScheduleCommand | None:
     """Read a reminder without its time, which is then asked for: "remind me to ring the doctor"."""
-    if grammar.OPEN.search(order.folded) or not grammar.TIMELESS.match(f"{verb} {order.folded}"):
+    if not grammar.TIMELESS.match(f"{verb} {order.folded}"):
         return None
     what = order.strip(grammar.OF).bare().written.strip()
     missing: Problem = "order_time_missing"

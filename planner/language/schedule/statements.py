@@ -16,8 +16,10 @@ _ORDERS = (
 )
 _STATES = rf"(?:(?:i|we|they)(?:'\w+| (?:{_VERB}|am|need|must|feel|start|begin|leave|eat|got)\b)|{_WHO}(?:'s|'ll| {_VERB})|{_OURS} {_VERB})"
 _STATEMENT = re.compile(rf"{_ORDERS}(?:(?:well|anyway|[a-z]+ly)[ ,]+)?{_STATES}")
-_OF_OURS = re.compile(rf"{_ORDERS}{_OURS}'s(?: (?:due|here|back|home|over|[a-z]+ing)\b.*)?$")
-"""Without a mark before it, "the doctor's" is as well a place."""
+_OF_OURS = re.compile(
+    rf"{_ORDERS}{_OURS}'s(?: (?:due|here|back|home|over|[a-z]+ing)\b.*)?$|(?:[a-z]+ ){{1,2}}{_VERB}$"
+)
+"""Behind a mark; without one "the doctor's" is as well a place, and "see who is" an order."""
 _MARKS = re.compile(r"[,;:!.]+ *(?:(?:and|but|so|because|since|as|for) )?|\s[-–—]+\s|—+")
 _JOINTS = re.compile(r"(?<= )(?:and|but|because|'?cause|since|as|please) ")
 _SPEAKS = r"\b(?:tell|inform|warn|remind|ask|say|announce|shout|let)\b"

@@ -45,8 +45,9 @@ def first_parts(folded: str, grammar: ModuleType) -> FoundTime:
 def _part_at(folded: str, start: int, grammar: ModuleType) -> FoundTime | None:
     for pattern, make in grammar.PARTS:
         match = pattern.match(folded, start)
-        if match is not None and match.end() > start and (parts := make(match)):
-            return FoundTime(parts, match.end())
+        made = make(match) if match is not None and callable(make) else make
+        if match is not None and match.end() > start and made:
+            return FoundTime(made if isinstance(made, tuple) else (made,), match.end())
     return None
 
 

@@ -7,7 +7,6 @@ sure of is not offered.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
@@ -19,9 +18,15 @@ from planner.language.grammar.parser import plan as grammar_plan
 from planner.language.grammar.plan_assembly import sentence
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.motion_guard import denied_places
-from planner.language.order_sentence import is_order_sentence, offer_order, write_order
+from planner.language.order_sentence import (
+    is_order_sentence,
+    offer_kept,
+    offer_order,
+    write_order,
+)
 from planner.language.semantic_parser.changed_order import CHANGES, change_order
 from planner.language.semantic_parser.parser import parse
+from planner.language.semantic_parser.plan_grammar import ALONE
 from planner.language.semantic_parser.plan_steps import StepMaker
 from planner.language.sentence import parse as parse_sentence
 from planner.plan import (
@@ -40,7 +45,7 @@ from planner.plan import (
     places_of,
     say_same,
 )
-from planner.plan.order_steps import OrderAdd, OrderChange, OrderRemove
+from planner.plan.order_steps import OrderAdd
 
 if TYPE_CHECKING:
     from planner.language.grammar.context import Context
@@ -62,17 +67,12 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "pause": ("pause for a moment", "暂停一下"),
     "fact": ("remember that {words}", "记住{words}"),
     "name_here": ("this place is called {words}", "这里叫{words}"),
-    "orders": ("list your standing orders", "有哪些定时任务"),
-    "order_pause": ("pause the {words} one", "暂停{words}那个"),
-    "order_resume": ("resume the {words} one", "恢复{words}那个"),
 }
 """What the planner itself does upon a yes, in words that it reads."""
 _HANGING = CONTROL | {"wait_for", "wait"}
 """Steps that wait for something, as the words "until" and "when" ask for."""
 _ROLES = {PlanRole.AFTER: "order.after", PlanRole.INSTEAD: "order.instead"}
-_NAMES_ONE = re.compile(r"\bones?$|那一?[个项条]$")
-"""What "the pills one" is without "one"."""
-_ORDERS = frozenset({"at", "order_move", "order_remove"})
+_ORDERS = frozenset({"at"} | {name for name in ALONE if name.startswith("order")})
 """Forms about standing orders."""
 _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
 
@@ -140,7 +140,7 @@ def _offer_command(node: PlanNode, language: Language, code: Code) -> Clarify | 
     """
     if code is Code.NEGATED and not any(node.slots):
         return None
-    words = " ".join(_NAMES_ONE.sub("", value[0]).strip() for value in node.slots if value)
+    words = " ".join(value[0] for value in node.slots if value)
     command = COMMANDS[node.form][language is Language.ZH].format(words=words)
     is_read = parse_sentence(command).intent is not None
     return _ask_for(Option(label=say_same(command), text=command)) if is_read else None
@@ -154,17 +154,13 @@ def _offer_standing_order(
     denied: frozenset[str],
 ) -> Clarify | None:
     """Return the question about a standing order whose time the clock reads; None: it doesn't."""
-    words = tuple(_NAMES_ONE.sub("", value[0]).strip() if value else "" for value in node.slots)
+    words = tuple(value[0] if value else "" for value in node.slots)
+    if node.form != "at":
+        which, due = (*words, "", "")[:2]
+        return offer_kept(node.form, which, due, chinese=language is Language.ZH)
+    order = _told_as_order(node, vocabulary, language, context, denied)
     try:
-        if node.form == "order_remove":
-            step: OrderAdd | OrderChange | OrderRemove = OrderRemove(which=words[0])
-        elif node.form == "order_move":
-            step = OrderChange(which=words[0], due=words[1])
-        else:
-            order = _told_as_order(node, vocabulary, language, context, denied)
-            if order is None:
-                return None
-            step = OrderAdd(due=words[0], order=order)
+        step = OrderAdd(due=words[0], order=order or "")
     except ValidationError:
         return None
     text = write_order(step)

@@ -1,4 +1,4 @@
-"""One day left out of orders that are kept: paused, removed or asked about, and nothing besides."""
+"""What words about kept orders change: decided purely, and nothing besides what is named."""
 
 from __future__ import annotations
 
@@ -6,9 +6,14 @@ from pathlib import Path
 
 import pytest
 
+from planner.language.schedule import ChangeOrders, CorrectOrder, read_order_command
 from planner.language.schedule.parts import OnceDay
+from planner.orders.decision import SPOKEN_S, KeptOrders, NoneSuch, OrderEdits, WhichOrder, decide
+from planner.orders.errors import OrderRefusal
+from planner.orders.scheduler import OrderBook, put
 from planner.plan.timing import CronRule
-from tests.planner.orders.fakes import Kept
+from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, Kept
+from tests.planner.orders.player import order
 from tests.planner.orders.test_intake import say, take, tell
 
 DAY_S = 86_400.0
@@ -88,3 +93,66 @@ def test_two_reminders_at_once_are_told_again_together(tmp_path: Path) -> None:
         assert [o.reminder for o in again] == ["take the cake out", "call Tom"]
 
     tell(tmp_path, story)
+
+
+def kept_orders(count: int, ago_s: float = 0.0) -> KeptOrders:
+    """Return so many daily orders, at eight in the evening, nine and so on."""
+    book = OrderBook(BERLIN)
+    for number in range(1, count + 1):
+        daily = order(number, CronRule(cron=f"0 {19 + number} * * *"))
+        book = put(book, daily.model_copy(update={"created_unix_s": NOON_UNIX_S - ago_s}))
+    return KeptOrders(book, NOON_UNIX_S)
+
+
+def decided(text: str, kept: KeptOrders, answer: str | None = None) -> object:
+    command = read_order_command(text)
+    assert isinstance(command, ChangeOrders | CorrectOrder), text
+    found = decide(command, kept, answer)
+    assert repr(found) == repr(decide(command, kept, answer)), "the same words decide the same"
+    return found
+
+
+@pytest.mark.parametrize(
+    ("text", "told", "fields"),
+    [
+        ("remove order o2", "removed", None), ("pause order o2", "paused", {"paused"}),
+        ("skip order o2 tomorrow", "skipped", {"skipped"}),
+        ("move the one at nine to ten", "changed", {"rule", "text"}),
+        ("把任务o2暂停到周一", "paused", {"paused", "resume_unix_s"}),
+    ],
+)  # fmt: skip
+def test_only_the_order_that_is_named_changes_and_only_in_what_is_said(
+    text: str, told: str, fields: set[str] | None
+) -> None:
+    kept = kept_orders(3)
+    found = decided(text.replace("the one at nine", "order o2") if fields is None else text, kept)
+    assert isinstance(found, OrderEdits), text
+    (edit,) = found.edits
+    assert (edit.order, edit.told, found.given) == ("o2", told, ())
+    before = kept.book.orders["o2"]
+    changed = {k for k, v in (edit.fields or {}).items() if getattr(before, k) != v}
+    assert changed - {"handled_unix_s"} == (fields or set())
+
+
+@pytest.mark.parametrize("text", ["make it ten", "改成十点", "not on Sundays", "ten minutes later"])
+def test_it_is_the_order_of_a_moment_ago_or_a_person_says_which(text: str) -> None:
+    found = decided(text, kept_orders(2))
+    assert isinstance(found, OrderEdits)
+    assert [edit.order for edit in found.edits] == ["o2"]
+    later = kept_orders(2, SPOKEN_S + 1.0)
+    asked = decided(text, later)
+    assert isinstance(asked, WhichOrder)
+    assert len(asked.orders) == 2
+    for each in asked.orders:  # each offer names its order, and does it
+        again = decided(asked.form.format(id=each.id), later)
+        assert isinstance(again, OrderEdits)
+        assert [edit.order for edit in again.edits] == [each.id]
+
+
+def test_what_fits_none_or_can_not_be_is_said_and_changes_nothing() -> None:
+    kept = kept_orders(1)
+    assert isinstance(decided("cancel the laundry reminder", kept), NoneSuch)
+    assert decided("cancel the red one", kept) is None
+    refused = decided("make it eight", kept)
+    assert isinstance(refused, OrderRefusal)
+    assert refused.code == "order_change_none"
