@@ -3,8 +3,8 @@
 ``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
 and changes no setting. Needs no running robot; a port that a running one holds is named busy.
 ``pons robot try [--robot FILE]`` turns the wheels, off the ground (docs/robot-try.md).
-``pons robot relay`` prints the node that a robot of ROS 2 runs, ``pons robot mount`` where its
-lidar sits (docs/ros2.md).
+``pons robot node FOLDER`` writes the package that a robot of ROS 2 runs, ``pons robot mount``
+prints where its lidar sits (docs/ros2.md).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Final
 from devices.camera_listing import list_cameras
 from devices.port_listing import describe_port, find_port_takers, list_ports
 from pons.robot.port_finder import question_ports
-from pons_assets import RELAY, ROS2_NODE
+from pons_assets import ROS2_NODE
 from wire import load_robot
 
 if TYPE_CHECKING:
@@ -118,7 +118,6 @@ def parser() -> argparse.ArgumentParser:
     find.add_argument("--json", action="store_true")
     tried = acts.add_parser("try", help="turn the wheels, off the ground, and prove that they stop")
     tried.add_argument("--robot", type=Path, metavar="FILE", help="robot.toml (PONS_ROBOT)")
-    acts.add_parser("relay", help="print the node that a robot of ROS 2 runs: > relay.py")
     node = acts.add_parser(
         "node", help="write the ROS 2 package that a robot runs into a new folder"
     )
@@ -149,13 +148,10 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         from pons.robot.trial_command import run_trial
 
         return run_trial(replace(settings, robot=said.robot) if said.robot else settings)
-    if said.act == "relay":
-        sys.stdout.write(RELAY.read_text("utf-8"))
-        return EXIT_FOUND
     if said.act == "node":
         return _write_node(said.folder)
     if said.act == "mount":
-        from pons.ros2_topics import print_mounting
+        from pons.ros2_robot import print_mounting
 
         return print_mounting(load_robot(settings.robot))
     entries = [describe_port(path) for path in said.port] if said.port else list_ports()

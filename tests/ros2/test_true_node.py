@@ -26,7 +26,7 @@ from pons.settings import LaunchSettings
 from ros2.robot_link import RobotLink
 from sensors.camera.shot import CameraTrouble
 from sensors.camera.source import open_source
-from tests.ros2.test_process import Bridge
+from tests.ros2.bridge import Bridge
 from tests.sensors.camera.test_packed_picture import JPEG, PICTURE
 from wire import CameraConfig, Nav2Goal, Nav2State, Pose2, Scan, keys, load_robot
 from wire.keys import Party

@@ -227,7 +227,7 @@ _MESSAGES: tuple[Record, ...] = (
     ),
     Ros2Status(
         boot_id="ros2-1",
-        code="ros2_no_relay",
+        code="ros2_no_base",
         detail="the graph has /cmd_vel, but no /pons/state",
         cmd_vel="geometry_msgs/msg/TwistStamped",
         odom_hz=50.0,
