@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 EXIT_FOUND, EXIT_NOTHING = 0, 3
+ZENOH: Final = "eclipse-zenoh>=1.10,<1.11"
 HEAD: Final = "# for robot.toml:"
 CODES: Final[dict[str, tuple[str, str]]] = {
     "port_busy": (
@@ -96,6 +97,11 @@ CODES: Final[dict[str, tuple[str, str]]] = {
     ),
 }
 """What is said of a port, in English and Chinese; ``detail`` is the finding's."""
+RELAY_GONE: Final = (
+    "relay_gone: it is a part of the package pons_ros2 now: `pons robot node FOLDER` writes that "
+    "(docs/ros2.md)\n"
+    "中继节点现在是 pons_ros2 软件包的一部分：请用 `pons robot node FOLDER` 写出（docs/ros2.md）"
+)
 _TAKERS: Final = {
     "brltty": "port_brltty",
     "gpsd": "port_gpsd",
@@ -137,12 +143,16 @@ def _write_node(folder: Path) -> int:
         )
         print(f"无法写入 {folder}：请指定一个尚不存在的文件夹", file=sys.stderr)
         return EXIT_NOTHING
-    print(f"{folder}: on the robot there `colcon build`, and `pip install eclipse-zenoh`")
+    print(f"{folder}: on the robot there `colcon build`, `pip install '{ZENOH}'`, and")
+    print("ros2 launch pons_ros2 pons.launch.py (docs/ros2.md)")
     return EXIT_FOUND
 
 
 def run(settings: LaunchSettings, words: list[str]) -> int:
     """Be ``pons robot``; 0 where a device was recognised or all was proved, 3 where not."""
+    if words[:1] == ["relay"]:
+        print(RELAY_GONE, file=sys.stderr)
+        return EXIT_NOTHING
     said = parser().parse_args(words)
     if said.act == "try":
         from pons.robot.trial_command import run_trial

@@ -147,3 +147,13 @@ def test_the_package_is_written_into_a_new_folder_alone(
         assert (folder / name).is_file(), name
     assert run(settings, ["node", str(folder)]) == 3
     assert "node_not_written" in capsys.readouterr().err
+
+
+def test_who_asks_for_the_relay_is_told_of_the_package(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    settings = LaunchSettings(tmp_path, tmp_path, tmp_path, "127.0.0.1", 1)
+    assert run(settings, ["relay"]) == 3
+    refused = capsys.readouterr().err
+    assert "relay_gone" in refused
+    assert refused.count("pons robot node FOLDER") == 2
