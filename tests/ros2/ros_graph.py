@@ -4,7 +4,8 @@
 odometry at 50 Hz, and each twist as a line of JSON on stdout. ``lidar`` says three beams: too near
 to measure (minus infinity), no return, 1.5 m. ``map`` says a map once and keeps it. ``body PORT``
 drives the body of a simulator's twin, which listens there, and says what it senses. ``nav2`` is a
-small stand-in for Nav2 (small_nav2), which begins at a pose and knows points to pass.
+small stand-in for Nav2 (small_nav2), which begins at a pose and knows points to pass. ``viewer``
+says what RViz would show, and the diagnostics, as lines of JSON.
 Knows nothing of Pons but the twin's words.
 """
 
@@ -19,11 +20,14 @@ from typing import Any
 import rclpy
 import small_nav2  # type: ignore[import-not-found]  # beside this file, where its Python looks
 from action_msgs.msg import GoalStatus, GoalStatusArray
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, Twist, TwistStamped
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import Imu, LaserScan
+from std_msgs.msg import String
+from visualization_msgs.msg import MarkerArray
 
 KINDS = {"geometry_msgs/msg/Twist": Twist, "geometry_msgs/msg/TwistStamped": TwistStamped}
 PERIOD_S = 0.02
@@ -218,6 +222,32 @@ class Map(Node):
         self.maps.publish(grid)
 
 
+class Viewer(Node):
+    """Say what is to be seen; it may come late."""
+
+    def __init__(self) -> None:
+        super().__init__("viewer")
+        self.create_subscription(Path, "/pons/path", self.hear_path, KEPT)
+        self.create_subscription(MarkerArray, "/pons/markers", self.hear_markers, KEPT)
+        self.create_subscription(
+            String, "/pons/status", lambda message: self.say(status=message.data), KEPT
+        )
+        self.create_subscription(DiagnosticArray, "/diagnostics", self.hear_diagnostics, 10)
+
+    def say(self, **what: Any) -> None:
+        print(json.dumps(what), flush=True)
+
+    def hear_path(self, message: Any) -> None:
+        at = [[one.pose.position.x, one.pose.position.y] for one in message.poses]
+        self.say(path=at, frame=message.header.frame_id)
+
+    def hear_markers(self, message: Any) -> None:
+        self.say(markers=[one.text for one in message.markers[1:]])
+
+    def hear_diagnostics(self, message: Any) -> None:
+        self.say(diagnostics={one.name: one.message for one in message.status})
+
+
 def main(arguments: list[str]) -> None:
     rclpy.init()
     kind, numbers = arguments[0], arguments[1:]
@@ -225,7 +255,8 @@ def main(arguments: list[str]) -> None:
         start, via = numbers[:3], numbers[3:]
         rclpy.spin(Nav2(list(map(float, start)), list(map(float, via))))
     else:
-        made: dict[str, Any] = {"base": Base, "lidar": Lidar, "map": Map, "body": Body}
+        made: dict[str, Any] = {"base": Base, "lidar": Lidar, "map": Map, "body": Body,
+                                "viewer": Viewer}  # fmt: skip
         rclpy.spin(made[kind](*numbers))
 
 

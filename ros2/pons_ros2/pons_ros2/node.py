@@ -23,6 +23,7 @@ from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
 
 from .dead_man import CmdVelDeadMan, key_of, strip_signature
+from .display import PlanDisplay
 from .graph_check import STAMPED, TopicCheck, TopicPublishers, judge_cmd_vel
 from .link import OpenToAll, PlannerLink
 from .nav2 import Nav2Topics
@@ -64,12 +65,14 @@ class PonsBase(Node):
         self.senses = Senses(self, self.link, names, *given)
         self.graph = TopicCheck(self.senses.needs())
         self.nav2 = Nav2Topics(self, self.link, boot, names) if self._ask("nav2", False) else None
+        self.display = PlanDisplay(self, names["map_frame"])
         if self.nav2 is not None and names["nav2_cmd_vel"] == self.topic:
             raise ValueError(f"nav2_cmd_vel and cmd_vel are both {self.topic}")
         self.says = self.create_publisher(String, "pons/state", 10)
         self.tells = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self.link.hear("command", self.hear)
         self.link.hear("nav2/goal", self.hear_goal)
+        self.link.hear("plan", self.hear_plan)
         self.create_timer(PERIOD_S, self.turn, clock=STEADY)
         self.create_timer(LOOK_S, self.look, clock=STEADY)
         self.get_logger().info(f"{boot} listens at {listen}, drives {self.topic}")
@@ -92,6 +95,12 @@ class PonsBase(Node):
         text = strip_signature(words, self.key)
         if self.nav2 is not None and text is not None:
             self.nav2.hear(text)
+
+    def hear_plan(self, words: str) -> None:
+        """Take what the planner shows, on a thread of zenoh's."""
+        text = strip_signature(words, self.key)
+        if text is not None:
+            self.display.hear(text, time.monotonic())
 
     def turn(self) -> None:
         """Say how it stands; while no command holds, send zeros again and again."""
@@ -131,7 +140,7 @@ class PonsBase(Node):
         self.senses.look(time.monotonic())
         if self.nav2 is not None:
             self.nav2.look()
-        self.diagnose()
+        self.diagnose(self.display.look(time.monotonic()))
 
     def read_publishers(self, topic: str) -> TopicPublishers:
         """Return what the graph says of a topic's publishers."""
@@ -149,14 +158,18 @@ class PonsBase(Node):
         made = TwistStamped if kind == STAMPED else Twist
         self.drives, self.kind = self.create_publisher(made, self.topic, 1), kind
 
-    def diagnose(self) -> None:
-        """Tell rqt and the like."""
+    def diagnose(self, planner: str) -> None:
+        """Tell rqt and the like how base and planner stand."""
         code, found = self.trouble or ("", "the base is heard")
         level = DiagnosticStatus.ERROR if code else DiagnosticStatus.OK
-        one = DiagnosticStatus(
+        base = DiagnosticStatus(
             level=level, name="pons_ros2: base", message=f"{code} {found}".strip()
         )
-        array = DiagnosticArray(status=[one])
+        level = DiagnosticStatus.OK if planner else DiagnosticStatus.STALE
+        said = DiagnosticStatus(
+            level=level, name="pons_ros2: planner", message=planner or "not heard"
+        )
+        array = DiagnosticArray(status=[base, said])
         array.header.stamp = self.get_clock().now().to_msg()
         self.tells.publish(array)
 
