@@ -6,11 +6,13 @@ odometry, scans and the rest back. Without a command, and when it ends, the base
 
 from __future__ import annotations
 
+import os
 import secrets
 import signal
 import sys
 import threading
 import time
+import traceback
 from typing import Any
 
 import rclpy
@@ -73,7 +75,11 @@ class PonsBase(Node):
         self.link.hear("command", self.hear)
         self.link.hear("nav2/goal", self.hear_goal)
         self.link.hear("plan", self.hear_plan)
-        self.create_timer(PERIOD_S, self.turn, clock=STEADY)
+        self.ending = threading.Event()
+        self.keeper = threading.Thread(target=self.keep, name="dead-man", daemon=True)
+        self.keeper.start()
+        if self.nav2 is not None:
+            self.create_timer(PERIOD_S, self.tell_nav2, clock=STEADY)
         self.create_timer(LOOK_S, self.look, clock=STEADY)
         self.get_logger().info(f"{boot} listens at {listen}, drives {self.topic}")
 
@@ -102,6 +108,15 @@ class PonsBase(Node):
         if text is not None:
             self.display.hear(text, time.monotonic())
 
+    def keep(self) -> None:
+        """Be the dead-man's own thread: it waits behind no picture and no scan of the executor."""
+        try:
+            while not self.ending.wait(PERIOD_S):
+                self.turn()
+        except Exception:  # noqa: BLE001  # without a dead-man this process must not live
+            traceback.print_exc()  # the guard sends zeros, and the launch file starts it again
+            os._exit(1)
+
     def turn(self) -> None:
         """Say how it stands; while no command holds, send zeros again and again."""
         now_s = time.monotonic()
@@ -113,8 +128,11 @@ class PonsBase(Node):
         self.ticks += 1
         if self.ticks % 2 == 0:
             self.says.publish(String(data=state))
+
+    def tell_nav2(self) -> None:
+        """Publish the goal that is due, and tell the planner what is new of Nav2."""
         if self.nav2 is not None:
-            self.nav2.turn(now_s)
+            self.nav2.turn(time.monotonic())
 
     def state(self, now_s: float, **more: object) -> str:
         """Return what Pons and the guard are told."""
@@ -175,6 +193,8 @@ class PonsBase(Node):
 
     def stop(self) -> None:
         """Send zeros, whatever is asked for, and tell the guard that this is no death."""
+        self.ending.set()
+        self.keeper.join()
         with self.lock:
             self.trouble = ENDED  # a command that comes now moves nothing
             self.drive()
