@@ -18,7 +18,7 @@ OLD_S = 3.0
 """A planner that showed nothing for so long counts as not heard."""
 
 
-class PlanDisplay:
+class RvizDisplay:
     """Publish what was heard last, for one node, on its own thread."""
 
     def __init__(self, node: Any, frame: str) -> None:

@@ -25,7 +25,7 @@ from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
 
 from .dead_man import CmdVelDeadMan, key_of, strip_signature
-from .display import PlanDisplay
+from .display import RvizDisplay
 from .graph_check import STAMPED, TopicCheck, TopicPublishers, judge_cmd_vel
 from .link import OpenToAll, PlannerLink
 from .nav2 import Nav2Topics
@@ -67,7 +67,7 @@ class PonsBase(Node):
         self.senses = Senses(self, self.link, names, *given)
         self.graph = TopicCheck(self.senses.needs())
         self.nav2 = Nav2Topics(self, self.link, boot, names) if self._ask("nav2", False) else None
-        self.display = PlanDisplay(self, names["map_frame"])
+        self.display = RvizDisplay(self, names["map_frame"])
         if self.nav2 is not None and names["nav2_cmd_vel"] == self.topic:
             raise ValueError(f"nav2_cmd_vel and cmd_vel are both {self.topic}")
         self.says = self.create_publisher(String, "pons/state", 10)
