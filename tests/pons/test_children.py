@@ -80,9 +80,9 @@ def test_a_camera_of_metal_has_its_process_and_where_a_twin_plays_is_drawn(
         "uvc": {"device": "/dev/video0"},
         "stream": {"url": "rtsp://10.0.0.9/1"},
     }
-    base = {"drive": MCU}
+    base: dict[str, dict[str, object]] = {"drive": MCU}
     if kind == "ros2":
-        base = {"drive": {"kind": "ros2"}, "ros2": ROS2, "inputs": {"imu": False}}
+        base = {"drive": {"kind": "ros2"}, "ros2": dict(ROS2), "inputs": {"imu": False}}
     robot = RobotDescription.model_validate(base | {"camera": {"kind": kind, **keys.get(kind, {})}})
     settings = LaunchSettings(
         tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
