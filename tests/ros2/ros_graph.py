@@ -257,7 +257,12 @@ def main(arguments: list[str]) -> None:
     else:
         made: dict[str, Any] = {"base": Base, "lidar": Lidar, "map": Map, "body": Body,
                                 "viewer": Viewer}  # fmt: skip
-        rclpy.spin(made[kind](*numbers))
+        node = made[kind](*numbers)
+        try:
+            rclpy.spin(node)
+        finally:
+            if kind == "body":
+                node.session.close()  # its threads would keep this process
 
 
 if __name__ == "__main__":
