@@ -61,6 +61,7 @@ class PonsBase(Node):
         self.trouble: tuple[str, str] | None = ("ros2_starting", "the graph was not looked at yet")
         self.drives: Any = None
         self.ticks = 0
+        self._rise(self._ask("rank", 0))  # before the threads that inherit it
         listen = self._ask("listen", "tcp/127.0.0.1:7448")
         self.link = PlannerLink(listen, has_key=bool(self.key))
         given = self._ask("scan_zero", "near"), self._ask("picture_hz", 10.0)
@@ -85,6 +86,14 @@ class PonsBase(Node):
 
     def _ask(self, name: str, default: Any) -> Any:
         return self.declare_parameter(name, default).value
+
+    def _rise(self, rank: int) -> None:
+        """Take a real-time rank, where the system lets this user."""
+        try:
+            if rank > 0:
+                os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(rank))
+        except OSError as why:
+            self.get_logger().warning(f"rank {rank}: {why}; see /etc/security/limits.d, rtprio")
 
     def _topic(self, name: str, default: str) -> str:
         given = self._ask(name, default)
