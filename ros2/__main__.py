@@ -51,7 +51,9 @@ def _serve(options: argparse.Namespace) -> None:
     if ros2 is None:
         found = f"{options.robot} has no part ros2; docs/ros2.md shows one"
         raise ConfigError("ros2_not_configured", found)
-    locator = ros2.node if options.port is None else f"tcp/127.0.0.1:{options.port}"
+    if options.port is not None:
+        ros2 = ros2.model_copy(update={"node": f"tcp/127.0.0.1:{options.port}"})
+        robot = robot.model_copy(update={"ros2": ros2})
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
     key, nav2 = relay_key(home), ros2.nav2 is not None
     set_fifo(PRIORITY)  # before the sessions, whose threads inherit it
@@ -59,12 +61,12 @@ def _serve(options: argparse.Namespace) -> None:
     names = (*base.names, "nav2/state") if nav2 else base.names
     with (
         open_session(Party.ROS2, robot.id, home) as session,
-        RobotLink(locator, names) as link,
+        RobotLink(ros2.node, names) as link,
     ):
         process = RosRobotProcess(base, link, session, key, nav2=nav2)
         gc.collect()
         gc.freeze()
-        log.info("dialling %s", locator)
+        log.info("dialling %s", ros2.node)
         process.run(stopped.is_set)
 
 
